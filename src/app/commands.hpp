@@ -1,0 +1,77 @@
+// The subcommands: what each is told, and its exit code. Reading the command line is in main.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lantern {
+
+// What a run of the program ends with.
+enum ExitCode {
+  kGood = 0,
+  kFailed = 1,  // an expectation, a comparison, a file
+  kUsage = 2,
+  kBadScenario = 3,
+  kNoBackend = 4,
+  kInterrupted = 130,
+};
+
+struct RenderOptions {
+  std::vector<std::string> files;
+  std::string output = "output";  // "-" is standard output
+  std::string frames;             // "7", "3-9", "3-", "-9"; empty for all
+  std::string at;                 // an event or a time in seconds; empty for all
+  std::string size = "1600x900";
+  std::string format = "png";  // png, svg
+  std::string theme = "light";
+  std::string pace;              // step, event; empty for the scenario's own
+  std::string png = "fast";      // fast, small
+  std::string backend = "auto";  // auto, osmesa, egl
+  bool transparent = false;
+  int threads = 0;  // that encode; 0 for one a core
+  bool json = false;
+};
+int render_command(const RenderOptions& options);
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  std::string pace;
+  bool json = false;
+};
+int check_command(const CheckOptions& options);
+
+struct ListOptions {
+  std::vector<std::string> folders;
+  bool json = false;
+};
+int list_command(const ListOptions& options);
+
+struct ExplainOptions {
+  std::string file;
+  bool json = false;
+};
+int explain_command(const ExplainOptions& options);
+
+struct DoctorOptions {
+  bool json = false;
+};
+int doctor_command(const DoctorOptions& options);
+
+struct CompareOptions {
+  std::string expected;
+  std::string actual;
+  std::string output;  // where the difference picture goes; empty for nowhere
+  int tolerance = 0;
+  double fraction = 0;  // of the pixels that may differ
+  bool json = false;
+};
+int compare_command(const CompareOptions& options);
+
+struct BenchOptions {
+  std::string scenario = "scenarios/ghost_quadtree.toml";
+  int rounds = 5;
+  bool json = false;
+};
+int bench_frames_command(const BenchOptions& options);
+
+}  // namespace lantern

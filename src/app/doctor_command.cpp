@@ -1,0 +1,58 @@
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "base/file.hpp"
+#include "base/json_writer.hpp"
+#include "embedded/version.hpp"
+#include "render/context.hpp"
+
+namespace lantern {
+namespace {
+
+// The program in PATH, if there is one: ffmpeg makes films of frames, but is never needed.
+std::string find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    std::error_code error;
+    const auto file = std::filesystem::path(folder) / name;
+    if (std::filesystem::is_regular_file(file, error)) return file.string();
+  }
+  return {};
+}
+
+std::string as_text(const std::vector<BackendReport>& reports, const std::string& ffmpeg) {
+  std::string text = fmt::format("Lantern {} ({})\n", kVersion, kSourceHash);
+  for (const BackendReport& r : reports) {
+    text += fmt::format("{:<8} {}\n", r.name, r.works ? "works" : "does not work");
+    text += fmt::format("         {}\n", r.works ? r.library + ", " + r.renderer : r.problem);
+  }
+  text += fmt::format("{:<8} {}\n", "ffmpeg",
+                      ffmpeg.empty() ? "not found; only needed to make films of frames" : ffmpeg);
+  return text;
+}
+
+}  // namespace
+
+int doctor_command(const DoctorOptions& options) {
+  const std::vector<BackendReport> reports = examine_backends();
+  const std::string ffmpeg = find_program("ffmpeg");
+  bool any = false;
+  JsonWriter json;
+  json.begin_object().member("version", kVersion).key("backends").begin_array();
+  for (const BackendReport& r : reports) {
+    any |= r.works;
+    json.line().begin_object().member("name", r.name).member("works", r.works);
+    json.member("library", r.library).member("renderer", r.renderer);
+    json.member("problem", r.problem).end_object();
+  }
+  json.line().end_array().member("ffmpeg", ffmpeg).end_object();
+  write_stdout(options.json ? json.text() + "\n" : as_text(reports, ffmpeg));
+  return any ? kGood : kNoBackend;
+}
+
+}  // namespace lantern

@@ -1,0 +1,209 @@
+// The command line of Lantern: words to options, errors to exit codes.
+#include <functional>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "app/commands.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/suggest.hpp"
+#include "embedded/version.hpp"
+#include "scenario/reference.hpp"
+
+namespace lantern {
+namespace {
+
+using Run = std::function<int()>;
+
+// An empty word is most often a shell variable that was never set.
+const CLI::Validator kNotEmpty(
+    [](const std::string& word) { return word.empty() ? "must not be empty" : std::string(); }, "");
+
+void add_json(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "print JSON instead of a table");
+}
+
+void add_render(CLI::App& app, RenderOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand("render", "Draw a scenario's frames to PNG or SVG files");
+  c->add_option("FILE", o.files, "scenario files")->required();
+  c->add_option("-o,--output", o.output,
+                "folder for DIR/<scenario>/<scenario>_0000.png ...; - writes one frame to standard "
+                "output")
+      ->check(kNotEmpty)
+      ->type_name("DIR")
+      ->capture_default_str();
+  c->add_option("--frames", o.frames, "only these frames: 7, 3-9, 3- or -9")
+      ->check(kNotEmpty)
+      ->type_name("A-B");
+  c->add_option("--at", o.at,
+                "only the frames of this event (a step's name, split, store, ...), or the first "
+                "frame at or after this time in seconds")
+      ->check(kNotEmpty)
+      ->type_name("EVENT|TIME");
+  c->add_option("--size", o.size, "pixels")->type_name("WxH")->capture_default_str();
+  c->add_option("--format", o.format, "file format")
+      ->check(CLI::IsMember({"png", "svg"}))
+      ->capture_default_str();
+  c->add_option("--theme", o.theme, "colours")
+      ->check(CLI::IsMember({"light", "dark", "print"}))
+      ->capture_default_str();
+  c->add_option("--pace", o.pace, "one frame a step, or one for each thing the algorithm does")
+      ->check(CLI::IsMember({"step", "event"}));
+  c->add_option("--png", o.png, "quick to write, or few bytes")
+      ->check(CLI::IsMember({"fast", "small"}))
+      ->capture_default_str();
+  c->add_option("--backend", o.backend, "off-screen OpenGL")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
+      ->capture_default_str();
+  c->add_flag("--transparent", o.transparent, "leave out the paper");
+  c->add_option("-j,--threads", o.threads, "threads that encode; the default is one a core")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return render_command(o); }; });
+}
+
+void add_check(CLI::App& app, CheckOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand("check", "Run scenarios without pixels, verify expectations");
+  c->add_option("FILE", o.files, "scenario files")->required();
+  c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return check_command(o); }; });
+}
+
+void add_list(CLI::App& app, ListOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand("list", "List the scenarios in a folder");
+  c->add_option("DIR", o.folders, "folders; the default is scenarios");
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return list_command(o); }; });
+}
+
+void add_explain(CLI::App& app, ExplainOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand("explain",
+                                   "Which stages a scenario uses and which it leaves out, and why");
+  c->add_option("FILE", o.file, "scenario file")->required();
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return explain_command(o); }; });
+}
+
+void add_doctor(CLI::App& app, DoctorOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand("doctor", "Graphics backends found, and what to install");
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return doctor_command(o); }; });
+}
+
+void add_compare(CLI::App& app, CompareOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand("compare", "Compare two PNG images, or two folders of them");
+  c->add_option("EXPECTED", o.expected, "image or folder")->required();
+  c->add_option("ACTUAL", o.actual, "image or folder")->required();
+  c->add_option("-o,--output", o.output,
+                "where the difference picture goes (a folder when folders are compared)")
+      ->type_name("PATH");
+  c->add_option("--tolerance", o.tolerance, "levels of a channel that count as equal")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
+  c->add_option("--fraction", o.fraction, "part of the pixels that may differ")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return compare_command(o); }; });
+}
+
+void add_bench(CLI::App& app, BenchOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand("bench", "Measure speed against named peers");
+  c->require_subcommand(1);
+  CLI::App* frames = c->add_subcommand("frames", "Frames a second to disk, beside cairo");
+  frames->add_option("FILE", o.scenario, "scenario file")->capture_default_str();
+  frames->add_option("--rounds", o.rounds, "repeats; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_json(*frames, o.json);
+  frames->callback([&] { run = [&] { return bench_frames_command(o); }; });
+}
+
+void add_texts(CLI::App& app, Run& run) {
+  const auto print = [&app, &run](const char* name, const char* help, std::string (*text)()) {
+    app.add_subcommand(name, help)->callback([&run, text] {
+      run = [text] {
+        write_stdout(text());
+        return int{kGood};
+      };
+    });
+  };
+  print("reference", "Print the scenario language's reference page (Markdown)", reference_page);
+  print("schema", "Print the scenario language's JSON Schema", json_schema);
+}
+
+// A misspelt subcommand gets the nearest one.
+std::string usage_hint(int argc, char** argv) {
+  static constexpr std::string_view kCommands[] = {
+      "render", "check", "list", "explain", "doctor", "compare", "bench", "reference", "schema"};
+  if (argc < 2 || argv[1][0] == '-') return "see 'lantern --help'";
+  const std::string_view word = argv[1];
+  for (const std::string_view command : kCommands)
+    if (word == command) return "see 'lantern " + std::string(command) + " --help'";
+  const std::string hint = suggestion(word, kCommands);
+  return "there is no command '" + std::string(word) + "'; " + hint;
+}
+
+int run_and_report(const Run& run) {
+  try {
+    return run();
+  } catch (const UsageError& e) {
+    complain(e.what());
+    return kUsage;
+  } catch (const ScenarioError& e) {
+    complain(e);
+    return kBadScenario;
+  } catch (const BackendError& e) {
+    complain(e.what());
+    return kNoBackend;
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+    return kFailed;
+  } catch (const std::exception& e) {
+    complain(e.what());
+    return kFailed;
+  }
+}
+
+int lantern_main(int argc, char** argv) {
+  CLI::App app{"Lantern renders lecture scenarios about spatial partitioning to pictures."};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string(kVersion));
+  app.footer(
+      "Exit codes: 0 good, 1 failed, 2 usage, 3 scenario error, 4 no graphics backend, "
+      "130 interrupted.\nStart with: lantern render scenarios/ghost_quadtree.toml");
+  RenderOptions render;
+  CheckOptions check;
+  ListOptions list;
+  ExplainOptions explain;
+  DoctorOptions doctor;
+  CompareOptions compare;
+  BenchOptions bench;
+  Run run;
+  add_render(app, render, run);
+  add_check(app, check, run);
+  add_list(app, list, run);
+  add_explain(app, explain, run);
+  add_doctor(app, doctor, run);
+  add_compare(app, compare, run);
+  add_bench(app, bench, run);
+  add_texts(app, run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    complain(std::string(e.what()) + "; " + usage_hint(argc, argv));
+    return kUsage;
+  }
+  catch_interrupts();
+  return run_and_report(run);
+}
+
+}  // namespace
+}  // namespace lantern
+
+int main(int argc, char** argv) { return lantern::lantern_main(argc, argv); }

@@ -1,0 +1,52 @@
+// Messages to a person, on standard error.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+
+namespace lantern {
+
+// Standard error is a terminal, and NO_COLOR is not set.
+bool colourful();
+// Standard error is a terminal.
+bool animated();
+
+void say(std::string_view message);         // a line
+void complain(std::string_view message);    // "lantern: error: ..."
+void complain(const ScenarioError& error);  // each of its diagnostics
+
+// What a bad word on the command line gets. Exit code 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// "7 of 70 frames, 212 a second, 0.3 s left": one line that is rewritten on a terminal; elsewhere a
+// plain line every few seconds of long work.
+class Progress {
+ public:
+  Progress(std::string name, std::uint64_t total);
+  ~Progress();
+  void done(std::uint64_t count);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+ private:
+  std::string name_;
+  std::uint64_t total_;
+  std::uint64_t count_ = 0;
+  double last_shown_ = 0;
+  bool shown_ = false;
+  Stopwatch watch_;
+};
+
+// Ctrl-C asks the run to end after the current frame.
+void catch_interrupts();
+bool interrupted();
+
+}  // namespace lantern

@@ -1,0 +1,199 @@
+// Packs textures into one large image with a kD-tree whose leaves fit them exactly.
+//
+// A texture goes to the first free leaf, in order of descent, that it fits. A leaf that is larger
+// is cut in two along the axis with more room to spare, so that the first half fits the texture on
+// that axis, and the texture goes on into the first half, until the leaf has exactly its size:
+//
+//   +-----+---------+      cut 1 (vertical): left half as wide as A, right half free
+//   |  A  |         |      cut 2 (horizontal, left half): A, and a free leaf below it
+//   +-----+         |
+//   |     |         |      With equal room on both axes the cut is horizontal. Where nothing is
+//   +-----+---------+      to spare, nothing is cut: no leaf is ever empty.
+//
+// Each node knows the greatest width and the greatest height among the free leaves below it, so
+// that whole branches without room are passed by. The leaf found is the same.
+//
+// The lightmap packer of Jim Scott, "Packing Lightmaps" (2001), is the same idea.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace lantern {
+
+using TextureId = std::uint32_t;
+
+// In pixels; the origin is the upper left corner, y points down, as in an image file.
+struct Rect {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  bool operator==(const Rect&) const = default;
+};
+
+struct AtlasNodeView {
+  std::uint32_t handle = 0;           // stable as long as the atlas lives
+  std::uint32_t id = 0;               // position in the order of visiting, from 0
+  std::uint32_t parent = 0xffffffff;  // id of the parent; none for the root
+  std::uint32_t slot = 0;             // 0: the half that was cut to fit, 1: what remained
+  std::uint32_t depth = 0;
+  Rect rect;
+  bool leaf = true;
+  bool cut_vertically = false;       // an inner node's halves stand side by side
+  std::optional<TextureId> texture;  // a used leaf's; a free leaf has none
+};
+
+struct AtlasEvent {
+  enum class Kind {
+    too_small,  // a free leaf that the texture does not fit
+    used,       // a leaf that is taken already
+    cut,        // the leaf is about to be cut in two
+    store,      // the leaf has exactly the texture's size and now holds it
+    refuse,     // no leaf has room
+  };
+  Kind kind{};
+  std::uint32_t node = 0;  // handle; of `refuse` the root's
+  TextureId texture = 0;
+};
+
+// The default observer: its calls compile to nothing.
+struct NoAtlasObserver {
+  void operator()(const AtlasEvent&) const {}
+};
+
+class Atlas {
+ public:
+  // Width and height in pixels, 1 to 65536 each; throws Refused otherwise.
+  Atlas(int width, int height);
+
+  // Where the texture lies now; nothing if it fits nowhere, and the atlas stays as it was. Throws
+  // Refused for a width or height below 1. Tells the observer of every leaf before the one found,
+  // in order of descent, also of those in branches that are passed by; it may call `visit`.
+  template <class Observer = NoAtlasObserver>
+  std::optional<Rect> insert(TextureId id, int width, int height, Observer&& observer = {}) {
+    require_size(id, width, height);
+    const auto passed = [&](std::uint32_t node) { tell_leaves(node, id, observer); };
+    std::uint32_t leaf = first_fit(width, height, passed);
+    if (leaf == kNoNode) {
+      observer(AtlasEvent{AtlasEvent::Kind::refuse, 0, id});
+      return std::nullopt;
+    }
+    while (nodes_[leaf].rect.width != width || nodes_[leaf].rect.height != height) {
+      observer(AtlasEvent{AtlasEvent::Kind::cut, leaf, id});
+      leaf = cut(leaf, width, height);
+    }
+    take(leaf, id);
+    observer(AtlasEvent{AtlasEvent::Kind::store, leaf, id});
+    return nodes_[leaf].rect;
+  }
+
+  // Is there a free leaf of at least this size?
+  bool has_room(int width, int height) const {
+    return first_fit(width, height, [](std::uint32_t) {}) != kNoNode;
+  }
+
+  // f(AtlasNodeView) -> bool: parents before children, the fitted half before the rest; false skips
+  // the branch.
+  template <class F>
+  void visit(F&& f) const;
+
+  int width() const { return nodes_[0].rect.width; }
+  int height() const { return nodes_[0].rect.height; }
+  std::int64_t used_area() const { return used_area_; }
+  std::int64_t free_area() const { return std::int64_t{width()} * height() - used_area_; }
+  // Leaves looked at by insert and has_room; not those in branches passed by.
+  std::uint64_t leaf_tests() const { return leaf_tests_; }
+
+ private:
+  static constexpr std::uint32_t kNoNode = 0xffffffff;
+
+  struct Node {
+    Rect rect;
+    std::uint32_t parent = kNoNode;
+    std::uint32_t first_child = 0;  // of two neighbours; 0 in a leaf
+    int free_width = 0;             // the greatest of a free leaf at or below this node
+    int free_height = 0;
+    std::optional<TextureId> texture;
+    bool cut_vertically = false;
+    bool is_leaf() const { return first_child == 0; }
+  };
+
+  static void require_size(TextureId id, int width, int height);
+  bool is_second(std::uint32_t node) const;              // of its parent's two
+  std::uint32_t after_branch(std::uint32_t node) const;  // in order of descent; kNoNode at the end
+  std::uint32_t cut(std::uint32_t leaf, int width, int height);  // gives the half that fits
+  void take(std::uint32_t leaf, TextureId id);
+
+  bool may_fit(std::uint32_t node, int width, int height) const {
+    return width <= nodes_[node].free_width && height <= nodes_[node].free_height;
+  }
+
+  // The first free leaf that fits, or kNoNode. Calls passed(node) for each branch passed by, a
+  // single leaf among them.
+  template <class Passed>
+  std::uint32_t first_fit(int width, int height, Passed&& passed) const {
+    for (std::uint32_t node = 0; node != kNoNode;) {
+      leaf_tests_ += nodes_[node].is_leaf();
+      if (!may_fit(node, width, height)) {
+        passed(node);
+        node = after_branch(node);
+      } else if (nodes_[node].is_leaf()) {
+        return node;
+      } else {
+        node = nodes_[node].first_child;
+      }
+    }
+    return kNoNode;
+  }
+
+  template <class Observer>
+  void tell_leaves(std::uint32_t top, TextureId id, Observer& observer) const {
+    if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoAtlasObserver>) {
+      const std::uint32_t end = after_branch(top);
+      for (std::uint32_t node = top; node != end;) {
+        const Node& n = nodes_[node];
+        if (n.is_leaf())
+          observer(AtlasEvent{n.texture ? AtlasEvent::Kind::used : AtlasEvent::Kind::too_small,
+                              node, id});
+        node = n.is_leaf() ? after_branch(node) : n.first_child;
+      }
+    }
+  }
+
+  std::vector<Node> nodes_;  // the root first
+  std::int64_t used_area_ = 0;
+  mutable std::uint64_t leaf_tests_ = 0;
+};
+
+// Without recursion: many narrow textures make a tree as deep as the atlas is wide.
+template <class F>
+void Atlas::visit(F&& f) const {
+  std::vector<std::uint32_t> ids;  // of the inner nodes on the way from the root
+  std::uint32_t next_id = 0;
+  for (std::uint32_t handle = 0; handle != kNoNode;) {
+    const Node& node = nodes_[handle];
+    AtlasNodeView view;
+    view.handle = handle;
+    view.id = next_id++;
+    view.slot = is_second(handle);
+    view.depth = static_cast<std::uint32_t>(ids.size());
+    if (!ids.empty()) view.parent = ids.back();
+    view.rect = node.rect;
+    view.leaf = node.is_leaf();
+    view.cut_vertically = node.cut_vertically;
+    view.texture = node.texture;
+    if (f(std::as_const(view)) && !view.leaf) {
+      ids.push_back(view.id);
+      handle = node.first_child;
+      continue;
+    }
+    for (; is_second(handle); handle = nodes_[handle].parent) ids.pop_back();
+    handle = handle == 0 ? kNoNode : handle + 1;
+  }
+}
+
+}  // namespace lantern

@@ -1,0 +1,18 @@
+// Wall time for progress reports and benchmarks only; no frame may depend on it.
+#pragma once
+
+#include <chrono>
+
+namespace lantern {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace lantern

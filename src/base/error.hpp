@@ -1,0 +1,59 @@
+// The kinds of error that Lantern keeps apart. A broken invariant is the fourth: see check.hpp.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lantern {
+
+// A place in a text file. Lines and columns count from 1; 0 means "the file as a whole".
+struct SourcePosition {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+// One mistake in a user's file, with what is needed to mend it.
+struct Diagnostic {
+  SourcePosition where;
+  std::string message;      // "unknown key 'capcity'"
+  std::string source_line;  // the offending line as written; may be empty
+  std::string suggestion;   // "did you mean 'capacity'?"; may be empty
+};
+
+// `file:line:column: error: message`, the line, a caret under the column, and the suggestion.
+std::string to_string(const Diagnostic& diagnostic);
+
+// The user's scenario is wrong: every mistake found in one pass. Exit code 3.
+class ScenarioError : public std::runtime_error {
+ public:
+  explicit ScenarioError(std::vector<Diagnostic> diagnostics);
+  explicit ScenarioError(Diagnostic diagnostic);
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+// A value that an engine room refuses where it enters (NaN, negative size, more than a stated
+// budget). The message names the object and the field; whoever was called is left as it was,
+// unless it says otherwise. The scenario room turns it into a ScenarioError with a position.
+class Refused : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+// A file or stream could not be read or written. Exit code 1.
+class IoError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// No graphics backend could be started. Exit code 4.
+class BackendError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace lantern

@@ -1,0 +1,29 @@
+// Whole files in, whole files out. A reader never sees half a file.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace lantern {
+
+// The bytes of a regular file. Throws IoError if it cannot be read, is a folder or a device, or is
+// larger than `most_bytes` (found from its size, before it is read).
+std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
+
+// Writes under a temporary name in the same folder, then renames, so that `path` is either the old
+// file or the whole new one. A symbolic link at `path` is replaced, not followed. Throws IoError
+// naming path and reason, and removes the temporary file.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+// Writes all bytes to standard output and flushes. Throws IoError (a full disk, a closed pipe).
+void write_stdout(std::string_view bytes);
+
+// Removes what an earlier write_file left in `folder` when it was killed. Never throws.
+void remove_leftovers(const std::filesystem::path& folder) noexcept;
+
+// Makes the folder and its parents. Throws IoError naming path and reason.
+void make_folder(const std::filesystem::path& folder);
+
+}  // namespace lantern

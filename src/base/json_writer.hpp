@@ -1,0 +1,85 @@
+// Writes JSON in a fixed order. Numbers carry 17 significant digits, so that a reader gets back the
+// very same double; non-finite ones are a broken invariant, since none may enter the engine.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <concepts>
+#include <string>
+#include <string_view>
+
+#include "base/check.hpp"
+
+namespace lantern {
+
+// `text` with quotes, as a JSON string; bytes that are no UTF-8 are the caller's affair.
+std::string json_string(std::string_view text);
+
+class JsonWriter {
+ public:
+  JsonWriter& begin_object() { return open('{'); }
+  JsonWriter& end_object() { return close('}'); }
+  JsonWriter& begin_array() { return open('['); }
+  JsonWriter& end_array() { return close(']'); }
+
+  JsonWriter& key(std::string_view name) {
+    separate();
+    text_ += json_string(name) + ": ";
+    fresh_ = true;
+    return *this;
+  }
+  JsonWriter& value(std::string_view s) { return raw(json_string(s)); }
+  JsonWriter& value(const char* s) { return value(std::string_view(s)); }
+  JsonWriter& value(bool b) { return raw(b ? "true" : "false"); }
+  JsonWriter& value(std::integral auto i) { return raw(fmt::format("{}", i)); }
+  JsonWriter& value(double d) {
+    LANTERN_CHECK(std::isfinite(d), ==, true);
+    return raw(fmt::format("{:.17g}", d == 0 ? 0.0 : d));
+  }
+  JsonWriter& null() { return raw("null"); }
+
+  // A line break before the next element: long arrays stay readable, one element a line.
+  JsonWriter& line() {
+    line_ = true;
+    return *this;
+  }
+
+  template <class T>
+  JsonWriter& member(std::string_view name, const T& v) {
+    return key(name).value(v);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  JsonWriter& open(char bracket) {
+    separate();
+    text_ += bracket;
+    fresh_ = true;
+    return *this;
+  }
+  JsonWriter& close(char bracket) {
+    if (line_) text_ += '\n';
+    line_ = false;
+    text_ += bracket;
+    fresh_ = false;
+    return *this;
+  }
+  JsonWriter& raw(std::string_view s) {
+    separate();
+    text_ += s;
+    return *this;
+  }
+  void separate() {
+    if (!fresh_) text_ += line_ ? "," : ", ";
+    if (line_) text_ += '\n';
+    fresh_ = line_ = false;
+  }
+
+  std::string text_;
+  bool fresh_ = true;
+  bool line_ = false;
+};
+
+}  // namespace lantern

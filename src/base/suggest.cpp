@@ -1,0 +1,63 @@
+#include "base/suggest.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace lantern {
+namespace {
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+// Wagner and Fischer 1974, one row at a time.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t above = row[j + 1];
+      const std::size_t change = diagonal + (lower(a[i]) != lower(b[j]) ? 1u : 0u);
+      row[j + 1] = std::min({above + 1, row[j] + 1, change});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_name(std::string_view name,
+                                        std::span<const std::string_view> candidates) {
+  constexpr std::size_t kLongest = 64;  // a longer word is no slip of the hand
+  if (name.size() > kLongest) return std::nullopt;
+  std::optional<std::string> best;
+  std::size_t best_distance = 0;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t d = distance(name, candidate);
+    if (!best || d < best_distance) {
+      best = std::string(candidate);
+      best_distance = d;
+    }
+  }
+  if (!best) return std::nullopt;
+  const std::size_t allowed = best->size() >= 4 ? std::max<std::size_t>(2, best->size() / 3) : 1;
+  return best_distance <= allowed ? best : std::nullopt;
+}
+
+std::string suggestion(std::string_view name, std::span<const std::string_view> candidates,
+                       std::size_t most) {
+  if (const auto near = nearest_name(name, candidates)) return "did you mean '" + *near + "'?";
+  if (candidates.empty() || candidates.size() > most) return {};
+  std::string text = "known here: ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i > 0) text += ", ";
+    text += candidates[i];
+  }
+  return text;
+}
+
+}  // namespace lantern

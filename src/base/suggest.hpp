@@ -1,0 +1,21 @@
+// The known name nearest to a misspelt one.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lantern {
+
+// The candidate with the least Levenshtein distance to `name` (case ignored), the first of equals;
+// nothing if even that one differs in more than a third of its letters (but two are always allowed
+// for names of four letters and more).
+std::optional<std::string> nearest_name(std::string_view name,
+                                        std::span<const std::string_view> candidates);
+
+// "did you mean 'x'?", or a list of the candidates when none is near and there are at most `most`.
+std::string suggestion(std::string_view name, std::span<const std::string_view> candidates,
+                       std::size_t most = 12);
+
+}  // namespace lantern

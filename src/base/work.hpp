@@ -1,0 +1,38 @@
+// What a run really did, stage by stage. A stage that a scene does not need leaves its counter at
+// zero: the promise "leave out what is not needed", in numbers.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace lantern {
+
+struct Work {
+  std::atomic<std::uint64_t> worlds_created{0};
+  std::atomic<std::uint64_t> world_steps{0};
+  std::atomic<std::uint64_t> structures_created{0};
+  std::atomic<std::uint64_t> atlases_created{0};
+  std::atomic<std::uint64_t> world_layouts{0};
+  std::atomic<std::uint64_t> tree_layouts{0};
+  std::atomic<std::uint64_t> graphics_contexts{0};
+  std::atomic<std::uint64_t> frames_drawn{0};
+  std::atomic<std::uint64_t> frames_encoded{0};
+
+  // Name and count of each stage, in the order of a run.
+  std::array<std::pair<std::string_view, std::uint64_t>, 9> listed() const {
+    return {{{"worlds_created", worlds_created},
+             {"world_steps", world_steps},
+             {"structures_created", structures_created},
+             {"atlases_created", atlases_created},
+             {"world_layouts", world_layouts},
+             {"tree_layouts", tree_layouts},
+             {"graphics_contexts", graphics_contexts},
+             {"frames_drawn", frames_drawn},
+             {"frames_encoded", frames_encoded}}};
+  }
+};
+
+}  // namespace lantern

@@ -1,0 +1,259 @@
+#include "draw/atlas_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+#include "draw/page.hpp"
+#include "draw/pattern.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kStrip = 190;  // width of the strip of textures beside the atlas
+constexpr double kStripGap = 26;
+constexpr int kMostShapes = 2200;  // of all packed textures together
+constexpr int kMostTextures = 3000;
+constexpr std::size_t kMostFree = 400;
+constexpr double kHeading = 30;
+constexpr double kSpace = 8;  // between textures in the strip
+
+Vec<2> atlas_size(const Frame& frame) {
+  if (frame.nodes.empty()) return Vec<2>(1.0);
+  const Vec<2> size = frame.nodes[0].box.size();
+  return {std::max(size.x, 1.0), std::max(size.y, 1.0)};
+}
+
+class AtlasView {
+ public:
+  AtlasView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
+      : frame_(frame), panel_(panel), list_(list), labels_(labels) {
+    const Vec<2> size = atlas_size(frame);
+    const double strip = frame.textures.empty() ? 0 : kStrip + kStripGap;
+    const Vec<2> room = shrunk(panel, 3).size() - Vec<2>(strip, 0);
+    scale_ = std::min(room.x / size.x, room.y / size.y);
+    const Vec<2> used = size * scale_ + Vec<2>(strip, 0);
+    const Vec<2> corner = panel.lo + (panel.size() - used) * 0.5;
+    image_ = {corner, corner + size * scale_};
+    strip_ = {{image_.hi.x + kStripGap, panel.lo.y}, {panel.hi.x, panel.hi.y}};
+    strip_.hi.x = std::min(strip_.hi.x, strip_.lo.x + kStrip + 40);
+  }
+
+  void draw() {
+    list_.shapes.emplace_back(RectShape{image_, 0, Role::free_space, {}, true});
+    for (const FrameNode* node : free_leaves()) draw_free(*node);
+    const std::vector<const FrameTexture*> packed = packed_textures();
+    const auto count = std::max(1, static_cast<int>(packed.size()));
+    parts_ = std::clamp(kMostShapes / count - 2, 0, kMostPatternParts);
+    for (const FrameTexture* texture : packed) draw_textured(*texture, place_of(*texture));
+    list_.shapes.emplace_back(RectShape{image_, 0, Role::none, {Role::cell_line_0, 3.4, 0}, true});
+    for (const FrameNode& node : frame_.nodes)
+      if (node.mark == Mark::lit)
+        list_.shapes.emplace_back(
+            RectShape{on_page(node.box), 0, Role::none, {Role::lit, 4, 0}, true});
+    if (packed.size() == kMostTextures) labels_.add_note("not all textures are drawn", image_);
+    for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
+    for (const FrameNode* node : free_leaves()) name_free(*node);
+    parts_ = kMostPatternParts;
+    if (!frame_.textures.empty()) draw_strip();
+  }
+
+ private:
+  Box<2> on_page(const Box<2>& pixels) const {
+    return {image_.lo + pixels.lo * scale_, image_.lo + pixels.hi * scale_};
+  }
+  Box<2> place_of(const FrameTexture& t) const {
+    return on_page({{t.x, t.y}, {double(t.x) + t.width, double(t.y) + t.height}});
+  }
+
+  std::vector<const FrameTexture*> packed_textures() const {
+    std::vector<const FrameTexture*> packed;
+    for (const FrameTexture& texture : frame_.textures)
+      if (texture.packed && packed.size() < kMostTextures) packed.push_back(&texture);
+    return packed;
+  }
+
+  // The largest, in order of area.
+  std::vector<const FrameNode*> free_leaves() const {
+    std::vector<const FrameNode*> leaves;
+    for (const FrameNode& node : frame_.nodes)
+      if (node.leaf && node.bodies.empty()) leaves.push_back(&node);
+    const auto area = [](const FrameNode* node) { return node->box.size().x * node->box.size().y; };
+    std::stable_sort(leaves.begin(), leaves.end(),
+                     [&](const FrameNode* a, const FrameNode* b) { return area(a) > area(b); });
+    if (leaves.size() > kMostFree) leaves.resize(kMostFree);
+    return leaves;
+  }
+
+  void draw_free(const FrameNode& node) {
+    const Box<2> box = on_page(node.box);
+    const double least = std::min(box.size().x, box.size().y);
+    if (node.mark != Mark::quiet)
+      list_.shapes.emplace_back(
+          RectShape{box, 0, node.mark == Mark::lit ? Role::lit_fill : Role::passed_fill, {}, true});
+    if (least < 6) return;
+    list_.shapes.emplace_back(
+        RectShape{shrunk(box, 2), 0, Role::none, {Role::cell_line_2, 1.4, 5}, false});
+  }
+
+  void draw_textured(const FrameTexture& texture, const Box<2>& box) {
+    const double scale = std::clamp(std::min(box.size().x, box.size().y) / 70, 0.6, 1.6);
+    draw_pattern(texture.id, texture.color, box, scale, parts_, list_);
+    if (parts_ > 0)
+      list_.shapes.emplace_back(RectShape{box, 0, Role::none, {Role::body_line, 1.6, 0}, false});
+  }
+
+  // The name on a plate of its own, so that it can be read on any pattern.
+  bool draw_plate(const std::string& name, const Box<2>& box) {
+    const TextStyle style{kLabel - 1, Weight::semibold, Role::ink, Role::none};
+    const double width = text_width(name, style.size, style.weight);
+    const double cap = cap_height(style.weight) * style.size;
+    const Box<2> plate = Box<2>::around(box.center(), Vec<2>(width / 2 + 6, cap / 2 + 5));
+    const Anchor anchor{{box.center().x, box.center().y + cap / 2}, 0.5};
+    if (name.empty() || !holds(shrunk(box, 1), plate)) return false;
+    if (!labels_.is_free(Labels::extent(name, anchor, style), panel_)) return false;
+    list_.shapes.emplace_back(filled(plate, Role::panel, 5));
+    labels_.add(name, anchor, style, panel_);
+    return true;
+  }
+
+  void name_free(const FrameNode& node) {
+    const Box<2> box = on_page(node.box);
+    TextStyle style{kLabel - 1, Weight::regular, Role::quiet_ink, Role::none};
+    if (node.mark == Mark::lit) style.role = Role::lit_ink;
+    const Vec<2> size = node.box.size();
+    const std::string numbers = fmt::format("{:.0f} × {:.0f}", size.x, size.y);
+    const double cap = cap_height(style.weight) * style.size;
+    for (const std::string& text :
+         {node.label.empty() ? "free " + numbers : node.label + "  " + numbers,
+          node.label.empty() ? numbers : node.label}) {
+      const Anchor anchor{{box.center().x, box.center().y + cap / 2}, 0.5};
+      if (!holds(shrunk(box, 6), Labels::extent(text, anchor, style))) continue;
+      if (labels_.try_add(text, {anchor}, style, panel_)) return;
+    }
+  }
+
+  // --- the strip ---
+
+  void draw_strip() {
+    std::vector<const FrameTexture*> waiting, refused;
+    for (const FrameTexture& t : frame_.textures) {
+      if (t.refused)
+        refused.push_back(&t);
+      else if (!t.packed)
+        waiting.push_back(&t);
+    }
+    choose_strip_scale();
+    Box<2> upper = strip_;
+    if (!refused.empty()) upper.hi.y -= 0.4 * strip_.size().y;
+    draw_queue("waiting", waiting, upper, false);
+    if (!refused.empty())
+      draw_queue("refused", refused, {{upper.lo.x, upper.hi.y}, strip_.hi}, true);
+  }
+
+  // The atlas's own scale if all textures have room in the strip, else half of it or less. All of
+  // them are asked, packed or not, so that the scale holds for the whole sequence.
+  void choose_strip_scale() {
+    double widest = 1;
+    for (const FrameTexture& t : frame_.textures) widest = std::max(widest, double(t.width));
+    const Vec<2> room = strip_.size() - Vec<2>(0, kHeading);
+    const auto has_room = [&](double scale) {
+      double x = 0, y = 0, row = 0;
+      for (const FrameTexture& t : frame_.textures) {
+        const Vec<2> size = Vec<2>(t.width, t.height) * scale;
+        if (x > 0 && x + size.x > room.x) x = 0, y += row, row = 0;
+        x += size.x + kSpace;
+        row = std::max(row, size.y + kSpace);
+      }
+      return widest * scale <= room.x && y + row <= room.y;
+    };
+    strip_scale_ = has_room(scale_) ? scale_ : std::min(scale_ / 2, room.x / widest);
+  }
+
+  // In rows, first come first; what has no room is counted.
+  void draw_queue(const char* heading, const std::vector<const FrameTexture*>& queue,
+                  const Box<2>& area, bool crossed) {
+    const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink,
+                          Role::none};
+    const auto digits = static_cast<std::int64_t>(std::to_string(frame_.textures.size()).size());
+    const double number = Labels::number_width(digits, style);
+    labels_.add_number(static_cast<std::int64_t>(queue.size()),
+                       {area.lo.x + number, area.lo.y + 18}, style, panel_);
+    labels_.add(heading, {{area.lo.x + number + 7, area.lo.y + 18}, 0}, style, panel_);
+    const double end = area.lo.x + number + 7 + text_width(heading, style.size, style.weight);
+    const TextStyle note{kLabel - 1, Weight::regular, Role::quiet_ink, Role::none};
+    const double name_line = crossed ? 24 : 0;
+    if (strip_scale_ < scale_ && !queue.empty())
+      labels_.try_add(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)",
+                      {{{end + 10, area.lo.y + 18}, 0}}, note, panel_);
+    Vec<2> at{area.lo.x, area.lo.y + kHeading};
+    double row = 0;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      const Vec<2> size = Vec<2>(queue[i]->width, queue[i]->height) * strip_scale_;
+      const double name = crossed ? text_width(queue[i]->name, note.size, note.weight) : 0;
+      if (at.x > area.lo.x && at.x + std::max(size.x, name) > area.hi.x)
+        at = {area.lo.x, at.y + row}, row = 0;
+      const double last = area.hi.y - (i + 1 < queue.size() ? 26 : 4);
+      if (at.y + size.y + name_line > last) {
+        labels_.try_add(fmt::format("and {} more", queue.size() - i),
+                        {{{area.lo.x, at.y + row + 18}, 0}, {{area.lo.x, area.hi.y - 6}, 0}}, note,
+                        panel_);
+        return;
+      }
+      const Box<2> box{at, at + size};
+      draw_textured(*queue[i], box);
+      if (crossed)
+        cross_out(*queue[i], box);
+      else
+        draw_plate(queue[i]->name, box);
+      row = std::max(row, size.y + kSpace + name_line);
+      at.x += std::max(size.x, name) + kSpace;
+    }
+  }
+
+  void cross_out(const FrameTexture& texture, const Box<2>& box) {
+    for (const double width : {7.0, 3.6}) {
+      const Role role = width > 5 ? Role::panel : Role::warning;
+      list_.shapes.emplace_back(LineShape{box.lo, box.hi, {role, width, 0}, false});
+      list_.shapes.emplace_back(
+          LineShape{{box.lo.x, box.hi.y}, {box.hi.x, box.lo.y}, {role, width, 0}, false});
+    }
+    const TextStyle style{kLabel - 1, Weight::regular, Role::warning, Role::none};
+    const std::string name = shortened(texture.name, panel_.hi.x - box.lo.x, style);
+    labels_.try_add(name, {{{box.lo.x, box.hi.y + 20}, 0}}, style, panel_);
+  }
+
+  const Frame& frame_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  Box<2> image_, strip_;
+  double scale_ = 1;               // page units a pixel
+  double strip_scale_ = 1;         // the same, in the strip
+  int parts_ = kMostPatternParts;  // of a pattern; fewer when there are many textures
+};
+
+}  // namespace
+
+void draw_atlas(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  AtlasView(frame, panel, list, labels).draw();
+}
+
+double atlas_width(const Frame& frame, double height) {
+  const Vec<2> size = atlas_size(frame);
+  return height * size.x / size.y + (frame.textures.empty() ? 0 : kStrip + kStripGap);
+}
+
+DrawList draw_atlas_image(const Frame& frame) {
+  DrawList list;
+  list.page = atlas_size(frame);
+  for (const FrameTexture& t : frame.textures)
+    if (t.packed)
+      draw_pattern(t.id, t.color, {{t.x, t.y}, {double(t.x) + t.width, double(t.y) + t.height}}, 1,
+                   kMostPatternParts, list);
+  return list;
+}
+
+}  // namespace lantern

@@ -1,0 +1,97 @@
+#include <algorithm>
+
+#include "draw/font.hpp"
+#include "draw/world_parts.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostLabels = 120;
+
+// A dividing line's name, on a plate that sits on the line.
+void label_planes(const Frame& frame, const WorldMap& map, const std::vector<Box<2>>& bodies,
+                  DrawList& list, Labels& labels) {
+  const TextStyle style{kLabel, Weight::semibold, Role::ink, Role::none};
+  const double cap = cap_height(style.weight) * style.size;
+  for (const FrameNode& node : frame.nodes) {
+    if (!node.plane || node.plane_name.empty()) continue;
+    const auto line = dividing_line(node);
+    if (!line) continue;
+    Vec<2> a = map.to_page(line->first), b = map.to_page(line->second);
+    if (b.y < a.y) std::swap(a, b);
+    const double half = text_width(node.plane_name, style.size, style.weight) / 2;
+    // Near the end of the first line; the others end on a line, where it would not be clear whose
+    // name it is.
+    for (const double t : {node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4}) {
+      const Vec<2> p = a + (b - a) * t;
+      const Box<2> plate = Box<2>::around(p, Vec<2>(half + 9, cap / 2 + 7));
+      const bool covered = std::any_of(bodies.begin(), bodies.end(),
+                                       [&](const Box<2>& body) { return overlap(body, plate); });
+      if (covered || !labels.is_free(plate, shrunk(map.rect, 6))) continue;
+      const Role role = node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth);
+      list.shapes.emplace_back(RectShape{plate, 6, Role::panel, {role, 1.8, 0}, false});
+      labels.add(node.plane_name, {{p.x, p.y + cap / 2}, 0.5}, style, map.rect);
+      labels.block(plate);
+      break;
+    }
+  }
+}
+
+// A leaf's name in the corner of its cell that no body covers; without one it has none.
+void label_cell(const FrameNode& node, const WorldMap& map, const std::vector<Box<2>>& bodies,
+                const Grounds& grounds, Labels& labels) {
+  const Box<2> cell = map.to_page(node.box);
+  TextStyle style{node.depth <= 1 ? 20.0 : 18.0, Weight::semibold, Role::quiet_ink, Role::none};
+  if (node.mark == Mark::lit) style.role = Role::lit_ink;
+  const double width = text_width(node.label, style.size, style.weight);
+  constexpr double kInset = 9;
+  if (cell.size().x < width + 2 * kInset || cell.size().y < style.size + 2 * kInset) return;
+  const double cap = cap_height(style.weight) * style.size;
+  const double top = cell.lo.y + kInset + cap + 1, bottom = cell.hi.y - kInset;
+  const Polygon region = inset(page_region(node, map), 5);
+  for (const Anchor& anchor :
+       {Anchor{{cell.lo.x + kInset, top}, 0}, Anchor{{cell.hi.x - kInset, top}, 1},
+        Anchor{{cell.lo.x + kInset, bottom}, 0}, Anchor{{cell.hi.x - kInset, bottom}, 1},
+        Anchor{{cell.center().x, cell.center().y + cap / 2}, 0.5}}) {
+    const Box<2> box = Labels::extent(node.label, anchor, style);
+    const bool covered = std::any_of(bodies.begin(), bodies.end(),
+                                     [&](const Box<2>& body) { return overlap(body, box); });
+    const bool within = inside(region, box.lo) && inside(region, box.hi) &&
+                        inside(region, {box.lo.x, box.hi.y}) &&
+                        inside(region, {box.hi.x, box.lo.y});
+    if (covered || !within) continue;
+    style.halo = ground_at(grounds, box.center());
+    if (labels.try_add(node.label, {anchor}, style, map.rect)) return;
+  }
+}
+
+void label_unmade(const Frame& frame, const WorldMap& map, const std::vector<Box<2>>& bodies,
+                  Labels& labels) {
+  const TextStyle style{kLabel, Weight::regular, Role::quiet_ink, Role::paper};
+  for (const Box<2>& quarter : unmade_quarters(frame)) {
+    const Box<2> box = map.to_page(quarter);
+    const Anchor anchor{{box.center().x, box.center().y + 6}, 0.5};
+    const Box<2> extent = Labels::extent("not made", anchor, style);
+    const bool covered = std::any_of(bodies.begin(), bodies.end(),
+                                     [&](const Box<2>& body) { return overlap(body, extent); });
+    if (!covered && holds(shrunk(box, 8), extent))
+      labels.try_add("not made", {anchor}, style, map.rect);
+  }
+}
+
+}  // namespace
+
+void label_cells(const Frame& frame, const WorldMap& map, const std::vector<Box<2>>& bodies,
+                 const Grounds& grounds, DrawList& list, Labels& labels) {
+  label_planes(frame, map, bodies, list, labels);
+  std::vector<const FrameNode*> leaves;
+  for (const FrameNode& node : frame.nodes)
+    if (node.leaf && !node.label.empty()) leaves.push_back(&node);
+  std::stable_sort(leaves.begin(), leaves.end(),
+                   [](const FrameNode* a, const FrameNode* b) { return a->depth < b->depth; });
+  if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);
+  for (const FrameNode* leaf : leaves) label_cell(*leaf, map, bodies, grounds, labels);
+  label_unmade(frame, map, bodies, labels);
+}
+
+}  // namespace lantern

@@ -1,0 +1,57 @@
+#include "draw/clip.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "draw/metrics.hpp"
+#include "geometry/polygon.hpp"
+
+namespace lantern {
+namespace {
+
+// A rectangle with round corners as a polygon; a circle gets 32 corners.
+std::vector<Vec<2>> outline_of(const RectShape& shape) {
+  const Vec<2> size = shape.box.size();
+  const double radius = std::min(shape.radius, std::min(size.x, size.y) / 2);
+  if (!(radius > 0)) return polygon_of(shape.box);
+  constexpr int kPerCorner = 8;
+  const Box<2> centers = shrunk(shape.box, radius);
+  std::vector<Vec<2>> points;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Vec<2> center{corner == 0 || corner == 3 ? centers.hi.x : centers.lo.x,
+                        corner < 2 ? centers.hi.y : centers.lo.y};
+    for (int i = 0; i <= kPerCorner; ++i) {
+      const double angle = (corner + i / double(kPerCorner)) * std::numbers::pi / 2;
+      points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vec<2>> cut_to(std::vector<Vec<2>> polygon, const Box<2>& rect) {
+  polygon = clipped(polygon, Plane<2>{{1, 0}, rect.lo.x}, true);
+  polygon = clipped(polygon, Plane<2>{{1, 0}, rect.hi.x}, false);
+  polygon = clipped(polygon, Plane<2>{{0, 1}, rect.lo.y}, true);
+  return clipped(polygon, Plane<2>{{0, 1}, rect.hi.y}, false);
+}
+
+void cut_shapes(DrawList& list, std::size_t first, const Box<2>& rect) {
+  std::vector<DrawShape> kept;
+  for (std::size_t i = first; i < list.shapes.size(); ++i) {
+    PolygonShape cut;
+    if (const auto* box = std::get_if<RectShape>(&list.shapes[i]))
+      cut = {cut_to(outline_of(*box), rect), box->fill, box->stroke};
+    else if (const auto* polygon = std::get_if<PolygonShape>(&list.shapes[i]))
+      cut = {cut_to(polygon->points, rect), polygon->fill, polygon->stroke};
+    else if (const auto* line = std::get_if<LineShape>(&list.shapes[i]);
+             line && contains(rect, line->from) && contains(rect, line->to))
+      kept.emplace_back(*line);
+    if (!cut.points.empty()) kept.emplace_back(std::move(cut));
+  }
+  list.shapes.resize(first);
+  for (DrawShape& shape : kept) list.shapes.push_back(std::move(shape));
+}
+
+}  // namespace lantern

@@ -1,0 +1,70 @@
+// A frame as shapes in page units, by role: what every renderer takes. The origin is the page's
+// upper left corner, y points down, a page is at least 1600 x 900 units. Shapes are painted in
+// order.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "draw/role.hpp"
+#include "geometry/box.hpp"
+
+namespace lantern {
+
+struct Stroke {
+  Role role = Role::none;
+  double width = 0;  // page units; centred on the outline
+  double dash = 0;   // length of a dash and of the gap after it; 0 is an unbroken line
+};
+
+struct RectShape {
+  Box<2> box;
+  double radius = 0;  // of the corners; half the smaller side makes a disc or a pill
+  Role fill = Role::none;
+  Stroke stroke;
+  bool snapped = false;  // edges on whole pixels: for axis-aligned lines that must be crisp
+};
+
+struct LineShape {
+  Vec<2> from{0.0};
+  Vec<2> to{0.0};
+  Stroke stroke;         // round caps
+  bool snapped = false;  // a horizontal or vertical line, put on whole pixels
+};
+
+// A simple polygon, convex or not, its corners in order round it.
+struct PolygonShape {
+  std::vector<Vec<2>> points;
+  Role fill = Role::none;
+  Stroke stroke;
+};
+
+enum class Weight { regular, semibold };
+
+struct TextShape {
+  std::string text;  // UTF-8, one line
+  Vec<2> at{0.0};    // left end, centre or right end of the baseline, by `align`
+  double size = 0;   // em, page units
+  Weight weight = Weight::regular;
+  double align = 0;  // 0 left, 0.5 centre, 1 right
+  Role role = Role::ink;
+  Role halo = Role::none;  // painted 3 units around the letters when not none
+};
+
+using DrawShape = std::variant<RectShape, LineShape, PolygonShape, TextShape>;
+
+// A text's place, for the layout test: labels overlap neither each other nor their panel's edge.
+struct LabelBox {
+  Box<2> box;
+  Box<2> panel;
+  std::string text;
+};
+
+struct DrawList {
+  Vec<2> page{1600.0, 900.0};
+  std::vector<DrawShape> shapes;
+  std::vector<LabelBox> labels;
+};
+
+}  // namespace lantern

@@ -1,0 +1,156 @@
+#include "draw/font.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#define STBTT_STATIC
+#define STB_TRUETYPE_IMPLEMENTATION
+#include <stb/stb_truetype.h>
+
+#include "base/check.hpp"
+#include "embedded/font.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr int kReplacement = 0xfffd;
+
+// One weight. Immutable once made, so every thread may use it.
+class Face {
+ public:
+  explicit Face(std::string_view bytes) {
+    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    LANTERN_CHECK(stbtt_InitFont(&info_, data, 0), !=, 0);
+    em_per_unit_ = static_cast<double>(stbtt_ScaleForMappingEmToPixels(&info_, 1.0f));
+    for (int c = 0; c < kAscii; ++c) ascii_[c] = stbtt_FindGlyphIndex(&info_, c);
+    for (int a = 0; a < kAscii; ++a)
+      for (int b = 0; b < kAscii; ++b)
+        kern_[a * kAscii + b] = stbtt_GetGlyphKernAdvance(&info_, ascii_[a], ascii_[b]);
+    advances_.resize(info_.numGlyphs);
+    for (int g = 0; g < info_.numGlyphs; ++g)
+      stbtt_GetGlyphHMetrics(&info_, g, &advances_[g], nullptr);
+    int top = 0;
+    stbtt_GetGlyphBox(&info_, ascii_['H'], nullptr, nullptr, nullptr, &top);
+    cap_height_ = top * em_per_unit_;
+  }
+
+  int glyph(int codepoint) const {
+    return codepoint < kAscii ? ascii_[codepoint] : stbtt_FindGlyphIndex(&info_, codepoint);
+  }
+  // Space from the origin of `a` to that of `b` after it, in ems.
+  double advance(int a, int glyph_a, int b, int glyph_b) const {
+    const int kern = a < kAscii && b < kAscii ? kern_[a * kAscii + b]
+                                              : stbtt_GetGlyphKernAdvance(&info_, glyph_a, glyph_b);
+    return (advances_[glyph_a] + kern) * em_per_unit_;
+  }
+  double advance(int glyph) const { return advances_[glyph] * em_per_unit_; }
+  double cap_height() const { return cap_height_; }
+  double em_per_unit() const { return em_per_unit_; }
+  const stbtt_fontinfo* info() const { return &info_; }
+
+ private:
+  static constexpr int kAscii = 128;
+  stbtt_fontinfo info_{};
+  double em_per_unit_ = 0;
+  double cap_height_ = 0;
+  std::array<int, kAscii> ascii_{};
+  std::array<int, kAscii * kAscii> kern_{};  // of pairs of characters, font units
+  std::vector<int> advances_;                // of glyphs, font units
+};
+
+const Face& face(Weight weight) {
+  static const Face regular(font::inter_regular_otf);
+  static const Face semibold(font::inter_semibold_otf);
+  return weight == Weight::regular ? regular : semibold;
+}
+
+// The code point at `at`, which moves behind it. A malformed byte gives U+FFFD and is one byte
+// long.
+int next_codepoint(std::string_view text, std::size_t& at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(at++);
+  if (first < 0x80) return first < ' ' ? ' ' : static_cast<int>(first);
+  const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : 1;
+  if (first < 0xc2 || first > 0xf4 || at + more > text.size()) return kReplacement;
+  int code = static_cast<int>(first) & (0x3f >> more);
+  for (int i = 0; i < more; ++i) {
+    if ((byte(at + i) & 0xc0) != 0x80) return kReplacement;
+    code = code << 6 | (byte(at + i) & 0x3f);
+  }
+  const bool overlong = (more == 2 && code < 0x800) || (more == 3 && code < 0x10000);
+  if (overlong || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff) return kReplacement;
+  at += more;
+  return code;
+}
+
+// Calls place(glyph, x in ems) for each glyph; gives the width of the line in ems.
+template <class Place>
+double walk(std::string_view text, Weight weight, const Place& place) {
+  const Face& f = face(weight);
+  double x = 0;
+  int last = -1, last_glyph = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const int code = next_codepoint(text, at);
+    const int glyph = f.glyph(code);
+    if (last >= 0) x += f.advance(last, last_glyph, code, glyph);
+    place(glyph, x);
+    last = code;
+    last_glyph = glyph;
+  }
+  return last < 0 ? 0.0 : x + f.advance(last_glyph);
+}
+
+}  // namespace
+
+double text_width(std::string_view text, double size, Weight weight) {
+  return size * walk(text, weight, [](int, double) {});
+}
+
+double cap_height(Weight weight) { return face(weight).cap_height(); }
+
+std::vector<PlacedGlyph> shape_text(std::string_view text, double size, Weight weight) {
+  std::vector<PlacedGlyph> glyphs;
+  glyphs.reserve(text.size());
+  walk(text, weight, [&](int glyph, double x) { glyphs.push_back({glyph, x * size}); });
+  return glyphs;
+}
+
+GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shift) {
+  const stbtt_fontinfo* info = face(weight).info();
+  const float scale = stbtt_ScaleForMappingEmToPixels(info, static_cast<float>(pixels));
+  GlyphBitmap bitmap;
+  unsigned char* coverage =
+      stbtt_GetGlyphBitmapSubpixel(info, scale, scale, static_cast<float>(shift), 0.0f, glyph,
+                                   &bitmap.width, &bitmap.height, &bitmap.left, &bitmap.top);
+  if (!coverage) return {};  // a space
+  bitmap.coverage.assign(coverage, coverage + bitmap.width * bitmap.height);
+  stbtt_FreeBitmap(coverage, nullptr);
+  return bitmap;
+}
+
+std::string glyph_path(int glyph, Weight weight) {
+  const Face& f = face(weight);
+  stbtt_vertex* vertices = nullptr;
+  const int count = stbtt_GetGlyphShape(f.info(), glyph, &vertices);
+  std::string path;
+  const auto point = [&](int x, int y) {
+    path += fmt::format("{:.5g} {:.5g} ", x * f.em_per_unit(), y == 0 ? 0.0 : -y * f.em_per_unit());
+  };
+  for (int i = 0; i < count; ++i) {
+    const stbtt_vertex& v = vertices[i];
+    if (v.type == STBTT_vmove) path += path.empty() ? "M" : "ZM";
+    if (v.type == STBTT_vline) path += 'L';
+    if (v.type == STBTT_vcurve) path += 'Q';
+    if (v.type == STBTT_vcubic) path += 'C';
+    if (v.type == STBTT_vcurve || v.type == STBTT_vcubic) point(v.cx, v.cy);
+    if (v.type == STBTT_vcubic) point(v.cx1, v.cy1);
+    point(v.x, v.y);
+  }
+  stbtt_FreeShape(f.info(), vertices);
+  if (!path.empty()) path += 'Z';
+  return path;
+}
+
+}  // namespace lantern

@@ -1,0 +1,38 @@
+// The bundled type: Inter, in two weights, embedded in the binary.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+
+namespace lantern {
+
+// Width of a line of text, page units, at an em of `size`; kerning included.
+double text_width(std::string_view text, double size, Weight weight);
+
+// Height of a capital letter, as a part of the em.
+double cap_height(Weight weight);
+
+struct PlacedGlyph {
+  int glyph = 0;  // index in the font
+  double x = 0;   // of its origin from the left end of the line, page units
+};
+
+// The glyphs of one line of UTF-8, kerned. Bytes that are no UTF-8 become U+FFFD.
+std::vector<PlacedGlyph> shape_text(std::string_view text, double size, Weight weight);
+
+// Coverage of one glyph, 0 ... 255, rasterised at an em of `pixels`, its origin shifted right by
+// `shift` pixels (0 <= shift < 1). (left, top) is the bitmap's corner from the origin, y down.
+struct GlyphBitmap {
+  int left = 0, top = 0, width = 0, height = 0;
+  std::vector<std::uint8_t> coverage;
+};
+GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shift);
+
+// A glyph's outline in units of one em, y down, as an SVG path; empty for a space.
+std::string glyph_path(int glyph, Weight weight);
+
+}  // namespace lantern

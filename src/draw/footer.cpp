@@ -1,0 +1,153 @@
+#include "draw/footer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kCaption = 30;
+constexpr double kLine = 46;        // from baseline to baseline
+constexpr double kBelowLast = 54;   // from the last baseline to the page's edge
+constexpr double kAboveFirst = 52;  // from the hairline to the first baseline
+constexpr double kWide = 1400;      // a narrower page has its counters under the caption
+
+// A number and what it counts; `widest` is the longest that `noun` can get.
+struct Counter {
+  std::int64_t number = 0;
+  std::string noun;
+  std::string widest;
+  bool main = false;
+
+  TextStyle style() const {
+    return main ? TextStyle{30, Weight::semibold, Role::ink, Role::none}
+                : TextStyle{25, Weight::regular, Role::quiet_ink, Role::none};
+  }
+  double noun_width() const {
+    const TextStyle s = style();
+    return std::max(text_width(noun, s.size, s.weight), text_width(widest, s.size, s.weight));
+  }
+  // Room for four digits at least, so that the number may grow without moving anything.
+  double number_room() const {
+    const auto digits = static_cast<std::int64_t>(fmt::format("{}", number).size());
+    return Labels::number_width(std::max<std::int64_t>(4, digits), style());
+  }
+};
+
+std::string counted(std::int64_t n, const char* one, const char* many) {
+  return n == 1 ? one : many;
+}
+
+std::vector<Counter> atlas_counters(const Frame& frame) {
+  const std::int64_t used = frame.count("used_area").value_or(0);
+  const std::int64_t all = std::max<std::int64_t>(1, frame.count("atlas_area").value_or(1));
+  auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
+  if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
+  const std::string of = fmt::format("of {} textures", frame.textures.size());
+  return {{percent, "% used", "% used", true},
+          {frame.count("textures").value_or(0), of, of, false}};
+}
+
+std::vector<Counter> counters_of(const Frame& frame) {
+  if (!frame.textures.empty()) return atlas_counters(frame);
+  const auto pairs = frame.count("pairs"), all = frame.count("all_pairs");
+  if (pairs) {
+    std::vector<Counter> counters{
+        {*pairs, counted(*pairs, "pair to test", "pairs to test"), "pairs to test", true}};
+    if (all) counters.push_back({*all, "by brute force", "by brute force", false});
+    return counters;
+  }
+  const auto bodies = frame.count("bodies");
+  if (!bodies) return {};
+  std::vector<Counter> counters{{*bodies, counted(*bodies, "body", "bodies"), "bodies", true}};
+  if (all) counters.push_back({*all, counted(*all, "pair", "pairs"), "pairs", false});
+  return counters;
+}
+
+// One below the other; the longest form of each ends at the margin. Gives the left end.
+double draw_column(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
+                   Labels& labels) {
+  double left = band.hi.x;
+  for (const Counter& counter : counters) {
+    const double x = band.hi.x - counter.noun_width();
+    labels.add_number(counter.number, {x - 9, baseline}, counter.style(), band);
+    labels.add(counter.noun, {{x, baseline}, 0}, counter.style(), band);
+    left = std::min(left, x - 9 - counter.number_room());
+    baseline += kLine;
+  }
+  return left;
+}
+
+// All in one row that ends at the right.
+void draw_row(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
+              Labels& labels) {
+  double x = band.hi.x;
+  for (auto counter = counters.rbegin(); counter != counters.rend(); ++counter) {
+    x -= counter->noun_width();
+    labels.add(counter->noun, {{x, baseline}, 0}, counter->style(), band);
+    labels.add_number(counter->number, {x - 9, baseline}, counter->style(), band);
+    x -= 9 + counter->number_room() + 16;
+  }
+}
+
+// Two lines broken after a sentence, if both halves have room.
+std::optional<std::vector<std::string>> by_sentence(const std::string& text, double width,
+                                                    const TextStyle& style) {
+  std::optional<std::vector<std::string>> best;
+  double evenness = 1e300;
+  for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1)) {
+    const std::string first = text.substr(0, at + 1), second = text.substr(at + 2);
+    const double longer = std::max(text_width(first, style.size, style.weight),
+                                   text_width(second, style.size, style.weight));
+    if (longer > width || longer >= evenness) continue;
+    evenness = longer;
+    best = {first, second};
+  }
+  return best;
+}
+
+std::vector<std::string> caption_lines(const std::string& caption, double width, TextStyle& style) {
+  std::string text = caption;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (style.size = kCaption; style.size > kLeastCaption; style.size -= 1.1) {
+    std::vector<std::string> lines = wrapped(text, width, style);
+    if (lines.size() < 2) return lines;
+    if (const auto sentences = by_sentence(text, width, style)) return *sentences;
+    if (lines.size() == 2) return lines;
+  }
+  style.size = kLeastCaption;
+  std::vector<std::string> lines = wrapped(text, width, style);
+  if (lines.size() <= 2) return lines;
+  const std::size_t rest = text.find(lines[1], lines[0].size());
+  return {lines[0], shortened(std::string_view(text).substr(rest), width, style)};
+}
+
+}  // namespace
+
+double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels) {
+  const bool wide = list.page.x >= kWide;
+  const std::vector<Counter> counters = counters_of(frame);
+  const double row = wide ? 0 : kLine + 4;
+  const double second = list.page.y - kBelowLast - row, first = second - kLine;
+  const double top = first - kAboveFirst;
+  const Box<2> band{{margin, top + 4}, {list.page.x - margin, list.page.y - 20}};
+  double right = band.hi.x;
+  if (wide)
+    right = draw_column(counters, band, first, labels) - 40;
+  else
+    draw_row(counters, band, list.page.y - kBelowLast + 6, labels);
+  TextStyle style{kCaption, Weight::regular, Role::ink, Role::none};
+  double baseline = first;
+  for (const std::string& line : caption_lines(frame.caption, right - band.lo.x, style)) {
+    labels.add(line, {{band.lo.x, baseline}, 0}, style, band);
+    baseline += kLine;
+  }
+  return top;
+}
+
+}  // namespace lantern

@@ -1,0 +1,139 @@
+#include "draw/labels.hpp"
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+
+namespace lantern {
+namespace {
+
+// Reach of Inter's letters and brackets above and below the baseline, as parts of the em.
+constexpr double kAscent = 0.77;
+constexpr double kDescent = 0.22;
+constexpr double kGap = 2;  // between two labels
+
+bool cover(const Box<2>& a, const Box<2>& b, double gap) {
+  return a.lo.x < b.hi.x + gap && b.lo.x < a.hi.x + gap && a.lo.y < b.hi.y + gap &&
+         b.lo.y < a.hi.y + gap;
+}
+
+double width_of(std::string_view text, const TextStyle& style) {
+  return text_width(text, style.size, style.weight);
+}
+
+// The start of the last UTF-8 character before `end`.
+std::size_t before(std::string_view text, std::size_t end) {
+  do --end;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80);
+  return end;
+}
+
+// How many bytes of `text`, in whole characters, are no wider than `width`. Widths grow with the
+// text, so the place is found by halving.
+std::size_t prefix(std::string_view text, double width, const TextStyle& style) {
+  std::size_t fits = 0, too_long = text.size() + 1;
+  while (fits + 1 < too_long) {
+    std::size_t middle = (fits + too_long) / 2;
+    if (middle < text.size()) middle = before(text, middle + 1);
+    if (middle <= fits) {  // one character fills the gap: take the step to its end
+      middle = fits + 1;
+      while (middle < text.size() && (static_cast<unsigned char>(text[middle]) & 0xc0) == 0x80)
+        ++middle;
+      if (middle >= too_long) break;
+    }
+    (width_of(text.substr(0, middle), style) <= width ? fits : too_long) = middle;
+  }
+  return fits;
+}
+
+}  // namespace
+
+Box<2> Labels::extent(std::string_view text, const Anchor& anchor, const TextStyle& style) {
+  const double width = width_of(text, style);
+  const double left = anchor.at.x - anchor.align * width;
+  return {{left, anchor.at.y - kAscent * style.size},
+          {left + width, anchor.at.y + kDescent * style.size}};
+}
+
+bool Labels::is_free(const Box<2>& box, const Box<2>& panel) const {
+  if (!holds(panel, box)) return false;
+  for (const LabelBox& other : list_.labels)
+    if (cover(box, other.box, kGap)) return false;
+  for (const Box<2>& place : blocked_)
+    if (cover(box, place, 0)) return false;
+  return true;
+}
+
+void Labels::add(std::string_view text, const Anchor& anchor, const TextStyle& style,
+                 const Box<2>& panel) {
+  if (text.empty()) return;
+  list_.labels.push_back({extent(text, anchor, style), panel, std::string(text)});
+  list_.shapes.emplace_back(TextShape{std::string(text), anchor.at, style.size, style.weight,
+                                      anchor.align, style.role, style.halo});
+}
+
+bool Labels::try_add(std::string_view text, std::initializer_list<Anchor> anchors,
+                     const TextStyle& style, const Box<2>& panel) {
+  for (const Anchor& anchor : anchors) {
+    if (!is_free(extent(text, anchor, style), panel)) continue;
+    add(text, anchor, style, panel);
+    return true;
+  }
+  return false;
+}
+
+double Labels::number_width(std::int64_t digits, const TextStyle& style) {
+  return static_cast<double>(digits) * width_of("0", style);
+}
+
+void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyle& style,
+                        const Box<2>& panel) {
+  const std::string digits = fmt::format("{}", number);
+  const auto count = static_cast<std::int64_t>(digits.size());
+  const double half_cell = width_of("0", style) / 2;
+  Box<2> box = extent("0", {right, 1}, style);
+  box.lo.x = right.x - number_width(count, style);
+  list_.labels.push_back({box, panel, digits});
+  for (std::int64_t place = 0; place < count; ++place) {  // from the last digit on
+    const Vec<2> at{right.x - number_width(place + 1, style) + half_cell, right.y};
+    const auto i = static_cast<std::size_t>(count - 1 - place);
+    list_.shapes.emplace_back(TextShape{std::string(1, digits[i]), at, style.size, style.weight,
+                                        0.5, style.role, style.halo});
+  }
+}
+
+void Labels::add_note(std::string_view note, const Box<2>& picture) {
+  const TextStyle style{kLabel - 1, Weight::regular, Role::ink, Role::none};
+  const std::string text = shortened(note, picture.size().x - 40, style);
+  if (text.empty()) return;
+  const Anchor anchor{{picture.lo.x + 20, picture.hi.y - 20}, 0};
+  const Box<2> plate = shrunk(extent(text, anchor, style), -7);
+  list_.shapes.emplace_back(RectShape{plate, 6, Role::panel, {Role::cell_line_1, 1.4, 0}, false});
+  add(text, anchor, style, picture);
+}
+
+std::string shortened(std::string_view text, double width, const TextStyle& style) {
+  if (width_of(text, style) <= width) return std::string(text);
+  std::size_t end = prefix(text, width - width_of("…", style), style);
+  while (end > 0 && text[end - 1] == ' ') --end;
+  return end == 0 ? std::string() : std::string(text.substr(0, end)) + "…";
+}
+
+std::vector<std::string> wrapped(std::string_view text, double width, const TextStyle& style) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    std::size_t end = prefix(text, width, style);
+    if (end == 0) end = text.size();  // not one letter fits: there is nothing to break
+    std::size_t next = end;
+    if (end < text.size()) {
+      const std::size_t space = text.rfind(' ', end);
+      if (space != std::string_view::npos && space > 0) end = next = space;
+    }
+    lines.emplace_back(text.substr(0, end));
+    while (next < text.size() && text[next] == ' ') ++next;
+    text.remove_prefix(next);
+  }
+  return lines;
+}
+
+}  // namespace lantern

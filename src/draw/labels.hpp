@@ -1,0 +1,72 @@
+// The one way that text gets onto a page: it knows where every label lies, so that none covers
+// another, and records the boxes for the layout test.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "draw/draw_list.hpp"
+#include "draw/metrics.hpp"
+
+namespace lantern {
+
+struct TextStyle {
+  double size = kLabel;
+  Weight weight = Weight::regular;
+  Role role = Role::ink;
+  Role halo = Role::none;
+};
+
+// A place for a text: on the baseline, at its left end, centre or right end by `align`.
+struct Anchor {
+  Vec<2> at{0.0};
+  double align = 0;
+};
+
+class Labels {
+ public:
+  // Texts and their boxes go to `list`, which must outlive this.
+  explicit Labels(DrawList& list) : list_(list) {}
+
+  // What the letters may cover.
+  static Box<2> extent(std::string_view text, const Anchor& anchor, const TextStyle& style);
+
+  // From here on no label is tried on this place.
+  void block(const Box<2>& place) { blocked_.push_back(place); }
+
+  // Inside the panel, and free of labels and of blocked places.
+  bool is_free(const Box<2>& box, const Box<2>& panel) const;
+
+  // The text at this anchor, whatever else is there: for texts whose place is laid out beforehand.
+  void add(std::string_view text, const Anchor& anchor, const TextStyle& style,
+           const Box<2>& panel);
+
+  // The text at the first anchor where it is free; false, and nothing is drawn, if there is none.
+  bool try_add(std::string_view text, std::initializer_list<Anchor> anchors, const TextStyle& style,
+               const Box<2>& panel);
+
+  // A number whose last digit ends at `right`. Each digit has a cell of its own, so that none moves
+  // when another one changes.
+  void add_number(std::int64_t number, const Vec<2>& right, const TextStyle& style,
+                  const Box<2>& panel);
+  static double number_width(std::int64_t digits, const TextStyle& style);
+
+  // What a picture leaves out, on a plate in its lower left corner. Nothing for an empty note.
+  void add_note(std::string_view note, const Box<2>& picture);
+
+ private:
+  DrawList& list_;
+  std::vector<Box<2>> blocked_;
+};
+
+// `text` if it is no wider than `width`, otherwise as much of it as is, with an ellipsis; empty
+// when not even one letter has room.
+std::string shortened(std::string_view text, double width, const TextStyle& style);
+
+// The text's lines, broken at spaces so that each is no wider than `width`. A word that is wider by
+// itself is broken anywhere.
+std::vector<std::string> wrapped(std::string_view text, double width, const TextStyle& style);
+
+}  // namespace lantern

@@ -1,0 +1,32 @@
+// Measures of the page, in units of a page that is 900 high, and the helpers that use them.
+#pragma once
+
+#include <algorithm>
+
+#include "draw/draw_list.hpp"
+
+namespace lantern {
+
+inline constexpr double kLeastCaption = 23.4;  // 2.6 % of 900
+inline constexpr double kLeastLabel = 17.1;    // 1.9 % of 900
+inline constexpr double kLabel = 19;
+
+// The least of `box` that a text or shape `inset` inside it may use.
+inline Box<2> shrunk(const Box<2>& box, double inset) {
+  return {box.lo + Vec<2>(inset), box.hi - Vec<2>(inset)};
+}
+
+inline bool holds(const Box<2>& outer, const Box<2>& inner) {
+  return outer.lo.x <= inner.lo.x && outer.lo.y <= inner.lo.y && inner.hi.x <= outer.hi.x &&
+         inner.hi.y <= outer.hi.y;
+}
+
+inline RectShape filled(const Box<2>& box, Role fill, double radius = 0) {
+  return {box, radius, fill, {}, false};
+}
+
+inline RectShape disc(const Vec<2>& center, double radius, Role fill, Stroke stroke = {}) {
+  return {Box<2>::around(center, Vec<2>(radius)), radius, fill, stroke, false};
+}
+
+}  // namespace lantern

@@ -1,0 +1,189 @@
+#include "draw/page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "draw/atlas_view.hpp"
+#include "draw/font.hpp"
+#include "draw/footer.hpp"
+#include "draw/labels.hpp"
+#include "draw/tree_view.hpp"
+#include "draw/world_view.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kTop = 104;       // of the panels
+constexpr double kTitleLine = 58;  // baseline
+constexpr double kPanelGap = 44;
+constexpr double kMostEnlarged = 1.45;
+constexpr double kStackBelow = 1.2;  // aspect of a page whose panels stand one above the other
+
+void add_rule(DrawList& list, double y, double margin) {
+  list.shapes.emplace_back(
+      LineShape{{margin, y}, {list.page.x - margin, y}, {Role::rule, 1.6, 0}, true});
+}
+
+// "step 4 of 9" from the right, each number in cells for as many digits as the last step has.
+// Gives the left end.
+double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
+  if (frame.steps == 0) return band.hi.x;
+  const TextStyle style{21, Weight::regular, Role::quiet_ink, Role::none};
+  const auto digits = static_cast<std::int64_t>(std::to_string(frame.steps).size());
+  const double number = Labels::number_width(digits, style);
+  const double space = text_width(" ", style.size, style.weight);
+  double x = band.hi.x;
+  labels.add_number(frame.steps, {x, kTitleLine}, style, band);
+  x -= number + space;
+  labels.add("of", {{x, kTitleLine}, 1}, style, band);
+  x -= text_width("of", style.size, style.weight) + space;
+  labels.add_number(std::int64_t{frame.step} + 1, {x, kTitleLine}, style, band);
+  x -= number + space;
+  labels.add("step", {{x, kTitleLine}, 1}, style, band);
+  return x - text_width("step", style.size, style.weight);
+}
+
+void draw_title(const Frame& frame, double margin, DrawList& list, Labels& labels) {
+  const Box<2> band{{margin, 20}, {list.page.x - margin, 76}};
+  const double right = draw_step(frame, band, labels) - 36;
+  const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
+  const TextStyle quiet{24, Weight::regular, Role::quiet_ink, Role::none};
+  const std::string title = shortened(frame.title, right - margin, bold);
+  labels.add(title, {{margin, kTitleLine}, 0}, bold, band);
+  const double end = margin + text_width(title, bold.size, bold.weight) + 11;
+  if (!frame.part.empty())
+    labels.add(shortened("·  " + frame.part, right - end, quiet), {{end, kTitleLine}, 0}, quiet,
+               band);
+  add_rule(list, 78, margin);
+}
+
+// Width that a panel would take at this height if it could choose; 0 takes what is left.
+double wanted_width(const Frame& frame, Panel panel, double height) {
+  if (panel == Panel::tree) return 0;
+  if (panel == Panel::atlas) return atlas_width(frame, height);
+  const Vec<2> size = frame.bounds.size();
+  return size.y > 0 ? height * size.x / size.y : height;
+}
+
+std::vector<Box<2>> side_by_side(const Frame& frame, const Box<2>& area) {
+  const double room = area.size().x - kPanelGap * static_cast<double>(frame.panels.size() - 1);
+  const auto trees = std::count(frame.panels.begin(), frame.panels.end(), Panel::tree);
+  const auto others = static_cast<double>(frame.panels.size()) - static_cast<double>(trees);
+  std::vector<double> widths;
+  double left = room;
+  for (const Panel panel : frame.panels) {
+    double width = 0;
+    if (panel != Panel::tree)
+      width = trees == 0 ? room / others
+                         : std::clamp(wanted_width(frame, panel, area.size().y),
+                                      0.3 * room / others, 0.6 * room / others);
+    widths.push_back(width);
+    left -= width;
+  }
+  std::vector<Box<2>> boxes;
+  double x = area.lo.x;
+  for (double width : widths) {
+    if (width == 0) width = left / static_cast<double>(trees);
+    boxes.push_back({{x, area.lo.y}, {x + width, area.hi.y}});
+    x += width + kPanelGap;
+  }
+  return boxes;
+}
+
+// A tree needs rows, so it gets somewhat more height than the others.
+std::vector<Box<2>> stacked(const Frame& frame, const Box<2>& area) {
+  const auto weight = [](Panel panel) { return panel == Panel::tree ? 1.1 : 1.0; };
+  double weights = 0;
+  for (const Panel panel : frame.panels) weights += weight(panel);
+  const double room = area.size().y - kPanelGap * static_cast<double>(frame.panels.size() - 1);
+  std::vector<Box<2>> boxes;
+  double y = area.lo.y;
+  for (const Panel panel : frame.panels) {
+    const double height = room * weight(panel) / weights;
+    boxes.push_back({{area.lo.x, y}, {area.hi.x, y + height}});
+    y += height + kPanelGap;
+  }
+  return boxes;
+}
+
+void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels& labels,
+                 Work& work) {
+  if (frame.panels.empty()) return;
+  const bool tall = list.page.x / list.page.y < kStackBelow;
+  const std::vector<Box<2>> boxes = tall ? stacked(frame, area) : side_by_side(frame, area);
+  for (std::size_t i = 0; i < boxes.size(); ++i) switch (frame.panels[i]) {
+      case Panel::world:
+        ++work.world_layouts;
+        draw_world(frame, boxes[i], list, labels);
+        break;
+      case Panel::tree:
+        ++work.tree_layouts;
+        draw_tree(frame, boxes[i], list, labels);
+        break;
+      case Panel::atlas:
+        draw_atlas(frame, boxes[i], list, labels);
+        break;
+    }
+}
+
+void scale(Box<2>& box, double k) { box = {box.lo * k, box.hi * k}; }
+void scale(Stroke& stroke, double k) {
+  stroke.width *= k;
+  stroke.dash *= k;
+}
+
+void scale(DrawShape& shape, double k) {
+  std::visit(
+      [&](auto& s) {
+        using Shape = std::decay_t<decltype(s)>;
+        if constexpr (std::is_same_v<Shape, RectShape>) {
+          scale(s.box, k);
+          s.radius *= k;
+          scale(s.stroke, k);
+        } else if constexpr (std::is_same_v<Shape, LineShape>) {
+          s.from *= k;
+          s.to *= k;
+          scale(s.stroke, k);
+        } else if constexpr (std::is_same_v<Shape, PolygonShape>) {
+          for (Vec<2>& point : s.points) point *= k;
+          scale(s.stroke, k);
+        } else {
+          s.at *= k;
+          s.size *= k;
+        }
+      },
+      shape);
+}
+
+}  // namespace
+
+Vec<2> page_for(int width, int height) {
+  const double pixels = std::min(width / 1600.0, height / 900.0);  // a unit
+  return {width / pixels, height / pixels};
+}
+
+// The layout is made for a page about 900 units high and then scaled, so that type keeps its part
+// of the page's height on squarer pages. On tall ones that would leave too little width for the
+// panels, so it stops at kMostEnlarged.
+DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
+  const double k = std::clamp(page.y / 900, 1.0, kMostEnlarged);
+  DrawList list;
+  list.page = page / k;
+  Labels labels(list);
+  const double margin = list.page.x < 1000 ? 40 : 60;
+  draw_title(frame, margin, list, labels);
+  const double bottom = draw_footer(frame, margin, list, labels);
+  add_rule(list, bottom, margin);
+  draw_panels(frame, {{margin, kTop}, {list.page.x - margin, bottom - 26}}, list, labels, work);
+  list.page = page;
+  if (k == 1) return list;
+  for (DrawShape& shape : list.shapes) scale(shape, k);
+  for (LabelBox& label : list.labels) {
+    scale(label.box, k);
+    scale(label.panel, k);
+  }
+  return list;
+}
+
+}  // namespace lantern

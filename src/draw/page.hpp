@@ -1,0 +1,21 @@
+// From a frame to shapes on a page.
+#pragma once
+
+#include "base/work.hpp"
+#include "draw/draw_list.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern {
+
+// The page for an output of this many pixels: 1600 x 900 units for 16 : 9, longer on one side for
+// other aspects, never shorter.
+Vec<2> page_for(int width, int height);
+
+// Title line, the frame's panels side by side (one above the other on a tall page), caption and
+// counters. Counts one layout for each panel that is there.
+DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work);
+
+// The finished atlas alone, one page unit a pixel: what is written as a real texture atlas.
+DrawList draw_atlas_image(const Frame& frame);
+
+}  // namespace lantern

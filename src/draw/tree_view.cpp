@@ -1,0 +1,300 @@
+#include "draw/tree_view.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "draw/characters.hpp"
+#include "draw/font.hpp"
+#include "draw/pattern.hpp"
+#include "draw/tree_facts.hpp"
+#include "draw/tree_layout.hpp"
+
+namespace lantern {
+namespace {
+
+class TreeView {
+ public:
+  TreeView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
+      : frame_(frame),
+        panel_(panel),
+        list_(list),
+        labels_(labels),
+        layout_(lay_out_tree(frame, panel)) {
+    for (std::size_t i = 0; i < frame.bodies.size(); ++i) body_at_[frame.bodies[i].id] = i;
+    for (std::size_t i = 0; i < frame.textures.size(); ++i) texture_at_[frame.textures[i].id] = i;
+    for (const Branch& branch : branches())  // rows come in order
+      if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
+  }
+
+  void draw() {
+    for (const bool lit : {false, true})
+      for (std::size_t i = 1; i < branches().size(); ++i)
+        if (is_lit_edge(branches()[i]) == lit) draw_edge(i, lit);
+    for (std::size_t i = 0; i < branches().size(); ++i) draw_branch(i);
+    for (std::size_t i = 0; i < branches().size(); ++i)
+      if (branches()[i].kind != Branch::Kind::levels) labels_.block(layout_.boxes[i]);
+    for (std::size_t i = 0; i < branches().size(); ++i) label_branch(i);
+    for (std::size_t i = 1; i < branches().size(); ++i) label_edge(i);
+  }
+
+ private:
+  const std::vector<Branch>& branches() const { return layout_.branches; }
+  const FrameNode& node_of(const Branch& branch) const { return frame_.nodes[branch.node]; }
+  bool is_atlas() const { return !frame_.textures.empty(); }
+  bool is_empty_leaf(const Branch& branch) const {
+    return node_of(branch).leaf && node_of(branch).bodies.empty();
+  }
+
+  bool is_lit_edge(const Branch& branch) const {
+    return branch.parent != kNone && branch.mark == Mark::lit &&
+           branches()[branch.parent].mark != Mark::quiet;
+  }
+
+  void draw_edge(std::size_t i, bool lit) {
+    const Role role = lit ? Role::lit : cell_line_role(node_of(branches()[i]).depth - 1);
+    const std::vector<Vec<2>> corners = layout_.edge(i);
+    for (std::size_t k = 1; k < corners.size(); ++k) {
+      const Vec<2>&a = corners[k - 1], &b = corners[k];
+      const bool upright_or_level = a.x == b.x || a.y == b.y;
+      list_.shapes.emplace_back(LineShape{a, b, {role, lit ? 2.8 : 2.0, 0}, upright_or_level});
+    }
+  }
+
+  Stroke outline_of(const Branch& branch) const {
+    const FrameNode& node = node_of(branch);
+    const bool dashed = is_empty_leaf(branch);
+    if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
+    if (node.over_capacity) return {Role::warning, 2.6, 0};
+    const Role role = node.awake ? cell_line_role(std::min(node.depth, 2u)) : Role::asleep;
+    return {role, 2.2, dashed ? 5.5 : 0.0};
+  }
+
+  static Role ground_of(Mark mark) {
+    if (mark == Mark::lit) return Role::lit_fill;
+    return mark == Mark::passed ? Role::passed_fill : Role::panel;
+  }
+
+  void draw_branch(std::size_t i) {
+    const Branch& branch = branches()[i];
+    const Box<2>& box = layout_.boxes[i];
+    if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
+    const Stroke outline = outline_of(branch);
+    const Role ground = ground_of(branch.mark);
+    const bool pile = branch.kind == Branch::Kind::folded ||
+                      (branch.kind == Branch::Kind::node && branch.copies > 1);
+    if (pile) {
+      Box<2> behind{box.lo + Vec<2>(5, -5), box.hi + Vec<2>(5, -5)};  // a pile of equal cards
+      list_.shapes.emplace_back(RectShape{behind, layout_.scale.radius, ground, outline, false});
+    }
+    list_.shapes.emplace_back(RectShape{box, layout_.scale.radius, ground, outline, false});
+    if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
+      draw_cut(node_of(branch), box, outline.role);
+    else
+      draw_content(branch, box);
+    if (node_of(branch).over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
+  }
+
+  // A dashed line where levels are left out.
+  void draw_levels(const Branch& branch, const Box<2>& box) {
+    const Role role = branch.mark == Mark::quiet ? Role::cell_line_2 : Role::lit;
+    const Vec<2> c = box.center();
+    list_.shapes.emplace_back(LineShape{{c.x, box.lo.y}, {c.x, box.hi.y}, {role, 2.8, 5}, false});
+  }
+
+  // Icons from the left and the text after them, centred in the box.
+  void draw_content(const Branch& branch, const Box<2>& box) {
+    const BranchText content = text_of(branch, frame_, layout_.scale, layout_.words);
+    const TextStyle style = text_style(branch);
+    const double icon = layout_.scale.icon;
+    const double text = text_width(content.text, style.size, style.weight);
+    const auto icons = static_cast<double>(content.icons);
+    double width = icons > 0 ? icons * (icon + 5) - 5 : 0;
+    if (!content.text.empty()) width += text + (icons > 0 ? 6 : 0);
+    const Vec<2> c = box.center();
+    double x = c.x - width / 2;
+    for (std::size_t k = 0; k < content.icons; ++k, x += icon + 5)
+      draw_icon(node_of(branch).bodies[k], {{x, c.y - icon / 2}, {x + icon, c.y + icon / 2}});
+    if (content.icons > 0) x += 1;
+    const double baseline = c.y + cap_height(style.weight) * style.size / 2;
+    labels_.add(content.text, {{x, baseline}, 0}, style, panel_);
+  }
+
+  TextStyle text_style(const Branch& branch) const {
+    const bool no_node = branch.kind != Branch::Kind::node || is_empty_leaf(branch);
+    TextStyle style{layout_.scale.text, Weight::semibold, Role::ink, Role::none};
+    if (no_node && branch.mark != Mark::lit) {
+      style.weight = Weight::regular;
+      style.role = Role::quiet_ink;
+    }
+    return style;
+  }
+
+  void draw_icon(BodyId id, const Box<2>& place) {
+    if (is_atlas()) {
+      const FrameTexture& texture = frame_.textures[texture_at_.at(id)];
+      draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_);
+      list_.shapes.emplace_back(RectShape{place, 0, Role::none, {Role::body_line, 1.2, 0}, false});
+      return;
+    }
+    const auto found = body_at_.find(id);
+    if (found == body_at_.end()) return;
+    const FrameBody& body = frame_.bodies[found->second];
+    draw_character(body, icon_box(body, place), false, list_);
+  }
+
+  // A bat stays long and thin, down to a third.
+  static Box<2> icon_box(const FrameBody& body, const Box<2>& place) {
+    const Vec<2> size = body.box.size();
+    const double longest = std::max(size.x, size.y);
+    if (!(longest > 0)) return place;
+    const Vec<2> half{std::max(size.x / longest, 0.34), std::max(size.y / longest, 0.34)};
+    return Box<2>::around(place.center(), half * place.size() * 0.5);
+  }
+
+  // How an atlas's node is cut: two halves, and the strong line between.
+  void draw_cut(const FrameNode& node, const Box<2>& box, Role role) {
+    const double half = 0.32 * box.size().y;
+    const Box<2> icon = Box<2>::around(box.center(), Vec<2>(1.15 * half, half));
+    list_.shapes.emplace_back(RectShape{icon, 2, Role::none, {role, 1.6, 0}, false});
+    const Vec<2> c = icon.center();
+    const bool upright = node.cut_vertically;
+    list_.shapes.emplace_back(LineShape{upright ? Vec<2>(c.x, icon.lo.y) : Vec<2>(icon.lo.x, c.y),
+                                        upright ? Vec<2>(c.x, icon.hi.y) : Vec<2>(icon.hi.x, c.y),
+                                        {role, 3.2, 0},
+                                        false});
+  }
+
+  // A warning triangle on the box's corner.
+  void draw_badge(const Box<2>& box) {
+    const Vec<2> c{box.hi.x - 1, box.lo.y + 1};
+    list_.shapes.emplace_back(
+        PolygonShape{{c + Vec<2>(0, -10), c + Vec<2>(10, 7), c + Vec<2>(-10, 7)},
+                     Role::warning,
+                     {Role::paper, 2, 0}});
+    list_.shapes.emplace_back(
+        LineShape{c + Vec<2>(0, -3.5), c + Vec<2>(0, 1), {Role::paper, 2.2, 0}, false});
+    list_.shapes.emplace_back(disc(c + Vec<2>(0, 4.6), 1.3, Role::paper));
+  }
+
+  void label_levels(const Branch& branch, const Vec<2>& c) {
+    const TextStyle style{layout_.scale.text, Weight::regular, Role::quiet_ink, Role::paper};
+    labels_.try_add(
+        text_of(branch, frame_, layout_.scale, layout_.words).text,
+        {{{c.x + 12, c.y + 0.36 * style.size}, 0}, {{c.x - 12, c.y + 0.36 * style.size}, 1}}, style,
+        panel_);
+  }
+
+  void label_branch(std::size_t i) {
+    const Branch& branch = branches()[i];
+    const FrameNode& node = node_of(branch);
+    if (branch.kind == Branch::Kind::levels) return label_levels(branch, layout_.boxes[i].center());
+    if (!has_label_below(branch, frame_)) return;
+    TextStyle style{layout_.scale.label, Weight::semibold, Role::quiet_ink, Role::paper};
+    if (branch.mark == Mark::lit) style.role = Role::lit_ink;
+    if (node.over_capacity && node.leaf) style.role = Role::warning;
+    const Box<2>& box = layout_.boxes[i];
+    const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
+    const double room = layout_.label_room(i, frame_, panel_);
+    for (const std::string& text : label_choices(branch))
+      if (text_width(text, style.size, style.weight) <= room &&
+          labels_.try_add(text, {under}, style, panel_))
+        return;
+    if (branch.copies == 1 && short_label(node.label).empty())
+      labels_.try_add(shortened(node.label, room, style), {under}, style, panel_);
+  }
+
+  // What may stand under a branch, the best first. A way of many steps is spelt out only where the
+  // step is about it or where it warns.
+  std::vector<std::string> label_choices(const Branch& branch) const {
+    const FrameNode& node = node_of(branch);
+    if (branch.kind == Branch::Kind::folded && branch.copies == 0)
+      return {layout_.words.nodes ? "" : "nodes"};
+    const bool overfull = node.over_capacity && node.leaf;
+    const bool holds = overfull && says_holds_[branch.row];
+    if (branch.copies > 1) return copies_choices(branch, holds);
+    std::vector<std::string> names;
+    if (overfull || branch.mark == Mark::lit || !is_long_way(node.label))
+      names.push_back(node.label);
+    if (const std::string brief = short_label(node.label); !brief.empty()) names.push_back(brief);
+    std::vector<std::string> choices;
+    if (holds)
+      for (const std::string& name : names)
+        choices.push_back(fmt::format("{} holds {}", name, node.bodies.size()));
+    choices.insert(choices.end(), names.begin(), names.end());
+    return choices;
+  }
+
+  std::vector<std::string> copies_choices(const Branch& branch, bool holds) const {
+    const std::string count = fmt::format("×{}", branch.copies);
+    if (holds) {
+      const std::size_t bodies = node_of(branch).bodies.size();
+      return {branch.each ? fmt::format("{} each, hold {}", count, bodies)
+                          : fmt::format("{}, each holds {}", count, bodies)};
+    }
+    if (branch.each) return {count + " each", count};
+    return {count};
+  }
+
+  // "holds 3" says in words what the badge warns of. In a row all that hold too much say it, or
+  // none.
+  bool has_room_for_holds(std::uint32_t row) const {
+    for (std::size_t i = 0; i < branches().size(); ++i) {
+      const Branch& branch = branches()[i];
+      const FrameNode& node = node_of(branch);
+      if (branch.row != row || branch.kind != Branch::Kind::node || !node.leaf ||
+          !node.over_capacity)
+        continue;
+      const std::string brief = short_label(node.label);
+      const std::string least =
+          branch.copies > 1
+              ? copies_choices(branch, true).front()
+              : fmt::format("{} holds {}", brief.empty() ? node.label : brief, node.bodies.size());
+      if (text_width(least, layout_.scale.label, Weight::semibold) >
+          layout_.label_room(i, frame_, panel_))
+        return false;
+    }
+    return true;
+  }
+
+  // Which side of the plane a BSP's child is.
+  void label_edge(std::size_t i) {
+    const Branch& branch = branches()[i];
+    if (frame_.structure != StructureKind::bsp || is_atlas() || branch.copies != 1 ||
+        branch.kind != Branch::Kind::node)
+      return;
+    const bool behind = node_of(branch).slot == 0;
+    const std::vector<Vec<2>> corners = layout_.edge(i);
+    if (corners.size() > 3) return;  // no room for words between the rows
+    const Vec<2> a = corners[corners.size() - 2], b = corners.back();
+    const Vec<2> middle = a + (b - a) * 0.5;
+    const TextStyle style{std::max(kLabel - 1, layout_.scale.label), Weight::regular,
+                          Role::quiet_ink, Role::paper};
+    const double align = b.x < a.x ? 1 : 0;
+    const double side = b.x < a.x ? -14 : 14;
+    labels_.try_add(behind ? "behind" : "in front",
+                    {{middle + Vec<2>(side, 2), align}, {middle + Vec<2>(0, 6), 0.5}}, style,
+                    panel_);
+  }
+
+  const Frame& frame_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  TreeLayout layout_;
+  std::vector<bool> says_holds_;  // by row
+  std::unordered_map<BodyId, std::size_t> body_at_;
+  std::unordered_map<std::uint32_t, std::size_t> texture_at_;
+};
+
+}  // namespace
+
+void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  const double facts = draw_tree_facts(frame, panel, labels);
+  Box<2> diagram = panel;
+  diagram.hi.y -= facts + 4;
+  TreeView(frame, shrunk(diagram, 6), list, labels).draw();
+}
+
+}  // namespace lantern

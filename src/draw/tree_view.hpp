@@ -1,0 +1,15 @@
+// The tree panel: the nodes of the structure or atlas as a node-link diagram.
+#pragma once
+
+#include "draw/labels.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern {
+
+// The diagram in the panel, and under it what the tree was told and what it counts. A tree too
+// large for the panel is condensed (tree_fold.hpp); a node is never narrower than kLeastNode.
+void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+
+inline constexpr double kLeastNode = 34;
+
+}  // namespace lantern

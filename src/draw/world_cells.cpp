@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "draw/world_parts.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostFills = 500;
+constexpr std::size_t kMostLines = 800;
+constexpr std::size_t kMostPlanes = 400;
+constexpr double kLeastCell = 1.5;  // page units; smaller ones are below what a line can show
+
+// By depth, page units.
+double line_width(std::uint32_t depth) {
+  constexpr double kWidths[] = {4.6, 3.4, 2.3, 1.7, 1.3, 1.1};
+  return depth < 6 ? kWidths[depth] : 1.0;
+}
+
+Role fill_of(Mark mark) {
+  if (mark == Mark::lit) return Role::lit_fill;
+  return mark == Mark::passed ? Role::passed_fill : Role::panel;
+}
+
+// Which nodes are painted, and how. A node whose children cover it with one tone is painted as a
+// whole; a lit inner node is painted when the step is about it alone, with nothing lit inside.
+class Paint {
+ public:
+  explicit Paint(const Frame& frame) : nodes_(frame.nodes) {
+    const std::size_t all = frame.structure == StructureKind::bsp ? 2 : 4;
+    tone_.resize(nodes_.size());
+    child_tone_.resize(nodes_.size());
+    std::vector<std::size_t> alike(nodes_.size());
+    std::vector<bool> lit_inside(nodes_.size());
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+      const FrameNode& node = nodes_[i];
+      if (node.leaf || (node.mark == Mark::lit && !lit_inside[i]))
+        tone_[i] = node.mark;
+      else if (alike[i] == all)
+        tone_[i] = child_tone_[i];
+      if (node.parent == kNone) continue;
+      if (node.mark == Mark::lit || lit_inside[i]) lit_inside[node.parent] = true;
+      if (!tone_[i] || (alike[node.parent] > 0 && child_tone_[node.parent] != tone_[i])) continue;
+      ++alike[node.parent];
+      child_tone_[node.parent] = tone_[i];
+    }
+  }
+
+  // In order of painting. Parents stand before children, so whatever an ancestor covers falls out.
+  std::vector<std::size_t> painted() const {
+    std::vector<std::size_t> found;
+    std::vector<bool> covered(nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const std::uint32_t parent = nodes_[i].parent;
+      covered[i] = parent != kNone && (covered[parent] || tone_[parent].has_value());
+      if (!covered[i] && tone_[i] && *tone_[i] != Mark::quiet) found.push_back(i);
+    }
+    return found;
+  }
+  Mark tone(std::size_t i) const { return *tone_[i]; }
+
+ private:
+  const std::vector<FrameNode>& nodes_;
+  std::vector<std::optional<Mark>> tone_;        // of the whole node, if it has one tone
+  std::vector<std::optional<Mark>> child_tone_;  // of the children seen so far
+};
+
+// Borders of many cells as few long lines: pieces on one line that touch are joined.
+class Borders {
+ public:
+  void add(const Box<2>& cell, std::uint32_t depth) {
+    for (const double y : {cell.lo.y, cell.hi.y})
+      pieces_.push_back({depth, 0, rounded(y), cell.lo.x, cell.hi.x});
+    for (const double x : {cell.lo.x, cell.hi.x})
+      pieces_.push_back({depth, 1, rounded(x), cell.lo.y, cell.hi.y});
+  }
+
+  // Only what lies within the place.
+  void add_inside(const Box<2>& place, const Box<2>& cell, std::uint32_t depth) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const int across = 1 - axis;  // a line along `axis` is at one place across it
+      const double from = std::max(cell.lo[axis], place.lo[axis]);
+      const double to = std::min(cell.hi[axis], place.hi[axis]);
+      for (const double at : {cell.lo[across], cell.hi[across]})
+        if (place.lo[across] < at && at < place.hi[across])
+          pieces_.push_back({depth, axis, rounded(at), from, to});
+    }
+  }
+
+  // Deep ones first, so that the stronger lines of the upper levels lie on top. When there are too
+  // many, whole levels are left out from the deepest on, and the answer is false.
+  template <class StrokeOf>
+  bool draw(const StrokeOf& stroke_of, DrawList& list) {
+    join();
+    std::size_t count = 0;
+    while (count < pieces_.size() && count < kMostLines) {
+      const auto level_end =
+          std::find_if(pieces_.begin() + static_cast<std::ptrdiff_t>(count), pieces_.end(),
+                       [&](const Piece& p) { return p.depth != pieces_[count].depth; });
+      const auto end = static_cast<std::size_t>(level_end - pieces_.begin());
+      if (count > 0 && end > kMostLines) break;
+      count = end;
+    }
+    count = std::min(count, kMostLines);
+    for (std::size_t i = count; i-- > 0;) {
+      const Piece& p = pieces_[i];
+      const bool upright = p.axis == 1;
+      const Vec<2> from = upright ? Vec<2>(p.at, p.from) : Vec<2>(p.from, p.at);
+      const Vec<2> to = upright ? Vec<2>(p.at, p.to) : Vec<2>(p.to, p.at);
+      list.shapes.emplace_back(LineShape{from, to, stroke_of(p.depth), true});
+    }
+    return count == pieces_.size();
+  }
+
+ private:
+  struct Piece {
+    std::uint32_t depth;
+    int axis;  // 0 level, 1 upright
+    double at, from, to;
+    auto key() const { return std::tie(depth, axis, at, from, to); }
+  };
+  // Neighbours compute the same border by different sums; a 64th of a unit is below any pixel.
+  static double rounded(double x) { return std::round(x * 64) / 64; }
+
+  void join() {
+    std::sort(pieces_.begin(), pieces_.end(),
+              [](const Piece& a, const Piece& b) { return a.key() < b.key(); });
+    std::vector<Piece> joined;
+    for (const Piece& p : pieces_) {
+      if (!joined.empty()) {
+        Piece& last = joined.back();
+        if (std::tie(last.depth, last.axis, last.at) == std::tie(p.depth, p.axis, p.at) &&
+            p.from <= last.to + 1.0 / 64) {
+          last.to = std::max(last.to, p.to);
+          continue;
+        }
+      }
+      joined.push_back(p);
+    }
+    pieces_ = std::move(joined);
+  }
+
+  std::vector<Piece> pieces_;
+};
+
+bool is_drawn(const Box<2>& cell) { return std::min(cell.size().x, cell.size().y) >= kLeastCell; }
+
+// A quarter without a child: hatched from the lower left to the upper right.
+void hatch(const Box<2>& box, DrawList& list) {
+  constexpr double kSpace = 16;
+  const Vec<2> size = box.size();
+  for (double d = kSpace; d < size.x + size.y; d += kSpace) {  // x + y on the line, from a corner
+    const Vec<2> from(std::min(d, size.x), std::max(0.0, d - size.x));
+    const Vec<2> to(std::max(0.0, d - size.y), std::min(d, size.y));
+    list.shapes.emplace_back(LineShape{box.lo + from, box.lo + to, {Role::rule, 1.6, 0}, false});
+  }
+}
+
+void hatch_unmade(const Frame& frame, const WorldMap& map, DrawList& list) {
+  constexpr double kLeastHatched = 30;
+  constexpr std::size_t kMostShapes = 1200;
+  for (const Box<2>& quarter : unmade_quarters(frame)) {
+    const Box<2> box = map.to_page(quarter);
+    if (std::min(box.size().x, box.size().y) < kLeastHatched) continue;
+    if (list.shapes.size() > kMostShapes) return;
+    list.shapes.emplace_back(RectShape{box, 0, Role::paper, {}, true});
+    hatch(box, list);
+  }
+}
+
+void fill_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
+  const Paint paint(frame);
+  std::vector<std::size_t> painted = paint.painted();
+  std::erase_if(painted, [&](std::size_t i) { return !is_drawn(map.to_page(frame.nodes[i].box)); });
+  if (painted.size() > kMostFills) return;  // some alone would say what is not so
+  for (const std::size_t i : painted) {
+    const FrameNode& node = frame.nodes[i];
+    const Role role = fill_of(paint.tone(i));
+    grounds.push_back({page_region(node, map), role});
+    if (node.region.empty())
+      list.shapes.emplace_back(RectShape{map.to_page(node.box), 0, role, {}, true});
+    else
+      list.shapes.emplace_back(PolygonShape{grounds.back().region, role, {}});
+  }
+}
+
+void draw_planes(const Frame& frame, const WorldMap& map, DrawList& list) {
+  for (std::size_t i = std::min(frame.nodes.size(), kMostPlanes); i-- > 0;) {
+    const FrameNode& node = frame.nodes[i];
+    if (!node.plane) continue;
+    const auto line = dividing_line(node);
+    if (!line) continue;
+    const Vec<2> a = map.to_page(line->first), b = map.to_page(line->second);
+    const bool upright = a.x == b.x || a.y == b.y;
+    const Stroke stroke{node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth),
+                        std::max(2.4, 4.6 - 0.7 * node.depth), 0};
+    list.shapes.emplace_back(LineShape{a, b, stroke, upright});
+  }
+}
+
+void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
+  Borders borders;
+  std::size_t outlined = 0;
+  for (const FrameNode& node : frame.nodes) {
+    if (node.mark != Mark::lit || !is_drawn(map.to_page(node.box))) continue;
+    if (node.region.empty())
+      borders.add(map.to_page(node.box), std::min(node.depth, 6u));
+    else if (outlined++ < kMostFills)
+      list.shapes.emplace_back(
+          PolygonShape{inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2, 0}});
+  }
+  borders.draw(
+      [](std::uint32_t depth) {
+        return Stroke{Role::lit, std::max(1.2, 3.6 - 0.4 * depth), 0};
+      },
+      list);
+}
+
+}  // namespace
+
+bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
+  list.shapes.emplace_back(RectShape{map.rect, 0, Role::panel, {}, true});
+  hatch_unmade(frame, map, list);
+  fill_cells(frame, map, list, grounds);
+  Borders borders;
+  bool complete = true;
+  for (const FrameNode& node : frame.nodes) {
+    if (node.depth == 0 || !node.region.empty()) continue;
+    const Box<2> cell = map.to_page(node.box);
+    if (is_drawn(cell))
+      borders.add(cell, node.depth);
+    else
+      complete = false;
+  }
+  complete &= borders.draw(
+      [](std::uint32_t depth) {
+        return Stroke{cell_line_role(depth), line_width(depth), 0};
+      },
+      list);
+  outline_lit(frame, map, list);
+  draw_planes(frame, map, list);
+  const bool lit = !frame.nodes.empty() && frame.nodes[0].mark == Mark::lit;
+  list.shapes.emplace_back(RectShape{
+      map.rect, 0, Role::none, {lit ? Role::lit : Role::cell_line_0, line_width(0), 0}, true});
+  return complete;
+}
+
+void draw_cells_over(const Frame& frame, const WorldMap& map, const Box<2>& place, DrawList& list) {
+  constexpr double kLeastOver = 4;  // page units; smaller cells would hide the body in turn
+  Borders borders;
+  for (const FrameNode& node : frame.nodes) {
+    const Box<2> cell = map.to_page(node.box);
+    const Vec<2> room = place.size() - cell.size();
+    if (node.depth == 0 || !node.region.empty() || !overlap(cell, place) ||
+        std::min(cell.size().x, cell.size().y) < kLeastOver || room.x <= 0 || room.y <= 0)
+      continue;
+    borders.add_inside(place, cell, node.depth);
+  }
+  borders.draw([](std::uint32_t) { return Stroke{Role::body_line, 1, 0}; }, list);
+}
+
+}  // namespace lantern

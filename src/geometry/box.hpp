@@ -1,0 +1,59 @@
+// Axis-aligned boxes. All are closed: a box that touches another one overlaps it, everywhere.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/vec.hpp"
+
+namespace lantern {
+
+template <int D>
+struct Box {
+  Vec<D> lo{0.0};
+  Vec<D> hi{0.0};
+
+  static Box around(const Vec<D>& center, const Vec<D>& half_size) {
+    return {center - half_size, center + half_size};
+  }
+  Vec<D> center() const { return lo + (hi - lo) * 0.5; }
+  Vec<D> size() const { return hi - lo; }
+  bool operator==(const Box&) const = default;
+};
+
+// The predicate that brute force and every tree share.
+template <int D>
+bool overlap(const Box<D>& a, const Box<D>& b) {
+  for (int i = 0; i < D; ++i)
+    if (a.hi[i] < b.lo[i] || b.hi[i] < a.lo[i]) return false;
+  return true;
+}
+
+template <int D>
+bool contains(const Box<D>& box, const Vec<D>& point) {
+  for (int i = 0; i < D; ++i)
+    if (point[i] < box.lo[i] || box.hi[i] < point[i]) return false;
+  return true;
+}
+
+// The smallest box that holds both.
+template <int D>
+Box<D> united(const Box<D>& a, const Box<D>& b) {
+  Box<D> u;
+  for (int i = 0; i < D; ++i) {
+    u.lo[i] = std::min(a.lo[i], b.lo[i]);
+    u.hi[i] = std::max(a.hi[i], b.hi[i]);
+  }
+  return u;
+}
+
+// Finite, and nowhere is lo above hi.
+template <int D>
+bool is_valid(const Box<D>& box) {
+  for (int i = 0; i < D; ++i)
+    if (!std::isfinite(box.lo[i]) || !std::isfinite(box.hi[i]) || box.lo[i] > box.hi[i])
+      return false;
+  return true;
+}
+
+}  // namespace lantern

@@ -1,0 +1,41 @@
+// Planes in 3D, lines in 2D: the dividers of a binary space partition.
+#pragma once
+
+#include "geometry/box.hpp"
+
+namespace lantern {
+
+// The points x with normal . x = offset. In front is where normal . x > offset. The normal need not
+// have unit length; it must be finite and not zero.
+template <int D>
+struct Plane {
+  Vec<D> normal{0.0};
+  double offset = 0;
+
+  static Plane through(const Vec<D>& point, const Vec<D>& normal) {
+    double offset = 0;
+    for (int i = 0; i < D; ++i) offset += normal[i] * point[i];
+    return {normal, offset};
+  }
+};
+
+// Which half-spaces a box reaches. A box that touches the plane reaches both.
+struct Reach {
+  bool back = false;
+  bool front = false;
+};
+
+// Exact for axis-aligned normals; otherwise as good as D rounded products and sums.
+template <int D>
+Reach reach(const Box<D>& box, const Plane<D>& plane) {
+  double least = 0, most = 0;  // of normal . x over the box
+  for (int i = 0; i < D; ++i) {
+    const double a = plane.normal[i] * box.lo[i];
+    const double b = plane.normal[i] * box.hi[i];
+    least += std::min(a, b);
+    most += std::max(a, b);
+  }
+  return {least <= plane.offset, most >= plane.offset};
+}
+
+}  // namespace lantern

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace lantern {
+
+// A point or direction of D dimensions, in double. Index 0 is x, 1 is y (up), 2 is z.
+template <int D>
+using Vec = glm::vec<D, double>;
+
+}  // namespace lantern

@@ -1,0 +1,23 @@
+// The two halves of encoding a PNG: the pixels, which are costly, and the file around them, which
+// is cheap. Equal frames share the first half.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/png.hpp"
+
+namespace lantern {
+
+// The chunks that hold the pixels: IHDR, PLTE if there is a palette, IDAT.
+struct PngBody {
+  std::string header;  // signature, IHDR
+  std::string pixels;  // PLTE, IDAT
+};
+
+PngBody compress(const Image& image, PngEffort effort);
+
+std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int pixels_per_metre);
+
+}  // namespace lantern

@@ -1,0 +1,18 @@
+// A zlib stream (RFC 1950, 1951) of drawings, written fast. Drawings are flat: most rows equal the
+// row above, most others differ from it in a few places. With the PNG filter "Up" what is equal
+// becomes zeros, and the only repetition looked for is that of the last pixel. So equal rows cost
+// one comparison, where a general deflate hashes each of their bytes.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "render/image.hpp"
+
+namespace lantern {
+
+// The pixels of a PNG as its IDAT chunk holds them; `channels` is 3 (without alpha) or 4. Nothing
+// if there are 3 and a pixel is not opaque.
+std::optional<std::string> run_deflate(const Image& image, int channels);
+
+}  // namespace lantern

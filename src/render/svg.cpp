@@ -1,0 +1,160 @@
+#include "render/svg.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "draw/font.hpp"
+#include "render/check_list.hpp"
+
+namespace lantern {
+namespace {
+
+// At most three decimals, always with a point, never "-0". Values of a draw list are below a
+// million (check_draw_list), so that the thousandths fit a double exactly enough.
+std::string number(double x) {
+  const auto thousandths = static_cast<long long>(std::floor(x * 1000 + 0.5));
+  const long long whole = std::abs(thousandths) / 1000, part = std::abs(thousandths) % 1000;
+  std::string text = fmt::format("{}{}", thousandths < 0 ? "-" : "", whole);
+  if (part != 0) {
+    text += fmt::format(".{:03}", part);
+    while (text.back() == '0') text.pop_back();
+  }
+  return text;
+}
+
+class SvgWriter {
+ public:
+  SvgWriter(const DrawList& list, const Theme& theme) : list_(list), theme_(theme) {}
+
+  std::string write(bool transparent, int width, int height) {
+    for (const DrawShape& shape : list_.shapes) std::visit([&](const auto& s) { add(s); }, shape);
+    const std::string w = number(list_.page.x), h = number(list_.page.y);
+    std::string svg = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+        "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{}\" height=\"{}\" "
+        "viewBox=\"0 0 {} {}\">\n",
+        width, height, w, h);
+    if (!defs_.empty()) svg += fmt::format("<defs>\n{}</defs>\n", defs_);
+    if (!transparent)
+      svg +=
+          fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", w, h, color(Role::paper));
+    return svg + body_ + "</svg>\n";
+  }
+
+ private:
+  void add(const RectShape& s) {
+    const Vec<2> size = s.box.size();
+    if (size.x < 0 || size.y < 0) return;
+    const double radius = std::min(s.radius, 0.5 * std::min(size.x, size.y));
+    body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", number(s.box.lo.x),
+                         number(s.box.lo.y), number(size.x), number(size.y));
+    if (radius > 0) body_ += fmt::format(" rx=\"{}\"", number(radius));
+    body_ += paint(s.fill, s.stroke) + crisp(s.snapped) + "/>\n";
+  }
+  void add(const LineShape& s) {
+    if (s.stroke.role == Role::none || s.stroke.width <= 0) return;
+    body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"", number(s.from.x),
+                         number(s.from.y), number(s.to.x), number(s.to.y));
+    const char* cap = s.stroke.dash > 0 ? "" : s.snapped ? " stroke-linecap=\"square\"" : kRoundCap;
+    body_ += paint(Role::none, s.stroke) + cap + crisp(s.snapped) + "/>\n";
+  }
+  void add(const PolygonShape& s) {
+    if (s.points.empty()) return;
+    body_ += "<polygon points=\"";
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+      body_ +=
+          fmt::format("{}{},{}", i > 0 ? " " : "", number(s.points[i].x), number(s.points[i].y));
+    body_ += fmt::format("\"{} stroke-linejoin=\"round\"/>\n", paint(s.fill, s.stroke));
+  }
+  void add(const TextShape& s) {
+    if (s.size <= 0) return;
+    const double width = s.align == 0 ? 0 : text_width(s.text, s.size, s.weight);
+    std::string letters;
+    for (const PlacedGlyph& g : shape_text(s.text, 1.0, s.weight)) {
+      const int id = glyph(g.glyph, s.weight);
+      if (id >= 0)
+        letters += fmt::format("<use xlink:href=\"#g{}\" x=\"{}\"/>", id, number(1000 * g.x));
+    }
+    if (letters.empty()) return;
+    // Glyphs are kept at a thousand units to the em, so that three decimals suffice.
+    const std::string place =
+        fmt::format(" transform=\"translate({} {}) scale({})\"", number(s.at.x - s.align * width),
+                    number(s.at.y), fmt::format("{:.6f}", s.size / 1000));
+    if (s.halo != Role::none)
+      body_ += fmt::format(
+          "<g{} fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\">{}</g>\n",
+          place, color(s.halo), color(s.halo), number(6 * 1000 / s.size), letters);
+    if (s.role != Role::none)
+      body_ += fmt::format("<g{} fill=\"{}\">{}</g>\n", place, color(s.role), letters);
+  }
+
+  // The number of a glyph in <defs>, where it is put when first met; -1 for a blank.
+  int glyph(int index, Weight weight) {
+    const auto [it, fresh] = glyphs_.try_emplace({index, weight}, -1);
+    if (!fresh) return it->second;
+    const std::string path = glyph_path(index, weight);
+    if (path.empty()) return -1;
+    it->second = static_cast<int>(glyphs_.size()) - 1;
+    defs_ += fmt::format("<path id=\"g{}\" d=\"{}\"/>\n", it->second, thousandfold(path));
+    return it->second;
+  }
+
+  // A path in units of one em, in units of a thousandth.
+  static std::string thousandfold(const std::string& path) {
+    std::string result;
+    const char* const last = path.data() + path.size();
+    for (const char* at = path.data(); at != last;) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(at, last, value);  // deaf to the locale
+      if (error != std::errc()) {
+        result += *at++;
+        continue;
+      }
+      // A sign separates numbers as well as a blank does.
+      const bool after_number = !result.empty() && result.back() >= '0' && result.back() <= '9';
+      const std::string text = number(1000 * value);
+      if (after_number && text[0] != '-') result += ' ';
+      result += text;
+      for (at = end; at != last && *at == ' ';) ++at;
+    }
+    return result;
+  }
+
+  std::string paint(Role fill, const Stroke& stroke) const {
+    std::string text = fmt::format(" fill=\"{}\"", fill == Role::none ? "none" : color(fill));
+    if (stroke.role == Role::none || stroke.width <= 0) return text;
+    text +=
+        fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", color(stroke.role), number(stroke.width));
+    if (stroke.dash > 0) text += fmt::format(" stroke-dasharray=\"{}\"", number(stroke.dash));
+    return text;
+  }
+  static const char* crisp(bool snapped) {
+    return snapped ? " shape-rendering=\"crispEdges\"" : "";
+  }
+  std::string color(Role role) const {
+    const Color& c = theme_[role];
+    return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b);
+  }
+
+  static constexpr const char* kRoundCap = " stroke-linecap=\"round\"";
+  const DrawList& list_;
+  const Theme& theme_;
+  std::map<std::pair<int, Weight>, int> glyphs_;
+  std::string defs_, body_;
+};
+
+}  // namespace
+
+std::string to_svg(const DrawList& list, const Theme& theme, bool transparent, int width,
+                   int height) {
+  check_draw_list(list);
+  if (width < 1 || height < 1) throw Refused("an SVG's width and height must be at least 1");
+  return SvgWriter(list, theme).write(transparent, width, height);
+}
+
+}  // namespace lantern

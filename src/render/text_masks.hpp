@@ -1,0 +1,50 @@
+// Lines of text as coverage masks, made on the CPU and kept from frame to frame.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "draw/font.hpp"
+#include "render/mask_store.hpp"
+
+namespace lantern {
+
+// A mask in the store: `offset` is its first byte, its corner lies at (left, top) from the pixel
+// that holds the text's origin, y down. Empty for blanks.
+struct Mask {
+  std::int32_t offset = 0;
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
+// A line of text at an em of `pixels`, its origin `quarter` quarters of a pixel right of a whole
+// one. `halo` pixels wide around the letters, or the letters themselves when 0.
+struct TextKey {
+  std::string text;
+  Weight weight = Weight::regular;
+  double pixels = 0;
+  int quarter = 0;
+  double halo = 0;
+  auto tied() const { return std::tie(text, weight, pixels, quarter, halo); }
+  bool operator<(const TextKey& other) const { return tied() < other.tied(); }
+};
+
+class TextMasks {
+ public:
+  explicit TextMasks(MaskStore& store) : store_(store) {}
+  void forget();
+
+  const Mask& mask(const TextKey& key);
+
+ private:
+  const GlyphBitmap& glyph(int index, Weight weight, double pixels, int quarter);
+  Mask letters(const TextKey& key);
+  Mask halo(const TextKey& key);
+
+  MaskStore& store_;
+  std::map<std::tuple<int, Weight, double, int>, GlyphBitmap> glyphs_;
+  std::map<TextKey, Mask> masks_;
+};
+
+}  // namespace lantern

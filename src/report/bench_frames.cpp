@@ -1,0 +1,199 @@
+#include "report/bench_frames.hpp"
+
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "base/json_writer.hpp"
+#include "render/pipeline.hpp"
+#include "report/cairo_peer.hpp"
+#include "report/start_time.hpp"
+
+namespace lantern {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Round {
+  double seconds = 0;
+  double bytes = 0;
+  double encoded = 1;
+};
+
+class Bench {
+ public:
+  Bench(std::span<const DrawList> lists, const fs::path& folder, const FrameBenchConfig& config)
+      : lists_(lists), folder_(folder), config_(config) {}
+
+  Round lantern(PngEffort effort) {
+    Pipeline::Config c;
+    c.width = config_.width;
+    c.height = config_.height;
+    c.theme = config_.theme;
+    c.effort = effort;
+    c.threads = config_.threads;
+    Work work;
+    Pipeline pipeline(Context::create(config_.backend), c, work);
+    // Shaders are compiled with the first frames: that is measured as the time to start.
+    for (int i = 0; i < 2; ++i) pipeline.submit(list(config_.frames + i), {}, file(i));
+    pipeline.finish();
+    const std::uint64_t before = work.frames_encoded;
+    const Stopwatch watch;
+    for (int i = 0; i < config_.frames; ++i)
+      pipeline.submit(list(i), {{"Frame", std::to_string(i)}}, file(i));
+    pipeline.finish();
+    Round round = finished(watch.seconds());
+    round.encoded = static_cast<double>(work.frames_encoded - before) / config_.frames;
+    return round;
+  }
+
+  // Frames in turn on so many threads, each with a surface of its own.
+  Round cairo(int threads) {
+    std::vector<std::unique_ptr<CairoPeer>> peers;
+    for (int t = 0; t < threads; ++t) {
+      peers.push_back(std::make_unique<CairoPeer>(config_.width, config_.height));
+      peers.back()->draw(list(t), config_.theme);
+    }
+    std::exception_ptr error;
+    std::mutex mutex;
+    const auto work = [&](int t) {
+      try {
+        for (int i = t; i < config_.frames; i += threads) {
+          peers[static_cast<std::size_t>(t)]->draw(list(i), config_.theme);
+          peers[static_cast<std::size_t>(t)]->write_png(file(i));
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        error = std::current_exception();
+      }
+    };
+    const Stopwatch watch;
+    {
+      std::vector<std::jthread> others;
+      for (int t = 1; t < threads; ++t) others.emplace_back(work, t);
+      work(0);
+    }
+    const double seconds = watch.seconds();
+    if (error) std::rethrow_exception(error);
+    return finished(seconds);
+  }
+
+ private:
+  const DrawList& list(int i) const { return lists_[static_cast<std::size_t>(i) % lists_.size()]; }
+  fs::path file(int i) const { return folder_ / fmt::format("bench_{:04}.png", i); }
+
+  // Weighs the files and removes them.
+  Round finished(double seconds) const {
+    Round round;
+    round.seconds = seconds;
+    for (int i = 0; i < config_.frames; ++i) {
+      round.bytes += static_cast<double>(fs::file_size(file(i)));
+      fs::remove(file(i));
+    }
+    return round;
+  }
+
+  std::span<const DrawList> lists_;
+  const fs::path& folder_;
+  const FrameBenchConfig& config_;
+};
+
+struct Entry {
+  std::string name;
+  std::function<Round()> run;
+  std::vector<double> seconds;
+  Round last;
+};
+
+}  // namespace
+
+FrameBenchResult bench_frames(std::span<const DrawList> lists, const fs::path& folder,
+                              const FrameBenchConfig& config) {
+  if (lists.empty() || config.frames < 1 || config.rounds < 1 || config.threads < 1)
+    throw Refused("a frame benchmark needs a draw list, a frame, a round and a thread");
+  FrameBenchResult result;
+  result.config = config;
+  for (const bool known : {false, true})
+    result.starts.push_back(measure_start(lists[0], folder, config, known));
+
+  Bench bench(lists, folder, config);
+  std::vector<Entry> entries;
+  entries.push_back({"lantern, fast", [&] { return bench.lantern(PngEffort::fast); }, {}, {}});
+  entries.push_back({"lantern, small", [&] { return bench.lantern(PngEffort::small); }, {}, {}});
+  try {
+    result.cairo = CairoPeer(1, 1).version();
+    entries.push_back({"cairo, 1 thread", [&] { return bench.cairo(1); }, {}, {}});
+    entries.push_back({fmt::format("cairo, {} threads", config.threads),
+                       [&] { return bench.cairo(config.threads); },
+                       {},
+                       {}});
+  } catch (const BackendError& error) {
+    result.cairo = error.what();
+  }
+  for (int round = 0; round < config.rounds; ++round)
+    for (Entry& entry : entries) {
+      entry.last = entry.run();
+      entry.seconds.push_back(entry.last.seconds);
+    }
+  for (const Entry& entry : entries)
+    result.contestants.push_back({entry.name, config.frames / median(entry.seconds), 0,
+                                  entry.last.bytes / config.frames, entry.last.encoded});
+  if (entries.size() > 2)
+    for (FrameContestant& c : result.contestants)
+      c.against_cairo = c.frames_per_second / result.contestants[2].frames_per_second;
+  return result;
+}
+
+std::string to_table(const FrameBenchResult& result) {
+  const FrameBenchConfig& c = result.config;
+  std::string text = fmt::format("{} x {}, {} files, median of {} rounds; cairo: {}\n\n", c.width,
+                                 c.height, c.frames, c.rounds, result.cairo);
+  text += fmt::format("{:<18}{:>12}{:>12}{:>14}{:>10}\n", "", "frames/s", "x cairo", "bytes/file",
+                      "encoded");
+  for (const FrameContestant& f : result.contestants)
+    text += fmt::format("{:<18}{:>12.1f}{:>12.2f}{:>14.0f}{:>9.0f}%\n", f.name, f.frames_per_second,
+                        f.against_cairo, f.bytes_per_file, 100 * f.pictures_encoded);
+  text += "\nfrom the start of a process, ms   bare context   first 1280 x 720 file   ratio\n";
+  for (const StartTimes& s : result.starts)
+    text += fmt::format("{:<34}{:>12.1f}{:>24.1f}{:>8.2f}\n",
+                        s.shaders_known ? "shaders in Mesa's cache" : "shaders never compiled yet",
+                        1e3 * s.bare_context, 1e3 * s.first_file, s.first_file / s.bare_context);
+  return text;
+}
+
+std::string to_json(const FrameBenchResult& result) {
+  const FrameBenchConfig& c = result.config;
+  JsonWriter json;
+  json.begin_object().line().member("format", "lantern.bench.frames/1");
+  json.line().member("width", c.width).member("height", c.height).member("frames", c.frames);
+  json.line().member("rounds", c.rounds).member("threads", c.threads);
+  json.line().member("cairo", result.cairo);
+  json.line().key("contestants").begin_array();
+  for (const FrameContestant& f : result.contestants)
+    json.line()
+        .begin_object()
+        .member("name", f.name)
+        .member("frames_per_second", f.frames_per_second)
+        .member("against_cairo", f.against_cairo)
+        .member("bytes_per_file", f.bytes_per_file)
+        .member("pictures_encoded", f.pictures_encoded)
+        .end_object();
+  json.line().end_array().line().key("starts").begin_array();
+  for (const StartTimes& s : result.starts)
+    json.line()
+        .begin_object()
+        .member("shaders_known", s.shaders_known)
+        .member("bare_context_seconds", s.bare_context)
+        .member("first_file_seconds", s.first_file)
+        .end_object();
+  json.line().end_array().line().end_object();
+  return json.text() + "\n";
+}
+
+}  // namespace lantern

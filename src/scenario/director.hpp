@@ -1,0 +1,25 @@
+// Runs a scenario's script on the engine and gives one Frame a step, or one an event.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/work.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern {
+
+struct DirectorReport {
+  std::uint32_t frames = 0;
+  std::uint64_t expectations = 0;       // verified
+  std::vector<Diagnostic> unmet;        // one for each that did not hold
+};
+
+// Calls `sink` with each frame in order; it returns false to end the run early. The frames depend
+// on the scenario and the pace only. Throws ScenarioError, at the step's place, when the engine
+// refuses what the step asks for.
+DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
+                      const std::function<bool(const Frame&)>& sink);
+
+}  // namespace lantern

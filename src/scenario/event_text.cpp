@@ -1,0 +1,107 @@
+#include "scenario/event_text.hpp"
+
+#include <fmt/format.h>
+
+namespace lantern {
+namespace {
+
+// Of an ASCII letter; other scripts are left as they are.
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
+  return text;
+}
+
+}  // namespace
+
+std::string_view event_name(Event::Kind kind) {
+  switch (kind) {
+    case Event::Kind::test:
+      return "test";
+    case Event::Kind::miss:
+      return "miss";
+    case Event::Kind::make_child:
+      return "make_child";
+    case Event::Kind::store:
+      return "store";
+    case Event::Kind::split:
+      return "split";
+    case Event::Kind::hand_down:
+      return "hand_down";
+    case Event::Kind::depth_limit:
+      return "depth_limit";
+    case Event::Kind::no_progress:
+      return "no_progress";
+  }
+  return "";
+}
+
+std::string_view event_name(AtlasEvent::Kind kind) {
+  switch (kind) {
+    case AtlasEvent::Kind::too_small:
+      return "too_small";
+    case AtlasEvent::Kind::used:
+      return "used";
+    case AtlasEvent::Kind::cut:
+      return "cut";
+    case AtlasEvent::Kind::store:
+      return "store";
+    case AtlasEvent::Kind::refuse:
+      return "refuse";
+  }
+  return "";
+}
+
+std::string event_text(const Event& e, const std::string& node, const std::string& body,
+                       std::uint32_t depth_limit) {
+  const std::string place = node == "root" ? "the root" : "node " + node;
+  const std::string name = capitalised(place);
+  switch (e.kind) {
+    case Event::Kind::test:
+      return fmt::format("{} reaches {}.", capitalised(body), place);
+    case Event::Kind::miss:
+      return fmt::format("{} does not reach {}.", capitalised(body), place);
+    case Event::Kind::make_child:
+      return fmt::format("{} is made, because something enters it.", name);
+    case Event::Kind::store:
+      if (e.limit == 0) return fmt::format("{} stores {} and holds {}.", name, body, e.count);
+      if (e.count <= e.limit)
+        return fmt::format("{} stores {} and holds {} of at most {}.", name, body, e.count,
+                           e.limit);
+      return fmt::format("{} stores {} and now holds {}, more than its limit of {}.", name, body,
+                         e.count, e.limit);
+    case Event::Kind::split:
+      return fmt::format("{} holds {}, its limit is {}: it splits.", name, e.count, e.limit);
+    case Event::Kind::hand_down:
+      return fmt::format("{} hands {} down to its children.", name, body);
+    case Event::Kind::depth_limit:
+      return fmt::format(
+          "{} holds {}, its limit is {}. But it lies at depth {}, and no node may lie deeper: it "
+          "stays a leaf.",
+          name, e.count, e.limit, depth_limit);
+    case Event::Kind::no_progress:
+      return fmt::format(
+          "{} holds {}, its limit is {}. But all share one point, so a split would part no pair.",
+          name, e.count, e.limit);
+  }
+  return {};
+}
+
+std::string event_text(const AtlasEvent& e, const std::string& node, const std::string& texture,
+                       int width, int height) {
+  const std::string size = fmt::format("{} ({} × {})", texture, width, height);
+  switch (e.kind) {
+    case AtlasEvent::Kind::too_small:
+      return fmt::format("The free leaf {} is too small for {}.", node, size);
+    case AtlasEvent::Kind::used:
+      return fmt::format("This leaf already holds {}.", node);
+    case AtlasEvent::Kind::cut:
+      return fmt::format("The free leaf {} has room for {}. It is cut to fit.", node, size);
+    case AtlasEvent::Kind::store:
+      return fmt::format("This leaf has exactly the size of {}: it is stored here.", size);
+    case AtlasEvent::Kind::refuse:
+      return fmt::format("No leaf has room for {}: it is refused, the rest is kept.", size);
+  }
+  return {};
+}
+
+}  // namespace lantern

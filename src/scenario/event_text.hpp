@@ -1,0 +1,22 @@
+// What an algorithm's event is called, and how it is said in words.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "atlas/atlas.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern {
+
+// "test", "hand_down", ...: names for --at.
+std::string_view event_name(Event::Kind kind);
+std::string_view event_name(AtlasEvent::Kind kind);
+
+// One sentence with the real numbers: "Node 1 holds 3, its limit is 2: it splits."
+std::string event_text(const Event& event, const std::string& node, const std::string& body,
+                       std::uint32_t depth_limit);
+std::string event_text(const AtlasEvent& event, const std::string& node, const std::string& texture,
+                       int width, int height);
+
+}  // namespace lantern

@@ -1,0 +1,14 @@
+// Does a frame keep what its step promises?
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scenario/frame.hpp"
+
+namespace lantern {
+
+// Nothing if the expectation holds on this frame; otherwise what was expected and what was found.
+std::optional<std::string> unmet(const Expectation& expectation, const Frame& frame);
+
+}  // namespace lantern

@@ -1,0 +1,101 @@
+// The scenario language as one table of its tables: every key with its type, range, default and a
+// sentence on what it means. The parser checks against it; the JSON Schema and the reference page
+// are printed from it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/name_pattern.hpp"
+
+namespace lantern {
+
+// Bounds on a scenario as a whole; what a single key may hold is in the tables.
+inline constexpr std::size_t kMostFileBytes = std::size_t{4} << 20;
+inline constexpr std::size_t kMostBodies = 20'000;
+inline constexpr std::size_t kMostTextures = 20'000;
+inline constexpr std::size_t kMostSteps = 10'000;
+inline constexpr std::size_t kMostNamed = 1'000'000;         // bodies and textures, over all steps
+inline constexpr std::uint64_t kMostScriptFrames = 100'000;  // in step pace
+inline constexpr std::size_t kMostCaption = 180;             // letters
+
+enum class KeyType {
+  text,          // on one line; `least` to `most` letters
+  whole,         // a whole number; always has a range
+  number,        // whole or with a fraction
+  truth,         // true or false
+  choice,        // one of `choices`
+  point,         // [x, y], each within the range
+  size,          // [width, height], whole numbers; always has a range
+  texts,         // a list of texts, at least one
+  choices_list,  // a list of `choices`, at least one, each once
+  table,         // the table `of`
+  tables,        // many of the table `of`; `most` of them
+  name_pairs,    // a list of pairs of names
+  name_wholes,   // a table from names to whole numbers
+  name_points,   // a table from names to points
+};
+
+struct KeyDoc {
+  std::string_view key;
+  KeyType type = KeyType::text;
+  std::string_view doc = {};  // one sentence or two
+  bool required = false;
+  std::string_view fallback = {};   // the default as TOML writes it
+  std::string_view otherwise = {};  // the default in words, where it depends on other things
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool above_least = false;  // `least` itself is not allowed
+  std::string_view unit = {};
+  std::vector<std::string_view> choices = {};
+  std::optional<NamePattern> pattern = {};  // of a text
+  std::string_view of = {};
+};
+
+// Of several groups of keys, exactly one must be given, or at least one.
+struct KeyGroups {
+  std::vector<std::vector<std::string_view>> groups = {};
+  bool exactly_one = true;
+};
+
+struct TableDoc {
+  std::string_view name;     // "world", "structure.planes"; of the file's own keys ""
+  std::string_view heading;  // "[world]", "[[body]]", "do = \"insert\""
+  std::string_view doc;
+  std::vector<KeyDoc> keys;
+  KeyGroups groups = {};
+  std::string_view example = {};  // of a verb: steps that may follow the reference page's scenario
+
+  const KeyDoc* find(std::string_view key) const;
+};
+
+// All tables but the verbs, in the order of the reference page; the file's own keys first.
+std::span<const TableDoc> language_tables();
+
+// The table of that name, which must exist.
+const TableDoc& language_table(std::string_view name);
+
+// One table a verb of the script: `name` is the verb; its own keys, then those of every step.
+std::span<const TableDoc> language_verbs();
+
+struct CountDoc {
+  std::string_view name;
+  std::string_view doc;
+  bool for_world = false;
+  bool for_atlas = false;
+  bool needs_structure = false;  // of a world: counted only while there is a structure
+};
+
+// What a caption may quote and an expectation may promise, in the order of a frame's counts.
+std::span<const CountDoc> known_counts();
+
+// Placeholders of captions that are not counts.
+std::span<const CountDoc> known_texts();
+
+}  // namespace lantern

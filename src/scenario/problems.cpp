@@ -1,0 +1,63 @@
+#include "scenario/problems.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/suggest.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostShown = 50;
+constexpr std::size_t kMostKept = 2000;  // a file of nothing but mistakes must not fill the memory
+
+}  // namespace
+
+void Problems::add(Place where, std::string message, Hint hint) {
+  found_.push_back({where, std::move(message), std::move(hint)});
+  if (found_.size() > kMostKept) drop_the_latest();
+}
+
+void Problems::add(Place where, std::string message, std::string hint) {
+  add(where, std::move(message), Hint([text = std::move(hint)] { return text; }));
+}
+
+void Problems::add(Place where, std::string message, const char* hint) {
+  add(where, std::move(message), std::string(hint));
+}
+
+// Keeps those that will be shown, and the one after them.
+void Problems::drop_the_latest() {
+  std::stable_sort(found_.begin(), found_.end(),
+                   [](const Found& a, const Found& b) { return a.where < b.where; });
+  dropped_ += found_.size() - (kMostShown + 1);
+  found_.resize(kMostShown + 1);
+}
+
+void Problems::raise(const std::string& file, std::string_view text) {
+  if (found_.empty()) return;
+  std::stable_sort(found_.begin(), found_.end(),
+                   [](const Found& a, const Found& b) { return a.where < b.where; });
+  std::vector<Diagnostic> diagnostics;
+  for (const Found& f : found_) {
+    const SourcePosition where{file, f.where.line, f.where.column};
+    if (diagnostics.size() == kMostShown) {
+      const std::size_t more = found_.size() - kMostShown + dropped_;
+      diagnostics.push_back(
+          {where, fmt::format("and {} more mistake{}", more, more == 1 ? "" : "s"), "", ""});
+      break;
+    }
+    diagnostics.push_back({where, f.message, line_of(text, f.where.line), f.hint ? f.hint() : ""});
+  }
+  throw ScenarioError(std::move(diagnostics));
+}
+
+std::string nearest(std::string_view name, std::vector<std::string_view> candidates) {
+  constexpr std::size_t kMostCompared = 1000;
+  if (candidates.size() > kMostCompared) candidates.resize(kMostCompared);
+  return suggestion(name, candidates, 20);
+}
+
+}  // namespace lantern

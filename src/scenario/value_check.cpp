@@ -1,0 +1,221 @@
+#include "scenario/value_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace lantern {
+namespace {
+
+// "a text", "a whole number", ...: what the file has.
+std::string_view kind_of(const TomlValue& value) {
+  constexpr std::string_view kKinds[] = {"a date",        "a text", "a whole number", "a number",
+                                         "true or false", "a list", "a table"};
+  return kKinds[value.data.index()];
+}
+
+class Check {
+ public:
+  Check(const KeyDoc& doc, Problems& problems) : doc_(doc), problems_(problems) {}
+
+  bool operator()(const TomlValue& value) {
+    check(value);
+    return good_;
+  }
+
+ private:
+  void add(Place where, std::string message, std::string hint = {}) {
+    problems_.add(where, std::move(message), std::move(hint));
+    good_ = false;
+  }
+
+  void wrong_type(const TomlValue& value, std::string_view wanted, std::string hint = {}) {
+    add(value.where, fmt::format("'{}' must be {}, not {}", doc_.key, wanted, kind_of(value)),
+        std::move(hint));
+  }
+
+  void check(const TomlValue& value) {
+    switch (doc_.type) {
+      case KeyType::text:
+        return check_text(value);
+      case KeyType::whole:
+        return check_whole(value);
+      case KeyType::number:
+        return check_number(value);
+      case KeyType::truth:
+        if (!std::holds_alternative<bool>(value.data)) wrong_type(value, "true or false");
+        return;
+      case KeyType::choice:
+        return check_choice(value);
+      case KeyType::point:
+      case KeyType::size:
+        return check_two(value);
+      case KeyType::texts:
+      case KeyType::choices_list:
+        return check_list(value);
+      case KeyType::table:
+        if (!std::holds_alternative<TomlTable>(value.data))
+          wrong_type(value, "a table", fmt::format("write its header: [{}]", doc_.of));
+        return;
+      case KeyType::tables:
+        return check_tables(value);
+      case KeyType::name_pairs:
+        return check_name_pairs(value);
+      case KeyType::name_wholes:
+      case KeyType::name_points:
+        return check_name_table(value);
+    }
+  }
+
+  void check_text(const TomlValue& value) {
+    const auto* text = std::get_if<std::string>(&value.data);
+    if (!text) return wrong_type(value, "a text", "a text stands in \"quotes\"");
+    if (has_control(*text))
+      return add(value.where,
+                 fmt::format("'{}' must be one line without control characters", doc_.key));
+    const std::size_t count = letters(*text);
+    if (doc_.pattern) {
+      if (!matches(*text, *doc_.pattern)) add_mismatch(value.where, *text);
+    } else if (static_cast<double>(count) < doc_.least || static_cast<double>(count) > doc_.most) {
+      add(value.where,
+          fmt::format("'{}' has {} letters, allowed are {}", doc_.key, count, range_text(doc_)));
+    }
+  }
+
+  void add_mismatch(Place where, const std::string& text) {
+    add(where,
+        fmt::format("'{}' cannot be {}: it takes {}", doc_.key, in_quotes(text),
+                    doc_.pattern->words),
+        fmt::format("for example {} = \"{}\"", doc_.key, legal_name(text, *doc_.pattern)));
+  }
+
+  void check_range(Place where, double x, const std::string& written) {
+    if (!std::isfinite(x))
+      return add(where, fmt::format("'{}' is {}, it must be finite", doc_.key, written));
+    if (x < doc_.least || x > doc_.most || (doc_.above_least && x == doc_.least))
+      add_out_of_range(where, written);
+  }
+
+  void add_out_of_range(Place where, const std::string& written) {
+    add(where, fmt::format("'{}' is {}, allowed is {}", doc_.key, written, range_text(doc_)));
+  }
+
+  void check_whole(const TomlValue& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
+      // Not as doubles: from 2^53 on they skip whole numbers.
+      if (*whole < static_cast<std::int64_t>(doc_.least) ||
+          *whole > static_cast<std::int64_t>(doc_.most))
+        add_out_of_range(value.where, fmt::format("{}", *whole));
+      return;
+    }
+    const auto* number = std::get_if<double>(&value.data);
+    const bool is_whole = number && std::abs(*number) < 1e15 && std::trunc(*number) == *number;
+    wrong_type(value, "a whole number",
+               is_whole ? fmt::format("write {}", static_cast<std::int64_t>(*number)) : "");
+  }
+
+  void check_number(const TomlValue& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data))
+      return check_range(value.where, static_cast<double>(*whole), fmt::format("{}", *whole));
+    const auto* number = std::get_if<double>(&value.data);
+    if (!number) return wrong_type(value, "a number");
+    check_range(value.where, *number, fmt::format("{}", *number));
+  }
+
+  void check_choice(const TomlValue& value) {
+    const auto* text = std::get_if<std::string>(&value.data);
+    if (!text) return wrong_type(value, "a text", "a text stands in \"quotes\"");
+    if (std::find(doc_.choices.begin(), doc_.choices.end(), *text) != doc_.choices.end()) return;
+    good_ = false;
+    problems_.add(
+        value.where, fmt::format("'{}' cannot be {}", doc_.key, in_quotes(*text)),
+        [&choices = doc_.choices, &written = *text] { return nearest(written, choices); });
+  }
+
+  void check_two(const TomlValue& value) {
+    const bool is_point = doc_.type != KeyType::size;
+    const auto* list = std::get_if<TomlArray>(&value.data);
+    const std::string form =
+        fmt::format("as {} = {}", doc_.key, is_point ? "[1.5, 2]" : "[64, 32]");
+    if (!list)
+      return wrong_type(value, is_point ? "two numbers [x, y]" : "two whole numbers", form);
+    if (list->size() != 2)
+      return add(value.where,
+                 fmt::format("'{}' must have two numbers, not {}", doc_.key, list->size()), form);
+    for (const TomlValue& element : *list) is_point ? check_number(element) : check_whole(element);
+  }
+
+  void check_list(const TomlValue& value) {
+    const auto* list = std::get_if<TomlArray>(&value.data);
+    if (!list) return wrong_type(value, "a list", fmt::format("as {} = [\"…\"]", doc_.key));
+    if (list->empty()) return add(value.where, fmt::format("'{}' must not be empty", doc_.key));
+    std::set<std::string_view> seen;
+    for (const TomlValue& element : *list) {
+      if (doc_.type == KeyType::choices_list)
+        check_choice(element);
+      else if (!std::holds_alternative<std::string>(element.data))
+        wrong_type(element, "a list of texts");
+      const auto* text = std::get_if<std::string>(&element.data);
+      if (doc_.type == KeyType::choices_list && text && !seen.insert(*text).second)
+        add(element.where, fmt::format("{} stands twice in '{}'", in_quotes(*text), doc_.key));
+    }
+  }
+
+  void check_tables(const TomlValue& value) {
+    const auto* list = std::get_if<TomlArray>(&value.data);
+    if (!list)
+      return wrong_type(value, "a list of tables",
+                        fmt::format("write each with its header: [[{}]]", doc_.of));
+    if (static_cast<double>(list->size()) > doc_.most)
+      add(value.where,
+          fmt::format("{} of [[{}]], the limit is {}", list->size(), doc_.of, doc_.most));
+    for (const TomlValue& element : *list)
+      if (!std::holds_alternative<TomlTable>(element.data)) wrong_type(element, "a list of tables");
+  }
+
+  void check_name_pairs(const TomlValue& value) {
+    const auto* list = std::get_if<TomlArray>(&value.data);
+    const std::string form = fmt::format("as {} = [[\"red\", \"pink\"]]", doc_.key);
+    if (!list) return wrong_type(value, "a list of pairs", form);
+    for (const TomlValue& element : *list) {
+      const auto* pair = std::get_if<TomlArray>(&element.data);
+      const bool good = pair && pair->size() == 2 &&
+                        std::holds_alternative<std::string>((*pair)[0].data) &&
+                        std::holds_alternative<std::string>((*pair)[1].data);
+      if (!good) add(element.where, "a pair is a list of two names", form);
+    }
+  }
+
+  void check_name_table(const TomlValue& value) {
+    const auto* table = std::get_if<TomlTable>(&value.data);
+    const bool wholes = doc_.type == KeyType::name_wholes;
+    if (!table)
+      return wrong_type(
+          value, "a table of bodies",
+          fmt::format("as {} = {}", doc_.key, wholes ? "{ pink = 2 }" : "{ ball = [12, 14] }"));
+    for (const TomlEntry& e : *table) wholes ? check_whole(e.value) : check_two(e.value);
+  }
+
+  const KeyDoc& doc_;
+  Problems& problems_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+bool check_value(const TomlValue& value, const KeyDoc& doc, Problems& problems) {
+  return Check(doc, problems)(value);
+}
+
+std::string range_text(const KeyDoc& doc) {
+  const bool from = std::isfinite(doc.least), to = std::isfinite(doc.most);
+  if (from && to && doc.above_least)
+    return fmt::format("above {}, at most {}", doc.least, doc.most);
+  if (from && to) return fmt::format("{} to {}", doc.least, doc.most);
+  if (from) return fmt::format("{} {}", doc.above_least ? "above" : "at least", doc.least);
+  return to ? fmt::format("at most {}", doc.most) : "";
+}
+
+}  // namespace lantern

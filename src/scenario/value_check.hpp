@@ -1,0 +1,17 @@
+// Does one value fit its key of the language?
+#pragma once
+
+#include "scenario/language.hpp"
+#include "scenario/problems.hpp"
+#include "scenario/toml_tree.hpp"
+
+namespace lantern {
+
+// Adds a problem for each thing that is wrong with the value; true if there was none. What is in a
+// table of its own (KeyType::table and tables) is left to that table's reader.
+bool check_value(const TomlValue& value, const KeyDoc& doc, Problems& problems);
+
+// "0 to 32", "above 0, at most 1000"; empty if the key has no range.
+std::string range_text(const KeyDoc& doc);
+
+}  // namespace lantern

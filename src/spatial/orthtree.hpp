@@ -1,0 +1,344 @@
+// The lecture's quadtree, and with one more axis its octree: a node that holds too much is halved
+// on every axis (see halving.hpp), and its contents go to each child that they reach. The tree is
+// built as it is taught, one Insert after another.
+//
+// A body is compared with the middles of nodes only, never with their rims, so nothing is dropped:
+// cells at the rim reach outward without end, and a body outside the root's bounds lies in the
+// nearest ones.
+//
+// The finished tree does not depend on the order of insertion. A node is split exactly when
+//   - more than `capacity` bodies reach it,
+//   - it lies above `max_depth`,
+//   - its middle lies strictly between its bounds on every axis: numbers can still tell its halves
+//     apart, and
+//   - with `no_progress_stop`, the boxes in it have no point common to all.
+// Which bodies reach a node is decided by their boxes alone, and more bodies can only make these
+// conditions true, never false again. So each is met as soon as the bodies that force it are there.
+//
+// Why a common point makes splits futile: it lies in (at least) one child, and all boxes reach that
+// child. So all bodies meet there again, however often it is split, and no pair is ever parted. For
+// axis-aligned boxes there is such a point if the largest lower bound is not above the least upper
+// bound on any axis.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "spatial/halving.hpp"
+#include "spatial/ids.hpp"
+#include "spatial/leaf_array.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern {
+
+template <int D>
+class Orthtree {
+  using Halves = Halving<D>;
+
+ public:
+  static constexpr std::uint32_t kChildren = Halves::kChildren;
+  static constexpr std::uint32_t kDeepest = 32;
+  static constexpr std::uint64_t kMost = 0xffff'fffe;  // nodes and entries have 32-bit numbers
+
+  struct Config {
+    Box<D> bounds;                  // of the root; lo < hi on every axis
+    std::uint32_t capacity = 2;     // a leaf that holds more is split; at least 1
+    std::uint32_t max_depth = 6;    // of the deepest node; 0: the root is never split
+    bool eager_children = false;    // a split makes all children, else each is made when entered
+    bool no_progress_stop = false;  // no split of bodies that all share one point
+    std::uint64_t most_entries = std::uint64_t{1} << 22;  // of entries, and of nodes
+  };
+
+  // Throws Refused for bounds that are not finite or have no extent, a capacity of 0 and a
+  // max_depth or most_entries above kDeepest or kMost.
+  explicit Orthtree(const Config& config)
+      : config_(checked(config)), contents_(std::min(config.capacity, kLargestFirstRoom - 1) + 1) {
+    make_node(0);
+  }
+
+  // Stores the item in every leaf that its box reaches. Throws Refused for a box that is not valid;
+  // nothing changes then. Throws Refused, too, when the tree would pass `most_entries`: it can then
+  // still be visited, but lacks some bodies in some leaves, and must be cleared before further use.
+  //
+  // Time: one test at the root and one for each child, made or not, of each inner node reached; n
+  // bodies at one place cost n such ways down and no more. Memory: a few words for each body, node
+  // and entry.
+  template <class Observer = NoObserver>
+  void insert(const Item<D>& item, Observer&& observer = {}) {
+    require_valid(item);
+    append(items_, item);
+    ++box_tests_;
+    put(Spot{0, 0, config_.bounds}, static_cast<std::uint32_t>(items_.size() - 1), observer);
+  }
+
+  void clear() {
+    most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
+    items_.clear();
+    nodes_.clear();
+    families_.clear();
+    common_parts_.clear();
+    contents_.clear();
+    entries_ = box_tests_ = splits_ = nodes_reused_ = deepest_ = 0;
+    make_node(0);
+  }
+
+  template <class F>
+  void visit(F&& f) const {
+    Tour tour;
+    visit_from(Spot{0, 0, config_.bounds}, kNone, 0, tour, f);
+  }
+
+  template <class F>
+  void query(const Box<D>& box, F&& f) const {
+    std::vector<BodyId> ids;
+    collect(Spot{0, 0, config_.bounds}, box, ids);
+    each_once(std::move(ids), f);
+  }
+
+  Counters counters() const {
+    Counters c;
+    c.nodes = nodes_.size();
+    c.leaves = nodes_.size() - families_.size();
+    c.depth = deepest_;
+    c.entries = entries_;
+    c.box_tests = box_tests_;
+    c.splits = splits_;
+    c.allocations = allocations_ + contents_.allocations();
+    c.nodes_reused = nodes_reused_;
+    return c;
+  }
+
+ private:
+  // Twelve bytes: bounds, depth and parent are derived on the way down.
+  struct Node {
+    LeafArray::Run contents;     // a leaf's item numbers, in order of storing
+    std::uint32_t link = kNone;  // inner: its family; leaf: its common part, once it was asked for
+    bool is_leaf() const { return contents.count != kInner; }
+  };
+  static constexpr std::uint32_t kInner = kNone;
+  using Family = std::array<NodeHandle, kChildren>;  // kNone where no child was made
+
+  // A node and what was derived for it on the way down.
+  struct Spot {
+    NodeHandle node = 0;
+    std::uint32_t depth = 0;
+    Box<D> bounds;
+  };
+
+  struct Tour {
+    std::uint32_t next_id = 0;
+    std::vector<BodyId> ids;
+  };
+
+  static constexpr std::uint32_t kLargestFirstRoom = 16;
+
+  static const Config& checked(const Config& config) {
+    for (int i = 0; i < D; ++i)
+      if (!is_valid(config.bounds) || !(config.bounds.lo[i] < config.bounds.hi[i]))
+        throw Refused(
+            fmt::format("tree: its bounds go from {} to {} on axis {}; they must be "
+                        "finite and have an extent",
+                        config.bounds.lo[i], config.bounds.hi[i], "xyz"[i]));
+    if (config.capacity == 0) throw Refused("tree: capacity is 0, must be at least 1");
+    if (config.max_depth > kDeepest)
+      throw Refused(
+          fmt::format("tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest));
+    if (config.most_entries > kMost)
+      throw Refused(
+          fmt::format("tree: most_entries is {}, the limit is {}", config.most_entries, kMost));
+    return config;
+  }
+
+  static Spot child_spot(const Spot& parent, const Vec<D>& middle, NodeHandle child,
+                         std::uint32_t slot) {
+    return {child, parent.depth + 1, Halves::child(parent.bounds, middle, slot)};
+  }
+
+  // --- insertion: the lecture's Insert ---
+
+  // The item reaches this node.
+  template <class Observer>
+  void put(const Spot& at, std::uint32_t item, Observer& observer) {
+    const BodyId body = items_[item].id;
+    observer(Event{Event::Kind::test, at.node, body, 0, 0});
+    if (!nodes_[at.node].is_leaf()) return hand_down(at, item, observer);
+    require_room(entries_ + 1, "entries");
+    contents_.append(nodes_[at.node].contents, item);
+    ++entries_;
+    const std::uint32_t count = nodes_[at.node].contents.count;
+    observer(Event{Event::Kind::store, at.node, body, count, config_.capacity});
+    if (count <= config_.capacity) return;
+    const Event::Kind fate = fate_of_full_leaf(at);
+    observer(Event{fate, at.node, body, count, config_.capacity});
+    if (fate == Event::Kind::split) split(at, body, observer);
+  }
+
+  // To every child that the item reaches; a child that is not there yet is made.
+  template <class Observer>
+  void hand_down(const Spot& at, std::uint32_t item, Observer& observer) {
+    const BodyId body = items_[item].id;
+    const Vec<D> mid = Halves::middle(at.bounds);
+    const std::uint32_t children = Halves::reached(items_[item].box, mid);
+    box_tests_ += kChildren;
+    for (std::uint32_t slot = 0; slot < kChildren; ++slot) {
+      NodeHandle child = child_of(at.node, slot);
+      if ((children >> slot & 1u) == 0) {
+        if (child != kNone) observer(Event{Event::Kind::miss, child, body, 0, 0});
+        continue;
+      }
+      if (child == kNone) child = make_child(at, slot, body, observer);
+      put(child_spot(at, mid, child, slot), item, observer);
+    }
+  }
+
+  Event::Kind fate_of_full_leaf(const Spot& at) {
+    if (at.depth == config_.max_depth || !Halves::is_possible(at.bounds))
+      return Event::Kind::depth_limit;
+    if (config_.no_progress_stop && share_a_point(nodes_[at.node])) return Event::Kind::no_progress;
+    return Event::Kind::split;
+  }
+
+  // The common part of a leaf's boxes is kept from one insertion to the next, so that n bodies at
+  // one place are compared n times and not n^2.
+  bool share_a_point(Node& leaf) {
+    std::span<const std::uint32_t> fresh = contents_.values(leaf.contents);
+    if (leaf.link == kNone) {
+      leaf.link = static_cast<std::uint32_t>(common_parts_.size());
+      append(common_parts_, items_[fresh.front()].box);
+    } else {
+      fresh = fresh.last(1);
+    }
+    Box<D>& common = common_parts_[leaf.link];
+    for (const std::uint32_t item : fresh) {
+      for (int i = 0; i < D; ++i) {
+        common.lo[i] = std::max(common.lo[i], items_[item].box.lo[i]);
+        common.hi[i] = std::min(common.hi[i], items_[item].box.hi[i]);
+      }
+    }
+    return is_valid(common);
+  }
+
+  template <class Observer>
+  void split(const Spot& at, BodyId last, Observer& observer) {
+    const LeafArray::Run waiting = nodes_[at.node].contents;
+    Family none;
+    none.fill(kNone);
+    nodes_[at.node] = {{0, kInner}, static_cast<std::uint32_t>(families_.size())};
+    append(families_, none);
+    ++splits_;
+    entries_ -= waiting.count;
+    if (config_.eager_children)
+      for (std::uint32_t slot = 0; slot < kChildren; ++slot) make_child(at, slot, last, observer);
+    for (std::uint32_t i = 0; i < waiting.count; ++i) {
+      const std::uint32_t item = contents_.values(waiting)[i];
+      observer(Event{Event::Kind::hand_down, at.node, items_[item].id, 0, 0});
+      hand_down(at, item, observer);
+    }
+    contents_.release(waiting);
+  }
+
+  // --- memory ---
+
+  NodeHandle child_of(NodeHandle node, std::uint32_t slot) const {
+    return families_[nodes_[node].link][slot];
+  }
+
+  template <class Observer>
+  NodeHandle make_child(const Spot& parent, std::uint32_t slot, BodyId body, Observer& observer) {
+    require_room(nodes_.size() + 1, "nodes");
+    const NodeHandle child = make_node(parent.depth + 1);
+    families_[nodes_[parent.node].link][slot] = child;
+    observer(Event{Event::Kind::make_child, child, body, 0, 0});
+    return child;
+  }
+
+  NodeHandle make_node(std::uint32_t depth) {
+    if (nodes_.size() < most_nodes_before_) ++nodes_reused_;
+    append(nodes_, Node{});
+    deepest_ = std::max<std::uint64_t>(deepest_, depth);
+    return static_cast<NodeHandle>(nodes_.size() - 1);
+  }
+
+  void require_room(std::uint64_t wanted, const char* what) const {
+    if (wanted <= config_.most_entries) return;
+    throw Refused(
+        fmt::format("body {}: with it the tree needs more than {} {} ({} bodies, {} "
+                    "nodes, {} entries); lower max_depth ({}), raise capacity ({}) or "
+                    "turn on the no-progress stop",
+                    items_.back().id, config_.most_entries, what, items_.size(), nodes_.size(),
+                    entries_, config_.max_depth, config_.capacity));
+  }
+
+  template <class T>
+  void append(std::vector<T>& list, const T& value) {
+    allocations_ += list.size() == list.capacity();
+    list.push_back(value);
+  }
+
+  // --- looking ---
+
+  // Adds the ids that the leaf holds, in order of storing.
+  void add_ids(const Node& leaf, std::vector<BodyId>& ids) const {
+    for (const std::uint32_t item : contents_.values(leaf.contents)) ids.push_back(items_[item].id);
+  }
+
+  template <class F>
+  void visit_from(const Spot& at, std::uint32_t parent, std::uint32_t slot, Tour& tour,
+                  F& f) const {
+    const Node& node = nodes_[at.node];
+    NodeView<D> view;
+    view.handle = at.node;
+    view.id = tour.next_id++;
+    view.parent = parent;
+    view.slot = slot;
+    view.depth = at.depth;
+    view.leaf = node.is_leaf();
+    view.box = at.bounds;
+    tour.ids.clear();
+    if (view.leaf) add_ids(node, tour.ids);
+    if (!std::is_sorted(tour.ids.begin(), tour.ids.end()))
+      std::sort(tour.ids.begin(), tour.ids.end());
+    view.bodies = tour.ids;
+    if (!f(std::as_const(view)) || view.leaf) return;
+    const Vec<D> mid = Halves::middle(at.bounds);
+    for (std::uint32_t s = 0; s < kChildren; ++s)
+      if (const NodeHandle child = child_of(at.node, s); child != kNone)
+        visit_from(child_spot(at, mid, child, s), view.id, s, tour, f);
+  }
+
+  void collect(const Spot& at, const Box<D>& box, std::vector<BodyId>& ids) const {
+    if (nodes_[at.node].is_leaf()) return add_ids(nodes_[at.node], ids);
+    const Vec<D> mid = Halves::middle(at.bounds);
+    const std::uint32_t children = Halves::reached(box, mid);
+    for (std::uint32_t slot = 0; slot < kChildren; ++slot)
+      if (const NodeHandle child = child_of(at.node, slot);
+          child != kNone && (children >> slot & 1u) != 0)
+        collect(child_spot(at, mid, child, slot), box, ids);
+  }
+
+  Config config_;
+  std::vector<Item<D>> items_;
+  std::vector<Node> nodes_;           // the root first
+  std::vector<Family> families_;      // of the inner nodes
+  std::vector<Box<D>> common_parts_;  // of leaves that the no-progress stop keeps whole
+  LeafArray contents_;
+  std::size_t most_nodes_before_ = 0;  // of all trees that stood here before the last clear
+  std::uint64_t entries_ = 0;
+  std::uint64_t deepest_ = 0;
+  std::uint64_t box_tests_ = 0;
+  std::uint64_t splits_ = 0;
+  std::uint64_t allocations_ = 0;
+  std::uint64_t nodes_reused_ = 0;
+};
+
+using Quadtree = Orthtree<2>;
+using Octree = Orthtree<3>;
+
+}  // namespace lantern

@@ -1,0 +1,73 @@
+// Candidate pairs: two bodies that share a leaf.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern {
+
+struct CandidatePairs {
+  std::vector<Pair> pairs;       // each once, in order of ids
+  std::uint64_t pair_tests = 0;  // pairs met, leaf by leaf, before duplicates fell out
+};
+
+// n(n-1)/2: what brute force would test.
+constexpr std::uint64_t all_pairs(std::uint64_t n) { return n < 2 ? 0 : n * (n - 1) / 2; }
+
+// How many pairs meet in the leaves; needs no memory, so it may be asked before collecting them.
+template <class Structure>
+std::uint64_t count_pair_tests(const Structure& structure) {
+  std::uint64_t tests = 0;
+  structure.visit([&](const auto& node) {
+    if (node.leaf) tests += all_pairs(node.bodies.size());
+    return true;
+  });
+  return tests;
+}
+
+// The pairs that meet in the leaves and that `wanted(Pair) -> bool` lets through, each once, in
+// order of ids. A pair is met in each leaf that both reach, so duplicates are sorted out. Throws
+// Refused if more than `budget` pairs meet: coincident bodies have n(n-1)/2 of them.
+template <class Structure, class Wanted>
+CandidatePairs pairs_where(const Structure& structure, std::uint64_t budget, Wanted&& wanted) {
+  CandidatePairs found;
+  found.pair_tests = count_pair_tests(structure);
+  if (found.pair_tests > budget)
+    throw Refused(fmt::format(
+        "{} pairs meet in the leaves, the limit is {}; take fewer bodies, or a structure that "
+        "parts them better",
+        found.pair_tests, budget));
+  structure.visit([&](const auto& node) {
+    for (std::size_t i = 0; i < node.bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
+        if (const Pair pair{node.bodies[i], node.bodies[j]}; wanted(pair))
+          found.pairs.push_back(pair);
+    return true;
+  });
+  std::sort(found.pairs.begin(), found.pairs.end());
+  found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
+  return found;
+}
+
+// What the broad phase hands on.
+template <class Structure>
+CandidatePairs candidate_pairs(const Structure& structure, std::uint64_t budget) {
+  return pairs_where(structure, budget, [](const Pair&) { return true; });
+}
+
+// The candidate pairs whose boxes really overlap; touching counts. `box_of(id)` is the box with
+// which the body was inserted. Every structure gives the same pairs for the same bodies.
+template <class Structure, class BoxOf>
+std::vector<Pair> overlapping_pairs(const Structure& structure, BoxOf&& box_of,
+                                    std::uint64_t budget) {
+  return pairs_where(structure, budget,
+                     [&](const Pair& pair) { return overlap(box_of(pair.a), box_of(pair.b)); })
+      .pairs;
+}
+
+}  // namespace lantern

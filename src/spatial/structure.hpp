@@ -1,0 +1,113 @@
+// What all spatial structures share: the items they hold, the one view of their inside, the events
+// they report, and what they count.
+//
+// A structure knows boxes and ids only. It offers
+//   insert(item, observer)   store one item as the lecture does, one after another
+//   clear()                  forget the items, keep the memory
+//   visit(f)                 the only door to the inside: f(NodeView) -> bool, parents before
+//                            children, children in the lecture's order; false skips the branch
+//   query(box, f)            f(id) for each body in a leaf that the box reaches, once, ascending
+//   counters()               exact counts of the work done and the tree that stands
+//
+// Ids may be any numbers, but no two items of a structure may have the same one. An observer may
+// call `visit` and `counters` while it is told something, but must not change the structure. While
+// a split node hands its bodies down, those that still wait are in no leaf.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "geometry/box.hpp"
+#include "geometry/plane.hpp"
+
+namespace lantern {
+
+using BodyId = std::uint32_t;
+
+template <int D>
+struct Item {
+  BodyId id = 0;
+  Box<D> box;
+};
+
+// Throws Refused, naming the body, unless its box is finite and nowhere inverted.
+template <int D>
+void require_valid(const Item<D>& item) {
+  if (is_valid(item.box)) return;
+  for (int i = 0; i < D; ++i) {
+    const double lo = item.box.lo[i];
+    const double hi = item.box.hi[i];
+    if (!std::isfinite(lo) || !std::isfinite(hi) || lo > hi)
+      throw Refused(fmt::format(
+          "body {}: its box goes from {} to {} on axis {}; both must be finite and in this order",
+          item.id, lo, hi, "xyz"[i]));
+  }
+}
+
+// Two bodies, the lower id first.
+struct Pair {
+  BodyId a = 0;
+  BodyId b = 0;
+  auto operator<=>(const Pair&) const = default;
+};
+
+// A node while its tree lives: stable from its making until it is cleared, whatever is inserted.
+using NodeHandle = std::uint32_t;
+inline constexpr std::uint32_t kNone = 0xffffffff;
+
+template <int D>
+struct NodeView {
+  NodeHandle handle = 0;
+  std::uint32_t id = 0;          // position in the order of visiting, from 0
+  std::uint32_t parent = kNone;  // id of the parent; kNone for the root
+  std::uint32_t slot = 0;        // which child of its parent, in the lecture's order, from 0
+  std::uint32_t depth = 0;       // the root has depth 0
+  bool leaf = true;
+  Box<D> box;                       // its bounds, derived on the way down; of a BSP the world's
+  const Plane<D>* plane = nullptr;  // a BSP's inner nodes
+  std::span<const BodyId> bodies;   // a leaf's contents, ascending
+};
+
+// What an algorithm does, told while it does it.
+struct Event {
+  enum class Kind {
+    test,         // the body's box was tested against the node, and reaches it
+    miss,         // the body's box was tested against the node, and does not reach it
+    make_child,   // the node came to be
+    store,        // the body was put into the leaf, which now holds `count`
+    split,        // the leaf held `count`, more than `limit`, and becomes an inner node
+    hand_down,    // the body goes from the split node to its children
+    depth_limit,  // the leaf holds `count`, more than `limit`, but lies at the depth limit, or is
+                  // so small that no number lies between its bounds
+    no_progress,  // the leaf holds `count`, more than `limit`, but a split would part no pair
+  };
+  Kind kind{};
+  NodeHandle node = 0;
+  BodyId body = 0;
+  std::uint32_t count = 0;
+  std::uint32_t limit = 0;
+};
+
+// The default observer: its calls compile to nothing.
+struct NoObserver {
+  void operator()(const Event&) const {}
+};
+
+struct Counters {
+  std::uint64_t nodes = 0;  // that stand now
+  std::uint64_t leaves = 0;
+  std::uint64_t depth = 0;         // of the deepest node
+  std::uint64_t entries = 0;       // bodies stored, each once a leaf
+  std::uint64_t box_tests = 0;     // of a body against a node or plane, since the last clear
+  std::uint64_t splits = 0;        // since the last clear
+  std::uint64_t allocations = 0;   // calls for memory since the structure was made
+  std::uint64_t nodes_reused = 0;  // since the last clear: nodes that took the place of one from
+                                   // before it instead of new memory
+};
+
+}  // namespace lantern

@@ -1,0 +1,170 @@
+// The command line as a user meets it: streams, exit codes, selections.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string scenario(const std::string& name) {
+  return repository("scenarios/" + name + ".toml").string();
+}
+const std::string kPong = scenario("pong_bsp");
+const std::string kGhosts = scenario("ghost_quadtree");
+const std::string kAtlas = scenario("kdtree_atlas");
+const std::string kSmall = " --size 320x180 ";
+
+std::size_t count_files(const fs::path& folder, const std::string& ending) {
+  std::size_t n = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) n += entry.path().extension() == ending;
+  return n;
+}
+
+TEST(CommandLine, HelpGoesToStandardOutputAndIsGood) {
+  const Outcome o = shell("lantern --help");
+  EXPECT_EQ(o.code, 0);
+  for (const char* word : {"render", "check", "list", "explain", "doctor", "compare", "bench"})
+    EXPECT_NE(o.out.find(word), std::string::npos) << word << " is not in the help";
+  EXPECT_EQ(shell("lantern render --help").code, 0);
+}
+
+TEST(CommandLine, WrongWordsAreUsageErrorsWithAHint) {
+  const Outcome misspelt = shell("lantern rendr x.toml");
+  EXPECT_EQ(misspelt.code, 2);
+  EXPECT_NE(misspelt.err.find("did you mean 'render'?"), std::string::npos) << misspelt.err;
+  EXPECT_EQ(misspelt.out, "");
+  for (const char* command :
+       {"lantern", "lantern render", "lantern render --theme pink x.toml", "lantern check --no x",
+        "lantern render -j 0 x.toml", "lantern compare one.png"})
+    EXPECT_EQ(shell(command).code, 2) << command;
+}
+
+TEST(CommandLine, BadSelectionsAreUsageErrors) {
+  for (const char* words :
+       {"--frames 9999", "--frames x", "--frames 5-3", "--frames -", "--at nothing_of_this_name",
+        "--at 1e9", "--size 0x0", "--size 100", "--size 99999x99999", "--size -5x5"}) {
+    const fs::path out = fresh_folder("selection");
+    const Outcome o = shell("lantern render " + kGhosts + " -o " + out.string() + " " + words);
+    EXPECT_EQ(o.code, 2) << words << ": " << o.err;
+    EXPECT_TRUE(fs::is_empty(out)) << words << " left something behind";
+  }
+}
+
+TEST(CommandLine, CheckVerifiesEveryScenarioOfTheRepository) {
+  const Outcome o = shell("lantern check --json " + repository("scenarios").string() + "/*.toml");
+  EXPECT_EQ(o.code, 0) << o.err;
+  const json report = json::parse(o.out);
+  EXPECT_GE(report["scenarios"].size(), 4u);
+  for (const json& s : report["scenarios"]) EXPECT_GT(s["expectations"], 0) << s["file"];
+}
+
+TEST(CommandLine, AnUnmetExpectationFailsWithItsPlace) {
+  const fs::path folder = fresh_folder("unmet");
+  std::string text = read_text(kGhosts);
+  text.replace(text.find("nodes = 1, pairs = 1"), 20, "nodes = 1, pairs = 7");
+  write_text(folder / "wrong.toml", text);
+  const Outcome o = shell("lantern check " + (folder / "wrong.toml").string());
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("wrong.toml:"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("expected pairs = 7, found 1"), std::string::npos) << o.err;
+  const Outcome rendered = shell("lantern render " + (folder / "wrong.toml").string() + kSmall +
+                                 "-o " + folder.string());
+  EXPECT_EQ(rendered.code, 1) << "render verifies expectations, too";
+  EXPECT_TRUE(fs::exists(folder / "wrong" / "wrong_0000.png")) << "but it still draws";
+}
+
+TEST(CommandLine, RenderWritesAPictureAndItsFactsForEachFrameAndAManifest) {
+  const fs::path out = fresh_folder("render");
+  const Outcome o = shell("lantern render " + kGhosts + kSmall + "-o " + out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.out, "") << "messages belong to standard error";
+  const json manifest = json::parse(read_text(out / "ghost_quadtree" / "manifest.json"));
+  EXPECT_TRUE(manifest["finished"]);
+  ASSERT_EQ(manifest["frames"].size(), 8u);
+  for (const json& frame : manifest["frames"]) {
+    EXPECT_TRUE(fs::exists(out / "ghost_quadtree" / std::string(frame["file"])));
+    const json facts = json::parse(read_text(out / "ghost_quadtree" / std::string(frame["facts"])));
+    EXPECT_EQ(facts["format"], "lantern.frame/1");
+    EXPECT_EQ(facts["hash"], frame["hash"]);
+  }
+}
+
+TEST(CommandLine, AtlasIsWrittenAsAnImageWithItsRectangles) {
+  const fs::path out = fresh_folder("atlas");
+  ASSERT_EQ(shell("lantern render " + kAtlas + kSmall + "-o " + out.string()).code, 0);
+  const json atlas = json::parse(read_text(out / "kdtree_atlas" / "kdtree_atlas_atlas.json"));
+  EXPECT_EQ(atlas["textures"].size(), 34u);
+  EXPECT_EQ(atlas["refused"], json::array({"banner"}));
+  EXPECT_TRUE(fs::exists(out / "kdtree_atlas" / "kdtree_atlas_atlas.png"));
+}
+
+TEST(CommandLine, FramesAndAtChoose) {
+  const fs::path out = fresh_folder("choose");
+  const auto pictures = [&](const std::string& words) {
+    fs::remove_all(out / "pong_bsp");
+    const Outcome o =
+        shell("lantern render " + kPong + kSmall + "-o " + out.string() + " " + words);
+    EXPECT_EQ(o.code, 0) << words << ": " << o.err;
+    return count_files(out / "pong_bsp", ".png");
+  };
+  EXPECT_EQ(pictures("--frames 3"), 1u);
+  EXPECT_EQ(pictures("--frames 3-5"), 3u);
+  EXPECT_EQ(pictures("--frames -1"), 2u);
+  EXPECT_EQ(pictures("--at across"), 5u);
+  EXPECT_EQ(pictures("--at 0.9375"), 1u);
+  EXPECT_TRUE(fs::exists(out / "pong_bsp" / "pong_bsp_0031.png"))
+      << "two explaining steps, then 29 frames: the 30th step of time is frame 31";
+}
+
+TEST(CommandLine, OneFrameToStandardOutputIsTheFileThatWouldBeWritten) {
+  const fs::path out = fresh_folder("stdout");
+  for (const std::string format : {"png", "svg"}) {
+    ASSERT_EQ(
+        shell("lantern render " + kGhosts + kSmall + "-o " + out.string() + " --format " + format)
+            .code,
+        0);
+    const Outcome o =
+        shell("lantern render " + kGhosts + kSmall + "-o - --at three --format " + format);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.out, read_text(out / "ghost_quadtree" / ("ghost_quadtree_0001." + format)));
+  }
+  EXPECT_EQ(shell("lantern render " + kGhosts + kSmall + "-o -").code, 2) << "8 frames are chosen";
+}
+
+TEST(CommandLine, ListExplainDoctorAnswerOnStandardOutput) {
+  const Outcome list = shell("lantern list " + repository("scenarios").string());
+  EXPECT_EQ(list.code, 0);
+  EXPECT_NE(list.out.find("pong_bsp"), std::string::npos);
+  const json explained = json::parse(shell("lantern explain --json " + kAtlas).out);
+  bool world_left_out = false;
+  for (const json& stage : explained["stages"]) {
+    EXPECT_FALSE(std::string(stage["reason"]).empty()) << stage["stage"];
+    if (stage["stage"] == "world") world_left_out = !stage["used"];
+  }
+  EXPECT_TRUE(world_left_out) << "an atlas has no world";
+  const Outcome doctor = shell("lantern doctor --json");
+  EXPECT_EQ(doctor.code, 0);
+  EXPECT_EQ(json::parse(doctor.out)["backends"].size(), 2u);
+}
+
+TEST(CommandLine, CompareTellsEqualFromDifferent) {
+  const fs::path out = fresh_folder("compare");
+  ASSERT_EQ(shell("lantern render " + kGhosts + kSmall + "-o " + out.string()).code, 0);
+  const fs::path frames = out / "ghost_quadtree";
+  const std::string a = (frames / "ghost_quadtree_0000.png").string();
+  const std::string b = (frames / "ghost_quadtree_0001.png").string();
+  EXPECT_EQ(shell("lantern compare " + a + " " + a).code, 0);
+  EXPECT_EQ(shell("lantern compare " + a + " " + b + " -o " + (out / "d.png").string()).code, 1);
+  EXPECT_TRUE(fs::exists(out / "d.png")) << "the difference picture is missing";
+  EXPECT_EQ(shell("lantern compare " + a + " " + b + " --tolerance 255").code, 0);
+  EXPECT_EQ(shell("lantern compare " + frames.string() + " " + frames.string()).code, 0);
+  EXPECT_EQ(shell("lantern compare " + a + " " + kGhosts).code, 1) << "a scenario is no image";
+  EXPECT_EQ(shell("lantern compare " + a + " " + frames.string()).code, 2);
+}
+
+}  // namespace
+}  // namespace lantern::test

@@ -1,0 +1,105 @@
+// Golden images: every step frame of every scenario, small, with a hash of its facts. Missing ones
+// fail. After a wanted change, `./run golden` takes today's pictures as the expected ones.
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "app/process.hpp"
+#include "base/hash.hpp"
+#include "render/compare.hpp"
+#include "render/png.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kGolden = repository("tests/golden");
+
+bool setting() { return std::getenv("LANTERN_SET_GOLDEN") != nullptr; }
+
+std::string hash_of(const std::string& bytes) {
+  return fmt::format("{:016x}", Hash().add(std::string_view(bytes)).value());
+}
+
+// File name -> hash, of the frames' JSON and of the pictures' bytes.
+using Hashes = std::map<std::string, std::string>;
+
+Hashes read_hashes(const fs::path& file) {
+  Hashes hashes;
+  std::istringstream lines(read_text(file));
+  for (std::string name, hash; lines >> name >> hash;) hashes[name] = hash;
+  return hashes;
+}
+
+// Writes expected, actual and difference beside each other where a person can look at them.
+std::string explain(const std::string& name, const fs::path& actual, const Image& expected,
+                    const Image& found) {
+  const fs::path folder = fs::path(LANTERN_TEST_OUTPUT) / "golden-failures";
+  fs::create_directories(folder);
+  fs::copy_file(actual, folder / (name + ".actual.png"), fs::copy_options::overwrite_existing);
+  write_text(folder / (name + ".difference.png"),
+             encode_png(difference_picture(expected, found, 0), PngEffort::fast, {}, 0));
+  const Comparison c = compare(expected, found, 0);
+  return fmt::format("{} pixels of {} differ, at most by {} levels; look at {}/{}.difference.png",
+                     c.differing, name, c.largest, folder.string(), name);
+}
+
+class Golden : public testing::TestWithParam<std::string> {};
+
+TEST_P(Golden, FramesAreAsExpected) {
+  const std::string name = GetParam();
+  const fs::path expected = kGolden / name;
+  const fs::path out = fresh_folder("golden-" + name);
+  const Outcome o = shell("lantern render " + repository("scenarios/" + name + ".toml").string() +
+                          " --size 480x270 --png small --pace step -o " + out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  Hashes found;
+  for (const auto& entry : fs::directory_iterator(out / name))
+    if (entry.path().filename() != "manifest.json")
+      found[entry.path().filename()] = hash_of(read_text(entry.path()));
+  if (setting()) {
+    fs::remove_all(expected);
+    fs::create_directories(expected);
+    std::string lines;
+    for (const auto& [file, hash] : found) {
+      lines += file + " " + hash + "\n";
+      if (fs::path(file).extension() == ".png") fs::copy_file(out / name / file, expected / file);
+    }
+    write_text(expected / "hashes.txt", lines);
+    return;
+  }
+  const Hashes hashes = read_hashes(expected / "hashes.txt");
+  ASSERT_FALSE(hashes.empty()) << "no golden images for " << name << "; see ./run golden";
+  for (const auto& [file, hash] : hashes)
+    EXPECT_TRUE(found.contains(file)) << file << " is expected, but was not made";
+  for (const auto& [file, hash] : found) {
+    ASSERT_TRUE(hashes.contains(file)) << file << " has no golden counterpart; see ./run golden";
+    if (fs::path(file).extension() == ".png") {
+      const auto a = decode_png(read_text(expected / file));
+      const auto b = decode_png(read_text(out / name / file));
+      ASSERT_TRUE(a && b) << file << " is no picture";
+      EXPECT_EQ(*a, *b) << explain(file, out / name / file, *a, *b);
+    }
+    // Pixels first: they tell more. Equal hashes in every build mean equal bytes in every build.
+    EXPECT_EQ(hash, hashes.at(file)) << file << ": the bytes are not those of the golden run";
+  }
+}
+
+std::vector<std::string> all_scenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(repository("scenarios")))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, Golden, testing::ValuesIn(all_scenarios()),
+                         [](const auto& each) { return each.param; });
+
+}  // namespace
+}  // namespace lantern::test

@@ -1,0 +1,84 @@
+// What a scene does not need is not there: counters at zero, libraries not loaded.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string scenario(const std::string& name) {
+  return repository("scenarios/" + name + ".toml").string();
+}
+
+json work_of(const std::string& words) {
+  const Outcome o = shell("lantern " + words + " --json");
+  EXPECT_EQ(o.code, 0) << o.err;
+  return json::parse(o.out)["work"];
+}
+
+TEST(LeaveOut, AnAtlasHasNoWorld) {
+  const json work = work_of("check " + scenario("kdtree_atlas"));
+  EXPECT_EQ(work["worlds_created"], 0);
+  EXPECT_EQ(work["world_steps"], 0);
+  EXPECT_EQ(work["structures_created"], 0);
+  EXPECT_EQ(work["atlases_created"], 1);
+}
+
+TEST(LeaveOut, ATreeHasNoAtlasAndAStandingSceneNoSteps) {
+  const json work = work_of("check " + scenario("ghost_quadtree"));
+  EXPECT_EQ(work["atlases_created"], 0);
+  EXPECT_EQ(work["world_steps"], 0);
+  EXPECT_EQ(work["worlds_created"], 1);
+}
+
+TEST(LeaveOut, CheckDrawsNothing) {
+  const json work = work_of("check " + scenario("pong_bsp"));
+  for (const char* stage :
+       {"world_layouts", "tree_layouts", "graphics_contexts", "frames_drawn", "frames_encoded"})
+    EXPECT_EQ(work[stage], 0) << stage;
+  EXPECT_EQ(work["world_steps"], 64);
+}
+
+TEST(LeaveOut, WithoutATreePanelNoTreeIsLaidOut) {
+  const fs::path out = fresh_folder("leave-out");
+  write_text(out / "world_only.toml",
+             "panels = [\"world\"]\n" + read_text(scenario("ghost_quadtree")));
+  const std::string words = " --size 320x180 --format svg -o " + out.string();
+  const json without = work_of("render " + (out / "world_only.toml").string() + words);
+  EXPECT_EQ(without["tree_layouts"], 0);
+  EXPECT_EQ(without["world_layouts"], 8);
+  EXPECT_EQ(work_of("render " + scenario("ghost_quadtree") + words)["tree_layouts"], 8);
+}
+
+TEST(LeaveOut, SvgNeedsNoGraphicsContext) {
+  const fs::path out = fresh_folder("leave-out-svg");
+  const json work =
+      work_of("render " + scenario("ghost_quadtree") + " --format svg -o " + out.string());
+  EXPECT_EQ(work["graphics_contexts"], 0);
+}
+
+// The dynamic loader tells each library that it opens.
+TEST(LeaveOut, CheckAndSvgLoadNoGraphicsLibrary) {
+  const fs::path out = fresh_folder("leave-out-libraries");
+  const auto loads_gl = [&](const std::string& words) {
+    const Outcome o = shell("LD_DEBUG=files " LANTERN_BINARY " " + words);
+    EXPECT_EQ(o.code, 0) << words;
+    EXPECT_NE(o.err.find("libstdc++"), std::string::npos) << "the loader tells nothing";
+    for (const char* library : {"libOSMesa", "libEGL", "libGL.", "libgallium", "swrast"})
+      if (o.err.find(library) != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_FALSE(loads_gl("check " + scenario("ghost_quadtree")));
+  EXPECT_FALSE(loads_gl("explain " + scenario("ghost_quadtree")));
+  EXPECT_FALSE(
+      loads_gl("render --format svg -o " + out.string() + " " + scenario("ghost_quadtree")));
+  EXPECT_TRUE(loads_gl("render --frames 0 -o " + out.string() + " " + scenario("ghost_quadtree")))
+      << "PNG needs it: if this fails, the test above proves nothing";
+}
+
+}  // namespace
+}  // namespace lantern::test

@@ -1,0 +1,49 @@
+#include "app/process.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lantern::test {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+fs::path repository(const std::string& path) { return fs::path(LANTERN_ROOT) / path; }
+
+Outcome shell(const std::string& command) {
+  char base[] = "/tmp/lantern-test-XXXXXX";
+  if (::mkdtemp(base) == nullptr) return {};
+  const fs::path folder = base;
+  // Under the address sanitizer: Mesa keeps some memory until the process ends, which is no leak of
+  // ours; the other rooms' tests look for leaks.
+  const std::string script = "export ASAN_OPTIONS=detect_leaks=0\nlantern() { " LANTERN_BINARY
+                             " \"$@\"; }\n" +
+                             command + "\n";
+  write_text(folder / "script", script);
+  const std::string line = "sh " + (folder / "script").string() + " >" + (folder / "out").string() +
+                           " 2>" + (folder / "err").string() + " </dev/null";
+  const int status = std::system(line.c_str());
+  Outcome outcome;
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.out = read_text(folder / "out");
+  outcome.err = read_text(folder / "err");
+  fs::remove_all(folder);
+  return outcome;
+}
+
+}  // namespace lantern::test

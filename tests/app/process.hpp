@@ -1,0 +1,26 @@
+// Runs the program as a user would: words in, exit code and both streams out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "fresh_folder.hpp"
+
+namespace lantern::test {
+
+struct Outcome {
+  int code = -1;    // exit code; 128 + number for a signal
+  std::string out;  // standard output
+  std::string err;  // standard error
+};
+
+// A shell command. `lantern` in it is the program under test.
+Outcome shell(const std::string& command);
+
+void write_text(const std::filesystem::path& path, const std::string& text);
+std::string read_text(const std::filesystem::path& path);
+
+// The path of a file of the repository.
+std::filesystem::path repository(const std::string& path);
+
+}  // namespace lantern::test

@@ -1,0 +1,76 @@
+// Every command of the README works as it is written there.
+#include <sstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/process.hpp"
+#include "render/png.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The texts between ```<language> and ```.
+std::vector<std::string> blocks(const std::string& page, const std::string& language) {
+  std::vector<std::string> found;
+  const std::string fence = "```" + language + "\n";
+  for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at)) {
+    at += fence.size();
+    found.push_back(page.substr(at, page.find("```", at) - at));
+  }
+  return found;
+}
+
+// A folder that looks like the repository after a build.
+fs::path look_alike() {
+  const fs::path folder = fresh_folder("readme");
+  fs::create_directories(folder / "build");
+  fs::create_symlink(LANTERN_BINARY, folder / "build" / "lantern");
+  fs::create_directory_symlink(repository("scenarios"), folder / "scenarios");
+  return folder;
+}
+
+TEST(Readme, CommandsWork) {
+  const std::string page = read_text(repository("README.md"));
+  const fs::path folder = look_alike();
+  const auto examples = blocks(page, "toml");
+  ASSERT_EQ(examples.size(), 1u) << "the first scenario";
+  write_text(folder / "first.toml", examples[0]);
+  std::size_t commands = 0;
+  for (const std::string& block : blocks(page, "sh")) {
+    std::istringstream lines(block);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.empty() || line == "./run test") continue;  // that one is running now
+      ++commands;
+      // The demo must not build under this test's feet: it is run with the program as built.
+      const std::string here = line == "./run demo" ? repository("").string() : folder.string();
+      const Outcome o = shell("cd " + here + " && " + line);
+      EXPECT_EQ(o.code, 0) << line << "\n" << o.out << o.err;
+    }
+  }
+  EXPECT_GE(commands, 9u);
+  EXPECT_TRUE(fs::exists(folder / "output" / "first" / "first_0001.png"));
+  EXPECT_TRUE(fs::exists(repository("output/ghost_quadtree/ghost_quadtree_0002.png")));
+}
+
+TEST(Readme, ThePictureIsLanternsOwn) {
+  const Outcome o = shell("lantern render -o - --at four --size 1600x900 --png small " +
+                          repository("scenarios/ghost_quadtree.toml").string());
+  const auto shown = decode_png(read_text(repository("scenarios/ghost_quadtree.png")));
+  const auto drawn = decode_png(o.out);
+  ASSERT_TRUE(shown && drawn);
+  EXPECT_EQ(*shown, *drawn) << "draw it anew: ./run golden";
+}
+
+TEST(Readme, RunTellsWhatItDoes) {
+  const std::string run = repository("run").string();
+  EXPECT_EQ(shell(run + " help").code, 0);
+  EXPECT_EQ(shell(run).code, 2);
+  EXPECT_EQ(shell(run + " nonsense").code, 2);
+  EXPECT_NE(shell(run + " help").out.find("./run demo"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lantern::test

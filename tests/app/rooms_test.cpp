@@ -1,0 +1,67 @@
+// The table of rooms: which room may include which.
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "app/process.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A room sees the rooms of its row and what they see.
+const std::map<std::string, std::set<std::string>> kRooms = {
+    {"base", {}},
+    {"geometry", {"base"}},
+    {"spatial", {"geometry"}},
+    {"atlas", {"geometry"}},
+    {"physics", {"spatial"}},
+    {"scenario", {"physics", "atlas"}},
+    {"draw", {"scenario"}},
+    {"render", {"draw"}},
+    {"report", {"scenario", "draw", "render"}},
+    {"app", {"report"}},
+};
+
+std::set<std::string> seen_from(const std::string& room) {
+  std::set<std::string> seen{room};
+  for (const std::string& next : kRooms.at(room)) seen.merge(seen_from(next));
+  return seen;
+}
+
+TEST(Rooms, IncludeOnlyWhatTheTableAllows) {
+  const std::regex include("^\\s*#include \"([a-z_]+)/");
+  std::size_t includes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(repository("src"))) {
+    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+    const std::string room = entry.path().parent_path().filename();
+    ASSERT_TRUE(kRooms.contains(room)) << entry.path() << " stands in no room of the table";
+    const std::set<std::string> allowed = seen_from(room);
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include) || match[1] == "embedded") continue;
+      ++includes;
+      EXPECT_TRUE(allowed.contains(match[1]))
+          << entry.path() << " includes " << match[1] << ", which its room may not see";
+    }
+  }
+  EXPECT_GT(includes, 100u) << "the search for includes found next to none: is it broken?";
+}
+
+TEST(Rooms, OnlyRenderKnowsGl) {
+  for (const auto& entry : fs::recursive_directory_iterator(repository("src"))) {
+    if (entry.path().parent_path().filename() == "render") continue;
+    const std::string text = entry.is_regular_file() ? read_text(entry.path()) : "";
+    EXPECT_EQ(text.find("<GL/"), std::string::npos) << entry.path();
+    EXPECT_EQ(text.find("<EGL/"), std::string::npos) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace lantern::test

@@ -1,0 +1,111 @@
+// The same scenario gives the same bytes, whatever draws it and however the work is cut up.
+#include <csignal>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "app/process.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kScenario = repository("scenarios/coincident_max_depth.toml").string();
+const std::string kName = "coincident_max_depth";
+
+using Files = std::map<std::string, std::string>;
+
+Files files_of(const fs::path& out) {
+  Files files;
+  for (const auto& entry : fs::directory_iterator(out / kName))
+    files[entry.path().filename()] = read_text(entry.path());
+  return files;
+}
+
+Files rendered(const std::string& folder, const std::string& before, const std::string& words) {
+  const fs::path out = fresh_folder(folder);
+  const Outcome o = shell(before + " lantern render " + kScenario + " --size 640x360 " + words +
+                          " -o " + out.string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  return files_of(out);
+}
+
+void expect_same(const Files& expected, const Files& actual, const std::string& what) {
+  ASSERT_EQ(expected.size(), actual.size()) << what;
+  for (const auto& [name, bytes] : expected)
+    EXPECT_TRUE(actual.contains(name) && actual.at(name) == bytes) << what << " changes " << name;
+}
+
+class SameBytes : public testing::Test {
+ protected:
+  static const Files& reference() {
+    static const Files files = rendered("same-reference", "", "-j 1 --backend osmesa");
+    return files;
+  }
+};
+
+TEST_F(SameBytes, WithEgl) {
+  expect_same(reference(), rendered("same-egl", "", "--backend egl"), "EGL");
+}
+
+TEST_F(SameBytes, WithManyThreads) {
+  expect_same(reference(), rendered("same-j", "", "-j 4"), "-j 4");
+  expect_same(reference(), rendered("same-lp", "export LP_NUM_THREADS=2;", ""), "LP_NUM_THREADS=2");
+}
+
+TEST_F(SameBytes, WithOlderProcessors) {
+  for (const std::string caps : {"sse2", "avx"})
+    expect_same(reference(),
+                rendered("same-" + caps, "export GALLIUM_OVERRIDE_CPU_CAPS=" + caps + ";", ""),
+                caps);
+}
+
+TEST_F(SameBytes, AloneOrInARange) {
+  const Files& all = reference();
+  for (const std::string range : {"5", "3-7", "9-"}) {
+    const Files some = rendered("same-range", "", "--frames " + range);
+    EXPECT_GT(some.size(), 2u);
+    for (const auto& [name, bytes] : some) {
+      if (name == "manifest.json") continue;
+      EXPECT_TRUE(all.contains(name) && all.at(name) == bytes)
+          << "--frames " << range << " changes " << name;
+    }
+  }
+}
+
+// A killed run leaves whole files only, and the next one goes on where it stopped.
+TEST_F(SameBytes, AfterARunThatWasKilled) {
+  const Files& all = reference();
+  bool cut_off = false;
+  double earliest = 0, latest = 4;  // seconds; halved until a run is cut off between two frames
+  for (int attempt = 0; attempt < 12 && !cut_off; ++attempt) {
+    const double delay = (earliest + latest) / 2;
+    const fs::path out = fresh_folder("same-killed");
+    const std::string words = "render " + kScenario + " --size 640x360 -o " + out.string();
+    shell("timeout -s KILL " + std::to_string(delay) + " " LANTERN_BINARY " " + words);
+    const Files left = fs::exists(out / kName) ? files_of(out) : Files();
+    for (const auto& [name, bytes] : left) {
+      if (name == "manifest.json") continue;
+      ASSERT_TRUE(all.contains(name)) << name << " was left behind by a killed run";
+      EXPECT_EQ(all.at(name), bytes) << name << " was left half written";
+    }
+    cut_off = left.size() > 1 && left.size() < all.size();
+    (left.size() < all.size() ? earliest : latest) = delay;
+    EXPECT_EQ(shell("lantern " + words).code, 0);
+    expect_same(all, files_of(out), "a killed run");
+  }
+  EXPECT_TRUE(cut_off) << "no run was cut off in the midst";
+}
+
+TEST_F(SameBytes, AfterCtrlC) {
+  const fs::path out = fresh_folder("same-interrupted");
+  const std::string words =
+      "render " + kScenario + " --size 7680x4320 --png small -o " + out.string();
+  const Outcome o = shell("timeout -s INT 0.7 " LANTERN_BINARY " " + words +
+                          "; code=$?; test $code = 124 && exit 130; exit $code");
+  EXPECT_EQ(o.code, 130) << o.err;
+}
+
+}  // namespace
+}  // namespace lantern::test

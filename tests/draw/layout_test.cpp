@@ -1,0 +1,265 @@
+#include <map>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "draw/metrics.hpp"
+#include "draw/page.hpp"
+#include "draw/sample_frames.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kHair = 0.01;  // page units that rounding may cost
+
+using Size = std::pair<int, int>;
+constexpr Size kSizes[] = {{1600, 900},  {1280, 720}, {1200, 900},
+                           {1000, 1000}, {900, 1600}, {2560, 1080}};
+
+void for_each_page(
+    const std::function<void(const std::string&, const Frame&, const DrawList&)>& f) {
+  for (const auto& [name, frame] : samples::all())
+    for (const auto& [width, height] : kSizes) {
+      Work work;
+      f(fmt::format("{} at {}x{}", name, width, height), frame,
+        draw_frame(frame, page_for(width, height), work));
+    }
+}
+
+Box<2> reach_of(const DrawShape& shape) {
+  Box<2> box;
+  double width = 0;
+  if (const auto* rect = std::get_if<RectShape>(&shape)) {
+    box = rect->box;
+    width = rect->stroke.role == Role::none ? 0 : rect->stroke.width;
+  } else if (const auto* line = std::get_if<LineShape>(&shape)) {
+    box = united(Box<2>{line->from, line->from}, Box<2>{line->to, line->to});
+    width = line->stroke.width;
+  } else if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+    box = {polygon->points[0], polygon->points[0]};
+    for (const Vec<2>& p : polygon->points) box = united(box, Box<2>{p, p});
+    width = polygon->stroke.role == Role::none ? 0 : polygon->stroke.width;
+  } else {
+    box = {std::get<TextShape>(shape).at, std::get<TextShape>(shape).at};
+  }
+  return shrunk(box, -width / 2);
+}
+
+std::string written(const DrawList& list) {
+  std::string text = fmt::format("{} {}\n", list.page.x, list.page.y);
+  for (const DrawShape& shape : list.shapes) {
+    const Box<2> r = reach_of(shape);
+    text += fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g}", shape.index(), r.lo.x, r.lo.y, r.hi.x,
+                        r.hi.y);
+    if (const auto* t = std::get_if<TextShape>(&shape)) text += t->text;
+    if (const auto* p = std::get_if<PolygonShape>(&shape))
+      for (const Vec<2>& q : p->points) text += fmt::format(" {:.17g} {:.17g}", q.x, q.y);
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(Layout, LabelsNeverOverlapEachOther) {
+  for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
+    for (std::size_t i = 0; i < list.labels.size(); ++i)
+      for (std::size_t j = i + 1; j < list.labels.size(); ++j)
+        EXPECT_FALSE(overlap(shrunk(list.labels[i].box, kHair), shrunk(list.labels[j].box, kHair)))
+            << where << ": '" << list.labels[i].text << "' covers '" << list.labels[j].text << "'";
+  });
+}
+
+TEST(Layout, LabelsStayInTheirPanelsOnThePage) {
+  for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
+    const Box<2> page{Vec<2>(0.0), list.page};
+    for (const LabelBox& label : list.labels) {
+      EXPECT_TRUE(holds(shrunk(label.panel, -kHair), label.box))
+          << where << ": '" << label.text << "' leaves its panel";
+      EXPECT_TRUE(holds(page, label.box)) << where << ": '" << label.text << "'";
+    }
+  });
+}
+
+TEST(Layout, EveryShapeLiesOnThePage) {
+  for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
+    const Box<2> page{Vec<2>(0.0), list.page};
+    for (const DrawShape& shape : list.shapes) {
+      const Box<2> r = reach_of(shape);
+      EXPECT_TRUE(is_valid(r) && holds(page, r))
+          << where << ": a shape of kind " << shape.index() << " reaches from (" << r.lo.x << ", "
+          << r.lo.y << ") to (" << r.hi.x << ", " << r.hi.y << ")";
+    }
+  });
+}
+
+TEST(Layout, TypeIsLargeEnoughForTheBackRow) {
+  for_each_page([](const std::string& where, const Frame& frame, const DrawList& list) {
+    for (const DrawShape& shape : list.shapes) {
+      const auto* text = std::get_if<TextShape>(&shape);
+      if (!text) continue;
+      EXPECT_GE(text->size, kLeastLabel - kHair) << where << ": '" << text->text << "'";
+      const bool caption =
+          text->text.size() > 12 && frame.caption.find(text->text) != std::string::npos;
+      if (caption) {
+        EXPECT_GE(text->size, kLeastCaption - kHair) << where << ": '" << text->text << "'";
+      }
+    }
+  });
+}
+
+TEST(Layout, CaptionHasAtMostTwoLinesAndLosesNoWordThatFits) {
+  for (const std::size_t n : {2, 3, 4}) {
+    const Frame frame = samples::ghosts(n);
+    for (const auto& [width, height] : kSizes) {
+      Work work;
+      std::string told;
+      int lines = 0;
+      for (const LabelBox& label : draw_frame(frame, page_for(width, height), work).labels)
+        if (frame.caption.find(label.text) != std::string::npos && label.text.size() > 12) {
+          told += (lines++ > 0 ? " " : "") + label.text;
+        }
+      EXPECT_EQ(told, frame.caption) << width << "x" << height;
+      EXPECT_LE(lines, 2);
+    }
+  }
+}
+
+TEST(Layout, ShapesStayFew) {
+  for_each_page([](const std::string& where, const Frame& frame, const DrawList& list) {
+    EXPECT_LT(list.shapes.size(), 5000u) << where;
+    if (frame.bodies.size() <= 4 && frame.nodes.size() < 10 && frame.textures.empty()) {
+      EXPECT_LT(list.shapes.size(), 300u) << where << ": a typical frame";
+    }
+    for (const DrawShape& shape : list.shapes)
+      if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+        EXPECT_LE(polygon->points.size(), 64u)
+            << where << ": each pixel is tested against each edge";
+      }
+  });
+}
+
+TEST(Layout, TheSameFrameGivesTheSameList) {
+  for (const auto& [name, frame] : samples::all()) {
+    Work work;
+    const Vec<2> page = page_for(1600, 900);
+    EXPECT_EQ(written(draw_frame(frame, page, work)), written(draw_frame(frame, page, work)))
+        << name;
+  }
+}
+
+TEST(Layout, EveryBodyIsNamedWhileThereIsRoom) {
+  for (const std::size_t n : {2, 3, 4}) {
+    Work work;
+    const Frame frame = samples::ghosts(n);
+    const DrawList list = draw_frame(frame, page_for(1600, 900), work);
+    for (const FrameBody& body : frame.bodies)
+      EXPECT_TRUE(std::any_of(list.labels.begin(), list.labels.end(),
+                              [&](const LabelBox& l) { return l.text == body.name; }))
+          << body.name << " has no name, of " << n << " bodies";
+  }
+}
+
+TEST(Layout, BodiesAtOnePlaceShareOneLabelThatNamesAll) {
+  Work work;
+  const DrawList list = draw_frame(samples::coincident(8), page_for(1600, 900), work);
+  EXPECT_EQ(
+      std::count_if(list.labels.begin(), list.labels.end(),
+                    [](const LabelBox& l) { return l.text == "pink, red, player — one place"; }),
+      1);
+}
+
+TEST(Layout, CountsBeginALineWhenFactsNeedTwo) {
+  Frame frame = samples::ghosts(4);
+  frame.settings = "capacity 2, depth limit 8, all children made, stops without progress";
+  Work work;
+  double settings = 0, counts = 0;
+  for (const LabelBox& label : draw_frame(frame, page_for(1600, 900), work).labels) {
+    if (label.text == "stops without progress") settings = label.box.hi.y;
+    if (label.text == "nodes") counts = label.box.lo.y;
+  }
+  EXPECT_GT(counts, settings) << "the counts are torn over two lines";
+}
+
+TEST(Layout, WhatIsLeftOutIsSaid) {
+  const auto notes = [](const Frame& frame) {
+    Work work;
+    std::string all;
+    for (const LabelBox& label : draw_frame(frame, page_for(1600, 900), work).labels)
+      all += label.text + "\n";
+    return all;
+  };
+  const char* cells = "the smallest cells are not drawn";
+  EXPECT_EQ(notes(samples::coincident(8)).find(cells), std::string::npos);
+  EXPECT_NE(notes(samples::coincident(10)).find(cells), std::string::npos);
+  EXPECT_NE(notes(samples::crowd(20000, 0.2)).find("20000 bodies as"), std::string::npos);
+  EXPECT_NE(notes(samples::crowd(600, 4)).find("not all pairs are drawn"), std::string::npos);
+  EXPECT_NE(notes(samples::fine_atlas(4000)).find("not all textures are drawn"), std::string::npos);
+}
+
+TEST(Layout, BodiesOutsideTheBoundsAreShownAtTheRim) {
+  Work work;
+  const DrawList list = draw_frame(samples::outside(), page_for(1600, 900), work);
+  for (const char* name : {"left", "far", "below, also below — outside"})
+    EXPECT_TRUE(std::any_of(list.labels.begin(), list.labels.end(),
+                            [&](const LabelBox& l) { return l.text == name; }))
+        << name << " was dropped";
+}
+
+// Left ends of all texts on a page with these counts, and the lines of its caption.
+struct Placed {
+  std::map<std::string, double> left;
+  std::vector<std::string> caption;
+};
+
+Placed placed(std::int64_t pairs, std::int64_t all, const std::string& caption) {
+  Frame frame = samples::ghosts(4);
+  frame.caption = caption;
+  for (auto& [name, count] : frame.counts) {
+    if (name == "pairs") count = pairs;
+    if (name == "all_pairs") count = all;
+  }
+  Work work;
+  Placed found;
+  for (const LabelBox& label : draw_frame(frame, page_for(1600, 900), work).labels) {
+    found.left[label.text] = label.box.lo.x;
+    if (label.text.starts_with("word")) found.caption.push_back(label.text);
+  }
+  return found;
+}
+
+TEST(Layout, NumbersInCountersKeepTheirPlace) {
+  std::string caption;
+  for (int words = 1; words <= 40; ++words) {
+    caption += words == 1 ? "word" : " word";
+    const Placed few = placed(2, 6, caption), many = placed(1111, 4950, caption);
+    for (const char* text : {"pairs to test", "by brute force", "of", "step"})
+      EXPECT_EQ(few.left.at(text), many.left.at(text)) << text << " moved when a number grew";
+    EXPECT_EQ(placed(1, 6, caption).left.at("pair to test"), few.left.at("pairs to test"));
+    EXPECT_EQ(few.caption, many.caption) << "the caption was broken anew when a number grew";
+  }
+}
+
+TEST(Layout, PanelsThatAreNotThereAreNotLaidOut) {
+  Frame frame = samples::ghosts(4);
+  frame.panels = {Panel::world};
+  Work work;
+  draw_frame(frame, page_for(1600, 900), work);
+  EXPECT_EQ(work.world_layouts, 1u);
+  EXPECT_EQ(work.tree_layouts, 0u);
+  frame.panels = {Panel::tree};
+  draw_frame(frame, page_for(1600, 900), work);
+  EXPECT_EQ(work.world_layouts, 1u);
+  EXPECT_EQ(work.tree_layouts, 1u);
+}
+
+TEST(Layout, PageIsNeverSmallerThanItsUnits) {
+  for (const auto& [width, height] : kSizes) {
+    const Vec<2> page = page_for(width, height);
+    EXPECT_GE(page.x, 1600 - kHair);
+    EXPECT_GE(page.y, 900 - kHair);
+    EXPECT_NEAR(page.x / page.y, double(width) / height, 1e-12);
+  }
+  EXPECT_EQ(page_for(1920, 1080), Vec<2>(1600, 900));
+}
+
+}  // namespace
+}  // namespace lantern

@@ -1,0 +1,29 @@
+// Frames as a director would give them, built by hand so that the draw room is tested alone.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenario/frame.hpp"
+
+namespace lantern::samples {
+
+Frame ghosts(std::size_t objects);                      // 2, 3 or 4 of the lecture's ghosts
+Frame pong(double ball_x);                              // court 32 x 18 with a BSP
+Frame doom();                                           // a BSP with slanting lines
+Frame coincident(std::uint32_t depth);                  // three bodies of some size at one point
+Frame crowd(std::size_t bodies, double size);           // seeded, in a quadtree
+Frame outside();                                        // bodies beyond the world's bounds
+Frame overhanging();                                    // a body larger than the world
+Frame long_texts();                                     // very long names, title and caption
+Frame atlas(std::size_t textures, std::size_t packed);  // the first `packed` of them inserted
+Frame fine_atlas(std::size_t textures);                 // very many very small ones
+Frame empty();                                          // nothing in it at all
+Frame unstructured();                                   // bodies, but no tree
+
+// Name and frame of all of the above, in several sizes.
+std::vector<std::pair<std::string, Frame>> all();
+
+}  // namespace lantern::samples

@@ -1,0 +1,263 @@
+// Run by tests/spatial/fuzz_test.cpp over seeded bytes. As a libFuzzer target:
+//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -DLANTERN_LIBFUZZER -Isrc -Itests
+//     tests/fuzz/fuzz_trees.cpp src/atlas/atlas.cpp -lfmt -o fuzz_trees && ./fuzz_trees
+#include "fuzz/fuzz_trees.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "atlas/atlas.hpp"
+#include "base/check.hpp"
+#include "spatial/brute_force.hpp"
+#include "spatial/bsp.hpp"
+#include "spatial/orthtree.hpp"
+#include "spatial/pairs.hpp"
+#include "spatial/picture.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostBodies = 24;
+constexpr std::uint64_t kMostEntries = 2000;
+constexpr std::uint64_t kMostPairs = 2'000'000;
+
+class Bytes {
+ public:
+  explicit Bytes(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  bool empty() const { return rest_.empty(); }
+  std::uint8_t next() {
+    if (rest_.empty()) return 0;
+    const std::uint8_t byte = rest_.front();
+    rest_ = rest_.subspan(1);
+    return byte;
+  }
+  std::uint64_t word(int bytes) {
+    std::uint64_t word = 0;
+    for (int i = 0; i < bytes; ++i) word = word << 8 | next();
+    return word;
+  }
+  // Mostly small whole and half numbers, on which trees split; now and then any bits at all.
+  double number() {
+    const std::uint8_t kind = next();
+    if (kind < 200) return kind / 2.0 - 20.0;
+    if (kind < 240) return static_cast<double>(static_cast<std::int16_t>(word(2))) / 512.0;
+    return std::bit_cast<double>(word(8));
+  }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+};
+
+template <int D>
+Box<D> read_box(Bytes& bytes) {
+  Box<D> box;
+  const bool any = bytes.next() < 16;  // else in order
+  for (int i = 0; i < D; ++i) {
+    box.lo[i] = bytes.number();
+    box.hi[i] = any ? bytes.number() : box.lo[i] + bytes.next() / 8.0;
+  }
+  return box;
+}
+
+// Inserts bodies as the bytes say. False if the structure's budget was passed. A box that is not
+// valid must be refused without a trace.
+template <int D, class Structure>
+bool fill(Structure& structure, Bytes& bytes, std::vector<Item<D>>& items) {
+  while (!bytes.empty() && items.size() < kMostBodies) {
+    const Item<D> item{static_cast<BodyId>(items.size() * 7919 % 101), read_box<D>(bytes)};
+    const std::uint64_t entries = structure.counters().entries;
+    try {
+      structure.insert(item);
+      LANTERN_CHECK(is_valid(item.box), ==, true);
+      items.push_back(item);
+    } catch (const Refused&) {
+      if (is_valid(item.box)) return false;
+      LANTERN_CHECK(structure.counters().entries, ==, entries);
+    }
+  }
+  return true;
+}
+
+// Holds for every structure: the counters agree with what is seen, nobody is lost, and all pairs
+// that overlap are found, by leaves and by queries.
+template <int D, class Structure>
+void check_structure(const Structure& structure, const std::vector<Item<D>>& items) {
+  Counters seen;
+  std::set<BodyId> stored;
+  structure.visit([&](const NodeView<D>& view) {
+    LANTERN_CHECK(view.id, ==, seen.nodes);
+    LANTERN_CHECK(view.leaf || view.bodies.empty(), ==, true);
+    LANTERN_CHECK(std::adjacent_find(view.bodies.begin(), view.bodies.end(),
+                                     std::greater_equal<>()) == view.bodies.end(),
+                  ==, true);
+    ++seen.nodes;
+    seen.leaves += view.leaf;
+    seen.entries += view.bodies.size();
+    stored.insert(view.bodies.begin(), view.bodies.end());
+    return true;
+  });
+  const Counters c = structure.counters();
+  LANTERN_CHECK(c.nodes, ==, seen.nodes);
+  LANTERN_CHECK(c.leaves, ==, seen.leaves);
+  LANTERN_CHECK(c.entries, ==, seen.entries);
+  LANTERN_CHECK(stored.size(), ==, items.size());
+
+  BruteForce<D> brute;
+  for (const Item<D>& item : items) brute.insert(item);
+  const auto box_of = [&](BodyId id) {
+    return std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.id == id; })->box;
+  };
+  const auto expected = overlapping_pairs(brute, box_of, kMostPairs);
+  LANTERN_CHECK(overlapping_pairs(structure, box_of, kMostPairs) == expected, ==, true);
+  for (const Item<D>& a : items) {
+    std::set<BodyId> near;
+    structure.query(a.box, [&](BodyId id) { LANTERN_CHECK(near.insert(id).second, ==, true); });
+    for (const Item<D>& b : items)
+      LANTERN_CHECK(!overlap(a.box, b.box) || near.contains(b.id), ==, true);
+  }
+}
+
+template <int D>
+void fuzz_orthtree(Bytes& bytes) {
+  typename Orthtree<D>::Config config;
+  config.bounds = {Vec<D>(0.0), Vec<D>(64.0)};
+  if (bytes.next() < 32) config.bounds = read_box<D>(bytes);
+  config.capacity = bytes.next() % 9;
+  config.max_depth = bytes.next() % 12;
+  const std::uint8_t flags = bytes.next();
+  config.eager_children = (flags & 1) != 0;
+  config.no_progress_stop = (flags & 2) != 0;
+  config.most_entries = kMostEntries;
+  std::optional<Orthtree<D>> tree;
+  try {
+    tree.emplace(config);
+  } catch (const Refused&) {
+    return;
+  }
+  std::vector<Item<D>> items;
+  if (!fill(*tree, bytes, items)) {
+    LANTERN_CHECK(testing::picture_of<D>(*tree).size(), ==, tree->counters().nodes);
+    tree->clear();
+    for (const Item<D>& item : items) tree->insert(item);  // these were not too many
+  }
+  check_structure(*tree, items);
+  const auto picture = testing::picture_of<D>(*tree);
+  // Where numbers get so small that halves round, the reference's middle is another one.
+  if (config.bounds == Box<D>{Vec<D>(0.0), Vec<D>(64.0)}) {
+    const testing::ReferenceTree<D> reference(config, items);
+    LANTERN_CHECK(reference.picture() == picture, ==, true);
+  }
+  std::reverse(items.begin(), items.end());
+  tree->clear();
+  for (const Item<D>& item : items) tree->insert(item);
+  LANTERN_CHECK(testing::picture_of<D>(*tree) == picture, ==, true);
+}
+
+template <int D>
+void fuzz_bsp(Bytes& bytes) {
+  std::vector<BspPlane<D>> planes(bytes.next() % 12);
+  const bool any = bytes.next() < 16;
+  for (std::uint32_t i = 0; i < planes.size(); ++i) {
+    for (int axis = 0; axis < D; ++axis) planes[i].plane.normal[axis] = bytes.number();
+    planes[i].plane.offset = bytes.number();
+    const std::uint8_t place = bytes.next();
+    planes[i].front = place % 2 != 0;
+    planes[i].parent = any ? place / 2 : i == 0 ? kNone : place / 2 % i;
+  }
+  std::optional<Bsp<D>> bsp;
+  try {
+    bsp.emplace(planes, Box<D>{Vec<D>(0.0), Vec<D>(64.0)}, kMostEntries);
+  } catch (const Refused&) {
+    return;
+  }
+  std::vector<Item<D>> items;
+  if (!fill(*bsp, bytes, items)) return;
+  check_structure(*bsp, items);
+}
+
+void check_atlas(const Atlas& atlas, const std::vector<std::pair<TextureId, Rect>>& packed) {
+  std::int64_t used = 0, free = 0;
+  std::set<TextureId> seen;
+  atlas.visit([&](const AtlasNodeView& view) {
+    const std::int64_t area = std::int64_t{view.rect.width} * view.rect.height;
+    LANTERN_CHECK(area, >, 0);
+    if (view.leaf) (view.texture ? used : free) += area;
+    if (view.texture) LANTERN_CHECK(seen.insert(*view.texture).second, ==, true);
+    return true;
+  });
+  LANTERN_CHECK(used, ==, atlas.used_area());
+  LANTERN_CHECK(free, ==, atlas.free_area());
+  LANTERN_CHECK(used + free, ==, std::int64_t{atlas.width()} * atlas.height());
+  LANTERN_CHECK(seen.size(), ==, packed.size());
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    const Rect& a = packed[i].second;
+    LANTERN_CHECK(
+        a.x >= 0 && a.y >= 0 && a.x + a.width <= atlas.width() && a.y + a.height <= atlas.height(),
+        ==, true);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Rect& b = packed[j].second;
+      LANTERN_CHECK(a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y ||
+                        b.y + b.height <= a.y,
+                    ==, true);
+    }
+  }
+}
+
+void fuzz_atlas(Bytes& bytes) {
+  std::optional<Atlas> atlas;
+  try {
+    atlas.emplace(bytes.next() * 2, bytes.next() * 2);
+  } catch (const Refused&) {
+    return;
+  }
+  std::vector<std::pair<TextureId, Rect>> packed;
+  for (TextureId id = 0; id < 100 && !bytes.empty(); ++id) {
+    const int width = bytes.next() / 2;
+    const int height = bytes.next() / 2;
+    const std::int64_t used = atlas->used_area();
+    try {
+      const bool room = atlas->has_room(width, height);
+      const auto rect = atlas->insert(id, width, height);
+      LANTERN_CHECK(rect.has_value(), ==, room);
+      if (!rect) {
+        LANTERN_CHECK(atlas->used_area(), ==, used);
+        continue;
+      }
+      LANTERN_CHECK(rect->width == width && rect->height == height, ==, true);
+      packed.emplace_back(id, *rect);
+    } catch (const Refused&) {
+      LANTERN_CHECK(std::min(width, height), <, 1);
+    }
+  }
+  check_atlas(*atlas, packed);
+}
+
+}  // namespace
+
+void fuzz_trees(std::span<const std::uint8_t> input) {
+  Bytes bytes(input);
+  switch (bytes.next() % 5) {
+    case 0:
+      return fuzz_orthtree<2>(bytes);
+    case 1:
+      return fuzz_orthtree<3>(bytes);
+    case 2:
+      return fuzz_bsp<2>(bytes);
+    case 3:
+      return fuzz_bsp<3>(bytes);
+    default:
+      return fuzz_atlas(bytes);
+  }
+}
+
+}  // namespace lantern
+
+#ifdef LANTERN_LIBFUZZER
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  lantern::fuzz_trees({data, size});
+  return 0;
+}
+#endif

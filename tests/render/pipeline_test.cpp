@@ -1,0 +1,147 @@
+#include "render/pipeline.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "render/sample_scene.hpp"
+#include "render/support.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Pipeline::Config config(int threads) {
+  Pipeline::Config c;
+  c.width = 320;
+  c.height = 180;
+  c.theme = *theme_named("light");
+  c.pixels_per_metre = 5000;
+  c.threads = threads;
+  return c;
+}
+
+fs::path file(const fs::path& folder, int i) { return folder / (std::to_string(i) + ".png"); }
+
+std::vector<PngText> texts(int i) { return {{"Frame", std::to_string(i)}}; }
+
+TEST(Pipeline, FilesAreThoseOfOneThread) {
+  constexpr int kFrames = 24;
+  Renderer renderer(Context::create(Backend::automatic), 320, 180);
+  std::vector<std::string> expected;
+  for (int i = 0; i < kFrames; ++i) {
+    Image image;
+    renderer.draw(sample_scene(i / 2), *theme_named("light"), false, image);
+    expected.push_back(encode_png(image, PngEffort::fast, texts(i), 5000));
+  }
+  for (int threads = 1; threads <= 4; ++threads) {
+    const fs::path folder = fresh_folder("pipeline");
+    Work work;
+    Pipeline pipeline(Context::create(Backend::automatic), config(threads), work);
+    for (int i = 0; i < kFrames; ++i)
+      pipeline.submit(sample_scene(i / 2), texts(i), file(folder, i));
+    pipeline.finish();
+    for (int i = 0; i < kFrames; ++i)
+      ASSERT_TRUE(read_file(file(folder, i), 1 << 24) == expected[static_cast<std::size_t>(i)])
+          << "frame " << i << " of " << threads << " threads";
+    EXPECT_EQ(work.graphics_contexts, 1u);
+    EXPECT_EQ(work.frames_drawn, 24u);
+    EXPECT_EQ(work.frames_encoded, 12u) << "every second picture equals the one before";
+  }
+}
+
+TEST(Pipeline, TellsOfEachFileOnceAndOneAtATime) {
+  const fs::path folder = fresh_folder("pipeline");
+  Pipeline::Config c = config(4);
+  std::multiset<fs::path> written;
+  std::atomic<int> inside = 0;
+  c.written = [&](const fs::path& path) {
+    EXPECT_EQ(++inside, 1) << "two calls at once";
+    EXPECT_TRUE(fs::exists(path)) << "told before the file was there";
+    written.insert(path);
+    --inside;
+  };
+  Work work;
+  Pipeline pipeline(Context::create(Backend::automatic), c, work);
+  for (int i = 0; i < 30; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
+  pipeline.finish();
+  EXPECT_EQ(written.size(), 30u);
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(written.count(file(folder, i)), 1u);
+}
+
+// Submits until the pipeline gives up; true if it threw an IoError.
+bool gives_up(Pipeline& pipeline, const fs::path& folder) {
+  try {
+    for (int i = 0; i < 200; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
+    pipeline.finish();
+  } catch (const IoError&) {
+    return true;
+  }
+  return false;
+}
+
+TEST(Pipeline, StopsWhenTheFolderVanishes) {
+  const fs::path folder = fresh_folder("vanishing");
+  Work work;
+  Pipeline pipeline(Context::create(Backend::automatic), config(3), work);
+  pipeline.submit(sample_scene(), texts(0), file(folder, 0));
+  pipeline.finish();
+  fs::remove_all(folder);
+  EXPECT_TRUE(gives_up(pipeline, folder));
+  EXPECT_LT(work.frames_drawn, 100u) << "it went on drawing for nothing";
+  EXPECT_THROW(pipeline.finish(), IoError) << "the error stays";
+}
+
+TEST(Pipeline, StopsWhenTheDiskIsFull) {
+  const fs::path folder = fresh_folder("full");
+  // A limit on the size of files fails in the same call of the system as a full disk.
+  rlimit old{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
+  const rlimit tight{1000, old.rlim_max};
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  Work work;
+  Pipeline pipeline(Context::create(Backend::automatic), config(2), work);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+  const bool stopped = gives_up(pipeline, folder);
+  ::setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_TRUE(stopped);
+  EXPECT_TRUE(fs::is_empty(folder)) << "half a frame was left";
+}
+
+TEST(Pipeline, RethrowsAnyErrorAsItWas) {
+  struct Mine : std::runtime_error {
+    using std::runtime_error::runtime_error;
+  };
+  const fs::path folder = fresh_folder("pipeline");
+  Pipeline::Config c = config(2);
+  c.written = [](const fs::path&) { throw Mine("mine"); };
+  Work work;
+  Pipeline pipeline(Context::create(Backend::automatic), c, work);
+  EXPECT_THROW(
+      {
+        pipeline.submit(sample_scene(), texts(0), file(folder, 0));
+        pipeline.finish();
+      },
+      Mine);
+}
+
+TEST(Pipeline, GivesUpWhatIsNotBegunWithoutFinish) {
+  const fs::path folder = fresh_folder("pipeline");
+  Work work;
+  {
+    Pipeline pipeline(Context::create(Backend::automatic), config(1), work);
+    for (int i = 0; i < 4; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
+  }
+  for (const auto& entry : fs::directory_iterator(folder))
+    EXPECT_TRUE(decode_png(read_file(entry.path(), 1 << 24))) << "half a frame was left";
+}
+
+}  // namespace
+}  // namespace lantern::test

@@ -1,0 +1,430 @@
+// Every key of the language: what it takes, what it refuses, and where that is said.
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "scenario/language.hpp"
+#include "scenario/parsing.hpp"
+
+namespace lantern::test {
+namespace {
+
+using Lines = std::vector<std::pair<std::string, std::string>>;  // key, value
+
+// A small good scenario around one table; `lines` are that table's keys.
+struct Surroundings {
+  std::string before;
+  Lines lines;
+  std::string after;
+};
+
+const std::string kWorld = "[world]\nsize = [64, 64]\n";
+const std::string kTree = "[structure]\nkind = \"quadtree\"\n";
+const std::string kRed = "[[body]]\nname = \"red\"\nradius = 1\nposition = [1, 1]\n";
+const std::string kInsert = "[[step]]\ndo = \"insert\"\nbodies = [\"red\"]\n";
+const std::string kAtlas = "[atlas]\nsize = [64, 64]\n[[texture]]\nname = \"A\"\nsize = [8, 8]\n";
+const std::string kShow = "[[step]]\ndo = \"show\"\n";
+const std::string kTitle = "title = \"x\"\n";
+
+std::map<std::string, Surroundings> surroundings() {
+  const std::string world = kTitle + kWorld;
+  const std::string scene = world + kTree + kRed;
+  const std::string step = "[[step]]\n";
+  return {
+      {"", {"", {{"title", "\"x\""}}, kWorld + kTree + kRed + kShow}},
+      {"world", {kTitle + "[world]\n", {{"size", "[64, 64]"}}, kRed + kShow}},
+      {"structure", {world + "[structure]\n", {{"kind", "\"quadtree\""}}, kRed + kShow}},
+      {"structure.planes",
+       {world + "[structure]\nkind = \"bsp\"\n[[structure.planes]]\n",
+        {{"point", "[32, 0]"}, {"normal", "[1, 0]"}},
+        kRed + kShow}},
+      {"body",
+       {world + "[[body]]\n",
+        {{"name", "\"pink\""}, {"radius", "1"}, {"position", "[1, 1]"}},
+        kShow}},
+      {"pattern",
+       {world + "[[pattern]]\n", {{"name", "\"dot\""}, {"count", "5"}, {"radius", "1"}}, kShow}},
+      {"atlas", {kTitle + "[atlas]\n", {{"size", "[64, 64]"}}, kShow}},
+      {"texture",
+       {kTitle + kAtlas + "[[texture]]\n", {{"name", "\"B\""}, {"size", "[8, 8]"}}, kShow}},
+      {"texture_pattern",
+       {kTitle + kAtlas + "[[texture_pattern]]\n",
+        {{"name", "\"t\""}, {"count", "5"}, {"min", "[8, 8]"}, {"max", "[16, 16]"}},
+        kShow}},
+      {"show", {scene + step, {{"do", "\"show\""}}, ""}},
+      {"insert", {scene + step, {{"do", "\"insert\""}, {"bodies", "[\"red\"]"}}, ""}},
+      {"remove", {scene + kInsert + step, {{"do", "\"remove\""}, {"bodies", "[\"red\"]"}}, ""}},
+      {"move",
+       {scene + kInsert + step, {{"do", "\"move\""}, {"body", "\"red\""}, {"to", "[2, 2]"}}, ""}},
+      {"run", {scene + step, {{"do", "\"run\""}, {"seconds", "1"}}, ""}},
+      {"rebuild",
+       {scene + step,
+        {{"do", "\"rebuild\""},
+         {"kind", "\"bsp\""},
+         {"planes", "[{ point = [32, 0], normal = [1, 0] }]"}},
+        ""}},
+      {"pack", {kTitle + kAtlas + step, {{"do", "\"pack\""}, {"textures", "[\"A\"]"}}, ""}},
+      {"ask_room", {kTitle + kAtlas + step, {{"do", "\"ask_room\""}, {"size", "[8, 8]"}}, ""}},
+      {"expect", {scene + kInsert + "[step.expect]\n", {}, ""}},
+  };
+}
+
+// The scenario with `key = value`, and without the keys of `without`. The value is marked with @
+// for each of `marks`, counted from its first letter.
+std::string with(const std::string& table, const std::string& key, const std::string& value,
+                 const std::vector<std::string>& without = {}) {
+  const Surroundings s = surroundings().at(table);
+  std::string text = s.before;
+  bool done = false;
+  for (const auto& [k, v] : s.lines) {
+    if (std::find(without.begin(), without.end(), k) != without.end()) continue;
+    text += k + " = " + (k == key ? value : v) + "\n";
+    done = done || k == key;
+  }
+  if (!done) text += key + " = " + value + "\n";
+  return text + s.after;
+}
+
+std::string without_key(const std::string& table, const std::string& key) {
+  const Surroundings s = surroundings().at(table);
+  std::string text = s.before;
+  for (const auto& [k, v] : s.lines)
+    if (k != key) text += k + " = " + v + "\n";
+  return text + s.after;
+}
+
+struct KeyCase {
+  std::string table;
+  std::string key;
+  std::vector<std::string> good;
+  std::vector<std::pair<std::string, std::string>> bad;  // the value with its @, what is said
+  std::vector<std::string> without = {};
+};
+
+using Bad = std::vector<std::pair<std::string, std::string>>;
+
+Bad bad_text(const std::string& letters, std::size_t most) {
+  Bad bad = {{"@1", "must be a text"},
+             {"@[\"a\"]", "not a list"},
+             {"@\"\\n\"", "one line"},
+             {"@\"" + std::string(most + 1, 'x') + "\"", letters}};
+  return bad;
+}
+
+Bad bad_name() {
+  return {{"@1", "must be a text"}, {"@\"\"", "cannot be"},
+          {"@\"1a\"", "cannot be"}, {"@\"a/b\"", "\"a_b\""},
+          {"@\"é\"", "cannot be"},  {"@\"" + std::string(25, 'a') + "\"", "cannot be"},
+          {"@[]", "must be a text"}};
+}
+
+Bad bad_whole(const std::string& below, const std::string& above, const std::string& range) {
+  return {{"@" + below, range},
+          {"@" + above, range},
+          {"@1.5", "must be a whole number"},
+          {"@2.0", "write 2"},
+          {"@\"1\"", "must be a whole number, not a text"},
+          {"@nan", "must be a whole number"},
+          {"@true", "must be a whole number"}};
+}
+
+Bad bad_number(const std::string& below, const std::string& above) {
+  return {{"@" + below, "allowed is"},  {"@" + above, "allowed is"}, {"@nan", "must be finite"},
+          {"@inf", "must be finite"},   {"@-inf", "must be finite"}, {"@\"1\"", "must be a number"},
+          {"@1979-05-27", "not a date"}};
+}
+
+Bad bad_point() {
+  return {{"@1", "two numbers"},
+          {"@[]", "two numbers"},
+          {"@[1]", "two numbers"},
+          {"@[1, 2, 3]", "two numbers"},
+          {"[1, @nan]", "must be finite"},
+          {"[@inf, 1]", "must be finite"},
+          {"[@\"1\", 2]", "must be a number"},
+          {"[1, @1.1e9]", "allowed is"},
+          {"@{ x = 1, y = 2 }", "not a table"}};
+}
+
+Bad bad_size(int most = 16384) {
+  const std::string range = fmt::format("1 to {}", most);
+  return {{"@1", "two whole numbers"},
+          {"@[1]", "two numbers"},
+          {"[@0, 8]", range},
+          {"[8, @-8]", range},
+          {fmt::format("[8, @{}]", most + 1), range},
+          {"[@8.0, 8]", "write 8"}};
+}
+
+Bad bad_choice(const std::string& near, const std::string& word) {
+  return {{"@\"" + near + "\"", "did you mean '" + word + "'?"},
+          {"@1", "must be a text"},
+          {"@\"" + word + "s_and_more_of_it\"", "cannot be"}};
+}
+
+Bad bad_truth() {
+  return {{"@1", "true or false"}, {"@\"true\"", "true or false"}, {"@[true]", "true or false"}};
+}
+
+Bad bad_names(const std::string& kind) {
+  return {{"@\"red\"", "must be a list"},
+          {"@[]", "must not be empty"},
+          {"[@1]", "a list of texts"},
+          {"[@\"nobody\"]", "there is no " + kind + " 'nobody'"}};
+}
+
+Bad bad_table(const std::string& header) { return {{"@1", "must be a table"}, {"@[1]", header}}; }
+
+// By hand, so that a slip in the language's table is found.
+std::vector<KeyCase> key_cases() {
+  const Bad color = bad_whole("0", "9", "1 to 8");
+  const Bad cycled = bad_whole("-1", "9", "0 to 8");
+  const Bad seed = bad_whole("-1", "9007199254740993", "0 to 9007199254740992");
+  const std::vector<std::string> seeds = {"0", "1", "9007199254740992", "0x10"};
+  const std::vector<std::string> points = {"[0, 0]", "[-1e9, 1e9]", "[1.5, 2]"};
+  Bad nonnegative = bad_point();
+  nonnegative.push_back({"[@-1, 1]", "0 to 1000000000"});
+  Bad extent = bad_point();
+  extent.push_back({"[@0, 1]", "above 0"});
+  extent.push_back({"[1, @-1]", "above 0"});
+  Bad file_name = bad_name();
+  file_name.push_back({"@\"../evil\"", "cannot be"});
+  file_name.push_back({"@\"Ghost Tree\"", "name = \"ghost_tree\""});
+  file_name.erase(file_name.begin() + 2);  // a file's name may begin with a digit
+  file_name[4] = {"@\"" + std::string(65, 'a') + "\"", "cannot be"};
+  const std::vector<std::string> looks = {"\"ghost\"", "\"player\"", "\"ball\"",
+                                          "\"bat\"",   "\"disc\"",   "\"box\""};
+  const Bad planes = {{"@1", "a list of tables"}, {"[@1]", "a list of tables"}};
+  const Bad no_number = {{"@\"1\"", "must be a whole number"}, {"@-1", "allowed is"}};
+
+  std::vector<KeyCase> cases = {
+      {"", "title", {"\"a\"", "'Ghosts — now'"}, bad_text("1 to 80", 80)},
+      {"", "title", {}, {{"@\"\"", "0 letters"}}},
+      {"", "source", {"\"\"", "\"Quadtrees\""}, bad_text("0 to 80", 80)},
+      {"", "name", {"\"ghosts_2\"", "\"7\"", "\"" + std::string(64, 'a') + "\""}, file_name},
+      {"", "seed", seeds, seed},
+      {"", "pace", {"\"step\"", "\"event\""}, bad_choice("evnt", "event")},
+      {"",
+       "panels",
+       {"[\"world\"]", "[\"tree\", \"world\"]"},
+       {{"@\"world\"", "must be a list"},
+        {"@[]", "must not be empty"},
+        {"[@\"tre\"]", "did you mean 'tree'?"},
+        {"[\"tree\", @\"tree\"]", "stands twice"},
+        {"[@\"atlas\"]", "it needs an [atlas]"}}},
+      {"world", "size", {"[1, 2.5]", "[1e9, 1e-6]"}, extent},
+      {"world", "time_step", {"1", "0.0166", "1000"}, bad_number("0", "1000.1")},
+      {"structure",
+       "kind",
+       {"\"none\"", "\"brute_force\"", "\"quadtree\""},
+       bad_choice("quadtre", "quadtree")},
+      {"structure", "capacity", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
+      {"structure", "max_depth", {"0", "32"}, bad_whole("-1", "33", "0 to 32")},
+      {"structure", "children", {"\"lazy\"", "\"eager\""}, bad_choice("eagre", "eager")},
+      {"structure", "no_progress_stop", {"true", "false"}, bad_truth()},
+      {"structure", "planes", {}, planes},
+      {"structure.planes", "name", {"\"\"", "\"net\""}, bad_text("0 to 24", 24)},
+      {"structure.planes", "point", points, bad_point()},
+      {"structure.planes", "normal", {"[0, 1]", "[-3, 4]"}, bad_point()},
+      {"structure.planes", "normal", {}, {{"@[0, 0]", "points nowhere"}}},
+      {"structure.planes",
+       "at",
+       {"\"root\""},
+       {{"@1", "must be a text"},
+        {"@\"\"", "letters"},
+        {"@\"left\"", "there is no region 'left'"}}},
+      {"body",
+       "name",
+       {"\"a\"", "\"Blue bat-1_x\"", "\"" + std::string(24, 'a') + "\""},
+       bad_name()},
+      {"body", "look", looks, bad_choice("gost", "ghost")},
+      {"body", "color", {"1", "8"}, color},
+      {"body", "radius", {"0", "0.5", "1e9"}, bad_number("-1", "1.1e9")},
+      {"body", "half_size", {"[0, 0]", "[1, 0]", "[2, 3]"}, nonnegative, {"radius"}},
+      {"body", "position", points, bad_point()},
+      {"body", "velocity", points, bad_point()},
+      {"body", "static", {"true", "false"}, bad_truth()},
+      {"pattern", "name", {"\"dot\""}, bad_name()},
+      {"pattern", "count", {"1", "20000"}, bad_whole("0", "20001", "1 to 20000")},
+      {"pattern", "arrange", {"\"random\"", "\"grid\""}, bad_choice("gird", "grid")},
+      {"pattern", "min", {"[0, 0]", "[63, 63]"}, bad_point()},
+      {"pattern", "max", {"[64, 64]", "[1, 1]"}, bad_point()},
+      {"pattern", "look", looks, bad_choice("bal", "ball")},
+      {"pattern", "color", {"0", "8"}, cycled},
+      {"pattern", "radius", {"0", "1"}, bad_number("-1", "1.1e9")},
+      {"pattern", "half_size", {"[2, 3]"}, nonnegative, {"radius"}},
+      {"pattern", "speed", {"0", "2.5"}, bad_number("-1", "1.1e9")},
+      {"pattern", "seed", seeds, seed},
+      {"pattern", "static", {"true", "false"}, bad_truth()},
+      {"atlas", "size", {"[1, 8192]"}, bad_size(8192)},
+      {"texture", "name", {"\"B\""}, bad_name()},
+      {"texture", "size", {"[1, 16384]"}, bad_size()},
+      {"texture", "color", {"1", "8"}, color},
+      {"texture_pattern", "name", {"\"t\""}, bad_name()},
+      {"texture_pattern", "count", {"1", "19999"}, bad_whole("0", "20001", "1 to 20000")},
+      {"texture_pattern", "min", {"[1, 16]"}, bad_size()},
+      {"texture_pattern", "max", {"[8, 16384]"}, bad_size()},
+      {"texture_pattern", "multiple", {"1", "16"}, bad_whole("0", "16385", "1 to 16384")},
+      {"texture_pattern",
+       "order",
+       {"\"as_made\"", "\"tallest_first\""},
+       bad_choice("tallest_frist", "tallest_first")},
+      {"texture_pattern", "color", {"0", "8"}, cycled},
+      {"texture_pattern", "seed", seeds, seed},
+      {"insert", "bodies", {"[\"red\"]"}, bad_names("body")},
+      {"remove", "bodies", {"[\"red\"]"}, bad_names("body")},
+      {"move",
+       "body",
+       {"\"red\""},
+       {{"@1", "must be a text"}, {"@\"rex\"", "did you mean 'red'?"}}},
+      {"move", "to", points, bad_point()},
+      {"move", "velocity", points, bad_point()},
+      {"run", "seconds", {"1", "1.5", "0.016666666"}, bad_number("0", "1e10")},
+      {"run", "seconds", {}, {{"@0.01", "not a whole number"}, {"@2000", "120000 time steps"}}},
+      {"rebuild", "kind", {"\"bsp\""}, bad_choice("bspp", "bsp")},
+      {"rebuild", "capacity", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
+      {"rebuild", "max_depth", {"0", "32"}, bad_whole("-1", "33", "0 to 32")},
+      {"rebuild", "children", {"\"lazy\"", "\"eager\""}, bad_choice("laxy", "lazy")},
+      {"rebuild", "no_progress_stop", {"true"}, bad_truth()},
+      {"rebuild", "planes", {"[{ point = [1, 1], normal = [1, 1], name = \"net\" }]"}, planes},
+      {"pack", "textures", {"[\"A\"]"}, bad_names("texture")},
+      {"pack", "each", {"true", "false"}, bad_truth()},
+      {"pack", "free_name", {"\"C\""}, bad_text("1 to 24", 24)},
+      {"ask_room", "size", {"[1, 16384]"}, bad_size()},
+      {"expect",
+       "in_leaves",
+       {"{ red = 1 }"},
+       {{"@1", "a table of bodies"},
+        {"{ red = @\"1\" }", "whole number"},
+        {"{ red = @-1 }", "allowed is"},
+        {"{ @pink = 1 }", "there is no body 'pink'"}}},
+      {"expect",
+       "pairs_are",
+       {"[]"},
+       {{"@1", "a list of pairs"},
+        {"[@\"red\"]", "two names"},
+        {"[@[\"red\"]]", "two names"},
+        {"[[\"red\", @\"red\"]]", "no pair with itself"},
+        {"[[\"red\", @\"pink\"]]", "no body 'pink'"}}},
+      {"expect",
+       "position",
+       {"{ red = [1, 1] }"},
+       {{"@1", "a table of bodies"},
+        {"{ red = @1 }", "two numbers"},
+        {"{ @rd = [1, 1] }", "'red'"}}},
+  };
+  for (const char* verb : {"insert", "pack"}) {
+    cases.push_back({verb, "pace", {"\"step\"", "\"event\""}, bad_choice("evnt", "event")});
+    cases.push_back({verb,
+                     "events",
+                     {"[\"store\"]"},
+                     {{"@\"store\"", "must be a list"},
+                      {"@[]", "must not be empty"},
+                      {"[@\"stor\"]", "did you mean 'store'?"},
+                      {"[\"store\", @\"store\"]", "stands twice"}}});
+  }
+  for (const TableDoc& verb : language_verbs()) {
+    const std::string table(verb.name);
+    cases.push_back(
+        {table,
+         "name",
+         {"\"two\"", "\"a_1\""},
+         {{"@\"Two\"", "name = \"two\""}, {"@1", "must be a text"}, {"@\"\"", "cannot be"}}});
+    cases.push_back({table, "part", {"\"part 2\""}, bad_text("1 to 60", 60)});
+    cases.push_back({table, "caption", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
+    cases.push_back({table, "expect", {"{}"}, bad_table("[expect]")});
+    cases.push_back({table, "always", {"{}"}, bad_table("[expect]")});
+  }
+  for (const CountDoc& count : known_counts())
+    if (count.for_world)
+      cases.push_back(
+          {"expect", std::string(count.name), {"0", "1", "9007199254740992"}, no_number});
+  return cases;
+}
+
+TEST(Keys, TakeWhatTheyShould) {
+  for (const KeyCase& c : key_cases())
+    for (const std::string& value : c.good) {
+      const std::string text = with(c.table, c.key, value, c.without);
+      EXPECT_TRUE(mistakes(text).empty()) << text << shown(mistakes(text));
+    }
+}
+
+TEST(Keys, RefuseTheRestAtItsPlace) {
+  for (const KeyCase& c : key_cases())
+    for (const auto& [value, words] : c.bad) {
+      SCOPED_TRACE(c.table + "." + c.key + " = " + value);
+      expect_mistakes(with(c.table, c.key, value, c.without), {words});
+    }
+}
+
+TEST(Keys, AllAreTested) {
+  std::set<std::pair<std::string, std::string>> tested = {
+      {"world", "min"}, {"world", "max"}, {"expect", "tolerance"}};  // in tests of their own
+  for (const KeyCase& c : key_cases()) tested.emplace(c.table, c.key);
+  const auto require = [&](const TableDoc& table) {
+    for (const KeyDoc& key : table.keys) {
+      const bool is_container = key.type == KeyType::table || key.type == KeyType::tables;
+      const bool is_count = table.name == "expect" && key.type == KeyType::whole;
+      if (key.key == "do" || (table.name.empty() && is_container) || is_count) continue;
+      EXPECT_TRUE(tested.contains({std::string(table.name), std::string(key.key)}))
+          << "no test of '" << key.key << "' in " << table.heading;
+    }
+  };
+  for (const TableDoc& table : language_tables())
+    if (table.name != "step") require(table);
+  for (const TableDoc& verb : language_verbs()) require(verb);
+}
+
+TEST(Keys, MissingOnesAreAskedFor) {
+  const std::vector<std::pair<std::string, std::string>> required = {{"structure", "kind"},
+                                                                     {"structure.planes", "point"},
+                                                                     {"structure.planes", "normal"},
+                                                                     {"body", "name"},
+                                                                     {"body", "position"},
+                                                                     {"body", "radius"},
+                                                                     {"pattern", "name"},
+                                                                     {"pattern", "count"},
+                                                                     {"pattern", "radius"},
+                                                                     {"atlas", "size"},
+                                                                     {"texture", "name"},
+                                                                     {"texture", "size"},
+                                                                     {"texture_pattern", "name"},
+                                                                     {"texture_pattern", "count"},
+                                                                     {"texture_pattern", "min"},
+                                                                     {"texture_pattern", "max"},
+                                                                     {"insert", "bodies"},
+                                                                     {"remove", "bodies"},
+                                                                     {"move", "body"},
+                                                                     {"move", "to"},
+                                                                     {"run", "seconds"},
+                                                                     {"pack", "textures"},
+                                                                     {"ask_room", "size"},
+                                                                     {"show", "do"},
+                                                                     {"world", "size"},
+                                                                     {"", "title"}};
+  for (const auto& [table, key] : required) {
+    const std::string text = without_key(table, key);
+    const auto found = mistakes(text);
+    ASSERT_EQ(found.size(), 1u) << text << shown(found);
+    EXPECT_NE(found[0].message.find("no '" + key + "'"), std::string::npos) << shown(found);
+  }
+}
+
+TEST(Keys, MisspeltOnesAreFoundInEveryTable) {
+  for (const auto& [table, s] : surroundings()) {
+    SCOPED_TRACE(table);
+    std::string text = s.before + "@qqqqqqqq = 1\n";
+    for (const auto& [k, v] : s.lines) text += k + " = " + v + "\n";
+    expect_mistakes(text + s.after, {"unknown key 'qqqqqqqq'"});
+  }
+}
+
+}  // namespace
+}  // namespace lantern::test

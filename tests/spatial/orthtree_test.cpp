@@ -1,0 +1,189 @@
+// The finished tree is the one that the definition asks for, whatever the world and the order.
+#include "spatial/orthtree.hpp"
+
+#include <gtest/gtest.h>
+
+#include "spatial/pairs.hpp"
+#include "spatial/picture.hpp"
+#include "spatial/worlds.hpp"
+
+namespace lantern {
+namespace {
+
+using testing::kSorts;
+using testing::Picture;
+using testing::picture_of;
+using testing::ReferenceTree;
+using testing::Sort;
+
+constexpr std::uint64_t kBudget = 4000;
+
+template <int D>
+typename Orthtree<D>::Config random_config(Sort sort, Random& random) {
+  typename Orthtree<D>::Config config;
+  config.bounds = testing::bounds_of<D>(sort);
+  config.capacity = static_cast<std::uint32_t>(random.whole(1, 8));
+  config.max_depth = static_cast<std::uint32_t>(random.whole(0, 10));
+  config.eager_children = random.bits() % 2 == 0;
+  config.no_progress_stop = random.bits() % 2 == 0;
+  config.most_entries = kBudget;
+  return config;
+}
+
+// False if the tree refused to grow further.
+template <int D>
+bool build(Orthtree<D>& tree, const std::vector<Item<D>>& items) {
+  tree.clear();
+  try {
+    for (const Item<D>& item : items) tree.insert(item);
+  } catch (const Refused&) {
+    return false;
+  }
+  return true;
+}
+
+template <int D>
+void expect_defined_tree(Sort sort, std::uint64_t seed) {
+  SCOPED_TRACE(fmt::format("{}D, sort {}, seed {}", D, static_cast<int>(sort), seed));
+  Random random(seed);
+  auto config = random_config<D>(sort, random);
+  std::vector<Item<D>> items =
+      testing::random_world<D>(sort, static_cast<std::size_t>(random.whole(0, 30)), random);
+  const ReferenceTree<D> reference(config, items);
+  Orthtree<D> tree(config);
+  ASSERT_EQ(build(tree, items), !reference.too_large()) << "the budget is not kept exactly";
+  if (reference.too_large()) return;
+  const Picture<D> picture = picture_of<D>(tree);
+  ASSERT_EQ(picture, reference.picture()) << "the tree is not the one defined";
+
+  const std::vector<Pair> overlaps = testing::true_overlaps(items);
+  const CandidatePairs candidates = candidate_pairs(tree, 1'000'000);
+  EXPECT_TRUE(std::includes(candidates.pairs.begin(), candidates.pairs.end(), overlaps.begin(),
+                            overlaps.end()))
+      << "an overlapping pair shares no leaf: it would never collide";
+  EXPECT_EQ(std::adjacent_find(candidates.pairs.begin(), candidates.pairs.end()),
+            candidates.pairs.end())
+      << "a pair is reported twice";
+
+  testing::shuffle(items, random);
+  ASSERT_TRUE(build(tree, items));
+  ASSERT_EQ(picture_of<D>(tree), picture) << "the tree depends on the order of insertion";
+
+  if (!config.eager_children) return;
+  config.eager_children = false;
+  Orthtree<D> lazy(config);
+  ASSERT_TRUE(build(lazy, items));
+  EXPECT_EQ(picture_of<D>(lazy), testing::without_empty_leaves(picture))
+      << "children made on demand give another tree";
+}
+
+template <int D>
+void expect_defined_trees(int rounds) {
+  for (const Sort sort : kSorts)
+    for (int round = 0; round < rounds && !::testing::Test::HasFatalFailure(); ++round)
+      expect_defined_tree<D>(sort, static_cast<std::uint64_t>(round));
+}
+
+TEST(Orthtree, IsTheTreeThatIsDefinedIn2D) { expect_defined_trees<2>(150); }
+TEST(Orthtree, IsTheTreeThatIsDefinedIn3D) { expect_defined_trees<3>(80); }
+
+TEST(Orthtree, VisitsParentsFirstAndChildrenInTheLecturesOrder) {
+  Random random(5);
+  Quadtree::Config config;
+  config.bounds = testing::bounds_of<2>(Sort::uniform);
+  config.eager_children = true;
+  Quadtree tree(config);
+  for (const auto& item : testing::random_world<2>(Sort::uniform, 40, random)) tree.insert(item);
+
+  std::vector<NodeView<2>> seen;
+  tree.visit([&](const NodeView<2>& view) {
+    EXPECT_EQ(view.id, seen.size()) << "ids are not the order of visiting";
+    EXPECT_TRUE(std::is_sorted(view.bodies.begin(), view.bodies.end()));
+    if (view.parent != kNone) {
+      const NodeView<2>& parent = seen.at(view.parent);
+      EXPECT_EQ(view.depth, parent.depth + 1);
+      EXPECT_FALSE(parent.leaf);
+      // Upper left, upper right, lower left, lower right.
+      EXPECT_EQ(view.slot % 2 == 0, view.box.lo.x == parent.box.lo.x);
+      EXPECT_EQ(view.slot / 2 == 0, view.box.hi.y == parent.box.hi.y);
+    }
+    seen.push_back(view);
+    return true;
+  });
+  EXPECT_EQ(seen.size(), tree.counters().nodes);
+  EXPECT_GT(seen.size(), 20u) << "the test would prove nothing";
+}
+
+TEST(Orthtree, AnOctreesHighHalfComesLast) {
+  Octree::Config config;
+  config.bounds = testing::bounds_of<3>(Sort::uniform);
+  config.capacity = 1;
+  config.max_depth = 1;
+  config.eager_children = true;
+  Octree tree(config);
+  for (BodyId id = 0; id < 2; ++id) tree.insert({id, {Vec<3>(1.0), Vec<3>(2.0)}});
+  std::vector<Vec<3>> corners;
+  tree.visit([&](const NodeView<3>& view) {
+    if (view.leaf) corners.push_back(view.box.lo);
+    return true;
+  });
+  const std::vector<Vec<3>> expected = {{0, 32, 0},  {32, 32, 0},  {0, 0, 0},  {32, 0, 0},
+                                        {0, 32, 32}, {32, 32, 32}, {0, 0, 32}, {32, 0, 32}};
+  EXPECT_EQ(corners, expected);
+}
+
+TEST(Orthtree, AVetoSkipsTheBranch) {
+  Quadtree::Config config;
+  config.bounds = testing::bounds_of<2>(Sort::uniform);
+  config.eager_children = true;
+  config.capacity = 1;
+  Quadtree tree(config);
+  for (BodyId id = 0; id < 2; ++id) tree.insert({id, {Vec<2>(1.0), Vec<2>(2.0)}});
+  int visits = 0;
+  tree.visit([&](const NodeView<2>& view) {
+    ++visits;
+    return view.depth == 0;
+  });
+  EXPECT_EQ(visits, 5) << "a skipped branch was entered, or a sibling of one was not";
+}
+
+template <int D>
+void expect_exact_queries(Sort sort, std::uint64_t seed) {
+  SCOPED_TRACE(fmt::format("{}D, sort {}, seed {}", D, static_cast<int>(sort), seed));
+  Random random(seed);
+  const auto config = random_config<D>(sort, random);
+  const auto items = testing::random_world<D>(sort, 20, random);
+  Orthtree<D> tree(config);
+  if (!build(tree, items)) return;
+  const Box<D> window = testing::random_box<D>(sort, random);
+  std::vector<BodyId> answer;
+  tree.query(window, [&](BodyId id) { answer.push_back(id); });
+  EXPECT_EQ(std::adjacent_find(answer.begin(), answer.end(), std::greater_equal<>()), answer.end())
+      << "an id came twice, or out of order";
+  // A leaf reaches as far as its box, but without end at the rim of the world.
+  std::vector<BodyId> expected;
+  for (const auto& node : picture_of<D>(tree)) {
+    if (!node.leaf) continue;
+    Box<D> zone = node.box;
+    for (int i = 0; i < D; ++i) {
+      if (zone.lo[i] == config.bounds.lo[i]) zone.lo[i] = -HUGE_VAL;
+      if (zone.hi[i] == config.bounds.hi[i]) zone.hi[i] = HUGE_VAL;
+    }
+    if (overlap(zone, window))
+      expected.insert(expected.end(), node.bodies.begin(), node.bodies.end());
+  }
+  std::sort(expected.begin(), expected.end());
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  EXPECT_EQ(answer, expected) << "not the bodies of the leaves that the window reaches";
+}
+
+TEST(Orthtree, AQueryGivesTheBodiesOfTheLeavesReachedOnceEach) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      expect_exact_queries<2>(sort, seed);
+      expect_exact_queries<3>(sort, seed);
+    }
+}
+
+}  // namespace
+}  // namespace lantern

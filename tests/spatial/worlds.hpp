@@ -1,0 +1,120 @@
+// Seeded random worlds for the tests of trees, of every sort that has ever broken one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/random.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern::testing {
+
+enum class Sort {
+  uniform,
+  clustered,
+  coincident,  // all the same box
+  crowded,     // all share one point, no two are equal
+  aligned,     // corners lie exactly on planes at which a tree splits
+  ratios,      // sizes from 1e-6 to 1e6 times the world's
+  far,         // 1e9 from the origin
+  points,      // boxes of no size
+  outside,     // partly or wholly outside the world
+};
+inline constexpr std::array kSorts = {Sort::uniform, Sort::clustered, Sort::coincident,
+                                      Sort::crowded, Sort::aligned,   Sort::ratios,
+                                      Sort::far,     Sort::points,    Sort::outside};
+
+// The world's bounds: a cube of side 64, its corner at the origin unless it is far away.
+template <int D>
+Box<D> bounds_of(Sort sort) {
+  const Vec<D> corner(sort == Sort::far ? 1e9 : 0.0);
+  return {corner, corner + 64.0};
+}
+
+template <int D>
+Vec<D> random_point(Random& random, double lo, double hi) {
+  Vec<D> p;
+  for (int i = 0; i < D; ++i) p[i] = random.between(lo, hi);
+  return p;
+}
+
+template <int D>
+Box<D> random_box(Sort sort, Random& random) {
+  const auto around = [&](const Vec<D>& center, double most) {
+    return Box<D>::around(center, random_point<D>(random, 0, most));
+  };
+  switch (sort) {
+    case Sort::uniform:
+      return around(random_point<D>(random, 0, 64), 6);
+    case Sort::clustered:
+      return around(Vec<D>(random.bits() % 2 == 0 ? 10.0 : 41.0) + random_point<D>(random, 0, 1),
+                    0.5);
+    case Sort::coincident:
+      return Box<D>::around(Vec<D>(21.0), Vec<D>(1.5));
+    case Sort::crowded:
+      return {Vec<D>(33.0) - random_point<D>(random, 0, 4),
+              Vec<D>(33.0) + random_point<D>(random, 0, 4)};
+    case Sort::aligned: {
+      Box<D> box;
+      for (int i = 0; i < D; ++i) {
+        box.lo[i] = 4.0 * static_cast<double>(random.whole(0, 15));
+        box.hi[i] = box.lo[i] + 4.0 * static_cast<double>(random.whole(0, 2));
+      }
+      return box;
+    }
+    case Sort::ratios:
+      return around(random_point<D>(random, 0, 64), 64 * std::pow(10.0, random.between(-6, 6)));
+    case Sort::far:
+      return around(Vec<D>(1e9) + random_point<D>(random, 0, 64), 5);
+    case Sort::points: {
+      const Vec<D> p = random_point<D>(random, 0, 64);
+      return {p, p};
+    }
+    case Sort::outside:
+      return around(random_point<D>(random, -100, 164), 40);
+  }
+  return {};
+}
+
+// Bodies in random order, their ids any different 32-bit numbers.
+template <int D>
+std::vector<Item<D>> random_world(Sort sort, std::size_t bodies, Random& random) {
+  std::vector<Item<D>> items;
+  std::set<BodyId> taken;
+  while (items.size() < bodies) {
+    const auto id = static_cast<BodyId>(random.bits());
+    if (taken.insert(id).second) items.push_back({id, random_box<D>(sort, random)});
+  }
+  return items;
+}
+
+template <class T>
+void shuffle(std::vector<T>& list, Random& random) {
+  for (std::size_t i = list.size(); i > 1; --i)
+    std::swap(list[i - 1],
+              list[static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(i) - 1))]);
+}
+
+template <int D>
+Box<D> box_of(const std::vector<Item<D>>& items, BodyId id) {
+  return std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.id == id; })->box;
+}
+
+// n(n-1)/2 comparisons, without any structure: the oracle of them all.
+template <int D>
+std::vector<Pair> true_overlaps(const std::vector<Item<D>>& items) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t j = 0; j < items.size(); ++j)
+      if (items[i].id < items[j].id && overlap(items[i].box, items[j].box))
+        pairs.push_back({items[i].id, items[j].id});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace lantern::testing
