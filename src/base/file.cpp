@@ -93,11 +93,15 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   const bool nameless = file.number() >= 0;
   if (!nameless) file.open(part);
   if (file.number() < 0) fail("write", path, errno);
+  const std::string self = fmt::format("/proc/self/fd/{}", file.number());
+  const auto give_name = [&](const std::filesystem::path& name) {
+    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
   bool good = write_all(file.number(), bytes);
-  if (good && nameless)
-    good = ::linkat(AT_FDCWD, fmt::format("/proc/self/fd/{}", file.number()).c_str(), AT_FDCWD,
-                    part.c_str(), AT_SYMLINK_FOLLOW) == 0;
-  good = good && file.close() && ::rename(part.c_str(), path.c_str()) == 0;
+  // A new file gets its own name at once; only one that replaces another needs a name in between.
+  if (good && nameless && give_name(path)) return;
+  good = good && (!nameless || give_name(part)) && file.close() &&
+         ::rename(part.c_str(), path.c_str()) == 0;
   if (!good) {
     const int code = errno;
     ::unlink(part.c_str());

@@ -74,7 +74,8 @@ TEST_F(SameBytes, AloneOrInARange) {
   }
 }
 
-// A killed run leaves whole files only, and the next one goes on where it stopped.
+// A killed run leaves whole frames only, and the next one goes on where it stopped. On a disk that
+// knows no nameless files a temporary one may stay behind until then.
 TEST_F(SameBytes, AfterARunThatWasKilled) {
   const Files& all = reference();
   bool cut_off = false;
@@ -86,7 +87,7 @@ TEST_F(SameBytes, AfterARunThatWasKilled) {
     shell("timeout -s KILL " + std::to_string(delay) + " " LANTERN_BINARY " " + words);
     const Files left = fs::exists(out / kName) ? files_of(out) : Files();
     for (const auto& [name, bytes] : left) {
-      if (name == "manifest.json") continue;
+      if (name == "manifest.json" || name.starts_with(".lantern-part-")) continue;
       ASSERT_TRUE(all.contains(name)) << name << " was left behind by a killed run";
       EXPECT_EQ(all.at(name), bytes) << name << " was left half written";
     }
