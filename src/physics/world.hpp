@@ -11,22 +11,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "geometry/shape.hpp"
-#include "spatial/structure.hpp"
+#include "physics/body.hpp"
 
 namespace lantern {
-
-template <int D>
-struct Body {
-  BodyId id = 0;  // given by the world
-  std::string name;
-  Shape<D> shape;
-  Vec<D> position{0.0};
-  Vec<D> velocity{0.0};  // units a second
-  bool is_static = false;
-
-  Box<D> box() const { return bounding_box(shape, position); }
-};
 
 template <int D>
 class World {
@@ -66,8 +53,8 @@ class World {
     std::vector<Vec<D>> moved;
     moved.reserve(bodies_.size());
     for (const Body<D>& body : bodies_) {
-      moved.push_back(body.is_static ? body.position : body.position + body.velocity * h);
-      const Box<D> box = bounding_box(body.shape, moved.back());
+      moved.push_back(!body.moves() ? body.position : body.position + body.velocity * h);
+      const Box<D> box = bounding_box(body.shape, moved.back(), body.orientation);
       if (!is_valid(box)) throw Refused(fmt::format("body '{}': position overflows", body.name));
     }
     for (std::size_t i = 0; i < moved.size(); ++i) bodies_[i].position = moved[i];
@@ -92,7 +79,7 @@ class World {
     finite(body.velocity, "velocity");
     if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       size(sphere->radius, "radius");
-    } else {
+    } else if (std::holds_alternative<AxisBox<D>>(body.shape)) {
       for (int i = 0; i < D; ++i) size(std::get<AxisBox<D>>(body.shape).half_size[i], "half_size");
     }
     if (!is_valid(body.box()))

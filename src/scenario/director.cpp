@@ -80,7 +80,7 @@ class Director {
   void act(const Run& run) {
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
       if (const Body<2>* body = stage_.body(i))
-        if (!body->is_static && body->velocity != Vec<2>(0.0)) focus_.insert(body->id);
+        if (body->moves() && body->velocity != Vec<2>(0.0)) focus_.insert(body->id);
     const auto ticks = static_cast<std::uint32_t>(std::llround(run.seconds / scenario_.time_step));
     for (std::uint32_t tick = 1; tick <= ticks && !stopped_; ++tick) {
       stage_.let_time_pass();

@@ -163,7 +163,7 @@ void Stage::enter(std::size_t index) {
   body.shape = spec.shape;
   body.position = spec.position;
   body.velocity = spec.velocity;
-  body.is_static = spec.is_static;
+  if (spec.is_static) body.kind = BodyKind::static_body;
   ids_[index] = world_->add(std::move(body));
   index_of_.push_back(index);
 }
@@ -299,7 +299,7 @@ void Stage::picture_bodies(Frame& frame) const {
     b.position = body.position;
     b.velocity = body.velocity;
     b.box = body.box();
-    b.is_static = body.is_static;
+    b.is_static = !body.moves();
     frame.bodies.push_back(std::move(b));
   }
   frame.counts.emplace_back("bodies", frame.bodies.size());

@@ -81,7 +81,7 @@ TEST(World, AStepOfNoTimeDoesNothing) {
 TEST(World, StaticBodiesStay) {
   World<2> world;
   Body<2> wall = ball("wall", {1, 2}, {5, 5});
-  wall.is_static = true;
+  wall.kind = BodyKind::static_body;
   world.add(wall);
   world.step(1);
   EXPECT_EQ(world.bodies()[0].position, (Vec<2>{1, 2}));

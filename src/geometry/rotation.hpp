@@ -1,0 +1,58 @@
+// How a body is turned: an angle in 2D, a unit quaternion in 3D.
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "geometry/vec.hpp"
+
+namespace lantern {
+
+template <int D>
+using Mat = glm::mat<D, D, double>;
+
+// What turns: an angle, angular velocity, angular momentum or torque. One number in 2D
+// (counter-clockwise), a vector along the axis in 3D.
+template <int D>
+using Spin = std::conditional_t<D == 2, double, Vec<3>>;
+
+template <int D>
+struct Rotation;
+
+template <>
+struct Rotation<2> {
+  double angle = 0;  // radians, counter-clockwise; may pass a full turn
+};
+
+template <>
+struct Rotation<3> {
+  glm::dquat q{1, 0, 0, 0};  // w, x, y, z; of unit length
+};
+
+// Columns are the body's axes in the world: matrix(r) * local = world.
+inline Mat<2> matrix(const Rotation<2>& r) {
+  const double c = std::cos(r.angle), s = std::sin(r.angle);
+  return {Vec<2>(c, s), Vec<2>(-s, c)};
+}
+inline Mat<3> matrix(const Rotation<3>& r) { return glm::mat3_cast(r.q); }
+
+// Turned further about the world's axes by the rotation vector `by`, in radians.
+inline Rotation<2> turned(const Rotation<2>& r, double by) { return {r.angle + by}; }
+inline Rotation<3> turned(const Rotation<3>& r, const Vec<3>& by) {
+  const double angle = glm::length(by);
+  // sin(x/2)/x near 0 is 1/2, which needs no division.
+  const double k = angle > 1e-9 ? std::sin(angle / 2) / angle : 0.5;
+  return {glm::normalize(glm::dquat(std::cos(angle / 2), by * k) * r.q)};
+}
+
+// The lever's cross product, in either dimension: torque = cross(arm, force).
+inline double cross(const Vec<2>& a, const Vec<2>& b) { return a.x * b.y - a.y * b.x; }
+inline Vec<3> cross(const Vec<3>& a, const Vec<3>& b) { return glm::cross(a, b); }
+// The velocity of a point at `arm` from the centre of a body that turns: spin x arm.
+inline Vec<2> cross(double spin, const Vec<2>& arm) { return {-spin * arm.y, spin * arm.x}; }
+
+}  // namespace lantern

@@ -1,0 +1,73 @@
+// A rigid body and its state.
+#pragma once
+
+#include <string>
+
+#include "geometry/shape.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern {
+
+enum class BodyKind {
+  dynamic_body,    // moved by forces and contacts
+  kinematic_body,  // keeps the velocity that it was given, whatever it meets
+  static_body,     // never moves
+};
+
+struct Material {
+  double restitution = 0;  // of a pair, the larger one counts
+  double friction = 0.5;   // of a pair, the geometric mean counts
+};
+
+// Angular momentum is kept, not angular velocity: a free body's does not change, however it turns.
+template <int D>
+struct Body {
+  BodyId id = 0;  // given by the world
+  std::string name;
+  Shape<D> shape;
+  BodyKind kind = BodyKind::dynamic_body;
+  Vec<D> position{0.0};
+  Rotation<D> orientation;
+  Vec<D> velocity{0.0};           // of the centre, units a second
+  Spin<D> angular_momentum{0.0};  // about the centre, in the world's axes
+  Spin<D> kinematic_spin{0.0};    // radians a second, of a kinematic body
+  double density = 1;             // mass a unit of area (2D) or volume (3D)
+  double mass = 0;                // 0: from shape and density
+  Material material;
+  double linear_drag = 0;         // force = -linear_drag * velocity
+  double angular_drag = 0;        // torque = -angular_drag * angular velocity
+  bool may_turn = true;           // false: contacts and forces never turn it
+  bool asleep = false;
+
+  // Derived by the world when the body is added. Zero for what cannot be moved or turned. Inertia
+  // is about the body's own axes, which are principal for every shape.
+  double inverse_mass = 0;
+  Spin<D> inverse_inertia{0.0};
+
+  bool moves() const { return kind != BodyKind::static_body; }
+  Box<D> box() const { return bounding_box(shape, position, orientation); }
+};
+
+// Inverse inertia in the world's axes: a number in 2D, a matrix in 3D.
+inline double world_inverse_inertia(const Body<2>& body) { return body.inverse_inertia; }
+inline Mat<3> world_inverse_inertia(const Body<3>& body) {
+  const Mat<3> r = matrix(body.orientation);
+  Mat<3> scaled = r;
+  for (int i = 0; i < 3; ++i) scaled[i] *= body.inverse_inertia[i];
+  return scaled * glm::transpose(r);
+}
+
+// Radians a second, in the world's axes.
+template <int D>
+Spin<D> angular_velocity(const Body<D>& body) {
+  if (body.kind == BodyKind::kinematic_body) return body.kinematic_spin;
+  return world_inverse_inertia(body) * body.angular_momentum;
+}
+
+// Of the point of the body that is at `arm` from its centre.
+template <int D>
+Vec<D> velocity_at(const Body<D>& body, const Vec<D>& arm) {
+  return body.velocity + cross(angular_velocity(body), arm);
+}
+
+}  // namespace lantern

@@ -1,0 +1,52 @@
+// How smooth forces (gravity, drag, springs, those of the user) change the state in one step. Each
+// method is one file with one function of this signature; comparing two files shows the difference.
+//
+// A method gives each body's increment instead of its new state, so that contacts may change the
+// velocity in between: v += kick; (contacts change v); x += h v + drift. The orientation follows
+// the angular momentum by free rotation (free_rotation.hpp).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "physics/body.hpp"
+#include "physics/forces.hpp"
+
+namespace lantern {
+
+enum class Integrator {
+  explicit_euler,
+  semi_implicit_euler,
+  velocity_verlet,
+  runge_kutta_4,
+  implicit_midpoint,
+  implicit_euler,
+};
+
+// "semi_implicit_euler"; nothing for a name that is none of them.
+std::string_view to_string(Integrator integrator);
+std::optional<Integrator> integrator_named(std::string_view name);
+
+template <int D>
+struct Increment {
+  Vec<D> kick{0.0};    // of the velocity
+  Vec<D> drift{0.0};   // of the position, beyond h times the new velocity
+  Spin<D> twist{0.0};  // of the angular momentum
+};
+
+// Increments over `h` > 0 seconds, one a body; zero for those that no force moves (static, kinematic,
+// asleep). Deterministic: the same input gives the same bits. `evaluations` grows by the number of
+// times that all forces were evaluated. Throws Refused, naming the method and the step, if an
+// implicit method does not converge.
+template <int D>
+void find_increments(Integrator integrator, std::span<const Body<D>> bodies, const Forces<D>& forces,
+                     double h, std::vector<Increment<D>>& out, std::uint64_t& evaluations);
+
+extern template void find_increments(Integrator, std::span<const Body<2>>, const Forces<2>&, double,
+                                     std::vector<Increment<2>>&, std::uint64_t&);
+extern template void find_increments(Integrator, std::span<const Body<3>>, const Forces<3>&, double,
+                                     std::vector<Increment<3>>&, std::uint64_t&);
+
+}  // namespace lantern

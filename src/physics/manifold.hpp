@@ -1,0 +1,56 @@
+// What the narrow phase says of two bodies that touch.
+//
+//        b                 normal: unit, from a to b
+//    ____|____             separation: of the surfaces along the normal; below 0 they overlap
+//   |    v    |            position: in the world, midway between the two surfaces
+//   |  x   x  |  <- points
+//   ‾‾‾‾‾‾‾‾‾‾‾   a
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "geometry/shape.hpp"
+
+namespace lantern {
+
+template <int D>
+struct ManifoldPoint {
+  Vec<D> position{0.0};
+  double separation = 0;
+  std::uint32_t feature = 0;  // which corners, edges or faces meet: the same from step to step
+};
+
+template <int D>
+struct Manifold {
+  static constexpr int kMostPoints = D == 2 ? 2 : 4;
+  Vec<D> normal{0.0};
+  std::array<ManifoldPoint<D>, kMostPoints> room;
+  int count = 0;  // 1 ... kMostPoints
+
+  std::span<const ManifoldPoint<D>> points() const {
+    return {room.data(), static_cast<std::size_t>(count)};
+  }
+  void add(const ManifoldPoint<D>& point) { room[static_cast<std::size_t>(count++)] = point; }
+};
+
+// A shape where it stands.
+template <int D>
+struct Placed {
+  const Shape<D>& shape;
+  Vec<D> position{0.0};
+  Rotation<D> orientation;
+};
+
+// The contact of two shapes whose surfaces are no further apart than `margin`; touching counts, at
+// margin 0. Two half-spaces have none. `collide(b, a)` is the same contact seen from the other
+// side. All inputs must be finite; coincident centres give a fixed normal.
+template <int D>
+std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin);
+
+extern template std::optional<Manifold<2>> collide(const Placed<2>&, const Placed<2>&, double);
+extern template std::optional<Manifold<3>> collide(const Placed<3>&, const Placed<3>&, double);
+
+}  // namespace lantern
