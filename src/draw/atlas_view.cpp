@@ -52,7 +52,7 @@ class AtlasView {
     for (const FrameNode& node : frame_.nodes)
       if (node.mark == Mark::lit)
         list_.shapes.emplace_back(
-            RectShape{on_page(node.box), 0, Role::none, {Role::lit, 4, 0}, true});
+            RectShape{on_page(flat(node.box)), 0, Role::none, {Role::lit, 4, 0}, true});
     if (packed.size() == kMostTextures) labels_.add_note("not all textures are drawn", image_);
     for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
     for (const FrameNode* node : free_leaves()) name_free(*node);
@@ -88,7 +88,7 @@ class AtlasView {
   }
 
   void draw_free(const FrameNode& node) {
-    const Box<2> box = on_page(node.box);
+    const Box<2> box = on_page(flat(node.box));
     const double least = std::min(box.size().x, box.size().y);
     if (node.mark != Mark::quiet)
       list_.shapes.emplace_back(
@@ -120,7 +120,7 @@ class AtlasView {
   }
 
   void name_free(const FrameNode& node) {
-    const Box<2> box = on_page(node.box);
+    const Box<2> box = on_page(flat(node.box));
     TextStyle style{kLabel - 1, Weight::regular, Role::quiet_ink, Role::none};
     if (node.mark == Mark::lit) style.role = Role::lit_ink;
     const Vec<2> size = node.box.size();

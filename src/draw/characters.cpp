@@ -88,12 +88,12 @@ void draw_player(const FrameBody& body, const Figure& f, DrawList& list) {
 void draw_slab(const FrameBody& body, const Figure& f, double radius, DrawList& list) {
   const Stroke outline{Role::body_line, f.line, 0};
   const Vec<2> half = f.half - Vec<2>(std::min(f.line / 2, f.unit / 2));
-  if (body.orientation == 0) {
+  if (body.angle == 0) {
     list.shapes.emplace_back(
         RectShape{Box<2>::around(f.center, half), radius, fill_of(body), outline, false});
     return;
   }
-  const double c = std::cos(body.orientation), s = -std::sin(body.orientation);
+  const double c = std::cos(body.angle), s = -std::sin(body.angle);
   PolygonShape shape{{}, fill_of(body), outline};
   for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
     const Vec<2> corner{x * half.x, y * half.y};

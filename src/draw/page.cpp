@@ -124,6 +124,9 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
       case Panel::atlas:
         draw_atlas(frame, boxes[i], list, labels);
         break;
+      case Panel::chart:
+      case Panel::memory:
+        break;
     }
 }
 

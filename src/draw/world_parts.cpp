@@ -7,14 +7,14 @@ namespace lantern {
 
 Polygon page_region(const FrameNode& node, const WorldMap& map) {
   Polygon region;
-  for (const Vec<2>& corner : node.region.empty() ? polygon_of(node.box) : node.region)
+  for (const Vec<2>& corner : node.region.empty() ? polygon_of(flat(node.box)) : node.region)
     region.push_back(map.to_page(corner));
   return region;
 }
 
 std::optional<std::pair<Vec<2>, Vec<2>>> dividing_line(const FrameNode& node) {
-  const Plane<2>& plane = *node.plane;
-  const Polygon region = node.region.empty() ? polygon_of(node.box) : node.region;
+  const Plane<2> plane = flat(*node.plane);
+  const Polygon region = node.region.empty() ? polygon_of(flat(node.box)) : node.region;
   const auto height = [&](const Vec<2>& p) {
     return plane.normal.x * p.x + plane.normal.y * p.y - plane.offset;
   };
@@ -73,8 +73,8 @@ std::vector<Box<2>> unmade_quarters(const Frame& frame) {
     for (std::uint32_t slot = 0; slot < 4 && !node.leaf; ++slot) {
       if ((made[i] >> slot & 1u) != 0) continue;
       // In the lecture's order: upper left, upper right, lower left, lower right.
-      Box<2> quarter = node.box;
-      const Vec<2> middle = node.box.center();
+      Box<2> quarter = flat(node.box);
+      const Vec<2> middle = quarter.center();
       ((slot & 1u) != 0 ? quarter.lo : quarter.hi).x = middle.x;
       ((slot & 2u) == 0 ? quarter.lo : quarter.hi).y = middle.y;
       quarters.push_back(quarter);

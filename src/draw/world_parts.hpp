@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "draw/labels.hpp"
+#include "geometry/flat.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern {
@@ -28,6 +29,8 @@ struct WorldMap {
   }
 
   Vec<2> to_page(const Vec<2>& p) const { return origin + Vec<2>(p.x, -p.y) * scale; }
+  Vec<2> to_page(const Vec<3>& p) const { return to_page(flat(p)); }
+  Box<2> to_page(const Box<3>& box) const { return to_page(flat(box)); }
   Box<2> to_page(const Box<2>& box) const {
     return {to_page(Vec<2>(box.lo.x, box.hi.y)), to_page(Vec<2>(box.hi.x, box.lo.y))};
   }

@@ -12,7 +12,7 @@ constexpr std::size_t kCrowd = 700;  // more bodies than this are no longer draw
 }  // namespace
 
 void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  const WorldMap map(frame.bounds, panel);
+  const WorldMap map(flat(frame.bounds), panel);
   Grounds grounds;
   std::string note;
   const auto leave_out = [&](const std::string& what) {

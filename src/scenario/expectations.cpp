@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "geometry/flat.hpp"
+
 namespace lantern {
 namespace {
 
@@ -63,7 +65,7 @@ std::optional<std::string> unmet_pairs(const Expectation& e, const Frame& frame)
 std::optional<std::string> unmet_position(const Expectation& e, const Frame& frame) {
   const FrameBody* body = body_named(frame, e.name);
   if (!body) return fmt::format("expected '{}' at a position, but it is not there", e.name);
-  const Vec<2> off = body->position - e.position;
+  const Vec<2> off = flat(body->position) - e.position;
   if (std::abs(off.x) <= e.tolerance && std::abs(off.y) <= e.tolerance) return std::nullopt;
   return fmt::format("expected '{}' at [{}, {}] within {}, found [{}, {}]", e.name, e.position.x,
                      e.position.y, e.tolerance, body->position.x, body->position.y);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/flat.hpp"
 #include "geometry/polygon.hpp"
 #include "scenario/scenario.hpp"
 #include "spatial/structure.hpp"
@@ -18,20 +19,23 @@ namespace lantern {
 // What the current step did to a node.
 enum class Mark { quiet, passed, lit };
 
+// Points are of three dimensions; in a flat world z is 0, and so are the half sizes along it.
 struct FrameBody {
   BodyId id = 0;
   std::string name;
   Look look = Look::box;
   int color = 1;
-  Shape<2> shape;
-  Vec<2> position{0.0};
-  Vec<2> velocity{0.0};
-  double orientation = 0;       // radians, counter-clockwise
-  double angular_momentum = 0;
-  Box<2> box;                   // in the broad phase
+  Shape<3> shape;
+  Vec<3> position{0.0};
+  Vec<3> velocity{0.0};
+  double angle = 0;             // of a flat world: radians, counter-clockwise
+  Rotation<3> orientation;      // the same turn about z, or a solid body's
+  Vec<3> angular_momentum{0.0}; // about z in a flat world
+  Box<3> box;                   // in the broad phase
   bool is_static = false;
   bool asleep = false;
   bool lit = false;             // the step is about it
+  bool dimmed = false;          // the step has ruled it out: culled, or not met by the ray
 };
 
 struct FrameNode {
@@ -40,15 +44,20 @@ struct FrameNode {
   std::uint32_t slot = 0;       // which child of its parent
   std::uint32_t depth = 0;
   std::string label;            // "root", "1", "1.3"; of a BSP "back", "front.back"; of an atlas "C"
-  Box<2> box;                   // an atlas counts pixels, y down
-  std::optional<Plane<2>> plane;  // a BSP's inner nodes
+  Box<3> box;                   // an atlas counts pixels, y down
+  std::optional<Plane<3>> plane;  // inner nodes of a BSP or a kD-tree
   std::string plane_name;
-  Polygon region;               // a BSP's, cut to the world's bounds; otherwise empty
+  Polygon region;               // a flat BSP's, cut to the world's bounds; otherwise empty
+  bool solid = false;           // a level's sector that lies behind walls
+  std::uint32_t order = kNone;  // a level's sector: its place in the order from the eye, from 0
   bool leaf = true;
   bool awake = true;
   std::vector<BodyId> bodies;   // a leaf's, ascending; of an atlas, textures
   bool cut_vertically = false;  // an atlas's inner nodes
   bool over_capacity = false;   // holds more than its limit: at the depth limit, or no progress
+  bool of_static = false;       // of the structure for what never moves
+  std::uint32_t first = kNone;  // a leaf's contents in the array that all leaves share
+  std::uint32_t room = 0;       // slots kept for it there, `bodies.size()` of them in use
   Mark mark = Mark::quiet;
 };
 
@@ -69,7 +78,91 @@ struct FramePair {
   bool lit = false;             // new since the frame before
 };
 
+// Two bodies that touch, as the narrow phase says, and what the solver did about it.
+struct FrameContact {
+  struct Point {
+    Vec<3> position{0.0};
+    double separation = 0;      // below 0 they overlap
+    double impulse = 0;         // along the normal, N s, over the last world step
+  };
+  Pair pair;
+  Vec<3> normal{0.0};           // unit, from a to b
+  std::vector<Point> points;
+  bool begins = false;          // they did not touch a step before
+};
+
+// A spring, a distance joint or a pin, between two points.
+struct FrameLink {
+  enum class Kind { spring, distance, pin };
+  Kind kind = Kind::spring;
+  Vec<3> from{0.0};
+  Vec<3> to{0.0};
+  double strain = 0;            // (length - rest) / rest; 0 for a pin
+};
+
+struct FrameRay {
+  Vec<3> from{0.0};
+  Vec<3> to{0.0};               // where it ends: its length, or the nearest hit
+  struct Hit {
+    BodyId body = 0;
+    Vec<3> position{0.0};
+  };
+  std::vector<Hit> hits;        // in order along the ray
+};
+
+// A view that bodies are culled against. In a flat world a wedge: `corners` goes round it. In a solid
+// one a frustum: four corners of the near plane, then four of the far plane, each going round.
+struct FrameView {
+  Vec<3> eye{0.0};
+  std::vector<Vec<3>> corners;
+};
+
+// A region that was asked for what it overlaps.
+struct FrameQuery {
+  Box<3> box;
+  double radius = 0;            // above 0: a disc or ball about the box's centre
+};
+
+// A piece of a level's wall.
+struct FrameWall {
+  Vec<2> from{0.0};
+  Vec<2> to{0.0};
+  std::uint32_t wall = 0;       // of the scenario's walls
+  std::uint32_t node = kNone;   // of frame.nodes: where it lies, once it does
+  Mark mark = Mark::quiet;
+};
+
+// A line of a chart: what one count was against another, step by step.
+struct FrameSeries {
+  std::string name;             // of the count
+  std::vector<Vec<2>> points;   // in the order of the steps
+};
+
+// How often each structure, or each step, counted something, as bars.
+struct FrameBar {
+  std::string label;
+  double value = 0;
+  int group = 0;                // bars of one group stand together
+};
+
+struct FrameChart {
+  std::string x_name;           // of the count along x; empty for bars
+  std::string y_name;
+  bool logarithmic = false;     // both axes
+  std::vector<FrameSeries> series;
+  std::vector<FrameBar> bars;
+};
+
+// Perspective, y up.
+struct Camera {
+  Vec<3> eye{0.0};
+  Vec<3> target{0.0};
+  double field_of_view = 0.7;   // radians, from bottom to top
+};
+
 struct Frame {
+  int dimension = 2;
+  std::optional<Camera> camera;  // of a solid world
   std::string scenario;
   std::string title;
   std::string part;
@@ -83,17 +176,34 @@ struct Frame {
   StructureKind structure = StructureKind::none;
   std::string settings;          // "capacity 2, depth limit 4": what the tree was told
   std::vector<Panel> panels;
-  Box<2> bounds;
+  Box<3> bounds;
+  bool show_boxes = false;       // the bodies' broad-phase boxes
+  bool show_velocities = false;
   std::vector<FrameBody> bodies;
   std::vector<FrameNode> nodes;  // parents before children
   std::vector<FramePair> pairs;  // in order of ids
+  std::vector<FrameContact> contacts;
+  std::vector<FrameLink> links;
+  std::vector<FrameRay> rays;
+  std::vector<FrameView> views;
+  std::vector<FrameQuery> queries;
+  std::vector<FrameWall> walls;
+  std::optional<Vec<2>> eye;     // where a level is looked at from
+  FrameChart chart;
+  std::uint32_t array_size = 0;  // slots of the array that all leaves share
   std::vector<FrameTexture> textures;
   std::vector<std::pair<std::string, std::int64_t>> counts;  // in a fixed order
+  // What is measured rather than counted: energies, in a fixed order.
+  std::vector<std::pair<std::string, double>> measures;
   std::uint64_t hash = 0;        // of all of the above that is state
 
-  // Nothing if the scene does not count this.
+  // Nothing if the scene does not count or measure this.
   std::optional<std::int64_t> count(std::string_view name) const;
+  std::optional<double> measure(std::string_view name) const;
 };
+
+// Of time, bodies, nodes, pairs and textures; not of the counts of work.
+std::uint64_t state_hash(const Frame& frame);
 
 // The frame as `lantern.frame/1`, one line a body, node and pair.
 std::string to_json(const Frame& frame);

@@ -16,9 +16,9 @@
 
 namespace lantern {
 
-enum class StructureKind { none, brute_force, quadtree, bsp };
+enum class StructureKind { none, brute_force, quadtree, bsp, octree, kd_tree, sort_and_sweep };
 enum class Children { eager, lazy };  // all made at a split, or each when something enters it
-enum class Panel { world, tree, atlas };
+enum class Panel { world, tree, atlas, chart, memory };
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box };
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "base/hash.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern {
@@ -53,27 +52,6 @@ Box<2> bounding_box_of(const Polygon& region, const Box<2>& fallback) {
   return box;
 }
 
-std::uint64_t state_hash(const Frame& frame) {
-  Hash hash;
-  hash.add(frame.time);
-  for (const FrameBody& b : frame.bodies) {
-    hash.add(std::uint64_t{b.id});
-    for (const double x : {b.position.x, b.position.y, b.velocity.x, b.velocity.y}) hash.add(x);
-    hash.add(b.orientation).add(b.angular_momentum);
-  }
-  for (const FrameNode& n : frame.nodes) {
-    hash.add(std::uint64_t{n.parent}).add(std::uint64_t{n.slot}).add(std::uint64_t{n.leaf});
-    for (const double x : {n.box.lo.x, n.box.lo.y, n.box.hi.x, n.box.hi.y}) hash.add(x);
-    for (const BodyId id : n.bodies) hash.add(std::uint64_t{id});
-  }
-  for (const FramePair& p : frame.pairs)
-    hash.add(std::uint64_t{p.pair.a}).add(std::uint64_t{p.pair.b});
-  for (const FrameTexture& t : frame.textures)
-    for (const int x : {int{t.packed}, int{t.refused}, t.x, t.y, t.width, t.height})
-      hash.add(static_cast<std::uint64_t>(x));
-  return hash.value();
-}
-
 }  // namespace
 
 std::string settings_text(const StructureSpec& s) {
@@ -84,7 +62,7 @@ std::string settings_text(const StructureSpec& s) {
       return "every body with every other";
     case StructureKind::bsp:
       return fmt::format("{} dividing line{}", s.planes.size(), s.planes.size() == 1 ? "" : "s");
-    case StructureKind::quadtree:
+    default:
       break;
   }
   return fmt::format("capacity {}, depth limit {}, {}{}", s.capacity, s.max_depth,
@@ -135,6 +113,8 @@ void Stage::make_structure() {
     }
     case StructureKind::bsp:
       tree_.emplace<Bsp<2>>(planes_of(spec_), scenario_.bounds);
+      break;
+    default:
       break;
   }
   ++work_.structures_created;
@@ -295,10 +275,10 @@ void Stage::picture_bodies(Frame& frame) const {
     b.name = body.name;
     b.look = spec.look;
     b.color = spec.color;
-    b.shape = body.shape;
-    b.position = body.position;
-    b.velocity = body.velocity;
-    b.box = body.box();
+    b.shape = in_dimension<3>(body.shape);
+    b.position = solid(body.position);
+    b.velocity = solid(body.velocity);
+    b.box = solid(body.box());
     b.is_static = !body.moves();
     frame.bodies.push_back(std::move(b));
   }
@@ -316,23 +296,23 @@ void Stage::picture_tree(const Touched& touched, Frame& frame) const {
       node.slot = view.slot;
       node.depth = view.depth;
       node.leaf = view.leaf;
-      node.box = view.box;
+      node.box = solid(view.box);
       node.bodies.assign(view.bodies.begin(), view.bodies.end());
       node.mark = mark_of(touched, view.handle);
       node.label = "root";
       if (view.parent != kNone) {
         const FrameNode& parent = frame.nodes[view.parent];
         node.label = (is_bsp ? bsp_label : child_label)(parent.label, view.slot);
-        if (is_bsp) node.region = clipped(parent.region, *parent.plane, view.slot == 1);
+        if (is_bsp) node.region = clipped(parent.region, flat(*parent.plane), view.slot == 1);
       } else if (is_bsp) {
-        node.region = polygon_of(frame.bounds);
+        node.region = polygon_of(flat(frame.bounds));
       }
       // Brute force has no cells: its one node is the whole world.
       if (spec_.kind == StructureKind::brute_force) node.box = frame.bounds;
       if (is_bsp) {
-        node.box = bounding_box_of(node.region, view.box);
+        node.box = solid(bounding_box_of(node.region, view.box));
         if (view.plane) {
-          node.plane = *view.plane;
+          node.plane = solid(*view.plane);
           for (const PlaneSpec& p : spec_.planes)
             if (p.at == node.label) node.plane_name = p.name;
         }
@@ -386,7 +366,7 @@ void Stage::picture_atlas(const Touched& touched, Frame& frame) const {
     node.depth = view.depth;
     node.leaf = view.leaf;
     const Rect& r = view.rect;
-    node.box = {{r.x, r.y}, {double(r.x) + r.width, double(r.y) + r.height}};
+    node.box = {{r.x, r.y, 0}, {double(r.x) + r.width, double(r.y) + r.height, 0}};
     node.cut_vertically = view.cut_vertically;
     if (view.texture) {
       FrameTexture& texture = frame.textures[*view.texture];
@@ -428,7 +408,7 @@ void Stage::picture_atlas(const Touched& touched, Frame& frame) const {
 
 void Stage::picture(const Touched& touched, Frame& frame) const {
   frame.time = time_;
-  frame.bounds = scenario_.bounds;
+  frame.bounds = solid(scenario_.bounds);
   frame.structure = spec_.kind;
   frame.settings = settings_text(spec_);
   if (world_) picture_bodies(frame);
