@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "geometry/box.hpp"
-#include "geometry/shape.hpp"
+#include "geometry/flat.hpp"
+#include "physics/integrator.hpp"
 
 namespace lantern {
 
@@ -21,11 +21,32 @@ enum class Children { eager, lazy };  // all made at a split, or each when somet
 enum class Panel { world, tree, atlas, chart, memory };
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box };
+enum class ContactChoice { none, impulse, soft };  // how bodies that touch are parted
+enum class Brain { none, follow, wander };         // who steers a body
+
+// A point has three coordinates; in a flat world the third is 0.
+struct WorldSpec {
+  int dimension = 2;
+  Box<3> bounds;                     // of the world and of the tree's root
+  double time_step = 1.0 / 60.0;     // seconds
+  int frame_every = 1;               // world steps from frame to frame of a run
+  Vec<3> gravity{0.0};
+  ContactChoice contacts = ContactChoice::none;
+  Integrator integrator = Integrator::semi_implicit_euler;
+  int sub_steps = 8;                 // of the soft contacts
+  int iterations = 10;               // of the impulse contacts
+  bool may_sleep = false;
+  bool show_boxes = false;           // broad-phase boxes are drawn
+  bool show_velocities = false;
+  Vec<3> camera_eye{0.0};            // of a solid world
+  Vec<3> camera_target{0.0};
+  bool has_camera = false;
+};
 
 struct PlaneSpec {
   std::string name;
-  Vec<2> point{0.0};
-  Vec<2> normal{0.0};
+  Vec<3> point{0.0};
+  Vec<3> normal{0.0};
   std::string at;  // "root", or the way down from it: "front", "front.back", ...
   SourcePosition where;
 };
@@ -36,6 +57,7 @@ struct StructureSpec {
   std::uint32_t max_depth = 6;
   Children children = Children::lazy;
   bool no_progress_stop = false;
+  bool split_static = false;      // one structure for what never moves, one for what does
   std::vector<PlaneSpec> planes;  // bsp only; a plane's parent stands before it
   SourcePosition where;
 };
@@ -44,10 +66,54 @@ struct BodySpec {
   std::string name;
   Look look = Look::box;
   int color = 1;  // body 1 ... 8 of the theme
-  Shape<2> shape;
-  Vec<2> position{0.0};
-  Vec<2> velocity{0.0};
-  bool is_static = false;
+  Shape<3> shape;
+  Vec<3> position{0.0};
+  Vec<3> velocity{0.0};
+  double angle = 0;        // radians, counter-clockwise, or about `axis`
+  double spin = 0;         // radians a second, the same way
+  Vec<3> axis{0, 0, 1};    // unit; of a solid world
+  BodyKind kind = BodyKind::dynamic_body;
+  double density = 1;
+  double mass = 0;         // 0: from shape and density
+  Material material;
+  double linear_drag = 0;
+  double angular_drag = 0;
+  bool may_turn = true;
+  bool asleep = false;     // when it enters
+  Brain brain = Brain::none;
+  std::size_t follows = 0;  // the body that it follows
+  Vec<3> brain_axes{1.0};   // 0 where it does not follow
+  double brain_speed = 0;   // units a second at most
+  SourcePosition where;
+};
+
+// A spring or joint between points of two bodies, or of a body and a point of the world. It is there
+// while its bodies are.
+struct LinkSpec {
+  enum class Kind { spring, distance, pin };
+  Kind kind = Kind::spring;
+  std::size_t a = 0;
+  std::optional<std::size_t> b;      // none: it is tied to the world
+  Vec<3> at_a{0.0};                  // from the body's centre, in its own axes
+  Vec<3> at_b{0.0};                  // the same, or a point of the world
+  std::optional<double> rest_length; // else as long as it is when it comes to be
+  double stiffness = 0;              // of a spring
+  double damping = 0;
+  SourcePosition where;
+};
+
+struct LevelSpec {
+  std::vector<std::vector<Vec<2>>> loops;  // closed polygons: the solid lies right of the way round
+  double balance = 1;                      // weight of |front - back| in a line's score
+  double cuts = 8;                         // weight of a wall cut in two
+  bool first_wall = false;                 // take the first wall's line instead of the best
+  SourcePosition where;
+};
+
+struct ChartSpec {
+  std::string x;                   // a count; empty for bars
+  std::vector<std::string> y;      // counts; of bars one
+  bool logarithmic = false;
   SourcePosition where;
 };
 
@@ -66,17 +132,39 @@ struct AtlasSpec {
 };
 
 // What must hold. Exactly one of the forms:
-//   count     the count `name` equals `number`
-//   leaves    body `name` is stored in `number` leaves
-//   pairs     the candidate pairs are exactly these, by name
-//   position  body `name` is at `position`, within `tolerance` on each axis
+//   count, at_most, at_least   the count or measure `name` against `number`
+//   leaves     body `name` is stored in `number` leaves
+//   pairs      the candidate pairs are exactly these, by name
+//   contacts   the pairs that touch are exactly these
+//   hits       what the ray met, in order, or what the cull or query found, in any order
+//   asleep, awake              all of `names` are
+//   position, velocity         of body `name`, within `tolerance` on each axis
+//   half_size  of the broad-phase box of body `name`
+//   turned     body `name`, in radians; flat worlds only
+//   measure    a measured number, within `tolerance`
 struct Expectation {
-  enum class Kind { count, leaves, pairs, position };
+  enum class Kind {
+    count,
+    at_most,
+    at_least,
+    leaves,
+    pairs,
+    contacts,
+    hits,
+    asleep,
+    awake,
+    position,
+    velocity,
+    half_size,
+    turned,
+    measure,
+  };
   Kind kind = Kind::count;
   std::string name;
-  std::int64_t number = 0;
+  double number = 0;
   std::vector<std::pair<std::string, std::string>> pairs;
-  Vec<2> position{0.0};
+  std::vector<std::string> names;
+  Vec<3> position{0.0};
   double tolerance = 1e-9;
   SourcePosition where;
 };
@@ -87,11 +175,41 @@ struct Insert { std::vector<std::size_t> bodies; };         // enter world and s
 struct Remove { std::vector<std::size_t> bodies; };         // leave both; the structure is rebuilt
 struct Move {                                               // set anew; the structure is rebuilt
   std::size_t body = 0;
-  std::optional<Vec<2>> to;
-  std::optional<Vec<2>> velocity;
+  std::optional<Vec<3>> to;
+  std::optional<Vec<3>> velocity;
+  std::optional<double> turned;      // radians
+  std::optional<double> spin;        // radians a second
+  bool rebuild = true;               // false: the structure is left as it was
 };
-struct Run { double seconds = 0; };                         // one frame a world step
+struct Run {                                                // a frame every `frame_every` steps
+  double seconds = 0;
+  int every = 0;                     // instead of the world's frame_every; 0: that
+};
+struct Wait {                                               // as Run, until something happens
+  enum class Event { touch, part, asleep };                 // two bodies; two bodies; all of them
+  Event event = Event::touch;
+  std::vector<std::size_t> bodies;
+  double at_most = 0;                // seconds; if it has not happened by then, the run fails
+  int every = 0;
+};
+struct Phases {};                                           // one world step, phase by phase
 struct Rebuild { StructureSpec structure; };                // all bodies anew, with these settings
+struct ApplyForce { std::size_t body = 0; Vec<3> force{0.0}; Vec<3> at{0.0}; };  // from now on; 0 ends it
+struct ApplyImpulse { std::size_t body = 0; Vec<3> impulse{0.0}; Vec<3> at{0.0}; };  // N s, now
+struct Sleep { std::vector<std::size_t> bodies; };
+struct Wake { std::vector<std::size_t> bodies; };
+struct CastRay { Vec<3> from{0.0}; Vec<3> to{0.0}; bool all = false; };  // nearest hit, or all
+struct Cull {                                               // what does the camera see?
+  Vec<3> eye{0.0};
+  Vec<3> target{0.0};
+  double angle = 1;                  // radians of opening, in a solid world from bottom to top
+  double near = 0.1;
+  double far = 10;                   // both along the view
+};
+struct Query { Box<3> box; double radius = 0; };            // radius > 0: a ball about its centre
+struct CompileLevel {};                                     // the BSP of the level
+struct Locate { Vec<2> point{0.0}; };                       // in which sector?
+struct OrderFrom { Vec<2> eye{0.0}; };                      // sectors front to back
 struct Pack {                                               // textures in this order
   std::vector<std::size_t> textures;
   bool each = true;                                         // one frame a texture, or one for all
@@ -99,11 +217,16 @@ struct Pack {                                               // textures in this 
 };
 struct AskRoom { int width = 0; int height = 0; };          // does any free leaf have room?
 
+using Verb = std::variant<Show, Insert, Remove, Move, Run, Wait, Phases, Rebuild, ApplyForce,
+                          ApplyImpulse, Sleep, Wake, CastRay, Cull, Query, CompileLevel, Locate,
+                          OrderFrom, Pack, AskRoom>;
+
 struct Step {
-  std::variant<Show, Insert, Remove, Move, Run, Rebuild, Pack, AskRoom> verb;
+  Verb verb;
   std::string name;                  // for --at; may be empty
   std::string part;                  // from here on shown behind the title; may be empty
   std::string caption;               // with {count} and {count:noun}; may be empty
+  std::optional<std::string> plot;   // adds a point to the chart, or a bar of this label
   std::optional<Pace> pace;          // of this step alone
   std::vector<std::string> events;   // in event pace, only these give frames; empty for all
   std::vector<Expectation> expect;   // after the step
@@ -119,11 +242,13 @@ struct Scenario {
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
   std::vector<Panel> panels;         // as wished, or what `needs` derives
-  Box<2> bounds;                     // of the world and of the tree's root
-  double time_step = 1.0 / 60.0;     // seconds
+  WorldSpec world;
   StructureSpec structure;
+  std::optional<LevelSpec> level;
+  std::optional<ChartSpec> chart;
   std::optional<AtlasSpec> atlas;
   std::vector<BodySpec> bodies;      // patterns unrolled
+  std::vector<LinkSpec> links;
   std::vector<TextureSpec> textures;
   std::vector<Step> steps;
   std::uint64_t text_hash = 0;       // of the file's bytes
