@@ -104,4 +104,31 @@ std::string event_text(const AtlasEvent& e, const std::string& node, const std::
   return {};
 }
 
+std::string query_text(std::string_view event, const std::string& node, const std::string& body) {
+  const std::string place = node == "root" ? "the root" : "node " + node;
+  if (event == "visit") return fmt::format("{} is reached: look inside.", capitalised(place));
+  if (event == "skip")
+    return fmt::format("{} is not reached: it is skipped, with all below it.", capitalised(place));
+  if (event == "hit") return fmt::format("{} is tested: a hit.", capitalised(body));
+  return fmt::format("{} is tested: no hit.", capitalised(body));
+}
+
+std::string phase_text(std::string_view phase, const Frame& frame) {
+  const auto counted = [](std::int64_t n, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  const auto pairs = static_cast<std::int64_t>(frame.pairs.size());
+  const auto contacts = static_cast<std::int64_t>(frame.contacts.size());
+  if (phase == "broad_phase")
+    return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
+                       counted(pairs, "candidate pair", "candidate pairs"),
+                       frame.count("all_pairs").value_or(0));
+  if (phase == "narrow_phase")
+    return fmt::format("Narrow phase: the true shapes are tested. {} of {} really {}.",
+                       counted(contacts, "pair", "pairs"), pairs,
+                       contacts == 1 ? "touches" : "touch");
+  return fmt::format("Resolution: impulses at {} part the bodies. The arrows show how strong.",
+                     counted(frame.count("contact_points").value_or(0), "point", "points"));
+}
+
 }  // namespace lantern

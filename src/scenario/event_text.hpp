@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "atlas/atlas.hpp"
+#include "scenario/frame.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern {
@@ -18,5 +19,11 @@ std::string event_text(const Event& event, const std::string& node, const std::s
                        std::uint32_t depth_limit);
 std::string event_text(const AtlasEvent& event, const std::string& node, const std::string& texture,
                        int width, int height);
+
+// Of a walk through a structure: `event` is "visit", "skip", "hit" or "miss".
+std::string query_text(std::string_view event, const std::string& node, const std::string& body);
+
+// Of a world step shown phase by phase: "broad_phase", "narrow_phase" or "solve".
+std::string phase_text(std::string_view phase, const Frame& frame);
 
 }  // namespace lantern

@@ -187,6 +187,7 @@ struct Frame {
   std::vector<FrameRay> rays;
   std::vector<FrameView> views;
   std::vector<FrameQuery> queries;
+  std::vector<BodyId> hits;      // what the ray, view or query found; of a ray in order along it
   std::vector<FrameWall> walls;
   std::optional<Vec<2>> eye;     // where a level is looked at from
   FrameChart chart;

@@ -1,0 +1,43 @@
+// The atlas of a scenario: textures are packed here, and pictured.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "atlas/atlas.hpp"
+#include "base/work.hpp"
+#include "scenario/frame.hpp"
+#include "scenario/touched.hpp"
+
+namespace lantern {
+
+// Textures are named by their index in the scenario.
+class AtlasStage {
+ public:
+  using Watch = std::function<void(const AtlasEvent&)>;
+
+  // The scenario must have an atlas.
+  AtlasStage(const Scenario& scenario, Work& work);
+
+  std::optional<Rect> pack(std::size_t texture, const Watch& watch);
+  std::vector<std::uint32_t> free_leaves() const;  // handles
+  // Labels the largest free leaf that was not there `before`.
+  void name_free_leaf(const std::string& name, const std::vector<std::uint32_t>& before);
+  bool ask_room(int width, int height);
+
+  std::string label_of(std::uint32_t node) const;  // its texture, its name, or its size
+  void picture(const Touched& touched, Frame& frame) const;
+
+ private:
+  FrameNode frame_node(const AtlasNodeView& view, std::vector<FrameTexture>& textures) const;
+
+  Atlas atlas_;
+  std::vector<FrameTexture> textures_;                         // where they lie, the atlas knows
+  std::unordered_map<std::uint32_t, std::string> free_names_;  // of leaves, by handle
+  std::optional<bool> room_;
+};
+
+}  // namespace lantern

@@ -1,0 +1,93 @@
+// Who steers bodies that are not left to physics alone: a bat that follows the ball, a ghost that
+// wanders.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/hash.hpp"
+#include "base/random.hpp"
+#include "physics/world.hpp"
+#include "scenario/scenario.hpp"
+
+namespace lantern {
+
+template <int D>
+class Brains {
+ public:
+  explicit Brains(const Scenario& scenario) : scenario_(scenario) {}
+
+  // Sets the velocities with which the next world step begins. `id_of(index)` finds bodies.
+  template <class IdOf>
+  void steer(World<D>& world, double h, IdOf&& id_of) {
+    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) {
+      const BodySpec& spec = scenario_.bodies[i];
+      const std::optional<BodyId> id = spec.brain == Brain::none ? std::nullopt : id_of(i);
+      if (!id) continue;
+      if (spec.brain == Brain::wander)
+        wander(world, *id, spec);
+      else if (const std::optional<BodyId> target = id_of(spec.follows))
+        follow(world, *id, *target, spec, h);
+    }
+  }
+
+ private:
+  // As fast as it may, but not beyond the place of the other.
+  static void follow(World<D>& world, BodyId id, BodyId target, const BodySpec& spec, double h) {
+    const Body<D>& body = *world.find(id);
+    const Vec<D> way = world.find(target)->position - body.position;
+    Vec<D> velocity{0.0};
+    for (int i = 0; i < D; ++i)
+      if (spec.brain_axes[i] != 0)
+        velocity[i] = std::clamp(way[i] / h, -spec.brain_speed, spec.brain_speed);
+    if (velocity != body.velocity) world.set_velocity(id, velocity);
+  }
+
+  // After a touch it goes another way, at random, but away from what it touched.
+  void wander(World<D>& world, BodyId id, const BodySpec& spec) {
+    Vec<D> away{0.0};
+    for (const auto& contact : world.contacts()) {
+      if (contact.a == id) away -= contact.manifold.normal;
+      if (contact.b == id) away += contact.manifold.normal;
+    }
+    const Body<D>& body = *world.find(id);
+    const bool touches = away != Vec<D>(0.0);
+    const double speed = std::sqrt(glm::dot(body.velocity, body.velocity));
+    if (!touches && speed > 0) {
+      if (std::abs(speed - spec.brain_speed) > 1e-9 * spec.brain_speed)
+        world.set_velocity(id, body.velocity * (spec.brain_speed / speed));
+      return;
+    }
+    Random& random = random_of(id, spec);
+    Vec<D> way{0.0};
+    for (int attempt = 0; attempt < 64; ++attempt) {
+      way = direction(random);
+      if (!touches || glm::dot(way, away) > 0) break;
+    }
+    world.set_velocity(id, way * spec.brain_speed);
+  }
+
+  // Along one of the axes: corridors are.
+  static Vec<D> direction(Random& random) {
+    Vec<D> way{0.0};
+    const auto pick = random.whole(0, 3);  // on the floor, in a solid world
+    way[pick < 2 ? 0 : D - 1] = pick % 2 == 0 ? 1 : -1;
+    return way;
+  }
+
+  Random& random_of(BodyId id, const BodySpec& spec) {
+    const auto found = random_.find(id);
+    if (found != random_.end()) return found->second;
+    const std::uint64_t seed =
+        Hash().add(scenario_.seed).add(std::string_view(spec.name)).value();
+    return random_.emplace(id, Random(seed)).first->second;
+  }
+
+  const Scenario& scenario_;
+  std::map<BodyId, Random> random_;
+};
+
+}  // namespace lantern

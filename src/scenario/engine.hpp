@@ -1,0 +1,65 @@
+// The engine of one scenario: its world and structures, of two or three dimensions. The director
+// drives it without knowing which.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/work.hpp"
+#include "scenario/frame.hpp"
+#include "scenario/touched.hpp"
+#include "spatial/query.hpp"
+
+namespace lantern {
+
+// What a ray, a view or a region found, and the walk that found it.
+struct Finding {
+  std::vector<BodyId> hits;  // of a ray in order along it, else ascending
+  QueryCounts counts;
+  std::vector<QueryEvent> walk;  // all that happened, in order
+  std::optional<FrameRay> ray;
+  std::optional<FrameView> view;
+  std::optional<FrameQuery> region;
+};
+
+// Bodies are named by their index in the scenario. Each call throws Refused as world and trees do.
+class Engine {
+ public:
+  using Watch = std::function<void(const Event&)>;
+  virtual ~Engine() = default;
+
+  virtual void enter(std::size_t body) = 0;  // into the world only
+  virtual void store(std::size_t body, const Watch& watch) = 0;  // into the structure as well
+  virtual void leave(std::size_t body) = 0;
+  virtual void move(const Move& move) = 0;
+  virtual void apply(const ApplyForce& force) = 0;
+  virtual void apply(const ApplyImpulse& impulse) = 0;
+  virtual void sleep(std::size_t body) = 0;
+  virtual void wake(std::size_t body) = 0;
+  virtual void step() = 0;     // one world step
+  virtual void rebuild() = 0;  // the structure anew, its memory reused
+  // Another structure, all bodies anew; the world's broad phase becomes the same kind.
+  virtual void rebuild_as(const StructureSpec& structure) = 0;
+
+  virtual Finding cast(const CastRay& ray) const = 0;
+  virtual Finding cull(const Cull& view) const = 0;
+  virtual Finding query(const Query& region) const = 0;
+
+  virtual std::optional<BodyId> id_of(std::size_t body) const = 0;
+  virtual bool is_moving(std::size_t body) const = 0;
+  virtual bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const = 0;
+  virtual std::string label_of(NodeHandle node) const = 0;
+  virtual const StructureSpec& structure() const = 0;
+
+  // Events of contacts are counted from here on.
+  virtual void forget_events() = 0;
+  // Bodies, nodes, pairs, contacts, links, counts and measures as they are.
+  virtual void picture(const Touched& touched, Frame& frame) const = 0;
+};
+
+std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work);
+
+}  // namespace lantern

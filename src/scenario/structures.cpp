@@ -1,0 +1,365 @@
+#include "scenario/structures.hpp"
+
+#include <algorithm>
+#include <map>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "spatial/pairs.hpp"
+
+namespace lantern {
+namespace {
+
+// "front.back" of the BSP node that lies behind the plane in front of the root's plane.
+std::string bsp_label(const std::string& parent, std::uint32_t slot) {
+  const std::string side = slot == 0 ? "back" : "front";
+  return parent == "root" ? side : parent + "." + side;
+}
+
+std::string child_label(const std::string& parent, std::uint32_t slot) {
+  const std::string number = fmt::format("{}", slot + 1);
+  return parent == "root" ? number : parent + "." + number;
+}
+
+template <int D>
+std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
+  std::vector<BspPlane<D>> planes;
+  std::map<std::string, std::uint32_t> node_at;  // way from the root -> index
+  for (const PlaneSpec& p : spec.planes) {
+    BspPlane<D> plane{
+        Plane<D>::through(in_dimension<D>(p.point), in_dimension<D>(p.normal)), kNone, false};
+    if (p.at != "root") {
+      const std::size_t dot = p.at.rfind('.');
+      const std::string parent = dot == std::string::npos ? "root" : p.at.substr(0, dot);
+      plane.parent = node_at.at(parent);
+      plane.front = p.at.substr(dot == std::string::npos ? 0 : dot + 1) == "front";
+    }
+    node_at[p.at] = static_cast<std::uint32_t>(planes.size());
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+Box<2> bounding_box_of(const Polygon& region, const Box<2>& fallback) {
+  if (region.empty()) return fallback;
+  Box<2> box{region[0], region[0]};
+  for (const Vec<2>& corner : region) box = united(box, Box<2>{corner, corner});
+  return box;
+}
+
+template <class Config, int D>
+Config orthtree_config(const StructureSpec& spec, const Box<D>& bounds) {
+  Config config;
+  config.bounds = bounds;
+  config.capacity = spec.capacity;
+  config.max_depth = spec.max_depth;
+  config.eager_children = spec.children == Children::eager;
+  config.no_progress_stop = spec.no_progress_stop;
+  config.most_entries = kMostEntries;
+  return config;
+}
+
+// The bodies of one frame, found by id.
+template <int D>
+class Register {
+ public:
+  explicit Register(std::span<const Resident<D>> residents) {
+    for (const Resident<D>& r : residents) {
+      if (r.item.id >= of_.size()) of_.resize(r.item.id + 1);
+      of_[r.item.id] = &r;
+    }
+  }
+  const Resident<D>& operator[](BodyId id) const { return *of_[id]; }
+  bool awake(const Pair& pair) const { return of_[pair.a]->awake || of_[pair.b]->awake; }
+
+ private:
+  std::vector<const Resident<D>*> of_;
+};
+
+// Fills a frame with the nodes of one tree after another.
+template <int D>
+class TreePicture {
+ public:
+  TreePicture(const StructureSpec& spec, const Register<D>& bodies, bool only_awake, Frame& frame)
+      : spec_(spec), bodies_(bodies), only_awake_(only_awake), frame_(frame) {}
+
+  template <class Tree>
+  void add(const Tree& tree, const Touched& touched, bool of_static) {
+    first_ = static_cast<std::uint32_t>(frame_.nodes.size());
+    tree.visit([&](const NodeView<D>& view) {
+      FrameNode node = frame_node(view);
+      node.mark = touched.mark_of(view.handle);
+      node.of_static = of_static;
+      most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
+      frame_.nodes.push_back(std::move(node));
+      return true;
+    });
+    if (only_awake_) find_awake();
+    const Counters c = tree.counters();
+    counters.nodes += c.nodes;
+    counters.leaves += c.leaves;
+    counters.depth = std::max(counters.depth, c.depth);
+    counters.entries += c.entries;
+    counters.box_tests += c.box_tests;
+    counters.splits += c.splits;
+    counters.nodes_reused += c.nodes_reused;
+    counters.allocations += c.allocations;
+  }
+
+  Counters counters;  // of all trees together
+  std::uint64_t most_in_leaf = 0;
+  std::int64_t nodes_asleep = 0;
+
+ private:
+  FrameNode frame_node(const NodeView<D>& view) const {
+    const bool is_bsp = spec_.kind == StructureKind::bsp;
+    FrameNode node;
+    node.id = first_ + view.id;
+    node.parent = view.parent == kNone ? kNone : first_ + view.parent;
+    node.slot = view.slot;
+    node.depth = view.depth;
+    node.leaf = view.leaf;
+    node.box = solid(view.box);
+    node.bodies.assign(view.bodies.begin(), view.bodies.end());
+    node.first = view.first;
+    node.room = view.room;
+    node.label = "root";
+    const FrameNode* parent = node.parent == kNone ? nullptr : &frame_.nodes[node.parent];
+    if (parent) node.label = (is_bsp ? bsp_label : child_label)(parent->label, view.slot);
+    if (view.plane) node.plane = solid(*view.plane);
+    if (is_bsp) place_in_bsp(node, parent);
+    // Brute force and the sweep have no cells: their one node is the whole world.
+    if (spec_.kind == StructureKind::brute_force || spec_.kind == StructureKind::sort_and_sweep)
+      node.box = frame_.bounds;
+    const bool has_capacity = !is_bsp && spec_.kind != StructureKind::brute_force &&
+                              spec_.kind != StructureKind::sort_and_sweep;
+    node.over_capacity = has_capacity && node.bodies.size() > spec_.capacity;
+    return node;
+  }
+
+  // A flat BSP's region is cut from its parent's.
+  void place_in_bsp(FrameNode& node, const FrameNode* parent) const {
+    for (const PlaneSpec& p : spec_.planes)
+      if (node.plane && p.at == node.label) node.plane_name = p.name;
+    if constexpr (D == 2) {
+      node.region = parent ? clipped(parent->region, flat(*parent->plane), node.slot == 1)
+                           : polygon_of(flat(frame_.bounds));
+      node.box = solid(bounding_box_of(node.region, flat(node.box)));
+    }
+  }
+
+  // A node sleeps when nothing below it is awake. Parents stand before children.
+  void find_awake() {
+    for (std::size_t i = first_; i < frame_.nodes.size(); ++i) {
+      const auto& ids = frame_.nodes[i].bodies;
+      frame_.nodes[i].awake =
+          std::any_of(ids.begin(), ids.end(), [&](BodyId id) { return bodies_[id].awake; });
+    }
+    for (std::size_t i = frame_.nodes.size(); i-- > first_ + 1;)
+      if (frame_.nodes[i].awake) frame_.nodes[frame_.nodes[i].parent].awake = true;
+    for (std::size_t i = first_; i < frame_.nodes.size(); ++i)
+      nodes_asleep += !frame_.nodes[i].awake && !frame_.nodes[i].bodies.empty();
+  }
+
+  const StructureSpec& spec_;
+  const Register<D>& bodies_;
+  bool only_awake_;
+  Frame& frame_;
+  std::uint32_t first_ = 0;  // node of the tree that is being added
+};
+
+// Pairs that share a leaf and of which one is awake; sleeping leaves are skipped.
+template <int D, class Tree>
+CandidatePairs awake_pairs(const Tree& tree, const Register<D>& bodies) {
+  CandidatePairs found = pairs_where(tree, kMostPairs, [&](const Pair& p) { return bodies.awake(p); });
+  found.pair_tests = 0;
+  tree.visit([&](const NodeView<D>& node) {
+    std::uint64_t resting = 0;
+    for (const BodyId id : node.bodies) resting += !bodies[id].awake;
+    found.pair_tests += all_pairs(node.bodies.size()) - all_pairs(resting);
+    return true;
+  });
+  return found;
+}
+
+}  // namespace
+
+std::string settings_text(const StructureSpec& s) {
+  const std::string split = s.split_static ? ", static bodies apart" : "";
+  switch (s.kind) {
+    case StructureKind::none:
+      return "";
+    case StructureKind::brute_force:
+      return "every body with every other" + split;
+    case StructureKind::sort_and_sweep:
+      return "sorted along one axis, then swept" + split;
+    case StructureKind::bsp:
+      return fmt::format("{} dividing {}{}{}", s.planes.size(), "line",
+                         s.planes.size() == 1 ? "" : "s", split);
+    case StructureKind::kd_tree:
+      return fmt::format("fitted to its bodies, capacity {}, depth limit {}{}", s.capacity,
+                         s.max_depth, split);
+    case StructureKind::quadtree:
+    case StructureKind::octree:
+      break;
+  }
+  return fmt::format("capacity {}, depth limit {}, {}{}{}", s.capacity, s.max_depth,
+                     s.children == Children::eager ? "all children made" : "children on demand",
+                     s.no_progress_stop ? ", stops without progress" : "", split);
+}
+
+template <int D>
+Structures<D>::Structures(const StructureSpec& spec, const Box<D>& bounds, bool only_awake,
+                          Work& work)
+    : spec_(spec), bounds_(bounds), only_awake_(only_awake), work_(work), tree_(made()) {
+  if (any()) ++work_.structures_created;
+  if (!any() || !spec_.split_static) return;
+  static_tree_ = made();
+  ++work_.structures_created;
+}
+
+template <int D>
+auto Structures<D>::made() const -> Tree {
+  switch (spec_.kind) {
+    case StructureKind::none:
+      break;
+    case StructureKind::brute_force:
+      return BruteForce<D>();
+    case StructureKind::quadtree:
+      return Quad(orthtree_config<typename Quad::Config>(spec_, bounds_));
+    case StructureKind::octree:
+      if constexpr (D == 3) return Octo(orthtree_config<typename Octo::Config>(spec_, bounds_));
+      break;
+    case StructureKind::bsp:
+      return Bsp<D>(planes_of<D>(spec_), bounds_);
+    case StructureKind::kd_tree:
+      return KdTree<D>(orthtree_config<typename KdTree<D>::Config>(spec_, bounds_));
+    case StructureKind::sort_and_sweep:
+      return SortAndSweep<D>();
+  }
+  return std::monostate();
+}
+
+template <int D>
+void Structures<D>::insert(const Resident<D>& resident, const Watch& watch) {
+  std::visit(
+      [&](auto& tree) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(tree)>, std::monostate>) {
+          if (watch)
+            tree.insert(resident.item, watch);
+          else
+            tree.insert(resident.item);
+        }
+      },
+      is_for_static(resident) ? static_tree_ : tree_);
+  if (is_for_static(resident)) static_items_.push_back(resident.item);
+}
+
+template <int D>
+void Structures<D>::rebuild(std::vector<Resident<D>> residents) {
+  const auto fill = [&](Tree& tree, auto&& wanted) {
+    std::visit(
+        [&](auto& t) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(t)>, std::monostate>) {
+            t.clear();
+            for (const Resident<D>& r : residents)
+              if (wanted(r)) t.insert(r.item);
+          }
+        },
+        tree);
+  };
+  fill(tree_, [&](const Resident<D>& r) { return !is_for_static(r); });
+  ++dynamic_builds_;
+  if (!spec_.split_static) return;
+  std::vector<Item<D>> items;
+  for (const Resident<D>& r : residents)
+    if (is_for_static(r)) items.push_back(r.item);
+  if (items == static_items_) return;
+  static_items_ = std::move(items);
+  fill(static_tree_, [&](const Resident<D>& r) { return is_for_static(r); });
+  ++static_builds_;
+}
+
+template <int D>
+std::string Structures<D>::label_of(NodeHandle handle) const {
+  std::vector<std::string> labels;
+  std::string found;
+  const bool is_bsp = spec_.kind == StructureKind::bsp;
+  with_each([&](const auto& tree) {
+    labels.clear();
+    tree.visit([&](const NodeView<D>& node) {
+      labels.push_back(node.parent == kNone
+                           ? "root"
+                           : (is_bsp ? bsp_label : child_label)(labels[node.parent], node.slot));
+      if (node.handle == handle && found.empty()) found = labels.back();
+      return found.empty();
+    });
+  });
+  return found;
+}
+
+template <int D>
+void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>> residents,
+                            Frame& frame) const {
+  frame.structure = spec_.kind;
+  frame.settings = settings_text(spec_);
+  if (!any()) return;
+  const Register<D> bodies(residents);
+  TreePicture<D> picture(spec_, bodies, only_awake_, frame);
+  CandidatePairs candidates;
+  std::uint64_t stale = 0;
+  bool is_static = false;
+  with_each([&](const auto& tree) {
+    picture.add(tree, is_static ? Touched() : touched, is_static);
+    if (is_static) {
+      // Who moves asks the structure of what does not.
+      for (const Resident<D>& r : residents)
+        if (!r.is_static && r.awake)
+          tree.query(r.item.box, [&](BodyId id) {
+            candidates.pairs.push_back({std::min(id, r.item.id), std::max(id, r.item.id)});
+            ++candidates.pair_tests;
+          });
+    } else {
+      candidates = only_awake_ ? awake_pairs(tree, bodies) : candidate_pairs(tree, kMostPairs);
+    }
+    if constexpr (requires { tree.fits(residents[0].item); })
+      for (const Resident<D>& r : residents) stale += !tree.fits(r.item);
+    is_static = true;
+  });
+  std::sort(candidates.pairs.begin(), candidates.pairs.end());
+  std::uint64_t overlaps = 0;
+  for (const Pair& pair : candidates.pairs) {
+    frame.pairs.push_back({pair, false});
+    overlaps += overlap(bodies[pair.a].item.box, bodies[pair.b].item.box);
+  }
+  const auto count = [&](const char* name, std::uint64_t n) {
+    frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
+  };
+  const Counters& c = picture.counters;
+  count("nodes", c.nodes);
+  count("leaves", c.leaves);
+  count("depth", c.depth);
+  count("entries", c.entries);
+  count("most_in_leaf", picture.most_in_leaf);
+  count("pairs", candidates.pairs.size());
+  count("pair_tests", candidates.pair_tests);
+  count("all_pairs", all_pairs(residents.size()));
+  count("overlaps", overlaps);
+  frame.counts.emplace_back("contacts", static_cast<std::int64_t>(frame.contacts.size()));
+  count("box_tests", c.box_tests);
+  count("splits", c.splits);
+  count("nodes_reused", c.nodes_reused);
+  count("allocations", c.allocations);
+  if (only_awake_) count("nodes_asleep", static_cast<std::uint64_t>(picture.nodes_asleep));
+  if (spec_.split_static) {
+    count("static_builds", static_builds_);
+    count("dynamic_builds", dynamic_builds_);
+  }
+  if (spec_.kind == StructureKind::kd_tree) count("stale", stale);
+}
+
+template class Structures<2>;
+template class Structures<3>;
+
+}  // namespace lantern
