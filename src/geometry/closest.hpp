@@ -1,0 +1,74 @@
+// Lengths and closest points, safe for every finite input: no size, zero included, divides by zero.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/vec.hpp"
+
+namespace lantern {
+
+// A vector as a length and a unit direction.
+template <int D>
+struct Direction {
+  Vec<D> unit{0.0};
+  double length = 0;
+};
+
+// `fallback`, itself a unit vector, is the direction of a vector without length. Squares of very
+// small or large numbers would underflow or overflow, so these are scaled first.
+template <int D>
+Direction<D> direction_of(const Vec<D>& v, const Vec<D>& fallback) {
+  const double square = glm::dot(v, v);
+  if (square > 1e-200 && square < 1e200) {
+    const double length = std::sqrt(square);
+    return {v / length, length};
+  }
+  double most = 0;
+  for (int i = 0; i < D; ++i) most = std::max(most, std::abs(v[i]));
+  if (most == 0) return {fallback, 0};
+  const Vec<D> scaled = v / most;
+  const double length = glm::length(scaled);
+  return {scaled / length, length * most};
+}
+
+// All points a + t (b - a) with t in [0, 1]; the ends may coincide.
+template <int D>
+struct Segment {
+  Vec<D> a{0.0};
+  Vec<D> b{0.0};
+
+  Vec<D> at(double t) const { return a + (b - a) * t; }
+};
+
+// Where along the segment, from 0 to 1, it comes closest to the point.
+template <int D>
+double closest_parameter(const Segment<D>& segment, const Vec<D>& point) {
+  const Vec<D> along = segment.b - segment.a;
+  const double square = glm::dot(along, along);
+  if (square <= 0) return 0;
+  return std::clamp(glm::dot(point - segment.a, along) / square, 0.0, 1.0);
+}
+
+template <int D>
+Vec<D> closest_point(const Segment<D>& segment, const Vec<D>& point) {
+  return segment.at(closest_parameter(segment, point));
+}
+
+template <int D>
+struct PointPair {
+  Vec<D> a{0.0};
+  Vec<D> b{0.0};
+
+  double square() const { return glm::dot(b - a, b - a); }
+};
+
+// The points, one of each segment, that are closest to each other. If several pairs are, as of
+// parallel segments, one of them.
+template <int D>
+PointPair<D> closest_points(const Segment<D>& a, const Segment<D>& b);
+
+extern template PointPair<2> closest_points(const Segment<2>&, const Segment<2>&);
+extern template PointPair<3> closest_points(const Segment<3>&, const Segment<3>&);
+
+}  // namespace lantern

@@ -1,0 +1,144 @@
+// Two boxes, or a box and a capsule.
+#include "physics/collide_blocks.hpp"
+
+namespace lantern::narrow {
+namespace {
+
+// Kinds of contact, in the upper bits of feature names.
+constexpr std::uint32_t kFaceOfA = 0u << 16, kFaceOfB = 1u << 16, kEdges = 2u << 16,
+                        kClosest = 3u << 16;
+
+// A normal within this of a face's (the cosine, 6 degrees) has that face's contact.
+constexpr double kNearFace = 0.995;
+
+template <int D>
+void mark(Manifold<D>& manifold, std::uint32_t kind) {
+  for (auto& point : manifold.room) point.feature |= kind;
+}
+
+template <int D>
+FaceContact<D> contact_on_face(const Block<D>& a, const Block<D>& b, bool of_a, int axis,
+                               const Vec<D>& normal, double margin) {
+  FaceContact<D> contact =
+      of_a ? face_contact(a, b, axis, normal, margin) : face_contact(b, a, axis, -normal, margin);
+  contact.manifold.normal = normal;
+  mark(contact.manifold, of_a ? kFaceOfA : kFaceOfB);
+  return contact;
+}
+
+// The edge of a block along an axis that lies farthest out along the normal, and its name.
+struct NamedEdge {
+  Segment<3> segment;
+  std::uint32_t name = 0;
+};
+
+NamedEdge farthest_edge(const Block<3>& block, int axis, const Vec<3>& normal) {
+  Vec<3> middle = block.half;
+  auto name = static_cast<std::uint32_t>(axis) << 3;
+  for (int i = 0; i < 3; ++i) {
+    if (i == axis) continue;
+    const bool positive = glm::dot(block.axes[i], normal) >= 0;
+    if (!positive) middle[i] = -middle[i];
+    if (positive) name |= 1u << i;
+  }
+  Vec<3> start = middle;
+  start[axis] = -start[axis];
+  return {{block.world(start), block.world(middle)}, name};
+}
+
+// Two edges that cross meet in one point, midway.
+FaceContact<3> contact_of_edges(const Block<3>& a, const Block<3>& b,
+                                const SeparatingAxis<3>& axis) {
+  const NamedEdge edge_a = farthest_edge(a, axis.axis_a, axis.normal);
+  const NamedEdge edge_b = farthest_edge(b, axis.axis_b, -axis.normal);
+  const PointPair<3> points = closest_points(edge_a.segment, edge_b.segment);
+  FaceContact<3> contact;
+  contact.least_distance = std::sqrt(points.square());
+  contact.manifold.normal = axis.normal;
+  const Vec<3> middle = (points.a + points.b) * 0.5 + axis.normal * ((a.radius - b.radius) / 2);
+  contact.manifold.add(
+      {middle, axis.separation - a.radius - b.radius, kEdges | edge_a.name << 5 | edge_b.name});
+  return contact;
+}
+
+template <int D>
+FaceContact<D> contact_on(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
+                          double margin) {
+  using Kind = typename SeparatingAxis<D>::Kind;
+  if constexpr (D == 3)
+    if (axis.kind == Kind::edges) return contact_of_edges(a, b, axis);
+  const bool of_a = axis.kind == Kind::face_of_a;
+  return contact_on_face(a, b, of_a, of_a ? axis.axis_a : axis.axis_b, axis.normal, margin);
+}
+
+template <int D>
+double least_separation(const Manifold<D>& manifold) {
+  double least = manifold.room[0].separation;
+  for (const auto& point : manifold.points()) least = std::min(least, point.separation);
+  return least;
+}
+
+// Of cores that are apart, where the separating axis is not the direction of their distance. Near a
+// face's normal, that face still gives its many points, so that a capsule over the rim of a box
+// rests on it rather than rocking.
+template <int D>
+Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
+                               const ClosestFeatures<D>& closest, const Direction<D>& normal,
+                               const SeparatingAxis<D>& axis, double margin) {
+  const Manifold<D> single =
+      one_point(closest.points.a, a.radius, b.radius, normal, kClosest | closest.feature);
+  if (axis.kind == SeparatingAxis<D>::Kind::edges) return single;
+  if (glm::dot(axis.normal, normal.unit) < kNearFace) return single;
+  const bool of_a = axis.kind == SeparatingAxis<D>::Kind::face_of_a;
+  Manifold<D> manifold =
+      contact_on_face(a, b, of_a, of_a ? axis.axis_a : axis.axis_b, normal.unit, margin).manifold;
+  if (manifold.count < 2) return single;
+  // Its deepest point stands for the closest ones, whose distance is exact.
+  const double least = least_separation(manifold);
+  for (auto& point : manifold.room)
+    if (point.separation == least) point.separation = normal.length - a.radius - b.radius;
+  return manifold;
+}
+
+}  // namespace
+
+template <int D>
+Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
+  const SeparatingAxes<D> axes = separating_axes(a, b);
+  const double radii = a.radius + b.radius, bound = axes.greatest.separation;
+  if (bound - radii > margin) return std::nullopt;
+
+  double size = glm::length(b.center - a.center);
+  for (int i = 0; i < D; ++i) size += a.half[i] + b.half[i];
+  const double rounding = kRounding * size;
+  const bool apart = bound > rounding;
+
+  // A contact on an axis is right if it reaches the bound that the axes give.
+  const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
+  for (const SeparatingAxis<D>* axis : {&axes.chosen, &axes.greatest}) {
+    const FaceContact<D> contact = contact_on(*axis, a, b, margin);
+    if (contact.manifold.count == 0) continue;
+    const double least = least_separation(contact.manifold);
+    if (std::abs(least + radii - bound) > allowed) continue;
+    if (apart && contact.least_distance > bound + rounding) continue;
+    return contact.manifold;
+  }
+
+  const ClosestFeatures<D> closest = closest_features(a, b);
+  Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
+  if (!apart) normal = {axes.greatest.normal, bound};
+  if (normal.length - radii > margin) return std::nullopt;
+  return contact_of_closest(a, b, closest, normal, axes.chosen, margin);
+}
+
+template <int D>
+Contact<D> touch(const Block<D>& a, const Rod<D>& b, double margin) {
+  return touch(a, b.block(), margin);
+}
+
+template Contact<2> touch(const Block<2>&, const Block<2>&, double);
+template Contact<3> touch(const Block<3>&, const Block<3>&, double);
+template Contact<2> touch(const Block<2>&, const Rod<2>&, double);
+template Contact<3> touch(const Block<3>&, const Rod<3>&, double);
+
+}  // namespace lantern::narrow

@@ -1,0 +1,191 @@
+// The face contact: the other block's face, clipped against the sides of the reference face
+// (Sutherland and Hodgman, Reentrant Polygon Clipping, 1974).
+//
+//           other
+//        ___________
+//       |   |       |              the corner p of the other block's face lies outside the
+//       p---x-------x----          reference face; it is cut back to its side
+//           |  reference |
+#include <array>
+#include <limits>
+
+#include "physics/collide_blocks.hpp"
+
+namespace lantern::narrow {
+namespace {
+
+// Corners that lie outside the reference face by this part of the smallest half size still count as
+// inside: boxes stacked edge to edge keep their corners, and their names, whichever way they
+// jitter.
+constexpr double kSlack = 1e-4;
+
+// A corner of the clipped face. Its name is made of the lines that meet in it: 0 ... 3 are edges of
+// the other block's face, 4 ... 7 sides of the reference face.
+template <int D>
+struct Corner {
+  Vec<D> point{0.0};
+  std::uint32_t line_in = 0;
+  std::uint32_t line_out = 0;
+};
+
+// At most the 4 corners of a face and one more for each of the 4 sides that cut it.
+template <int D>
+struct Outline {
+  std::array<Corner<D>, 8> room;
+  int count = 0;
+
+  Corner<D>& operator[](int i) { return room[static_cast<std::size_t>(i)]; }
+  const Corner<D>& operator[](int i) const { return room[static_cast<std::size_t>(i)]; }
+  void add(const Corner<D>& corner) { room[static_cast<std::size_t>(count++)] = corner; }
+};
+
+// The face of a block that looks most against the normal.
+struct Facing {
+  int axis = 0;
+  bool positive = false;
+  std::uint32_t name() const { return static_cast<std::uint32_t>(axis * 2 + (positive ? 1 : 0)); }
+};
+
+template <int D>
+Facing facing(const Block<D>& block, const Vec<D>& normal) {
+  int axis = 0;
+  const auto share = [&](int i) { return std::abs(glm::dot(block.axes[i], normal)); };
+  for (int i = 1; i < D; ++i)
+    if (share(i) > share(axis) + 1e-9) axis = i;
+  return {axis, glm::dot(block.axes[axis], normal) < 0};
+}
+
+// The corners of a face in their order around it: 4 of a rectangle, 2 of an edge, 1 of a point.
+template <int D>
+Outline<D> outline_of(const Block<D>& block, const Facing& face) {
+  Vec<D> center{0.0};
+  center[face.axis] = face.positive ? block.half[face.axis] : -block.half[face.axis];
+  std::array<int, 2> spread{};
+  std::size_t count = 0;
+  for (int i = 0; i < D; ++i)
+    if (i != face.axis && block.half[i] > 0) spread[count++] = i;
+
+  Outline<D> outline;
+  const int corners = 1 << count;
+  for (int k = 0; k < corners; ++k) {
+    Vec<D> corner = center;
+    if (count > 0) corner[spread[0]] = block.half[spread[0]] * (k == 0 || k == 3 ? -1 : 1);
+    if (count > 1) corner[spread[1]] = block.half[spread[1]] * (k < 2 ? -1 : 1);
+    outline.add({block.world(corner), static_cast<std::uint32_t>((k + corners - 1) % corners),
+                 static_cast<std::uint32_t>(k)});
+  }
+  return outline;
+}
+
+// The part of an outline behind a plane; `height` is above it. An edge of two corners is not a
+// loop: each of its ends is cut on its own.
+template <int D, class Height>
+Outline<D> cut(const Outline<D>& outline, const Height& height, double slack, std::uint32_t side) {
+  Outline<D> kept;
+  const bool is_loop = outline.count > 2;
+  for (int i = 0; i < outline.count; ++i) {
+    const Corner<D>& here = outline[i];
+    const Corner<D>& next = outline[(i + 1) % outline.count];
+    const double h = height(here.point), h_next = height(next.point);
+    const bool inside = h <= slack, next_inside = h_next <= slack;
+    if (inside) kept.add(here);
+    if (inside == next_inside || std::min(h, h_next) > 0) continue;  // the kept one ends the edge
+    if (!is_loop && inside) continue;  // its outer end is cut when its turn comes
+    const Vec<D> at = here.point + (next.point - here.point) * (h / (h - h_next));
+    if (!is_loop)
+      kept.add({at, side, side});
+    else if (inside)
+      kept.add({at, here.line_out, side});
+    else
+      kept.add({at, side, here.line_out});
+  }
+  return kept;
+}
+
+template <int D>
+double distance_to(const Block<D>& block, const Vec<D>& point) {
+  const Vec<D> local = block.local(point);
+  return glm::length(local - glm::clamp(local, -block.half, block.half));
+}
+
+// The deepest point, the one farthest from it, and on each side of the line through both the one
+// that spans the largest triangle. A later point must be better by a part of 1e-6, so that equal
+// ones are not swapped by rounding.
+std::array<int, 4> widest_four(const Outline<3>& outline, const std::array<double, 8>& heights,
+                               const Vec<3>& normal, double slack) {
+  std::array<int, 4> chosen{0, -1, -1, -1};
+  const auto height = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
+  for (int i = 1; i < outline.count; ++i)
+    if (height(i) < height(chosen[0]) - slack) chosen[0] = i;
+  const Vec<3> first = outline[chosen[0]].point;
+  const auto pick = [&](int slot, const auto& measure) {
+    double best = 0;
+    for (int i = 0; i < outline.count; ++i)
+      if (const double m = measure(outline[i].point); m > best * (1 + 1e-6))
+        best = m, chosen[static_cast<std::size_t>(slot)] = i;
+  };
+  pick(1, [&](const Vec<3>& p) { return glm::dot(p - first, p - first); });
+  if (chosen[1] < 0) return chosen;
+  const Vec<3> across = glm::cross(normal, outline[chosen[1]].point - first);
+  pick(2, [&](const Vec<3>& p) { return glm::dot(p - first, across); });
+  pick(3, [&](const Vec<3>& p) { return -glm::dot(p - first, across); });
+  return chosen;
+}
+
+}  // namespace
+
+template <int D>
+FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, int axis,
+                            const Vec<D>& normal, double margin) {
+  const double slack = kSlack * smallest_half(reference, other);
+  const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
+  const Vec<D> outward = reference.axes[axis] * sign;
+  const Facing face = facing(other, normal);
+  Outline<D> outline = outline_of(other, face);
+  std::uint32_t side = 4;
+  for (int i = 0; i < D; ++i) {
+    if (i == axis) continue;
+    for (const double way : {-1.0, 1.0}) {
+      const auto height = [&](const Vec<D>& p) {
+        return way * glm::dot(p - reference.center, reference.axes[i]) - reference.half[i];
+      };
+      if (reference.half[i] > 0) outline = cut(outline, height, slack, side);
+      ++side;
+    }
+  }
+
+  // Along a normal that is not quite the face's, heights above the face grow by 1 / cosine.
+  const double cosine = glm::dot(outward, normal);
+  const double radii = reference.radius + other.radius;
+  FaceContact<D> contact;
+  contact.manifold.normal = normal;
+  contact.least_distance = std::numeric_limits<double>::infinity();
+  std::array<double, 8> heights{};
+  Outline<D> close;
+  for (int i = 0; i < outline.count; ++i) {
+    const Vec<D> p = outline[i].point;
+    contact.least_distance = std::min(contact.least_distance, distance_to(reference, p));
+    const double height = (glm::dot(p - reference.center, outward) - reference.half[axis]) / cosine;
+    if (height - radii > margin) continue;
+    heights[static_cast<std::size_t>(close.count)] = height;
+    close.add(outline[i]);
+  }
+
+  std::array<int, 4> chosen{0, 1, 2, 3};
+  if constexpr (D == 3)
+    if (close.count > 4) chosen = widest_four(close, heights, normal, slack);
+  const std::uint32_t faces =
+      static_cast<std::uint32_t>(axis * 2 + (sign > 0 ? 1 : 0)) << 3 | face.name();
+  for (const int i : chosen) {
+    if (i < 0 || i >= close.count) continue;
+    const double separation = heights[static_cast<std::size_t>(i)] - radii;
+    contact.manifold.add({close[i].point - normal * (other.radius + separation / 2), separation,
+                          faces << 6 | close[i].line_in << 3 | close[i].line_out});
+  }
+  return contact;
+}
+
+template FaceContact<2> face_contact(const Block<2>&, const Block<2>&, int, const Vec<2>&, double);
+template FaceContact<3> face_contact(const Block<3>&, const Block<3>&, int, const Vec<3>&, double);
+
+}  // namespace lantern::narrow
