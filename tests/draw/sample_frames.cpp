@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "geometry/flat.hpp"
 
 namespace lantern::samples {
 namespace {
@@ -17,9 +18,9 @@ FrameBody body(BodyId id, std::string name, Look look, int color, Vec<2> positio
   b.name = std::move(name);
   b.look = look;
   b.color = color;
-  b.shape = shape;
-  b.position = position;
-  b.box = bounding_box(shape, position);
+  b.shape = in_dimension<3>(shape);
+  b.position = solid(position);
+  b.box = solid(bounding_box(shape, position));
   return b;
 }
 
@@ -29,7 +30,7 @@ Frame base(std::string title, Box<2> bounds) {
   frame.title = std::move(title);
   frame.step = 3;
   frame.steps = 9;
-  frame.bounds = bounds;
+  frame.bounds = solid(bounds);
   frame.panels = {Panel::world, Panel::tree};
   return frame;
 }
@@ -48,7 +49,7 @@ struct Builder {
     node.id = static_cast<std::uint32_t>(frame.nodes.size());
     node.parent = parent;
     node.slot = slot;
-    node.box = box;
+    node.box = solid(box);
     node.label = "root";
     if (parent != kNone) {
       const FrameNode& p = frame.nodes[parent];
@@ -58,7 +59,7 @@ struct Builder {
     }
     std::vector<BodyId> inside;
     for (const BodyId id : candidates)
-      if (overlap(frame.bodies[id].box, box)) inside.push_back(id);
+      if (overlap(flat(frame.bodies[id].box), box)) inside.push_back(id);
     node.leaf = inside.size() <= capacity || node.depth == max_depth;
     node.over_capacity = node.leaf && inside.size() > capacity;
     if (node.leaf) node.bodies = inside;
@@ -100,7 +101,7 @@ void grow(Frame& frame, std::size_t capacity, std::uint32_t max_depth) {
       fmt::format("capacity {}, depth limit {}, all children made", capacity, max_depth);
   std::vector<BodyId> all_ids;
   for (const FrameBody& b : frame.bodies) all_ids.push_back(b.id);
-  Builder{frame, capacity, max_depth}.add(kNone, 0, frame.bounds, all_ids);
+  Builder{frame, capacity, max_depth}.add(kNone, 0, flat(frame.bounds), all_ids);
   count(frame);
 }
 
@@ -114,16 +115,17 @@ FrameNode bsp_node(Frame& frame, std::uint32_t parent, std::uint32_t slot) {
   node.parent = parent;
   node.slot = slot;
   node.label = "root";
-  node.region = polygon_of(frame.bounds);
+  node.region = polygon_of(flat(frame.bounds));
   if (parent != kNone) {
     const FrameNode& p = frame.nodes[parent];
     const std::string side = slot == 0 ? "back" : "front";
     node.depth = p.depth + 1;
     node.label = p.label == "root" ? side : p.label + "." + side;
-    node.region = clipped(p.region, *p.plane, slot == 1);
+    node.region = clipped(p.region, flat(*p.plane), slot == 1);
   }
-  node.box = {node.region[0], node.region[0]};
-  for (const Vec<2>& p : node.region) node.box = united(node.box, Box<2>{p, p});
+  Box<2> box{node.region[0], node.region[0]};
+  for (const Vec<2>& p : node.region) box = united(box, Box<2>{p, p});
+  node.box = solid(box);
   return node;
 }
 
@@ -131,7 +133,7 @@ std::uint32_t divide(Frame& frame, std::uint32_t parent, std::uint32_t slot, std
                      Plane<2> plane) {
   FrameNode node = bsp_node(frame, parent, slot);
   node.leaf = false;
-  node.plane = plane;
+  node.plane = solid(plane);
   node.plane_name = std::move(name);
   frame.nodes.push_back(node);
   return node.id;
@@ -155,7 +157,7 @@ struct Packer {
         if (frame.nodes[i].parent == at && insert(i, t)) return true;
       return false;
     }
-    const Vec<2> size = frame.nodes[at].box.size();
+    const Vec<2> size = flat(frame.nodes[at].box).size();
     if (!frame.nodes[at].bodies.empty() || t.width > size.x || t.height > size.y) return false;
     if (size.x == t.width && size.y == t.height) {
       frame.nodes[at].bodies = {t.id};
@@ -221,11 +223,11 @@ Frame pong(double ball_x) {
   frame.bodies = {body(0, "blue bat", Look::bat, 4, {1.5, 8}, bat),
                   body(1, "red bat", Look::bat, 1, {30.5, 11}, bat),
                   body(2, "ball", Look::ball, 3, {ball_x, 9.5}, Sphere{0.9})};
-  frame.bodies[2].velocity = {3, 1};
+  frame.bodies[2].velocity = {3, 1, 0};
   frame.bodies[2].lit = true;
   const Plane<2> net = Plane<2>::through({16, 9}, {1, 0});
   divide(frame, kNone, 0, "net", net);
-  const Reach r = reach(frame.bodies[2].box, net);
+  const Reach r = reach(flat(frame.bodies[2].box), net);
   leaf(frame, 0, 0, r.back ? std::vector<BodyId>{0, 2} : std::vector<BodyId>{0},
        r.back ? Mark::lit : Mark::quiet);
   leaf(frame, 0, 1, r.front ? std::vector<BodyId>{1, 2} : std::vector<BodyId>{1},
@@ -285,7 +287,8 @@ Frame crowd(std::size_t bodies, double size) {
     frame.bodies.push_back(body(static_cast<BodyId>(i), fmt::format("body {}", i), look,
                                 static_cast<int>(i % 8) + 1,
                                 {random.between(2, 98), random.between(2, 68)}, Sphere{size}));
-    frame.bodies.back().velocity = {random.between(-1, 1), random.between(-1, 1)};
+    frame.bodies.back().velocity.x = random.between(-1, 1);
+    frame.bodies.back().velocity.y = random.between(-1, 1);
   }
   frame.bodies[0].lit = true;
   grow(frame, 4, 6);
@@ -335,7 +338,7 @@ Frame atlas(std::size_t textures, std::size_t packed) {
   frame.panels = {Panel::atlas, Panel::tree};
   FrameNode root;
   root.label = "root";
-  root.box = {{0, 0}, {512, 512}};
+  root.box = {{0, 0, 0}, {512, 512, 0}};
   frame.nodes.push_back(root);
   Random random(11);
   std::int64_t used = 0, stored = 0;

@@ -33,7 +33,7 @@ TEST(Characters, FillTheirPlaceAndStayInIt) {
         FrameBody body;
         body.look = look;
         body.color = color;
-        body.velocity = {-2.0, 1.0};
+        body.velocity = {-2.0, 1.0, 0.0};
         const Box<2> place{{10, 20}, {10 + size, 20 + 1.3 * size}};
         DrawList list;
         draw_character(body, place, false, list);
@@ -55,7 +55,7 @@ TEST(Characters, LookWhereTheyMove) {
   for (const double x : {-3.0, 3.0}) {
     FrameBody body;
     body.look = Look::ghost;
-    body.velocity = {x, 0};
+    body.velocity = {x, 0, 0};
     DrawList list;
     draw_character(body, {{0, 0}, {100, 100}}, false, list);
     double white = 0, pupil = 0;

@@ -218,7 +218,7 @@ TEST(Facts, CoincidentBodiesSplitDownToTheLimit) {
 TEST(Facts, AtlasFitsAndRefuses) {
   const auto frames = frames_of("kdtree_atlas");
   const Frame& first = at(frames, "first");
-  EXPECT_EQ(node(first, "A").box.size(), Vec<2>(200, 300));
+  EXPECT_EQ(node(first, "A").box.size(), Vec<3>(200, 300, 0));
   const Frame& second = at(frames, "second");
   const FrameNode& b = node(second, "B");
   EXPECT_EQ(second.nodes[b.parent].parent, 0u) << "B goes to the right child, which is cut";
@@ -274,7 +274,7 @@ expect = { position = { a = [8, 4] } }
                                 Pace::step);
   ASSERT_EQ(frames.size(), 5u) << "one of the insertion, one a time step";
   EXPECT_DOUBLE_EQ(frames.back().time, 2);
-  EXPECT_EQ(frames.back().bodies[0].position, Vec<2>(8, 4));
+  EXPECT_EQ(frames.back().bodies[0].position, Vec<3>(8, 4, 0));
 }
 
 TEST(Director, ReportsEachUnmetExpectationOnce) {
