@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <span>
 
 #include "base/check.hpp"
 #include "physics/energy.hpp"
+#include "physics/world.hpp"
 #include "scenario/brains.hpp"
 #include "scenario/structures.hpp"
 #include "spatial/frustum_cull.hpp"
 #include "spatial/overlap_query.hpp"
+#include "spatial/pairs.hpp"
 #include "spatial/raycast.hpp"
 
 namespace lantern {
@@ -105,7 +108,11 @@ class EngineOf : public Engine {
   }
 
   void apply(const ApplyForce& force) override {
-    world_.push(*ids_[force.body], in_dimension<D>(force.force), in_dimension<D>(force.at));
+    const Body<D>& pushed = *body(force.body);
+    world_.clear_pushes(pushed.id);
+    if (force.force != Vec<3>(0.0))
+      world_.push(pushed.id, in_dimension<D>(force.force),
+                  pushed.position + in_dimension<D>(force.at));
   }
 
   void apply(const ApplyImpulse& impulse) override {
@@ -122,7 +129,7 @@ class EngineOf : public Engine {
     world_.step(scenario_.world.time_step);
     ++work_.world_steps;
     time_ += scenario_.world.time_step;
-    for (const auto& event : world_.events()) {
+    for (const ContactEvent& event : world_.events()) {
       begins_ += event.kind == ContactEvent::Kind::begin;
       ends_ += event.kind == ContactEvent::Kind::end;
     }
@@ -221,7 +228,7 @@ class EngineOf : public Engine {
     const auto kind =
         event == Wait::Event::touch ? ContactEvent::Kind::begin : ContactEvent::Kind::end;
     return std::any_of(world_.events().begin(), world_.events().end(), [&](const auto& e) {
-      return e.kind == kind && e.pair == wanted;
+      return e.kind == kind && e.a == wanted.a && e.b == wanted.b;
     });
   }
 
@@ -232,7 +239,8 @@ class EngineOf : public Engine {
   void picture(const Touched& touched, Frame& frame) const override {
     frame.time = time_;
     frame.dimension = D;
-    for (const Body<D>& body : world_.bodies()) frame.bodies.push_back(frame_body(body));
+    for (const Body<D>& body : world_.bodies())
+      if (is_shown(body)) frame.bodies.push_back(frame_body(body));
     frame.counts.emplace_back("bodies", frame.bodies.size());
     if (scenario_.world.contacts != ContactChoice::none) picture_contacts(frame);
     picture_links(frame);
@@ -265,7 +273,8 @@ class EngineOf : public Engine {
 
   std::vector<Resident<D>> residents() const {
     std::vector<Resident<D>> all;
-    for (const Body<D>& body : world_.bodies()) all.push_back(resident(body));
+    for (const Body<D>& body : world_.bodies())
+      if (is_shown(body)) all.push_back(resident(body));
     return all;
   }
 
@@ -294,15 +303,35 @@ class EngineOf : public Engine {
     const double length = link.rest_length.value_or(glm::length(to - from));
     rest_length_.resize(linked_.size());
     rest_length_[static_cast<std::size_t>(&link - scenario_.links.data())] = length;
-    const std::optional<BodyId> b = link.b ? ids_[*link.b] : std::nullopt;
-    const Vec<D> at_a = in_dimension<D>(link.at_a), at_b = in_dimension<D>(link.at_b);
-    if (link.kind == LinkSpec::Kind::spring)
-      world_.add_spring({*ids_[link.a], b.value_or(kWorldPoint), at_a, at_b, length, link.stiffness,
-                         link.damping});
-    else
-      world_.add_joint({link.kind == LinkSpec::Kind::pin ? JointKind::pin : JointKind::distance,
-                        *ids_[link.a], b.value_or(kWorldPoint), at_a, at_b, length});
+    const BodyId a = *ids_[link.a], b = link.b ? *ids_[*link.b] : add_anchor(to);
+    const Vec<D> at_a = in_dimension<D>(link.at_a);
+    const Vec<D> at_b = link.b ? in_dimension<D>(link.at_b) : Vec<D>(0.0);
+    if (link.kind == LinkSpec::Kind::spring) {
+      world_.add_spring({a, b, at_a, at_b, length, link.stiffness, link.damping});
+      return;
+    }
+    Joint<D> joint;
+    joint.kind = link.kind == LinkSpec::Kind::pin ? JointKind::pin : JointKind::distance;
+    joint.a = a;
+    joint.b = b;
+    joint.at_a = at_a;
+    joint.at_b = at_b;
+    joint.length = length;
+    world_.add_joint(joint);
   }
+
+  // A point of the world is a static body without size, which is not pictured.
+  BodyId add_anchor(const Vec<D>& at) {
+    Body<D> anchor;
+    anchor.name = "anchor";
+    anchor.shape = Sphere{0};
+    anchor.kind = BodyKind::static_body;
+    anchor.position = at;
+    index_of_.push_back(kAnchor);
+    return world_.add(std::move(anchor));
+  }
+
+  bool is_shown(const Body<D>& body) const { return index_of_[body.id] != kAnchor; }
 
   // Walks every structure there is; without one, all bodies are asked.
   template <class F>
@@ -319,7 +348,7 @@ class EngineOf : public Engine {
       return;
     }
     BruteForce<D> all;
-    for (const Body<D>& body : world_.bodies()) all.insert({body.id, body.box()});
+    for (const Resident<D>& r : residents()) all.insert(r.item);
     add_counts(f(all, box_of, told));
   }
 
@@ -371,11 +400,13 @@ class EngineOf : public Engine {
       FrameContact c;
       c.pair = {contact.a, contact.b};
       c.normal = solid(contact.manifold.normal);
-      c.begins = contact.begins;
+      c.begins = std::any_of(world_.events().begin(), world_.events().end(), [&](const auto& e) {
+        return e.kind == ContactEvent::Kind::begin && e.a == contact.a && e.b == contact.b;
+      });
       for (int i = 0; i < contact.manifold.count; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const auto& point = contact.manifold.room[k];
-        c.points.push_back({solid(point.position), point.separation, contact.normal_impulse[k]});
+        c.points.push_back({solid(point.position), point.separation, contact.normal_impulses[k]});
       }
       frame.contacts.push_back(std::move(c));
     }
@@ -425,12 +456,13 @@ class EngineOf : public Engine {
 
   void measure(Frame& frame) const {
     if (!has_physics()) return;
-    const Energy energy = energy_of(std::span<const Body<D>>(world_.bodies()), world_.forces());
-    frame.measures = {{"energy", energy.total()},
-                      {"kinetic_energy", energy.kinetic},
-                      {"potential_energy", energy.potential}};
-    const Momentum<D> momentum = momentum_of(std::span<const Body<D>>(world_.bodies()));
-    frame.measures.emplace_back("momentum", glm::length(momentum.linear));
+    const std::span<const Body<D>> bodies(world_.bodies());
+    const Energy now = energy(bodies, world_.forces());
+    frame.measures = {{"energy", now.total()},
+                      {"kinetic_energy", now.kinetic()},
+                      {"potential_energy", now.potential()},
+                      {"momentum", glm::length(momentum(bodies))},
+                      {"angular_momentum", glm::length(angular_momentum<D>(bodies))}};
     double deepest = 0;
     for (const FrameContact& c : frame.contacts)
       for (const auto& point : c.points) deepest = std::max(deepest, -point.separation);
@@ -444,13 +476,15 @@ class EngineOf : public Engine {
            scenario_.world.gravity != Vec<3>(0.0) || !scenario_.links.empty();
   }
 
+  static constexpr std::size_t kAnchor = std::numeric_limits<std::size_t>::max();
+
   const Scenario& scenario_;
   Work& work_;
   World<D> world_;
   Structures<D> structures_;
   Brains<D> brains_;
   std::vector<std::optional<BodyId>> ids_;  // of the scenario's bodies
-  std::vector<std::size_t> index_of_;       // of a body id, in the scenario
+  std::vector<std::size_t> index_of_;       // of a body id, in the scenario; or kAnchor
   std::vector<bool> linked_;                // which of the scenario's links are there
   std::vector<double> rest_length_;         // of those
   std::uint64_t begins_ = 0;

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "geometry/flat.hpp"
-
 namespace lantern {
 namespace {
 
+using Unmet = std::optional<std::string>;
 using NamePair = std::pair<std::string, std::string>;
 
 NamePair ordered(std::string a, std::string b) {
@@ -23,6 +23,13 @@ const FrameBody* body_named(const Frame& frame, const std::string& name) {
   return nullptr;
 }
 
+// Bodies stand in order of ids.
+const std::string& name_of(const Frame& frame, BodyId id) {
+  return std::lower_bound(frame.bodies.begin(), frame.bodies.end(), id,
+                          [](const FrameBody& body, BodyId wanted) { return body.id < wanted; })
+      ->name;
+}
+
 std::string listed(const std::set<NamePair>& pairs) {
   if (pairs.empty()) return "none";
   std::string text;
@@ -30,59 +37,142 @@ std::string listed(const std::set<NamePair>& pairs) {
   return text;
 }
 
-std::optional<std::string> unmet_count(const Expectation& e, const Frame& frame) {
-  const auto found = frame.count(e.name);
-  if (found == e.number) return std::nullopt;
-  return fmt::format("expected {} = {}, found {}", e.name, e.number,
+std::string listed(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string point_text(const Vec<3>& p, int dimension) {
+  return dimension == 2 ? fmt::format("[{}, {}]", p.x, p.y)
+                        : fmt::format("[{}, {}, {}]", p.x, p.y, p.z);
+}
+
+// A count, or else a measure.
+std::optional<double> number_named(const Frame& frame, const std::string& name) {
+  if (const auto count = frame.count(name)) return static_cast<double>(*count);
+  return frame.measure(name);
+}
+
+Unmet unmet_number(const Expectation& e, const Frame& frame) {
+  const std::optional<double> found = number_named(frame, e.name);
+  const char* sign = "=";
+  bool holds = found == e.number;
+  if (e.kind == Expectation::Kind::at_most) {
+    sign = "at most";
+    holds = found && *found <= e.number;
+  } else if (e.kind == Expectation::Kind::at_least) {
+    sign = "at least";
+    holds = found && *found >= e.number;
+  } else if (e.kind == Expectation::Kind::measure) {
+    holds = found && std::abs(*found - e.number) <= e.tolerance;
+  }
+  if (holds) return std::nullopt;
+  return fmt::format("expected {} {} {}, found {}", e.name, sign, e.number,
                      found ? fmt::format("{}", *found) : "none");
 }
 
-std::optional<std::string> unmet_leaves(const Expectation& e, const Frame& frame) {
+Unmet unmet_leaves(const Expectation& e, const Frame& frame) {
   const FrameBody* body = body_named(frame, e.name);
   if (!body)
     return fmt::format("expected '{}' in {} leaves, but it is not there", e.name, e.number);
   const auto leaves = std::count_if(frame.nodes.begin(), frame.nodes.end(), [&](const auto& node) {
     return node.leaf && std::binary_search(node.bodies.begin(), node.bodies.end(), body->id);
   });
-  if (leaves == e.number) return std::nullopt;
+  if (static_cast<double>(leaves) == e.number) return std::nullopt;
   return fmt::format("expected '{}' in {} leaves, found it in {}", e.name, e.number, leaves);
 }
 
-std::optional<std::string> unmet_pairs(const Expectation& e, const Frame& frame) {
+Unmet unmet_pairs(const Expectation& e, const Frame& frame) {
+  const bool of_contacts = e.kind == Expectation::Kind::contacts;
   std::set<NamePair> expected, found;
   for (const auto& [a, b] : e.pairs) expected.insert(ordered(a, b));
-  const auto name_of = [&](BodyId id) {
-    return std::lower_bound(frame.bodies.begin(), frame.bodies.end(), id,
-                            [](const FrameBody& body, BodyId wanted) { return body.id < wanted; })
-        ->name;
+  const auto add = [&](const Pair& pair) {
+    found.insert(ordered(name_of(frame, pair.a), name_of(frame, pair.b)));
   };
-  for (const FramePair& p : frame.pairs)
-    found.insert(ordered(name_of(p.pair.a), name_of(p.pair.b)));
+  if (of_contacts)
+    for (const FrameContact& contact : frame.contacts) add(contact.pair);
+  else
+    for (const FramePair& p : frame.pairs) add(p.pair);
   if (found == expected) return std::nullopt;
-  return fmt::format("expected the pairs {}, found {}", listed(expected), listed(found));
+  return fmt::format("expected the {} {}, found {}", of_contacts ? "contacts" : "pairs",
+                     listed(expected), listed(found));
 }
 
-std::optional<std::string> unmet_position(const Expectation& e, const Frame& frame) {
+// In order along a ray; in any order of a view or region.
+Unmet unmet_hits(const Expectation& e, const Frame& frame) {
+  std::vector<std::string> found, expected = e.names;
+  for (const BodyId id : frame.hits) found.push_back(name_of(frame, id));
+  if (frame.rays.empty()) {
+    std::sort(found.begin(), found.end());
+    std::sort(expected.begin(), expected.end());
+  }
+  if (found == expected) return std::nullopt;
+  return fmt::format("expected the hits {}, found {}", listed(expected), listed(found));
+}
+
+Unmet unmet_sleep(const Expectation& e, const Frame& frame) {
+  const bool asleep = e.kind == Expectation::Kind::asleep;
+  std::vector<std::string> others;
+  for (const std::string& name : e.names)
+    if (const FrameBody* body = body_named(frame, name); !body || body->asleep != asleep)
+      others.push_back(name);
+  if (others.empty()) return std::nullopt;
+  return fmt::format("expected to be {}, but are not: {}", asleep ? "asleep" : "awake",
+                     listed(others));
+}
+
+Unmet unmet_vector(const Expectation& e, const Frame& frame) {
   const FrameBody* body = body_named(frame, e.name);
-  if (!body) return fmt::format("expected '{}' at a position, but it is not there", e.name);
-  const Vec<2> off = flat(body->position) - e.position;
-  if (std::abs(off.x) <= e.tolerance && std::abs(off.y) <= e.tolerance) return std::nullopt;
-  return fmt::format("expected '{}' at [{}, {}] within {}, found [{}, {}]", e.name, e.position.x,
-                     e.position.y, e.tolerance, body->position.x, body->position.y);
+  using Kind = Expectation::Kind;
+  const char* what = e.kind == Kind::position   ? "at"
+                     : e.kind == Kind::velocity ? "with velocity"
+                                                : "with a box of half size";
+  if (!body) return fmt::format("expected '{}' {} a value, but it is not there", e.name, what);
+  const Vec<3> found = e.kind == Kind::position   ? body->position
+                       : e.kind == Kind::velocity ? body->velocity
+                                                  : body->box.size() * 0.5;
+  bool holds = true;
+  for (int i = 0; i < frame.dimension; ++i)
+    holds = holds && std::abs(found[i] - e.position[i]) <= e.tolerance;
+  if (holds) return std::nullopt;
+  return fmt::format("expected '{}' {} {} within {}, found {}", e.name, what,
+                     point_text(e.position, frame.dimension), e.tolerance,
+                     point_text(found, frame.dimension));
+}
+
+Unmet unmet_turn(const Expectation& e, const Frame& frame) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const FrameBody* body = body_named(frame, e.name);
+  if (body && std::abs(body->angle - e.number) <= e.tolerance) return std::nullopt;
+  return fmt::format("expected '{}' turned by {} degrees, found {}", e.name, e.number * kDegrees,
+                     body ? fmt::format("{}", body->angle * kDegrees) : "none");
 }
 
 }  // namespace
 
-std::optional<std::string> unmet(const Expectation& e, const Frame& frame) {
+Unmet unmet(const Expectation& e, const Frame& frame) {
+  using Kind = Expectation::Kind;
   switch (e.kind) {
-    case Expectation::Kind::count:
-      return unmet_count(e, frame);
-    case Expectation::Kind::leaves:
+    case Kind::count:
+    case Kind::at_most:
+    case Kind::at_least:
+    case Kind::measure:
+      return unmet_number(e, frame);
+    case Kind::leaves:
       return unmet_leaves(e, frame);
-    case Expectation::Kind::pairs:
+    case Kind::pairs:
+    case Kind::contacts:
       return unmet_pairs(e, frame);
-    case Expectation::Kind::position:
-      return unmet_position(e, frame);
+    case Kind::hits:
+      return unmet_hits(e, frame);
+    case Kind::asleep:
+    case Kind::awake:
+      return unmet_sleep(e, frame);
+    case Kind::position:
+    case Kind::velocity:
+    case Kind::half_size:
+      return unmet_vector(e, frame);
+    case Kind::turned:
+      return unmet_turn(e, frame);
   }
   return std::nullopt;
 }

@@ -48,9 +48,9 @@ Box<2> bounding_box_of(const Polygon& region, const Box<2>& fallback) {
   return box;
 }
 
-template <class Config, int D>
-Config orthtree_config(const StructureSpec& spec, const Box<D>& bounds) {
-  Config config;
+template <int D>
+typename Orthtree<D>::Config orthtree_config(const StructureSpec& spec, const Box<D>& bounds) {
+  typename Orthtree<D>::Config config;
   config.bounds = bounds;
   config.capacity = spec.capacity;
   config.max_depth = spec.max_depth;
@@ -82,7 +82,12 @@ template <int D>
 class TreePicture {
  public:
   TreePicture(const StructureSpec& spec, const Register<D>& bodies, bool only_awake, Frame& frame)
-      : spec_(spec), bodies_(bodies), only_awake_(only_awake), frame_(frame) {}
+      : spec_(spec),
+        bodies_(bodies),
+        only_awake_(only_awake),
+        shows_memory_(std::find(frame.panels.begin(), frame.panels.end(), Panel::memory) !=
+                      frame.panels.end()),
+        frame_(frame) {}
 
   template <class Tree>
   void add(const Tree& tree, const Touched& touched, bool of_static) {
@@ -105,6 +110,9 @@ class TreePicture {
     counters.splits += c.splits;
     counters.nodes_reused += c.nodes_reused;
     counters.allocations += c.allocations;
+    counters.places += c.places;
+    counters.node_bytes += c.node_bytes;
+    if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
   }
 
   Counters counters;  // of all trees together
@@ -122,8 +130,10 @@ class TreePicture {
     node.leaf = view.leaf;
     node.box = solid(view.box);
     node.bodies.assign(view.bodies.begin(), view.bodies.end());
-    node.first = view.first;
-    node.room = view.room;
+    if (shows_memory_) {
+      node.first = view.first;
+      node.room = view.room;
+    }
     node.label = "root";
     const FrameNode* parent = node.parent == kNone ? nullptr : &frame_.nodes[node.parent];
     if (parent) node.label = (is_bsp ? bsp_label : child_label)(parent->label, view.slot);
@@ -165,6 +175,7 @@ class TreePicture {
   const StructureSpec& spec_;
   const Register<D>& bodies_;
   bool only_awake_;
+  bool shows_memory_;
   Frame& frame_;
   std::uint32_t first_ = 0;  // node of the tree that is being added
 };
@@ -183,7 +194,32 @@ CandidatePairs awake_pairs(const Tree& tree, const Register<D>& bodies) {
   return found;
 }
 
+// The sweep compares boxes itself: its pairs overlap, and its tests are those comparisons.
+template <int D>
+CandidatePairs swept_pairs(SortAndSweep<D> sweep, const Register<D>& bodies, bool only_awake) {
+  CandidatePairs found;
+  found.pair_tests = sweep.sweep([&](BodyId id) { return !only_awake || bodies[id].awake; },
+                                 [&](BodyId a, BodyId b) {
+                                   found.pairs.push_back({std::min(a, b), std::max(a, b)});
+                                 });
+  return found;
+}
+
 }  // namespace
+
+template <int D>
+BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds) {
+  BroadPhaseConfig<D> config;
+  const auto kind = broad_phase_named(to_string(spec.kind));
+  config.kind = kind.value_or(BroadPhaseKind::brute_force);
+  config.bounds = bounds;
+  config.capacity = spec.capacity;
+  config.max_depth = spec.max_depth;
+  config.eager_children = spec.children == Children::eager;
+  config.planes = planes_of<D>(spec);
+  config.split_static = spec.split_static;
+  return config;
+}
 
 std::string settings_text(const StructureSpec& s) {
   const std::string split = s.split_static ? ", static bodies apart" : "";
@@ -227,14 +263,17 @@ auto Structures<D>::made() const -> Tree {
     case StructureKind::brute_force:
       return BruteForce<D>();
     case StructureKind::quadtree:
-      return Quad(orthtree_config<typename Quad::Config>(spec_, bounds_));
+      if constexpr (D == 2)
+        return Quadtree(orthtree_config(spec_, bounds_));
+      else
+        return FlatQuadtree({bounds_, orthtree_config(spec_, Box<2>())});
     case StructureKind::octree:
-      if constexpr (D == 3) return Octo(orthtree_config<typename Octo::Config>(spec_, bounds_));
+      if constexpr (D == 3) return Octree(orthtree_config(spec_, bounds_));
       break;
     case StructureKind::bsp:
       return Bsp<D>(planes_of<D>(spec_), bounds_);
     case StructureKind::kd_tree:
-      return KdTree<D>(orthtree_config<typename KdTree<D>::Config>(spec_, bounds_));
+      return KdTree<D>({spec_.capacity, spec_.max_depth, kMostEntries});
     case StructureKind::sort_and_sweep:
       return SortAndSweep<D>();
   }
@@ -243,9 +282,14 @@ auto Structures<D>::made() const -> Tree {
 
 template <int D>
 void Structures<D>::insert(const Resident<D>& resident, const Watch& watch) {
+  std::vector<Item<D>>& items = is_for_static(resident) ? static_items_ : items_;
+  items.push_back(resident.item);
   std::visit(
       [&](auto& tree) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(tree)>, std::monostate>) {
+        using T = std::decay_t<decltype(tree)>;
+        if constexpr (std::is_same_v<T, KdTree<D>>) {
+          tree.build(items);
+        } else if constexpr (!std::is_same_v<T, std::monostate>) {
           if (watch)
             tree.insert(resident.item, watch);
           else
@@ -253,31 +297,31 @@ void Structures<D>::insert(const Resident<D>& resident, const Watch& watch) {
         }
       },
       is_for_static(resident) ? static_tree_ : tree_);
-  if (is_for_static(resident)) static_items_.push_back(resident.item);
 }
 
 template <int D>
-void Structures<D>::rebuild(std::vector<Resident<D>> residents) {
-  const auto fill = [&](Tree& tree, auto&& wanted) {
+void Structures<D>::rebuild(std::span<const Resident<D>> residents) {
+  std::vector<Item<D>> of_static;
+  items_.clear();
+  for (const Resident<D>& r : residents) (is_for_static(r) ? of_static : items_).push_back(r.item);
+  const auto fill = [](Tree& tree, const std::vector<Item<D>>& items) {
     std::visit(
         [&](auto& t) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(t)>, std::monostate>) {
+          using T = std::decay_t<decltype(t)>;
+          if constexpr (std::is_same_v<T, KdTree<D>>) {
+            t.build(items);
+          } else if constexpr (!std::is_same_v<T, std::monostate>) {
             t.clear();
-            for (const Resident<D>& r : residents)
-              if (wanted(r)) t.insert(r.item);
+            for (const Item<D>& item : items) t.insert(item);
           }
         },
         tree);
   };
-  fill(tree_, [&](const Resident<D>& r) { return !is_for_static(r); });
+  fill(tree_, items_);
   ++dynamic_builds_;
-  if (!spec_.split_static) return;
-  std::vector<Item<D>> items;
-  for (const Resident<D>& r : residents)
-    if (is_for_static(r)) items.push_back(r.item);
-  if (items == static_items_) return;
-  static_items_ = std::move(items);
-  fill(static_tree_, [&](const Resident<D>& r) { return is_for_static(r); });
+  if (!spec_.split_static || of_static == static_items_) return;
+  static_items_ = std::move(of_static);
+  fill(static_tree_, static_items_);
   ++static_builds_;
 }
 
@@ -312,6 +356,7 @@ void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>>
   bool is_static = false;
   with_each([&](const auto& tree) {
     picture.add(tree, is_static ? Touched() : touched, is_static);
+    using T = std::decay_t<decltype(tree)>;
     if (is_static) {
       // Who moves asks the structure of what does not.
       for (const Resident<D>& r : residents)
@@ -320,11 +365,14 @@ void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>>
             candidates.pairs.push_back({std::min(id, r.item.id), std::max(id, r.item.id)});
             ++candidates.pair_tests;
           });
+    } else if constexpr (std::is_same_v<T, SortAndSweep<D>>) {
+      candidates = swept_pairs(tree, bodies, only_awake_);
     } else {
       candidates = only_awake_ ? awake_pairs(tree, bodies) : candidate_pairs(tree, kMostPairs);
     }
-    if constexpr (requires { tree.fits(residents[0].item); })
-      for (const Resident<D>& r : residents) stale += !tree.fits(r.item);
+    if constexpr (std::is_same_v<T, KdTree<D>>)
+      for (const Resident<D>& r : residents)
+        stale += is_for_static(r) == is_static && !tree.fits(r.item);
     is_static = true;
   });
   std::sort(candidates.pairs.begin(), candidates.pairs.end());
@@ -351,6 +399,11 @@ void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>>
   count("splits", c.splits);
   count("nodes_reused", c.nodes_reused);
   count("allocations", c.allocations);
+  if (c.node_bytes > 0) {
+    count("slots", c.places);
+    count("node_bytes", c.node_bytes);
+    count("node_bytes_with_bounds", c.node_bytes + c.nodes * sizeof(Box<D>));
+  }
   if (only_awake_) count("nodes_asleep", static_cast<std::uint64_t>(picture.nodes_asleep));
   if (spec_.split_static) {
     count("static_builds", static_builds_);
@@ -359,6 +412,8 @@ void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>>
   if (spec_.kind == StructureKind::kd_tree) count("stale", stale);
 }
 
+template BroadPhaseConfig<2> broad_phase_of(const StructureSpec&, const Box<2>&);
+template BroadPhaseConfig<3> broad_phase_of(const StructureSpec&, const Box<3>&);
 template class Structures<2>;
 template class Structures<3>;
 

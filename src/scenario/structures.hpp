@@ -12,12 +12,7 @@
 #include "base/work.hpp"
 #include "scenario/frame.hpp"
 #include "scenario/touched.hpp"
-#include "spatial/brute_force.hpp"
-#include "spatial/bsp.hpp"
-#include "spatial/flat_quadtree.hpp"
-#include "spatial/kd_tree.hpp"
-#include "spatial/orthtree.hpp"
-#include "spatial/sort_and_sweep.hpp"
+#include "spatial/broad_phase.hpp"
 
 namespace lantern {
 
@@ -39,12 +34,13 @@ class Structures {
  public:
   using Watch = std::function<void(const Event&)>;
   // In a solid world the quadtree lies on the floor: it knows x and z.
-  using Quad = std::conditional_t<D == 2, Quadtree, FlatQuadtree>;
-  using Octo = std::conditional_t<D == 2, std::monostate, Octree>;
-  using Tree =
-      std::variant<std::monostate, BruteForce<D>, Quad, Octo, Bsp<D>, KdTree<D>, SortAndSweep<D>>;
+  using Tree = std::conditional_t<
+      D == 2,
+      std::variant<std::monostate, BruteForce<D>, Quadtree, Bsp<D>, KdTree<D>, SortAndSweep<D>>,
+      std::variant<std::monostate, BruteForce<D>, FlatQuadtree, Octree, Bsp<D>, KdTree<D>,
+                   SortAndSweep<D>>>;
 
-  // `lazy_pairs`: pairs of which neither body is awake are left out.
+  // `only_awake`: pairs of which neither body is awake are left out.
   Structures(const StructureSpec& spec, const Box<D>& bounds, bool only_awake, Work& work);
 
   bool any() const { return spec_.kind != StructureKind::none; }
@@ -53,7 +49,7 @@ class Structures {
   // One more body; trees that are fitted to all their bodies are built anew.
   void insert(const Resident<D>& resident, const Watch& watch);
   // All bodies anew, memory reused. What never moves is built again only if it changed.
-  void rebuild(std::vector<Resident<D>> residents);
+  void rebuild(std::span<const Resident<D>> residents);
 
   // "root", "1.3", "front.back"
   std::string label_of(NodeHandle node) const;
@@ -82,10 +78,15 @@ class Structures {
   Work& work_;
   Tree tree_;
   Tree static_tree_;  // none unless the two are split
+  std::vector<Item<D>> items_;
   std::vector<Item<D>> static_items_;
   std::uint64_t dynamic_builds_ = 0;
   std::uint64_t static_builds_ = 0;
 };
+
+// The same structure as the broad phase of the physics; without one, every pair is tested.
+template <int D>
+BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds);
 
 // "capacity 2, depth limit 4, all children made"
 std::string settings_text(const StructureSpec& structure);

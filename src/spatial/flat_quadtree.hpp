@@ -74,6 +74,8 @@ class FlatQuadtree {
     tall.box = {{view.box.lo.x, bounds_.lo.y, view.box.lo.y},
                 {view.box.hi.x, bounds_.hi.y, view.box.hi.y}};
     tall.bodies = view.bodies;
+    tall.first = view.first;
+    tall.room = view.room;
     return tall;
   }
 

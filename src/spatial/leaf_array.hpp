@@ -68,6 +68,9 @@ class LeafArray {
     free_.fill(kNone);
   }
 
+  // Of the run's block.
+  std::uint32_t room(Run run) const { return run.count == 0 ? 0 : room_for(run.count); }
+
   // Of all blocks, free or not.
   std::size_t places() const { return values_.size(); }
   std::uint64_t allocations() const { return allocations_; }

@@ -130,6 +130,8 @@ class Orthtree {
     c.splits = splits_;
     c.allocations = allocations_ + contents_.allocations();
     c.nodes_reused = nodes_reused_;
+    c.places = contents_.places();
+    c.node_bytes = nodes_.size() * sizeof(Node) + families_.size() * sizeof(Family);
     return c;
   }
 
@@ -321,7 +323,11 @@ class Orthtree {
     view.leaf = node.is_leaf();
     view.box = at.bounds;
     tour.ids.clear();
-    if (view.leaf) add_ids(node, tour.ids);
+    if (view.leaf) {
+      add_ids(node, tour.ids);
+      view.first = node.contents.count == 0 ? kNone : node.contents.first;
+      view.room = contents_.room(node.contents);
+    }
     if (!std::is_sorted(tour.ids.begin(), tour.ids.end()))
       std::sort(tour.ids.begin(), tour.ids.end());
     view.bodies = tour.ids;

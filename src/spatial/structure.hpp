@@ -37,6 +37,7 @@ template <int D>
 struct Item {
   BodyId id = 0;
   Box<D> box;
+  bool operator==(const Item&) const = default;
 };
 
 // Throws Refused, naming the body, unless its box is finite and nowhere inverted.
@@ -75,6 +76,8 @@ struct NodeView {
   Box<D> box;                       // its bounds, derived on the way down; of a BSP the world's
   const Plane<D>* plane = nullptr;  // a BSP's inner nodes
   std::span<const BodyId> bodies;   // a leaf's contents, ascending
+  std::uint32_t first = kNone;      // where they begin in the array that all leaves share, if there
+  std::uint32_t room = 0;           // is one, and how many places are theirs
 };
 
 // Where the bodies of a node, or at least the parts of them for which the node answers, may lie.
@@ -119,6 +122,8 @@ struct Counters {
   std::uint64_t allocations = 0;   // calls for memory since the structure was made
   std::uint64_t nodes_reused = 0;  // since the last clear: nodes that took the place of one from
                                    // before it instead of new memory
+  std::uint64_t places = 0;        // of the array that all leaves share, if there is one
+  std::uint64_t node_bytes = 0;    // that all nodes take, contents apart
 };
 
 }  // namespace lantern
