@@ -66,6 +66,42 @@ struct BroadPhaseCounters {
   std::uint64_t nodes_reused = 0;          // of the dynamic structure
 };
 
+// A structure whose bodies are numbered from 0 in the order of their ids, seen with the ids.
+template <int D, class Structure>
+class Named {
+ public:
+  static constexpr Zones kZones = Structure::kZones;
+
+  Named(const Structure& structure, std::span<const BodyId> names)
+      : structure_(structure), names_(names) {}
+
+  template <class F>
+  void visit(F&& f) const {
+    std::vector<BodyId> room;
+    structure_.visit([&](const NodeView<D>& view) { return f(named(view, room)); });
+  }
+
+  template <class F>
+  void visit_toward(const Vec<D>& direction, F&& f) const {
+    std::vector<BodyId> room;
+    structure_.visit_toward(direction,
+                            [&](const NodeView<D>& view) { return f(named(view, room)); });
+  }
+
+  Counters counters() const { return structure_.counters(); }
+
+ private:
+  NodeView<D> named(NodeView<D> view, std::vector<BodyId>& room) const {
+    room.clear();
+    for (const BodyId number : view.bodies) room.push_back(names_[number]);
+    view.bodies = room;
+    return view;
+  }
+
+  const Structure& structure_;
+  std::span<const BodyId> names_;
+};
+
 // Pairs are those bodies whose boxes overlap (touching does), of which at least one is awake and
 // not static; each once, in order of ids. All kinds give the same pairs.
 //
@@ -103,9 +139,13 @@ class BroadPhase {
   // bodies have come, gone or moved in their sleep since. Without split_static, the dynamic one
   // holds all.
   template <class F>
-  decltype(auto) with_static(F&& f) const;
+  decltype(auto) with_static(F&& f) const {
+    return with(static_, f);
+  }
   template <class F>
-  decltype(auto) with_dynamic(F&& f) const;
+  decltype(auto) with_dynamic(F&& f) const {
+    return with(dynamic_, f);
+  }
 
   template <class F>
   void visit_static(F&& f) const {
@@ -120,9 +160,70 @@ class BroadPhase {
   std::vector<bool> awake_dynamic_nodes() const;
 
  private:
+  // A structure and its bodies, by id. The structure knows them by their places in this list.
+  struct Store {
+    Structure structure;
+    std::vector<Proxy<D>> bodies;
+    std::vector<std::uint32_t> ranks;  // of each body among all, by id
+    std::vector<BodyId> names;         // of the bodies that the structure holds
+    std::uint32_t depth = 0;           // of a tree; at most as configured
+    std::uint64_t room = 0;            // how many bodies its limits were made for
+  };
+  struct RankPair {
+    std::uint32_t a = 0, b = 0;
+  };
+
+  template <class F>
+  static decltype(auto) with(const Store& store, F& f) {
+    return std::visit(
+        [&](const auto& structure) -> decltype(auto) {
+          return f(Named<D, std::remove_cvref_t<decltype(structure)>>(structure, store.names));
+        },
+        store.structure);
+  }
+
+  static bool stirs(const Proxy<D>& proxy) { return proxy.awake && !proxy.is_static; }
+  static bool same_boxes(const std::vector<Proxy<D>>& a, const std::vector<Proxy<D>>& b);
+
+  Structure made(std::uint32_t depth, std::uint64_t room) const;
+  void sort_and_check(std::span<const Proxy<D>> proxies);
+  void deal_out();
+  void build(Store& store);
+  void fill(Store& store);
+  void empty(Store& store);
+  void pair_dynamic();
+  void pair_static();
+  template <class Tree>
+  void pair_leaves(const Tree& tree);
+  template <class Tree>
+  void find_awake_nodes(const Tree& tree);
+  void pair_bodies(std::span<const BodyId> bodies);
+  void add_pair(std::uint32_t rank_a, std::uint32_t rank_b) {
+    found_.push_back(rank_a < rank_b ? RankPair{rank_a, rank_b} : RankPair{rank_b, rank_a});
+  }
+  void sort_pairs();
+  std::uint64_t structure_allocations() const;
+  std::size_t own_places() const;
+
   Config config_;
+  Store static_, dynamic_;
   std::vector<Pair> pairs_;
   BroadPhaseCounters counters_;
+  std::uint64_t own_allocations_ = 0;
+  std::uint64_t past_allocations_ = 0;  // of structures that were made anew
+
+  // Scratch of an update, kept for its memory.
+  std::vector<Proxy<D>> sorted_;  // all, by id
+  std::vector<Proxy<D>> fresh_static_, fresh_dynamic_;
+  std::vector<Item<D>> items_;
+  std::vector<BodyId> ids_;
+  std::vector<std::uint8_t> awake_;               // of each node, by handle
+  std::vector<std::uint32_t> parents_, handles_;  // of nodes, in the order of visiting
+  std::vector<RankPair> found_;                   // in any order, perhaps repeated
+  std::vector<std::uint32_t> first_, partners_;   // found_, sorted by the lower rank
 };
+
+extern template class BroadPhase<2>;
+extern template class BroadPhase<3>;
 
 }  // namespace lantern
