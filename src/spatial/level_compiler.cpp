@@ -91,7 +91,7 @@ class LevelCompiler {
   bool faces_front(const WallPiece& piece, std::uint32_t wall) const {
     const Vec<2> along = piece.line.b - piece.line.a;
     const Vec<2>& normal = level_.lines_[wall].normal;
-    return along.x * normal.y - along.y * normal.x < 0;
+    return along.x * normal.y - along.y * normal.x > 0;
   }
 
   // Tries the line of piece `at`. Walls on the same line are marked as tried, too.
