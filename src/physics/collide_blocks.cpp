@@ -78,26 +78,29 @@ double least_separation(const Manifold<D>& manifold) {
   return least;
 }
 
-// Of cores that are apart, where the separating axis is not the direction of their distance. Near a
-// face's normal, that face still gives its many points, so that a capsule over the rim of a box
-// rests on it rather than rocking.
+// Of cores that are apart, where the separating axis is not the direction of their distance. Round
+// blocks near a face's normal still have that face's points, so that a capsule over the rim of a
+// box rests on it rather than rocking.
 template <int D>
 Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
                                const ClosestFeatures<D>& closest, const Direction<D>& normal,
                                const SeparatingAxis<D>& axis, double margin) {
   const Manifold<D> single =
       one_point(closest.points.a, a.radius, b.radius, normal, kClosest | closest.feature);
-  if (axis.kind == SeparatingAxis<D>::Kind::edges) return single;
+  const double radii = a.radius + b.radius, exact = normal.length - radii;
+  if (radii <= 0 || axis.kind == SeparatingAxis<D>::Kind::edges) return single;
   if (glm::dot(axis.normal, normal.unit) < kNearFace) return single;
   const bool of_a = axis.kind == SeparatingAxis<D>::Kind::face_of_a;
-  Manifold<D> manifold =
-      contact_on_face(a, b, of_a, of_a ? axis.axis_a : axis.axis_b, normal.unit, margin).manifold;
-  if (manifold.count < 2) return single;
-  // Its deepest point stands for the closest ones, whose distance is exact.
-  const double least = least_separation(manifold);
-  for (auto& point : manifold.room)
-    if (point.separation == least) point.separation = normal.length - a.radius - b.radius;
-  return manifold;
+  const int face = of_a ? axis.axis_a : axis.axis_b;
+  Manifold<D> many = contact_on_face(a, b, of_a, face, normal.unit, margin).manifold;
+  if (many.count < 2) return single;
+  // Heights along the leaning normal are nearly distances. The deepest point stands for the closest
+  // ones, whose distance is exact.
+  const double least = least_separation(many);
+  if (std::abs(least - exact) > 0.01 * radii) return single;
+  for (auto& point : many.room)
+    point.separation = point.separation == least ? exact : std::max(point.separation, exact);
+  return many;
 }
 
 }  // namespace

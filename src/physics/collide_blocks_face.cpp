@@ -28,15 +28,20 @@ struct Corner {
   std::uint32_t line_out = 0;
 };
 
-// At most the 4 corners of a face and one more for each of the 4 sides that cut it.
+// A face has 4 corners and each of the 4 sides that cut it adds one. Rounding may fray a corner, so
+// there is room for more; beyond it corners are left out.
+constexpr std::size_t kMostCorners = 12;
+
 template <int D>
 struct Outline {
-  std::array<Corner<D>, 8> room;
+  std::array<Corner<D>, kMostCorners> room;
   int count = 0;
 
   Corner<D>& operator[](int i) { return room[static_cast<std::size_t>(i)]; }
   const Corner<D>& operator[](int i) const { return room[static_cast<std::size_t>(i)]; }
-  void add(const Corner<D>& corner) { room[static_cast<std::size_t>(count++)] = corner; }
+  void add(const Corner<D>& corner) {
+    if (count < static_cast<int>(kMostCorners)) (*this)[count++] = corner;
+  }
 };
 
 // The face of a block that looks most against the normal.
@@ -111,7 +116,8 @@ double distance_to(const Block<D>& block, const Vec<D>& point) {
 // The deepest point, the one farthest from it, and on each side of the line through both the one
 // that spans the largest triangle. A later point must be better by a part of 1e-6, so that equal
 // ones are not swapped by rounding.
-std::array<int, 4> widest_four(const Outline<3>& outline, const std::array<double, 8>& heights,
+std::array<int, 4> widest_four(const Outline<3>& outline,
+                               const std::array<double, kMostCorners>& heights,
                                const Vec<3>& normal, double slack) {
   std::array<int, 4> chosen{0, -1, -1, -1};
   const auto height = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
@@ -160,7 +166,7 @@ FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, in
   FaceContact<D> contact;
   contact.manifold.normal = normal;
   contact.least_distance = std::numeric_limits<double>::infinity();
-  std::array<double, 8> heights{};
+  std::array<double, kMostCorners> heights{};
   Outline<D> close;
   for (int i = 0; i < outline.count; ++i) {
     const Vec<D> p = outline[i].point;
