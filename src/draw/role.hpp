@@ -48,6 +48,11 @@ enum class Role : std::uint8_t {
   body_mark_6,
   body_mark_7,
   body_mark_8,  // the second cue beside its hue
+  view_fill,    // ground of what a view sees
+  sector_1,     // grounds of a level's sectors, so that neighbours differ
+  sector_2,
+  sector_3,
+  sector_4,
   count_,
 };
 
@@ -59,6 +64,13 @@ constexpr Role body_role(int color) {
 // The role of what is drawn on body colour 1 ... 8.
 constexpr Role body_mark_role(int color) {
   return static_cast<Role>(static_cast<int>(Role::body_mark_1) + (color - 1) % 8);
+}
+
+inline constexpr unsigned kSectorTones = 4;
+
+// The role of the ground of a sector of tone 0 ... 3.
+constexpr Role sector_role(unsigned tone) {
+  return static_cast<Role>(static_cast<unsigned>(Role::sector_1) + tone % kSectorTones);
 }
 
 // The role of a cell line at this depth of the tree.
