@@ -38,8 +38,7 @@ std::vector<std::uint32_t> AtlasStage::free_leaves() const {
   return handles;
 }
 
-void AtlasStage::name_free_leaf(const std::string& name,
-                                const std::vector<std::uint32_t>& before) {
+void AtlasStage::name_free_leaf(const std::string& name, const std::vector<std::uint32_t>& before) {
   std::int64_t largest = 0;
   std::uint32_t handle = 0;
   atlas_.visit([&](const AtlasNodeView& node) {

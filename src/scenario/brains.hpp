@@ -81,8 +81,7 @@ class Brains {
   Random& random_of(BodyId id, const BodySpec& spec) {
     const auto found = random_.find(id);
     if (found != random_.end()) return found->second;
-    const std::uint64_t seed =
-        Hash().add(scenario_.seed).add(std::string_view(spec.name)).value();
+    const std::uint64_t seed = Hash().add(scenario_.seed).add(std::string_view(spec.name)).value();
     return random_.emplace(id, Random(seed)).first->second;
   }
 

@@ -189,8 +189,8 @@ class Director {
       if (event.kind == Kind::hit) continue;  // told with its test
       const bool hit = i + 1 < found.walk.size() && found.walk[i + 1].kind == Kind::hit;
       const bool is_test = event.kind == Kind::test;
-      const std::string_view name = is_test ? (hit ? "hit" : "miss")
-                                            : (event.kind == Kind::visit ? "visit" : "skip");
+      const std::string_view name =
+          is_test ? (hit ? "hit" : "miss") : (event.kind == Kind::visit ? "visit" : "skip");
       if (event.kind == Kind::visit) touched_.passed.insert(event.node);
       if (!wanted(name)) continue;
       Touched now{{}, touched_.passed};
@@ -448,7 +448,7 @@ class Director {
   const Scenario& scenario_;
   Pace pace_;
   const std::function<bool(const Frame&)>& sink_;
-  std::unique_ptr<Engine> engine_;      // if there are bodies
+  std::unique_ptr<Engine> engine_;  // if there are bodies
   std::optional<AtlasStage> atlas_;
   std::optional<LevelStage> level_;
   std::optional<Plotter> plotter_;
@@ -462,12 +462,12 @@ class Director {
   std::string texture_;     // that the frame is about
   std::string refused_names_;
   std::vector<Pair> last_pairs_;
-  std::optional<Finding> finding_;       // of this step
+  std::optional<Finding> finding_;  // of this step
   struct QueryNumbers {
     QueryCounts counts;
     std::size_t hits = 0;
   };
-  std::optional<QueryNumbers> counted_;  // of the last ray, view or region
+  std::optional<QueryNumbers> counted_;    // of the last ray, view or region
   std::set<const Expectation*> reported_;  // an unmet one is reported once
   bool stopped_ = false;
 };

@@ -31,7 +31,7 @@ class Engine {
   using Watch = std::function<void(const Event&)>;
   virtual ~Engine() = default;
 
-  virtual void enter(std::size_t body) = 0;  // into the world only
+  virtual void enter(std::size_t body) = 0;                      // into the world only
   virtual void store(std::size_t body, const Watch& watch) = 0;  // into the structure as well
   virtual void leave(std::size_t body) = 0;
   virtual void move(const Move& move) = 0;

@@ -16,7 +16,9 @@ std::string counted(std::uint64_t n, std::string_view one) {
 }  // namespace
 
 LevelStage::LevelStage(const Scenario& scenario)
-    : spec_(*scenario.level), bounds_(flat(scenario.world.bounds)), walls_(walls_of_loops(spec_.loops)) {}
+    : spec_(*scenario.level),
+      bounds_(flat(scenario.world.bounds)),
+      walls_(walls_of_loops(spec_.loops)) {}
 
 void LevelStage::compile(const std::function<void(const LevelMoment&)>& watch) {
   LevelConfig config;
@@ -51,8 +53,8 @@ std::string LevelStage::told(const LevelBsp& level, const LevelEvent& event) {
       return fmt::format(
           "Wall {} has the best line: {} in front, {} behind, {} cut. Score {:.4g}; the first "
           "wall's line would have {:.4g}.",
-          event.line.wall + 1, event.line.front, event.line.back, event.line.cuts,
-          event.line.score, node.first.score);
+          event.line.wall + 1, event.line.front, event.line.back, event.line.cuts, event.line.score,
+          node.first.score);
     case Kind::cut:
       return fmt::format("The line cuts wall {} in two.", event.line.wall + 1);
     case Kind::sector:
@@ -92,8 +94,8 @@ void LevelStage::order_from(const Vec<2>& eye) {
 
 void LevelStage::picture_walls(Frame& frame) const {
   for (std::uint32_t i = 0; i < walls_.size(); ++i)
-    frame.walls.push_back({walls_[i].line.a, walls_[i].line.b, i, kNone,
-                           i == lit_wall_ ? Mark::lit : Mark::quiet});
+    frame.walls.push_back(
+        {walls_[i].line.a, walls_[i].line.b, i, kNone, i == lit_wall_ ? Mark::lit : Mark::quiet});
 }
 
 void LevelStage::picture_nodes(const LevelBsp& level, Frame& frame) const {

@@ -27,8 +27,8 @@ std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
   std::vector<BspPlane<D>> planes;
   std::map<std::string, std::uint32_t> node_at;  // way from the root -> index
   for (const PlaneSpec& p : spec.planes) {
-    BspPlane<D> plane{
-        Plane<D>::through(in_dimension<D>(p.point), in_dimension<D>(p.normal)), kNone, false};
+    BspPlane<D> plane{Plane<D>::through(in_dimension<D>(p.point), in_dimension<D>(p.normal)), kNone,
+                      false};
     if (p.at != "root") {
       const std::size_t dot = p.at.rfind('.');
       const std::string parent = dot == std::string::npos ? "root" : p.at.substr(0, dot);
@@ -183,7 +183,8 @@ class TreePicture {
 // Pairs that share a leaf and of which one is awake; sleeping leaves are skipped.
 template <int D, class Tree>
 CandidatePairs awake_pairs(const Tree& tree, const Register<D>& bodies) {
-  CandidatePairs found = pairs_where(tree, kMostPairs, [&](const Pair& p) { return bodies.awake(p); });
+  CandidatePairs found =
+      pairs_where(tree, kMostPairs, [&](const Pair& p) { return bodies.awake(p); });
   found.pair_tests = 0;
   tree.visit([&](const NodeView<D>& node) {
     std::uint64_t resting = 0;
@@ -248,11 +249,11 @@ std::string settings_text(const StructureSpec& s) {
 template <int D>
 Structures<D>::Structures(const StructureSpec& spec, const Box<D>& bounds, bool only_awake,
                           Work& work)
-    : spec_(spec), bounds_(bounds), only_awake_(only_awake), work_(work), tree_(made()) {
-  if (any()) ++work_.structures_created;
+    : spec_(spec), bounds_(bounds), only_awake_(only_awake), tree_(made()) {
+  if (any()) ++work.structures_created;
   if (!any() || !spec_.split_static) return;
   static_tree_ = made();
-  ++work_.structures_created;
+  ++work.structures_created;
 }
 
 template <int D>

@@ -75,7 +75,6 @@ class Structures {
   StructureSpec spec_;
   Box<D> bounds_;
   bool only_awake_;
-  Work& work_;
   Tree tree_;
   Tree static_tree_;  // none unless the two are split
   std::vector<Item<D>> items_;
