@@ -166,9 +166,9 @@ class Director {
 
   // --- questions that the structure answers ---
 
-  void act(const CastRay& ray) { answer(engine_->cast(ray), "ray"); }
-  void act(const Cull& view) { answer(engine_->cull(view), "cull"); }
-  void act(const Query& region) { answer(engine_->query(region), "query"); }
+  void act(const CastRay& ray) { answer(engine_->ask(ray), "ray"); }
+  void act(const Cull& view) { answer(engine_->ask(view), "cull"); }
+  void act(const Query& region) { answer(engine_->ask(region), "query"); }
 
   void answer(Finding finding, std::string_view verb) {
     finding_ = std::move(finding);

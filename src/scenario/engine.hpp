@@ -44,9 +44,9 @@ class Engine {
   // Another structure, all bodies anew; the world's broad phase becomes the same kind.
   virtual void rebuild_as(const StructureSpec& structure) = 0;
 
-  virtual Finding cast(const CastRay& ray) const = 0;
-  virtual Finding cull(const Cull& view) const = 0;
-  virtual Finding query(const Query& region) const = 0;
+  virtual Finding ask(const CastRay& ray) const = 0;
+  virtual Finding ask(const Cull& view) const = 0;
+  virtual Finding ask(const Query& region) const = 0;
 
   virtual std::optional<BodyId> id_of(std::size_t body) const = 0;
   virtual bool is_moving(std::size_t body) const = 0;

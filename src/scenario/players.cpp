@@ -1,0 +1,102 @@
+#include "scenario/players.hpp"
+
+namespace lantern {
+namespace {
+
+template <int D>
+Body<D> body_of(const BodySpec& spec) {
+  Body<D> body;
+  body.name = spec.name;
+  body.shape = in_dimension<D>(spec.shape);
+  body.kind = spec.kind;
+  body.position = in_dimension<D>(spec.position);
+  body.orientation = turned(Rotation<D>(), spin_about<D>(spec.axis, spec.angle));
+  body.velocity = in_dimension<D>(spec.velocity);
+  body.density = spec.density;
+  body.mass = spec.mass;
+  body.material = spec.material;
+  body.linear_drag = spec.linear_drag;
+  body.angular_drag = spec.angular_drag;
+  body.may_turn = spec.may_turn;
+  return body;
+}
+
+}  // namespace
+
+template <int D>
+void Players<D>::enter(std::size_t index) {
+  const BodySpec& spec = scenario_.bodies[index];
+  const BodyId id = world_.add(body_of<D>(spec));
+  ids_[index] = id;
+  index_of_.push_back(index);
+  if (spec.spin != 0) world_.set_angular_velocity(id, spin_about<D>(spec.axis, spec.spin));
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const LinkSpec& link = scenario_.links[i];
+    if (!links_[i].there && ids_[link.a] && (!link.b || ids_[*link.b])) make_link(link, links_[i]);
+  }
+  if (spec.asleep) world_.sleep(id);
+}
+
+template <int D>
+void Players<D>::leave(std::size_t index) {
+  world_.remove(*ids_[index]);
+  ids_[index].reset();
+  for (std::size_t i = 0; i < links_.size(); ++i)
+    if (scenario_.links[i].a == index || scenario_.links[i].b == index) links_[i].there = false;
+}
+
+template <int D>
+std::vector<Resident<D>> Players<D>::residents() const {
+  std::vector<Resident<D>> all;
+  for (const Body<D>& body : world_.bodies())
+    if (spec_of(body.id)) all.push_back(resident(body));
+  return all;
+}
+
+template <int D>
+std::pair<Vec<D>, Vec<D>> Players<D>::ends_of(const LinkSpec& link) const {
+  const auto point = [&](std::size_t index, const Vec<3>& at) {
+    const Body<D>& b = *body(index);
+    return b.position + matrix(b.orientation) * in_dimension<D>(at);
+  };
+  return {point(link.a, link.at_a),
+          link.b ? point(*link.b, link.at_b) : in_dimension<D>(link.at_b)};
+}
+
+template <int D>
+void Players<D>::make_link(const LinkSpec& spec, Link& link) {
+  const auto [from, to] = ends_of(spec);
+  link = {true, spec.rest_length.value_or(glm::length(to - from))};
+  const BodyId a = *ids_[spec.a], b = spec.b ? *ids_[*spec.b] : add_anchor(to);
+  const Vec<D> at_a = in_dimension<D>(spec.at_a);
+  const Vec<D> at_b = spec.b ? in_dimension<D>(spec.at_b) : Vec<D>(0.0);
+  if (spec.kind == LinkSpec::Kind::spring) {
+    world_.add_spring({a, b, at_a, at_b, link.rest_length, spec.stiffness, spec.damping});
+    return;
+  }
+  Joint<D> joint;
+  joint.kind = spec.kind == LinkSpec::Kind::pin ? JointKind::pin : JointKind::distance;
+  joint.a = a;
+  joint.b = b;
+  joint.at_a = at_a;
+  joint.at_b = at_b;
+  joint.length = link.rest_length;
+  world_.add_joint(joint);
+}
+
+// A point of the world is a static body without size.
+template <int D>
+BodyId Players<D>::add_anchor(const Vec<D>& at) {
+  Body<D> anchor;
+  anchor.name = "anchor";
+  anchor.shape = Sphere{0};
+  anchor.kind = BodyKind::static_body;
+  anchor.position = at;
+  index_of_.push_back(kAnchor);
+  return world_.add(std::move(anchor));
+}
+
+template class Players<2>;
+template class Players<3>;
+
+}  // namespace lantern
