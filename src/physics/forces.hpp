@@ -1,6 +1,7 @@
 // Smooth forces: all that pushes bodies without their touching.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "physics/body.hpp"
@@ -8,7 +9,9 @@
 namespace lantern {
 
 // A damped spring between points of two bodies, given in the bodies' own axes from their centres:
-// force = -stiffness * (length - rest) - damping * (rate of length).
+// force = -stiffness * (length - rest) - damping * (rate of length), along the line between the
+// points. A spring of no length has no direction and pulls nothing. A body that cannot be moved
+// (static, kinematic, asleep) is an anchor.
 template <int D>
 struct Spring {
   BodyId a = 0;
@@ -34,5 +37,45 @@ struct Forces {
   std::vector<Spring<D>> springs;
   std::vector<Push<D>> pushes;
 };
+
+// A spring at one moment.
+//
+//        a's centre --arm_a--> o/\/\/\/\o <--arm_b-- b's centre
+//                                direction ->
+template <int D>
+struct Stretch {
+  Vec<D> arm_a{0.0};  // from the centre, in the world's axes
+  Vec<D> arm_b{0.0};
+  Vec<D> direction{0.0};  // from a's point to b's, of unit length; zero if they coincide
+  double length = 0;
+  double rate = 0;     // of the length, units a second
+  double tension = 0;  // N; a is pulled along the direction, b against it
+};
+
+// How a body lies and moves, as far as a spring's end is concerned.
+template <int D>
+struct EndMotion {
+  Rotation<D> orientation;
+  Vec<D> velocity{0.0};
+  Spin<D> angular_velocity{0.0};
+};
+
+// `between` leads from the centre of a to the centre of b.
+template <int D>
+Stretch<D> stretched(const Spring<D>& spring, const Vec<D>& between, const EndMotion<D>& a,
+                     const EndMotion<D>& b);
+
+// Throws Refused, naming the field, if the forces cannot be applied to the bodies (in any order):
+// a number that is not finite, a negative rest length, stiffness, damping or drag, a body that is
+// not there, a spring from a body to itself.
+template <int D>
+void check_forces(const Forces<D>& forces, std::span<const Body<D>> bodies);
+
+extern template Stretch<2> stretched(const Spring<2>&, const Vec<2>&, const EndMotion<2>&,
+                                     const EndMotion<2>&);
+extern template Stretch<3> stretched(const Spring<3>&, const Vec<3>&, const EndMotion<3>&,
+                                     const EndMotion<3>&);
+extern template void check_forces(const Forces<2>&, std::span<const Body<2>>);
+extern template void check_forces(const Forces<3>&, std::span<const Body<3>>);
 
 }  // namespace lantern

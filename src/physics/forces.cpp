@@ -1,0 +1,95 @@
+#include "physics/forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace lantern {
+namespace {
+
+void check_number(double value, const std::string& field) {
+  if (!std::isfinite(value)) throw Refused(fmt::format("{} is {}, must be finite", field, value));
+}
+
+void check_size(double value, const std::string& field) {
+  if (!std::isfinite(value) || value < 0)
+    throw Refused(fmt::format("{} is {}, must be finite and not negative", field, value));
+}
+
+template <int D>
+void check_vector(const Vec<D>& value, const std::string& field) {
+  for (int i = 0; i < D; ++i) check_number(value[i], field);
+}
+
+template <int D>
+void check_present(BodyId id, const std::vector<BodyId>& ids, const std::string& field) {
+  if (!std::binary_search(ids.begin(), ids.end(), id))
+    throw Refused(fmt::format("{}: there is no body {}", field, id));
+}
+
+template <int D>
+void check_spring(const Spring<D>& spring, const std::vector<BodyId>& ids,
+                  const std::string& name) {
+  check_present<D>(spring.a, ids, name + ": a");
+  check_present<D>(spring.b, ids, name + ": b");
+  if (spring.a == spring.b)
+    throw Refused(fmt::format("{}: both ends are on body {}", name, spring.a));
+  check_vector<D>(spring.at_a, name + ": at_a");
+  check_vector<D>(spring.at_b, name + ": at_b");
+  check_size(spring.rest_length, name + ": rest_length");
+  check_size(spring.stiffness, name + ": stiffness");
+  check_size(spring.damping, name + ": damping");
+}
+
+}  // namespace
+
+template <int D>
+Stretch<D> stretched(const Spring<D>& spring, const Vec<D>& between, const EndMotion<D>& a,
+                     const EndMotion<D>& b) {
+  Stretch<D> s;
+  // An end at the centre needs no turning, which is the common case and costs a sine.
+  if (spring.at_a != Vec<D>(0.0)) s.arm_a = matrix(a.orientation) * spring.at_a;
+  if (spring.at_b != Vec<D>(0.0)) s.arm_b = matrix(b.orientation) * spring.at_b;
+  const Vec<D> line = between + (s.arm_b - s.arm_a);
+  s.length = glm::length(line);
+  if (!(s.length > 0)) return s;
+  s.direction = line / s.length;
+  const Vec<D> motion = (b.velocity + cross(b.angular_velocity, s.arm_b)) -
+                        (a.velocity + cross(a.angular_velocity, s.arm_a));
+  s.rate = glm::dot(motion, s.direction);
+  s.tension = spring.stiffness * (s.length - spring.rest_length) + spring.damping * s.rate;
+  return s;
+}
+
+template <int D>
+void check_forces(const Forces<D>& forces, std::span<const Body<D>> bodies) {
+  std::vector<BodyId> ids;
+  for (const Body<D>& body : bodies) {
+    ids.push_back(body.id);
+    check_size(body.linear_drag, fmt::format("body '{}': linear_drag", body.name));
+    check_size(body.angular_drag, fmt::format("body '{}': angular_drag", body.name));
+  }
+  std::sort(ids.begin(), ids.end());
+  check_vector<D>(forces.gravity, "gravity");
+  for (std::size_t i = 0; i < forces.springs.size(); ++i)
+    check_spring<D>(forces.springs[i], ids, fmt::format("spring {}", i));
+  for (std::size_t i = 0; i < forces.pushes.size(); ++i) {
+    const Push<D>& push = forces.pushes[i];
+    check_present<D>(push.body, ids, fmt::format("push {}", i));
+    check_vector<D>(push.at, fmt::format("push {} on body {}: at", i, push.body));
+    check_vector<D>(push.force, fmt::format("push {} on body {}: force", i, push.body));
+  }
+}
+
+template Stretch<2> stretched(const Spring<2>&, const Vec<2>&, const EndMotion<2>&,
+                              const EndMotion<2>&);
+template Stretch<3> stretched(const Spring<3>&, const Vec<3>&, const EndMotion<3>&,
+                              const EndMotion<3>&);
+template void check_forces(const Forces<2>&, std::span<const Body<2>>);
+template void check_forces(const Forces<3>&, std::span<const Body<3>>);
+
+}  // namespace lantern

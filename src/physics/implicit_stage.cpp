@@ -1,0 +1,199 @@
+// Newton's method on the momentum that is missing. Where the true derivative is not positive
+// definite the projected one is taken, whose direction always leads down in energy; a search along
+// the direction stops where the missing momentum has no part left along it. So the method finds its
+// way from any start, and near the solution doubles the number of right digits each time.
+#include "physics/implicit_stage.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "physics/motion_matrix.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kEpsilon = 0x1p-52;
+constexpr int kMostSteps = 200;
+
+double size_of(double spin) { return std::abs(spin); }
+template <int D>
+double size_of(const Vec<D>& v) {
+  return glm::length(v);
+}
+
+template <int D, int B>
+class Newton {
+ public:
+  using Row = std::array<double, B>;
+
+  Newton(SmoothSystem<D>& system, double time) : system_(system), matrix_(system), time_(time) {}
+
+  // False if it does not converge.
+  bool run(SmoothState<D>& state) {
+    look(state);
+    for (int step = 0; step < kMostSteps; ++step) {
+      if (done(state, step)) return true;
+      if (!matrix_.factor(state, time_, Stiffness::exact))
+        matrix_.factor(state, time_, Stiffness::projected);
+      std::vector<Row> direction = missing_;
+      matrix_.solve(direction);
+      if (!(along(direction) > 0)) return false;  // not a number
+      search(state, direction);
+    }
+    return false;
+  }
+
+  // One solution with places as they are.
+  void kick(SmoothState<D>& state) {
+    pull_ = system_.evaluate(state);
+    std::vector<Row> step(system_.movers().size());
+    for (std::size_t n = 0; n < step.size(); ++n) {
+      const std::size_t i = system_.movers()[n];
+      put(step[n], time_ / system_.bodies()[i].inverse_mass * pull_.acceleration[i],
+          time_ * pull_.torque[i]);
+    }
+    matrix_.factor(state, time_, Stiffness::none);
+    matrix_.solve(step);
+    const SmoothState<D> before = state;
+    go(state, before, step, 1);
+  }
+
+ private:
+  static void put(Row& row, const Vec<D>& linear, const Spin<D>& angular) {
+    for (int c = 0; c < D; ++c) row[c] = linear[c];
+    if constexpr (B > D && D == 2) row[D] = angular;
+    if constexpr (B > D && D == 3)
+      for (int c = 0; c < 3; ++c) row[D + c] = angular[c];
+  }
+
+  // Evaluates the forces where the state's velocities lead, and what momentum is missing.
+  void look(SmoothState<D>& state) {
+    system_.fly(state, state, time_);
+    pull_ = system_.evaluate(state);
+    missing_.assign(system_.movers().size(), Row{});
+    for (std::size_t n = 0; n < missing_.size(); ++n) {
+      const std::size_t i = system_.movers()[n];
+      const double mass = 1 / system_.bodies()[i].inverse_mass;
+      put(missing_[n], mass * (time_ * pull_.acceleration[i] - state.kick[i]),
+          time_ * pull_.torque[i] - state.twist[i]);
+    }
+  }
+
+  // state = before + share * step
+  void go(SmoothState<D>& state, const SmoothState<D>& before, const std::vector<Row>& step,
+          double share) const {
+    for (std::size_t n = 0; n < step.size(); ++n) {
+      const std::size_t i = system_.movers()[n];
+      for (int c = 0; c < D; ++c) state.kick[i][c] = before.kick[i][c] + share * step[n][c];
+      if constexpr (B > D) {
+        if (!system_.turns(i)) continue;
+        Spin<D> spin;
+        if constexpr (D == 2) {
+          spin = step[n][D];
+        } else {
+          for (int c = 0; c < 3; ++c) spin[c] = step[n][D + c];
+        }
+        state.twist[i] = before.twist[i] + system_.inertia_times(before, i, share * spin);
+      }
+    }
+  }
+
+  double along(const std::vector<Row>& direction) const {
+    double sum = 0;
+    for (std::size_t n = 0; n < direction.size(); ++n)
+      for (int c = 0; c < B; ++c) sum += direction[n][c] * missing_[n][c];
+    return sum;
+  }
+
+  // Goes along the direction: all the way if that is no worse, else to about where nothing is
+  // missing along it, which is bracketed since it was too near at first and too far at last.
+  void search(SmoothState<D>& state, const std::vector<Row>& direction) {
+    const SmoothState<D> before = state;
+    const double first = along(direction);
+    double near = 0, near_value = first, far = 1;
+    double share = 1;
+    for (int i = 0; i < 40; ++i) {
+      go(state, before, direction, share);
+      look(state);
+      const double value = along(direction);
+      const bool too_far = !(value >= -0.5 * first);
+      if (!too_far && (share == 1 || value <= 0.5 * first)) return;
+      (too_far ? far : near) = share;
+      if (!too_far) near_value = value;
+      const double part = near_value / (near_value - value);  // where a straight line would cross
+      share = near + (far - near) * (too_far && part > 0.1 && part < 0.9 ? part : 0.5);
+    }
+  }
+
+  // What is missing is no more than rounding makes, or, after many steps, little.
+  bool done(const SmoothState<D>& state, int steps) const {
+    const double allowed = steps < 20 ? 8 * kEpsilon : steps < 60 ? 1e-13 : 1e-10;
+    std::vector<double> scale(system_.bodies().size(), 0.0), turning = scale;
+    for (const std::size_t i : system_.movers()) {
+      const Vec<D> pulled = time_ * pull_.acceleration[i];
+      scale[i] =
+          (size_of<D>(pulled) + size_of<D>(state.kick[i])) / system_.bodies()[i].inverse_mass;
+      turning[i] = time_ * size_of(pull_.torque[i]) + size_of(state.twist[i]);
+    }
+    for (std::size_t k = 0; k < system_.ends().size(); ++k) {
+      const auto [a, b] = system_.ends()[k];
+      const Spring<D>& spring = system_.forces().springs[k];
+      const Stretch<D> s = system_.stretch(state, k);
+      const double arm_a = size_of<D>(s.arm_a), arm_b = size_of<D>(s.arm_b);
+      const double lengths = s.length + spring.rest_length + arm_a + arm_b +
+                             size_of<D>(state.shift[a]) + size_of<D>(state.shift[b]);
+      const double speeds =
+          size_of<D>(system_.velocity(state, a)) + size_of<D>(system_.velocity(state, b));
+      const double momentum = time_ * (spring.stiffness * lengths + spring.damping * speeds);
+      scale[a] += momentum;
+      scale[b] += momentum;
+      turning[a] += momentum * arm_a;
+      turning[b] += momentum * arm_b;
+    }
+    for (std::size_t n = 0; n < missing_.size(); ++n) {
+      const std::size_t i = system_.movers()[n];
+      for (int c = 0; c < B; ++c)
+        if (!(std::abs(missing_[n][c]) <= allowed * (c < D ? scale[i] : turning[i]))) return false;
+    }
+    return true;
+  }
+
+  SmoothSystem<D>& system_;
+  MotionMatrix<D, B> matrix_;
+  double time_;
+  Pull<D> pull_;
+  std::vector<Row> missing_;
+};
+
+template <int D>
+constexpr int kTurning = D == 2 ? 3 : 6;  // unknowns of a body that turns
+
+}  // namespace
+
+template <int D>
+SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_view method,
+                              double h) {
+  SmoothState<D> state = system.start();
+  const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time).run(state)
+                                        : Newton<D, D>(system, time).run(state);
+  if (!found) throw Refused(fmt::format("{} does not converge at a step of {} s", method, h));
+  return state;
+}
+
+template <int D>
+void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time) {
+  if (system.any_turns()) {
+    Newton<D, kTurning<D>>(system, time).kick(state);
+  } else {
+    Newton<D, D>(system, time).kick(state);
+  }
+}
+
+template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double);
+template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double);
+template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double);
+template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double);
+
+}  // namespace lantern

@@ -1,0 +1,27 @@
+// What the implicit methods share: velocities that must agree with the forces they lead to.
+#pragma once
+
+#include <string_view>
+
+#include "physics/smooth_system.hpp"
+
+namespace lantern {
+
+// The state `time` after the start whose own forces lead to it: v = v0 + time a(x0 + time v, v), an
+// implicit Euler step, solved to rounding. Throws Refused, naming the method and the step `h`, if
+// that does not converge.
+template <int D>
+SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_view method,
+                              double h);
+
+// Kicks `state`, whose places stay, for `time` by forces that use the velocities after the kick:
+// v := v + time a(x, v_new). One evaluation and one linear solution.
+template <int D>
+void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time);
+
+extern template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double);
+extern template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double);
+extern template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double);
+extern template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double);
+
+}  // namespace lantern
