@@ -19,6 +19,27 @@ struct Plane {
   }
 };
 
+// The height of a point over the plane, in lengths of the normal.
+template <int D>
+double height(const Vec<D>& point, const Plane<D>& plane) {
+  double h = 0;
+  for (int i = 0; i < D; ++i) h += plane.normal[i] * point[i];
+  return h - plane.offset;
+}
+
+// The same plane, its normal's largest part in [0.5, 1): then no product with a finite box is
+// infinite. A scale by a power of two rounds nothing.
+template <int D>
+Plane<D> scaled(Plane<D> plane) {
+  double largest = 0;
+  for (int i = 0; i < D; ++i) largest = std::max(largest, std::abs(plane.normal[i]));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (int i = 0; i < D; ++i) plane.normal[i] = std::ldexp(plane.normal[i], -exponent);
+  plane.offset = std::ldexp(plane.offset, -exponent);
+  return plane;
+}
+
 // Which half-spaces a box reaches. A box that touches the plane reaches both.
 struct Reach {
   bool back = false;

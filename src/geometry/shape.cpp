@@ -28,8 +28,7 @@ Box<D> box_of_half_space(const Vec<D>& normal, const Vec<D>& position) {
 }  // namespace
 
 template <int D>
-Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position,
-                    const Rotation<D>& orientation) {
+Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position, const Rotation<D>& orientation) {
   if (const auto* sphere = std::get_if<Sphere>(&shape))
     return Box<D>::around(position, Vec<D>(sphere->radius));
   if (const auto* box = std::get_if<AxisBox<D>>(&shape))

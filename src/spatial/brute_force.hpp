@@ -12,6 +12,8 @@ namespace lantern {
 template <int D>
 class BruteForce {
  public:
+  static constexpr Zones kZones = Zones::fitted;
+
   // Throws Refused for a box that is not valid; nothing changes then. Tells `store` only: there is
   // no node to be tested against.
   template <class Observer = NoObserver>
@@ -33,16 +35,30 @@ class BruteForce {
   template <class F>
   void visit(F&& f) const {
     std::vector<BodyId> room;
+    visit(f, room);
+  }
+
+  template <class F>
+  void visit(F&& f, std::vector<BodyId>& room) const {
     NodeView<D> view;
     view.box = box_;
     view.bodies = ascending(ids_, room);
     f(view);
   }
 
+  template <class F>
+  void visit_toward(const Vec<D>&, F&& f) const {
+    visit(f);
+  }
+
   // Calls f(id) for every body, ascending: the one leaf is always reached.
   template <class F>
   void query(const Box<D>&, F&& f) const {
     each_once(ids_, f);
+  }
+
+  void near(const Box<D>&, std::vector<BodyId>& ids) const {
+    ids.insert(ids.end(), ids_.begin(), ids_.end());
   }
 
   Counters counters() const {

@@ -36,6 +36,7 @@ struct BspPlane {
 template <int D>
 class Bsp {
  public:
+  static constexpr Zones kZones = Zones::half_spaces;
   static constexpr std::uint32_t kDeepest = 1000;
 
   // The first plane is the root's; parents stand before their children. Throws Refused for a list
@@ -70,16 +71,31 @@ class Bsp {
 
   template <class F>
   void visit(F&& f) const {
-    Tour tour;
+    std::vector<BodyId> room;
+    visit(f, room);
+  }
+
+  template <class F>
+  void visit(F&& f, std::vector<BodyId>& room) const {
+    Tour tour{0, Vec<D>(0.0), room};
+    visit_from(0, kNone, tour, f);
+  }
+
+  template <class F>
+  void visit_toward(const Vec<D>& direction, F&& f) const {
+    std::vector<BodyId> room;
+    Tour tour{0, direction, room};
     visit_from(0, kNone, tour, f);
   }
 
   template <class F>
   void query(const Box<D>& box, F&& f) const {
     std::vector<BodyId> ids;
-    collect(0, box, ids);
+    near(box, ids);
     each_once(std::move(ids), f);
   }
+
+  void near(const Box<D>& box, std::vector<BodyId>& ids) const { collect(0, box, ids); }
 
   // `box_tests` counts tests against a plane.
   Counters counters() const {
@@ -105,20 +121,9 @@ class Bsp {
 
   struct Tour {
     std::uint32_t next_id = 0;
-    std::vector<BodyId> ids;
+    Vec<D> toward{0.0};  // zero: the lecture's order
+    std::vector<BodyId>& ids;
   };
-
-  // The same plane, its normal's largest part in [0.5, 1): then no product with a finite box is
-  // infinite. A scale by a power of two rounds nothing.
-  static Plane<D> scaled(Plane<D> plane) {
-    double largest = 0;
-    for (int i = 0; i < D; ++i) largest = std::max(largest, std::abs(plane.normal[i]));
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    for (int i = 0; i < D; ++i) plane.normal[i] = std::ldexp(plane.normal[i], -exponent);
-    plane.offset = std::ldexp(plane.offset, -exponent);
-    return plane;
-  }
 
   // The leaf at the plane's place becomes an inner node with two leaves.
   void add_plane(std::uint32_t index) {
@@ -189,8 +194,11 @@ class Bsp {
     if (!view.leaf) view.plane = &planes_[node.plane].plane;
     view.bodies = ascending(contents_.values(node.contents), tour.ids);
     if (!f(std::as_const(view)) || view.leaf) return;
-    visit_from(node.first_child, view.id, tour, f);
-    visit_from(node.first_child + 1, view.id, tour, f);
+    double along = 0;  // a ray along the plane's normal comes from behind
+    for (int i = 0; i < D; ++i) along += tested_[node.plane].normal[i] * tour.toward[i];
+    const NodeHandle first = along < 0 ? 1 : 0;
+    visit_from(node.first_child + first, view.id, tour, f);
+    visit_from(node.first_child + 1 - first, view.id, tour, f);
   }
 
   void collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {

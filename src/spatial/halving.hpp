@@ -23,6 +23,15 @@ struct Halving {
     return ((slot >> axis & 1u) != 0) != (axis == 1);
   }
 
+  // The child that a ray along the direction meets first. With it, child i ^ first is never met
+  // after child j ^ first for i < j.
+  static constexpr std::uint32_t first_toward(const Vec<D>& direction) {
+    std::uint32_t slot = 0;
+    for (int i = 0; i < D; ++i)
+      if (is_high(0, i) != (direction[i] < 0)) slot |= 1u << i;
+    return slot;
+  }
+
   // Halves are exact (but of denormal numbers), so this is the middle rounded once; and it cannot
   // overflow.
   static Vec<D> middle(const Box<D>& box) { return box.lo * 0.5 + box.hi * 0.5; }

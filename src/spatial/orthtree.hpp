@@ -44,6 +44,7 @@ class Orthtree {
 
  public:
   static constexpr std::uint32_t kChildren = Halves::kChildren;
+  static constexpr Zones kZones = Zones::endless_rim;
   static constexpr std::uint32_t kDeepest = 32;
   static constexpr std::uint64_t kMost = 0xffff'fffe;  // nodes and entries have 32-bit numbers
 
@@ -91,15 +92,32 @@ class Orthtree {
 
   template <class F>
   void visit(F&& f) const {
-    Tour tour;
+    std::vector<BodyId> room;
+    visit(f, room);
+  }
+
+  template <class F>
+  void visit(F&& f, std::vector<BodyId>& room) const {
+    Tour tour{0, 0, room};
+    visit_from(Spot{0, 0, config_.bounds}, kNone, 0, tour, f);
+  }
+
+  template <class F>
+  void visit_toward(const Vec<D>& direction, F&& f) const {
+    std::vector<BodyId> room;
+    Tour tour{0, Halves::first_toward(direction), room};
     visit_from(Spot{0, 0, config_.bounds}, kNone, 0, tour, f);
   }
 
   template <class F>
   void query(const Box<D>& box, F&& f) const {
     std::vector<BodyId> ids;
-    collect(Spot{0, 0, config_.bounds}, box, ids);
+    near(box, ids);
     each_once(std::move(ids), f);
+  }
+
+  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
+    collect(Spot{0, 0, config_.bounds}, box, ids);
   }
 
   Counters counters() const {
@@ -134,7 +152,8 @@ class Orthtree {
 
   struct Tour {
     std::uint32_t next_id = 0;
-    std::vector<BodyId> ids;
+    std::uint32_t first_slot = 0;  // of each family; the others follow as they follow slot 0
+    std::vector<BodyId>& ids;
   };
 
   static constexpr std::uint32_t kLargestFirstRoom = 16;
@@ -308,9 +327,9 @@ class Orthtree {
     view.bodies = tour.ids;
     if (!f(std::as_const(view)) || view.leaf) return;
     const Vec<D> mid = Halves::middle(at.bounds);
-    for (std::uint32_t s = 0; s < kChildren; ++s)
-      if (const NodeHandle child = child_of(at.node, s); child != kNone)
-        visit_from(child_spot(at, mid, child, s), view.id, s, tour, f);
+    for (std::uint32_t i = 0; i < kChildren; ++i)
+      if (const std::uint32_t s = i ^ tour.first_slot; child_of(at.node, s) != kNone)
+        visit_from(child_spot(at, mid, child_of(at.node, s), s), view.id, s, tour, f);
   }
 
   void collect(const Spot& at, const Box<D>& box, std::vector<BodyId>& ids) const {

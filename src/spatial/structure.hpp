@@ -6,7 +6,11 @@
 //   clear()                  forget the items, keep the memory
 //   visit(f)                 the only door to the inside: f(NodeView) -> bool, parents before
 //                            children, children in the lecture's order; false skips the branch
+//   visit(f, room)           the same; `room` is scratch memory, so that nothing is allocated
+//   visit_toward(d, f)       the same, but siblings in the order in which a ray along d meets them
 //   query(box, f)            f(id) for each body in a leaf that the box reaches, once, ascending
+//   near(box, ids)           appends what `query` tells, but in any order and perhaps repeated
+//   kZones                   where a node's bodies may be, see Zones
 //   counters()               exact counts of the work done and the tree that stands
 //
 // Ids may be any numbers, but no two items of a structure may have the same one. An observer may
@@ -71,6 +75,13 @@ struct NodeView {
   Box<D> box;                       // its bounds, derived on the way down; of a BSP the world's
   const Plane<D>* plane = nullptr;  // a BSP's inner nodes
   std::span<const BodyId> bodies;   // a leaf's contents, ascending
+};
+
+// Where the bodies of a node, or at least the parts of them for which the node answers, may lie.
+enum class Zones {
+  fitted,       // within its box
+  endless_rim,  // within its box, but without end where that box lies at the root's rim
+  half_spaces,  // on the node's sides of all planes above it; its box says nothing
 };
 
 // What an algorithm does, told while it does it.

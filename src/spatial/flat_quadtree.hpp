@@ -1,0 +1,84 @@
+// A quadtree in a world of three dimensions: it looks at x and z only, as the lecture's does, which
+// is enough where the world is flat. Bodies above each other share a leaf.
+#pragma once
+
+#include <vector>
+
+#include "spatial/orthtree.hpp"
+
+namespace lantern {
+
+class FlatQuadtree {
+ public:
+  static constexpr Zones kZones = Zones::endless_rim;  // on y every node reaches from rim to rim
+
+  struct Config {
+    Box<3> bounds;
+    Quadtree::Config tree;  // its bounds are set from those above
+  };
+
+  // Throws Refused as the quadtree does.
+  explicit FlatQuadtree(const Config& config) : tree_(flat(config)), bounds_(config.bounds) {}
+
+  template <class Observer = NoObserver>
+  void insert(const Item<3>& item, Observer&& observer = {}) {
+    require_valid(item);
+    tree_.insert({item.id, flat(item.box)}, observer);
+  }
+
+  void clear() { tree_.clear(); }
+
+  // In the quadtree's order: what it calls up is towards larger z.
+  template <class F>
+  void visit(F&& f) const {
+    tree_.visit([&](const NodeView<2>& view) { return f(risen(view)); });
+  }
+
+  template <class F>
+  void visit(F&& f, std::vector<BodyId>& room) const {
+    tree_.visit([&](const NodeView<2>& view) { return f(risen(view)); }, room);
+  }
+
+  template <class F>
+  void visit_toward(const Vec<3>& direction, F&& f) const {
+    tree_.visit_toward(Vec<2>(direction.x, direction.z),
+                       [&](const NodeView<2>& view) { return f(risen(view)); });
+  }
+
+  template <class F>
+  void query(const Box<3>& box, F&& f) const {
+    tree_.query(flat(box), f);
+  }
+
+  void near(const Box<3>& box, std::vector<BodyId>& ids) const { tree_.near(flat(box), ids); }
+
+  Counters counters() const { return tree_.counters(); }
+
+ private:
+  static Box<2> flat(const Box<3>& box) { return {{box.lo.x, box.lo.z}, {box.hi.x, box.hi.z}}; }
+
+  static Quadtree::Config flat(const Config& config) {
+    Quadtree::Config tree = config.tree;
+    tree.bounds = flat(config.bounds);
+    return tree;
+  }
+
+  NodeView<3> risen(const NodeView<2>& view) const {
+    NodeView<3> tall;
+    tall.handle = view.handle;
+    tall.id = view.id;
+    tall.parent = view.parent;
+    tall.slot = view.slot;
+    tall.depth = view.depth;
+    tall.leaf = view.leaf;
+    tall.box = {{view.box.lo.x, bounds_.lo.y, view.box.lo.y},
+                {view.box.hi.x, bounds_.hi.y, view.box.hi.y}};
+    tall.bodies = view.bodies;
+    return tall;
+  }
+
+  Quadtree tree_;
+  Box<3> bounds_;
+};
+
+}  // namespace lantern

@@ -1,0 +1,434 @@
+// A kD-tree that is fitted to the objects (the lecture, "kD-Trees"): planes lie on objects' faces,
+// and each node's box is the smallest one around what it holds.
+//
+//     +-----+ +---+           The plane lies on the upper face of an object: what ends there lies
+//     |  a  | | b |           behind only. So objects that fit close together are parted, and those
+//     |     |-+---+--+        that pass through (c) are stored on both sides.
+//     |     ||   c   |
+//     +-----+--------+        behind: box.lo <= plane    in front: box.hi > plane
+//           ^ plane
+//
+// Two boxes that share a point share a leaf: the point lies on one side, and both reach that side.
+//
+// The rule. A node that holds more than `capacity` bodies and lies above `max_depth` is split:
+//   1. Axes are tried in the order of the spread of the bodies' centres, the largest first (of
+//   equal
+//      ones, x before y before z).
+//   2. On an axis, the plane goes through the upper face nearest below or at the median of the
+//      centres, or the nearest above it: the one that leaves fewer bodies on its fuller side, then
+//      the one that cuts fewer bodies, then the lower one. It must leave something out on each side
+//      and cut at most half of the bodies.
+//   3. If no axis has such a plane, all upper faces of all axes are compared in the same way.
+//   4. If that fails, too, the node stays a leaf: either all its boxes share a point, so that no
+//      plane parts any pair (no progress), or every plane would copy more than it parts.
+//   5. Nothing more is split once the tree holds `most_entries` entries.
+// The rule asks for boxes only, so the tree does not depend on the order of the items.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "spatial/ids.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern {
+
+template <int D>
+class KdTree {
+ public:
+  static constexpr Zones kZones = Zones::fitted;
+  static constexpr std::uint32_t kDeepest = 64;
+
+  struct Config {
+    std::uint32_t capacity = 2;    // a leaf that holds more is split; at least 1
+    std::uint32_t max_depth = 16;  // 0: the root is never split
+    std::uint64_t most_entries = std::uint64_t{1} << 22;
+  };
+
+  // Throws Refused for a capacity of 0 and a max_depth above kDeepest.
+  explicit KdTree(const Config& config = {}) : config_(config) {
+    if (config.capacity == 0) throw Refused("kD-tree: capacity is 0, must be at least 1");
+    if (config.max_depth > kDeepest)
+      throw Refused(
+          fmt::format("kD-tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest));
+    clear();
+  }
+
+  // The tree of these items, instead of what was there; memory is used again. Throws Refused for a
+  // box that is not valid; nothing changes then. Tells make_child, split, store, and why a leaf
+  // that is too full stays one. Time: O(n log n) where planes part well.
+  template <class Observer = NoObserver>
+  void build(std::span<const Item<D>> items, Observer&& observer = {}) {
+    for (const Item<D>& item : items) require_valid(item);
+    most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
+    clear_lists();
+    for (const Item<D>& item : items) append(items_, item);
+    std::sort(items_.begin(), items_.end(),
+              [](const Item<D>& a, const Item<D>& b) { return a.id < b.id; });
+    for (std::uint32_t i = 0; i < items_.size(); ++i) append(work_, i);
+    entries_expected_ = items_.size();
+    make_node();
+    grow(Spot{}, 0, observer);
+  }
+
+  // An empty leaf.
+  void clear() { build({}); }
+
+  // Is the tree still fitted to its objects if this one, which it holds, has moved to this box? It
+  // is as long as the object reaches the same leaves, and in each lies within the leaf's fitted
+  // box. An object that was decisive for a box does not fit after any move outward; then, "if that
+  // object moves in any way, the tree must be rebuilt". False for a body that is not there.
+  bool fits(const Item<D>& moved) const {
+    const auto stored =
+        std::lower_bound(items_.begin(), items_.end(), moved.id,
+                         [](const Item<D>& item, BodyId id) { return item.id < id; });
+    if (stored == items_.end() || stored->id != moved.id || !is_valid(moved.box)) return false;
+    return fits_below(0, stored->box, moved.box);
+  }
+
+  template <class F>
+  void visit(F&& f) const {
+    std::vector<BodyId> room;
+    visit(f, room);
+  }
+
+  template <class F>
+  void visit(F&& f, std::vector<BodyId>& room) const {
+    Tour tour{0, Vec<D>(0.0), room};
+    visit_from(0, kNone, 0, 0, tour, f);
+  }
+
+  template <class F>
+  void visit_toward(const Vec<D>& direction, F&& f) const {
+    std::vector<BodyId> room;
+    Tour tour{0, direction, room};
+    visit_from(0, kNone, 0, 0, tour, f);
+  }
+
+  template <class F>
+  void query(const Box<D>& box, F&& f) const {
+    std::vector<BodyId> ids;
+    near(box, ids);
+    each_once(std::move(ids), f);
+  }
+
+  // The leaves whose fitted boxes the box overlaps.
+  void near(const Box<D>& box, std::vector<BodyId>& ids) const { collect(0, box, ids); }
+
+  // `box_tests` counts comparisons of a body with a plane.
+  Counters counters() const {
+    Counters c;
+    c.nodes = nodes_.size();
+    c.leaves = (nodes_.size() + 1) / 2;
+    c.depth = deepest_;
+    c.entries = stored_.size();
+    c.box_tests = box_tests_;
+    c.splits = nodes_.size() / 2;
+    c.allocations = allocations_;
+    c.nodes_reused = std::min(most_nodes_before_, nodes_.size());
+    return c;
+  }
+
+ private:
+  struct Node {
+    Box<D> box;        // fitted
+    double plane = 0;  // of an inner node
+    int axis = kLeaf;
+    NodeHandle first_child = 0;  // the one behind; the one in front is next to it
+    std::uint32_t first = 0;     // of a leaf, in stored_
+    std::uint32_t count = 0;
+    bool is_leaf() const { return axis == kLeaf; }
+  };
+  static constexpr int kLeaf = -1;
+
+  // A node while it is made: which cell it answers for, and how deep it lies.
+  struct Spot {
+    NodeHandle node = 0;
+    std::uint32_t depth = 0;
+    Box<D> cell{Vec<D>(-std::numeric_limits<double>::infinity()),
+                Vec<D>(std::numeric_limits<double>::infinity())};
+  };
+
+  struct Tour {
+    std::uint32_t next_id = 0;
+    Vec<D> toward{0.0};  // zero: behind before in front
+    std::vector<BodyId>& room;
+  };
+
+  struct Cut {
+    int axis = 0;
+    double plane = 0;
+    std::size_t fuller = 0;  // bodies on the side that holds more
+    std::size_t both = 0;    // bodies on both sides
+
+    bool better_than(const Cut& other) const {
+      return std::tie(fuller, both, axis, plane) <
+             std::tie(other.fuller, other.both, other.axis, other.plane);
+    }
+  };
+
+  static bool behind(const Box<D>& box, int axis, double plane) { return box.lo[axis] <= plane; }
+  static bool in_front(const Box<D>& box, int axis, double plane) { return box.hi[axis] > plane; }
+
+  // --- building ---
+
+  // Makes the node from the items in work_ from `begin` on, and takes them away.
+  template <class Observer>
+  void grow(const Spot& at, std::size_t begin, Observer& observer) {
+    deepest_ = std::max<std::uint64_t>(deepest_, at.depth);
+    const auto count = static_cast<std::uint32_t>(work_.size() - begin);
+    if (count > config_.capacity) {
+      const auto cut = at.depth < config_.max_depth ? cut_of(begin) : std::nullopt;
+      if (cut) return split(at, begin, *cut, observer);
+      const Event::Kind why =
+          at.depth < config_.max_depth ? Event::Kind::no_progress : Event::Kind::depth_limit;
+      observer(Event{why, at.node, items_[work_.back()].id, count, config_.capacity});
+    }
+    Node& leaf = nodes_[at.node];
+    leaf.first = static_cast<std::uint32_t>(stored_.size());
+    for (std::size_t i = begin; i < work_.size(); ++i) {
+      const Item<D>& item = items_[work_[i]];
+      append(stored_, item.id);
+      ++leaf.count;
+      const Box<D> part = common_part(item.box, at.cell);
+      leaf.box = i == begin ? part : united(leaf.box, part);
+      observer(Event{Event::Kind::store, at.node, item.id, leaf.count, config_.capacity});
+    }
+    work_.resize(begin);
+  }
+
+  template <class Observer>
+  void split(const Spot& at, std::size_t begin, const Cut& cut, Observer& observer) {
+    const std::size_t end = work_.size();
+    const BodyId last = items_[work_.back()].id;
+    observer(Event{Event::Kind::split, at.node, last, static_cast<std::uint32_t>(end - begin),
+                   config_.capacity});
+    entries_expected_ += cut.both;
+    const auto first_child = static_cast<NodeHandle>(nodes_.size());
+    nodes_[at.node].axis = cut.axis;
+    nodes_[at.node].plane = cut.plane;
+    nodes_[at.node].first_child = first_child;
+    for (NodeHandle child = 0; child < 2; ++child) {
+      make_node();
+      observer(Event{Event::Kind::make_child, first_child + child, last, 0, 0});
+    }
+    for (const bool front : {false, true}) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Box<D>& box = items_[work_[i]].box;
+        if (front ? in_front(box, cut.axis, cut.plane) : behind(box, cut.axis, cut.plane))
+          append(work_, std::uint32_t{work_[i]});
+      }
+      box_tests_ += end - begin;
+      Spot child{first_child + (front ? 1u : 0u), at.depth + 1, at.cell};
+      (front ? child.cell.lo : child.cell.hi)[cut.axis] = cut.plane;
+      grow(child, end, observer);
+    }
+    work_.resize(begin);
+    nodes_[at.node].box = united(nodes_[first_child].box, nodes_[first_child + 1].box);
+  }
+
+  static Box<D> common_part(const Box<D>& box, const Box<D>& cell) {
+    Box<D> part;
+    for (int i = 0; i < D; ++i) {
+      part.lo[i] = std::max(box.lo[i], cell.lo[i]);
+      part.hi[i] = std::min(box.hi[i], cell.hi[i]);
+    }
+    return part;
+  }
+
+  std::span<const std::uint32_t> items_from(std::size_t begin) const {
+    return std::span(work_).subspan(begin);
+  }
+
+  // The rule above, from 1 on.
+  std::optional<Cut> cut_of(std::size_t begin) {
+    if (entries_expected_ >= config_.most_entries) return std::nullopt;
+    for (const int axis : axes_by_spread(begin)) {
+      const auto cut = cut_at_median(begin, axis);
+      if (cut) return cut;
+    }
+    std::optional<Cut> best;
+    for (int axis = 0; axis < D; ++axis) keep_better(best, best_cut(begin, axis));
+    return best;
+  }
+
+  static void keep_better(std::optional<Cut>& best, const std::optional<Cut>& cut) {
+    if (cut && (!best || cut->better_than(*best))) best = cut;
+  }
+
+  std::array<int, D> axes_by_spread(std::size_t begin) const {
+    std::array<double, D> spread{};
+    std::array<int, D> axes{};
+    for (int axis = 0; axis < D; ++axis) {
+      double least = center(work_[begin], axis), most = least;
+      for (const std::uint32_t i : items_from(begin)) {
+        least = std::min(least, center(i, axis));
+        most = std::max(most, center(i, axis));
+      }
+      spread[axis] = most - least;
+      axes[axis] = axis;
+    }
+    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return spread[a] > spread[b]; });
+    return axes;
+  }
+
+  double center(std::uint32_t item, int axis) const {
+    return 0.5 * items_[item].box.lo[axis] + 0.5 * items_[item].box.hi[axis];
+  }
+
+  std::optional<Cut> cut_at_median(std::size_t begin, int axis) {
+    numbers_.clear();
+    for (const std::uint32_t i : items_from(begin)) append(numbers_, center(i, axis));
+    const auto middle = numbers_.begin() + static_cast<std::ptrdiff_t>((numbers_.size() - 1) / 2);
+    std::nth_element(numbers_.begin(), middle, numbers_.end());
+    double below = -std::numeric_limits<double>::infinity(), above = -below;
+    for (const std::uint32_t i : items_from(begin)) {
+      const double face = items_[i].box.hi[axis];
+      if (face <= *middle) below = std::max(below, face);
+      if (face > *middle) above = std::min(above, face);
+    }
+    std::optional<Cut> best;
+    for (const double plane : {below, above})
+      if (std::isfinite(plane)) keep_better(best, tried(begin, axis, plane));
+    return best;
+  }
+
+  // Nothing if the plane parts no pair, or cuts more than half.
+  static std::optional<Cut> judged(std::size_t bodies, int axis, double plane, std::size_t in_back,
+                                   std::size_t in_front) {
+    const Cut cut{axis, plane, std::max(in_back, in_front), in_back + in_front - bodies};
+    if (cut.fuller == bodies || 2 * cut.both > bodies) return std::nullopt;
+    return cut;
+  }
+
+  std::optional<Cut> tried(std::size_t begin, int axis, double plane) {
+    std::size_t back = 0, front = 0;
+    for (const std::uint32_t i : items_from(begin)) {
+      back += behind(items_[i].box, axis, plane);
+      front += in_front(items_[i].box, axis, plane);
+    }
+    box_tests_ += work_.size() - begin;
+    return judged(work_.size() - begin, axis, plane, back, front);
+  }
+
+  // Of all upper faces, in one sweep: numbers_ holds the lower faces, faces_ the upper ones.
+  std::optional<Cut> best_cut(std::size_t begin, int axis) {
+    numbers_.clear();
+    faces_.clear();
+    for (const std::uint32_t i : items_from(begin)) {
+      append(numbers_, double{items_[i].box.lo[axis]});
+      append(faces_, double{items_[i].box.hi[axis]});
+    }
+    std::sort(numbers_.begin(), numbers_.end());
+    std::sort(faces_.begin(), faces_.end());
+    box_tests_ += faces_.size();
+    std::optional<Cut> best;
+    std::size_t back = 0;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (i + 1 < faces_.size() && faces_[i + 1] == faces_[i]) continue;
+      while (back < numbers_.size() && numbers_[back] <= faces_[i]) ++back;
+      keep_better(best, judged(faces_.size(), axis, faces_[i], back, faces_.size() - i - 1));
+    }
+    return best;
+  }
+
+  // --- memory ---
+
+  void clear_lists() {
+    nodes_.clear();
+    items_.clear();
+    stored_.clear();
+    work_.clear();
+    deepest_ = box_tests_ = 0;
+  }
+
+  void make_node() { append(nodes_, Node{}); }
+
+  template <class T>
+  void append(std::vector<T>& list, const T& value) {
+    allocations_ += list.size() == list.capacity();
+    list.push_back(value);
+  }
+
+  // --- looking ---
+
+  template <class F>
+  void visit_from(NodeHandle handle, std::uint32_t parent, std::uint32_t slot, std::uint32_t depth,
+                  Tour& tour, F& f) const {
+    const Node& node = nodes_[handle];
+    NodeView<D> view;
+    view.handle = handle;
+    view.id = tour.next_id++;
+    view.parent = parent;
+    view.slot = slot;
+    view.depth = depth;
+    view.leaf = node.is_leaf();
+    view.box = node.box;
+    Plane<D> plane;
+    if (!view.leaf) {
+      plane.normal[node.axis] = 1;
+      plane.offset = node.plane;
+      view.plane = &plane;
+    }
+    view.bodies = std::span(stored_).subspan(node.first, node.count);
+    if (!f(std::as_const(view)) || view.leaf) return;
+    const std::uint32_t first = tour.toward[node.axis] < 0 ? 1 : 0;
+    for (const std::uint32_t child : {first, 1 - first})
+      visit_from(node.first_child + child, view.id, child, depth + 1, tour, f);
+  }
+
+  void collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {
+    const Node& node = nodes_[handle];
+    if (!overlap(box, node.box)) return;
+    if (node.is_leaf()) {
+      const auto first = stored_.begin() + node.first;
+      ids.insert(ids.end(), first, first + node.count);
+      return;
+    }
+    collect(node.first_child, box, ids);
+    collect(node.first_child + 1, box, ids);
+  }
+
+  // Both are what lies in the node's cell of the box as it was stored and as it is now.
+  bool fits_below(NodeHandle handle, const Box<D>& stored, const Box<D>& moved) const {
+    const Node& node = nodes_[handle];
+    if (node.is_leaf()) return united(node.box, moved) == node.box;
+    for (const bool front : {false, true}) {
+      const auto reaches = [&](const Box<D>& box) {
+        return front ? in_front(box, node.axis, node.plane) : behind(box, node.axis, node.plane);
+      };
+      if (reaches(stored) != reaches(moved)) return false;
+      if (!reaches(stored)) continue;
+      Box<D> part = moved;
+      double& bound = (front ? part.lo : part.hi)[node.axis];
+      bound = front ? std::max(bound, node.plane) : std::min(bound, node.plane);
+      if (!fits_below(node.first_child + (front ? 1u : 0u), stored, part)) return false;
+    }
+    return true;
+  }
+
+  Config config_;
+  std::vector<Item<D>> items_;           // by id
+  std::vector<Node> nodes_;              // the root first, siblings side by side
+  std::vector<BodyId> stored_;           // of all leaves, each ascending
+  std::vector<std::uint32_t> work_;      // items of the nodes that are being made, the deepest last
+  std::vector<double> numbers_, faces_;  // while a cut is sought
+  std::size_t most_nodes_before_ = 0;
+  std::uint64_t entries_expected_ = 0;
+  std::uint64_t deepest_ = 0;
+  std::uint64_t box_tests_ = 0;
+  std::uint64_t allocations_ = 0;
+};
+
+}  // namespace lantern

@@ -1,0 +1,222 @@
+// Sort and sweep (Baraff 1992; Cohen, Lin, Manocha, Ponamgi: I-COLLIDE, 1995): the boxes are sorted
+// by where they begin on one axis, and swept once. A box is compared only with those that begin
+// before it ends.
+//
+//     a |--------|
+//     b     |----------|        compared: a with b, a with c, b with c
+//     c        |-----|          d begins after all others have ended
+//     d                   |---|
+//     ----------------------------> the axis on which the centres vary the most
+//
+// Boxes move little from one sweep to the next, so the order of the last sweep is nearly right and
+// an insertion sort finishes it in nearly linear time; where that takes too many moves, a merge
+// sort takes over. The order does not depend on which of the two made it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/shape.hpp"
+#include "spatial/ids.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern {
+
+template <int D>
+class SortAndSweep {
+ public:
+  static constexpr Zones kZones = Zones::fitted;
+
+  // Throws Refused for a box that is not valid; nothing changes then. Tells `store` only.
+  template <class Observer = NoObserver>
+  void insert(const Item<D>& item, Observer&& observer = {}) {
+    require_valid(item);
+    append(items_, item);
+    box_ = items_.size() == 1 ? item.box : united(box_, item.box);
+    sorted_ = false;
+    observer(Event{Event::Kind::store, 0, item.id, static_cast<std::uint32_t>(items_.size()), 0});
+  }
+
+  // The order of the last sweep is kept for the next one, if it has as many items.
+  void clear() {
+    items_.clear();
+    box_ = {};
+    pair_tests_ = 0;
+    sorted_ = false;
+  }
+
+  // Chooses the axis and sorts. Needed before `sweep`, and for `near` to be fast.
+  void sort() {
+    if (sorted_) return;
+    axis_ = widest_axis();
+    if (order_.size() != items_.size()) {
+      order_.clear();
+      for (std::uint32_t i = 0; i < items_.size(); ++i) append(order_, i);
+    }
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+      const double x = items_[a].box.lo[axis_], y = items_[b].box.lo[axis_];
+      return x < y || (x == y && items_[a].id < items_[b].id);
+    };
+    if (!insertion_sort(before)) std::sort(order_.begin(), order_.end(), before);
+    ends_.clear();
+    for (const std::uint32_t i : order_) {
+      const double end = items_[i].box.hi[axis_];
+      append(ends_, ends_.empty() ? end : std::max(ends_.back(), end));
+    }
+    sorted_ = true;
+  }
+
+  // f(id, id) for each overlapping pair of which at least one is awake, once, in the order of the
+  // sweep; returns how many pairs were compared. Two that sleep are never compared. Sorts first.
+  template <class Awake, class F>
+  std::uint64_t sweep(Awake&& awake, F&& f) {
+    sort();
+    watchful_.clear();
+    for (std::uint32_t at = 0; at < order_.size(); ++at)
+      if (awake(items_[order_[at]].id)) append(watchful_, at);
+    std::uint64_t tests = 0;
+    const auto compare = [&](const Item<D>& a, std::uint32_t other) {
+      const Item<D>& b = items_[order_[other]];
+      if (b.box.lo[axis_] > a.box.hi[axis_]) return false;
+      ++tests;
+      if (overlap(a.box, b.box)) f(a.id, b.id);
+      return true;
+    };
+    std::size_t next = 0;  // the first of the watchful that stands behind `at`
+    for (std::uint32_t at = 0; at < order_.size(); ++at) {
+      const Item<D>& a = items_[order_[at]];
+      if (next < watchful_.size() && watchful_[next] == at) {
+        ++next;
+        for (std::uint32_t i = at + 1; i < order_.size() && compare(a, i); ++i) {
+        }
+      } else {
+        for (std::size_t i = next; i < watchful_.size() && compare(a, watchful_[i]); ++i) {
+        }
+      }
+    }
+    pair_tests_ += tests;
+    return tests;
+  }
+
+  template <class F>
+  void sweep(F&& f) {
+    sweep([](BodyId) { return true; }, f);
+  }
+
+  // One leaf; its box is the smallest one that holds all bodies.
+  template <class F>
+  void visit(F&& f) const {
+    std::vector<BodyId> room;
+    visit(f, room);
+  }
+
+  template <class F>
+  void visit(F&& f, std::vector<BodyId>& room) const {
+    room.clear();
+    for (const Item<D>& item : items_) room.push_back(item.id);
+    std::sort(room.begin(), room.end());
+    NodeView<D> view;
+    view.box = box_;
+    view.bodies = room;
+    f(std::as_const(view));
+  }
+
+  template <class F>
+  void visit_toward(const Vec<D>&, F&& f) const {
+    visit(f);
+  }
+
+  template <class F>
+  void query(const Box<D>& box, F&& f) const {
+    std::vector<BodyId> ids;
+    near(box, ids);
+    each_once(std::move(ids), f);
+  }
+
+  // Those that the box reaches on the axis of the sweep; all, if `sort` was not called.
+  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
+    if (!sorted_) {
+      for (const Item<D>& item : items_) ids.push_back(item.id);
+      return;
+    }
+    // All that stand before the first end beyond box.lo have ended.
+    const auto first = std::lower_bound(ends_.begin(), ends_.end(), box.lo[axis_]);
+    for (auto i = static_cast<std::size_t>(first - ends_.begin()); i < order_.size(); ++i) {
+      const Item<D>& item = items_[order_[i]];
+      if (item.box.lo[axis_] > box.hi[axis_]) return;
+      if (item.box.hi[axis_] >= box.lo[axis_]) ids.push_back(item.id);
+    }
+  }
+
+  int axis() const { return axis_; }
+
+  // `box_tests` counts compared pairs.
+  Counters counters() const {
+    Counters c;
+    c.nodes = c.leaves = 1;
+    c.entries = items_.size();
+    c.box_tests = pair_tests_;
+    c.allocations = allocations_;
+    return c;
+  }
+
+ private:
+  // The largest variance of centres; endless boxes, whose centres mean nothing, do not count.
+  int widest_axis() const {
+    int widest = 0;
+    double most = -1;
+    for (int axis = 0; axis < D; ++axis) {
+      double sum = 0, squares = 0, count = 0;
+      for (const Item<D>& item : items_) {
+        const double lo = item.box.lo[axis], hi = item.box.hi[axis];
+        if (lo <= -kEndless || hi >= kEndless) continue;
+        // Measured from the first box, so that a world far from the origin keeps its digits.
+        const double x = 0.5 * lo + 0.5 * hi - items_.front().box.lo[axis];
+        sum += x;
+        squares += x * x;
+        ++count;
+      }
+      if (const double variance = squares - sum * sum / std::max(count, 1.0); variance > most) {
+        most = variance;
+        widest = axis;
+      }
+    }
+    return widest;
+  }
+
+  // False when it gave up after a few moves an item; the order holds each item once in any case.
+  template <class Before>
+  bool insertion_sort(const Before& before) {
+    std::size_t moves = 8 * order_.size();
+    for (std::size_t i = 1; i < order_.size(); ++i) {
+      const std::uint32_t item = order_[i];
+      std::size_t hole = i;
+      for (; hole > 0 && moves > 0 && before(item, order_[hole - 1]); --hole, --moves)
+        order_[hole] = order_[hole - 1];
+      order_[hole] = item;
+      if (moves == 0) return false;
+    }
+    return true;
+  }
+
+  template <class T>
+  void append(std::vector<T>& list, const T& value) {
+    allocations_ += list.size() == list.capacity();
+    list.push_back(value);
+  }
+
+  std::vector<Item<D>> items_;
+  std::vector<std::uint32_t> order_;     // places in items_, by the lower end on the axis
+  std::vector<double> ends_;             // the farthest upper end so far, in that order
+  std::vector<std::uint32_t> watchful_;  // places in order_ of those awake, while sweeping
+  Box<D> box_;
+  int axis_ = 0;
+  bool sorted_ = false;
+  std::uint64_t pair_tests_ = 0;
+  std::uint64_t allocations_ = 0;
+};
+
+}  // namespace lantern
