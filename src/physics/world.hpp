@@ -1,93 +1,138 @@
-// The bodies of a scene and how they move. Bodies fly freely until forces and contacts are asked
-// for.
+// The bodies of a scene and how they move.
+//
+//   refresh boxes -> broad phase -> narrow phase -> islands -> solve and move -> sleep
+//
+// A world without forces and contacts does nothing of this: bodies fly straight on.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "base/error.hpp"
 #include "physics/body.hpp"
+#include "physics/contacts.hpp"
+#include "physics/forces.hpp"
+#include "physics/joint.hpp"
+#include "physics/world_config.hpp"
 
 namespace lantern {
 
+// All functions that take a body, spring or joint throw Refused if it is not there, and for numbers
+// that are not finite; the world is then as it was, and its hash the same. What changes a body
+// wakes it and those that touch it.
 template <int D>
 class World {
  public:
-  // Ids are given in order of adding, from 0, and never used again. Throws Refused, naming body and
-  // field, for a size that is negative or not finite, a pose or velocity that is not finite; the
-  // world stays as it was.
-  BodyId add(Body<D> body) {
-    check(body);
-    body.id = next_id_;
-    bodies_.push_back(std::move(body));
-    return next_id_++;
-  }
+  World();  // no gravity, no contacts
+  // Throws Refused, naming the field, for a number that is out of its range.
+  explicit World(const WorldConfig<D>& config);
 
-  // Does nothing if there is no such body.
-  void remove(BodyId id) {
-    std::erase_if(bodies_, [&](const Body<D>& body) { return body.id == id; });
-  }
+  const WorldConfig<D>& config() const { return config_; }
 
-  // Throws Refused as `add` does, and for a body that is not there.
-  void place(BodyId id, const Vec<D>& position, const Vec<D>& velocity) {
-    const auto body =
-        std::find_if(bodies_.begin(), bodies_.end(), [&](const auto& b) { return b.id == id; });
-    if (body == bodies_.end()) throw Refused(fmt::format("there is no body {}", id));
-    Body<D> moved = *body;
-    moved.position = position;
-    moved.velocity = velocity;
-    check(moved);
-    *body = std::move(moved);
-  }
+  // Bodies. Ids are given in order of adding, from 0, and never used again. Derives mass and
+  // inertia. Throws Refused, naming body and field, for a size, mass, density, drag, restitution or
+  // friction that is negative or not finite, a pose, velocity or momentum that is not finite, a
+  // dynamic body of no area (2D) or volume (3D) without an explicit mass, a dynamic half-space.
+  BodyId add(Body<D> body);
+  // Its springs, joints and pushes go with it. Does nothing if there is no such body.
+  void remove(BodyId id);
+  const Body<D>* find(BodyId id) const;  // null if not there
+  const std::vector<Body<D>>& bodies() const { return bodies_; }  // in order of ids
 
-  // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming the body, for a
-  // negative or non-finite step and when a position would overflow; the world stays as it was.
-  void step(double h) {
-    if (!std::isfinite(h) || h < 0) throw Refused(fmt::format("time step {} is not allowed", h));
-    if (h == 0) return;  // else -0.0 + 0.0 would change the sign of a zero
-    std::vector<Vec<D>> moved;
-    moved.reserve(bodies_.size());
-    for (const Body<D>& body : bodies_) {
-      moved.push_back(!body.moves() ? body.position : body.position + body.velocity * h);
-      const Box<D> box = bounding_box(body.shape, moved.back(), body.orientation);
-      if (!is_valid(box)) throw Refused(fmt::format("body '{}': position overflows", body.name));
-    }
-    for (std::size_t i = 0; i < moved.size(); ++i) bodies_[i].position = moved[i];
-  }
+  // Only `place` moves a static body.
+  void place(BodyId id, const Vec<D>& position, const Vec<D>& velocity);
+  void place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
+             const Rotation<D>& orientation);
+  void set_velocity(BodyId id, const Vec<D>& velocity);
+  void set_angular_velocity(BodyId id, const Spin<D>& spin);  // radians a second, world's axes
+  // In N s, at a point in the world. Moves only dynamic bodies.
+  void apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at);
+  // A force in N at a point in the world; the lever stays as it is while the body moves. Acts until
+  // `clear_pushes`, or for the steps that begin within `seconds` (above 0) from now.
+  void push(BodyId id, const Vec<D>& force, const Vec<D>& at,
+            std::optional<double> seconds = std::nullopt);
+  void clear_pushes();
+  void clear_pushes(BodyId id);
+  void set_gravity(const Vec<D>& gravity);  // wakes all
 
-  // In order of ids.
-  const std::vector<Body<D>>& bodies() const { return bodies_; }
+  // Springs and joints. Both bodies must be there and differ. Ids are never used again. Removing
+  // what is not there does nothing.
+  SpringId add_spring(const Spring<D>& spring);
+  JointId add_joint(const Joint<D>& joint);
+  void remove_spring(SpringId id);
+  void remove_joint(JointId id);
+  const Forces<D>& forces() const { return forces_; }
+  const std::vector<std::pair<JointId, Joint<D>>>& joints() const { return joints_; }
+
+  // A sleeping body stands still and is skipped until something wakes it. Only dynamic bodies can
+  // sleep; for others nothing happens. `wake` wakes all that touch or hang on it, too.
+  void sleep(BodyId id);
+  void wake(BodyId id);
+
+  // Goes on with another broad phase; the trajectory is the same, bit for bit.
+  void switch_broad_phase(const BroadPhaseConfig<D>& config);
+
+  // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when
+  // a position or velocity would overflow, and for a step that is negative or not finite; the world
+  // stays as it was.
+  void step(double h);
+  double time() const { return time_; }
+
+  // Of the last step, in order of ids.
+  const std::vector<Contact<D>>& contacts() const { return contacts_; }
+  const std::vector<ContactEvent>& events() const { return events_; }
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  // The structures of the last step; null if no step has needed one.
+  const BroadPhase<D>* broad_phase() const { return broad_phase_ ? &*broad_phase_ : nullptr; }
+
+  const WorldWork& work() const { return work_; }
+  // Of the state: bodies, springs, joints, pushes, contacts. The same over broad phases, compilers
+  // and build types.
+  std::uint64_t hash() const;
 
  private:
-  static void check(const Body<D>& body) {
-    const auto finite = [&](const Vec<D>& v, const char* field) {
-      for (int i = 0; i < D; ++i)
-        if (!std::isfinite(v[i]))
-          throw Refused(fmt::format("body '{}': {} is not finite", body.name, field));
-    };
-    const auto size = [&](double s, const char* field) {
-      if (!std::isfinite(s) || s < 0)
-        throw Refused(fmt::format("body '{}': {} is {}, must be finite and not negative", body.name,
-                                  field, s));
-    };
-    finite(body.position, "position");
-    finite(body.velocity, "velocity");
-    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-      size(sphere->radius, "radius");
-    } else if (std::holds_alternative<AxisBox<D>>(body.shape)) {
-      for (int i = 0; i < D; ++i) size(std::get<AxisBox<D>>(body.shape).half_size[i], "half_size");
-    }
-    if (!is_valid(body.box()))
-      throw Refused(fmt::format("body '{}': its box is not finite", body.name));
-  }
+  // What a step remembers of a pair that touched.
+  struct Memory {
+    Contact<D> contact;
+    double seconds = 0;  // of the sub-step in which the impulses were found
+  };
+  struct TimedPush {
+    Push<D> push;
+    std::optional<double> until;
+  };
+  // What one step works on; kept for its memory, empty of meaning between steps.
+  struct Scratch;
 
+  std::size_t index_of(BodyId id, const char* what) const;
+  Body<D>& at(BodyId id, const char* what) { return bodies_[index_of(id, what)]; }
+  void rouse(std::vector<BodyId> wanted);
+  void forget_contacts_of(BodyId id);
+  void list_pushes();
+
+  WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
+  std::vector<double> rested_;  // seconds that each body has been slow
+  Forces<D> forces_;            // pushes: those that act now
+  std::vector<SpringId> spring_ids_;
+  std::vector<TimedPush> pushes_;
+  std::vector<std::pair<JointId, Joint<D>>> joints_;
   BodyId next_id_ = 0;
+  SpringId next_spring_ = 0;
+  JointId next_joint_ = 0;
+  double time_ = 0;
+
+  std::vector<Memory> touching_;  // by pair: of the last step, and of those that sleep
+  std::vector<Contact<D>> contacts_;
+  std::vector<ContactEvent> events_;
+  std::vector<Pair> pairs_;
+  std::optional<BroadPhase<D>> broad_phase_;
+  WorldWork work_;
 };
+
+extern template class World<2>;
+extern template class World<3>;
 
 }  // namespace lantern

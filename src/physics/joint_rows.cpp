@@ -1,0 +1,91 @@
+#include "physics/joint_rows.hpp"
+
+#include <algorithm>
+
+#include <glm/matrix.hpp>
+
+namespace lantern {
+namespace {
+
+// Column j is the relative velocity that an impulse of 1 along axis j gives.
+template <int D>
+Mat<D> response(const JointRows<D>& rows, const Mover<D>& a, const Mover<D>& b) {
+  Mat<D> k(a.inverse_mass + b.inverse_mass);
+  for (int j = 0; j < D; ++j) {
+    Vec<D> axis{0.0};
+    axis[j] = 1;
+    const Spin<D> spin_a = a.inverse_inertia * cross(rows.arm_a, axis);
+    const Spin<D> spin_b = b.inverse_inertia * cross(rows.arm_b, axis);
+    k[j] += cross(spin_a, rows.arm_a) + cross(spin_b, rows.arm_b);
+  }
+  return k;
+}
+
+// The impulse that adds `wanted` to the relative velocity.
+template <int D>
+Vec<D> impulse_for(const JointRows<D>& rows, const Vec<D>& wanted) {
+  if (rows.joint.kind == JointKind::pin) return rows.solve * wanted;
+  if (rows.compliance == 0) return Vec<D>(0.0);
+  return rows.direction * (glm::dot(rows.direction, wanted) / rows.compliance);
+}
+
+}  // namespace
+
+template <int D>
+void refresh(JointRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mover<D>& mover_a,
+             const Mover<D>& mover_b) {
+  rows.arm_a = matrix(a.orientation) * rows.joint.at_a;
+  rows.arm_b = matrix(b.orientation) * rows.joint.at_b;
+  rows.gap = (b.position - a.position) + rows.arm_b - rows.arm_a;
+  if (rows.joint.kind == JointKind::pin) {
+    rows.solve = glm::inverse(response(rows, mover_a, mover_b));
+    return;
+  }
+  const double length = glm::length(rows.gap);
+  rows.direction = length > 0 ? rows.gap / length : Vec<D>(0.0);
+  rows.compliance = compliance(mover_a, rows.arm_a, mover_b, rows.arm_b, rows.direction);
+  rows.impulse = rows.direction * glm::dot(rows.direction, rows.impulse);
+}
+
+template <int D>
+void warm_start(JointRows<D>& rows, Mover<D>& a, Mover<D>& b) {
+  a.apply(-rows.impulse, rows.arm_a);
+  b.apply(rows.impulse, rows.arm_b);
+}
+
+template <int D>
+void sweep_velocities(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, Sweep& sweep) {
+  const Vec<D> impulse = impulse_for(rows, -relative_velocity(a, rows.arm_a, b, rows.arm_b));
+  rows.impulse += impulse;
+  a.apply(-impulse, rows.arm_a);
+  b.apply(impulse, rows.arm_b);
+  sweep.change = std::max(sweep.change, glm::length(impulse));
+  sweep.largest = std::max(sweep.largest, glm::length(rows.impulse));
+  sweep.rows += rows.joint.kind == JointKind::pin ? D : 1;
+}
+
+template <int D>
+void sweep_carriage(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep) {
+  const Vec<D> error = rows.joint.kind == JointKind::pin
+                           ? rows.gap
+                           : rows.gap - rows.direction * rows.joint.length;
+  const Vec<D> impulse =
+      impulse_for(rows, -error / h - relative_carriage(a, rows.arm_a, b, rows.arm_b));
+  a.carry(-impulse, rows.arm_a);
+  b.carry(impulse, rows.arm_b);
+  sweep.change = std::max(sweep.change, glm::length(impulse));
+  sweep.rows += rows.joint.kind == JointKind::pin ? D : 1;
+}
+
+#define LANTERN_INSTANTIATE(D)                                                              \
+  template void refresh(JointRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&,     \
+                        const Mover<D>&);                                                   \
+  template void warm_start(JointRows<D>&, Mover<D>&, Mover<D>&);                            \
+  template void sweep_velocities(JointRows<D>&, Mover<D>&, Mover<D>&, Sweep&);              \
+  template void sweep_carriage(JointRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern

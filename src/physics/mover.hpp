@@ -1,0 +1,65 @@
+// A body while constraints are solved: just its velocities and what resists their change.
+#pragma once
+
+#include <type_traits>
+
+#include "physics/body.hpp"
+
+namespace lantern {
+
+// Inverse inertia in the world's axes.
+template <int D>
+using Inertia = std::conditional_t<D == 2, double, Mat<3>>;
+
+inline double dot(double a, double b) { return a * b; }
+inline double dot(const Vec<3>& a, const Vec<3>& b) { return glm::dot(a, b); }
+
+template <int D>
+struct Mover {
+  double inverse_mass = 0;
+  Inertia<D> inverse_inertia{0.0};
+  Vec<D> velocity{0.0};
+  Spin<D> spin{0.0};
+  Spin<D> twist{0.0};  // angular momentum gained from constraints
+  // How the body is really carried over the sub-step: its mean velocities. They differ from the
+  // above by what pushes out penetration, which must not become motion (split impulses).
+  Vec<D> mean_velocity{0.0};
+  Spin<D> mean_spin{0.0};
+
+  void apply(const Vec<D>& impulse, const Vec<D>& arm) {
+    const Spin<D> turn = cross(arm, impulse);
+    velocity += impulse * inverse_mass;
+    spin += inverse_inertia * turn;
+    twist += turn;
+  }
+  void carry(const Vec<D>& impulse, const Vec<D>& arm) {
+    mean_velocity += impulse * inverse_mass;
+    mean_spin += inverse_inertia * cross(arm, impulse);
+  }
+};
+
+template <int D>
+Vec<D> relative_velocity(const Mover<D>& a, const Vec<D>& arm_a, const Mover<D>& b,
+                         const Vec<D>& arm_b) {
+  return (b.velocity + cross(b.spin, arm_b)) - (a.velocity + cross(a.spin, arm_a));
+}
+template <int D>
+Vec<D> relative_carriage(const Mover<D>& a, const Vec<D>& arm_a, const Mover<D>& b,
+                         const Vec<D>& arm_b) {
+  return (b.mean_velocity + cross(b.mean_spin, arm_b)) -
+         (a.mean_velocity + cross(a.mean_spin, arm_a));
+}
+
+// How much relative velocity along `direction` an impulse of 1 along it gives: the inverse of the
+// effective mass.
+template <int D>
+double compliance(const Mover<D>& a, const Vec<D>& arm_a, const Mover<D>& b, const Vec<D>& arm_b,
+                  const Vec<D>& direction) {
+  const Spin<D> turn_a = cross(arm_a, direction);
+  const Spin<D> turn_b = cross(arm_b, direction);
+  const Spin<D> gained_a = a.inverse_inertia * turn_a;
+  const Spin<D> gained_b = b.inverse_inertia * turn_b;
+  return a.inverse_mass + b.inverse_mass + dot(turn_a, gained_a) + dot(turn_b, gained_b);
+}
+
+}  // namespace lantern
