@@ -61,21 +61,27 @@ class Brains {
         world.set_velocity(id, body.velocity * (spec.brain_speed / speed));
       return;
     }
+    // Clearly away, or it would touch again at once.
+    constexpr double kClearly = 0.3;
     Random& random = random_of(id, spec);
-    Vec<D> way{0.0};
-    for (int attempt = 0; attempt < 64; ++attempt) {
+    const double length = std::sqrt(glm::dot(away, away));
+    Vec<D> way = direction(random);
+    for (int attempt = 0; touches && attempt < 64; ++attempt) {
+      if (glm::dot(way, away) > kClearly * length) break;
       way = direction(random);
-      if (!touches || glm::dot(way, away) > 0) break;
     }
     world.set_velocity(id, way * spec.brain_speed);
   }
 
-  // Along one of the axes: corridors are.
+  // Of unit length, on the floor of a solid world. No sine, so it is the same on every machine.
   static Vec<D> direction(Random& random) {
-    Vec<D> way{0.0};
-    const auto pick = random.whole(0, 3);  // on the floor, in a solid world
-    way[pick < 2 ? 0 : D - 1] = pick % 2 == 0 ? 1 : -1;
-    return way;
+    for (;;) {
+      Vec<D> way{0.0};
+      way[0] = random.between(-1, 1);
+      way[D - 1] = random.between(-1, 1);
+      const double square = glm::dot(way, way);
+      if (square >= 0.01 && square <= 1) return way / std::sqrt(square);
+    }
   }
 
   Random& random_of(BodyId id, const BodySpec& spec) {

@@ -19,7 +19,8 @@ class Plotter {
   // A point on each line, or a bar of this label. A new part begins a new group of bars. What the
   // frame does not count is left out.
   void add(const std::string& label, const std::string& part, const Frame& frame) {
-    if (is_bars_ && !part.empty() && !chart_.bars.empty()) ++group_;
+    if (!chart_.bars.empty() && part != part_) ++group_;
+    part_ = part;
     const auto x = is_bars_ ? std::optional<std::int64_t>(0) : frame.count(chart_.x_name);
     for (FrameSeries& series : chart_.series) {
       const auto y = frame.count(series.name);
@@ -42,6 +43,7 @@ class Plotter {
   bool is_bars_;
   FrameChart chart_;
   int group_ = 0;
+  std::string part_;  // of the last bar
 };
 
 }  // namespace lantern

@@ -1,0 +1,179 @@
+#include "scenario/frame_maker.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenario/caption.hpp"
+#include "scenario/expectations.hpp"
+
+namespace lantern {
+namespace {
+
+// Frames of one run, all paces together.
+constexpr std::uint32_t kMostFrames = 100'000;
+
+}  // namespace
+
+FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
+                       const std::function<bool(const Frame&)>& sink)
+    : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink) {
+  if (scenario.chart) plotter_.emplace(*scenario.chart);
+}
+
+void FrameMaker::begin(const Step& step, std::uint32_t index) {
+  step_ = &step;
+  step_index_ = index;
+  if (!step.part.empty()) part_ = step.part;
+  touched = {};
+  focus.clear();
+  texture.clear();
+  finding_.reset();
+}
+
+bool FrameMaker::wanted(std::string_view event) const {
+  const auto& events = step_->events;
+  return events.empty() || std::find(events.begin(), events.end(), event) != events.end();
+}
+
+void FrameMaker::note_refused(const std::string& name) {
+  refused_names_ += (refused_names_.empty() ? "" : ", ") + name;
+}
+
+void FrameMaker::show_finding(Finding finding) {
+  counted_ = QueryNumbers{finding.counts, finding.hits.size()};
+  focus.insert(finding.hits.begin(), finding.hits.end());
+  finding_ = std::move(finding);
+}
+
+Frame FrameMaker::picture(const Touched& now, std::string_view event) {
+  const WorldSpec& world = scenario_.world;
+  Frame frame;
+  frame.scenario = scenario_.name;
+  frame.title = scenario_.title;
+  frame.part = part_;
+  frame.seed = scenario_.seed;
+  frame.index = report_.frames;
+  frame.step = step_index_;
+  frame.steps = static_cast<std::uint32_t>(scenario_.steps.size());
+  frame.event = event;
+  frame.panels = scenario_.panels;
+  frame.time = stage_.time;
+  frame.dimension = world.dimension;
+  frame.bounds = world.bounds;
+  frame.show_boxes = world.show_boxes;
+  frame.show_velocities = world.show_velocities;
+  if (world.has_camera) frame.camera = Camera{world.camera_eye, world.camera_target};
+  if (stage_.engine) stage_.engine->picture(now, frame);
+  if (stage_.level) stage_.level->picture(frame);
+  if (stage_.atlas) stage_.atlas->picture(now, frame);
+  frame.hash = state_hash(frame);
+  add_finding(frame);
+  light(frame);
+  if (plotter_) frame.chart = plotter_->chart();
+  return frame;
+}
+
+void FrameMaker::settle(std::string_view verb, bool last, const std::string& caption) {
+  Frame frame = picture(touched, step_->name.empty() ? verb : step_->name);
+  if (plotter_ && last && step_->plot) {
+    plotter_->add(*step_->plot, part_, frame);
+    frame.chart = plotter_->chart();
+  }
+  frame.caption = caption.empty() ? fill(step_->caption, frame) : caption;
+  verify(step_->always, frame);
+  if (last) verify(step_->expect, frame);
+  give(std::move(frame));
+}
+
+void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
+                      std::optional<BodyId> about) {
+  Frame frame = picture(now, event);
+  frame.caption = std::move(caption);
+  for (FrameBody& body : frame.bodies) body.lit = body.id == about;
+  give(std::move(frame));
+}
+
+void FrameMaker::give(Frame frame) {
+  if (stopped_) return;
+  if (report_.frames == kMostFrames)
+    throw ScenarioError(diagnose(scenario_, step_->where,
+                                 fmt::format("more than {} frames", kMostFrames),
+                                 "run for a shorter time, or choose fewer events"));
+  frame.index = report_.frames++;
+  stopped_ = !sink_(frame);
+}
+
+void FrameMaker::fail(std::string message) {
+  report_.unmet.push_back(diagnose(scenario_, step_->where, std::move(message)));
+}
+
+void FrameMaker::add_finding(Frame& frame) const {
+  if (counted_) {
+    frame.counts.emplace_back("nodes_visited", counted_->counts.nodes_visited);
+    frame.counts.emplace_back("nodes_skipped", counted_->counts.nodes_skipped);
+    frame.counts.emplace_back("objects_tested", counted_->counts.objects_tested);
+    frame.counts.emplace_back("hits", counted_->hits);
+  }
+  if (!finding_) return;
+  frame.hits = finding_->hits;
+  if (finding_->ray) frame.rays.push_back(*finding_->ray);
+  if (finding_->view) frame.views.push_back(*finding_->view);
+  if (finding_->region) frame.queries.push_back(*finding_->region);
+  if (finding_->ray) return;
+  for (FrameBody& body : frame.bodies)
+    body.dimmed = !std::binary_search(frame.hits.begin(), frame.hits.end(), body.id);
+}
+
+// Bodies that the step is about, the leaves that hold them, and pairs that are new.
+void FrameMaker::light(Frame& frame) {
+  for (FrameBody& body : frame.bodies) body.lit = focus.contains(body.id);
+  if (touched.lit.empty() && touched.passed.empty()) light_leaves_of_focus(frame);
+  if (const auto* ask = std::get_if<AskRoom>(&step_->verb))
+    for (FrameNode& node : frame.nodes)
+      if (node.leaf && node.bodies.empty() && node.box.size().x >= ask->width &&
+          node.box.size().y >= ask->height)
+        node.mark = Mark::lit;
+  for (FramePair& p : frame.pairs)
+    p.lit = !std::binary_search(last_pairs_.begin(), last_pairs_.end(), p.pair);
+  last_pairs_.clear();
+  for (const FramePair& p : frame.pairs) last_pairs_.push_back(p.pair);
+}
+
+// Parents stand before children, so one pass from the back hands the light up.
+void FrameMaker::light_leaves_of_focus(Frame& frame) const {
+  constexpr std::size_t kMostInFocus = 3;  // when all move, nothing stands out
+  if (focus.empty() || focus.size() > kMostInFocus) return;
+  for (std::size_t i = frame.nodes.size(); i-- > 0;) {
+    FrameNode& node = frame.nodes[i];
+    if (node.leaf && std::any_of(node.bodies.begin(), node.bodies.end(),
+                                 [&](BodyId id) { return focus.contains(id); }))
+      node.mark = Mark::lit;
+    if (node.mark != Mark::quiet && node.parent != kNone)
+      frame.nodes[node.parent].mark = Mark::passed;
+  }
+}
+
+std::string FrameMaker::fill(const std::string& caption, const Frame& frame) const {
+  const auto text = [&](std::string_view name) -> std::optional<std::string> {
+    if (name == "texture") return texture;
+    if (name == "refused_names") return refused_names_.empty() ? "none" : refused_names_;
+    if (name == "time") return fmt::format("{:.2f}", frame.time);
+    if (const auto measured = frame.measure(name)) return fmt::format("{:.4g}", *measured);
+    return std::nullopt;
+  };
+  return fill_caption(caption, text, [&](std::string_view name) { return frame.count(name); });
+}
+
+void FrameMaker::verify(const std::vector<Expectation>& expectations, const Frame& frame) {
+  for (const Expectation& expectation : expectations) {
+    ++report_.expectations;
+    const auto problem = unmet(expectation, frame);
+    if (!problem || !reported_.insert(&expectation).second) continue;
+    report_.unmet.push_back(
+        diagnose(scenario_, expectation.where,
+                 fmt::format("{} (frame {}, time {:.6g} s)", *problem, frame.index, frame.time)));
+  }
+}
+
+}  // namespace lantern

@@ -1,0 +1,83 @@
+// From the pieces on the stage to finished frames: pictured, lit, captioned, verified and given on.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/director.hpp"
+#include "scenario/plotter.hpp"
+#include "scenario/stage.hpp"
+
+namespace lantern {
+
+class FrameMaker {
+ public:
+  // Gives each frame to `sink`, until it returns false.
+  FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
+             const std::function<bool(const Frame&)>& sink);
+
+  // What follows belongs to this step.
+  void begin(const Step& step, std::uint32_t index);
+  const Step& step() const { return *step_; }
+  bool by_event() const { return step_->pace.value_or(pace_) == Pace::event; }
+  // In event pace: did the step ask for frames of this event?
+  bool wanted(std::string_view event) const;
+  bool stopped() const { return stopped_; }
+
+  // What the step is about, for all frames to come of it.
+  Touched touched;
+  std::set<BodyId> focus;
+  std::string texture;
+  void note_refused(const std::string& name);
+
+  // What a ray, view or region found: shown on this step's frames, counted from now on.
+  void show_finding(Finding finding);
+
+  // The state as it is; with no caption, given to nobody.
+  Frame picture(const Touched& touched, std::string_view event);
+  // A frame of a finished state, on which the step's promises are verified; its `expect` on the
+  // last one of the step.
+  void settle(std::string_view verb, bool last = true, const std::string& caption = {});
+  // A frame in the midst of the algorithm, about one body if there is one.
+  void emit(const Touched& touched, std::string_view event, std::string caption,
+            std::optional<BodyId> about = {});
+  void give(Frame frame);
+  // The step's promise is broken, whatever the frames say.
+  void fail(std::string message);
+
+  DirectorReport take_report() { return std::move(report_); }
+
+ private:
+  void add_finding(Frame& frame) const;
+  void light(Frame& frame);
+  void light_leaves_of_focus(Frame& frame) const;
+  std::string fill(const std::string& caption, const Frame& frame) const;
+  void verify(const std::vector<Expectation>& expectations, const Frame& frame);
+
+  struct QueryNumbers {
+    QueryCounts counts;
+    std::size_t hits = 0;
+  };
+
+  const Scenario& scenario_;
+  Pace pace_;
+  const Stage& stage_;
+  const std::function<bool(const Frame&)>& sink_;
+  std::optional<Plotter> plotter_;
+  DirectorReport report_;
+  const Step* step_ = nullptr;
+  std::uint32_t step_index_ = 0;
+  std::string part_;
+  std::string refused_names_;
+  std::vector<Pair> last_pairs_;
+  std::optional<Finding> finding_;         // of this step
+  std::optional<QueryNumbers> counted_;    // of the last ray, view or region
+  std::set<const Expectation*> reported_;  // an unmet one is reported once
+  bool stopped_ = false;
+};
+
+}  // namespace lantern
