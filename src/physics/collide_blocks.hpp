@@ -27,6 +27,7 @@ template <int D>
 struct SeparatingAxes {
   SeparatingAxis<D> chosen;    // the one to build the contact on
   SeparatingAxis<D> greatest;  // the one of the largest separation
+  SeparatingAxis<D> face;      // the best of a face; its normal is 0 if neither block has any
 };
 
 // Gottschalk, Lin, Manocha (OBBTree, 1996). If the largest separation is above 0, the cores are at
