@@ -78,28 +78,49 @@ double least_separation(const Manifold<D>& manifold) {
   return least;
 }
 
-// Of cores that are apart, where the separating axis is not the direction of their distance. Round
-// blocks near a face's normal still have that face's points, so that a capsule over the rim of a
-// box rests on it rather than rocking.
+// The deepest point stands for the true separation, which is known to be nearly that.
+template <int D>
+void set_least_separation(Manifold<D>& manifold, double exact) {
+  const double least = least_separation(manifold);
+  for (auto& point : manifold.room)
+    point.separation = point.separation == least ? exact : std::max(point.separation, exact);
+}
+
+// Of cores that are apart, where the separating axis is not the direction of their distance. Near a
+// face's normal they still have that face's points, so that a box over the rim of another one, or
+// a capsule, settles on it rather than rocking.
 template <int D>
 Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
                                const ClosestFeatures<D>& closest, const Direction<D>& normal,
                                const SeparatingAxis<D>& face, double margin) {
   const Manifold<D> single =
       one_point(closest.points.a, a.radius, b.radius, normal, kClosest | closest.feature);
+  if (glm::dot(face.normal, normal.unit) < kNearFace) return single;
   const double radii = a.radius + b.radius, exact = normal.length - radii;
-  if (radii <= 0 || glm::dot(face.normal, normal.unit) < kNearFace) return single;
-  Manifold<D> many = contact_on_face(face, a, b, normal.unit, margin).manifold;
-  if (many.count < 2) return single;
-  // Heights along the leaning normal are nearly distances. The deepest point stands for the closest
-  // ones, whose distance is exact.
-  const double least = least_separation(many);
-  if (std::abs(least - exact) > 0.01 * radii) return single;
-  for (const auto& point : many.points())
-    if (point.separation > exact + 0.1 * radii) return single;
-  for (auto& point : many.room)
-    point.separation = point.separation == least ? exact : std::max(point.separation, exact);
+  const double size = radii + smallest_half(a, b);
+  const double near = std::min(margin, exact + 0.1 * size);
+  Manifold<D> many = contact_on_face(face, a, b, normal.unit, near).manifold;
+  // Heights along the leaning normal are nearly distances, or the face is not what is closest.
+  if (many.count < 2 || std::abs(least_separation(many) - exact) > 1e-3 * size) return single;
+  set_least_separation(many, exact);
   return many;
+}
+
+// The contact on a separating axis. Nothing if it does not reach the bound that the axes give.
+template <int D>
+Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
+                            double bound, double rounding, double margin) {
+  FaceContact<D> contact = contact_on(axis, a, b, margin);
+  if (contact.manifold.count == 0) return std::nullopt;
+  const double least = least_separation(contact.manifold) + a.radius + b.radius;
+  if (bound > rounding) {  // apart
+    if (contact.least_distance > bound + rounding) return std::nullopt;
+    if (std::abs(least - bound) > rounding) return std::nullopt;
+    return contact.manifold;
+  }
+  if (std::abs(least - bound) > kAxisBias * smallest_half(a, b) + rounding) return std::nullopt;
+  set_least_separation(contact.manifold, axis.separation - a.radius - b.radius);
+  return contact.manifold;
 }
 
 }  // namespace
@@ -114,23 +135,20 @@ Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
   for (int i = 0; i < D; ++i) size += a.half[i] + b.half[i];
   const double rounding = kRounding * size;
   const bool apart = bound > rounding;
-
-  // A contact on an axis is right if it reaches the bound that the axes give. Round blocks that are
-  // apart meet in one point of an edge only if they cannot lie on a face.
-  const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
   for (const SeparatingAxis<D>* axis : {&axes.chosen, &axes.greatest}) {
-    if (apart && radii > 0 && axis->kind == SeparatingAxis<D>::Kind::edges) continue;
-    const FaceContact<D> contact = contact_on(*axis, a, b, margin);
-    if (contact.manifold.count == 0) continue;
-    const double least = least_separation(contact.manifold);
-    if (std::abs(least + radii - bound) > allowed) continue;
-    if (apart && contact.least_distance > bound + rounding) continue;
-    return contact.manifold;
+    // Blocks that are apart meet in one point of an edge only if they cannot lie on a face.
+    if (apart && axis->kind == SeparatingAxis<D>::Kind::edges) continue;
+    if (const auto contact = contact_if_exact(*axis, a, b, bound, rounding, margin)) return contact;
   }
 
-  const ClosestFeatures<D> closest = closest_features(a, b);
-  Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
-  if (!apart) normal = {axes.greatest.normal, bound};
+  if (!apart) {  // rounding or a bias has put the corner beside the face
+    const Direction<D> normal{axes.greatest.normal, bound};
+    return one_point(closest_features(a, b, axes.greatest).points.a, a.radius, b.radius, normal,
+                     kClosest);
+  }
+  const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest);
+  const Direction<D> normal =
+      direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
   if (normal.length - radii > margin) return std::nullopt;
   return contact_of_closest(a, b, closest, normal, axes.face, margin);
 }

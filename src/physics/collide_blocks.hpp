@@ -61,7 +61,8 @@ FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, in
                             const Vec<D>& normal, double margin);
 
 // The point of each core that is closest to the other one, if they are apart, and a name of the
-// features on which they lie.
+// features on which they lie. `axis` is one along which they are apart; the better it is, the less
+// work is left.
 template <int D>
 struct ClosestFeatures {
   PointPair<D> points;
@@ -69,6 +70,7 @@ struct ClosestFeatures {
 };
 
 template <int D>
-ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b);
+ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b,
+                                    const SeparatingAxis<D>& axis);
 
 }  // namespace lantern::narrow
