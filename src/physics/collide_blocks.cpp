@@ -138,6 +138,7 @@ Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
   for (const SeparatingAxis<D>* axis : {&axes.chosen, &axes.greatest}) {
     // Blocks that are apart meet in one point of an edge only if they cannot lie on a face.
     if (apart && axis->kind == SeparatingAxis<D>::Kind::edges) continue;
+    if (axis == &axes.greatest && axis->normal == axes.chosen.normal) continue;  // tried already
     if (const auto contact = contact_if_exact(*axis, a, b, bound, rounding, margin)) return contact;
   }
 
