@@ -16,11 +16,13 @@ void mark(Manifold<D>& manifold, std::uint32_t kind) {
   for (auto& point : manifold.room) point.feature |= kind;
 }
 
+// `normal` is the face's or leans a little.
 template <int D>
-FaceContact<D> contact_on_face(const Block<D>& a, const Block<D>& b, bool of_a, int axis,
+FaceContact<D> contact_on_face(const SeparatingAxis<D>& face, const Block<D>& a, const Block<D>& b,
                                const Vec<D>& normal, double margin) {
-  FaceContact<D> contact =
-      of_a ? face_contact(a, b, axis, normal, margin) : face_contact(b, a, axis, -normal, margin);
+  const bool of_a = face.kind == SeparatingAxis<D>::Kind::face_of_a;
+  FaceContact<D> contact = of_a ? face_contact(a, b, face.axis_a, normal, margin)
+                                : face_contact(b, a, face.axis_b, -normal, margin);
   contact.manifold.normal = normal;
   mark(contact.manifold, of_a ? kFaceOfA : kFaceOfB);
   return contact;
@@ -64,11 +66,9 @@ FaceContact<3> contact_of_edges(const Block<3>& a, const Block<3>& b,
 template <int D>
 FaceContact<D> contact_on(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
                           double margin) {
-  using Kind = typename SeparatingAxis<D>::Kind;
   if constexpr (D == 3)
-    if (axis.kind == Kind::edges) return contact_of_edges(a, b, axis);
-  const bool of_a = axis.kind == Kind::face_of_a;
-  return contact_on_face(a, b, of_a, of_a ? axis.axis_a : axis.axis_b, axis.normal, margin);
+    if (axis.kind == SeparatingAxis<D>::Kind::edges) return contact_of_edges(a, b, axis);
+  return contact_on_face(axis, a, b, axis.normal, margin);
 }
 
 template <int D>
@@ -78,29 +78,49 @@ double least_separation(const Manifold<D>& manifold) {
   return least;
 }
 
-// Of cores that are apart, where the separating axis is not the direction of their distance. Round
-// blocks near a face's normal still have that face's points, so that a capsule over the rim of a
-// box rests on it rather than rocking.
+// The deepest point stands for the true separation, which is known to be nearly that.
+template <int D>
+void set_least_separation(Manifold<D>& manifold, double exact) {
+  const double least = least_separation(manifold);
+  for (auto& point : manifold.room)
+    point.separation = point.separation == least ? exact : std::max(point.separation, exact);
+}
+
+// Of cores that are apart, where the separating axis is not the direction of their distance. Near a
+// face's normal they still have that face's points, so that a box over the rim of another one, or
+// a capsule, settles on it rather than rocking.
 template <int D>
 Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
                                const ClosestFeatures<D>& closest, const Direction<D>& normal,
-                               const SeparatingAxis<D>& axis, double margin) {
+                               const SeparatingAxis<D>& face, double margin) {
   const Manifold<D> single =
       one_point(closest.points.a, a.radius, b.radius, normal, kClosest | closest.feature);
+  if (glm::dot(face.normal, normal.unit) < kNearFace) return single;
   const double radii = a.radius + b.radius, exact = normal.length - radii;
-  if (radii <= 0 || axis.kind == SeparatingAxis<D>::Kind::edges) return single;
-  if (glm::dot(axis.normal, normal.unit) < kNearFace) return single;
-  const bool of_a = axis.kind == SeparatingAxis<D>::Kind::face_of_a;
-  const int face = of_a ? axis.axis_a : axis.axis_b;
-  Manifold<D> many = contact_on_face(a, b, of_a, face, normal.unit, margin).manifold;
-  if (many.count < 2) return single;
-  // Heights along the leaning normal are nearly distances. The deepest point stands for the closest
-  // ones, whose distance is exact.
-  const double least = least_separation(many);
-  if (std::abs(least - exact) > 0.01 * radii) return single;
-  for (auto& point : many.room)
-    point.separation = point.separation == least ? exact : std::max(point.separation, exact);
+  const double size = radii + smallest_half(a, b);
+  const double near = std::min(margin, exact + 0.1 * size);
+  Manifold<D> many = contact_on_face(face, a, b, normal.unit, near).manifold;
+  // Heights along the leaning normal are nearly distances, or the face is not what is closest.
+  if (many.count < 2 || std::abs(least_separation(many) - exact) > 1e-3 * size) return single;
+  set_least_separation(many, exact);
   return many;
+}
+
+// The contact on a separating axis. Nothing if it does not reach the bound that the axes give.
+template <int D>
+Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
+                            double bound, double rounding, double margin) {
+  FaceContact<D> contact = contact_on(axis, a, b, margin);
+  if (contact.manifold.count == 0) return std::nullopt;
+  const double least = least_separation(contact.manifold) + a.radius + b.radius;
+  if (bound > rounding) {  // apart
+    if (contact.least_distance > bound + rounding) return std::nullopt;
+    if (std::abs(least - bound) > rounding) return std::nullopt;
+    return contact.manifold;
+  }
+  if (std::abs(least - bound) > kAxisBias * smallest_half(a, b) + rounding) return std::nullopt;
+  set_least_separation(contact.manifold, axis.separation - a.radius - b.radius);
+  return contact.manifold;
 }
 
 }  // namespace
@@ -115,23 +135,23 @@ Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
   for (int i = 0; i < D; ++i) size += a.half[i] + b.half[i];
   const double rounding = kRounding * size;
   const bool apart = bound > rounding;
-
-  // A contact on an axis is right if it reaches the bound that the axes give.
-  const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
   for (const SeparatingAxis<D>* axis : {&axes.chosen, &axes.greatest}) {
-    const FaceContact<D> contact = contact_on(*axis, a, b, margin);
-    if (contact.manifold.count == 0) continue;
-    const double least = least_separation(contact.manifold);
-    if (std::abs(least + radii - bound) > allowed) continue;
-    if (apart && contact.least_distance > bound + rounding) continue;
-    return contact.manifold;
+    // Blocks that are apart meet in one point of an edge only if they cannot lie on a face.
+    if (apart && axis->kind == SeparatingAxis<D>::Kind::edges) continue;
+    if (axis == &axes.greatest && axis->normal == axes.chosen.normal) continue;  // tried already
+    if (const auto contact = contact_if_exact(*axis, a, b, bound, rounding, margin)) return contact;
   }
 
-  const ClosestFeatures<D> closest = closest_features(a, b);
-  Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
-  if (!apart) normal = {axes.greatest.normal, bound};
+  if (!apart) {  // rounding or a bias has put the corner beside the face
+    const Direction<D> normal{axes.greatest.normal, bound};
+    return one_point(closest_features(a, b, axes.greatest).points.a, a.radius, b.radius, normal,
+                     kClosest);
+  }
+  const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest);
+  const Direction<D> normal =
+      direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
   if (normal.length - radii > margin) return std::nullopt;
-  return contact_of_closest(a, b, closest, normal, axes.chosen, margin);
+  return contact_of_closest(a, b, closest, normal, axes.face, margin);
 }
 
 template <int D>

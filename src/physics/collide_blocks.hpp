@@ -27,6 +27,7 @@ template <int D>
 struct SeparatingAxes {
   SeparatingAxis<D> chosen;    // the one to build the contact on
   SeparatingAxis<D> greatest;  // the one of the largest separation
+  SeparatingAxis<D> face;      // the best of a face; its normal is 0 if neither block has any
 };
 
 // Gottschalk, Lin, Manocha (OBBTree, 1996). If the largest separation is above 0, the cores are at
@@ -60,7 +61,8 @@ FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, in
                             const Vec<D>& normal, double margin);
 
 // The point of each core that is closest to the other one, if they are apart, and a name of the
-// features on which they lie.
+// features on which they lie. `axis` is one along which they are apart; the better it is, the less
+// work is left.
 template <int D>
 struct ClosestFeatures {
   PointPair<D> points;
@@ -68,6 +70,7 @@ struct ClosestFeatures {
 };
 
 template <int D>
-ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b);
+ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b,
+                                    const SeparatingAxis<D>& axis);
 
 }  // namespace lantern::narrow

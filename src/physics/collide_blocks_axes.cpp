@@ -23,6 +23,7 @@ class Search {
     settle();
     for (int i = 0; i < D; ++i) try_face(Kind::face_of_b, i, is_face(b_, i));
     settle();
+    found_.face = found_.chosen;
     if constexpr (D == 3) {
       for (int i = 0; i < D; ++i)
         for (int j = 0; j < D; ++j)

@@ -103,6 +103,11 @@ double size_of(const Thing<D>& a, const Thing<D>& b) {
   return size_of(a) + size_of(b) + glm::length(b.position - a.position);
 }
 
+template <int D>
+double radii(const Thing<D>& a, const Thing<D>& b) {
+  return core_of(a).radius + core_of(b).radius;
+}
+
 // By how much a contact's depth may be larger than the least one: 1e-3 of the smallest half size.
 template <int D>
 double allowed_bias(const Thing<D>& a, const Thing<D>& b) {
