@@ -91,11 +91,12 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
 
 TEST(FreeRotation, TheThrownBoxKeepsEnergyAndAngularMomentum) {
   const Drift second = drift_of(RotationMethod::splitting_2, 1e-3, 10000);
-  EXPECT_LE(second.energy, 2e-6);
+  EXPECT_LE(second.energy, 4e-7);
   EXPECT_LE(second.momentum, 1e-12);
   const Drift fourth = drift_of(RotationMethod::splitting_4, 1e-3, 10000);
-  EXPECT_LE(fourth.energy, 4e-11);
+  EXPECT_LE(fourth.energy, 1e-12);
   EXPECT_LE(fourth.momentum, 1e-12);
+}
 
 TEST(FreeRotation, TheNaiveMethodIsAWarning) {
   const Drift naive = drift_of(RotationMethod::explicit_gyroscopic, 1e-3, 10000);
@@ -104,10 +105,10 @@ TEST(FreeRotation, TheNaiveMethodIsAWarning) {
 }
 
 TEST(FreeRotation, TheErrorFallsByTheOrderOfTheMethod) {
-  const Vec<3> spin{0.1, 5, 0.1};
-  const glm::dquat exact = reference(kBoxInertia, spin, 5, 50000);
+  const Vec<3> spin{3, 4, 5};
+  const glm::dquat exact = reference(kBoxInertia, spin, 5, 100000);
   const auto error = [&](RotationMethod method, int steps) {
-    Body<3> body = thrown_box();
+    Body<3> body = spinning(kBoxInertia, spin);
     for (int i = 0; i < steps; ++i) turn_freely(body, 5.0 / steps, method);
     return angle_between(exact, body.orientation.q);
   };
@@ -119,7 +120,7 @@ TEST(FreeRotation, TheErrorFallsByTheOrderOfTheMethod) {
           << name << " halving " << halving;
   };
   expect_order(RotationMethod::splitting_2, 2, 200, "splitting_2");
-  expect_order(RotationMethod::splitting_4, 4, 100, "splitting_4");
+  expect_order(RotationMethod::splitting_4, 4, 70, "splitting_4");
 }
 
 // Two equal inertias: the axis of the top runs round L at |L| / I, at any step.
