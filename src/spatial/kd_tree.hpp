@@ -279,7 +279,9 @@ class KdTree {
       spread[axis] = most - least;
       axes[axis] = axis;
     }
-    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return spread[a] > spread[b]; });
+    std::sort(axes.begin(), axes.end(), [&](int a, int b) {
+      return spread[a] > spread[b] || (spread[a] == spread[b] && a < b);
+    });
     return axes;
   }
 
