@@ -56,8 +56,8 @@ LevelGrid::LevelGrid(const Box<2>& bounds) {
   std::frexp(largest, &exponent);
   if (exponent < -300 || exponent > 300)
     throw Refused("level: the coordinates of its bounds are too large or too small");
-  spacing_ = std::ldexp(1.0, exponent - 40);
-  tolerance_ = std::ldexp(1.0, exponent - 30);
+  spacing_ = std::ldexp(1.0, exponent - 46);
+  tolerance_ = std::ldexp(1.0, exponent - 38);
 }
 
 Vec<2> LevelGrid::snapped(const Vec<2>& point) const {

@@ -28,8 +28,8 @@ struct Wall {
 };
 
 // Map lengths below which a level does not distinguish. The scale is the largest coordinate of the
-// bounds, rounded up to a power of two; corners are snapped to multiples of scale * 2^-40, and
-// what lies within scale * 2^-30 of a line lies on it. Corners that are written with few binary
+// bounds, rounded up to a power of two; corners are snapped to multiples of scale * 2^-46, and
+// what lies within scale * 2^-38 of a line lies on it. Corners that are written with few binary
 // digits do not move at all.
 class LevelGrid {
  public:
