@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "draw/solid_view.hpp"
 #include "draw/world_bodies.hpp"
 
 namespace lantern {
@@ -12,6 +13,7 @@ constexpr std::size_t kCrowd = 700;  // more bodies than this are no longer draw
 }  // namespace
 
 void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  if (frame.dimension == 3) return draw_solid_world(frame, panel, list, labels);
   const WorldMap map(flat(frame.bounds), panel);
   Grounds grounds;
   std::string note;
