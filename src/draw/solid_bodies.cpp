@@ -192,9 +192,9 @@ void draw_round(const SolidBody& b, const SolidView& view, std::vector<DrawShape
   const Stroke stroke = outline_of(b);
   if (b.body->dimmed) return add_polygon(b.outline, Role::panel, stroke, view, shapes);
   add_polygon(b.outline, in_tone(color, Tone::shade), {}, view, shapes);
-  add_polygon(round_outline(b.space, view, -0.12), color, {}, view, shapes);
+  add_polygon(round_outline(b.space, view, 0.02), color, {}, view, shapes);
   if (std::min(b.box.size().x, b.box.size().y) > 12)
-    add_polygon(round_outline(b.space, view, 0.8), in_tone(color, Tone::lit), {}, view, shapes);
+    add_polygon(round_outline(b.space, view, 0.87), in_tone(color, Tone::lit), {}, view, shapes);
   add_polygon(b.outline, Role::none, stroke, view, shapes);
   const double across = 2 * b.space.radius * view.scale_at(b.space.center);
   if (across < kLeastMarked) return;

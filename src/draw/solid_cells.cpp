@@ -23,7 +23,7 @@ struct Strength {
 Stroke stroke_of(const Strength& s) {
   constexpr double kWidths[] = {2.8, 2.1, 1.6, 1.3, 1.1};
   const double width = s.depth < 5 ? kWidths[s.depth] : 1.0;
-  if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 2.0 : 2.8, 0};
+  if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5, 0};
   if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(1.0, 0.6 * width), 0};
   return {cell_line_role(s.depth), width, 0};
 }
@@ -74,7 +74,8 @@ class Edges {
   explicit Edges(const SolidView& view)
       : view_(view), grain_(std::exp2(std::ceil(std::log2(view.size())) - 32)) {}
 
-  // The twelve edges of a cell. In a column's cell those at the top are left out.
+  // The twelve edges of a cell. In a column's cell those at the top are left out,
+  // unless it is lit.
   void add(const FrameNode& node, bool column) {
     if (!is_valid(node.box)) return;
     const Box<3>& box = node.box;
@@ -83,7 +84,7 @@ class Edges {
         const int j = (axis + 1) % 3, k = (axis + 2) % 3;
         const bool high_j = (corner & 1) != 0, high_k = (corner & 2) != 0;
         const bool top = (j == 1 && high_j) || (k == 1 && high_k);
-        if (column && axis != 1 && top && node.depth > 0) continue;
+        if (column && axis != 1 && top && node.depth > 0 && node.mark != Mark::lit) continue;
         Edge e;
         e.axis = axis;
         e.at[0] = rounded(high_j ? box.hi[j] : box.lo[j]);

@@ -10,9 +10,9 @@ namespace {
 
 using Corners = std::vector<Vec<3>>;
 
-// 1, 2 or 5 times a power of ten: about a tenth of the longer side.
+// 1, 2 or 5 times a power of ten: about an eighth of the longer side.
 double grid_step(const Box<3>& bounds) {
-  const double wanted = std::max(bounds.size().x, bounds.size().z) / 10;
+  const double wanted = std::max(bounds.size().x, bounds.size().z) / 8;
   if (!(wanted > 0)) return 1;
   double step = 1;
   while (step > wanted) step /= 10;

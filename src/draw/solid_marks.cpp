@@ -172,7 +172,7 @@ void draw_joints(const Frame& frame, const std::vector<SolidBody>& bodies, const
 
 void draw_contacts(const Frame& frame, const SolidView& view, DrawList& list) {
   constexpr std::size_t kMostWithNormal = 60;
-  const double length = 0.045 * view.size();
+  const double length = 0.035 * view.size();
   for (const FrameContact& contact : frame.contacts)
     for (const FrameContact::Point& point : contact.points) {
       const Vec<3> end = point.position + contact.normal * length;
@@ -196,7 +196,7 @@ void add_line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, const 
   const Box<3> reach{glm::min(from, to), glm::max(from, to)};
   std::vector<std::pair<double, double>> hidden;
   for (const SolidBody& b : bodies) {
-    if (b.body->dimmed || !overlap(b.body->box, reach)) continue;
+    if (!overlap(b.body->box, reach)) continue;
     if (const auto part = inside_of(b.space, from, to)) hidden.push_back(*part);
   }
   std::sort(hidden.begin(), hidden.end());

@@ -97,7 +97,7 @@ SolidView::SolidView(const Box<3>& bounds, const std::optional<Camera>& camera, 
                       glm::length(camera->target - camera->eye) > 1e-9 * size_;
   Camera own;
   own.target = bounds.center();
-  own.eye = own.target + glm::normalize(Vec<3>(0.52, 0.52, 1)) * (1.7 * size_);
+  own.eye = own.target + glm::normalize(Vec<3>(0.52, 0.52, 1)) * (2.2 * size_);
   const Camera& used = usable ? *camera : own;
   aim(used);
   fit(used.field_of_view, usable);

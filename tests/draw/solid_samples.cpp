@@ -99,7 +99,7 @@ Frame octree_frame() {
   Frame frame = solid_frame("octree", {{0, 0, 0}, {8, 8, 8}});
   frame.title = "A cube is split into eight";
   frame.panels = {Panel::world, Panel::tree};
-  frame.caption = "Node 2 holds 3, its limit is 2: it splits into eight. Red lies in 2.1 alone.";
+  frame.caption = "Node 6 holds 3, its limit is 2: it splits into eight. Blue lies in all of them.";
   frame.bodies = {solid_body(0, "red", Sphere{0.55}, {1.3, 6.8, 6.6}, 1),
                   solid_body(1, "pink", AxisBox<3>{{0.5, 0.5, 0.5}}, {2.9, 5.0, 5.2}, 2),
                   solid_body(2, "blue", Sphere{0.6}, {6.2, 6.2, 6.4}, 4),
