@@ -1,5 +1,6 @@
 #include "draw/clip.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -52,6 +53,32 @@ void cut_shapes(DrawList& list, std::size_t first, const Box<2>& rect) {
   }
   list.shapes.resize(first);
   for (DrawShape& shape : kept) list.shapes.push_back(std::move(shape));
+}
+
+// Liang and Barsky, "A New Concept and Method for Line Clipping" (1984).
+std::optional<std::pair<Vec<2>, Vec<2>>> cut_line(const Vec<2>& from, const Vec<2>& to,
+                                                  const Box<2>& rect) {
+  double first = 0, last = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double way = to[axis] - from[axis];
+    if (!std::isfinite(from[axis]) || !std::isfinite(way)) return std::nullopt;
+    if (way == 0) {
+      if (from[axis] < rect.lo[axis] || from[axis] > rect.hi[axis]) return std::nullopt;
+      continue;
+    }
+    const double a = (rect.lo[axis] - from[axis]) / way, b = (rect.hi[axis] - from[axis]) / way;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  if (first > last) return std::nullopt;
+  // Rounding may lead an end beside the rectangle by a hair.
+  const auto at = [&](double share) {
+    Vec<2> p = from + (to - from) * share;
+    for (int axis = 0; axis < 2; ++axis)
+      p[axis] = std::clamp(p[axis], rect.lo[axis], rect.hi[axis]);
+    return p;
+  };
+  return std::pair{first == 0 ? from : at(first), last == 1 ? to : at(last)};
 }
 
 }  // namespace lantern

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "draw/draw_list.hpp"
@@ -15,5 +17,9 @@ std::vector<Vec<2>> cut_to(std::vector<Vec<2>> polygon, const Box<2>& rect);
 // Cuts the list's rectangles and polygons from index `first` on; what lies outside goes. Lines
 // stay only when they lie inside, texts never.
 void cut_shapes(DrawList& list, std::size_t first, const Box<2>& rect);
+
+// The part of a line that lies in the rectangle; nothing if there is none, or an end is not finite.
+std::optional<std::pair<Vec<2>, Vec<2>>> cut_line(const Vec<2>& from, const Vec<2>& to,
+                                                  const Box<2>& rect);
 
 }  // namespace lantern

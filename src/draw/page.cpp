@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include "draw/atlas_view.hpp"
+#include "draw/chart_view.hpp"
 #include "draw/font.hpp"
 #include "draw/footer.hpp"
 #include "draw/labels.hpp"
+#include "draw/memory_view.hpp"
 #include "draw/tree_view.hpp"
 #include "draw/world_view.hpp"
 
@@ -17,6 +20,7 @@ namespace {
 constexpr double kTop = 104;       // of the panels
 constexpr double kTitleLine = 58;  // baseline
 constexpr double kPanelGap = 44;
+constexpr double kStripGap = 30;  // over the strip of an array
 constexpr double kMostEnlarged = 1.45;
 constexpr double kStackBelow = 1.2;  // aspect of a page whose panels stand one above the other
 
@@ -60,49 +64,101 @@ void draw_title(const Frame& frame, double margin, DrawList& list, Labels& label
 
 // Width that a panel would take at this height if it could choose; 0 takes what is left.
 double wanted_width(const Frame& frame, Panel panel, double height) {
-  if (panel == Panel::tree) return 0;
   if (panel == Panel::atlas) return atlas_width(frame, height);
+  if (panel != Panel::world) return 0;
+  if (frame.dimension == 3) return height * 1.4;
   const Vec<2> size = frame.bounds.size();
   return size.y > 0 ? height * size.x / size.y : height;
 }
 
-std::vector<Box<2>> side_by_side(const Frame& frame, const Box<2>& area) {
-  const double room = area.size().x - kPanelGap * static_cast<double>(frame.panels.size() - 1);
-  const auto trees = std::count(frame.panels.begin(), frame.panels.end(), Panel::tree);
-  const auto others = static_cast<double>(frame.panels.size()) - static_cast<double>(trees);
+bool takes_the_rest(Panel panel) { return panel != Panel::world && panel != Panel::atlas; }
+
+std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& panels,
+                                 const Box<2>& area) {
+  const double room = area.size().x - kPanelGap * static_cast<double>(panels.size() - 1);
+  const auto flexible = std::count_if(panels.begin(), panels.end(), takes_the_rest);
+  const auto others = static_cast<double>(panels.size()) - static_cast<double>(flexible);
   std::vector<double> widths;
   double left = room;
-  for (const Panel panel : frame.panels) {
+  for (const Panel panel : panels) {
     double width = 0;
-    if (panel != Panel::tree)
-      width = trees == 0 ? room / others
-                         : std::clamp(wanted_width(frame, panel, area.size().y),
-                                      0.3 * room / others, 0.6 * room / others);
+    if (!takes_the_rest(panel))
+      width = flexible == 0 ? room / others
+                            : std::clamp(wanted_width(frame, panel, area.size().y),
+                                         0.3 * room / others, 0.6 * room / others);
     widths.push_back(width);
     left -= width;
   }
   std::vector<Box<2>> boxes;
   double x = area.lo.x;
   for (double width : widths) {
-    if (width == 0) width = left / static_cast<double>(trees);
+    if (width == 0) width = left / static_cast<double>(flexible);
     boxes.push_back({{x, area.lo.y}, {x + width, area.hi.y}});
     x += width + kPanelGap;
   }
   return boxes;
 }
 
-// A tree needs rows, so it gets somewhat more height than the others.
-std::vector<Box<2>> stacked(const Frame& frame, const Box<2>& area) {
-  const auto weight = [](Panel panel) { return panel == Panel::tree ? 1.1 : 1.0; };
+// A tree needs rows, so it gets somewhat more height than the others; the array is a strip.
+std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area) {
+  const auto weight = [](Panel panel) {
+    return panel == Panel::tree ? 1.1 : panel == Panel::memory ? 0.6 : 1.0;
+  };
   double weights = 0;
-  for (const Panel panel : frame.panels) weights += weight(panel);
-  const double room = area.size().y - kPanelGap * static_cast<double>(frame.panels.size() - 1);
+  for (const Panel panel : panels) weights += weight(panel);
+  const double room = area.size().y - kPanelGap * static_cast<double>(panels.size() - 1);
   std::vector<Box<2>> boxes;
   double y = area.lo.y;
-  for (const Panel panel : frame.panels) {
+  for (const Panel panel : panels) {
     const double height = room * weight(panel) / weights;
     boxes.push_back({{area.lo.x, y}, {area.hi.x, y + height}});
     y += height + kPanelGap;
+  }
+  return boxes;
+}
+
+// The array lies under all the others, as wide as they are together. Cuts it from the area.
+Box<2> cut_strip(const Frame& frame, Box<2>& area) {
+  const double height = area.size().y;
+  const double strip = std::clamp(memory_height(frame, area.size().x), 0.2 * height, 0.46 * height);
+  Box<2> box = area;
+  box.lo.y = area.hi.y - strip;
+  area.hi.y = box.lo.y - kStripGap;
+  return box;
+}
+
+// On a wide page. What takes the rest of the width stands in one column beside the world, so that
+// nothing gets narrow.
+std::vector<Box<2>> arranged(const Frame& frame, Box<2> area) {
+  const std::vector<Panel>& panels = frame.panels;
+  std::vector<Box<2>> boxes(panels.size());
+  std::vector<std::vector<std::size_t>> columns;
+  std::optional<std::size_t> shared;  // the column of all that take the rest
+  const bool with_others =
+      std::any_of(panels.begin(), panels.end(), [](Panel panel) { return !takes_the_rest(panel); });
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (panels[i] == Panel::memory && panels.size() > 1) {
+      boxes[i] = cut_strip(frame, area);
+    } else if (shared && takes_the_rest(panels[i])) {
+      columns[*shared].push_back(i);
+    } else {
+      if (with_others && takes_the_rest(panels[i])) shared = columns.size();
+      columns.push_back({i});
+    }
+  }
+  const auto panels_of = [&](const std::vector<std::size_t>& column) {
+    std::vector<Panel> found;
+    for (const std::size_t i : column) found.push_back(panels[i]);
+    return found;
+  };
+  std::vector<Panel> firsts;
+  for (const auto& column : columns) firsts.push_back(panels[column[0]]);
+  const std::vector<Box<2>> places = side_by_side(frame, firsts, area);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    boxes[columns[c][0]] = places[c];
+    if (columns[c].size() < 2) continue;
+    const std::vector<Box<2>> cut = stacked(panels_of(columns[c]), places[c]);
+    for (std::size_t k = 0; k < cut.size(); ++k) boxes[columns[c][k]] = cut[k];
   }
   return boxes;
 }
@@ -111,7 +167,7 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
                  Work& work) {
   if (frame.panels.empty()) return;
   const bool tall = list.page.x / list.page.y < kStackBelow;
-  const std::vector<Box<2>> boxes = tall ? stacked(frame, area) : side_by_side(frame, area);
+  const std::vector<Box<2>> boxes = tall ? stacked(frame.panels, area) : arranged(frame, area);
   for (std::size_t i = 0; i < boxes.size(); ++i) switch (frame.panels[i]) {
       case Panel::world:
         ++work.world_layouts;
@@ -125,7 +181,10 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
         draw_atlas(frame, boxes[i], list, labels);
         break;
       case Panel::chart:
+        draw_chart(frame, boxes[i], list, labels);
+        break;
       case Panel::memory:
+        draw_memory(frame, boxes[i], list, labels);
         break;
     }
 }

@@ -48,9 +48,13 @@ enum class Role : std::uint8_t {
   body_mark_6,
   body_mark_7,
   body_mark_8,  // the second cue beside its hue
-  frustum_fill,  // faint ground of a view's inside
-  body_lit_1,    // faces of solid bodies that look towards the light: of colour 1 ... 8, of static
-  body_lit_2,    // and of sleeping ones
+  view_fill,    // ground of what a view sees
+  sector_1,     // grounds of a level's sectors, so that neighbours differ
+  sector_2,
+  sector_3,
+  sector_4,
+  body_lit_1,  // faces of solid bodies that look towards the light: of colour 1 ... 8, of static
+  body_lit_2,  // and of sleeping ones
   body_lit_3,
   body_lit_4,
   body_lit_5,
@@ -92,6 +96,13 @@ constexpr Role in_tone(Role role, Tone tone) {
   if (role == Role::static_body) return static_cast<Role>(first + 8);
   if (role == Role::asleep) return static_cast<Role>(first + 9);
   return static_cast<Role>(first + static_cast<int>(role) - static_cast<int>(Role::body_1));
+}
+
+inline constexpr unsigned kSectorTones = 4;
+
+// The role of the ground of a sector of tone 0 ... 3.
+constexpr Role sector_role(unsigned tone) {
+  return static_cast<Role>(static_cast<unsigned>(Role::sector_1) + tone % kSectorTones);
 }
 
 // The role of a cell line at this depth of the tree.

@@ -8,7 +8,8 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostEdges = 1000;
+constexpr std::size_t kMostEdges = 700;
+constexpr std::size_t kMostEdgesInCrowd = 250;  // lines must not hide a crowd of dots
 constexpr std::size_t kMostFills = 300;
 
 // How strongly an edge is drawn. Smaller is stronger, and wins where edges of several cells lie on
@@ -16,6 +17,7 @@ constexpr std::size_t kMostFills = 300;
 struct Strength {
   int lit = 1;              // 0 of a lit cell
   std::uint32_t depth = 0;  // of the cell
+  int asleep = 0;           // 1 of a cell in which nothing moves
   int quiet = 0;            // 1 where it lies before the cell's inside, or upright in a column
   auto operator<=>(const Strength&) const = default;
 };
@@ -24,8 +26,9 @@ Stroke stroke_of(const Strength& s) {
   constexpr double kWidths[] = {2.8, 2.1, 1.6, 1.3, 1.1};
   const double width = s.depth < 5 ? kWidths[s.depth] : 1.0;
   if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5, 0};
-  if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(1.0, 0.6 * width), 0};
-  return {cell_line_role(s.depth), width, 0};
+  const double dash = s.asleep != 0 ? 6 : 0;
+  if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(1.0, 0.6 * width), dash};
+  return {cell_line_role(s.depth), width, dash};
 }
 
 // A part of a line along one axis, at two fixed places on the other two.
@@ -93,13 +96,14 @@ class Edges {
         e.to = rounded(box.hi[axis]);
         const bool before = faces_eye(box, j, high_j) && faces_eye(box, k, high_k);
         const bool faint = column && (axis == 1 || top) && node.depth > 0;
-        e.strength = {node.mark == Mark::lit ? 0 : 1, node.depth, before || faint ? 1 : 0};
+        e.strength = {node.mark == Mark::lit ? 0 : 1, node.depth, node.awake ? 0 : 1,
+                      before || faint ? 1 : 0};
         edges_.push_back(e);
       }
   }
 
   // In a fixed order; of too many the deepest levels are left out, and the answer is false.
-  bool take(std::vector<Edge>& merged) {
+  bool take(std::size_t most, std::vector<Edge>& merged) {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
       return std::tie(a.axis, a.at[0], a.at[1], a.from, a.to, a.strength) <
              std::tie(b.axis, b.at[0], b.at[1], b.from, b.to, b.strength);
@@ -113,7 +117,7 @@ class Edges {
       i = end;
     }
     bool complete = true;
-    while (merged.size() > kMostEdges) {
+    while (merged.size() > most) {
       std::uint32_t deepest = 0;
       for (const Edge& e : merged) deepest = std::max(deepest, e.strength.depth);
       if (deepest == 0) break;
@@ -194,7 +198,8 @@ bool add_cells(const Frame& frame, const std::vector<SolidBody>& bodies, const S
     edges.add(whole, false);
   }
   std::vector<Edge> merged;
-  const bool complete = edges.take(merged);
+  const bool complete =
+      edges.take(bodies.empty() && !frame.bodies.empty() ? kMostEdgesInCrowd : kMostEdges, merged);
   // Deep ones first: of pieces equally far away the stronger lies on top.
   std::stable_sort(merged.begin(), merged.end(),
                    [](const Edge& a, const Edge& b) { return b.strength < a.strength; });

@@ -148,7 +148,7 @@ void fill_view(const FrameView& seen, const SolidView& view, DrawList& list) {
   }
   points = cut_to(hull_of(std::move(points)), view.panel());
   if (points.size() >= 3)
-    list.shapes.emplace_back(PolygonShape{std::move(points), Role::frustum_fill, {}});
+    list.shapes.emplace_back(PolygonShape{std::move(points), Role::view_fill, {}});
 }
 
 }  // namespace

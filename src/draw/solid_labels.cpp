@@ -6,8 +6,9 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostNamed = 40;  // of more bodies, only those that the step is about
-constexpr std::size_t kMostCells = 24;
+constexpr std::size_t kMostNamed = 40;          // of more bodies, only those that the step is about
+constexpr std::ptrdiff_t kMostQuietCells = 10;  // of more, only lit ones: in space names soon crowd
+constexpr std::size_t kMostCells = 16;
 constexpr double kWidestName = 210;
 
 // Below, above, beside; where no body is covered, so that each name is read as its own body's.
@@ -58,7 +59,7 @@ void name_cell(const FrameNode& node, const SolidView& view, Labels& labels,
     const Vec<2> inwards = own - corner;
     const double length = glm::length(inwards);
     if (!(length > 1)) continue;
-    const Vec<2> at = corner + inwards * (std::min(0.5 * length, half + 14) / length);
+    const Vec<2> at = corner + inwards * (std::min(0.5 * length, half + 20) / length);
     const Anchor anchor{{at.x, at.y + 6}, 0.5};
     const Box<2> extent = Labels::extent(node.label, anchor, style);
     const bool covers = std::any_of(bodies.begin(), bodies.end(),
@@ -81,6 +82,9 @@ void name_solids(const Frame& frame, const std::vector<SolidBody>& bodies, const
     if (node.leaf && node.depth > 0 && !node.label.empty() && is_valid(node.box) &&
         (node.mark == Mark::lit || !node.bodies.empty()))
       cells.push_back(&node);
+  const auto is_quiet = [](const FrameNode* n) { return n->mark != Mark::lit; };
+  if (std::count_if(cells.begin(), cells.end(), is_quiet) > kMostQuietCells)
+    std::erase_if(cells, is_quiet);
   std::stable_sort(cells.begin(), cells.end(), [](const FrameNode* a, const FrameNode* b) {
     return std::pair{a->mark != Mark::lit, a->depth} < std::pair{b->mark != Mark::lit, b->depth};
   });

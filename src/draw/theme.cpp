@@ -30,6 +30,8 @@ struct Palette {
   std::uint32_t pair, rejected_pair, static_body, asleep, contact, ray, frustum, warning;
   std::uint32_t free_space;
   Hues body_marks;
+  std::uint32_t view_fill;
+  std::array<std::uint32_t, 4> sectors;
 };
 
 constexpr Theme theme_of(const Palette& p) {
@@ -64,11 +66,12 @@ constexpr Theme theme_of(const Palette& p) {
   set(Role::frustum, p.frustum);
   set(Role::warning, p.warning);
   set(Role::free_space, p.free_space);
+  set(Role::view_fill, p.view_fill);
+  for (unsigned tone = 0; tone < kSectorTones; ++tone) set(sector_role(tone), p.sectors[tone]);
   const auto mix = [&](Role role, Role from, const Color& to, double part) {
     const Color a = theme.colors[static_cast<std::size_t>(from)];
     theme.colors[static_cast<std::size_t>(role)] = mixed(a, to, part);
   };
-  mix(Role::frustum_fill, Role::panel, rgb(p.frustum), 0.1);
   const auto shade = [&](Role role) {
     mix(in_tone(role, Tone::lit), role, {255, 255, 255}, 0.38);
     mix(in_tone(role, Tone::shade), role, {0, 0, 0}, 0.3);
@@ -108,6 +111,8 @@ constexpr Palette kLight{
     .warning = 0xb3261e,
     .free_space = 0xf3f2ee,
     .body_marks = {0xa83510, 0xb25f92, 0xcdb716, 0x08508e, 0x0c7546, 0x38a3df, 0xbd7400, 0x6b3cb4},
+    .view_fill = 0xf1ecfd,
+    .sectors = {0xeaf2f8, 0xf6efe4, 0xeaf4ea, 0xf5eaf1},
 };
 
 constexpr Palette kDark{
@@ -136,6 +141,8 @@ constexpr Palette kDark{
     .warning = 0xff8a70,
     .free_space = 0x151922,
     .body_marks = {0xb8431f, 0xb56f99, 0xd2b71c, 0x2668a6, 0x229a66, 0x74aee8, 0xb87406, 0x6a40cc},
+    .view_fill = 0x262038,
+    .sectors = {0x1b2936, 0x2e2719, 0x1b2c22, 0x2c1f2c},
 };
 
 // Greys only. Neighbouring bodies differ in lightness, and each carries its own emblem, dark on the
@@ -166,6 +173,8 @@ constexpr Palette kPrint{
     .warning = 0x000000,
     .free_space = 0xfafafa,
     .body_marks = {0xf0f0f0, 0x303030, 0x606060, 0xe8e8e8, 0xffffff, 0x404040, 0x101010, 0xd0d0d0},
+    .view_fill = 0xededed,
+    .sectors = {0xffffff, 0xe6e6e6, 0xf4f4f4, 0xdcdcdc},
 };
 
 constexpr std::array<Theme, 3> kThemes{theme_of(kLight), theme_of(kDark), theme_of(kPrint)};

@@ -427,6 +427,8 @@ std::vector<std::pair<std::string, Frame>> all() {
   frames.emplace_back("atlas4000", fine_atlas(4000));
   frames.emplace_back("empty", empty());
   frames.emplace_back("unstructured", unstructured());
+  for (const Named& more : {charts(), memories(), worlds()})
+    frames.insert(frames.end(), more.begin(), more.end());
   return frames;
 }
 

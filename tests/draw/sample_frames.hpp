@@ -23,6 +23,11 @@ Frame fine_atlas(std::size_t textures);                 // very many very small 
 Frame empty();                                          // nothing in it at all
 Frame unstructured();                                   // bodies, but no tree
 
+using Named = std::vector<std::pair<std::string, Frame>>;
+Named charts();    // lines and bars, few and many, plain and extreme
+Named memories();  // the array that all leaves share, from no slot to 10,000
+Named worlds();    // turned bodies, contacts, links, rays, views, levels, sleepers, two trees
+
 // Name and frame of all of the above, in several sizes.
 std::vector<std::pair<std::string, Frame>> all();
 

@@ -1,0 +1,98 @@
+#include "draw/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/number_text.hpp"
+
+namespace lantern {
+namespace {
+
+// 1, 2 or 5 times a power of ten: the least that is not below `step`. `decimals` of it after the
+// point.
+double nice_step(double step, int& decimals) {
+  double power = 1;
+  decimals = 0;
+  while (power > step && decimals < 300) {
+    power /= 10;
+    ++decimals;
+  }
+  while (power * 10 <= step) power *= 10;
+  for (const double k : {1.0, 2.0, 5.0})
+    if (k * power >= step) return k * power;
+  decimals = std::max(0, decimals - 1);
+  return 10 * power;
+}
+
+// Where all values are one, they get a range all the same.
+void widen(double& low, double& high) {
+  if (low < high) return;
+  if (low == 0)
+    high = 1;
+  else if (low > 0)
+    low = 0;
+  else
+    high = 0;
+}
+
+}  // namespace
+
+Axis Axis::linear(double least, double most, int most_ticks) {
+  constexpr double kMost = 1e150;  // so that differences stay finite
+  double low = std::clamp(least, -kMost, kMost), high = std::clamp(most, -kMost, kMost);
+  if (low > 0 && low < 0.7 * high) low = 0;
+  if (high < 0 && high > 0.7 * low) high = 0;
+  widen(low, high);
+  // Below this, steps would be lost against the values themselves.
+  const double lost = std::max(std::abs(low), std::abs(high)) * 1e-12;
+  if (high - low < lost) {
+    low -= lost;
+    high += lost;
+  }
+  int decimals = 0;
+  double step = nice_step((high - low) / std::max(1, most_ticks - 1), decimals);
+  Axis axis;
+  for (int tries = 0; tries < 8; ++tries) {
+    axis.low_ = std::floor(low / step) * step;
+    axis.high_ = std::ceil(high / step) * step;
+    if ((axis.high_ - axis.low_) / step + 1 <= most_ticks + 0.5 || most_ticks < 3) break;
+    step = nice_step(step * 1.01, decimals);
+  }
+  const auto count = static_cast<int>(std::min(1000.0, (axis.high_ - axis.low_) / step + 0.5));
+  for (int i = 0; i <= count; ++i) {
+    const double value = axis.low_ + i * step;
+    const bool tiny = decimals > 6;
+    const double clean = std::abs(value) < step * 1e-9 ? 0 : value;
+    axis.ticks_.push_back({clean, tiny ? short_number(clean) : number_text(clean, decimals)});
+  }
+  return axis;
+}
+
+Axis Axis::logarithmic(double least_above_zero, double most, int most_ticks) {
+  Axis axis;
+  axis.logarithmic_ = true;
+  axis.low_ = std::floor(std::log10(std::clamp(least_above_zero, 1e-150, 1e150)));
+  axis.high_ = std::ceil(std::log10(std::clamp(most, 1e-150, 1e150)));
+  if (axis.high_ <= axis.low_) axis.high_ = axis.low_ + 1;
+  const auto decades = static_cast<int>(axis.high_ - axis.low_);
+  const int every = std::max(1, (decades + most_ticks - 2) / std::max(1, most_ticks - 1));
+  for (int i = 0; i <= decades; i += every) {
+    const int power = static_cast<int>(axis.low_) + i;
+    double value = 1;
+    for (int k = 0; k < std::abs(power); ++k) value *= 10;
+    if (power < 0) value = 1 / value;
+    axis.ticks_.push_back({value, power < 0 && power > -4 ? number_text(value, -power)
+                                  : power < 0             ? short_number(value)
+                                                          : number_text(value)});
+  }
+  return axis;
+}
+
+double Axis::share(double value) const {
+  double at = value;
+  if (logarithmic_) at = value > 0 ? std::log10(value) : low_;
+  const double share = (at - low_) / (high_ - low_);
+  return share > 0 ? std::min(share, 1.0) : 0;  // 0 for NaN too
+}
+
+}  // namespace lantern

@@ -1,0 +1,33 @@
+// A chart's axis: its range, where its ticks stand, and what is written at them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lantern {
+
+class Axis {
+ public:
+  struct Tick {
+    double value = 0;
+    std::string text;
+  };
+
+  // For values from `least` to `most` (finite, in order), at most `most_ticks` (2 or more) ticks.
+  // A linear axis starts at 0 unless all values are far from it. A logarithmic one spans whole
+  // decades and shows what is not above 0 at its lower end.
+  static Axis linear(double least, double most, int most_ticks);
+  static Axis logarithmic(double least_above_zero, double most, int most_ticks);
+
+  // 0 at the lower end, 1 at the upper one; never outside.
+  double share(double value) const;
+  const std::vector<Tick>& ticks() const { return ticks_; }
+  double low() const { return low_; }
+
+ private:
+  double low_ = 0, high_ = 1;
+  bool logarithmic_ = false;
+  std::vector<Tick> ticks_;
+};
+
+}  // namespace lantern

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "draw/chart_parts.hpp"
+#include "draw/font.hpp"
+#include "draw/number_text.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kLeastRow = 25;  // a name has room in it
+constexpr double kMostRow = 66;
+constexpr double kGroupGap = 0.55;  // between groups, in rows
+constexpr double kAfter = 10;       // between a bar and its number, or its name
+constexpr double kTickLine = 30;
+
+const TextStyle kName{kLabel, Weight::regular, Role::ink, Role::none};
+const TextStyle kValue{kLabel, Weight::semibold, Role::ink, Role::none};
+const TextStyle kTick{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
+
+double width_of(const std::string& text, const TextStyle& style) {
+  return text_width(text, style.size, style.weight);
+}
+
+std::string value_text(double value) {
+  return value == std::floor(value) ? number_text(value) : short_number(value);
+}
+
+class Bars {
+ public:
+  Bars(const FrameChart& chart, const Box<2>& panel, DrawList& list, Labels& labels)
+      : chart_(chart), panel_(panel), list_(list), labels_(labels), bars_(chart.bars) {
+    std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
+    std::stable_sort(bars_.begin(), bars_.end(),
+                     [](const FrameBar& a, const FrameBar& b) { return a.group < b.group; });
+    for (const FrameBar& bar : bars_) {
+      const auto known = std::find(names_.begin(), names_.end(), bar.label);
+      if (known == names_.end()) names_.push_back(bar.label);
+      if (groups_.empty() || groups_.back() != bar.group) groups_.push_back(bar.group);
+    }
+  }
+
+  void draw() {
+    panel_.lo.y += draw_chart_heading(heading(), panel_, labels_);
+    leave_out();
+    if (bars_.empty()) return;
+    measure();
+    draw_grid();
+    double y = area_.lo.y + (row_ * kGroupGap) / 4;
+    for (std::size_t i = 0; i < bars_.size(); ++i) {
+      if (i > 0 && bars_[i].group != bars_[i - 1].group) y += kGroupGap * row_;
+      draw_bar(bars_[i], y);
+      y += row_;
+    }
+    const double x = x_of(zero());
+    list_.shapes.emplace_back(
+        LineShape{{x, area_.lo.y}, {x, area_.hi.y}, {Role::ink, 2.2, 0}, true});
+    if (!note_.empty()) labels_.add(note_, {{area_.lo.x, panel_.hi.y - 5}, 0}, kTick, panel_);
+  }
+
+ private:
+  std::string heading() const {
+    if (!chart_.logarithmic) return chart_.y_name;
+    return chart_.y_name + (chart_.y_name.empty() ? "" : ", ") + "logarithmic scale";
+  }
+
+  double rows() const {
+    return static_cast<double>(bars_.size()) + kGroupGap * static_cast<double>(groups() - 1) +
+           kGroupGap / 2;
+  }
+  std::size_t groups() const {
+    std::size_t count = 1;
+    for (std::size_t i = 1; i < bars_.size(); ++i) count += bars_[i].group != bars_[i - 1].group;
+    return count;
+  }
+
+  // The last bars go when not all have room.
+  void leave_out() {
+    const std::size_t all = bars_.size();
+    const auto room = [&] { return panel_.size().y - kTickLine * (bars_.size() < all ? 2 : 1); };
+    while (!bars_.empty() && rows() * kLeastRow > room()) bars_.pop_back();
+    if (bars_.size() < all)
+      note_ = shortened(fmt::format("and {} more", all - bars_.size()), panel_.size().x, kTick);
+  }
+
+  void measure() {
+    double least = 0, most = 0, above_zero = 1e300, names = 0, values = 0;
+    for (const FrameBar& bar : bars_) {
+      least = std::min(least, bar.value);
+      most = std::max(most, bar.value);
+      if (bar.value > 0) above_zero = std::min(above_zero, bar.value);
+      names = std::max(names, width_of(bar.label, kName));
+      values = std::max(values, width_of(value_text(bar.value), kValue));
+    }
+    area_ = panel_;
+    area_.lo.x += std::min(names, 0.4 * panel_.size().x) + kAfter;
+    area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter;
+    area_.hi.y -= kTickLine * (note_.empty() ? 1 : 2);
+    row_ = std::min(kMostRow, area_.size().y / rows());
+    area_.hi.y = area_.lo.y + rows() * row_;
+    const int ticks = std::clamp(static_cast<int>(area_.size().x / 110), 2, 8);
+    if (chart_.logarithmic) {
+      // A decade less, so that the least bar has a length.
+      const double low = most > 0 ? above_zero : 1;
+      axis_ = Axis::logarithmic(low == 1 ? 1 : low / 2, std::max(most, low), ticks);
+    } else {
+      axis_ = Axis::linear(least, most, ticks);
+    }
+  }
+
+  double zero() const { return chart_.logarithmic ? 0 : std::max(0.0, axis_.low()); }
+  double x_of(double value) const { return area_.lo.x + axis_.share(value) * area_.size().x; }
+
+  void draw_grid() {
+    const double end = area_.hi.y + 6;
+    double last = -1e9;
+    for (const Axis::Tick& tick : axis_.ticks()) {
+      const double x = x_of(tick.value), half = width_of(tick.text, kTick) / 2;
+      list_.shapes.emplace_back(LineShape{{x, area_.lo.y}, {x, end}, {Role::rule, 1.6, 0}, true});
+      if (x - half < last + 14 || x - half < panel_.lo.x || x + half > panel_.hi.x) continue;
+      labels_.add(tick.text, {{x, end + 17}, 0.5}, kTick, panel_);
+      last = x + half;
+    }
+  }
+
+  // One colour, or where groups have bars of the same names, one for each name.
+  int color_of(const FrameBar& bar) const {
+    if (names_.size() == bars_.size() || groups_.size() < 2) return chart_color(0);
+    const auto at = std::find(names_.begin(), names_.end(), bar.label) - names_.begin();
+    return chart_color(static_cast<std::size_t>(at));
+  }
+
+  void draw_bar(const FrameBar& bar, double top) {
+    const double thick = std::min(0.72 * row_, 40.0), middle = top + row_ / 2;
+    const double from = x_of(zero()), to = x_of(bar.value);
+    const Box<2> box{{std::min(from, to), middle - thick / 2},
+                     {std::max(from, to), middle + thick / 2}};
+    if (box.size().x > 0.5)
+      list_.shapes.emplace_back(
+          RectShape{box, 2, body_role(color_of(bar)), {Role::body_line, 1.2, 0}, false});
+    const double cap = cap_height(kName.weight) * kName.size / 2;
+    const double room = area_.lo.x - panel_.lo.x - kAfter;
+    labels_.add(shortened(bar.label, room, kName), {{area_.lo.x - kAfter, middle + cap}, 1}, kName,
+                panel_);
+    const double left = std::max(from, to) + kAfter;
+    labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, kValue),
+                {{left, middle + cap}, 0}, kValue, panel_);
+  }
+
+  const FrameChart& chart_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  std::vector<FrameBar> bars_;
+  std::vector<std::string> names_;
+  std::vector<int> groups_;
+  std::string note_;
+  Box<2> area_;
+  double row_ = kLeastRow;
+  Axis axis_ = Axis::linear(0, 1, 2);
+};
+
+}  // namespace
+
+void draw_bars_chart(const FrameChart& chart, const Box<2>& panel, DrawList& list, Labels& labels) {
+  Bars(chart, panel, list, labels).draw();
+}
+
+}  // namespace lantern

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "draw/chart_parts.hpp"
+#include "draw/font.hpp"
+#include "draw/number_text.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostSeries = 12;
+constexpr std::size_t kMostPieces = 2400;  // of all lines together
+constexpr double kLine = 26;               // from one name to the next
+constexpr double kBeside = 16;             // between a line's end and its name
+constexpr double kTickLength = 7;
+constexpr double kMarkEvery = 46;  // page units between two marks of a line
+
+const TextStyle kTick{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
+const TextStyle kAxisName{kLabel, Weight::regular, Role::ink, Role::none};
+const TextStyle kNumber{kLabel, Weight::semibold, Role::ink, Role::none};
+
+double width_of(const std::string& text, const TextStyle& style) {
+  return text_width(text, style.size, style.weight);
+}
+
+struct Range {
+  double least = 1e300, most = -1e300, above_zero = 1e300;
+  void add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+    if (value > 0) above_zero = std::min(above_zero, value);
+  }
+};
+
+Axis axis_for(const Range& range, bool logarithmic, int ticks) {
+  if (range.least > range.most) return Axis::linear(0, 1, 2);
+  if (!logarithmic) return Axis::linear(range.least, range.most, ticks);
+  const double low = range.above_zero < 1e300 ? range.above_zero : 1;
+  return Axis::logarithmic(low, std::max(range.most, low), ticks);
+}
+
+// A line on the page, with what stands at its end.
+struct Line {
+  std::size_t look = 0;
+  std::string name, number;
+  std::vector<Vec<2>> values, points;
+  double label = 0;  // y of its name's middle
+};
+
+class Lines {
+ public:
+  Lines(const FrameChart& chart, const Box<2>& panel, DrawList& list, Labels& labels)
+      : chart_(chart), panel_(panel), list_(list), labels_(labels) {
+    for (const FrameSeries& series : chart.series) {
+      Line line;
+      line.look = lines_.size();
+      line.name = series.name;
+      for (const Vec<2>& p : series.points)
+        if (std::isfinite(p.x) && std::isfinite(p.y)) line.values.push_back(p);
+      if (!line.values.empty()) line.number = short_number(line.values.back().y);
+      if (lines_.size() < kMostSeries) lines_.push_back(std::move(line));
+    }
+  }
+
+  void draw() {
+    measure();
+    draw_axes();
+    for (const bool strong : {false, true})  // what is newest lies on top
+      for (Line& line : lines_) strong ? draw_end(line) : draw_line(line);
+    name_lines();
+  }
+
+ private:
+  bool alone() const { return chart_.series.size() <= 1; }
+
+  void measure() {
+    Range xs, ys;
+    double names = 0;
+    for (const Line& line : lines_) {
+      for (const Vec<2>& p : line.values) {
+        xs.add(p.x);
+        ys.add(p.y);
+      }
+      const double name = alone() ? 0 : width_of(line.name, kAxisName) + 10;
+      names = std::max(names, name + width_of(line.number, kNumber));
+    }
+    const std::string y_name = alone() && !chart_.series.empty() && chart_.y_name.empty()
+                                   ? chart_.series[0].name
+                                   : chart_.y_name;
+    area_ = panel_;
+    area_.lo.y += std::max(10.0, draw_chart_heading(y_name, panel_, labels_));
+    area_.hi.y -= kTickLength + 26 + (chart_.x_name.empty() ? 0 : 28);
+    names_room_ = std::min(names, 0.42 * panel_.size().x);
+    area_.hi.x -= names_room_ + kBeside + 4;
+    y_ = axis_for(ys, chart_.logarithmic, std::clamp(int(area_.size().y / 58), 2, 9));
+    double numbers = 0;
+    for (const Axis::Tick& tick : y_.ticks())
+      numbers = std::max(numbers, width_of(tick.text, kTick));
+    area_.lo.x += std::min(numbers, 0.3 * panel_.size().x) + kTickLength + 8;
+    area_.hi.x = std::max(area_.hi.x, area_.lo.x + 10);
+    area_.hi.y = std::max(area_.hi.y, area_.lo.y + 10);
+    x_ = axis_for(xs, chart_.logarithmic, std::clamp(int(area_.size().x / 96), 2, 10));
+    for (Line& line : lines_)
+      for (const Vec<2>& p : line.values) line.points.push_back(at(p));
+  }
+
+  Vec<2> at(const Vec<2>& value) const {
+    return {area_.lo.x + x_.share(value.x) * area_.size().x,
+            area_.hi.y - y_.share(value.y) * area_.size().y};
+  }
+
+  void draw_axes() {
+    list_.shapes.emplace_back(RectShape{area_, 0, Role::panel, {}, true});
+    double last = 1e9;
+    for (const Axis::Tick& tick : y_.ticks()) {
+      const double y = area_.hi.y - y_.share(tick.value) * area_.size().y;
+      list_.shapes.emplace_back(
+          LineShape{{area_.lo.x - kTickLength, y}, {area_.hi.x, y}, {Role::rule, 1.5, 0}, true});
+      if (y > last - 22) continue;
+      const double room = area_.lo.x - kTickLength - 6 - panel_.lo.x;
+      labels_.try_add(shortened(tick.text, room, kTick),
+                      {{{area_.lo.x - kTickLength - 6, y + 6}, 1}}, kTick, panel_);
+      last = y;
+    }
+    last = -1e9;
+    for (const Axis::Tick& tick : x_.ticks()) {
+      const double x = area_.lo.x + x_.share(tick.value) * area_.size().x;
+      const double half = width_of(tick.text, kTick) / 2;
+      list_.shapes.emplace_back(
+          LineShape{{x, area_.hi.y}, {x, area_.hi.y + kTickLength}, {Role::ink, 1.8, 0}, true});
+      if (x - half < last + 12) continue;
+      if (labels_.try_add(tick.text, {{{x, area_.hi.y + kTickLength + 19}, 0.5}}, kTick, panel_))
+        last = x + half;
+    }
+    for (const Vec<2>& end : {Vec<2>(area_.lo.x, area_.lo.y), Vec<2>(area_.hi.x, area_.hi.y)})
+      list_.shapes.emplace_back(
+          LineShape{{area_.lo.x, area_.hi.y}, end, {Role::ink, 2.2, 0}, true});
+    name_x();
+  }
+
+  void name_x() {
+    std::string name = chart_.x_name;
+    if (chart_.logarithmic) name += name.empty() ? "both logarithmic" : "  (both logarithmic)";
+    const double left = area_.lo.x, right = panel_.hi.x;
+    std::string fitting = shortened(name, right - left, kAxisName);
+    if (fitting != name) fitting = shortened(chart_.x_name, right - left, kAxisName);
+    const double half = width_of(fitting, kAxisName) / 2;
+    const double x = std::clamp(area_.center().x, left + half, std::max(left + half, right - half));
+    labels_.try_add(fitting, {{{x, panel_.hi.y - 7}, 0.5}}, kAxisName, panel_);
+  }
+
+  // Many points become as many as the page can tell apart: of each part of the line its first,
+  // lowest, highest and last point.
+  std::vector<Vec<2>> thinned(const std::vector<Vec<2>>& points) const {
+    const std::size_t most = std::max<std::size_t>(60, kMostPieces / lines_.size());
+    if (points.size() <= most) return points;
+    std::vector<Vec<2>> kept;
+    const std::size_t parts = most / 4;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t from = points.size() * part / parts;
+      const std::size_t to = points.size() * (part + 1) / parts - 1;
+      std::size_t low = from, high = from;
+      for (std::size_t i = from; i <= to; ++i) {
+        if (points[i].y < points[low].y) low = i;
+        if (points[i].y > points[high].y) high = i;
+      }
+      for (const std::size_t i : {from, std::min(low, high), std::max(low, high), to})
+        if (kept.empty() || kept.back() != points[i]) kept.push_back(points[i]);
+    }
+    return kept;
+  }
+
+  void draw_line(const Line& line) {
+    const Role role = body_role(chart_color(line.look));
+    const std::vector<Vec<2>> points = thinned(line.points);
+    for (std::size_t i = 1; i < points.size(); ++i)
+      list_.shapes.emplace_back(LineShape{points[i - 1], points[i], {role, 3, 0}, false});
+    const Vec<2>* last = nullptr;  // marks that are not too close
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      if (last && std::hypot(points[i].x - last->x, points[i].y - last->y) < kMarkEvery) continue;
+      last = &points[i];
+      draw_chart_mark(line.look, points[i], 5, list_);
+    }
+  }
+
+  void draw_end(const Line& line) {
+    if (line.points.empty()) return;
+    list_.shapes.emplace_back(disc(line.points.back(), 12, Role::panel));
+    draw_chart_mark(line.look, line.points.back(), 8.5, list_);
+  }
+
+  // Names beside the ends, moved apart where they would cover each other, the highest end first.
+  void name_lines() {
+    std::vector<Line*> order;
+    for (Line& line : lines_)
+      if (!line.points.empty()) order.push_back(&line);
+    std::stable_sort(order.begin(), order.end(), [](const Line* a, const Line* b) {
+      return a->points.back().y < b->points.back().y;
+    });
+    const double top = panel_.lo.y + 14, bottom = area_.hi.y;
+    const auto most = static_cast<std::size_t>(std::max(1.0, (bottom - top) / kLine));
+    if (order.size() > most) order.resize(most);
+    double least = top;
+    for (Line* line : order) {
+      line->label = std::max(least, line->points.back().y);
+      least = line->label + kLine;
+    }
+    double limit = bottom;
+    for (std::size_t i = order.size(); i-- > 0;) {
+      order[i]->label = std::min(order[i]->label, limit);
+      limit = order[i]->label - kLine;
+    }
+    for (const Line* line : order) name_line(*line);
+    const std::size_t left_out = chart_.series.size() - order.size();
+    if (left_out > 0 && order.size() == most)
+      labels_.try_add(fmt::format("and {} more", left_out),
+                      {{{panel_.hi.x, area_.hi.y + kTickLength + 19}, 1}}, kTick, panel_);
+  }
+
+  void name_line(const Line& line) {
+    const Vec<2> end = line.points.back();
+    const bool newest_at_edge = end.x > area_.hi.x - 40;
+    const double x = newest_at_edge ? area_.hi.x + kBeside : area_.hi.x + kBeside;
+    const double y = line.label + 0.36 * kLabel;
+    if (std::abs(line.label - end.y) > 4 || !newest_at_edge)
+      list_.shapes.emplace_back(LineShape{{std::min(end.x + 12, x - 5), end.y},
+                                          {x - 5, line.label},
+                                          {Role::cell_line_3, 1.4, newest_at_edge ? 0.0 : 4.0},
+                                          false});
+    const double room = panel_.hi.x - x;
+    const std::string number = shortened(line.number, room, kNumber);
+    const double number_width = width_of(number, kNumber);
+    labels_.try_add(number, {{{x, y}, 0}}, kNumber, panel_);
+    if (alone()) return;
+    const std::string name = shortened(line.name, room - number_width - 8, kAxisName);
+    if (!name.empty()) labels_.try_add(name, {{{x + number_width + 8, y}, 0}}, kAxisName, panel_);
+  }
+
+  const FrameChart& chart_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  std::vector<Line> lines_;
+  Box<2> area_;
+  double names_room_ = 0;
+  Axis x_ = Axis::linear(0, 1, 2), y_ = Axis::linear(0, 1, 2);
+};
+
+}  // namespace
+
+void draw_lines_chart(const FrameChart& chart, const Box<2>& panel, DrawList& list,
+                      Labels& labels) {
+  Lines(chart, panel, list, labels).draw();
+}
+
+}  // namespace lantern

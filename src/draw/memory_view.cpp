@@ -1,0 +1,261 @@
+#include "draw/memory_view.hpp"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "draw/characters.hpp"
+#include "draw/font.hpp"
+#include "draw/number_text.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kHeading = 38;
+constexpr double kBracket = 30;    // under a row, for brackets and names
+constexpr double kRowGap = 12;     // between rows
+constexpr double kNamedSlot = 46;  // from here on a body's name has room under it
+constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
+constexpr double kSlots[] = {62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
+constexpr std::size_t kMostShapes = 2600;  // that slots may take
+
+const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
+
+// How slots are laid out on a panel.
+struct Strip {
+  double slot = 0;    // width
+  double height = 0;  // of a slot
+  double pitch = 0;   // from row to row
+  double gutter = 0;  // before each row, for the number of its first slot
+  std::uint32_t columns = 1;
+  std::uint32_t rows = 1;
+
+  bool named() const { return slot >= kNamedSlot; }
+  bool drawn() const { return slot >= kDrawnSlot; }
+};
+
+Strip strip_for(std::uint32_t slots, double slot, double width) {
+  Strip s;
+  s.slot = slot;
+  s.height = s.named() ? slot + 16 : slot;
+  s.pitch = s.height + (s.drawn() ? kBracket + kRowGap : 10);
+  const std::string last = number_text(slots);
+  s.gutter = text_width(last, kIndex.size, kIndex.weight) + 12;
+  s.columns = static_cast<std::uint32_t>(std::max(1.0, (width - s.gutter) / slot));
+  // Whole eights are easier to count.
+  if (s.columns > 16) s.columns -= s.columns % 8;
+  s.columns = std::min(s.columns, std::max(slots, 1u));
+  s.rows = (std::max(slots, 1u) + s.columns - 1) / s.columns;
+  return s;
+}
+
+// The largest slots at which all of them have room, or the smallest there are.
+Strip best_strip(std::uint32_t slots, const Vec<2>& room) {
+  Strip s;
+  for (const double slot : kSlots) {
+    s = strip_for(slots, slot, room.x);
+    if (s.rows * s.pitch <= room.y) break;
+  }
+  return s;
+}
+
+class MemoryView {
+ public:
+  MemoryView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
+      : frame_(frame), panel_(panel), list_(list), labels_(labels) {
+    for (const FrameBody& body : frame.bodies) bodies_[body.id] = &body;
+    const Box<2> area{panel.lo + Vec<2>(0, kHeading), panel.hi};
+    strip_ = best_strip(frame.array_size, area.size());
+    const double rows = std::max(1.0, std::floor((area.size().y + 4) / strip_.pitch));
+    shown_ = static_cast<std::uint32_t>(
+        std::min<double>(frame.array_size, rows * double(strip_.columns)));
+    origin_ = area.lo + Vec<2>(strip_.gutter, 0);
+  }
+
+  void draw() {
+    std::vector<const FrameNode*> leaves;
+    for (const FrameNode& node : frame_.nodes)
+      if (node.leaf && node.first != kNone && node.room > 0 && node.first < shown_)
+        leaves.push_back(&node);
+    std::stable_sort(leaves.begin(), leaves.end(), [](const FrameNode* a, const FrameNode* b) {
+      return std::pair(a->mark == Mark::lit, a->first) < std::pair(b->mark == Mark::lit, b->first);
+    });
+    draw_free();
+    number_rows();
+    std::size_t drawn = 0;
+    for (const FrameNode* leaf : leaves) {
+      if (list_.shapes.size() > kMostShapes) break;
+      draw_leaf(*leaf);
+      ++drawn;
+    }
+    draw_heading(drawn < leaves.size());
+  }
+
+ private:
+  Box<2> place(std::uint32_t slot, std::uint32_t count = 1) const {
+    const Vec<2> lo = origin_ + Vec<2>((slot % strip_.columns) * strip_.slot,
+                                       (slot / strip_.columns) * strip_.pitch);
+    return {lo, lo + Vec<2>(count * strip_.slot, strip_.height)};
+  }
+
+  // f(first slot, count) for the pieces of a run that lie in one row each.
+  template <class F>
+  void for_each_piece(std::uint32_t first, std::uint32_t count, const F& f) const {
+    if (first >= shown_) return;
+    const std::uint32_t end = first + std::min(count, shown_ - first);
+    while (first < end) {
+      const std::uint32_t here = std::min(end - first, strip_.columns - first % strip_.columns);
+      f(first, here);
+      first += here;
+    }
+  }
+
+  // All slots as if they belonged to nobody; leaves are painted over them.
+  void draw_free() {
+    for_each_piece(0, shown_, [&](std::uint32_t first, std::uint32_t count) {
+      const Box<2> row = place(first, count);
+      list_.shapes.emplace_back(
+          RectShape{row, 0, Role::free_space, {Role::cell_line_3, 1.2, 4}, true});
+      if (!strip_.drawn() || list_.shapes.size() > kMostShapes / 2) return;
+      for (std::uint32_t i = 1; i < count; ++i) {
+        const double x = row.lo.x + i * strip_.slot;
+        list_.shapes.emplace_back(
+            LineShape{{x, row.lo.y}, {x, row.hi.y}, {Role::cell_line_3, 1.2, 4}, true});
+      }
+    });
+  }
+
+  void number_rows() {
+    double last = -1e9;
+    for (std::uint32_t first = 0; first < shown_; first += strip_.columns) {
+      const Box<2> box = place(first);
+      const double y = box.center().y + 6;
+      if (y < last + 24) continue;
+      if (labels_.try_add(number_text(first), {{{origin_.x - 10, y}, 1}}, kIndex, panel_)) last = y;
+    }
+  }
+
+  void draw_leaf(const FrameNode& leaf) {
+    const bool lit = leaf.mark == Mark::lit;
+    const Stroke outline = lit ? Stroke{Role::lit, 2.8, 0} : Stroke{Role::cell_line_1, 1.8, 0};
+    const auto used =
+        static_cast<std::uint32_t>(std::min<std::size_t>(leaf.bodies.size(), leaf.room));
+    for_each_piece(leaf.first, leaf.room, [&](std::uint32_t first, std::uint32_t count) {
+      const Role ground = lit                         ? Role::lit_fill
+                          : leaf.mark == Mark::passed ? Role::passed_fill
+                                                      : Role::panel;
+      const Box<2> run = place(first, count);
+      list_.shapes.emplace_back(RectShape{run, 0, ground, outline, true});
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t index = first + i - leaf.first;
+        if (i > 0 && strip_.drawn()) {
+          const double x = run.lo.x + i * strip_.slot;
+          list_.shapes.emplace_back(
+              LineShape{{x, run.lo.y}, {x, run.hi.y}, {outline.role, 1.2, 0}, true});
+        }
+        if (index < used) draw_slot(leaf.bodies[index], place(first + i), ground);
+      }
+      if (strip_.drawn()) draw_bracket(leaf, run, outline);
+    });
+  }
+
+  void draw_slot(BodyId id, const Box<2>& box, Role ground) {
+    const auto found = bodies_.find(id);
+    const double inset = std::max(1.0, 0.13 * strip_.slot);
+    if (list_.shapes.size() > kMostShapes) return;
+    if (found == bodies_.end() || strip_.slot < kDrawnSlot) {
+      const Role role = found == bodies_.end() ? Role::quiet_ink : body_role(found->second->color);
+      list_.shapes.emplace_back(filled(shrunk(box, inset), role));
+      return;
+    }
+    const FrameBody& body = *found->second;
+    Box<2> chip = shrunk(box, inset);
+    if (strip_.named()) {
+      chip = Box<2>::around({box.center().x, box.lo.y + 0.5 * (box.size().y - 20)},
+                            Vec<2>(std::min(17.0, 0.33 * strip_.slot)));
+      TextStyle style = kIndex;
+      style.role = ground == Role::lit_fill ? Role::ink : Role::quiet_ink;
+      std::string name = body.name;
+      if (text_width(name, style.size, style.weight) > box.size().x - 7) name = initial(name);
+      if (text_width(name, style.size, style.weight) <= box.size().x - 4)
+        labels_.try_add(name, {{{box.center().x, box.hi.y - 7}, 0.5}}, style, panel_);
+    }
+    draw_character(body, chip, false, list_);
+  }
+
+  // The first letter, and the digits that a name ends with: "b12" of "body 12".
+  static std::string initial(const std::string& name) {
+    std::size_t end = std::min<std::size_t>(1, name.size());
+    while (end < name.size() && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) ++end;
+    std::size_t digits = name.size();
+    while (digits > end && name[digits - 1] >= '0' && name[digits - 1] <= '9') --digits;
+    return name.substr(0, end) + name.substr(digits);
+  }
+
+  void draw_bracket(const FrameNode& leaf, const Box<2>& run, const Stroke& outline) {
+    const double y = run.hi.y + 7, inset = std::min(3.0, strip_.slot / 6);
+    const Vec<2> from{run.lo.x + inset, y}, to{run.hi.x - inset, y};
+    const Stroke stroke{outline.role, 1.8, 0};
+    list_.shapes.emplace_back(LineShape{from, to, stroke, true});
+    for (const Vec<2>& end : {from, to})
+      list_.shapes.emplace_back(LineShape{end - Vec<2>(0, 4), end, stroke, true});
+    TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::quiet_ink, Role::none};
+    if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
+    const std::size_t dot = leaf.label.rfind('.');
+    const std::string brief = dot == std::string::npos ? "" : "…" + leaf.label.substr(dot + 1);
+    for (const std::string& text : {leaf.label, brief}) {
+      if (text.empty() || text_width(text, style.size, style.weight) > run.size().x - 2) continue;
+      if (labels_.try_add(text, {{{run.center().x, y + 19}, 0.5}}, style, panel_)) return;
+    }
+  }
+
+  void draw_heading(bool leaves_left_out) {
+    std::int64_t used = 0;
+    for (const FrameNode& node : frame_.nodes)
+      if (node.leaf && node.first != kNone) used += static_cast<std::int64_t>(node.bodies.size());
+    used = frame_.count("entries").value_or(used);
+    const auto slots = std::int64_t{frame_.array_size};
+    std::string text = fmt::format("{} slot{}, {} in use", number_text(double(slots)),
+                                   slots == 1 ? "" : "s", number_text(double(used)));
+    if (const auto calls = frame_.count("allocations"))
+      text += fmt::format(", {} allocation{}", number_text(double(*calls)), *calls == 1 ? "" : "s");
+    if (shown_ < frame_.array_size)
+      text += fmt::format(" — the first {} are drawn", number_text(double(shown_)));
+    else if (leaves_left_out)
+      text += " — not all leaves are drawn";
+    const TextStyle style{kLabel + 1, Weight::semibold, Role::ink, Role::none};
+    labels_.add(shortened(text, panel_.size().x, style),
+                {{panel_.lo.x, panel_.lo.y + 0.8 * style.size}, 0}, style, panel_);
+  }
+
+  const Frame& frame_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  Strip strip_;
+  Vec<2> origin_{0.0};
+  std::uint32_t shown_ = 0;  // slots
+  std::map<BodyId, const FrameBody*> bodies_;
+};
+
+}  // namespace
+
+void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  const Box<2> place = shrunk(panel, 3);
+  if (place.size().x < 60 || place.size().y < kHeading + 12) return;
+  MemoryView(frame, place, list, labels).draw();
+}
+
+double memory_height(const Frame& frame, double width) {
+  constexpr double kMostRows = 3;
+  for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {
+    const Strip s = strip_for(frame.array_size, slot, width - 6);
+    if (s.rows <= kMostRows - (s.named() ? 1 : 0)) return kHeading + 8 + s.rows * s.pitch;
+  }
+  const Strip s = strip_for(frame.array_size, 28, width - 6);
+  return kHeading + 8 + kMostRows * s.pitch;
+}
+
+}  // namespace lantern

@@ -1,0 +1,61 @@
+#include "draw/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace lantern {
+namespace {
+
+constexpr double kLongest = 1e12;  // from here on as a power of ten
+constexpr const char* kThinSpace = "\u2009";
+
+std::string raised(int power) {
+  constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(power))) text += kDigits[digit - '0'];
+  return text;
+}
+
+std::string without_end_zeros(std::string text) {
+  if (text.find('.') == std::string::npos) return text;
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+// "1.2e+15" as "1.2·10¹⁵".
+std::string as_power(double number) {
+  const std::string text = fmt::format("{:.1e}", number);
+  const std::size_t e = text.find('e');
+  const std::string lead = without_end_zeros(text.substr(0, e));
+  const std::string power = "10" + raised(std::stoi(text.substr(e + 1)));
+  return lead == "1" ? power : lead + "·" + power;
+}
+
+}  // namespace
+
+std::string number_text(double number, int decimals) {
+  if (!std::isfinite(number)) return "–";
+  if (std::abs(number) >= kLongest) return as_power(number);
+  const std::string plain = without_end_zeros(fmt::format("{:.{}f}", std::abs(number), decimals));
+  const std::size_t whole = std::min(plain.find('.'), plain.size());
+  std::string text;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    // A number of four figures is read in one glance.
+    if (i > 0 && i < whole && (whole - i) % 3 == 0 && whole > 4) text += kThinSpace;
+    text += plain[i];
+  }
+  return number < 0 && text != "0" ? "−" + text : text;
+}
+
+std::string short_number(double number) {
+  const double size = std::abs(number);
+  if (size > 0 && size < 1e-3) return as_power(number);
+  int decimals = 0;
+  for (double limit = 100; decimals < 5 && size < limit; limit /= 10) ++decimals;
+  return number_text(number, number == std::floor(number) ? 0 : decimals);
+}
+
+}  // namespace lantern

@@ -1,0 +1,93 @@
+#include "draw/pen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "draw/clip.hpp"
+#include "draw/metrics.hpp"
+
+namespace lantern {
+namespace {
+
+bool is_finite(const Vec<2>& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+}  // namespace
+
+void Pen::line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double casing) {
+  const auto part = cut_line(from, to, place_);
+  if (!part) return;
+  if (casing > 0)
+    list_.shapes.emplace_back(
+        LineShape{part->first, part->second, {Role::panel, stroke.width + 2 * casing, 0}, false});
+  list_.shapes.emplace_back(LineShape{part->first, part->second, stroke, false});
+}
+
+void Pen::path(const std::vector<Vec<2>>& points, bool closed, const Stroke& stroke) {
+  for (std::size_t i = 1; i < points.size(); ++i) line(points[i - 1], points[i], stroke);
+  if (closed && points.size() > 2) line(points.back(), points.front(), stroke);
+}
+
+void Pen::arrow(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double head,
+                double casing) {
+  const Vec<2> way = to - from;
+  const double length = std::hypot(way.x, way.y);
+  if (!std::isfinite(length) || !(length > 1e-6)) return;
+  head = std::min(head, 0.8 * length);
+  const Vec<2> along = way / length, side = Vec<2>(-along.y, along.x) * (0.48 * head);
+  const Vec<2> neck = to - along * head;
+  line(from, to - along * (0.7 * head), stroke, casing);
+  const Role rim = casing > 0 ? Role::panel : Role::none;
+  polygon({to, neck + side, neck + along * (0.22 * head), neck - side}, stroke.role,
+          {rim, casing > 0 ? 1.2 : 0, 0});
+}
+
+void Pen::dot(const Vec<2>& center, double radius, Role fill, const Stroke& stroke) {
+  if (is_finite(center) && holds(place_, Box<2>::around(center, Vec<2>(radius))))
+    list_.shapes.emplace_back(disc(center, radius, fill, stroke));
+}
+
+void Pen::polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) {
+  if (!std::all_of(points.begin(), points.end(), is_finite)) return;
+  const bool whole = std::all_of(points.begin(), points.end(),
+                                 [&](const Vec<2>& p) { return contains(place_, p); });
+  if (!whole) points = cut_to(std::move(points), place_);
+  if (points.size() >= 3) list_.shapes.emplace_back(PolygonShape{std::move(points), fill, stroke});
+}
+
+void Pen::hatch(const std::vector<Vec<2>>& polygon, double space, int lean, const Stroke& stroke,
+                int most) {
+  const std::vector<Vec<2>> part = cut_to(polygon, place_);
+  if (part.size() < 3) return;
+  // On a diagonal x + lean * y is constant.
+  const auto place = [&](const Vec<2>& p) { return p.x + lean * p.y; };
+  double least = place(part[0]), last = least;
+  for (const Vec<2>& p : part) {
+    least = std::min(least, place(p));
+    last = std::max(last, place(p));
+  }
+  if (!std::isfinite(least) || !std::isfinite(last) || most < 1) return;
+  while ((last - least) / space > most) space *= 2;
+  for (double at = std::ceil(least / space) * space; at < last; at += space) {
+    Vec<2> ends[2];
+    int found = 0;
+    for (std::size_t i = 0; i < part.size() && found < 2; ++i) {
+      const Vec<2>&a = part[i], &b = part[(i + 1) % part.size()];
+      const double da = place(a) - at, db = place(b) - at;
+      if ((da < 0) == (db < 0)) continue;
+      ends[found++] = a + (b - a) * (da / (da - db));
+    }
+    if (found == 2) line(ends[0], ends[1], stroke);
+  }
+}
+
+std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, double turn) {
+  std::vector<Vec<2>> points;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = turn + 2 * std::numbers::pi * i / corners;
+    points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
+  }
+  return points;
+}
+
+}  // namespace lantern

@@ -1,0 +1,39 @@
+// Marks over a picture, cut to a place, so that nothing leaves its panel: lines, arrows, dots, and
+// hatched ground. Points that are not finite draw nothing.
+#pragma once
+
+#include <vector>
+
+#include "draw/draw_list.hpp"
+
+namespace lantern {
+
+class Pen {
+ public:
+  Pen(DrawList& list, const Box<2>& place) : list_(list), place_(place) {}
+
+  // With a `casing` of the panel's tone under it, a line can be told from what it crosses.
+  void line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double casing = 0);
+  void path(const std::vector<Vec<2>>& points, bool closed, const Stroke& stroke);
+  // A line with a head at its end, `head` long.
+  void arrow(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double head,
+             double casing = 0);
+  // Whole or not at all.
+  void dot(const Vec<2>& center, double radius, Role fill, const Stroke& stroke = {});
+  // A convex polygon.
+  void polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke = {});
+  // Diagonals over a convex polygon, `space` apart along the page's x, leaning right (1) or left
+  // (-1). They lie on one grid for the whole page, so that they do not jump when something moves.
+  // At most `most` lines: a larger polygon gets a wider spacing.
+  void hatch(const std::vector<Vec<2>>& polygon, double space, int lean, const Stroke& stroke,
+             int most = 60);
+
+ private:
+  DrawList& list_;
+  Box<2> place_;
+};
+
+// The corners of a regular polygon, or of a circle with enough of them.
+std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, double turn = 0);
+
+}  // namespace lantern
