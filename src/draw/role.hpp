@@ -53,6 +53,26 @@ enum class Role : std::uint8_t {
   sector_2,
   sector_3,
   sector_4,
+  body_lit_1,  // faces of solid bodies that look towards the light: of colour 1 ... 8, of static
+  body_lit_2,  // and of sleeping ones
+  body_lit_3,
+  body_lit_4,
+  body_lit_5,
+  body_lit_6,
+  body_lit_7,
+  body_lit_8,
+  static_lit,
+  asleep_lit,
+  body_shade_1,  // and faces that look away from it
+  body_shade_2,
+  body_shade_3,
+  body_shade_4,
+  body_shade_5,
+  body_shade_6,
+  body_shade_7,
+  body_shade_8,
+  static_shade,
+  asleep_shade,
   count_,
 };
 
@@ -64,6 +84,18 @@ constexpr Role body_role(int color) {
 // The role of what is drawn on body colour 1 ... 8.
 constexpr Role body_mark_role(int color) {
   return static_cast<Role>(static_cast<int>(Role::body_mark_1) + (color - 1) % 8);
+}
+
+// The three tones of a solid body's faces.
+enum class Tone { lit, middle, shade };
+
+// The same colour, of body 1 ... 8, a static or a sleeping one, in another tone.
+constexpr Role in_tone(Role role, Tone tone) {
+  if (tone == Tone::middle) return role;
+  const int first = static_cast<int>(tone == Tone::lit ? Role::body_lit_1 : Role::body_shade_1);
+  if (role == Role::static_body) return static_cast<Role>(first + 8);
+  if (role == Role::asleep) return static_cast<Role>(first + 9);
+  return static_cast<Role>(first + static_cast<int>(role) - static_cast<int>(Role::body_1));
 }
 
 inline constexpr unsigned kSectorTones = 4;

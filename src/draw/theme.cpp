@@ -12,6 +12,14 @@ constexpr Color rgb(std::uint32_t hex) {
           static_cast<std::uint8_t>(hex & 0xff)};
 }
 
+// `part` of `b` in `a`.
+constexpr Color mixed(const Color& a, const Color& b, double part) {
+  const auto mix = [&](int x, int y) {
+    return static_cast<std::uint8_t>(x + (y - x) * part + 0.5);
+  };
+  return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
+}
+
 struct Palette {
   std::string_view name;
   std::uint32_t paper, panel, ink, quiet_ink, rule;
@@ -60,6 +68,17 @@ constexpr Theme theme_of(const Palette& p) {
   set(Role::free_space, p.free_space);
   set(Role::view_fill, p.view_fill);
   for (unsigned tone = 0; tone < kSectorTones; ++tone) set(sector_role(tone), p.sectors[tone]);
+  const auto mix = [&](Role role, Role from, const Color& to, double part) {
+    const Color a = theme.colors[static_cast<std::size_t>(from)];
+    theme.colors[static_cast<std::size_t>(role)] = mixed(a, to, part);
+  };
+  const auto shade = [&](Role role) {
+    mix(in_tone(role, Tone::lit), role, {255, 255, 255}, 0.38);
+    mix(in_tone(role, Tone::shade), role, {0, 0, 0}, 0.3);
+  };
+  for (int color = 1; color <= 8; ++color) shade(body_role(color));
+  shade(Role::static_body);
+  shade(Role::asleep);
   return theme;
 }
 

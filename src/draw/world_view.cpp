@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "draw/solid_view.hpp"
 #include "draw/world_bodies.hpp"
 #include "draw/world_marks.hpp"
 
@@ -30,6 +31,7 @@ std::string draw_marks(const Frame& frame, const WorldMap& map, DrawList& list, 
 }  // namespace
 
 void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  if (frame.dimension == 3) return draw_solid_world(frame, panel, list, labels);
   const WorldMap map(flat(frame.bounds), panel);
   Grounds grounds;
   std::string note;

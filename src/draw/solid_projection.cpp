@@ -1,0 +1,225 @@
+#include "draw/solid_projection.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace lantern {
+namespace {
+
+bool finite(const Vec<3>& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+double cross(const Vec<2>& o, const Vec<2>& a, const Vec<2>& b) {
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+// Some edge of `a` has all of `b` on its outer side.
+bool parted_by_edge(const Outline& a, const Outline& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Vec<2> along = a[(i + 1) % a.size()] - a[i];
+    const Vec<2> normal{-along.y, along.x};
+    double a_lo = 1e300, a_hi = -1e300, b_lo = 1e300, b_hi = -1e300;
+    for (const Vec<2>& p : a) {
+      a_lo = std::min(a_lo, glm::dot(normal, p));
+      a_hi = std::max(a_hi, glm::dot(normal, p));
+    }
+    for (const Vec<2>& p : b) {
+      b_lo = std::min(b_lo, glm::dot(normal, p));
+      b_hi = std::max(b_hi, glm::dot(normal, p));
+    }
+    if (a_hi <= b_lo || b_hi <= a_lo) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+// Andrew's monotone chain (1979).
+Outline hull_of(Outline points) {
+  std::sort(points.begin(), points.end(), [](const Vec<2>& a, const Vec<2>& b) {
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  Outline hull;
+  const auto go = [&](const auto& first, const auto& last) {
+    const std::size_t start = hull.size();
+    for (auto p = first; p != last; ++p) {
+      while (hull.size() >= start + 2 && cross(hull[hull.size() - 2], hull.back(), *p) <= 0)
+        hull.pop_back();
+      hull.push_back(*p);
+    }
+    hull.pop_back();  // where the other half starts
+  };
+  go(points.begin(), points.end());
+  go(points.rbegin(), points.rend());
+  return hull;
+}
+
+bool cover_each_other(const Outline& a, const Outline& b) {
+  return !parted_by_edge(a, b) && !parted_by_edge(b, a);
+}
+
+Box<2> box_of(const Outline& points) {
+  Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
+  for (const Vec<2>& p : points) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
+  return box;
+}
+
+std::vector<Vec<3>> clipped(const std::vector<Vec<3>>& polygon, const Vec<3>& normal,
+                            double offset) {
+  std::vector<Vec<3>> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec<3>&a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double at_a = glm::dot(normal, a) - offset, at_b = glm::dot(normal, b) - offset;
+    if (at_a >= 0) kept.push_back(a);
+    if ((at_a >= 0) != (at_b >= 0)) kept.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+  }
+  return kept;
+}
+
+std::vector<Vec<3>> corners_of(const Box<3>& box) {
+  std::vector<Vec<3>> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners.push_back({(i & 1) != 0 ? box.hi.x : box.lo.x, (i & 2) != 0 ? box.hi.y : box.lo.y,
+                       (i & 4) != 0 ? box.hi.z : box.lo.z});
+  return corners;
+}
+
+SolidView::SolidView(const Box<3>& bounds, const std::optional<Camera>& camera, const Box<2>& panel)
+    : bounds_(bounds), panel_(panel) {
+  size_ = glm::length(bounds.size());
+  if (!(size_ > 0)) size_ = 1;
+  near_ = 1e-3 * size_;
+  origin_ = panel.center();
+  const bool usable = camera && finite(camera->eye) && finite(camera->target) &&
+                      glm::length(camera->target - camera->eye) > 1e-9 * size_;
+  Camera own;
+  own.target = bounds.center();
+  own.eye = own.target + glm::normalize(Vec<3>(0.52, 0.52, 1)) * (2.2 * size_);
+  const Camera& used = usable ? *camera : own;
+  aim(used);
+  fit(used.field_of_view, usable);
+}
+
+void SolidView::aim(const Camera& camera) {
+  eye_ = camera.eye;
+  forward_ = glm::normalize(camera.target - camera.eye);
+  // Straight up or down, away from the viewer is up on the page.
+  const Vec<3> above = std::abs(forward_.y) > 0.9999 ? Vec<3>(0, 0, -1) : Vec<3>(0, 1, 0);
+  right_ = glm::normalize(glm::cross(forward_, above));
+  up_ = glm::cross(right_, forward_);
+  light_ = glm::normalize(Vec<3>(0, 0.85, 0) - right_ * 0.42 - forward_ * 0.5);
+}
+
+void SolidView::fit(double field_of_view, bool chosen) {
+  constexpr double kMargin = 6;        // for the thickest line
+  constexpr double kClearlyOut = 1.3;  // of the panel's height
+  const Box<2> room = shrunk(panel_, kMargin);
+  const double angle = field_of_view > 0.01 && field_of_view < 3 ? field_of_view : 0.7;
+  scale_ = std::max(room.size().y, 1.0) / 2 / std::tan(angle / 2);
+  if (contains(bounds_, eye_)) return;
+  Outline corners;
+  for (const Vec<3>& corner : corners_of(bounds_)) {
+    if (depth(corner) < 10 * near_) return;
+    corners.push_back(to_page(corner));
+  }
+  const Box<2> seen = box_of(corners);
+  const Vec<2> size = seen.size();
+  if (!(size.x > 0) && !(size.y > 0)) return;
+  if (chosen && size.y > kClearlyOut * room.size().y) return;
+  const double k =
+      std::min(room.size().x / std::max(size.x, 1e-9), room.size().y / std::max(size.y, 1e-9));
+  if (!(k > 0)) return;
+  origin_ = room.center() + (origin_ - seen.center()) * k;
+  scale_ *= k;
+}
+
+bool SolidView::lost(const Vec<3>& p) const {
+  for (int i = 0; i < 3; ++i)
+    if (!(std::abs(p[i] - eye_[i]) < 1e6 * size_)) return true;
+  return false;
+}
+
+Vec<2> SolidView::to_page(const Vec<3>& p) const {
+  const Vec<3> d = p - eye_;
+  return origin_ + Vec<2>(glm::dot(d, right_), -glm::dot(d, up_)) * scale_at(p);
+}
+
+Outline SolidView::polygon(const std::vector<Vec<3>>& corners) const {
+  Outline outline;
+  for (const Vec<3>& p : clipped(corners, forward_, glm::dot(forward_, eye_) + near_))
+    outline.push_back(to_page(p));
+  if (outline.size() < 3) outline.clear();
+  return outline;
+}
+
+std::optional<std::pair<Vec<3>, Vec<3>>> SolidView::in_sight(const Vec<3>& a,
+                                                             const Vec<3>& b) const {
+  const double at_a = depth(a) - near_, at_b = depth(b) - near_;
+  if (at_a < 0 && at_b < 0) return std::nullopt;
+  const auto cut = [&] { return a + (b - a) * (at_a / (at_a - at_b)); };
+  if (at_a < 0) return std::pair{cut(), b};
+  if (at_b < 0) return std::pair{a, cut()};
+  return std::pair{a, b};
+}
+
+// Liang and Barsky (1984).
+std::optional<std::pair<Vec<2>, Vec<2>>> SolidView::segment(const Vec<3>& a,
+                                                            const Vec<3>& b) const {
+  const auto seen = in_sight(a, b);
+  if (!seen) return std::nullopt;
+  const Vec<2> from = to_page(seen->first), way = to_page(seen->second) - from;
+  double first = 0, last = 1;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double lo = panel_.lo[axis] - from[axis], hi = panel_.hi[axis] - from[axis];
+    if (way[axis] == 0) {
+      if (lo > 0 || hi < 0) return std::nullopt;
+      continue;
+    }
+    const double t = lo / way[axis], u = hi / way[axis];
+    first = std::max(first, std::min(t, u));
+    last = std::min(last, std::max(t, u));
+  }
+  if (first > last) return std::nullopt;
+  return std::pair{from + way * first, from + way * last};
+}
+
+//      axis                 The rim of the cap is a circle of normals n. Where the ball hides it
+//     .-^-.   rim of cap    (n . v below r / d, v towards the eye, d the distance), the outline of
+//    /-----\                the ball takes its place.
+//   |   c   |
+Outline SolidView::ball_cap(const Vec<3>& center, double radius, const Vec<3>& axis,
+                            double least_cosine) const {
+  constexpr int kRim = 40;
+  const Vec<3> to_eye = eye_ - center;
+  const double distance = glm::length(to_eye);
+  if (!(distance > radius * 1.0001) || !(radius > 0)) return {};
+  const Vec<3> v = to_eye / distance;
+  const double horizon = radius / distance;
+  const double horizon_sine = std::sqrt(1 - horizon * horizon);
+  const bool whole = least_cosine <= -1;
+  const Vec<3> pole = whole ? v : axis;
+  const double cosine = whole ? horizon : least_cosine;
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const Vec<3> side =
+      glm::normalize(glm::cross(pole, std::abs(pole.y) < 0.9 ? Vec<3>(0, 1, 0) : Vec<3>(1, 0, 0)));
+  const Vec<3> other = glm::cross(pole, side);
+  std::vector<Vec<3>> rim;
+  for (int i = 0; i < kRim; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kRim;
+    Vec<3> n = pole * cosine + (side * std::cos(angle) + other * std::sin(angle)) * sine;
+    const double towards = glm::dot(n, v);
+    if (towards < horizon) {
+      const Vec<3> flat_part = n - v * towards;
+      const double length = glm::length(flat_part);
+      if (length < 1e-9) continue;
+      n = v * horizon + flat_part * (horizon_sine / length);
+    }
+    rim.push_back(center + n * radius);
+  }
+  return hull_of(polygon(rim));
+}
+
+}  // namespace lantern
