@@ -35,25 +35,57 @@ class Names {
   std::vector<std::string> declared_;
 };
 
+// Bodies from `first` on that follow one that may be declared later.
+struct Follower {
+  std::size_t first = 0;
+  std::size_t count = 1;
+  Named followed;
+};
+
 struct Draft {
   Scenario scenario;
   Problems problems;
   std::string_view text;  // of the file, without a byte order mark
   bool has_world = false;
+  int dimension = 0;  // of the world; 0 while it is not known, so that no other mistake follows
   Names bodies;
   Names textures;
+  std::vector<Follower> followers;
 
   SourcePosition position(Place where) const { return {scenario.file, where.line, where.column}; }
 };
 
+// A table within the file, whose points have as many numbers as the world has dimensions.
+inline TableReader open(const TomlValue& value, const TableDoc& doc, Draft& draft,
+                        std::string_view called = {}) {
+  return TableReader(std::get<TomlTable>(value.data), value.where, doc, draft.problems,
+                     draft.dimension, called);
+}
+
 // Each reads its part of the file into the draft, in this order.
 void read_world(const TableReader& file, Draft& draft);
 void read_bodies(const TableReader& file, Draft& draft);
+void read_links(const TableReader& file, Draft& draft);
+void read_level(const TableReader& file, Draft& draft);
+void read_chart(const TableReader& file, Draft& draft);
 void read_atlas(const TableReader& file, Draft& draft);
 void read_script(const TableReader& file, Draft& draft);
 
+// The [structure] of the file; read_world calls it.
+void read_structures(const TableReader& file, Draft& draft);
+
 // The structure keys of a table, upon `base`: what is not given stays.
 StructureSpec read_structure(const TableReader& table, const StructureSpec& base, Draft& draft);
+
+// What [[body]] and [[pattern]] share; all but where the body is, how it goes and who steers it.
+BodySpec read_body_keys(const TableReader& table, Draft& draft);
+
+// The bodies of a pattern, in their order, each like `like` but for place, velocity and colour.
+void unroll_pattern(const BodySpec& like, std::size_t count, const TableReader& table,
+                    Draft& draft);
+
+// Exactly one body of that name. Adds a problem and gives nothing for an unknown name or a pattern.
+std::optional<std::size_t> one_body(const Named& name, Draft& draft);
 
 // Shared by bodies and textures: which colour the `index`-th has, when 0 cycles through all.
 int cycled_color(std::int64_t color, std::size_t index);

@@ -23,6 +23,9 @@ inline constexpr std::size_t kMostTextures = 20'000;
 inline constexpr std::size_t kMostSteps = 10'000;
 inline constexpr std::size_t kMostNamed = 1'000'000;         // bodies and textures, over all steps
 inline constexpr std::uint64_t kMostScriptFrames = 100'000;  // in step pace
+inline constexpr std::uint64_t kMostWorldSteps = 1'000'000;  // over all steps of the script
+inline constexpr std::size_t kMostLinks = 20'000;            // springs and joints
+inline constexpr std::size_t kMostWalls = 2'000;             // of a level
 inline constexpr std::size_t kMostCaption = 180;             // letters
 
 enum class KeyType {
@@ -31,14 +34,19 @@ enum class KeyType {
   number,        // whole or with a fraction
   truth,         // true or false
   choice,        // one of `choices`
-  point,         // [x, y], each within the range
+  point,         // [x, y] or [x, y, z], as many as the world has dimensions, within the range
+  two_numbers,   // a list of two numbers, written as `form`
   size,          // [width, height], whole numbers; always has a range
   texts,         // a list of texts, at least one
+  names,         // a list of texts, which may be empty
+  loops,         // closed polygons: lists of three or more [x, y]
+  whole_or_names,  // a whole number, or a list of texts, at least one
   choices_list,  // a list of `choices`, at least one, each once
   table,         // the table `of`
   tables,        // many of the table `of`; `most` of them
   name_pairs,    // a list of pairs of names
   name_wholes,   // a table from names to whole numbers
+  name_numbers,  // a table from names to numbers
   name_points,   // a table from names to points
 };
 
@@ -56,6 +64,7 @@ struct KeyDoc {
   std::vector<std::string_view> choices = {};
   std::optional<NamePattern> pattern = {};  // of a text
   std::string_view of = {};
+  std::string_view form = {};  // of two numbers: "[x, y]"
 };
 
 // Of several groups of keys, exactly one must be given, or at least one.
@@ -84,13 +93,33 @@ const TableDoc& language_table(std::string_view name);
 // One table a verb of the script: `name` is the verb; its own keys, then those of every step.
 std::span<const TableDoc> language_verbs();
 
+// When a world's count can be counted.
+enum class CountNeed {
+  bodies,
+  structure,
+  kd_tree,
+  contacts,  // the world parts bodies that touch
+  solver,    // contacts, or joints
+  query,     // a ray, cull or query was asked
+  level,
+  compiled,  // the level was
+  located,   // a point of the level was
+  room,      // of an atlas: it was asked for room
+};
+
 struct CountDoc {
   std::string_view name;
   std::string_view doc;
   bool for_world = false;
   bool for_atlas = false;
-  bool needs_structure = false;  // of a world: counted only while there is a structure
+  CountNeed need = CountNeed::bodies;
 };
+
+// "with a structure", "once the level is compiled": for the reference page.
+std::string_view when_counted(CountNeed need);
+
+// What is measured rather than counted, with a fraction: energies and the like.
+std::span<const CountDoc> known_measures();
 
 // What a caption may quote and an expectation may promise, in the order of a frame's counts.
 std::span<const CountDoc> known_counts();

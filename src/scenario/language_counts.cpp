@@ -4,44 +4,119 @@
 namespace lantern {
 namespace {
 
+using enum CountNeed;
+
 constexpr CountDoc kCounts[] = {
-    {"bodies", "Bodies in the world.", true, false, false},
-    {"nodes", "Nodes of the tree.", true, true, true},
-    {"leaves", "Nodes without children.", true, true, true},
-    {"depth", "Depth of the deepest node; the root has depth 0.", true, true, true},
-    {"entries", "Bodies stored in leaves, each once a leaf.", true, false, true},
-    {"most_in_leaf", "Bodies in the fullest leaf.", true, false, true},
-    {"pairs", "Unique candidate pairs: bodies that share a leaf.", true, false, true},
-    {"pair_tests", "Pairs met, leaf by leaf, before duplicates fell out.", true, false, true},
-    {"all_pairs", "What brute force would test: n(n−1)/2 pairs of n bodies.", true, false, false},
-    {"overlaps", "Candidate pairs whose boxes overlap.", true, false, true},
-    {"contacts", "Pairs that really touch; 0 as long as there is no narrow phase.", true, false,
-     true},
+    {"bodies", "Bodies in the world.", true, false, bodies},
+    {"nodes", "Nodes of the tree.", true, true, structure},
+    {"leaves", "Nodes without children.", true, true, structure},
+    {"depth", "Depth of the deepest node; the root has depth 0.", true, true, structure},
+    {"entries", "Bodies stored in leaves, each once a leaf.", true, false, structure},
+    {"most_in_leaf", "Bodies in the fullest leaf.", true, false, structure},
+    {"pairs", "Unique candidate pairs: bodies that share a leaf.", true, false, structure},
+    {"pair_tests", "Pairs met, leaf by leaf, before duplicates fell out.", true, false, structure},
+    {"all_pairs", "What brute force would test: n(n−1)/2 pairs of n bodies.", true, false, bodies},
+    {"overlaps", "Candidate pairs whose boxes overlap.", true, false, structure},
+    {"narrow_tests", "Candidate pairs whose shapes were tested, in the last world step.", true,
+     false, contacts},
+    {"contacts", "Pairs that really touch.", true, false, contacts},
+    {"contact_points", "Points at which they do.", true, false, contacts},
+    {"begins", "Pairs that began to touch during the step.", true, false, contacts},
+    {"ends", "Pairs that ceased to touch during the step.", true, false, contacts},
+    {"constraint_rows", "Rows that the solver solves: of contacts and joints.", true, false,
+     solver},
+    {"friction_rows", "Those of them that are friction.", true, false, contacts},
+    {"force_evaluations", "How often all forces were worked out, in the last world step.", true,
+     false, bodies},
+    {"rotations", "Bodies that were turned, in the last world step.", true, false, bodies},
+    {"asleep", "Bodies asleep.", true, false, bodies},
+    {"awake", "Bodies that can move and are not asleep.", true, false, bodies},
     {"box_tests", "Tests of a body against a node or plane since the tree was built.", true, false,
-     true},
-    {"splits", "Leaves that split since the tree was built.", true, false, true},
+     structure},
+    {"splits", "Leaves that split since the tree was built.", true, false, structure},
+    {"static_builds", "How often the structure of what never moves was built.", true, false,
+     structure},
+    {"dynamic_builds", "How often the structure of what moves was built, or the only one.", true,
+     false, structure},
+    {"nodes_asleep", "Nodes in whose bodies all are asleep or never move.", true, false, structure},
+    {"stale", "1 if a body has left the cells that the kD-tree fitted to it, 0 if not.", true,
+     false, kd_tree},
     {"nodes_reused", "Nodes that took an old node's place instead of new memory.", true, false,
-     true},
-    {"allocations", "Calls for memory since the structure was made.", true, false, true},
-    {"textures", "Textures packed.", false, true, false},
-    {"refused", "Textures that fit nowhere.", false, true, false},
-    {"used_area", "Pixels under textures.", false, true, false},
-    {"free_area", "Pixels left free.", false, true, false},
-    {"atlas_area", "Pixels of the atlas.", false, true, false},
-    {"free_leaves", "Leaves without a texture.", false, true, false},
-    {"leaf_tests", "Leaves looked at, by packing and by questions for room.", false, true, false},
-    {"room", "1 if the last `ask_room` found room, 0 if not.", false, true, false},
+     structure},
+    {"allocations", "Calls for memory since the structure was made.", true, false, structure},
+    {"slots", "Places of the array that all leaves share.", true, false, structure},
+    {"node_bytes", "Memory that the nodes take.", true, false, structure},
+    {"node_bytes_with_bounds", "What they would take if each stored its box.", true, false,
+     structure},
+    {"nodes_visited", "Nodes that the last ray, cull or query went into.", true, false, query},
+    {"nodes_skipped", "Nodes that it left out, with all below them.", true, false, query},
+    {"objects_tested", "Bodies that it tested.", true, false, query},
+    {"hits", "Bodies that it found.", true, false, query},
+    {"walls", "Walls of the level.", true, false, level},
+    {"wall_pieces", "Walls after lines have cut them.", true, false, compiled},
+    {"sectors", "Leaves of the level's BSP.", true, false, compiled},
+    {"cuts", "Walls that a line has cut in two.", true, false, compiled},
+    {"plane_score", "Sum of the scores of the lines that were chosen.", true, false, compiled},
+    {"first_wall_score", "What it would be with each first wall's line.", true, false, compiled},
+    {"sector", "Where the last `locate` ended.", true, false, located},
+    {"planes_tested", "Lines that it asked for the point's side.", true, false, located},
+    {"textures", "Textures packed.", false, true},
+    {"refused", "Textures that fit nowhere.", false, true},
+    {"used_area", "Pixels under textures.", false, true},
+    {"free_area", "Pixels left free.", false, true},
+    {"atlas_area", "Pixels of the atlas.", false, true},
+    {"free_leaves", "Leaves without a texture.", false, true},
+    {"leaf_tests", "Leaves looked at, by packing and by questions for room.", false, true},
+    {"room", "1 if the last `ask_room` found room, 0 if not.", false, true, room},
 };
 
 constexpr CountDoc kTexts[] = {
-    {"texture", "The texture that the frame is about.", false, true, false},
-    {"refused_names", "Names of the textures that were refused, or \"none\".", false, true, false},
-    {"time", "Seconds of world time, with two decimals.", true, false, false},
+    {"texture", "The texture that the frame is about.", false, true},
+    {"refused_names", "Names of the textures that were refused, or \"none\".", false, true},
+    {"time", "Seconds of world time, with two decimals.", true, false},
+};
+
+constexpr CountDoc kMeasures[] = {
+    {"energy", "Kinetic and potential energy.", true, false, bodies},
+    {"kinetic_energy", "Energy of motion and rotation.", true, false, bodies},
+    {"potential_energy", "Energy of height and of springs.", true, false, bodies},
+    {"momentum", "Length of the momentum of all bodies.", true, false, bodies},
+    {"angular_momentum",
+     "Angular momentum of all bodies about the origin; its length in a solid world.", true, false,
+     bodies},
+    {"penetration", "How deep the two bodies that overlap most do.", true, false, contacts},
 };
 
 }  // namespace
 
 std::span<const CountDoc> known_counts() { return kCounts; }
 std::span<const CountDoc> known_texts() { return kTexts; }
+std::span<const CountDoc> known_measures() { return kMeasures; }
+
+std::string_view when_counted(CountNeed need) {
+  switch (need) {
+    case bodies:
+      return "always";
+    case structure:
+      return "with a structure";
+    case kd_tree:
+      return "with a kD-tree";
+    case contacts:
+      return "with contacts";
+    case solver:
+      return "with contacts or joints";
+    case query:
+      return "after a ray, cull or query";
+    case level:
+      return "with a level";
+    case compiled:
+      return "once the level is compiled";
+    case located:
+      return "after a `locate`";
+    case room:
+      return "after an `ask_room`";
+  }
+  return "";
+}
 
 }  // namespace lantern

@@ -19,6 +19,8 @@ inline constexpr double kFar = 1e9;
 inline constexpr double kMostPixels = 16384;
 inline constexpr double kMostAtlas = 8192;    // the largest image that can be drawn
 inline constexpr double kMostWhole = 0x1p53;  // above it, doubles skip whole numbers
+inline constexpr double kMostEvery = 1000;    // world steps from frame to frame
+inline constexpr double kMostTurn = 1e6;      // degrees, and degrees a second
 inline constexpr double kHundredYears = 4e9;  // seconds
 
 class Row {
@@ -37,6 +39,7 @@ class Row {
   Row& in(std::string_view unit) { return doc_.unit = unit, *this; }
   Row& like(const NamePattern& pattern) { return doc_.pattern = pattern, *this; }
   Row& holds(std::string_view table) { return doc_.of = table, *this; }
+  Row& written(std::string_view form) { return doc_.form = form, *this; }
   Row& by_default(std::string_view literal) { return doc_.fallback = literal, *this; }
   Row& or_else(std::string_view words) { return doc_.otherwise = words, *this; }
   Row& one_of(std::vector<std::string_view> choices) {

@@ -1,4 +1,5 @@
-// The verbs of the script: the second half of the language's tables.
+// The verbs of the script: those that change who is where, and the list of all.
+#include "scenario/language_parts.hpp"
 #include "scenario/language_row.hpp"
 
 namespace lantern {
@@ -8,19 +9,6 @@ using enum KeyType;
 
 KeyDoc bodies() {
   return Row(texts, "bodies", "Names of bodies, or of patterns for all of theirs.").must();
-}
-
-// Only these verbs are watched while they work.
-KeyDoc pace() {
-  return Row(choice, "pace", "Of this step alone.")
-      .one_of({"step", "event"})
-      .or_else("the scenario's");
-}
-
-KeyDoc events(std::vector<std::string_view> names) {
-  return Row(choices_list, "events", "When the pace is `event`, only these give frames.")
-      .one_of(std::move(names))
-      .or_else("all");
 }
 
 TableDoc show_verb() {
@@ -34,9 +22,9 @@ TableDoc insert_verb() {
   return {"insert",
           "do = \"insert\"",
           "Bodies enter the world and the structure, one after another.",
-          {bodies(), pace(),
-           events({"test", "miss", "make_child", "store", "split", "hand_down", "depth_limit",
-                   "no_progress"})},
+          {bodies(), pace_key(),
+           events_key({"test", "miss", "make_child", "store", "split", "hand_down", "depth_limit",
+                       "no_progress"})},
           {},
           R"([[step]]
 do = "insert"
@@ -59,19 +47,29 @@ expect = { bodies = 3 }
 }
 
 TableDoc move_verb() {
-  return {"move",
-          "do = \"move\"",
-          "A body is put elsewhere, or goes another way from now on.",
-          {
-              Row(text, "body", "Its name.").must().range(1, 64),
-              Row(point, "to", "Its new position.").range(-kFar, kFar).or_else("where it is"),
-              Row(point, "velocity", "Its new velocity.")
-                  .range(-kFar, kFar)
-                  .in("units/s")
-                  .or_else("as it is"),
-          },
-          {.groups = {{"to"}, {"velocity"}}, .exactly_one = false},
-          R"([[step]]
+  return {
+      "move",
+      "do = \"move\"",
+      "A body is put elsewhere, turned, or goes another way from now on.",
+      {
+          Row(text, "body", "Its name.").must().range(1, 64),
+          Row(point, "to", "Its new position.").range(-kFar, kFar).or_else("where it is"),
+          Row(point, "velocity", "Its new velocity.")
+              .range(-kFar, kFar)
+              .in("units/s")
+              .or_else("as it is"),
+          Row(number, "turned", "How far it is turned from now on.")
+              .range(-kMostTurn, kMostTurn)
+              .in("°")
+              .or_else("as it is"),
+          Row(number, "spin", "How fast it turns from now on.")
+              .range(-kMostTurn, kMostTurn)
+              .in("°/s")
+              .or_else("as it does"),
+          Row(truth, "rebuild", "The structure is rebuilt, or left as it was.").by_default("true"),
+      },
+      {.groups = {{"to"}, {"velocity"}, {"turned"}, {"spin"}}, .exactly_one = false},
+      R"([[step]]
 do = "move"
 body = "pink"
 to = [2, 2]
@@ -80,91 +78,73 @@ expect = { position = { pink = [2, 2] } }
 )"};
 }
 
-TableDoc run_verb() {
-  return {"run",
-          "do = \"run\"",
-          "Time passes, one frame each time step.",
-          {Row(number, "seconds",
-               "A whole number of time steps; the frames of all steps are at most 100000.")
-               .must()
-               .above(0, kHundredYears)
-               .in("s")},
+TableDoc sleep_verb() {
+  return {"sleep",
+          "do = \"sleep\"",
+          "Bodies fall asleep: nothing moves them until something "
+          "wakes them.",
+          {bodies()},
           {},
           R"([[step]]
-do = "run"
-seconds = 0.5
-caption = "{time} s: pink runs to the right, {pairs:pair} to test."
-always = { bodies = 3 }
-expect = { position = { pink = [4, 2] } }
+do = "sleep"
+bodies = ["red"]
+expect = { asleep = ["red"] }
 )"};
 }
 
-TableDoc rebuild_verb() {
-  TableDoc verb = {"rebuild",
-                   "do = \"rebuild\"",
-                   "The structure is made anew with the settings given; the others stay.",
-                   language_table("structure").keys,
-                   {},
-                   R"([[step]]
-do = "rebuild"
-kind = "bsp"
-planes = [{ name = "middle", point = [8, 0], normal = [1, 0] }]
-expect = { nodes = 3 }
-
-[[step]]
-do = "rebuild"
-kind = "quadtree"
-children = "eager"
-expect = { nodes = 5 }
-)"};
-  for (KeyDoc& key : verb.keys) {
-    key.required = false;
-    key.fallback = {};
-    key.otherwise = "as it was";
-  }
-  return verb;
-}
-
-TableDoc pack_verb() {
-  return {
-      "pack",
-      "do = \"pack\"",
-      "Textures enter the atlas, one after another. One that fits nowhere is refused.",
-      {Row(texts, "textures", "Names of textures, or of their patterns for all of theirs.").must(),
-       Row(truth, "each", "One frame a texture, or one for all.").by_default("true"),
-       Row(text, "free_name", "Labels the largest free leaf that the last one leaves.")
-           .range(1, 24)
-           .or_else("none"),
-       pace(), events({"too_small", "used", "cut", "store", "refuse"})},
-      {},
-      R"([[step]]
-do = "pack"
-textures = ["A", "tile"]
-each = true
-free_name = "F"
-caption = "{texture} has its place: {textures:texture}, {free_area} px free."
-expect = { textures = 4, refused = 0 }
+TableDoc wake_verb() {
+  return {"wake",     "do = \"wake\"", "Bodies wake up.", {bodies()}, {},
+          R"([[step]]
+do = "wake"
+bodies = ["red"]
+expect = { awake = ["red"] }
 )"};
 }
 
-TableDoc ask_room_verb() {
-  return {
-      "ask_room",
-      "do = \"ask_room\"",
-      "The kD-tree's own question: has any free leaf room for this size?",
-      {Row(size, "size", "The width and height asked for.").must().range(1, kMostPixels).in("px")},
-      {},
-      R"([[step]]
-do = "ask_room"
-size = [128, 128]
-caption = "Is there room for 128 × 128? {free_leaves:leaf/leaves} free, none of them large enough."
-expect = { room = 0 }
+TableDoc force_verb() {
+  return {"force",
+          "do = \"force\"",
+          "A force acts on a body from now on, until another takes its place; one of zero ends "
+          "it.",
+          {
+              Row(text, "body", "Its name.").must().range(1, 64),
+              Row(point, "force", "In the world's axes.").must().range(-kFar, kFar).in("N"),
+              Row(point, "at", "Where, from the body's centre, in the world's axes.")
+                  .range(-kFar, kFar)
+                  .or_else("the centre"),
+          },
+          {},
+          R"([[step]]
+do = "force"
+body = "player"
+force = [0, 4]
+)"};
+}
+
+TableDoc impulse_verb() {
+  return {"impulse",
+          "do = \"impulse\"",
+          "A body is struck once.",
+          {
+              Row(text, "body", "Its name.").must().range(1, 64),
+              Row(point, "impulse", "In the world's axes.").must().range(-kFar, kFar).in("N s"),
+              Row(point, "at", "Where, from the body's centre, in the world's axes.")
+                  .range(-kFar, kFar)
+                  .or_else("the centre"),
+          },
+          {},
+          R"([[step]]
+do = "impulse"
+body = "pink"
+impulse = [-3, 0]
 )"};
 }
 
 std::vector<TableDoc> all_verbs() {
-  std::vector<TableDoc> verbs = {show_verb(), insert_verb(),  remove_verb(), move_verb(),
-                                 run_verb(),  rebuild_verb(), pack_verb(),   ask_room_verb()};
+  std::vector<TableDoc> verbs;
+  for (const auto& part :
+       {body_verbs(), time_verbs(), structure_verbs(), query_verbs(), level_verbs(), atlas_verbs()})
+    verbs.insert(verbs.end(), part.begin(), part.end());
   const TableDoc& common = language_table("step");
   for (TableDoc& verb : verbs)
     verb.keys.insert(verb.keys.end(), common.keys.begin(), common.keys.end());
@@ -172,6 +152,23 @@ std::vector<TableDoc> all_verbs() {
 }
 
 }  // namespace
+
+KeyDoc pace_key() {
+  return Row(choice, "pace", "Of this step alone.")
+      .one_of({"step", "event"})
+      .or_else("the scenario's");
+}
+
+KeyDoc events_key(std::vector<std::string_view> names) {
+  return Row(choices_list, "events", "When the pace is `event`, only these give frames.")
+      .one_of(std::move(names))
+      .or_else("all");
+}
+
+std::vector<TableDoc> body_verbs() {
+  return {show_verb(),  insert_verb(), remove_verb(), move_verb(),
+          sleep_verb(), wake_verb(),   force_verb(),  impulse_verb()};
+}
 
 std::span<const TableDoc> language_verbs() {
   static const std::vector<TableDoc> verbs = all_verbs();

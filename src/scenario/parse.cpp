@@ -43,11 +43,14 @@ void read_panels(const TableReader& file, Draft& draft) {
     if (needs.world_panel) s.panels.push_back(Panel::world);
     if (needs.atlas_panel) s.panels.push_back(Panel::atlas);
     if (needs.tree_panel) s.panels.push_back(Panel::tree);
+    if (needs.chart_panel) s.panels.push_back(Panel::chart);
     return;
   }
-  const bool possible[] = {draft.has_world, needs.structure || needs.atlas, needs.atlas};
-  constexpr const char* kMissing[] = {"it needs a [world]", "it needs a [structure] or an [atlas]",
-                                      "it needs an [atlas]"};
+  const bool possible[] = {draft.has_world, needs.structure || needs.level || needs.atlas,
+                           needs.atlas, needs.chart, needs.structure};
+  constexpr const char* kMissing[] = {
+      "it needs a [world]", "it needs a [structure], a [level] or an [atlas]",
+      "it needs an [atlas]", "it needs a [chart]", "it needs a [structure]"};
   const std::vector<Named> written = file.texts("panels");
   const std::vector<std::size_t> chosen = file.choices("panels");
   for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -73,10 +76,13 @@ bool is_blank(std::string_view text) {
 }
 
 void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
-  const TableReader file(table, kTop, language_table(""), draft.problems);
+  const TableReader file(table, kTop, language_table(""), draft.problems, 0);
   read_file_keys(file, path, draft);
   read_world(file, draft);
   read_bodies(file, draft);
+  read_links(file, draft);
+  read_level(file, draft);
+  read_chart(file, draft);
   read_atlas(file, draft);
   read_script(file, draft);
   read_panels(file, draft);

@@ -17,9 +17,8 @@ bool has_room_for(std::size_t count, Place where, Draft& draft) {
 }
 
 void read_texture(const TomlValue& value, Draft& draft) {
-  const TableReader table(std::get<TomlTable>(value.data), value.where, language_table("texture"),
-                          draft.problems);
-  const Vec<2> size = table.point("size").value_or(Vec<2>(1.0));
+  const TableReader table = open(value, language_table("texture"), draft);
+  const Vec<2> size = table.two("size").value_or(Vec<2>(1.0));
   const TextureSpec texture{
       table.text("name").value_or(""), static_cast<int>(size.x), static_cast<int>(size.y),
       static_cast<int>(table.whole("color").value_or(1)), draft.position(value.where)};
@@ -38,8 +37,8 @@ struct Lengths {
 
 Lengths read_lengths(const TableReader& table, int axis, Draft& draft) {
   const std::int64_t multiple = table.whole("multiple").value_or(1);
-  const auto least = static_cast<std::int64_t>(table.point("min").value_or(Vec<2>(1.0))[axis]);
-  const auto most = static_cast<std::int64_t>(table.point("max").value_or(Vec<2>(1e9))[axis]);
+  const auto least = static_cast<std::int64_t>(table.two("min").value_or(Vec<2>(1.0))[axis]);
+  const auto most = static_cast<std::int64_t>(table.two("max").value_or(Vec<2>(1e9))[axis]);
   const Lengths lengths{(least + multiple - 1) / multiple, most / multiple};
   if (lengths.least <= lengths.most) return lengths;
   draft.problems.add(table.place(table.has("max") ? "max" : "min"),
@@ -49,8 +48,7 @@ Lengths read_lengths(const TableReader& table, int axis, Draft& draft) {
 }
 
 void read_pattern(const TomlValue& value, Draft& draft) {
-  const TableReader table(std::get<TomlTable>(value.data), value.where,
-                          language_table("texture_pattern"), draft.problems);
+  const TableReader table = open(value, language_table("texture_pattern"), draft);
   const std::string name = table.text("name").value_or("");
   const auto count = static_cast<std::size_t>(table.whole("count").value_or(1));
   const Lengths widths = read_lengths(table, 0, draft);
@@ -87,9 +85,8 @@ void read_pattern(const TomlValue& value, Draft& draft) {
 void read_atlas(const TableReader& file, Draft& draft) {
   if (file.has("atlas")) draft.scenario.atlas.emplace();  // a bad one is told once
   for (const TomlValue* value : file.tables("atlas")) {
-    const TableReader table(std::get<TomlTable>(value->data), value->where, language_table("atlas"),
-                            draft.problems);
-    const Vec<2> size = table.point("size").value_or(Vec<2>(1.0));
+    const TableReader table = open(*value, language_table("atlas"), draft);
+    const Vec<2> size = table.two("size").value_or(Vec<2>(1.0));
     draft.scenario.atlas =
         AtlasSpec{static_cast<int>(size.x), static_cast<int>(size.y), draft.position(value->where)};
     if (file.has("world"))

@@ -1,44 +1,34 @@
 // Bodies, one by one and by patterns.
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
-#include "base/random.hpp"
 #include "scenario/draft.hpp"
 
 namespace lantern {
 namespace {
 
-// What [[body]] and [[pattern]] share.
-BodySpec read_common(const TableReader& table, Draft& draft) {
-  BodySpec body;
-  body.where = draft.position(table.where());
-  body.name = table.text("name").value_or("");
-  body.color = static_cast<int>(table.whole("color").value_or(1));
-  body.is_static = table.truth("static");
-  body.shape = Sphere{table.number("radius").value_or(1)};
-  if (const auto half_size = table.point("half_size")) body.shape = AxisBox<2>{*half_size};
-  body.look = table.has("half_size") ? Look::box : Look::disc;
-  if (const auto look = table.choice("look")) body.look = static_cast<Look>(*look);
-  return body;
-}
-
 bool has_no_size(const BodySpec& body) {
-  return bounding_box(body.shape, Vec<2>(0.0)).size() == Vec<2>(0.0);
+  return bounding_box(body.shape, Vec<3>(0.0)).size() == Vec<3>(0.0);
 }
 
-// `speed_key` is what makes it move.
-void check_motion(const BodySpec& body, bool moves, const TableReader& table, const char* speed_key,
+// The shape's key.
+const char* size_key(const TableReader& table) {
+  for (const char* key : {"half_size", "capsule", "ground"})
+    if (table.has(key)) return key;
+  return "radius";
+}
+
+// `key` is what makes it move.
+void check_motion(const BodySpec& body, bool moves, const TableReader& table, const char* key,
                   Draft& draft) {
-  const char* size_key = table.has("half_size") ? "half_size" : "radius";
-  if (moves && body.is_static)
-    draft.problems.add(table.place(speed_key), fmt::format("a static body has no {}", speed_key),
-                       fmt::format("leave out either static or {}", speed_key));
-  else if (moves && has_no_size(body))
-    draft.problems.add(table.place(size_key),
-                       fmt::format("'{}' is zero: a body that moves needs a size", size_key),
-                       fmt::format("or leave out {}", speed_key));
+  if (!moves) return;
+  if (body.kind == BodyKind::static_body)
+    draft.problems.add(table.place(key), fmt::format("a static body has no {}", key),
+                       table.has("ground") ? fmt::format("leave out {}", key)
+                                           : fmt::format("leave out either static or {}", key));
+  else if (has_no_size(body))
+    draft.problems.add(table.place(size_key(table)),
+                       fmt::format("'{}' is zero: a body that moves needs a size", size_key(table)),
+                       fmt::format("or leave out {}", key));
 }
 
 // Are there few enough? Says so once, where they become too many.
@@ -49,95 +39,55 @@ bool has_room_for(std::size_t count, Place where, Draft& draft) {
   return false;
 }
 
+// Whom it follows may be declared later.
+void note_follower(const TableReader& table, std::size_t count, Draft& draft) {
+  if (const auto name = table.text("follow"))
+    draft.followers.push_back(
+        {draft.scenario.bodies.size(), count, {*name, table.place("follow")}});
+}
+
 void read_body(const TomlValue& value, Draft& draft) {
-  const TableReader table(std::get<TomlTable>(value.data), value.where, language_table("body"),
-                          draft.problems);
-  BodySpec body = read_common(table, draft);
-  body.position = table.point("position").value_or(Vec<2>(0.0));
-  body.velocity = table.point("velocity").value_or(Vec<2>(0.0));
-  check_motion(body, body.velocity != Vec<2>(0.0), table, "velocity", draft);
+  const TableReader table = open(value, language_table("body"), draft);
+  BodySpec body = read_body_keys(table, draft);
+  body.position = table.point("position").value_or(Vec<3>(0.0));
+  body.velocity = table.point("velocity").value_or(Vec<3>(0.0));
+  check_motion(body, body.velocity != Vec<3>(0.0), table, "velocity", draft);
+  check_motion(body, body.spin != 0, table, "spin", draft);
+  if (table.has("speed") && body.brain == Brain::none)
+    draft.problems.add(table.key_place("speed"), "'speed' is of a body that follows or wanders",
+                       "say where it goes: velocity");
   if (!has_room_for(1, value.where, draft)) return;
   if (!body.name.empty())
     draft.bodies.add(body.name, {draft.scenario.bodies.size(), 1, table.place("name")}, true,
                      draft.problems);
+  note_follower(table, 1, draft);
   draft.scenario.bodies.push_back(std::move(body));
 }
 
-// Where a pattern's centres may be: as given, or so that its bodies lie in the world.
-Box<2> read_region(const TableReader& table, const BodySpec& body, Draft& draft) {
-  const Box<2>& bounds = draft.scenario.bounds;
-  const Vec<2> half = bounding_box(body.shape, Vec<2>(0.0)).hi;
-  Box<2> region;
-  for (int i = 0; i < 2; ++i) {
-    const double middle = bounds.center()[i];
-    region.lo[i] = std::min(bounds.lo[i] + half[i], middle);
-    region.hi[i] = std::max(bounds.hi[i] - half[i], middle);
-  }
-  region.lo = table.point("min").value_or(region.lo);
-  region.hi = table.point("max").value_or(region.hi);
-  if (is_valid(region)) return region;
-  draft.problems.add(table.place(table.has("max") ? "max" : "min"),
-                     fmt::format("no centre lies between [{}, {}] and [{}, {}]", region.lo.x,
-                                 region.lo.y, region.hi.x, region.hi.y),
-                     "'max' lies to the upper right of 'min'");
-  return bounds;
-}
-
-// The middle of the `index`-th of `count` cells, in rows from the lower left, as square as may be.
-Vec<2> grid_place(const Box<2>& region, std::size_t index, std::size_t count) {
-  const Vec<2> size = region.size();
-  const auto n = static_cast<double>(count);
-  const double wish = size.y > 0 ? std::ceil(std::sqrt(n * size.x / size.y)) : n;
-  const double columns = std::clamp(wish, 1.0, n);
-  const double rows = std::ceil(n / columns);
-  const double row = std::floor(static_cast<double>(index) / columns);
-  const double column = static_cast<double>(index) - row * columns;
-  return region.lo + size * Vec<2>((column + 0.5) / columns, (row + 0.5) / rows);
-}
-
-// A direction from points of the unit disc, but not of its middle, where they would be coarse. No
-// sine, so it is the same on every machine.
-Vec<2> random_direction(Random& random) {
-  for (;;) {
-    const double x = random.between(-1, 1);
-    const double y = random.between(-1, 1);
-    const double square = x * x + y * y;
-    if (square < 0.01 || square > 1) continue;
-    return Vec<2>(x, y) / std::sqrt(square);
-  }
-}
-
-void unroll(const BodySpec& like, std::size_t count, const TableReader& table, Draft& draft) {
-  const Box<2> region = read_region(table, like, draft);
-  const bool grid = table.text("arrange") == "grid";
-  const double speed = table.number("speed").value_or(0);
-  const std::int64_t color = table.whole("color").value_or(0);
-  Random random(derived_seed(table, like.name, draft));
-  for (std::size_t i = 0; i < count; ++i) {
-    BodySpec body = like;
-    body.name = fmt::format("{}{}", like.name, i + 1);
-    body.color = cycled_color(color, i);
-    body.position = grid_place(region, i, count);
-    if (!grid) {
-      body.position.x = random.between(region.lo.x, region.hi.x);
-      body.position.y = random.between(region.lo.y, region.hi.y);
-    }
-    if (speed > 0) body.velocity = random_direction(random) * speed;
-    const NamedRange range{draft.scenario.bodies.size(), 1, table.place("name")};
-    if (!draft.bodies.add(body.name, range, false, draft.problems)) return;
-    draft.scenario.bodies.push_back(std::move(body));
-  }
-}
-
 void read_pattern(const TomlValue& value, Draft& draft) {
-  const TableReader table(std::get<TomlTable>(value.data), value.where, language_table("pattern"),
-                          draft.problems);
-  const BodySpec like = read_common(table, draft);
+  const TableReader table = open(value, language_table("pattern"), draft);
+  const BodySpec like = read_body_keys(table, draft);
   check_motion(like, table.number("speed").value_or(0) > 0, table, "speed", draft);
+  check_motion(like, like.spin != 0, table, "spin", draft);
   const auto count = static_cast<std::size_t>(table.whole("count").value_or(1));
   if (!has_room_for(count, table.place("count"), draft) || like.name.empty()) return;
   const NamedRange range{draft.scenario.bodies.size(), count, table.place("name")};
-  if (draft.bodies.add(like.name, range, true, draft.problems)) unroll(like, count, table, draft);
+  if (!draft.bodies.add(like.name, range, true, draft.problems)) return;
+  note_follower(table, count, draft);
+  unroll_pattern(like, count, table, draft);
+}
+
+void find_the_followed(Draft& draft) {
+  auto& bodies = draft.scenario.bodies;
+  for (const Follower& f : draft.followers) {
+    const auto followed = one_body(f.followed, draft);
+    if (!followed) continue;
+    if (f.first <= *followed && *followed < f.first + f.count)
+      draft.problems.add(f.followed.where, "a body cannot follow itself",
+                         "name another one in 'follow'");
+    for (std::size_t i = f.first; i < std::min(f.first + f.count, bodies.size()); ++i)
+      bodies[i].follows = *followed;
+  }
 }
 
 }  // namespace
@@ -150,6 +100,7 @@ void read_bodies(const TableReader& file, Draft& draft) {
                        "add [world] with size = [64, 64]");
   for (const TomlValue* value : bodies) read_body(*value, draft);
   for (const TomlValue* value : patterns) read_pattern(*value, draft);
+  find_the_followed(draft);
 }
 
 }  // namespace lantern

@@ -1,60 +1,46 @@
-// What a step says and promises: its caption and its expectations.
+// What a step promises.
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
-#include "scenario/caption.hpp"
 #include "scenario/script.hpp"
 
 namespace lantern {
 namespace {
 
-const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
-  const auto found =
-      std::find_if(docs.begin(), docs.end(), [&](const CountDoc& doc) { return doc.name == name; });
-  return found == docs.end() ? nullptr : &*found;
-}
+using Kind = Expectation::Kind;
 
-// Names that can be counted or quoted here, for suggestions.
-std::vector<std::string_view> quotable(const Draft& draft, const ScriptState& state) {
-  std::vector<std::string_view> names;
-  for (const auto docs : {known_counts(), known_texts()})
+constexpr double kRadians = std::numbers::pi / 180;  // in a degree
+
+bool is_counted_or_measured(std::string_view name) {
+  for (const auto docs : {known_counts(), known_measures()})
     for (const CountDoc& doc : docs)
-      if (why_not_counted(doc.name, draft, state).empty()) names.push_back(doc.name);
-  return names;
-}
-
-// The place of a byte of a text that is written on one line without escapes; otherwise the place of
-// the text.
-Place place_within(std::string_view file, Place where, std::string_view text, std::size_t offset) {
-  const std::string line = line_of(file, where.line);
-  std::size_t at = 0;
-  for (int column = 1; column < where.column && at < line.size(); ++column) do
-      ++at;
-    while (at < line.size() && (line[at] & 0xc0) == 0x80);
-  const std::string_view before = text.substr(0, offset);
-  if (at + 1 >= line.size() || !std::string_view(line).substr(at + 1).starts_with(before))
-    return where;
-  return {where.line, where.column + 1 + static_cast<int>(letters(before))};
+      if (doc.name == name) return true;
+  return false;
 }
 
 class Promises {
  public:
-  Promises(const TableReader& table, Draft& draft, const ScriptState& state)
+  Promises(const TableReader& table, Draft& draft, ScriptState& state)
       : table_(table), draft_(draft), state_(state) {}
 
   std::vector<Expectation> read() {
-    for (const CountDoc& count : known_counts()) read_count(count);
-    const bool has_tree = state_.structure.kind != StructureKind::none;
-    for (const char* key : {"in_leaves", "pairs_are"})
-      if (table_.has(key) && !has_tree)
-        draft_.problems.add(
-            table_.key_place(key),
-            fmt::format("there is no structure at this step: nothing for '{}'", key),
-            "give the scenario a [structure]");
+    for (const CountDoc& count : known_counts()) read_number(count.name, Kind::count);
+    for (const CountDoc& measure : known_measures()) read_number(measure.name, Kind::measure);
+    read_bounds("at_most", Kind::at_most);
+    read_bounds("at_least", Kind::at_least);
     read_leaves();
-    read_pairs();
-    read_positions();
+    read_pairs("pairs_are", "pairs", Kind::pairs);
+    read_pairs("contacts_are", "contacts", Kind::contacts);
+    read_hits();
+    read_sleepers("asleep", Kind::asleep);
+    read_sleepers("awake", Kind::awake);
+    read_points("position", Kind::position);
+    read_points("velocity", Kind::velocity);
+    read_points("half_size", Kind::half_size);
+    read_turns();
+    check_tolerance();
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
       return Place{a.where.line, a.where.column} < Place{b.where.line, b.where.column};
     });
@@ -62,7 +48,7 @@ class Promises {
   }
 
  private:
-  Expectation& add(Expectation::Kind kind, std::string name, Place where) {
+  Expectation& add(Kind kind, std::string name, Place where) {
     Expectation e;
     e.kind = kind;
     e.name = std::move(name);
@@ -70,115 +56,150 @@ class Promises {
     return found_.emplace_back(std::move(e));
   }
 
-  // Exactly one body, by name.
-  void check_body(const Named& body) {
-    const NamedRange* range = draft_.bodies.find(body.name);
-    if (!range)
+  // Adds a problem if `count`, which `key` needs, is not counted here.
+  void require(std::string_view key, std::string_view count, Place where) {
+    const std::string why = why_not_counted(count, draft_, state_);
+    if (why.empty()) return;
+    if (key == count)
+      draft_.problems.add(where, fmt::format("'{}' is not counted here: {}", key, why));
+    else
       draft_.problems.add(
-          body.where, fmt::format("there is no body {}", in_quotes(body.name)),
-          [&known = draft_.bodies, name = body.name] { return nearest(name, known.declared()); });
-    else if (range->count > 1)
-      draft_.problems.add(
-          body.where, fmt::format("'{}' is a pattern, not a body", body.name),
-          fmt::format("its bodies are '{}1' to '{}{}'", body.name, body.name, range->count));
+          where, fmt::format("{}: nothing for '{}'", why, key),
+          why == "there is no structure at this step" ? "give the scenario a [structure]" : "");
   }
 
-  void read_count(const CountDoc& count) {
-    if (!table_.has(count.name)) return;
-    const Place where = table_.key_place(count.name);
-    const std::string why = why_not_counted(count.name, draft_, state_);
-    if (!why.empty())
-      draft_.problems.add(where, fmt::format("'{}' is not counted here: {}", count.name, why));
-    add(Expectation::Kind::count, std::string(count.name), where).number =
-        table_.whole(count.name).value_or(0);
-  }
-
-  void read_leaves() {
-    for (const auto& [body, number] : table_.name_wholes("in_leaves")) {
-      check_body(body);
-      add(Expectation::Kind::leaves, body.name, body.where).number = number;
+  void read_number(std::string_view name, Kind kind) {
+    if (!table_.has(name) || table_.is_list(name)) return;
+    const Place where = table_.key_place(name);
+    require(name, name, where);
+    Expectation& e = add(kind, std::string(name), where);
+    if (kind == Kind::measure) {
+      e.number = table_.number(name).value_or(0);
+      e.tolerance = tolerance();
+    } else {
+      e.number = static_cast<double>(table_.whole(name).value_or(0));
     }
   }
 
-  void read_pairs() {
-    if (!table_.has("pairs_are")) return;
-    Expectation& e = add(Expectation::Kind::pairs, "", table_.key_place("pairs_are"));
-    for (const auto& [a, b] : table_.name_pairs("pairs_are")) {
-      check_body(a);
-      check_body(b);
+  void read_bounds(std::string_view key, Kind kind) {
+    for (const auto& [name, number] : table_.name_numbers(key)) {
+      if (is_counted_or_measured(name.name))
+        require(name.name, name.name, name.where);
+      else
+        draft_.problems.add(name.where,
+                            fmt::format("there is no count or measure {}", in_quotes(name.name)),
+                            [name = name.name] {
+                              std::vector<std::string_view> known;
+                              for (const auto docs : {known_counts(), known_measures()})
+                                for (const CountDoc& doc : docs) known.push_back(doc.name);
+                              return nearest(name, known);
+                            });
+      add(kind, name.name, name.where).number = number;
+    }
+  }
+
+  void read_leaves() {
+    if (table_.has("in_leaves")) require("in_leaves", "leaves", table_.key_place("in_leaves"));
+    for (const auto& [body, number] : table_.name_wholes("in_leaves")) {
+      one_body(body, draft_);
+      add(Kind::leaves, body.name, body.where).number = static_cast<double>(number);
+    }
+  }
+
+  void read_pairs(std::string_view key, std::string_view count, Kind kind) {
+    if (!table_.has(key)) return;
+    require(key, count, table_.key_place(key));
+    Expectation& e = add(kind, "", table_.key_place(key));
+    for (const auto& [a, b] : table_.name_pairs(key)) {
+      one_body(a, draft_);
+      one_body(b, draft_);
       if (a.name == b.name)
         draft_.problems.add(b.where, fmt::format("{} is no pair with itself", in_quotes(b.name)));
       e.pairs.emplace_back(a.name, b.name);
     }
   }
 
-  void read_positions() {
-    if (table_.has("tolerance") && !table_.has("position"))
-      draft_.problems.add(table_.key_place("tolerance"), "a 'tolerance' without a 'position'",
-                          "counts are exact; leave it out");
-    for (const auto& [body, position] : table_.name_points("position")) {
-      check_body(body);
-      Expectation& e = add(Expectation::Kind::position, body.name, body.where);
-      e.position = position;
-      e.tolerance = table_.number("tolerance").value_or(e.tolerance);
+  void read_hits() {
+    if (!table_.has("hits_are")) return;
+    require("hits_are", "hits", table_.key_place("hits_are"));
+    Expectation& e = add(Kind::hits, "", table_.key_place("hits_are"));
+    for (const Named& body : table_.texts("hits_are")) {
+      one_body(body, draft_);
+      e.names.push_back(body.name);
     }
   }
 
+  // Bodies, or patterns for all of theirs.
+  void read_sleepers(std::string_view key, Kind kind) {
+    if (!table_.is_list(key)) return;
+    Expectation& e = add(kind, "", table_.key_place(key));
+    for (const Named& name : table_.texts(key)) {
+      const NamedRange* range = draft_.bodies.find(name.name);
+      if (!range) {
+        one_body(name, draft_);  // says what is wrong
+        continue;
+      }
+      const bool had_room = state_.named <= kMostNamed;
+      state_.named += range->count;
+      if (state_.named > kMostNamed) {
+        if (had_room)
+          draft_.problems.add(name.where,
+                              fmt::format("the steps name more than {} bodies in all", kMostNamed));
+        continue;
+      }
+      const auto& bodies = draft_.scenario.bodies;
+      for (std::size_t i = range->first; i < range->first + range->count && i < bodies.size(); ++i)
+        e.names.push_back(bodies[i].name);
+    }
+  }
+
+  void read_points(std::string_view key, Kind kind) {
+    for (const auto& [body, point] : table_.name_points(key)) {
+      one_body(body, draft_);
+      Expectation& e = add(kind, body.name, body.where);
+      e.position = point;
+      e.tolerance = tolerance();
+    }
+  }
+
+  void read_turns() {
+    if (table_.has("turned") && draft_.dimension == 3)
+      draft_.problems.add(table_.key_place("turned"), "'turned' is of a flat world",
+                          "in a solid one, promise angular_momentum");
+    for (const auto& [body, degrees] : table_.name_numbers("turned")) {
+      one_body(body, draft_);
+      Expectation& e = add(Kind::turned, body.name, body.where);
+      e.number = degrees * kRadians;
+      e.tolerance = tolerance() * kRadians;
+    }
+  }
+
+  void check_tolerance() {
+    if (!table_.has("tolerance")) return;
+    for (const char* key : {"position", "velocity", "half_size", "turned"})
+      if (table_.has(key)) return;
+    for (const CountDoc& measure : known_measures())
+      if (table_.has(measure.name)) return;
+    draft_.problems.add(table_.key_place("tolerance"),
+                        "a 'tolerance' without a 'position' or another thing that is measured",
+                        "counts are exact; leave it out");
+  }
+
+  double tolerance() const { return table_.number("tolerance").value_or(1e-9); }
+
   const TableReader& table_;
   Draft& draft_;
-  const ScriptState& state_;
+  ScriptState& state_;
   std::vector<Expectation> found_;
 };
 
 }  // namespace
 
-std::string why_not_counted(std::string_view name, const Draft& draft, const ScriptState& state) {
-  const CountDoc* doc = find_in(known_counts(), name);
-  if (!doc) doc = find_in(known_texts(), name);
-  const bool has_bodies = draft.has_world && !draft.bodies.empty();
-  const bool has_atlas = draft.scenario.atlas.has_value();
-  if (name == "room" && has_atlas && !state.asked_for_room) return "no step has asked for room yet";
-  if (doc->for_atlas && has_atlas) return {};
-  if (!doc->for_world) return "the scenario has no [atlas]";
-  if (name == "time" && draft.has_world) return {};
-  if (!has_bodies) return has_atlas ? "an atlas has none" : "the scenario has no bodies";
-  if (doc->needs_structure && state.structure.kind == StructureKind::none)
-    return "there is no structure at this step";
-  return {};
-}
-
 std::vector<Expectation> read_expectations(const TomlValue& value, std::string_view called,
-                                           Draft& draft, const ScriptState& state) {
-  const TableReader table(std::get<TomlTable>(value.data), value.where, language_table("expect"),
-                          draft.problems, fmt::format("'{}'", called));
+                                           Draft& draft, ScriptState& state) {
+  const TableReader table =
+      open(value, language_table("expect"), draft, fmt::format("'{}'", called));
   return Promises(table, draft, state).read();
-}
-
-void check_caption(const TableReader& step, Draft& draft, const ScriptState& state) {
-  const std::string caption = step.text("caption").value_or("");
-  const auto kind_of = [](std::string_view name) {
-    if (find_in(known_counts(), name)) return Placeholder::count;
-    return find_in(known_texts(), name) ? Placeholder::text : Placeholder::unknown;
-  };
-  const auto can_be_quoted = [&](std::string_view name) {
-    return kind_of(name) != Placeholder::unknown && why_not_counted(name, draft, state).empty();
-  };
-  const auto known_here = [&](std::string_view name) {
-    return can_be_quoted(name) ? kind_of(name) : Placeholder::unknown;
-  };
-  for (const CaptionProblem& p : caption_problems(caption, known_here)) {
-    const Place where = place_within(draft.text, step.place("caption"), caption, p.offset);
-    if (!p.message.empty())
-      draft.problems.add(where, "in the caption: " + p.message,
-                         "write {{ and }} for the braces themselves");
-    else if (kind_of(p.unknown) == Placeholder::unknown)
-      draft.problems.add(
-          where, fmt::format("a caption cannot quote {}", in_quotes(p.unknown)),
-          [name = p.unknown, known = quotable(draft, state)] { return nearest(name, known); });
-    else
-      draft.problems.add(where, fmt::format("'{}' is not counted here: {}", p.unknown,
-                                            why_not_counted(p.unknown, draft, state)));
-  }
 }
 
 }  // namespace lantern

@@ -1,5 +1,6 @@
 #include "scenario/reference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,6 +15,8 @@ constexpr std::string_view kWorldExample = R"(title = "Three bodies, four cells"
 
 [world]
 size = [16, 9]
+contacts = "impulse"
+may_sleep = true
 
 [structure]
 kind = "quadtree"
@@ -81,6 +84,23 @@ caption = "An empty atlas: {free_leaves:free leaf/free leaves} of {free_area} px
 expect = { free_leaves = 1, textures = 0 }
 )";
 
+constexpr std::string_view kLevelExample = R"(title = "A room with a pillar"
+
+[world]
+size = [12, 8]
+
+[level]
+loops = [
+  [[1, 1], [11, 1], [11, 7], [1, 7]],
+  [[5, 3], [5, 5], [7, 5], [7, 3]],
+]
+
+[[step]]
+do = "show"
+caption = "{walls:wall}: four around the room, four around the pillar."
+expect = { walls = 8 }
+)";
+
 std::string_view type_text(KeyType type) {
   switch (type) {
     case KeyType::text:
@@ -94,7 +114,15 @@ std::string_view type_text(KeyType type) {
     case KeyType::choice:
       return "one of";
     case KeyType::point:
-      return "[x, y]";
+      return "point";
+    case KeyType::two_numbers:
+      return "two numbers";
+    case KeyType::loops:
+      return "list of polygons";
+    case KeyType::names:
+      return "list of texts, or none";
+    case KeyType::whole_or_names:
+      return "whole number, or list of texts";
     case KeyType::size:
       return "[width, height]";
     case KeyType::texts:
@@ -109,8 +137,10 @@ std::string_view type_text(KeyType type) {
       return "list of pairs";
     case KeyType::name_wholes:
       return "table: name → whole number";
+    case KeyType::name_numbers:
+      return "table: name → number";
     case KeyType::name_points:
-      return "table: name → [x, y]";
+      return "table: name → point";
   }
   return "";
 }
@@ -137,7 +167,7 @@ std::string short_range(const KeyDoc& doc) {
 }
 
 std::string type_column(const KeyDoc& doc) {
-  std::string text(type_text(doc.type));
+  std::string text(doc.form.empty() ? type_text(doc.type) : doc.form);
   for (std::size_t i = 0; i < doc.choices.size(); ++i)
     text += fmt::format("{} `{}`", i == 0 ? "" : ",", doc.choices[i]);
   const std::string range = short_range(doc);
@@ -179,7 +209,11 @@ std::string heading(const TableDoc& table) {
 
 std::string table_section(const TableDoc& table) {
   std::span<const KeyDoc> keys = table.keys;
-  if (table.name == "expect") keys = keys.first(keys.size() - known_counts().size());
+  if (table.name == "expect") {  // counts have tables of their own
+    const auto is_count = [](const KeyDoc& key) { return key.type == KeyType::whole; };
+    keys = keys.first(
+        static_cast<std::size_t>(std::find_if(keys.begin(), keys.end(), is_count) - keys.begin()));
+  }
   return fmt::format("\n### {}\n\n{}\n\n{}{}", heading(table), table.doc, rows(keys),
                      groups_text(table.groups));
 }
@@ -192,11 +226,18 @@ std::string verb_section(const TableDoc& verb) {
   return text + groups_text(verb.groups) + fmt::format("\n{}", block(verb.example));
 }
 
-std::string count_rows(bool for_world) {
+std::string world_count_rows() {
+  std::string text = "| count | meaning | counted |\n|---|---|---|\n";
+  for (const CountDoc& count : known_counts())
+    if (count.for_world)
+      text += fmt::format("| `{}` | {} | {} |\n", count.name, count.doc, when_counted(count.need));
+  return text;
+}
+
+std::string atlas_count_rows() {
   std::string text = "| count | meaning |\n|---|---|\n";
   for (const CountDoc& count : known_counts())
-    if (for_world ? count.for_world : count.for_atlas)
-      text += fmt::format("| `{}` | {} |\n", count.name, count.doc);
+    if (count.for_atlas) text += fmt::format("| `{}` | {} |\n", count.name, count.doc);
   return text;
 }
 
@@ -223,22 +264,27 @@ counted. It is data, never code. This page is printed by `lantern reference`; ed
 `lantern check` runs it and verifies every promise in `expect`; `lantern render` draws it. An atlas looks like this:
 
 {}
+And a level like this:
+
+{}
 The language is strict. A key that it does not know, a wrong type, a name that does not exist, a number out of range:
 all mistakes of a file are told at once, each with its line and column and, if there is one, the word you meant.
 
-Lengths and positions are in units of your own, times in seconds, textures in pixels; x goes to the right and y
-up. Coordinates are at most 1e9, either way. A file has at most {} MiB, {} bodies, {} textures and {} steps.
+Lengths and positions are in units of your own, times in seconds, angles in degrees, textures in pixels; x goes to
+the right, y up, and z towards the viewer. A point is `[x, y]` in a flat world and `[x, y, z]` in a solid one.
+Coordinates are at most 1e9, either way. A file has at most {} MiB, {} bodies, {} textures and {} steps.
 
 ## What there is
 )",
-                     block(kWorldExample), block(kAtlasExample), kMostFileBytes >> 20, kMostBodies,
-                     kMostTextures, kMostSteps);
+                     block(kWorldExample), block(kAtlasExample), block(kLevelExample),
+                     kMostFileBytes >> 20, kMostBodies, kMostTextures, kMostSteps);
 }
 
 }  // namespace
 
 std::string_view world_example() { return kWorldExample; }
 std::string_view atlas_example() { return kAtlasExample; }
+std::string_view level_example() { return kLevelExample; }
 
 std::string reference_page() {
   std::string page = introduction();
@@ -248,7 +294,7 @@ std::string reference_page() {
   page += table_section(language_table("step"));
   page +=
       "\nA body is used as a script would: inserted before it is moved or removed, and not twice. "
-      "Each example\nbelow goes on from the two scenarios above; append them in this order.\n";
+      "Each example\nbelow goes on from the three scenarios above; append them in this order.\n";
   for (const TableDoc& verb : language_verbs()) page += verb_section(verb);
   page += "\n## What is promised and said\n";
   page += table_section(language_table("expect"));
@@ -256,9 +302,8 @@ std::string reference_page() {
       "\n### Captions\n\nAt most {} letters. Placeholders are filled in with what "
       "the engine found.\n\n{}",
       kMostCaption, text_rows());
-  page += "\n### Counts of a world\n\n" + count_rows(true);
-  page += "\nWithout a structure, only `bodies` and `all_pairs` are counted.\n";
-  page += "\n### Counts of an atlas\n\n" + count_rows(false);
+  page += "\n### Counts of a world\n\n" + world_count_rows();
+  page += "\n### Counts of an atlas\n\n" + atlas_count_rows();
   return page;
 }
 

@@ -16,5 +16,6 @@ std::string reference_page();
 // The scenarios that the page begins with; the examples of the verbs go on from them.
 std::string_view world_example();
 std::string_view atlas_example();
+std::string_view level_example();
 
 }  // namespace lantern

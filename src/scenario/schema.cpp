@@ -50,9 +50,17 @@ std::string number(const KeyDoc& doc, const char* type) {
   return object(members);
 }
 
-std::string two(const KeyDoc& doc, const char* type) {
-  return object(
-      {{"type", "\"array\""}, {"items", number(doc, type)}, {"minItems", "2"}, {"maxItems", "2"}});
+Members two(const KeyDoc& doc, const char* type) {
+  return {
+      {"type", "\"array\""}, {"items", number(doc, type)}, {"minItems", "2"}, {"maxItems", "2"}};
+}
+
+// Two numbers in a flat world, three in a solid one: the parser knows which.
+Members point(const KeyDoc& doc) {
+  return {{"type", "\"array\""},
+          {"items", number(doc, "number")},
+          {"minItems", "2"},
+          {"maxItems", "3"}};
 }
 
 // What a value of the key must be, but for its description and default.
@@ -75,11 +83,24 @@ Members value_members(const KeyDoc& doc) {
     case KeyType::choice:
       return {{"enum", texts(doc.choices)}};
     case KeyType::point:
+      return point(doc);
+    case KeyType::two_numbers:
+      return two(doc, "number");
     case KeyType::size:
+      return two(doc, "integer");
+    case KeyType::loops:
       return {{"type", "\"array\""},
-              {"items", number(doc, doc.type == KeyType::size ? "integer" : "number")},
-              {"minItems", "2"},
-              {"maxItems", "2"}};
+              {"items", object({{"type", "\"array\""},
+                                {"items", object(two(doc, "number"))},
+                                {"minItems", "3"}})},
+              {"minItems", "1"}};
+    case KeyType::whole_or_names:
+      return {{"anyOf",
+               array({number(doc, "integer"), object({{"type", "\"array\""},
+                                                      {"items", object({{"type", "\"string\""}})},
+                                                      {"minItems", "1"}})})}};
+    case KeyType::names:
+      return {{"type", "\"array\""}, {"items", object({{"type", "\"string\""}})}};
     case KeyType::texts:
       return {
           {"type", "\"array\""}, {"items", object({{"type", "\"string\""}})}, {"minItems", "1"}};
@@ -102,8 +123,10 @@ Members value_members(const KeyDoc& doc) {
                                 {"maxItems", "2"}})}};
     case KeyType::name_wholes:
       return {{"type", "\"object\""}, {"additionalProperties", number(doc, "integer")}};
+    case KeyType::name_numbers:
+      return {{"type", "\"object\""}, {"additionalProperties", number(doc, "number")}};
     case KeyType::name_points:
-      return {{"type", "\"object\""}, {"additionalProperties", two(doc, "number")}};
+      return {{"type", "\"object\""}, {"additionalProperties", object(point(doc))}};
   }
   return m;
 }

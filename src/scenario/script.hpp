@@ -15,19 +15,71 @@ struct ScriptState {
   std::vector<bool> packed;    // by index of the texture; refused ones, too
   StructureSpec structure;     // as it stands
   bool asked_for_room = false;
+  bool queried = false;    // by a ray, cull or query
+  bool compiled = false;   // the level
+  bool located = false;    // a point in it
+  bool has_plot = false;   // some step adds to the chart
   std::uint64_t frames = 0;  // in step pace
+  std::uint64_t ticks = 0;   // world steps
   std::size_t named = 0;     // bodies and textures, over all steps
 };
 
-// Why the scenario cannot count `name` at this point; empty if it can. `name` is a known count or,
-// in a caption, a known text.
+// Names the bodies or textures of a step, and turns them into indices.
+class Cast {
+ public:
+  Cast(Names& names, const char* kind, Problems& problems, ScriptState& state)
+      : names_(names), kind_(kind), problems_(problems), state_(state) {}
+
+  // Each must not yet have `mark` and is given it; `clash` says what is wrong otherwise.
+  std::vector<std::size_t> take(const std::vector<Named>& written, std::vector<bool>& marks,
+                                bool mark, std::string_view clash);
+
+  // Each must be in the world.
+  std::vector<std::size_t> present(const std::vector<Named>& written);
+
+  // Adds a problem if there is no such name, or if all steps together name too many.
+  const NamedRange* find(const Named& named);
+
+ private:
+  bool has_room_for(std::size_t count, Place where);
+
+  Names& names_;
+  const char* kind_;
+  Problems& problems_;
+  ScriptState& state_;
+};
+
+// What is at hand while a step's verb is read.
+struct Scope {
+  Draft& draft;
+  ScriptState& state;
+  Cast bodies;
+  Cast textures;
+  std::uint64_t frames = 1;  // of the step, in step pace
+};
+
+// The verb's own keys. Each gives nothing for a verb that is not its own.
+std::optional<Verb> read_body_verb(const TableReader& table, std::string_view verb, Scope& scope);
+std::optional<Verb> read_time_verb(const TableReader& table, std::string_view verb, Scope& scope);
+std::optional<Verb> read_query_verb(const TableReader& table, std::string_view verb, Scope& scope);
+std::optional<Verb> read_atlas_verb(const TableReader& table, std::string_view verb, Scope& scope);
+
+// One body that is in the world, named by `key`. Adds a problem and gives nothing otherwise.
+std::optional<std::size_t> read_present_body(const TableReader& table, const char* key,
+                                             Scope& scope);
+
+// Why the scenario cannot count `name` at this point; empty if it can. `name` is a known count or
+// measure or, in a caption, a known text.
 std::string why_not_counted(std::string_view name, const Draft& draft, const ScriptState& state);
 
 // An `expect` or `always` table.
 std::vector<Expectation> read_expectations(const TomlValue& value, std::string_view called,
-                                           Draft& draft, const ScriptState& state);
+                                           Draft& draft, ScriptState& state);
 
 // Adds a problem for each placeholder that cannot be filled in.
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state);
+
+// Can the chart's counts be counted at this step?
+std::optional<std::string> read_plot(const TableReader& step, Draft& draft, ScriptState& state);
 
 }  // namespace lantern

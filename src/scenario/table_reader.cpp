@@ -18,9 +18,16 @@ double number_of(const TomlValue& value) {
   return std::get<double>(value.data);
 }
 
-Vec<2> point_of(const TomlValue& value) {
+Vec<2> two_of(const TomlValue& value) {
   const auto& list = std::get<TomlArray>(value.data);
   return {number_of(list[0]), number_of(list[1])};
+}
+
+Vec<3> point_of(const TomlValue& value) {
+  const auto& list = std::get<TomlArray>(value.data);
+  Vec<3> point(0.0);
+  for (std::size_t i = 0; i < list.size(); ++i) point[static_cast<int>(i)] = number_of(list[i]);
+  return point;
 }
 
 Named named(const TomlValue& value) { return {std::get<std::string>(value.data), value.where}; }
@@ -54,7 +61,7 @@ std::string home_of(std::string_view key, const TableDoc& here) {
 }
 
 // "position = [1.5, 2]": how a key is written.
-std::string form_of(const KeyDoc& key) {
+std::string form_of(const KeyDoc& key, int dimension) {
   switch (key.type) {
     case KeyType::whole:
       return fmt::format("{} = {}", key.key, std::max(key.least, 1.0));
@@ -65,7 +72,11 @@ std::string form_of(const KeyDoc& key) {
     case KeyType::choice:
       return fmt::format("{} = \"{}\"", key.key, key.choices.back());
     case KeyType::point:
-      return fmt::format("{} = [1.5, 2]", key.key);
+      return fmt::format("{} = {}", key.key, dimension == 3 ? "[1.5, 2, 0.5]" : "[1.5, 2]");
+    case KeyType::two_numbers:
+      return fmt::format("{} = [0.5, 1]", key.key);
+    case KeyType::loops:
+      return fmt::format("{} = [[[0, 0], [8, 0], [8, 6]]]", key.key);
     case KeyType::size:
       return fmt::format("{} = [64, 32]", key.key);
     case KeyType::texts:
@@ -80,17 +91,18 @@ std::string form_of(const KeyDoc& key) {
 }  // namespace
 
 TableReader::TableReader(const TomlTable& table, Place where, const TableDoc& doc,
-                         Problems& problems, std::string_view called)
+                         Problems& problems, int dimension, std::string_view called)
     : table_(table),
       where_(where),
       doc_(doc),
       problems_(problems),
+      dimension_(dimension),
       called_(called.empty() ? doc.heading : called) {
   for (const TomlEntry& e : table_) {
     const KeyDoc* key = doc_.find(e.key);
     if (!key)
       check_unknown(e);
-    else if (!check_value(e.value, *key, problems_))
+    else if (!check_value(e.value, *key, dimension_, problems_))
       bad_.insert(e.key);
   }
   check_missing();
@@ -113,7 +125,8 @@ void TableReader::check_missing() {
   for (const KeyDoc& key : doc_.keys) {
     if (!key.required || has(key.key)) continue;
     const std::string owner = doc_.name.empty() ? "the scenario" : called_;
-    problems_.add(where_, fmt::format("{} has no '{}'", owner, key.key), "add " + form_of(key));
+    problems_.add(where_, fmt::format("{} has no '{}'", owner, key.key),
+                  "add " + form_of(key, dimension_));
   }
 }
 
@@ -188,9 +201,30 @@ std::optional<double> TableReader::number(std::string_view key) const {
   return parsed<double>(doc(key).fallback);
 }
 
-std::optional<Vec<2>> TableReader::point(std::string_view key) const {
+std::optional<Vec<3>> TableReader::point(std::string_view key) const {
   if (const TomlValue* value = good(key)) return point_of(*value);
   return std::nullopt;
+}
+
+std::optional<Vec<2>> TableReader::two(std::string_view key) const {
+  if (const TomlValue* value = good(key)) return two_of(*value);
+  return std::nullopt;
+}
+
+std::vector<std::vector<Vec<2>>> TableReader::loops(std::string_view key) const {
+  std::vector<std::vector<Vec<2>>> found;
+  if (const TomlValue* value = good(key))
+    for (const TomlValue& loop : std::get<TomlArray>(value->data)) {
+      found.emplace_back();
+      for (const TomlValue& corner : std::get<TomlArray>(loop.data))
+        found.back().push_back(two_of(corner));
+    }
+  return found;
+}
+
+bool TableReader::is_list(std::string_view key) const {
+  const TomlValue* value = good(key);
+  return value && std::holds_alternative<TomlArray>(value->data);
 }
 
 bool TableReader::truth(std::string_view key) const {
@@ -240,8 +274,16 @@ std::vector<std::pair<Named, std::int64_t>> TableReader::name_wholes(std::string
   return found;
 }
 
-std::vector<std::pair<Named, Vec<2>>> TableReader::name_points(std::string_view key) const {
-  std::vector<std::pair<Named, Vec<2>>> found;
+std::vector<std::pair<Named, double>> TableReader::name_numbers(std::string_view key) const {
+  std::vector<std::pair<Named, double>> found;
+  if (const TomlValue* value = good(key))
+    for (const TomlEntry& e : std::get<TomlTable>(value->data))
+      found.push_back({{e.key, e.where}, number_of(e.value)});
+  return found;
+}
+
+std::vector<std::pair<Named, Vec<3>>> TableReader::name_points(std::string_view key) const {
+  std::vector<std::pair<Named, Vec<3>>> found;
   if (const TomlValue* value = good(key))
     for (const TomlEntry& e : std::get<TomlTable>(value->data))
       found.push_back({{e.key, e.where}, point_of(e.value)});

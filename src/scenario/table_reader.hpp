@@ -27,9 +27,10 @@ struct Named {
 // the reader of a bad file goes on and finds the other mistakes, too.
 class TableReader {
  public:
-  // `where` is the place of the table's header. `called` names the table in messages.
+  // `where` is the place of the table's header. `dimension` is the world's, 0 where it is not known:
+  // points may then have two or three numbers. `called` names the table in messages.
   TableReader(const TomlTable& table, Place where, const TableDoc& doc, Problems& problems,
-              std::string_view called = {});
+              int dimension, std::string_view called = {});
 
   // Is the key written there, good or bad?
   bool has(std::string_view key) const { return entry(key) != nullptr; }
@@ -41,7 +42,9 @@ class TableReader {
   std::optional<std::string> text(std::string_view key) const;
   std::optional<std::int64_t> whole(std::string_view key) const;
   std::optional<double> number(std::string_view key) const;
-  std::optional<Vec<2>> point(std::string_view key) const;  // of a size, too
+  std::optional<Vec<3>> point(std::string_view key) const;  // z = 0 unless it is written
+  std::optional<Vec<2>> two(std::string_view key) const;    // two numbers, or a size
+  std::vector<std::vector<Vec<2>>> loops(std::string_view key) const;
   std::vector<Named> texts(std::string_view key) const;
   bool truth(std::string_view key) const;
 
@@ -52,9 +55,13 @@ class TableReader {
   // The table or tables of a key, with their places; empty if there is none or it is bad.
   std::vector<const TomlValue*> tables(std::string_view key) const;
 
-  // Entries of the types name_wholes, name_points and name_pairs.
+  // Is the key's value a good list? Otherwise it is a whole number, bad, or not there.
+  bool is_list(std::string_view key) const;
+
+  // Entries of the types name_wholes, name_numbers, name_points and name_pairs.
   std::vector<std::pair<Named, std::int64_t>> name_wholes(std::string_view key) const;
-  std::vector<std::pair<Named, Vec<2>>> name_points(std::string_view key) const;
+  std::vector<std::pair<Named, double>> name_numbers(std::string_view key) const;
+  std::vector<std::pair<Named, Vec<3>>> name_points(std::string_view key) const;
   std::vector<std::pair<Named, Named>> name_pairs(std::string_view key) const;
 
  private:
@@ -69,6 +76,7 @@ class TableReader {
   Place where_;
   const TableDoc& doc_;
   Problems& problems_;
+  int dimension_;
   std::string called_;
   std::set<std::string_view> bad_;
 };

@@ -18,7 +18,8 @@ std::string_view kind_of(const TomlValue& value) {
 
 class Check {
  public:
-  Check(const KeyDoc& doc, Problems& problems) : doc_(doc), problems_(problems) {}
+  Check(const KeyDoc& doc, int dimension, Problems& problems)
+      : doc_(doc), dimension_(dimension), problems_(problems) {}
 
   bool operator()(const TomlValue& value) {
     check(value);
@@ -50,11 +51,18 @@ class Check {
       case KeyType::choice:
         return check_choice(value);
       case KeyType::point:
+        return check_point(value);
+      case KeyType::two_numbers:
       case KeyType::size:
         return check_two(value);
       case KeyType::texts:
+      case KeyType::names:
       case KeyType::choices_list:
         return check_list(value);
+      case KeyType::whole_or_names:
+        return check_whole_or_names(value);
+      case KeyType::loops:
+        return check_loops(value);
       case KeyType::table:
         if (!std::holds_alternative<TomlTable>(value.data))
           wrong_type(value, "a table", fmt::format("write its header: [{}]", doc_.of));
@@ -64,6 +72,7 @@ class Check {
       case KeyType::name_pairs:
         return check_name_pairs(value);
       case KeyType::name_wholes:
+      case KeyType::name_numbers:
       case KeyType::name_points:
         return check_name_table(value);
     }
@@ -135,22 +144,78 @@ class Check {
   }
 
   void check_two(const TomlValue& value) {
-    const bool is_point = doc_.type != KeyType::size;
+    const bool is_size = doc_.type == KeyType::size;
     const auto* list = std::get_if<TomlArray>(&value.data);
-    const std::string form =
-        fmt::format("as {} = {}", doc_.key, is_point ? "[1.5, 2]" : "[64, 32]");
+    const std::string form = fmt::format("as {} = {}", doc_.key, is_size ? "[64, 32]" : "[1.5, 2]");
     if (!list)
-      return wrong_type(value, is_point ? "two numbers [x, y]" : "two whole numbers", form);
+      return wrong_type(
+          value, is_size ? "two whole numbers" : fmt::format("two numbers {}", doc_.form), form);
     if (list->size() != 2)
       return add(value.where,
                  fmt::format("'{}' must have two numbers, not {}", doc_.key, list->size()), form);
-    for (const TomlValue& element : *list) is_point ? check_number(element) : check_whole(element);
+    for (const TomlValue& element : *list) is_size ? check_whole(element) : check_number(element);
+  }
+
+  // As many numbers as the world has dimensions.
+  void check_point(const TomlValue& value) {
+    constexpr std::string_view kCounts[] = {"two or three numbers", "", "two numbers",
+                                            "three numbers"};
+    constexpr std::string_view kForms[] = {"[x, y] in a flat world, [x, y, z] in a solid one", "",
+                                           "[x, y]", "[x, y, z]"};
+    const std::string hint =
+        dimension_ == 0 ? fmt::format("write {}", kForms[0])
+                        : fmt::format("this world is {}: write {}",
+                                      dimension_ == 2 ? "flat" : "solid", kForms[dimension_]);
+    const auto* list = std::get_if<TomlArray>(&value.data);
+    if (!list)
+      return wrong_type(
+          value, fmt::format("{} {}", kCounts[dimension_], kForms[dimension_]),
+          fmt::format("as {} = {}", doc_.key, dimension_ == 3 ? "[1.5, 2, 0.5]" : "[1.5, 2]"));
+    const auto count = static_cast<int>(std::min<std::size_t>(list->size(), 4));
+    if (dimension_ == 0 ? count != 2 && count != 3 : count != dimension_)
+      return add(
+          value.where,
+          fmt::format("'{}' must have {}, not {}", doc_.key, kCounts[dimension_], list->size()),
+          hint);
+    for (const TomlValue& element : *list) check_number(element);
+  }
+
+  void check_whole_or_names(const TomlValue& value) {
+    if (std::holds_alternative<TomlArray>(value.data)) return check_list(value);
+    if (std::holds_alternative<std::int64_t>(value.data)) return check_whole(value);
+    wrong_type(value, "a whole number or a list of names",
+               fmt::format("as {0} = 2, or {0} = [\"…\"]", doc_.key));
+  }
+
+  void check_loops(const TomlValue& value) {
+    const std::string form = fmt::format("as {} = [[[0, 0], [8, 0], [8, 6]]]", doc_.key);
+    const auto* list = std::get_if<TomlArray>(&value.data);
+    if (!list) return wrong_type(value, "a list of polygons", form);
+    if (list->empty()) return add(value.where, fmt::format("'{}' must not be empty", doc_.key));
+    for (const TomlValue& loop : *list) {
+      const auto* corners = std::get_if<TomlArray>(&loop.data);
+      if (!corners) {
+        add(loop.where, "a polygon is a list of corners [x, y]", form);
+        continue;
+      }
+      if (corners->size() < 3)
+        add(loop.where,
+            fmt::format("a polygon must have at least 3 corners, not {}", corners->size()), form);
+      for (const TomlValue& corner : *corners) check_corner(corner);
+    }
+  }
+
+  void check_corner(const TomlValue& corner) {
+    const auto* pair = std::get_if<TomlArray>(&corner.data);
+    if (!pair || pair->size() != 2) return add(corner.where, "a corner is two numbers [x, y]");
+    for (const TomlValue& element : *pair) check_number(element);
   }
 
   void check_list(const TomlValue& value) {
     const auto* list = std::get_if<TomlArray>(&value.data);
     if (!list) return wrong_type(value, "a list", fmt::format("as {} = [\"…\"]", doc_.key));
-    if (list->empty()) return add(value.where, fmt::format("'{}' must not be empty", doc_.key));
+    if (list->empty() && doc_.type != KeyType::names)
+      return add(value.where, fmt::format("'{}' must not be empty", doc_.key));
     std::set<std::string_view> seen;
     for (const TomlValue& element : *list) {
       if (doc_.type == KeyType::choices_list)
@@ -190,23 +255,31 @@ class Check {
 
   void check_name_table(const TomlValue& value) {
     const auto* table = std::get_if<TomlTable>(&value.data);
-    const bool wholes = doc_.type == KeyType::name_wholes;
     if (!table)
       return wrong_type(
-          value, "a table of bodies",
-          fmt::format("as {} = {}", doc_.key, wholes ? "{ pink = 2 }" : "{ ball = [12, 14] }"));
-    for (const TomlEntry& e : *table) wholes ? check_whole(e.value) : check_two(e.value);
+          value, "a table of names",
+          fmt::format("as {} = {}", doc_.key,
+                      doc_.type == KeyType::name_points
+                          ? dimension_ == 3 ? "{ ball = [12, 14, 0] }" : "{ ball = [12, 14] }"
+                          : "{ pink = 2 }"));
+    for (const TomlEntry& e : *table) check_named(e.value);
+  }
+
+  void check_named(const TomlValue& value) {
+    if (doc_.type == KeyType::name_points) return check_point(value);
+    doc_.type == KeyType::name_wholes ? check_whole(value) : check_number(value);
   }
 
   const KeyDoc& doc_;
+  int dimension_;
   Problems& problems_;
   bool good_ = true;
 };
 
 }  // namespace
 
-bool check_value(const TomlValue& value, const KeyDoc& doc, Problems& problems) {
-  return Check(doc, problems)(value);
+bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Problems& problems) {
+  return Check(doc, dimension, problems)(value);
 }
 
 std::string range_text(const KeyDoc& doc) {

@@ -8,8 +8,9 @@
 namespace lantern {
 
 // Adds a problem for each thing that is wrong with the value; true if there was none. What is in a
-// table of its own (KeyType::table and tables) is left to that table's reader.
-bool check_value(const TomlValue& value, const KeyDoc& doc, Problems& problems);
+// table of its own (KeyType::table and tables) is left to that table's reader. `dimension` is the
+// world's, 0 where it is not known.
+bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Problems& problems);
 
 // "0 to 32", "above 0, at most 1000"; empty if the key has no range.
 std::string range_text(const KeyDoc& doc);

@@ -1,0 +1,146 @@
+// What can be counted at each step: captions quote it, and the chart plots it.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenario/caption.hpp"
+#include "scenario/script.hpp"
+
+namespace lantern {
+namespace {
+
+const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
+  const auto found =
+      std::find_if(docs.begin(), docs.end(), [&](const CountDoc& doc) { return doc.name == name; });
+  return found == docs.end() ? nullptr : &*found;
+}
+
+// Names that can be counted or quoted here, for suggestions.
+std::vector<std::string_view> quotable(const Draft& draft, const ScriptState& state) {
+  std::vector<std::string_view> names;
+  for (const auto docs : {known_counts(), known_texts()})
+    for (const CountDoc& doc : docs)
+      if (why_not_counted(doc.name, draft, state).empty()) names.push_back(doc.name);
+  return names;
+}
+
+// The place of a byte of a text that is written on one line without escapes; otherwise the place of
+// the text.
+Place place_within(std::string_view file, Place where, std::string_view text, std::size_t offset) {
+  const std::string line = line_of(file, where.line);
+  std::size_t at = 0;
+  for (int column = 1; column < where.column && at < line.size(); ++column) do
+      ++at;
+    while (at < line.size() && (line[at] & 0xc0) == 0x80);
+  const std::string_view before = text.substr(0, offset);
+  if (at + 1 >= line.size() || !std::string_view(line).substr(at + 1).starts_with(before))
+    return where;
+  return {where.line, where.column + 1 + static_cast<int>(letters(before))};
+}
+
+// Of a world, at this step.
+std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState& state) {
+  const Scenario& s = draft.scenario;
+  const bool has_contacts = s.world.contacts != ContactChoice::none;
+  const bool has_joints = std::any_of(s.links.begin(), s.links.end(), [](const LinkSpec& link) {
+    return link.kind != LinkSpec::Kind::spring;
+  });
+  switch (need) {
+    case CountNeed::bodies:
+    case CountNeed::room:
+      return {};
+    case CountNeed::structure:
+      return state.structure.kind != StructureKind::none ? ""
+                                                         : "there is no structure at this step";
+    case CountNeed::kd_tree:
+      return state.structure.kind == StructureKind::kd_tree ? ""
+                                                            : "there is no kd_tree at this step";
+    case CountNeed::contacts:
+      return has_contacts ? "" : "this world has no contacts";
+    case CountNeed::solver:
+      return has_contacts || has_joints ? "" : "this world has neither contacts nor joints";
+    case CountNeed::query:
+      return state.queried ? "" : "no step has sent a ray, culled or queried yet";
+    case CountNeed::level:
+      return s.level ? "" : "the scenario has no [level]";
+    case CountNeed::compiled:
+      if (!s.level) return "the scenario has no [level]";
+      return state.compiled ? "" : "no step has compiled the level yet";
+    case CountNeed::located:
+      if (!s.level) return "the scenario has no [level]";
+      return state.located ? "" : "no step has located a point yet";
+  }
+  return {};
+}
+
+bool is_of_level(CountNeed need) {
+  return need == CountNeed::level || need == CountNeed::compiled || need == CountNeed::located;
+}
+
+}  // namespace
+
+std::string why_not_counted(std::string_view name, const Draft& draft, const ScriptState& state) {
+  const CountDoc* doc = nullptr;
+  for (const auto docs : {known_counts(), known_texts(), known_measures()})
+    if (!doc) doc = find_in(docs, name);
+  const bool has_bodies = draft.has_world && !draft.bodies.empty();
+  const bool has_atlas = draft.scenario.atlas.has_value();
+  if (doc->need == CountNeed::room && has_atlas && !state.asked_for_room)
+    return "no step has asked for room yet";
+  if (doc->for_atlas && has_atlas) return {};
+  if (!doc->for_world) return "the scenario has no [atlas]";
+  if (name == "time" && draft.has_world) return {};
+  if (!has_bodies && !is_of_level(doc->need))
+    return has_atlas ? "an atlas has none" : "the scenario has no bodies";
+  return why_not_there(doc->need, draft, state);
+}
+
+void check_caption(const TableReader& step, Draft& draft, const ScriptState& state) {
+  const std::string caption = step.text("caption").value_or("");
+  const auto kind_of = [](std::string_view name) {
+    if (find_in(known_counts(), name)) return Placeholder::count;
+    return find_in(known_texts(), name) ? Placeholder::text : Placeholder::unknown;
+  };
+  const auto can_be_quoted = [&](std::string_view name) {
+    return kind_of(name) != Placeholder::unknown && why_not_counted(name, draft, state).empty();
+  };
+  const auto known_here = [&](std::string_view name) {
+    return can_be_quoted(name) ? kind_of(name) : Placeholder::unknown;
+  };
+  for (const CaptionProblem& p : caption_problems(caption, known_here)) {
+    const Place where = place_within(draft.text, step.place("caption"), caption, p.offset);
+    if (!p.message.empty())
+      draft.problems.add(where, "in the caption: " + p.message,
+                         "write {{ and }} for the braces themselves");
+    else if (kind_of(p.unknown) == Placeholder::unknown)
+      draft.problems.add(
+          where, fmt::format("a caption cannot quote {}", in_quotes(p.unknown)),
+          [name = p.unknown, known = quotable(draft, state)] { return nearest(name, known); });
+    else
+      draft.problems.add(where, fmt::format("'{}' is not counted here: {}", p.unknown,
+                                            why_not_counted(p.unknown, draft, state)));
+  }
+}
+
+std::optional<std::string> read_plot(const TableReader& step, Draft& draft, ScriptState& state) {
+  if (!step.has("plot")) return std::nullopt;
+  state.has_plot = true;
+  const auto& chart = draft.scenario.chart;
+  if (!chart) {
+    draft.problems.add(step.key_place("plot"), "'plot' needs a [chart], the scenario has none",
+                       "add [chart] with bars = \"pairs\"");
+    return step.text("plot");
+  }
+  std::vector<std::string> counts = chart->y;
+  if (!chart->x.empty()) counts.push_back(chart->x);
+  for (const std::string& count : counts) {
+    if (!find_in(known_counts(), count)) continue;  // told already
+    const std::string why = why_not_counted(count, draft, state);
+    if (!why.empty())
+      draft.problems.add(step.key_place("plot"),
+                         fmt::format("the chart's '{}' is not counted here: {}", count, why));
+  }
+  return step.text("plot");
+}
+
+}  // namespace lantern

@@ -1,0 +1,48 @@
+// Names of bodies and textures, and what else patterns of both share.
+#include <fmt/format.h>
+
+#include "base/hash.hpp"
+#include "scenario/draft.hpp"
+
+namespace lantern {
+
+bool Names::add(const std::string& name, const NamedRange& range, bool declared,
+                Problems& problems) {
+  const auto [at, is_new] = ranges_.emplace(name, range);
+  if (!is_new)
+    problems.add(range.where, fmt::format("the name '{}' is taken", name),
+                 fmt::format("line {} has it", at->second.where.line));
+  else if (declared)
+    declared_.push_back(name);
+  return is_new;
+}
+
+const NamedRange* Names::find(const std::string& name) const {
+  const auto found = ranges_.find(name);
+  return found == ranges_.end() ? nullptr : &found->second;
+}
+
+int cycled_color(std::int64_t color, std::size_t index) {
+  return color == 0 ? static_cast<int>(1 + index % 8) : static_cast<int>(color);
+}
+
+std::uint64_t derived_seed(const TableReader& table, const std::string& name, const Draft& draft) {
+  if (const auto seed = table.whole("seed")) return static_cast<std::uint64_t>(*seed);
+  return Hash().add(draft.scenario.seed).add(std::string_view(name)).value();
+}
+
+std::optional<std::size_t> one_body(const Named& body, Draft& draft) {
+  const NamedRange* range = draft.bodies.find(body.name);
+  if (!range) {
+    draft.problems.add(
+        body.where, fmt::format("there is no body {}", in_quotes(body.name)),
+        [&known = draft.bodies, name = body.name] { return nearest(name, known.declared()); });
+    return std::nullopt;
+  }
+  if (range->count == 1) return range->first;
+  draft.problems.add(body.where, fmt::format("'{}' is a pattern, not a body", body.name),
+                     fmt::format("its bodies are '{0}1' to '{0}{1}'", body.name, range->count));
+  return std::nullopt;
+}
+
+}  // namespace lantern

@@ -1,0 +1,144 @@
+// Where the bodies of a pattern stand and which way they go.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+#include "scenario/draft.hpp"
+
+namespace lantern {
+namespace {
+
+// As the scenario turns it.
+Rotation<3> orientation_of(const BodySpec& body) {
+  return turned(Rotation<3>{}, body.axis * body.angle);
+}
+
+// Where a pattern's centres may be: as given, or so that its bodies lie in the world. A stack
+// stands in the middle, on the world's floor.
+Box<3> read_region(const TableReader& table, const BodySpec& body, bool stack, Draft& draft) {
+  const Box<3>& bounds = draft.scenario.world.bounds;
+  const Vec<3> half = bounding_box(body.shape, Vec<3>(0.0), orientation_of(body)).hi;
+  Box<3> region;
+  for (int i = 0; i < 3; ++i) {
+    const double middle = bounds.center()[i];
+    const bool in_the_middle = stack && i != 1;
+    region.lo[i] = in_the_middle ? middle : std::min(bounds.lo[i] + half[i], middle);
+    region.hi[i] = in_the_middle ? middle : std::max(bounds.hi[i] - half[i], middle);
+  }
+  region.lo = table.point("min").value_or(region.lo);
+  region.hi = table.point("max").value_or(region.hi);
+  if (is_valid(region)) return region;
+  const auto text = [&](const Vec<3>& v) {
+    return draft.dimension == 3 ? fmt::format("[{}, {}, {}]", v.x, v.y, v.z)
+                                : fmt::format("[{}, {}]", v.x, v.y);
+  };
+  draft.problems.add(
+      table.place(table.has("max") ? "max" : "min"),
+      fmt::format("no centre lies between {} and {}", text(region.lo), text(region.hi)),
+      "'max' lies to the upper right of 'min'");
+  return bounds;
+}
+
+// Columns, rows and layers of cells for `count` bodies, as cubic as may be: the longest side of a
+// cell is cut until there are enough.
+std::array<std::size_t, 3> grid_cells(const Vec<3>& size, std::size_t count) {
+  std::array<std::size_t, 3> cells{1, 1, 1};
+  while (cells[0] * cells[1] * cells[2] < count) {
+    int longest = 0;
+    const auto side = [&](int i) { return size[i] / static_cast<double>(cells[std::size_t(i)]); };
+    for (int i = 1; i < 3; ++i)
+      if (side(i) > side(longest)) longest = i;
+    ++cells[static_cast<std::size_t>(longest)];
+  }
+  return cells;
+}
+
+// The middle of the `index`-th cell, in rows from the lowest corner.
+Vec<3> grid_place(const Box<3>& region, std::size_t index,
+                  const std::array<std::size_t, 3>& cells) {
+  Vec<3> place = region.lo;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t n = cells[static_cast<std::size_t>(i)];
+    place[i] +=
+        region.size()[i] * ((static_cast<double>(index % n) + 0.5) / static_cast<double>(n));
+    index /= n;
+  }
+  return place;
+}
+
+// A direction from points of the unit disc or ball, but not of its middle, where they would be
+// coarse. No sine, so it is the same on every machine.
+Vec<3> random_direction(int dimension, Random& random) {
+  for (;;) {
+    Vec<3> v(0.0);
+    double square = 0;
+    for (int i = 0; i < dimension; ++i) {
+      v[i] = random.between(-1, 1);
+      square += v[i] * v[i];
+    }
+    if (square < 0.01 || square > 1) continue;
+    return v / std::sqrt(square);
+  }
+}
+
+// The places of one pattern, in order.
+class Places {
+ public:
+  Places(const BodySpec& like, std::size_t count, const TableReader& table, int dimension,
+         Draft& draft)
+      : arrange_(table.text("arrange").value_or("random")),
+        region_(read_region(table, like, arrange_ == "stack", draft)),
+        count_(count),
+        dimension_(dimension) {
+    if (arrange_ == "grid") cells_ = grid_cells(region_.size(), count);
+    height_ = bounding_box(like.shape, Vec<3>(0.0), orientation_of(like)).size().y;
+  }
+
+  Vec<3> at(std::size_t index, Random& random) const {
+    const auto i = static_cast<double>(index);
+    if (arrange_ == "grid") return grid_place(region_, index, cells_);
+    if (arrange_ == "stack") return region_.lo + Vec<3>(0, i * height_, 0);
+    if (arrange_ == "line") {
+      if (index + 1 == count_ && index > 0) return region_.hi;
+      return region_.lo + region_.size() * (count_ > 1 ? i / static_cast<double>(count_ - 1) : 0);
+    }
+    Vec<3> place = region_.lo;
+    for (int axis = 0; axis < dimension_; ++axis)
+      place[axis] = random.between(region_.lo[axis], region_.hi[axis]);
+    return place;
+  }
+
+ private:
+  std::string arrange_;
+  Box<3> region_;
+  std::size_t count_;
+  int dimension_;
+  std::array<std::size_t, 3> cells_{1, 1, 1};
+  double height_ = 0;  // of a body's box
+};
+
+}  // namespace
+
+void unroll_pattern(const BodySpec& like, std::size_t count, const TableReader& table,
+                    Draft& draft) {
+  const int dimension = draft.scenario.world.dimension;
+  const Places places(like, count, table, dimension, draft);
+  const double speed = like.brain == Brain::follow ? 0 : table.number("speed").value_or(0);
+  const std::int64_t color = table.whole("color").value_or(0);
+  Random random(derived_seed(table, like.name, draft));
+  for (std::size_t i = 0; i < count; ++i) {
+    BodySpec body = like;
+    body.name = fmt::format("{}{}", like.name, i + 1);
+    body.color = cycled_color(color, i);
+    body.position = places.at(i, random);
+    if (speed > 0) body.velocity = random_direction(dimension, random) * speed;
+    const NamedRange range{draft.scenario.bodies.size(), 1, table.place("name")};
+    if (!draft.bodies.add(body.name, range, false, draft.problems)) return;
+    draft.scenario.bodies.push_back(std::move(body));
+  }
+}
+
+}  // namespace lantern
