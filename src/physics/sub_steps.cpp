@@ -15,13 +15,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/direct_solve.hpp"
 #include "physics/free_rotation.hpp"
 #include "physics/island.hpp"
 
 namespace lantern {
 namespace {
 
-constexpr int kMostSweeps = 24;          // a sub-step; of the soft method
+constexpr int kMostSweeps = 24;  // a sub-step; of the soft method
+constexpr int kGuessingSweeps = 2;  // before all rows are solved at once
 constexpr double kSweepTolerance = 1e-9;  // of the largest impulse
 constexpr double kBounceSteps = 2;       // slower than gravity makes in so many sub-steps: no bounce
 
@@ -65,6 +67,8 @@ struct SubStep {
   const WorldConfig<D>& config;
   double h;
   WorldWork& work;
+  DirectSolve<D>& direct;
+  bool settled = false;  // by the direct solve
 
   bool impulse_method() const { return config.contacts == ContactMethod::impulse; }
   int most_sweeps() const { return impulse_method() ? config.iterations : kMostSweeps; }
@@ -112,12 +116,17 @@ struct SubStep {
   void solve_velocities() {
     each_joint([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
     each_pair([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
+    settled = false;
     for (int i = 0; i < most_sweeps(); ++i) {
       Sweep sweep;
       each_joint([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, sweep); });
       each_pair([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, h, sweep); });
       count(sweep);
       if (sweep.change <= kSweepTolerance * sweep.largest) break;
+      if (impulse_method() || settled || i + 1 < kGuessingSweeps) continue;
+      Sweep all;
+      settled = direct.settle_velocities(island, h, all);
+      count(all);
     }
   }
 
@@ -134,6 +143,11 @@ struct SubStep {
     each_pair([&](auto& rows, auto& a, auto& b) {
       begin_carrying(rows, a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
     });
+    Sweep all;
+    if (settled && direct.settle_carriage(island, h, all)) {
+      count(all);
+      return;
+    }
     double largest = 0;
     for (int i = 0; i < most_sweeps(); ++i) {
       Sweep sweep;
@@ -276,7 +290,8 @@ void move_island(Island<D>& island, const WorldConfig<D>& config, double h, doub
   const double old = island.joint_seconds;
   const double scale = config.warm_start && old > 0 ? sub_step / old : 0;
   for (JointRows<D>& rows : island.joints) rows.impulse *= scale;
-  for (int i = 0; i < count; ++i) SubStep<D>{island, config, sub_step, work}.run();
+  DirectSolve<D> direct;
+  for (int i = 0; i < count; ++i) SubStep<D>{island, config, sub_step, work, direct}.run();
   remember(island, sub_step);
 }
 
