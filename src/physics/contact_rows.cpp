@@ -166,8 +166,15 @@ void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a
     const double slip = glm::length(p.slip);
     const double change = glm::length((p.kicked_slip - p.slip) * used - p.kicked_slip);
     const double time = change > 0 ? std::min(slip * used / change, 1.0) : 0;
-    p.wanted_slip = p.slip * (time / 2);
+    p.wanted_slip = p.slip * (time / 2) +
+                    across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
   }
+}
+
+template <int D>
+double wanted_carriage(const ContactPoint<D>& point, double h) {
+  if (point.separation > 0) return -point.separation / h;
+  return std::min(-point.separation * kPushedOut / h, kFastestPush);
 }
 
 template <int D>
@@ -175,9 +182,7 @@ void sweep_carriage(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sw
   for (ContactPoint<D>& p : rows.points()) {
     if (p.normal_compliance == 0) continue;
     const double parting = glm::dot(relative_carriage(a, p.arm_a, b, p.arm_b), rows.normal);
-    const double wanted = p.separation > 0
-                              ? -p.separation / h
-                              : std::min(-p.separation * kPushedOut / h, kFastestPush);
+    const double wanted = wanted_carriage(p, h);
     const double before = p.carried;
     // Together with the impulse that is there already, it may push but not pull.
     const double least = p.bounce > 0 ? 0 : -p.pn;
@@ -207,6 +212,7 @@ void sweep_carriage(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sw
   template void warm_start(ContactRows<D>&, Mover<D>&, Mover<D>&);                               \
   template void sweep_velocities(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);         \
   template void begin_carrying(ContactRows<D>&, Mover<D>&, Mover<D>&, double, double);           \
+  template double wanted_carriage(const ContactPoint<D>&, double);                               \
   template void sweep_carriage(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);
 
 LANTERN_INSTANTIATE(2)

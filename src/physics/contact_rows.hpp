@@ -87,6 +87,10 @@ void sweep_velocities(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, 
 template <int D>
 void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a, double lag_b);
 
+// The mean speed of parting, over `h` seconds, that a point which presses should have.
+template <int D>
+double wanted_carriage(const ContactPoint<D>& point, double h);
+
 // One sweep over mean velocities: after `h` seconds, points that press touch without penetration,
 // or with a part of it.
 template <int D>

@@ -29,6 +29,12 @@ Vec<D> impulse_for(const JointRows<D>& rows, const Vec<D>& wanted) {
   return rows.direction * (glm::dot(rows.direction, wanted) / rows.compliance);
 }
 
+template <int D>
+Vec<D> error(const JointRows<D>& rows) {
+  if (rows.joint.kind == JointKind::pin) return rows.gap;
+  return rows.gap - rows.direction * rows.joint.length;
+}
+
 }  // namespace
 
 template <int D>
@@ -65,12 +71,14 @@ void sweep_velocities(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, Sweep& sweep
 }
 
 template <int D>
+double wanted_carriage(const JointRows<D>& rows, const Vec<D>& direction, double h) {
+  return -glm::dot(error(rows), direction) / h;
+}
+
+template <int D>
 void sweep_carriage(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep) {
-  const Vec<D> error = rows.joint.kind == JointKind::pin
-                           ? rows.gap
-                           : rows.gap - rows.direction * rows.joint.length;
   const Vec<D> impulse =
-      impulse_for(rows, -error / h - relative_carriage(a, rows.arm_a, b, rows.arm_b));
+      impulse_for(rows, -error(rows) / h - relative_carriage(a, rows.arm_a, b, rows.arm_b));
   a.carry(-impulse, rows.arm_a);
   b.carry(impulse, rows.arm_b);
   sweep.change = std::max(sweep.change, glm::length(impulse));
@@ -82,6 +90,7 @@ void sweep_carriage(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Swee
                         const Mover<D>&);                                                   \
   template void warm_start(JointRows<D>&, Mover<D>&, Mover<D>&);                            \
   template void sweep_velocities(JointRows<D>&, Mover<D>&, Mover<D>&, Sweep&);              \
+  template double wanted_carriage(const JointRows<D>&, const Vec<D>&, double);              \
   template void sweep_carriage(JointRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);
 
 LANTERN_INSTANTIATE(2)

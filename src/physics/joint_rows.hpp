@@ -30,6 +30,10 @@ void warm_start(JointRows<D>& rows, Mover<D>& a, Mover<D>& b);
 template <int D>
 void sweep_velocities(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, Sweep& sweep);
 
+// The mean relative velocity along `direction` that mends the joint in `h` seconds.
+template <int D>
+double wanted_carriage(const JointRows<D>& rows, const Vec<D>& direction, double h);
+
 // After `h` seconds the points are where the joint wants them.
 template <int D>
 void sweep_carriage(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep);

@@ -94,37 +94,42 @@ class World {
   std::uint64_t hash() const;
 
  private:
-  // What a step remembers of a pair that touched.
-  struct Memory {
-    Contact<D> contact;
-    double seconds = 0;  // of the sub-step in which the impulses were found
+  // What a step remembers of a pair that touched in it.
+  struct Touch {
+    Contact<D> record;   // what the step tells
+    Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
+    double seconds = 0;  // of that sub-step; 0: there was none
   };
   struct TimedPush {
     Push<D> push;
     std::optional<double> until;
   };
-  // What one step works on; kept for its memory, empty of meaning between steps.
-  struct Scratch;
+  struct JointMemory {
+    Vec<D> impulse{0.0};  // of the last sub-step
+    double seconds = 0;   // of that sub-step
+  };
+  struct Step;  // one step while it is made (world_step.cpp)
 
-  std::size_t index_of(BodyId id, const char* what) const;
-  Body<D>& at(BodyId id, const char* what) { return bodies_[index_of(id, what)]; }
-  void rouse(std::vector<BodyId> wanted);
+  std::size_t index_of(BodyId id) const;
+  bool joined(BodyId a, BodyId b) const;
+  void rouse(std::vector<BodyId> ids);
   void forget_contacts_of(BodyId id);
   void list_pushes();
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
   std::vector<double> rested_;  // seconds that each body has been slow
-  Forces<D> forces_;            // pushes: those that act now
+  Forces<D> forces_;            // its pushes are those of pushes_
   std::vector<SpringId> spring_ids_;
   std::vector<TimedPush> pushes_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;
+  std::vector<JointMemory> joint_memories_;
   BodyId next_id_ = 0;
   SpringId next_spring_ = 0;
   JointId next_joint_ = 0;
   double time_ = 0;
 
-  std::vector<Memory> touching_;  // by pair: of the last step, and of those that sleep
+  std::vector<Touch> touching_;  // by pair: of the last step, and of those that sleep
   std::vector<Contact<D>> contacts_;
   std::vector<ContactEvent> events_;
   std::vector<Pair> pairs_;

@@ -1,0 +1,122 @@
+#include "physics/body_check.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "physics/mass.hpp"
+
+namespace lantern {
+namespace {
+
+std::string named(const std::string& name) { return fmt::format("body '{}'", name); }
+
+void require_not_negative(double value, const std::string& who, const char* field) {
+  if (!std::isfinite(value) || value < 0)
+    throw Refused(fmt::format("{}: {} is {}, must be finite and not negative", who, field, value));
+}
+
+template <int D>
+void check_shape(const Shape<D>& shape, const std::string& who) {
+  const auto sizes = [&](const Vec<D>& half) {
+    for (int i = 0; i < D; ++i) require_not_negative(half[i], who, "half_size");
+  };
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    require_not_negative(sphere->radius, who, "radius");
+  } else if (const auto* box = std::get_if<AxisBox<D>>(&shape)) {
+    sizes(box->half_size);
+  } else if (const auto* turning = std::get_if<OrientedBox<D>>(&shape)) {
+    sizes(turning->half_size);
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    require_not_negative(capsule->radius, who, "radius");
+    require_not_negative(capsule->half_length, who, "half_length");
+  } else {
+    const double length = glm::length(std::get<HalfSpace<D>>(shape).normal);
+    if (!(std::abs(length - 1) <= 1e-9))
+      throw Refused(fmt::format("{}: normal has length {}, must have 1", who, length));
+  }
+}
+
+void check_rotation(const Rotation<2>& r, const std::string& who) {
+  require_finite(r.angle, who, "orientation");
+}
+void check_rotation(const Rotation<3>& r, const std::string& who) {
+  const double length = glm::length(r.q);
+  if (!(std::abs(length - 1) <= 1e-6))
+    throw Refused(fmt::format("{}: orientation has length {}, must have 1", who, length));
+}
+
+bool all_finite(double value) { return std::isfinite(value); }
+bool all_finite(const Vec<3>& value) {
+  return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
+}
+
+double inverse(double value) { return value > 0 ? 1 / value : 0; }
+Vec<3> inverse(const Vec<3>& value) {
+  return {inverse(value.x), inverse(value.y), inverse(value.z)};
+}
+
+}  // namespace
+
+void require_finite(double value, const std::string& who, const char* field) {
+  if (!std::isfinite(value)) throw Refused(fmt::format("{}: {} is not finite", who, field));
+}
+
+template <int D>
+void require_finite(const Vec<D>& value, const std::string& who, const char* field) {
+  for (int i = 0; i < D; ++i) require_finite(value[i], who, field);
+}
+
+template <int D>
+void check_body(const Body<D>& body) {
+  const std::string who = named(body.name);
+  require_finite<D>(body.position, who, "position");
+  check_rotation(body.orientation, who);
+  require_finite<D>(body.velocity, who, "velocity");
+  if (!all_finite(body.angular_momentum))
+    throw Refused(fmt::format("{}: angular_momentum is not finite", who));
+  if (!all_finite(body.kinematic_spin))
+    throw Refused(fmt::format("{}: kinematic_spin is not finite", who));
+  check_shape<D>(body.shape, who);
+  require_not_negative(body.density, who, "density");
+  require_not_negative(body.mass, who, "mass");
+  require_not_negative(body.material.restitution, who, "restitution");
+  require_not_negative(body.material.friction, who, "friction");
+  require_not_negative(body.linear_drag, who, "linear_drag");
+  require_not_negative(body.angular_drag, who, "angular_drag");
+  if (body.kind == BodyKind::dynamic_body && std::holds_alternative<HalfSpace<D>>(body.shape))
+    throw Refused(fmt::format("{}: shape is a half-space, which cannot be dynamic", who));
+  if (!is_valid(body.box())) throw Refused(fmt::format("{}: its box is not finite", who));
+}
+
+template <int D>
+void derive_mass(Body<D>& body) {
+  body.inverse_mass = 0;
+  body.inverse_inertia = Spin<D>(0.0);
+  if (body.kind != BodyKind::dynamic_body) return;
+  MassProperties<D> properties =
+      mass_of<D>(body.shape, body.mass > 0 && body.density == 0 ? 1 : body.density);
+  if (body.mass > 0) properties = scaled_to<D>(properties, body.mass);
+  const std::string who = named(body.name);
+  if (!(properties.mass > 0))
+    throw Refused(fmt::format("{}: mass is 0 by its size and density; give it a mass", who));
+  if (!std::isfinite(properties.mass) || !all_finite(properties.inertia) ||
+      !std::isfinite(1 / properties.mass))
+    throw Refused(fmt::format("{}: mass or inertia is out of range", who));
+  body.mass = properties.mass;
+  body.inverse_mass = 1 / properties.mass;
+  if (body.may_turn && !std::holds_alternative<AxisBox<D>>(body.shape))
+    body.inverse_inertia = inverse(properties.inertia);
+  if (!all_finite(body.inverse_inertia))
+    throw Refused(fmt::format("{}: inertia is out of range", who));
+}
+
+template void require_finite<2>(const Vec<2>&, const std::string&, const char*);
+template void require_finite<3>(const Vec<3>&, const std::string&, const char*);
+template void check_body(const Body<2>&);
+template void check_body(const Body<3>&);
+template void derive_mass(Body<2>&);
+template void derive_mass(Body<3>&);
+
+}  // namespace lantern

@@ -1,0 +1,78 @@
+// Bodies that hang together, while a step moves them.
+#pragma once
+
+#include <vector>
+
+#include "physics/contact_rows.hpp"
+#include "physics/forces.hpp"
+#include "physics/joint_rows.hpp"
+#include "physics/world_config.hpp"
+
+namespace lantern {
+
+// Two bodies that may touch during the step.
+template <int D>
+struct IslandPair {
+  ContactRows<D> rows;
+  bool located = false;  // bouncing or fast: their impacts are located in time
+  bool pressed = false;  // solved as a contact; an impact that is located needs no rows
+  double reach = 0;      // how near they must be to be looked at
+  bool remembered = false;
+  Contact<D> memory;  // of the last sub-step
+  double seconds = 0;  // of that sub-step
+  bool touched = false;
+  Contact<D> record;  // what the step tells
+};
+
+template <int D>
+struct Island {
+  std::vector<Body<D>> bodies;  // by id: those that move together and those that they touch
+  std::vector<std::uint32_t> places;  // of the bodies in the world
+  Forces<D> forces;                   // those that act among them
+  std::vector<IslandPair<D>> pairs;   // by ids
+  std::vector<JointRows<D>> joints;   // by ids
+  double joint_seconds = 0;           // of the sub-step that the joints' impulses are from
+
+  // Scratch, kept for its memory.
+  std::vector<Mover<D>> movers;
+  std::vector<Increment<D>> increments;
+  std::vector<Vec<D>> kicked;  // velocities after the forces, before the constraints
+};
+
+// The state of an island's bodies as movers.
+template <int D>
+Mover<D> mover_of(const Body<D>& body);
+
+// What the bodies' free motion would be: x += h (v + kick) + drift, and so on. Static and kinematic
+// bodies, too.
+template <int D>
+void fly(Body<D>& body, const Increment<D>& increment, double h, WorldWork& work);
+
+// Whether forces change anything at all; if not, there are no increments to find.
+template <int D>
+bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces);
+
+// Increments, all zero if there is no force.
+template <int D>
+void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
+                            const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                            WorldWork& work);
+
+// Moves the island by `h` of the step's `whole` seconds under forces, joints and those pairs that
+// are pressed, in as many sub-steps as the config gives this part of the step. (sub_steps.cpp)
+template <int D>
+void move_island(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
+                 WorldWork& work);
+
+// Moves the island by a whole step: from impact to impact, and on to the end. At most `budget`
+// impacts are located; it shrinks by those that were. (impact.cpp)
+template <int D>
+void advance_island(Island<D>& island, const WorldConfig<D>& config, double h, int& budget,
+                    WorldWork& work);
+
+// The record of a pair, which holds impulses already, gets a new manifold: impulses stay with their
+// features, and those of points that are gone go to the first one.
+template <int D>
+void renew_record(Contact<D>& record, const Manifold<D>& manifold);
+
+}  // namespace lantern

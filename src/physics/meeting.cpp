@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/free_rotation.hpp"
+#include "physics/impact.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr int kMostAdvances = 200;
+// A bounce shorter than this part of the step is none. So a ball that bounces lower and lower comes
+// to rest after finitely many impacts.
+constexpr double kShortestBounce = 1.0 / 32;
+
+template <int D>
+struct Look {
+  double gap = 0;
+  double closing = 0;  // the fastest of the points that touch, by the points' own velocities
+  double bound = 0;    // the surfaces cannot close faster, whatever turns
+};
+
+template <int D>
+class Approach {
+ public:
+  Approach(const Course<D>& a, const Course<D>& b, double within, double reach,
+           std::uint64_t& counted)
+      : a_(a), b_(b), within_(within), reach_(reach), counted_(counted) {
+    turn_a_ = turning(a);
+    turn_b_ = turning(b);
+    const double spin = spin_of(a) + spin_of(b);
+    bend_ = 2 * glm::length(b.bend - a.bend) + spin * (turn_a_ + turn_b_);
+    slow_ = std::max(2 * glm::length(b.bend - a.bend) * within_ * kShortestBounce,
+                     1e-12 * (glm::length(a.velocity) + glm::length(b.velocity)));
+    size_ = glm::length(a.body->position) + glm::length(b.body->position);
+    for (const Course<D>* course : {&a, &b})
+      if (const double t = thickness<D>(course->body->shape); t < kEndless) size_ += t;
+  }
+
+  std::optional<Meeting<D>> find() const {
+    double t = 0;
+    for (int i = 0; i < kMostAdvances; ++i) {
+      const auto seen = look(t);
+      if (!seen) return std::nullopt;
+      double next = t;
+      if (seen->gap <= size_ * 1e-15) {
+        if (seen->closing > slow_) return Meeting<D>{t, false};
+        if (seen->closing > -slow_) {
+          if (bend_ == 0) return std::nullopt;  // they glide along each other
+          return Meeting<D>{t, true};
+        }
+        // They part, and cannot be back before this.
+        if (bend_ == 0) return std::nullopt;
+        next = t + (turn_a_ + turn_b_ > 0 ? 1 : 2) * -seen->closing / bend_;
+      } else {
+        const double root = std::sqrt(seen->bound * seen->bound + 2 * bend_ * seen->gap);
+        if (!(seen->bound + root > 0)) return std::nullopt;
+        next = t + 2 * seen->gap / (seen->bound + root);
+      }
+      if (!(next < within_)) return std::nullopt;
+      // No nearer in numbers, or so slowly that it is as good as there.
+      if (next == t || (i > kMostAdvances / 2 && seen->gap < size_ * 1e-9))
+        return seen->closing > slow_ ? std::optional(Meeting<D>{t, false})
+               : seen->closing > -slow_ ? std::optional(Meeting<D>{t, true})
+                                        : std::nullopt;
+      t = next;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  double turning(const Course<D>& course) const {
+    return spin_of(course) * turning_reach<D>(course.body->shape);
+  }
+  double spin_of(const Course<D>& course) const {
+    if (turning_reach<D>(course.body->shape) == 0 || !course.body->moves()) return 0;
+    const Spin<D> spin = angular_velocity(*course.body);
+    return std::sqrt(dot(spin, spin));
+  }
+  Body<D> placed_at(const Course<D>& course, double t) const {
+    Body<D> body = *course.body;
+    body.position += t * (course.velocity + t * course.bend);
+    body.velocity = course.velocity + 2 * t * course.bend;
+    body.orientation = freely_turned(body, t);
+    return body;
+  }
+
+  std::optional<Look<D>> look(double t) const {
+    const Body<D> a = placed_at(a_, t), b = placed_at(b_, t);
+    ++counted_;
+    const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
+                                  Placed<D>{b.shape, b.position, b.orientation}, reach_);
+    if (!manifold) return std::nullopt;
+    Look<D> seen;
+    seen.gap = manifold->room[0].separation;
+    for (const ManifoldPoint<D>& p : manifold->points()) seen.gap = std::min(seen.gap, p.separation);
+    seen.bound = -glm::dot(b.velocity - a.velocity, manifold->normal) + turn_a_ + turn_b_;
+    seen.closing = -seen.bound - 1;
+    bool first = true;
+    for (const ManifoldPoint<D>& p : manifold->points()) {
+      if (p.separation > seen.gap + size_ * 1e-9) continue;
+      const Vec<D> va = turn_a_ > 0 ? velocity_at(a, p.position - a.position) : a.velocity;
+      const Vec<D> vb = turn_b_ > 0 ? velocity_at(b, p.position - b.position) : b.velocity;
+      const double closing = -glm::dot(vb - va, manifold->normal);
+      if (first || closing > seen.closing) seen.closing = closing;
+      first = false;
+    }
+    return seen;
+  }
+
+  const Course<D>& a_;
+  const Course<D>& b_;
+  double within_, reach_;
+  std::uint64_t& counted_;
+  double turn_a_ = 0, turn_b_ = 0;  // how fast surfaces can move by turning
+  double bend_ = 0;                 // the gap's second derivative is at least minus this
+  double slow_ = 0;
+  double size_ = 0;
+};
+
+}  // namespace
+
+template <int D>
+std::optional<Meeting<D>> meeting(const Course<D>& a, const Course<D>& b, double within,
+                                  double reach, std::uint64_t& counted) {
+  return Approach<D>(a, b, within, reach, counted).find();
+}
+
+template <int D>
+double turning_reach(const Shape<D>& shape) {
+  if (const auto* box = std::get_if<OrientedBox<D>>(&shape)) return glm::length(box->half_size);
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->half_length;
+  return 0;
+}
+
+template <int D>
+double thickness(const Shape<D>& shape) {
+  const auto least = [](const Vec<D>& half) {
+    double value = half[0];
+    for (int i = 1; i < D; ++i) value = std::min(value, half[i]);
+    return value;
+  };
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
+  if (const auto* box = std::get_if<AxisBox<D>>(&shape)) return least(box->half_size);
+  if (const auto* box = std::get_if<OrientedBox<D>>(&shape)) return least(box->half_size);
+  return kEndless;
+}
+
+#define LANTERN_INSTANTIATE(D)                                                                \
+  template std::optional<Meeting<D>> meeting(const Course<D>&, const Course<D>&, double,      \
+                                             double, std::uint64_t&);                         \
+  template double turning_reach<D>(const Shape<D>&);                                          \
+  template double thickness<D>(const Shape<D>&);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern

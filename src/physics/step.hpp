@@ -1,0 +1,61 @@
+// One step of the world while it is made. It works on copies, so that a step that is refused half
+// way leaves the world as it was.
+#pragma once
+
+#include "physics/impact.hpp"
+#include "physics/island.hpp"
+#include "physics/islands.hpp"
+#include "physics/world.hpp"
+
+namespace lantern {
+
+template <int D>
+struct World<D>::Step {
+  World& world;
+  double h;
+  std::vector<double> reach;  // of each body: how far its surface may come; at least as given
+  std::vector<Body<D>> moved = world.bodies_;
+  std::vector<double> rested = world.rested_;
+  std::vector<JointMemory> joint_memories = world.joint_memories_;
+  Forces<D> forces = world.forces_;
+  std::vector<TimedPush> pushes = {};
+  std::vector<Increment<D>> increments = {};  // over the whole step, if nothing touches
+  std::vector<Pair> pairs = {};               // of the broad phase
+  std::vector<IslandPair<D>> near = {};  // pairs that may touch; places are among all bodies
+  std::vector<std::uint32_t> root = {};  // of each body's island; static ones have their own
+  std::vector<Touch> touching = {};
+  std::vector<Contact<D>> contacts = {};
+  std::vector<ContactEvent> events = {};
+
+  void find_forces();
+  void find_near_pairs();
+  void make_islands();
+  void move();
+  void require_no_overflow() const;
+  bool stayed_within_reach();
+  void fall_asleep();
+  void tell();
+  void commit();
+
+ private:
+  bool collides() const { return world.config_.contacts != ContactMethod::none; }
+  std::uint32_t place_of(BodyId id) const {
+    return static_cast<std::uint32_t>(world.index_of(id));
+  }
+  bool stirs(const Body<D>& body) const;
+  bool is_slow(std::size_t place) const;
+  const Touch* remembered(BodyId a, BodyId b) const;
+
+  void find_reach();
+  bool look_for_near_pairs();
+  std::optional<IslandPair<D>> nearing(const Pair& pair) const;
+  bool wake_what_is_touched();
+  void wake(std::vector<std::uint32_t> places);
+
+  Island<D> gather(const std::vector<std::uint32_t>& members,
+                   const std::vector<std::size_t>& near_pairs,
+                   const std::vector<std::size_t>& joints) const;
+  void bring_back(Island<D>& island);
+};
+
+}  // namespace lantern

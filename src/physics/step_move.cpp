@@ -1,0 +1,267 @@
+// The second half of a step: bodies move, some fall asleep, and the world is told.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "physics/step.hpp"
+
+namespace lantern {
+
+// What hangs together by contacts or joints is moved island by island, all others fly.
+template <int D>
+void World<D>::Step::move() {
+  std::vector<std::vector<std::size_t>> pairs_of(moved.size()), joints_of(moved.size());
+  const auto owner = [&](std::uint32_t a, std::uint32_t b) {
+    return root[moved[a].kind == BodyKind::dynamic_body ? a : b];
+  };
+  for (std::size_t i = 0; i < near.size(); ++i)
+    pairs_of[owner(near[i].rows.a, near[i].rows.b)].push_back(i);
+  for (std::size_t i = 0; i < world.joints_.size(); ++i) {
+    const Joint<D>& joint = world.joints_[i].second;
+    joints_of[owner(place_of(joint.a), place_of(joint.b))].push_back(i);
+  }
+  std::vector<std::vector<std::uint32_t>> members(moved.size());
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (moved[i].kind == BodyKind::dynamic_body)
+      members[root[i]].push_back(static_cast<std::uint32_t>(i));
+
+  int budget = world.config_.impact_budget;
+  std::vector<std::size_t> flying;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const bool bound = !pairs_of[root[i]].empty() || !joints_of[root[i]].empty();
+    const bool dynamic = moved[i].kind == BodyKind::dynamic_body;
+    if (!dynamic || !bound || moved[i].asleep) flying.push_back(i);
+    if (!dynamic || !bound || moved[i].asleep || root[i] != i) continue;
+    Island<D> island = gather(members[i], pairs_of[i], joints_of[i]);
+    advance_island(island, world.config_, h, budget, world.work_);
+    bring_back(island);
+  }
+  for (const std::size_t i : flying) fly(moved[i], increments[i], h, world.work_);
+}
+
+template <int D>
+Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
+                                 const std::vector<std::size_t>& near_pairs,
+                                 const std::vector<std::size_t>& joints) const {
+  Island<D> island;
+  island.places = members;
+  const auto belongs = [&](BodyId id) {
+    const std::uint32_t place = place_of(id);
+    return moved[place].kind == BodyKind::dynamic_body && root[place] == root[members.front()];
+  };
+  const auto add = [&](BodyId id) { island.places.push_back(place_of(id)); };
+  for (const std::size_t i : near_pairs) {
+    island.places.push_back(near[i].rows.a);
+    island.places.push_back(near[i].rows.b);
+  }
+  for (const std::size_t i : joints) {
+    add(world.joints_[i].second.a);
+    add(world.joints_[i].second.b);
+  }
+  island.forces.gravity = forces.gravity;
+  for (const Spring<D>& spring : forces.springs) {
+    if (!belongs(spring.a) && !belongs(spring.b)) continue;
+    island.forces.springs.push_back(spring);
+    add(spring.a);
+    add(spring.b);
+  }
+  for (const Push<D>& push : forces.pushes)
+    if (belongs(push.body)) island.forces.pushes.push_back(push);
+  std::sort(island.places.begin(), island.places.end());
+  island.places.erase(std::unique(island.places.begin(), island.places.end()),
+                      island.places.end());
+  for (const std::uint32_t place : island.places) island.bodies.push_back(moved[place]);
+
+  const auto local = [&](std::uint32_t place) {
+    const auto found = std::lower_bound(island.places.begin(), island.places.end(), place);
+    return static_cast<std::uint32_t>(found - island.places.begin());
+  };
+  for (const std::size_t i : near_pairs) {
+    island.pairs.push_back(near[i]);
+    ContactRows<D>& rows = island.pairs.back().rows;
+    rows.a = local(rows.a);
+    rows.b = local(rows.b);
+  }
+  for (const std::size_t i : joints) {
+    JointRows<D> rows;
+    rows.joint = world.joints_[i].second;
+    rows.place = static_cast<std::uint32_t>(i);
+    rows.a = local(place_of(rows.joint.a));
+    rows.b = local(place_of(rows.joint.b));
+    const JointMemory& memory = world.joint_memories_[i];
+    if (memory.seconds > 0) rows.impulse = memory.impulse / memory.seconds;  // of one second
+    island.joints.push_back(rows);
+  }
+  island.joint_seconds = 1;
+  return island;
+}
+
+template <int D>
+void World<D>::Step::bring_back(Island<D>& island) {
+  for (std::size_t i = 0; i < island.places.size(); ++i)
+    if (island.bodies[i].kind == BodyKind::dynamic_body)
+      moved[island.places[i]] = std::move(island.bodies[i]);
+  for (const JointRows<D>& rows : island.joints)
+    joint_memories[rows.place] = {rows.impulse, island.joint_seconds};
+  for (const IslandPair<D>& pair : island.pairs) {
+    if (!pair.touched) continue;
+    Touch touch;
+    touch.record = pair.record;
+    touch.memory = pair.memory;
+    touch.seconds = pair.remembered ? pair.seconds : 0;
+    touching.push_back(touch);
+  }
+}
+
+namespace {
+
+bool all_finite(double value) { return std::isfinite(value); }
+template <int D>
+bool all_finite(const glm::vec<D, double>& value) {
+  for (int i = 0; i < D; ++i)
+    if (!std::isfinite(value[i])) return false;
+  return true;
+}
+
+}  // namespace
+
+template <int D>
+void World<D>::Step::require_no_overflow() const {
+  const auto refuse = [&](const Body<D>& body, const char* field) {
+    throw Refused(
+        fmt::format("body '{}': {} overflows in step {}", body.name, field, world.work_.steps + 1));
+  };
+  for (const Body<D>& body : moved) {
+    if (!all_finite(body.velocity)) refuse(body, "velocity");
+    if (!all_finite(body.angular_momentum)) refuse(body, "angular_momentum");
+    if (!is_valid(body.box())) refuse(body, "position");
+  }
+}
+
+// Whether all bodies were looked for where they have been; if not, `reach` has grown.
+template <int D>
+bool World<D>::Step::stayed_within_reach() {
+  if (!collides() || !world.config_.continuous) return true;
+  bool stayed = true;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (moved[i].kind != BodyKind::dynamic_body || moved[i].asleep) continue;
+    const double way = glm::length(moved[i].position - world.bodies_[i].position);
+    if (way <= reach[i] * (1 + 1e-9)) continue;
+    reach[i] = 2 * std::max(way, glm::length(moved[i].velocity) * h);
+    stayed = false;
+  }
+  return stayed;
+}
+
+// Slow, and slow for another second if it is accelerated as in this step: a pendulum at its turning
+// point is not at rest.
+template <int D>
+bool World<D>::Step::is_slow(std::size_t place) const {
+  const Body<D>& body = moved[place];
+  const Body<D>& before = world.bodies_[place];
+  const double gained = glm::length(body.velocity - before.velocity) / h;
+  const Spin<D> spin = angular_velocity(body), spin_before = angular_velocity(before);
+  const Spin<D> turned_faster = spin - spin_before;
+  const double spun = std::sqrt(dot(turned_faster, turned_faster)) / h;
+  return glm::length(body.velocity) + gained <= world.config_.sleep_speed &&
+         std::sqrt(dot(spin, spin)) + spun <= world.config_.sleep_spin;
+}
+
+// An island sleeps when all of it has been slow for a while and something holds it; a body that
+// nothing holds sleeps only if it does not move at all.
+template <int D>
+void World<D>::Step::fall_asleep() {
+  world.work_.asleep = 0;
+  if (world.config_.may_sleep) {
+    std::vector<std::uint8_t> restless(moved.size()), held(moved.size());
+    for (const Touch& touch : touching)
+      for (const BodyId id : {touch.record.a, touch.record.b}) {
+        held[root[place_of(id)]] = true;
+        const BodyId other = id == touch.record.a ? touch.record.b : touch.record.a;
+        if (moved[place_of(id)].kind != BodyKind::dynamic_body && stirs(moved[place_of(id)]))
+          restless[root[place_of(other)]] = true;
+      }
+    for (const auto& entry : world.joints_)
+      for (const BodyId id : {entry.second.a, entry.second.b}) held[root[place_of(id)]] = true;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const Body<D>& body = moved[i];
+      if (body.kind != BodyKind::dynamic_body || body.asleep) continue;
+      const bool still = body.velocity == Vec<D>(0.0) && body.angular_momentum == Spin<D>(0.0) &&
+                         increments[i].kick == Vec<D>(0.0);
+      rested[i] = (held[root[i]] ? is_slow(i) : still) ? rested[i] + h : 0;
+      if (!(rested[i] >= world.config_.sleep_after)) restless[root[i]] = true;
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      Body<D>& body = moved[i];
+      if (body.kind != BodyKind::dynamic_body || body.asleep || restless[root[i]]) continue;
+      body.asleep = true;
+      body.velocity = Vec<D>(0.0);
+      body.angular_momentum = Spin<D>(0.0);
+    }
+  }
+  for (const Body<D>& body : moved) world.work_.asleep += body.asleep;
+}
+
+// Contacts in order of ids, with those of bodies that slept through, and what is new about them.
+template <int D>
+void World<D>::Step::tell() {
+  const auto rests = [&](BodyId id) { return !stirs(world.bodies_[place_of(id)]) &&
+                                             !stirs(moved[place_of(id)]); };
+  for (const Touch& touch : world.touching_)
+    if (rests(touch.record.a) && rests(touch.record.b)) touching.push_back(touch);
+  const auto pair_of = [](const Contact<D>& c) { return Pair{c.a, c.b}; };
+  const auto less = [&](const Touch& x, const Touch& y) {
+    return pair_of(x.record) < pair_of(y.record);
+  };
+  const auto same = [&](const Touch& x, const Touch& y) {
+    return pair_of(x.record) == pair_of(y.record);
+  };
+  std::stable_sort(touching.begin(), touching.end(), less);
+  touching.erase(std::unique(touching.begin(), touching.end(), same), touching.end());
+  for (const Touch& touch : touching) contacts.push_back(touch.record);
+
+  const std::vector<Contact<D>>& old = world.contacts_;
+  std::size_t i = 0, j = 0;
+  while (i < old.size() || j < contacts.size()) {
+    const bool ends = j == contacts.size() ||
+                      (i < old.size() && pair_of(old[i]) < pair_of(contacts[j]));
+    const bool stays = !ends && i < old.size() && pair_of(old[i]) == pair_of(contacts[j]);
+    const Pair pair = pair_of(ends ? old[i] : contacts[j]);
+    const auto kind = ends    ? ContactEvent::Kind::end
+                      : stays ? ContactEvent::Kind::stay
+                              : ContactEvent::Kind::begin;
+    events.push_back({kind, pair.a, pair.b});
+    if (ends || stays) ++i;
+    if (!ends) ++j;
+  }
+}
+
+template <int D>
+void World<D>::Step::commit() {
+  world.bodies_ = std::move(moved);
+  world.rested_ = std::move(rested);
+  world.joint_memories_ = std::move(joint_memories);
+  world.pushes_ = std::move(pushes);
+  world.forces_.pushes = std::move(forces.pushes);
+  world.touching_ = std::move(touching);
+  world.contacts_ = std::move(contacts);
+  world.events_ = std::move(events);
+  world.pairs_ = std::move(pairs);
+  world.time_ += h;
+  ++world.work_.steps;
+}
+
+#define LANTERN_INSTANTIATE(D)                                   \
+  template void World<D>::Step::move();                          \
+  template void World<D>::Step::require_no_overflow() const;     \
+  template bool World<D>::Step::stayed_within_reach();           \
+  template void World<D>::Step::fall_asleep();                   \
+  template void World<D>::Step::tell();                          \
+  template void World<D>::Step::commit();
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern

@@ -1,0 +1,221 @@
+// The first half of a step: what may touch, what wakes, what hangs together.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "physics/step.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kSlack = 1e-3;     // of a body's thickness: nearer is looked at, too
+constexpr double kFast = 0.5;       // of the thinner body's thickness in a step: may pass through
+constexpr double kPi = 3.141592653589793;
+
+template <int D>
+double slack(const Body<D>& body) {
+  const double t = thickness<D>(body.shape);
+  return t < kEndless ? t * kSlack : 0;
+}
+
+// How far a surface moves because its body turns.
+template <int D>
+double turning_way(const Body<D>& body, double h) {
+  const double radius = turning_reach<D>(body.shape);
+  if (radius == 0 || !body.moves() || body.asleep) return 0;
+  const Spin<D> spin = angular_velocity(body);
+  return radius * std::min(std::sqrt(dot(spin, spin)) * h, kPi);
+}
+
+template <int D>
+Vec<D> velocity_of(const Body<D>& body) {
+  return body.moves() && !body.asleep ? body.velocity : Vec<D>(0.0);
+}
+
+}  // namespace
+
+// Moves now: what may wake others.
+template <int D>
+bool World<D>::Step::stirs(const Body<D>& body) const {
+  if (body.kind == BodyKind::dynamic_body) return !body.asleep;
+  return body.kind == BodyKind::kinematic_body &&
+         (body.velocity != Vec<D>(0.0) || body.kinematic_spin != Spin<D>(0.0));
+}
+
+template <int D>
+void World<D>::Step::find_forces() {
+  std::vector<std::uint32_t> released;
+  for (const TimedPush& push : world.pushes_) {
+    if (push.until && *push.until <= world.time_ + 1e-9 * h)
+      released.push_back(place_of(push.push.body));
+    else
+      pushes.push_back(push);
+  }
+  forces.pushes.clear();
+  for (const TimedPush& push : pushes) forces.pushes.push_back(push.push);
+  wake(std::move(released));
+  find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
+  find_reach();
+}
+
+template <int D>
+void World<D>::Step::find_reach() {
+  reach.resize(moved.size());
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Body<D>& body = moved[i];
+    double way = slack(body) + turning_way(body, h);
+    way += glm::length(velocity_of(body)) * h + glm::length(increments[i].kick) * h +
+           glm::length(increments[i].drift);
+    reach[i] = std::max(reach[i], way);
+    const Box<D> box = body.box();
+    if (!is_valid(Box<D>{box.lo - Vec<D>(reach[i]), box.hi + Vec<D>(reach[i])}))
+      throw Refused(fmt::format("body '{}': position overflows in step {}", body.name,
+                                world.work_.steps + 1));
+  }
+}
+
+template <int D>
+void World<D>::Step::find_near_pairs() {
+  if (!collides()) return;
+  const auto awake = [&](const Body<D>& body) { return stirs(body); };
+  while (std::any_of(moved.begin(), moved.end(), awake))
+    if (!look_for_near_pairs()) break;
+}
+
+// Broad phase and narrow phase. Returns whether bodies woke, so that it must be done again.
+template <int D>
+bool World<D>::Step::look_for_near_pairs() {
+  std::vector<Proxy<D>> proxies;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Box<D> box = moved[i].box();
+    proxies.push_back({moved[i].id, {box.lo - Vec<D>(reach[i]), box.hi + Vec<D>(reach[i])},
+                       moved[i].kind == BodyKind::static_body, stirs(moved[i])});
+  }
+  if (!world.broad_phase_) world.broad_phase_.emplace(world.config_.broad_phase);
+  world.broad_phase_->update(proxies);
+  pairs = world.broad_phase_->pairs();
+  world.work_.pair_tests += world.broad_phase_->counters().pair_tests;
+  world.work_.candidate_pairs += pairs.size();
+  near.clear();
+  for (const Pair& pair : pairs)
+    if (auto found = nearing(pair)) near.push_back(std::move(*found));
+  return wake_what_is_touched();
+}
+
+// The pair, if the two may come to touch in this step.
+template <int D>
+std::optional<IslandPair<D>> World<D>::Step::nearing(const Pair& pair) const {
+  IslandPair<D> found;
+  found.rows.a = place_of(pair.a);
+  found.rows.b = place_of(pair.b);
+  const Body<D>& a = moved[found.rows.a];
+  const Body<D>& b = moved[found.rows.b];
+  if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
+  if (world.joined(a.id, b.id)) return std::nullopt;
+  const double way = glm::length(velocity_of(b) - velocity_of(a)) * h;
+  // What an earlier try has looked for beyond the bodies' own ways is looked for here, too.
+  const double own_a = glm::length(velocity_of(a)) * h, own_b = glm::length(velocity_of(b)) * h;
+  found.reach = way + std::max(0.0, reach[found.rows.a] - own_a) +
+                std::max(0.0, reach[found.rows.b] - own_b);
+  ++world.work_.narrow_tests;
+  const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
+                                Placed<D>{b.shape, b.position, b.orientation}, found.reach);
+  if (!manifold) return std::nullopt;
+  found.rows.restitution = std::max(a.material.restitution, b.material.restitution);
+  found.rows.friction = std::sqrt(a.material.friction * b.material.friction);
+  const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
+  found.located = world.config_.continuous && (found.rows.restitution > 0 || way > kFast * thin);
+  found.pressed = !found.located;
+  found.record.a = found.memory.a = pair.a;
+  found.record.b = found.memory.b = pair.b;
+  if (const Touch* touch = remembered(pair.a, pair.b)) {
+    found.remembered = touch->seconds > 0;
+    found.memory = touch->memory;
+    found.seconds = touch->seconds;
+  }
+  return found;
+}
+
+template <int D>
+const typename World<D>::Touch* World<D>::Step::remembered(BodyId a, BodyId b) const {
+  const auto touch = std::lower_bound(
+      world.touching_.begin(), world.touching_.end(), Pair{a, b},
+      [](const Touch& t, const Pair& pair) { return Pair{t.record.a, t.record.b} < pair; });
+  if (touch == world.touching_.end() || touch->record.a != a || touch->record.b != b)
+    return nullptr;
+  return &*touch;
+}
+
+template <int D>
+bool World<D>::Step::wake_what_is_touched() {
+  std::vector<std::uint32_t> woken;
+  for (const IslandPair<D>& pair : near) {
+    if (moved[pair.rows.a].asleep) woken.push_back(pair.rows.a);
+    if (moved[pair.rows.b].asleep) woken.push_back(pair.rows.b);
+  }
+  const auto tied = [&](BodyId first, BodyId second) {
+    const std::uint32_t a = place_of(first), b = place_of(second);
+    if (moved[a].asleep && stirs(moved[b])) woken.push_back(a);
+    if (moved[b].asleep && stirs(moved[a])) woken.push_back(b);
+  };
+  for (const auto& entry : world.joints_) tied(entry.second.a, entry.second.b);
+  for (const Spring<D>& spring : forces.springs) tied(spring.a, spring.b);
+  if (woken.empty()) return false;
+  wake(std::move(woken));
+  find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
+  find_reach();
+  return true;
+}
+
+// These, and all dynamic bodies that hang together with them.
+template <int D>
+void World<D>::Step::wake(std::vector<std::uint32_t> places) {
+  while (!places.empty()) {
+    Body<D>& body = moved[places.back()];
+    places.pop_back();
+    if (!body.asleep) continue;
+    body.asleep = false;
+    rested[static_cast<std::size_t>(&body - moved.data())] = 0;
+    const auto pass_on = [&](BodyId a, BodyId b) {
+      if (a == body.id) places.push_back(place_of(b));
+      if (b == body.id) places.push_back(place_of(a));
+    };
+    for (const Touch& touch : world.touching_) pass_on(touch.record.a, touch.record.b);
+    for (const auto& entry : world.joints_) pass_on(entry.second.a, entry.second.b);
+    for (const Spring<D>& spring : forces.springs) pass_on(spring.a, spring.b);
+  }
+}
+
+// Static and kinematic bodies do not join what touches them.
+template <int D>
+void World<D>::Step::make_islands() {
+  DisjointSets sets(moved.size());
+  const auto unite = [&](std::uint32_t a, std::uint32_t b) {
+    if (moved[a].kind == BodyKind::dynamic_body && moved[b].kind == BodyKind::dynamic_body)
+      sets.unite(a, b);
+  };
+  for (const IslandPair<D>& pair : near) unite(pair.rows.a, pair.rows.b);
+  for (const auto& entry : world.joints_)
+    unite(place_of(entry.second.a), place_of(entry.second.b));
+  for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
+  root.clear();
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    root.push_back(sets.root(static_cast<std::uint32_t>(i)));
+  world.work_.islands = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    world.work_.islands +=
+        root[i] == i && moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
+}
+
+#define LANTERN_INSTANTIATE(D)                                                                   \
+  template void World<D>::Step::find_forces();                                                   \
+  template void World<D>::Step::find_near_pairs();                                               \
+  template void World<D>::Step::make_islands();                                                  \
+  template bool World<D>::Step::stirs(const Body<D>&) const;
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern

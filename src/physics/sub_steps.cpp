@@ -1,0 +1,328 @@
+// A step cut into sub-steps. Each one is a whole small step, with few sweeps over the constraints,
+// whose impulses begin where the sub-step before has left them. For the same work this mends far
+// more than many sweeps in one large step (Macklin et al., "Small Steps in Physics Simulation",
+// 2019; Catto, "Solver2D", 2024: soft step).
+//
+//   v += kick            forces
+//   v += J p / m         impulses: begin with the old ones, then sweep until they hold
+//   u  = v + drift / h   mean velocity, in which penetration is pushed out
+//   x += h u             v knows nothing of that: no energy comes from it
+//
+// The integrator's drift says how far the mean velocity of a sub-step is from the new one: for
+// velocity Verlet -h kick / 2. Impulses of constraints act through the sub-step just as forces do,
+// so they lag by the same share; a block at rest then has no drift at all, and friction stops a
+// block where the closed form says.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/direct_solve.hpp"
+#include "physics/free_rotation.hpp"
+#include "physics/island.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr int kMostSweeps = 24;  // a sub-step; of the soft method
+constexpr int kGuessingSweeps = 2;  // before all rows are solved at once
+constexpr double kSweepTolerance = 1e-9;  // of the largest impulse
+constexpr double kBounceSteps = 2;       // slower than gravity makes in so many sub-steps: no bounce
+
+template <int D>
+bool may_turn(const Body<D>& body) {
+  return !std::holds_alternative<AxisBox<D>>(body.shape) &&
+         !std::holds_alternative<HalfSpace<D>>(body.shape);
+}
+
+// Which part of the new velocity's change the mean velocity lags behind: 0 for semi-implicit
+// Euler, 1/2 for velocity Verlet.
+template <int D>
+double lag_of(const Increment<D>& increment, double h) {
+  const double kick = glm::dot(increment.kick, increment.kick);
+  if (kick == 0) return 0;
+  return std::clamp(-glm::dot(increment.drift, increment.kick) / (h * kick), 0.0, 1.0);
+}
+
+template <int D>
+void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
+  for (IslandPair<D>& pair : island.pairs) {
+    ContactRows<D>& rows = pair.rows;
+    rows.count = 0;
+    if (!pair.pressed) continue;
+    const Body<D>& a = island.bodies[rows.a];
+    const Body<D>& b = island.bodies[rows.b];
+    ++work.narrow_tests;
+    const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
+                                  Placed<D>{b.shape, b.position, b.orientation}, pair.reach);
+    if (!manifold) continue;
+    const double scale = pair.seconds > 0 ? scale_to / pair.seconds : 0;
+    set_points(rows, *manifold, a, b, pair.remembered ? &pair.memory : nullptr, scale);
+    renew_record(pair.record, *manifold);
+    work.contact_points += static_cast<std::uint64_t>(rows.count);
+  }
+}
+
+template <int D>
+struct SubStep {
+  Island<D>& island;
+  const WorldConfig<D>& config;
+  double h;
+  WorldWork& work;
+  DirectSolve<D>& direct;
+  bool settled = false;  // by the direct solve
+
+  bool impulse_method() const { return config.contacts == ContactMethod::impulse; }
+  int most_sweeps() const { return impulse_method() ? config.iterations : kMostSweeps; }
+
+  template <class F>
+  void each_pair(F&& f) {
+    for (IslandPair<D>& pair : island.pairs)
+      if (pair.rows.count > 0)
+        f(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b]);
+  }
+  template <class F>
+  void each_joint(F&& f) {
+    for (JointRows<D>& rows : island.joints)
+      f(rows, island.movers[rows.a], island.movers[rows.b]);
+  }
+
+  void refresh_rows() {
+    island.movers.clear();
+    for (const Body<D>& body : island.bodies) island.movers.push_back(mover_of(body));
+    const auto& kicks = island.increments;
+    each_pair([&](ContactRows<D>& rows, Mover<D>& a, Mover<D>& b) {
+      const double kick = glm::length(kicks[rows.b].kick - kicks[rows.a].kick);
+      refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b, kBounceSteps * kick);
+    });
+    each_joint([&](JointRows<D>& rows, Mover<D>& a, Mover<D>& b) {
+      refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b);
+    });
+  }
+
+  void apply_forces() {
+    for (std::size_t i = 0; i < island.movers.size(); ++i) {
+      Mover<D>& mover = island.movers[i];
+      mover.velocity += island.increments[i].kick;
+      mover.spin += mover.inverse_inertia * island.increments[i].twist;
+    }
+    island.kicked.clear();
+    for (const Mover<D>& mover : island.movers) island.kicked.push_back(mover.velocity);
+  }
+
+  void count(const Sweep& sweep) {
+    work.constraint_rows += sweep.rows;
+    work.friction_rows += sweep.friction_rows;
+  }
+
+  void solve_velocities() {
+    each_joint([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
+    each_pair([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
+    settled = false;
+    for (int i = 0; i < most_sweeps(); ++i) {
+      Sweep sweep;
+      each_joint([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, sweep); });
+      each_pair([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, h, sweep); });
+      count(sweep);
+      if (sweep.change <= kSweepTolerance * sweep.largest) break;
+      if (impulse_method() || settled || i + 1 < kGuessingSweeps) continue;
+      Sweep all;
+      settled = direct.settle_velocities(island, h, all);
+      count(all);
+    }
+  }
+
+  void solve_carriage() {
+    for (std::size_t i = 0; i < island.movers.size(); ++i) {
+      Mover<D>& mover = island.movers[i];
+      const Increment<D>& increment = island.increments[i];
+      const Vec<D> pressed = mover.velocity - island.kicked[i];
+      mover.mean_velocity =
+          mover.velocity + increment.drift / h - pressed * lag_of(increment, h);
+      mover.mean_spin = mover.spin;
+    }
+    const auto& increments = island.increments;
+    each_pair([&](auto& rows, auto& a, auto& b) {
+      begin_carrying(rows, a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
+    });
+    Sweep all;
+    if (settled && direct.settle_carriage(island, h, all)) {
+      count(all);
+      return;
+    }
+    double largest = 0;
+    for (int i = 0; i < most_sweeps(); ++i) {
+      Sweep sweep;
+      each_joint([&](auto& rows, auto& a, auto& b) { sweep_carriage(rows, a, b, h, sweep); });
+      each_pair([&](auto& rows, auto& a, auto& b) { sweep_carriage(rows, a, b, h, sweep); });
+      count(sweep);
+      largest = std::max(largest, sweep.change);
+      if (sweep.change <= 1e-3 * largest) break;
+    }
+  }
+
+  void move_bodies() {
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+      Body<D>& body = island.bodies[i];
+      const Mover<D>& mover = island.movers[i];
+      const Increment<D>& increment = island.increments[i];
+      if (body.kind != BodyKind::dynamic_body) {
+        fly(body, increment, h, work);
+        continue;
+      }
+      body.velocity = mover.velocity;
+      body.angular_momentum += increment.twist + mover.twist;
+      body.position += mover.mean_velocity * h;
+      if (body.inverse_inertia == Spin<D>(0.0)) continue;
+      const Spin<D> turning = body.angular_momentum + increment.lag;
+      const Spin<D> pushed = mover.mean_spin - mover.spin;
+      if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
+      body.orientation = freely_turned(body, turning, h);
+      if (pushed != Spin<D>(0.0)) body.orientation = turned(body.orientation, pushed * h);
+      ++work.rotations_integrated;
+    }
+  }
+
+  void record() {
+    for (IslandPair<D>& pair : island.pairs) {
+      for (int i = 0; i < pair.rows.count; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const ContactPoint<D>& p = pair.rows.room[at];
+        pair.record.normal_impulses[at] += p.pn;
+        pair.record.friction_impulses[at] += p.pt;
+        if (p.pn > 0 || p.separation <= 0) pair.touched = true;
+      }
+    }
+  }
+
+  void run() {
+    find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
+    refresh_rows();
+    apply_forces();
+    solve_velocities();
+    solve_carriage();
+    move_bodies();
+    record();
+  }
+};
+
+// What the next sub-step, perhaps of another step, begins with.
+template <int D>
+void remember(Island<D>& island, double h) {
+  for (IslandPair<D>& pair : island.pairs) {
+    pair.remembered = pair.rows.count > 0;
+    if (!pair.remembered) continue;
+    pair.seconds = h;
+    pair.memory.manifold = pair.record.manifold;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(pair.rows.count); ++i) {
+      pair.memory.normal_impulses[i] = pair.rows.room[i].pn;
+      pair.memory.friction_impulses[i] = pair.rows.room[i].pt;
+    }
+  }
+  island.joint_seconds = h;
+}
+
+}  // namespace
+
+template <int D>
+Mover<D> mover_of(const Body<D>& body) {
+  Mover<D> mover;
+  mover.velocity = body.moves() ? body.velocity : Vec<D>(0.0);
+  if (body.asleep) mover.velocity = Vec<D>(0.0);
+  if (may_turn(body) && body.moves()) mover.spin = angular_velocity(body);
+  if (body.kind != BodyKind::dynamic_body || body.asleep) return mover;
+  mover.inverse_mass = body.inverse_mass;
+  if (body.inverse_inertia != Spin<D>(0.0)) mover.inverse_inertia = world_inverse_inertia(body);
+  return mover;
+}
+
+template <int D>
+void fly(Body<D>& body, const Increment<D>& increment, double h, WorldWork& work) {
+  if (!body.moves() || body.asleep) return;
+  if (increment.kick != Vec<D>(0.0)) body.velocity += increment.kick;
+  body.position += body.velocity * h;
+  if (increment.drift != Vec<D>(0.0)) body.position += increment.drift;
+  body.angular_momentum += increment.twist;
+  const Spin<D> turning = body.kind == BodyKind::kinematic_body
+                              ? body.kinematic_spin
+                              : body.angular_momentum + increment.lag;
+  if (turning == Spin<D>(0.0)) return;
+  if (body.kind == BodyKind::dynamic_body && body.inverse_inertia == Spin<D>(0.0)) return;
+  body.orientation = freely_turned(body, turning, h);
+  ++work.rotations_integrated;
+}
+
+template <int D>
+bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
+  if (forces.gravity != Vec<D>(0.0) || !forces.springs.empty() || !forces.pushes.empty())
+    return true;
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body<D>& body) {
+    return body.linear_drag != 0 || body.angular_drag != 0;
+  });
+}
+
+template <int D>
+void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
+                            const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                            WorldWork& work) {
+  if (any_force(bodies, forces))
+    find_increments(config.integrator, bodies, forces, h, out, work.force_evaluations);
+  else
+    out.assign(bodies.size(), {});
+}
+
+template <int D>
+void move_island(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
+                 WorldWork& work) {
+  const bool soft = config.contacts != ContactMethod::impulse;
+  const double share = h / whole * (soft ? config.sub_steps : 1);
+  const int count = std::max(1, static_cast<int>(std::ceil(share - 1e-9)));
+  const double sub_step = h / count;
+  look_for_contacts(island, config.warm_start ? sub_step : 0, work);
+  const bool bound = !island.joints.empty() ||
+                     std::any_of(island.pairs.begin(), island.pairs.end(),
+                                 [](const auto& pair) { return pair.rows.count > 0; });
+  if (!bound) {
+    find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
+    for (std::size_t i = 0; i < island.bodies.size(); ++i)
+      fly(island.bodies[i], island.increments[i], h, work);
+    remember(island, h);
+    return;
+  }
+  const double old = island.joint_seconds;
+  const double scale = config.warm_start && old > 0 ? sub_step / old : 0;
+  for (JointRows<D>& rows : island.joints) rows.impulse *= scale;
+  DirectSolve<D> direct;
+  for (int i = 0; i < count; ++i) SubStep<D>{island, config, sub_step, work, direct}.run();
+  remember(island, sub_step);
+}
+
+template <int D>
+void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
+  Contact<D> renewed;
+  renewed.a = record.a;
+  renewed.b = record.b;
+  renewed.manifold = manifold;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(record.manifold.count); ++i) {
+    std::size_t to = 0;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(manifold.count); ++j)
+      if (manifold.room[j].feature == record.manifold.room[i].feature) to = j;
+    renewed.normal_impulses[to] += record.normal_impulses[i];
+    renewed.friction_impulses[to] += record.friction_impulses[i];
+  }
+  record = renewed;
+}
+
+#define LANTERN_INSTANTIATE(D)                                                                   \
+  template Mover<D> mover_of(const Body<D>&);                                                    \
+  template void fly(Body<D>&, const Increment<D>&, double, WorldWork&);                          \
+  template bool any_force(std::span<const Body<D>>, const Forces<D>&);                           \
+  template void find_increments_if_any(const WorldConfig<D>&, std::span<const Body<D>>,          \
+                                       const Forces<D>&, double, std::vector<Increment<D>>&,     \
+                                       WorldWork&);                                              \
+  template void move_island(Island<D>&, const WorldConfig<D>&, double, double, WorldWork&);      \
+  template void renew_record(Contact<D>&, const Manifold<D>&);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern

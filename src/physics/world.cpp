@@ -1,0 +1,412 @@
+#include "physics/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/hash.hpp"
+#include "physics/body_check.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ContactMethod>, 3> kMethods = {
+    {{"none", ContactMethod::none},
+     {"impulse", ContactMethod::impulse},
+     {"soft", ContactMethod::soft}}};
+
+template <int D>
+WorldConfig<D> without_contacts() {
+  WorldConfig<D> config;
+  config.contacts = ContactMethod::none;
+  return config;
+}
+
+void require_count(int value, int most, const char* field) {
+  if (value < 1 || value > most)
+    throw Refused(fmt::format("world: {} is {}, must be 1 ... {}", field, value, most));
+}
+
+template <int D>
+void check_config(const WorldConfig<D>& config) {
+  require_finite<D>(config.gravity, "world", "gravity");
+  require_count(config.sub_steps, 1000, "sub_steps");
+  require_count(config.iterations, 100000, "iterations");
+  if (config.impact_budget < 0) throw Refused("world: impact_budget is negative");
+  for (const double value : {config.sleep_after, config.sleep_speed, config.sleep_spin})
+    if (!std::isfinite(value) || value < 0)
+      throw Refused("world: sleep_after, sleep_speed or sleep_spin is negative or not finite");
+}
+
+void add_to(Hash& hash, double value) { hash.add(value); }
+template <int D>
+void add_to(Hash& hash, const glm::vec<D, double>& value) {
+  for (int i = 0; i < D; ++i) hash.add(value[i]);
+}
+void add_to(Hash& hash, const Rotation<2>& r) { hash.add(r.angle); }
+void add_to(Hash& hash, const Rotation<3>& r) { hash.add(r.q.w).add(r.q.x).add(r.q.y).add(r.q.z); }
+
+template <int D>
+void add_to(Hash& hash, const Contact<D>& contact) {
+  add_to(hash, contact.manifold.normal);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
+    hash.add(std::uint64_t{contact.manifold.room[i].feature}).add(contact.normal_impulses[i]);
+    add_to(hash, contact.friction_impulses[i]);
+  }
+}
+
+Spin<2> momentum_for(const Body<2>& body, double spin) {
+  return body.inverse_inertia > 0 ? spin / body.inverse_inertia : 0;
+}
+Spin<3> momentum_for(const Body<3>& body, const Vec<3>& spin) {
+  const Mat<3> r = matrix(body.orientation);
+  Vec<3> l = spin * r;  // into the body's axes
+  for (int i = 0; i < 3; ++i) l[i] = body.inverse_inertia[i] > 0 ? l[i] / body.inverse_inertia[i] : 0;
+  return r * l;
+}
+
+template <int D>
+void check_spring(const Spring<D>& spring, const std::vector<Body<D>>& bodies) {
+  Forces<D> alone;
+  alone.springs.push_back(spring);
+  check_forces<D>(alone, bodies);
+}
+
+}  // namespace
+
+std::string_view to_string(ContactMethod method) {
+  for (const auto& [name, value] : kMethods)
+    if (value == method) return name;
+  return "";
+}
+
+std::optional<ContactMethod> contact_method_named(std::string_view name) {
+  for (const auto& [known, value] : kMethods)
+    if (known == name) return value;
+  return std::nullopt;
+}
+
+template <int D>
+World<D>::World() : World(without_contacts<D>()) {}
+
+template <int D>
+World<D>::World(const WorldConfig<D>& config) : config_(config) {
+  check_config(config);
+  forces_.gravity = config.gravity;
+  if (config.contacts != ContactMethod::none) BroadPhase<D>{config.broad_phase};  // refuses
+}
+
+template <int D>
+BodyId World<D>::add(Body<D> body) {
+  check_body(body);
+  derive_mass(body);
+  if (body.kind != BodyKind::dynamic_body) body.asleep = false;
+  if (body.asleep) {
+    body.velocity = Vec<D>(0.0);
+    body.angular_momentum = Spin<D>(0.0);
+  }
+  body.id = next_id_;
+  bodies_.push_back(std::move(body));
+  rested_.push_back(0);
+  return next_id_++;
+}
+
+template <int D>
+void World<D>::remove(BodyId id) {
+  if (find(id) == nullptr) return;
+  rouse({id});
+  forget_contacts_of(id);
+  const std::size_t index = index_of(id);
+  bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(index));
+  rested_.erase(rested_.begin() + static_cast<std::ptrdiff_t>(index));
+  for (std::size_t i = forces_.springs.size(); i-- > 0;)
+    if (forces_.springs[i].a == id || forces_.springs[i].b == id) remove_spring(spring_ids_[i]);
+  for (std::size_t i = joints_.size(); i-- > 0;)
+    if (joints_[i].second.a == id || joints_[i].second.b == id) remove_joint(joints_[i].first);
+  clear_pushes(id);
+}
+
+template <int D>
+const Body<D>* World<D>::find(BodyId id) const {
+  const auto body = std::lower_bound(bodies_.begin(), bodies_.end(), id,
+                                     [](const Body<D>& b, BodyId wanted) { return b.id < wanted; });
+  return body != bodies_.end() && body->id == id ? &*body : nullptr;
+}
+
+template <int D>
+std::size_t World<D>::index_of(BodyId id) const {
+  const Body<D>* body = find(id);
+  if (body == nullptr) throw Refused(fmt::format("there is no body {}", id));
+  return static_cast<std::size_t>(body - bodies_.data());
+}
+
+template <int D>
+void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity) {
+  place(id, position, velocity, bodies_[index_of(id)].orientation);
+}
+
+template <int D>
+void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
+                     const Rotation<D>& orientation) {
+  const std::size_t index = index_of(id);
+  Body<D> moved = bodies_[index];
+  moved.position = position;
+  moved.velocity = velocity;
+  moved.orientation = orientation;
+  check_body(moved);
+  rouse({id});
+  forget_contacts_of(id);
+  moved.asleep = false;
+  bodies_[index] = std::move(moved);
+}
+
+template <int D>
+void World<D>::set_velocity(BodyId id, const Vec<D>& velocity) {
+  Body<D>& body = bodies_[index_of(id)];
+  require_finite<D>(velocity, fmt::format("body '{}'", body.name), "velocity");
+  rouse({id});
+  body.velocity = velocity;
+}
+
+template <int D>
+void World<D>::set_angular_velocity(BodyId id, const Spin<D>& spin) {
+  Body<D>& body = bodies_[index_of(id)];
+  Body<D> turning = body;
+  if (body.kind == BodyKind::dynamic_body)
+    turning.angular_momentum = momentum_for(body, spin);
+  else
+    turning.kinematic_spin = spin;
+  // Spin of a body that cannot turn is lost above, so it is looked at by itself.
+  const std::string who = fmt::format("body '{}'", body.name);
+  if constexpr (D == 2)
+    require_finite(spin, who, "angular velocity");
+  else
+    require_finite<D>(spin, who, "angular velocity");
+  check_body(turning);
+  rouse({id});
+  body.angular_momentum = turning.angular_momentum;
+  body.kinematic_spin = turning.kinematic_spin;
+}
+
+template <int D>
+void World<D>::apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at) {
+  Body<D>& body = bodies_[index_of(id)];
+  const std::string who = fmt::format("body '{}'", body.name);
+  require_finite<D>(impulse, who, "impulse");
+  require_finite<D>(at, who, "point of the impulse");
+  if (body.kind != BodyKind::dynamic_body) return;
+  Body<D> struck = body;
+  struck.velocity += impulse * body.inverse_mass;
+  if (body.inverse_inertia != Spin<D>(0.0))
+    struck.angular_momentum += cross(Vec<D>(at - body.position), impulse);
+  check_body(struck);
+  rouse({id});
+  body.velocity = struck.velocity;
+  body.angular_momentum = struck.angular_momentum;
+}
+
+template <int D>
+void World<D>::push(BodyId id, const Vec<D>& force, const Vec<D>& at,
+                    std::optional<double> seconds) {
+  const Body<D>& body = bodies_[index_of(id)];
+  const std::string who = fmt::format("body '{}'", body.name);
+  require_finite<D>(force, who, "force");
+  require_finite<D>(at, who, "point of the force");
+  const Vec<D> arm = at - body.position;
+  require_finite<D>(arm, who, "lever of the force");
+  if (seconds && !(std::isfinite(*seconds) && *seconds > 0))
+    throw Refused(fmt::format("{}: a push of {} seconds is not allowed", who, *seconds));
+  rouse({id});
+  TimedPush push{{id, arm, force}, std::nullopt};
+  if (seconds) push.until = time_ + *seconds;
+  pushes_.push_back(push);
+  list_pushes();
+}
+
+template <int D>
+void World<D>::list_pushes() {
+  forces_.pushes.clear();
+  for (const TimedPush& push : pushes_) forces_.pushes.push_back(push.push);
+}
+
+template <int D>
+void World<D>::clear_pushes() {
+  std::vector<BodyId> pushed;
+  for (const TimedPush& push : pushes_) pushed.push_back(push.push.body);
+  rouse(std::move(pushed));
+  pushes_.clear();
+  list_pushes();
+}
+
+template <int D>
+void World<D>::clear_pushes(BodyId id) {
+  if (find(id) != nullptr) rouse({id});
+  std::erase_if(pushes_, [&](const TimedPush& push) { return push.push.body == id; });
+  list_pushes();
+}
+
+template <int D>
+void World<D>::set_gravity(const Vec<D>& gravity) {
+  require_finite<D>(gravity, "world", "gravity");
+  std::vector<BodyId> all;
+  for (const Body<D>& body : bodies_) all.push_back(body.id);
+  rouse(std::move(all));
+  config_.gravity = forces_.gravity = gravity;
+}
+
+template <int D>
+SpringId World<D>::add_spring(const Spring<D>& spring) {
+  check_spring<D>(spring, bodies_);
+  rouse({spring.a, spring.b});
+  forces_.springs.push_back(spring);
+  spring_ids_.push_back(next_spring_);
+  return next_spring_++;
+}
+
+template <int D>
+JointId World<D>::add_joint(const Joint<D>& joint) {
+  const std::string who = fmt::format("joint {}", next_joint_);
+  const Body<D>& a = bodies_[index_of(joint.a)];
+  const Body<D>& b = bodies_[index_of(joint.b)];
+  if (joint.a == joint.b) throw Refused(fmt::format("{}: joins a body to itself", who));
+  if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body)
+    throw Refused(fmt::format("{}: neither of its bodies can be moved", who));
+  require_finite<D>(joint.at_a, who, "at_a");
+  require_finite<D>(joint.at_b, who, "at_b");
+  if (joint.kind == JointKind::distance && !(std::isfinite(joint.length) && joint.length > 0))
+    throw Refused(fmt::format("{}: length is {}, must be above 0", who, joint.length));
+  rouse({joint.a, joint.b});
+  joints_.emplace_back(next_joint_, joint);
+  joint_memories_.push_back({});
+  return next_joint_++;
+}
+
+template <int D>
+void World<D>::remove_spring(SpringId id) {
+  for (std::size_t i = 0; i < spring_ids_.size(); ++i) {
+    if (spring_ids_[i] != id) continue;
+    rouse({forces_.springs[i].a, forces_.springs[i].b});
+    forces_.springs.erase(forces_.springs.begin() + static_cast<std::ptrdiff_t>(i));
+    spring_ids_.erase(spring_ids_.begin() + static_cast<std::ptrdiff_t>(i));
+    return;
+  }
+}
+
+template <int D>
+void World<D>::remove_joint(JointId id) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (joints_[i].first != id) continue;
+    rouse({joints_[i].second.a, joints_[i].second.b});
+    joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(i));
+    joint_memories_.erase(joint_memories_.begin() + static_cast<std::ptrdiff_t>(i));
+    return;
+  }
+}
+
+template <int D>
+bool World<D>::joined(BodyId a, BodyId b) const {
+  return std::any_of(joints_.begin(), joints_.end(), [&](const auto& entry) {
+    const Joint<D>& joint = entry.second;
+    return !joint.collide && ((joint.a == a && joint.b == b) || (joint.a == b && joint.b == a));
+  });
+}
+
+// Wakes these bodies and all that hang together with them by contacts, springs and joints. Static
+// and kinematic bodies pass nothing on, but those that touch the named ones wake.
+template <int D>
+void World<D>::rouse(std::vector<BodyId> ids) {
+  std::vector<bool> seen(bodies_.size());
+  std::vector<std::size_t> open;
+  const auto reach = [&](BodyId id, bool named) {
+    const Body<D>* body = find(id);
+    if (body == nullptr || (!named && body->kind != BodyKind::dynamic_body)) return;
+    const auto index = static_cast<std::size_t>(body - bodies_.data());
+    if (!seen[index]) open.push_back(index);
+    seen[index] = true;
+  };
+  for (const BodyId id : ids) reach(id, true);
+  while (!open.empty()) {
+    Body<D>& body = bodies_[open.back()];
+    rested_[open.back()] = 0;
+    open.pop_back();
+    body.asleep = false;
+    const auto pass_on = [&](BodyId a, BodyId b) {
+      if (a == body.id) reach(b, false);
+      if (b == body.id) reach(a, false);
+    };
+    for (const Touch& touch : touching_) pass_on(touch.record.a, touch.record.b);
+    for (const Spring<D>& spring : forces_.springs) pass_on(spring.a, spring.b);
+    for (const auto& entry : joints_) pass_on(entry.second.a, entry.second.b);
+  }
+}
+
+template <int D>
+void World<D>::forget_contacts_of(BodyId id) {
+  std::erase_if(touching_, [&](const Touch& touch) {
+    return touch.record.a == id || touch.record.b == id;
+  });
+}
+
+template <int D>
+void World<D>::sleep(BodyId id) {
+  Body<D>& body = bodies_[index_of(id)];
+  if (body.kind != BodyKind::dynamic_body) return;
+  body.asleep = true;
+  body.velocity = Vec<D>(0.0);
+  body.angular_momentum = Spin<D>(0.0);
+}
+
+template <int D>
+void World<D>::wake(BodyId id) {
+  index_of(id);
+  rouse({id});
+}
+
+template <int D>
+void World<D>::switch_broad_phase(const BroadPhaseConfig<D>& config) {
+  broad_phase_.emplace(config);
+  config_.broad_phase = config;
+}
+
+template <int D>
+std::uint64_t World<D>::hash() const {
+  Hash hash;
+  hash.add(time_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body<D>& body = bodies_[i];
+    hash.add(std::uint64_t{body.id}).add(std::uint64_t{body.asleep});
+    add_to(hash, body.position);
+    add_to(hash, body.orientation);
+    add_to(hash, body.velocity);
+    add_to(hash, body.angular_momentum);
+    add_to(hash, body.kinematic_spin);
+    hash.add(body.inverse_mass).add(rested_[i]);
+  }
+  add_to(hash, forces_.gravity);
+  for (const Spring<D>& spring : forces_.springs) {
+    hash.add(std::uint64_t{spring.a}).add(std::uint64_t{spring.b});
+    add_to(hash, spring.at_a);
+    add_to(hash, spring.at_b);
+    hash.add(spring.rest_length).add(spring.stiffness).add(spring.damping);
+  }
+  for (const Push<D>& push : forces_.pushes) {
+    hash.add(std::uint64_t{push.body});
+    add_to(hash, push.at);
+    add_to(hash, push.force);
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    hash.add(std::uint64_t{joints_[i].first});
+    add_to(hash, joint_memories_[i].impulse);
+  }
+  for (const Touch& touch : touching_) {
+    hash.add(std::uint64_t{touch.record.a}).add(std::uint64_t{touch.record.b});
+    add_to(hash, touch.memory);
+  }
+  return hash.value();
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace lantern
