@@ -225,6 +225,23 @@ TEST(LevelBsp, SmallRoomsHaveTheSectorsThatOneWouldDraw) {
       << "two rooms that do not touch are two sectors";
 }
 
+TEST(LevelBsp, ARegionIsConvexOnlyWhenNoWallDividesItHoweverFewAreTried) {
+  LevelConfig config;
+  config.most_candidates = 1;  // of an L, the first wall has all others in front
+  const auto walls =
+      walls_of_loops(testing::Loops{{{1, 1}, {4, 1}, {4, 4}, {7, 4}, {7, 7}, {1, 7}}});
+  EXPECT_EQ(compile_level(walls, {{0, 0}, {8, 8}}, config).sectors().size(), 2u);
+}
+
+TEST(LevelBsp, CornersThatDifferByRoundingAreOneCorner) {
+  const Box<2> bounds{{0, 0}, {8, 8}};
+  const std::vector<Wall> walls = {{{{0.1 + 0.2, 1}, {7, 1}}, false, ""},
+                                   {{{1, 7}, {0.3, 1}}, false, ""}};
+  const LevelBsp bsp = compile_level(walls, bounds);
+  EXPECT_NE(walls[0].line.a, walls[1].line.b);
+  EXPECT_EQ(bsp.walls()[0].line.a, bsp.walls()[1].line.b);
+}
+
 TEST(LevelBsp, ATwoSidedWallDividesTheFloorAndHasAPieceForEachSide) {
   auto walls = walls_of_loops(testing::Loops{{{1, 1}, {7, 1}, {7, 7}, {1, 7}}});
   walls.push_back({{{4, 3}, {4, 5}}, true, "step"});
