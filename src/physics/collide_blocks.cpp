@@ -8,8 +8,8 @@ namespace {
 constexpr std::uint32_t kFaceOfA = 0u << 16, kFaceOfB = 1u << 16, kEdges = 2u << 16,
                         kClosest = 3u << 16;
 
-// A normal within this of a face's (the cosine, 6 degrees) has that face's contact.
-constexpr double kNearFace = 0.995;
+// A normal within this of a face's (the cosine, 2 degrees) has that face's contact.
+constexpr double kNearFace = 0.9995;
 
 template <int D>
 void mark(Manifold<D>& manifold, std::uint32_t kind) {
@@ -127,6 +127,7 @@ Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, co
 
 template <int D>
 Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
+  using Kind = typename SeparatingAxis<D>::Kind;
   const SeparatingAxes<D> axes = separating_axes(a, b);
   const double radii = a.radius + b.radius, bound = axes.greatest.separation;
   if (bound - radii > margin) return std::nullopt;
@@ -137,19 +138,15 @@ Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
   const bool apart = bound > rounding;
   for (const SeparatingAxis<D>* axis : {&axes.chosen, &axes.greatest}) {
     // Blocks that are apart meet in one point of an edge only if they cannot lie on a face.
-    if (apart && axis->kind == SeparatingAxis<D>::Kind::edges) continue;
+    if (axis->kind == Kind::side || (apart && axis->kind == Kind::edges)) continue;
     if (axis == &axes.greatest && axis->normal == axes.chosen.normal) continue;  // tried already
     if (const auto contact = contact_if_exact(*axis, a, b, bound, rounding, margin)) return contact;
   }
 
-  if (!apart) {  // rounding or a bias has put the corner beside the face
-    const Direction<D> normal{axes.greatest.normal, bound};
-    return one_point(closest_features(a, b, axes.greatest).points.a, a.radius, b.radius, normal,
-                     kClosest);
-  }
   const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest);
-  const Direction<D> normal =
-      direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
+  Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
+  // Cores that meet have no direction between them.
+  if (!apart) normal = {axes.greatest.normal, bound};
   if (normal.length - radii > margin) return std::nullopt;
   return contact_of_closest(a, b, closest, normal, axes.face, margin);
 }

@@ -14,7 +14,8 @@ namespace lantern::narrow {
 // A direction along which the cores were measured.
 template <int D>
 struct SeparatingAxis {
-  enum class Kind : std::uint8_t { face_of_a, face_of_b, edges };
+  // `side`: across a block without thickness, where it has no face.
+  enum class Kind : std::uint8_t { face_of_a, face_of_b, edges, side };
 
   Vec<D> normal{0.0};     // unit, from a to b
   double separation = 0;  // of the cores along it; below 0 they overlap
@@ -35,7 +36,7 @@ struct SeparatingAxes {
 //
 // Where two axes are nearly equal, as for boxes that lie flat on each other, rounding must not
 // choose. So a later kind of axis must be better than an earlier one by kAxisBias of the smallest
-// half size: faces of a, faces of b, edges.
+// half size: faces of a, faces of b, edges, sides.
 inline constexpr double kAxisBias = 1e-3;
 
 template <int D>

@@ -241,5 +241,24 @@ TEST(Collide, FeatureNamesStayWhileAStackJitters) {
   }
 }
 
+// A body that settles is a little apart in one step and a little deep in the next, and never quite
+// flat. It must have all its points throughout, or it would rock.
+TEST(Collide, AHoveringBoxKeepsItsPointsAndTheirNames) {
+  Random random(9);
+  const Thing<3> lower{OrientedBox<3>{{0.5, 0.5, 0.5}}, {3, 0.5, 3}, {}};
+  Thing<3> upper{OrientedBox<3>{{0.5, 0.4, 0.5}}, {3, 1.4, 3}, {}};
+  upper.position += Vec<3>(0.2, 0, -0.1);  // over two rims
+  const auto first = contact(lower, upper, 0.01);
+  ASSERT_TRUE(first);
+  for (int step = 0; step < 2000; ++step) {
+    upper.position.y = 1.4 + random.between(-1e-4, 1e-4);
+    upper.orientation = turned_about(random_direction<3>(random), random.between(0, 1e-4));
+    const auto found = contact(lower, upper, 0.01);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(features(*found), features(*first)) << "step " << step;
+    ASSERT_LE(glm::length(found->normal - Vec<3>(0, 1, 0)), 2e-4);
+  }
+}
+
 }  // namespace
 }  // namespace lantern::test
