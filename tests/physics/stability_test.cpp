@@ -44,8 +44,7 @@ double runge_kutta_limit(double zeta) {
   return lo;
 }
 
-void expect_limit(Integrator method, double zeta, double limit) {
-  constexpr int steps = 60000;
+void expect_limit(Integrator method, double zeta, double limit, int steps = 20000) {
   EXPECT_LT(farthest(method, 0.99 * limit, zeta, steps), 100)
       << to_string(method) << " is not stable below its limit, zeta " << zeta;
   EXPECT_GT(farthest(method, 1.01 * limit, zeta, steps), 1e4)
@@ -60,7 +59,7 @@ TEST(Stability, SemiImplicitEuler) {
 TEST(Stability, VelocityVerlet) {
   for (const double zeta : {0.0, 0.1, 1.0, 10.0})
     expect_limit(Integrator::velocity_verlet, zeta, 2);
-  EXPECT_LT(farthest(Integrator::velocity_verlet, 1.98, 1e3, 60000), 100);
+  EXPECT_LT(farthest(Integrator::velocity_verlet, 1.98, 1e3, 5000), 100);
 }
 
 TEST(Stability, RungeKutta) {
@@ -71,7 +70,8 @@ TEST(Stability, RungeKutta) {
 }
 
 TEST(Stability, ExplicitEuler) {
-  for (const double zeta : {0.1, 1.0}) expect_limit(Integrator::explicit_euler, zeta, 2 * zeta);
+  for (const double zeta : {0.1, 1.0})
+    expect_limit(Integrator::explicit_euler, zeta, 2 * zeta, 60000);
   // Undamped, each step multiplies the energy by 1 + (omega h)^2.
   SmoothScene<2> scene = linear_oscillator(3, 0);
   const double before = scene.energy().total();
@@ -112,7 +112,7 @@ TEST(Stability, MidpointKeepsTheEnergyOfLinearSprings) {
     scene.bodies[1].velocity = {0.3, 0.2};
     const double before = scene.energy().total();
     double worst = 0;
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < 2000; ++i) {
       scene.step(Integrator::implicit_midpoint, 1.0 / 60);
       worst = std::max(worst, std::abs(scene.energy().total() / before - 1));
     }
@@ -172,7 +172,7 @@ TEST(Stability, StiffNetsFindTheirStep) {
 TEST(Stability, WhatDoesNotConvergeIsRefused) {
   Random random(11);
   int refused = 0;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 3; ++round) {
     SmoothScene<3> scene;
     for (int i = 0; i < 8; ++i)
       scene.add({random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}, Vec<3>(0.0),
