@@ -141,13 +141,7 @@ void draw_sleep(const FrameBody& body, const Figure& f, DrawList& list) {
   const bool character = body.look == Look::ghost || body.look == Look::player;
   const Vec<2> corner =
       character ? f.center + Vec<2>(0.5, -0.98) * f.unit : f.center + Vec<2>(-0.34, -0.12) * f.unit;
-  const Stroke stroke{Role::ink, std::max(1.2, 0.9 * f.line), 0};
-  const auto letter = [&](const Vec<2>& at, double size) {
-    const Vec<2> z[] = {at, at + Vec<2>(size, 0), at + Vec<2>(0, size), at + Vec<2>(size, size)};
-    for (int i = 1; i < 4; ++i) list.shapes.emplace_back(LineShape{z[i - 1], z[i], stroke, false});
-  };
-  letter(corner + Vec<2>(0, 0.18) * f.unit, 0.3 * f.unit);
-  letter(corner + Vec<2>(0.42, -0.04) * f.unit, 0.22 * f.unit);
+  draw_zz(corner, f.unit, std::max(1.2, 0.9 * f.line), list);
 }
 
 void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
@@ -236,6 +230,16 @@ void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, Draw
 }
 
 }  // namespace
+
+void draw_zz(const Vec<2>& corner, double unit, double width, DrawList& list) {
+  const auto letter = [&](const Vec<2>& at, double size) {
+    const Vec<2> z[] = {at, at + Vec<2>(size, 0), at + Vec<2>(0, size), at + Vec<2>(size, size)};
+    for (int i = 1; i < 4; ++i)
+      list.shapes.emplace_back(LineShape{z[i - 1], z[i], {Role::ink, width, 0}, false});
+  };
+  letter(corner + Vec<2>(0, 0.18) * unit, 0.3 * unit);
+  letter(corner + Vec<2>(0.42, -0.04) * unit, 0.22 * unit);
+}
 
 void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list) {
   if (is_half_space(body)) return draw_ground(body, place, list);

@@ -8,7 +8,6 @@
 #include "draw/characters.hpp"
 #include "draw/font.hpp"
 #include "draw/pattern.hpp"
-#include "draw/tree_facts.hpp"
 #include "draw/tree_layout.hpp"
 
 namespace lantern {
@@ -97,7 +96,8 @@ class TreeView {
       draw_cut(node_of(branch), box, outline.role);
     else
       draw_content(branch, box);
-    if (node_of(branch).over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
+    if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
+    if (!node.awake) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
   }
 
   // A dashed line where levels are left out.
@@ -266,6 +266,7 @@ class TreeView {
   std::string side_of(const Branch& branch) const {
     const bool behind = node_of(branch).slot == 0;
     if (frame_.structure == StructureKind::bsp) return behind ? "behind" : "in front";
+    if (node_of(branch).parent == kNone) return "";
     const FrameNode& parent = frame_.nodes[node_of(branch).parent];
     if (frame_.structure != StructureKind::kd_tree || !parent.plane) return "";
     const Vec<3>& normal = parent.plane->normal;
@@ -287,9 +288,8 @@ class TreeView {
                           Role::quiet_ink, Role::paper};
     const double align = b.x < a.x ? 1 : 0;
     const double beside = b.x < a.x ? -14 : 14;
-    labels_.try_add(side,
-                    {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}}, style,
-                    panel_);
+    labels_.try_add(side, {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}},
+                    style, panel_);
   }
 
   const Frame& frame_;

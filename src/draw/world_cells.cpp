@@ -200,6 +200,7 @@ Stroke plane_stroke(const FrameNode& node, bool level) {
   const bool lit = node.mark == Mark::lit;
   const Role role = lit ? Role::lit : cell_line_role(node.depth);
   if (level) return lit ? Stroke{role, 4, 14} : Stroke{role, 1.8, 6};
+  if (node.region.empty()) return {role, lit ? 3.0 : 2.0, 8};  // inside a fitted box
   return {role, std::max(2.4, 4.6 - 0.7 * node.depth), 0};
 }
 

@@ -35,20 +35,23 @@ void draw_dimension(Pen& pen, const Vec<2>& from, const Vec<2>& to) {
   for (const Vec<2>& end : {from, to}) pen.line(end - across, end + across, stroke);
 }
 
-// Half the width under the box, half the height at its right.
+// Half the width above the box, half the height at its right.
 void draw_half_sizes(const FrameBody& body, const Box<2>& box, const WorldMap& map, Pen& pen,
                      Labels& labels) {
   constexpr double kAway = 12, kLeastSize = 44;
   if (std::min(box.size().x, box.size().y) < kLeastSize) return;
-  TextStyle style{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::panel};
+  const TextStyle style{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::panel};
   const Vec<2> c = box.center();
   const Vec<3> half = body.box.size() * 0.5;
-  const double below = box.hi.y + kAway, beside = box.hi.x + kAway;
-  const std::string x = short_number(half.x), y = short_number(half.y);
-  if (labels.try_add(x, {{{(c.x + box.hi.x) / 2, below + 20}, 0.5}}, style, map.rect))
-    draw_dimension(pen, {c.x, below}, {box.hi.x, below});
-  if (labels.try_add(y, {{{beside + 9, (c.y + box.lo.y) / 2 + 6}, 0}}, style, map.rect))
-    draw_dimension(pen, {beside, c.y}, {beside, box.lo.y});
+  const double above = box.lo.y - kAway, beside = box.hi.x + kAway;
+  const auto measure = [&](const Anchor& anchor, double size, const Vec<2>& from,
+                           const Vec<2>& to) {
+    if (!labels.try_add(short_number(size), {anchor}, style, map.rect)) return;
+    draw_dimension(pen, from, to);
+    labels.block(shrunk(united(Box<2>{from, from}, Box<2>{to, to}), -6));
+  };
+  measure({{(c.x + box.hi.x) / 2, above - 9}, 0.5}, half.x, {c.x, above}, {box.hi.x, above});
+  measure({{beside + 9, (c.y + box.lo.y) / 2 + 6}, 0}, half.y, {beside, c.y}, {beside, box.lo.y});
 }
 
 }  // namespace
@@ -105,9 +108,8 @@ void draw_broad_boxes(const Frame& frame, const WorldMap& map, DrawList& list, L
     if (++drawn > kMostBoxes) return;
     const Box<2> box = map.to_page(body.box);
     if (!holds(shrunk(map.rect, -30), box)) continue;
-    list.shapes.emplace_back(
-        RectShape{box, 0, Role::none,
-                  body.lit ? Stroke{Role::lit, 2.8, 6} : Stroke{Role::quiet_ink, 1.8, 6}, false});
+    if (!body.lit)  // the others have one already
+      list.shapes.emplace_back(RectShape{box, 0, Role::none, {Role::quiet_ink, 1.8, 6}, false});
     if (body.lit || frame.bodies.size() <= kFewBodies) draw_half_sizes(body, box, map, pen, labels);
   }
 }

@@ -136,7 +136,8 @@ Frame rays() {
   frame.structure = StructureKind::quadtree;
   FrameRay ray{{4, 5, 0}, {96, 60, 0}, {}};
   for (std::size_t i = 0; i < 5; ++i)
-    ray.hits.push_back({static_cast<BodyId>(i), {20.0 + 15 * i, 14.5 + 9 * i, 0}});
+    ray.hits.push_back(
+        {static_cast<BodyId>(i), {20 + 15.0 * double(i), 14.5 + 9.0 * double(i), 0}});
   frame.rays = {
       ray, {{4, 60, 0}, {60, 62, 0}, {{3, {60, 62, 0}}}}, {{50, 3, 0}, {160, -20, 0}, {}}};
   for (FrameBody& b : frame.bodies) b.dimmed = b.id % 3 == 0;
