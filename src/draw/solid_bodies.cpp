@@ -235,7 +235,7 @@ std::vector<SolidBody> solid_bodies(const Frame& frame, const SolidView& view) {
 }
 
 Piece body_piece(const SolidBody& body, const SolidView& view) {
-  Piece piece{body.space, body.outline, false, {}};
+  Piece piece{body.space, body.outline, false, false, {}};
   if (is_character(*body.body) && !body.body->dimmed)
     draw_upright(body, view, piece.shapes);
   else if (body.space.radius > 0)

@@ -203,8 +203,10 @@ bool add_cells(const Frame& frame, const std::vector<SolidBody>& bodies, const S
   // Deep ones first: of pieces equally far away the stronger lies on top.
   std::stable_sort(merged.begin(), merged.end(),
                    [](const Edge& a, const Edge& b) { return b.strength < a.strength; });
+  const std::size_t first = pieces.size();
   for (const Edge& e : merged)
     add_line(e.point(e.from), e.point(e.to), stroke_of(e.strength), {}, bodies, view, pieces);
+  for (std::size_t i = first; i < pieces.size(); ++i) pieces[i].yields = true;
   return complete;
 }
 
