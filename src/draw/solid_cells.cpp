@@ -23,11 +23,11 @@ struct Strength {
 };
 
 Stroke stroke_of(const Strength& s) {
-  constexpr double kWidths[] = {2.8, 2.1, 1.6, 1.3, 1.1};
-  const double width = s.depth < 5 ? kWidths[s.depth] : 1.0;
+  constexpr double kWidths[] = {2.8, 2.1, 1.5, 1.1, 0.9};
+  const double width = s.depth < 5 ? kWidths[s.depth] : 0.9;
   if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5, 0};
   const double dash = s.asleep != 0 ? 6 : 0;
-  if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(1.0, 0.6 * width), dash};
+  if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(0.8, 0.6 * width), dash};
   return {cell_line_role(s.depth), width, dash};
 }
 
