@@ -8,7 +8,7 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostEdges = 700;
+constexpr std::size_t kMostEdges = 500;
 constexpr std::size_t kMostEdgesInCrowd = 250;  // lines must not hide a crowd of dots
 constexpr std::size_t kMostFills = 300;
 
@@ -102,7 +102,8 @@ class Edges {
       }
   }
 
-  // In a fixed order; of too many the deepest levels are left out, and the answer is false.
+  // In a fixed order; of too many the deepest levels are left out, but for lit cells, and the
+  // answer is false.
   bool take(std::size_t most, std::vector<Edge>& merged) {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
       return std::tie(a.axis, a.at[0], a.at[1], a.from, a.to, a.strength) <
@@ -119,9 +120,12 @@ class Edges {
     bool complete = true;
     while (merged.size() > most) {
       std::uint32_t deepest = 0;
-      for (const Edge& e : merged) deepest = std::max(deepest, e.strength.depth);
+      for (const Edge& e : merged)
+        if (e.strength.lit != 0) deepest = std::max(deepest, e.strength.depth);
       if (deepest == 0) break;
-      std::erase_if(merged, [&](const Edge& e) { return e.strength.depth == deepest; });
+      std::erase_if(merged, [&](const Edge& e) {
+        return e.strength.lit != 0 && e.strength.depth == deepest;
+      });
       complete = false;
     }
     return complete;

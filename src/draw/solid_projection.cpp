@@ -110,7 +110,9 @@ void SolidView::aim(const Camera& camera) {
   const Vec<3> above = std::abs(forward_.y) > 0.9999 ? Vec<3>(0, 0, -1) : Vec<3>(0, 1, 0);
   right_ = glm::normalize(glm::cross(forward_, above));
   up_ = glm::cross(right_, forward_);
-  light_ = glm::normalize(Vec<3>(0, 0.85, 0) - right_ * 0.42 - forward_ * 0.5);
+  // From above and the left, so that a box shows a lit top, a middle and a shaded side.
+  const Vec<3> level_back = glm::cross(right_, Vec<3>(0, 1, 0));
+  light_ = glm::normalize(Vec<3>(0, 0.72, 0) - right_ * 0.6 + level_back * 0.35);
 }
 
 void SolidView::fit(double field_of_view, bool chosen) {
