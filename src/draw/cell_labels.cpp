@@ -84,9 +84,12 @@ void label_unmade(const Frame& frame, const WorldMap& map, const std::vector<Box
 void label_cells(const Frame& frame, const WorldMap& map, const std::vector<Box<2>>& bodies,
                  const Grounds& grounds, DrawList& list, Labels& labels) {
   label_planes(frame, map, bodies, list, labels);
+  // Of two trees only one has its leaves named, or the same names would stand there twice.
+  const bool dynamic = std::any_of(frame.nodes.begin(), frame.nodes.end(),
+                                   [](const FrameNode& node) { return !node.of_static; });
   std::vector<const FrameNode*> leaves;
   for (const FrameNode& node : frame.nodes)
-    if (node.leaf && !node.label.empty()) leaves.push_back(&node);
+    if (node.leaf && !node.label.empty() && !(node.of_static && dynamic)) leaves.push_back(&node);
   std::stable_sort(leaves.begin(), leaves.end(),
                    [](const FrameNode* a, const FrameNode* b) { return a->depth < b->depth; });
   if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);

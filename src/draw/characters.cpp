@@ -3,7 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "draw/body_shapes.hpp"
 #include "draw/metrics.hpp"
+#include "draw/pen.hpp"
+#include "geometry/polygon.hpp"
 
 namespace lantern {
 namespace {
@@ -23,7 +26,7 @@ struct Figure {
 };
 
 // A small character needs a thinner pen, or it would be all outline.
-double pen(double size) { return std::clamp(0.034 * size, 0.8, 2.6); }
+double pen_width(double size) { return std::clamp(0.034 * size, 0.8, 2.6); }
 
 // Along the velocity on the page; at rest `calm`.
 Vec<2> direction(const FrameBody& body, const Vec<2>& calm) {
@@ -33,9 +36,16 @@ Vec<2> direction(const FrameBody& body, const Vec<2>& calm) {
 }
 
 Role fill_of(const FrameBody& body) {
+  if (body.dimmed) return Role::panel;
   if (body.asleep) return Role::asleep;
   const bool furniture = body.look == Look::box || body.look == Look::disc;
   return body.is_static && furniture ? Role::static_body : body_role(body.color);
+}
+
+// What the step has ruled out is dotted.
+Stroke rim_of(const FrameBody& body, const Figure& f) {
+  if (body.dimmed) return {Role::quiet_ink, std::max(1.0, 0.8 * f.line), 2.4};
+  return {Role::body_line, f.line, 0};
 }
 
 void draw_eye(const Figure& f, double x, bool asleep, DrawList& list) {
@@ -54,7 +64,7 @@ void draw_eye(const Figure& f, double x, bool asleep, DrawList& list) {
 // Dome, straight sides, and a hem of four scallops; 38 points.
 void draw_ghost(const FrameBody& body, const Figure& f, DrawList& list) {
   constexpr int kDome = 17, kScallops = 4, kPerScallop = 5;
-  PolygonShape shape{{}, fill_of(body), {Role::body_line, f.line, 0}};
+  PolygonShape shape{{}, fill_of(body), rim_of(body, f)};
   for (int i = 0; i < kDome; ++i) {
     const double angle = kPi * (1.0 - i / double(kDome - 1));
     shape.points.push_back(f.at(0.94 * std::cos(angle), -0.06 - 0.92 * std::sin(angle)));
@@ -75,7 +85,7 @@ void draw_player(const FrameBody& body, const Figure& f, DrawList& list) {
   constexpr int kRim = 32;
   constexpr double kMouth = 0.185 * kPi;  // half of its opening
   const double ahead = std::atan2(f.gaze.y, f.gaze.x);
-  PolygonShape shape{{}, fill_of(body), {Role::body_line, f.line, 0}};
+  PolygonShape shape{{}, fill_of(body), rim_of(body, f)};
   for (int i = 0; i <= kRim; ++i) {
     const double angle = ahead + kMouth + (2 * kPi - 2 * kMouth) * i / kRim;
     shape.points.push_back(f.at(0.96 * std::cos(angle), 0.96 * std::sin(angle)));
@@ -84,40 +94,74 @@ void draw_player(const FrameBody& body, const Figure& f, DrawList& list) {
   list.shapes.emplace_back(std::move(shape));
 }
 
-// A rectangle with soft corners, turned by the body's orientation if there is one.
+// A rectangle with soft corners.
 void draw_slab(const FrameBody& body, const Figure& f, double radius, DrawList& list) {
-  const Stroke outline{Role::body_line, f.line, 0};
+  const Stroke outline = rim_of(body, f);
   const Vec<2> half = f.half - Vec<2>(std::min(f.line / 2, f.unit / 2));
-  if (body.angle == 0) {
-    list.shapes.emplace_back(
-        RectShape{Box<2>::around(f.center, half), radius, fill_of(body), outline, false});
-    return;
-  }
-  const double c = std::cos(body.angle), s = -std::sin(body.angle);
-  PolygonShape shape{{}, fill_of(body), outline};
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-    const Vec<2> corner{x * half.x, y * half.y};
-    shape.points.push_back(f.center +
-                           Vec<2>(c * corner.x - s * corner.y, s * corner.x + c * corner.y));
-  }
-  list.shapes.emplace_back(std::move(shape));
+  list.shapes.emplace_back(
+      RectShape{Box<2>::around(f.center, half), radius, fill_of(body), outline, false});
+}
+
+// A shape that turns. Characters of such a shape are known by their eyes.
+void draw_turned(const FrameBody& body, const Figure& f, std::vector<Vec<2>> outline,
+                 DrawList& list) {
+  list.shapes.emplace_back(PolygonShape{std::move(outline), fill_of(body), rim_of(body, f)});
+  if (body.look != Look::ghost && body.look != Look::player) return;
+  draw_eye(f, -0.3, body.asleep, list);
+  draw_eye(f, 0.3, body.asleep, list);
+}
+
+// The part of the place that lies in a half-space, hatched, under a strong surface line.
+void draw_ground(const FrameBody& body, const Box<2>& place, DrawList& list) {
+  const Plane<2> surface = page_surface(body, place.center());
+  const std::vector<Vec<2>> solid = clipped(polygon_of(place), surface, false);
+  Pen pen(list, place);
+  pen.polygon(solid, Role::static_body);
+  pen.hatch(solid, 6, 1, {Role::quiet_ink, 1.1, 0}, 12);
+  const Vec<2> along = Vec<2>(-surface.normal.y, surface.normal.x) * (2 * place.size().x);
+  pen.line(place.center() - along, place.center() + along, {Role::body_line, 2.2, 0});
+}
+
+// What never moves is hatched, whatever its tone.
+void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, DrawList& list) {
+  constexpr std::size_t kMostShapes = 2600;
+  constexpr double kInset = 0.93;  // the hatch ends at the outline
+  if (list.shapes.size() > kMostShapes) return;
+  std::vector<Vec<2>> outline = turned_outline(body, place);
+  const bool round = body.look != Look::box && body.look != Look::bat;
+  if (outline.empty() && round) outline = ring_of(f.center, f.unit, 24);
+  if (outline.empty()) outline = polygon_of(place);
+  for (Vec<2>& p : outline) p = f.center + (p - f.center) * kInset;
+  Pen(list, place)
+      .hatch(outline, std::clamp(0.4 * f.unit, 7.0, 13.0), 1, {Role::quiet_ink, 1.1, 0}, 40);
+}
+
+// "z z" for a body that sleeps: in the middle, or of a character beside its head.
+void draw_sleep(const FrameBody& body, const Figure& f, DrawList& list) {
+  const bool character = body.look == Look::ghost || body.look == Look::player;
+  const Vec<2> corner =
+      character ? f.center + Vec<2>(0.5, -0.98) * f.unit : f.center + Vec<2>(-0.34, -0.12) * f.unit;
+  draw_zz(corner, f.unit, std::max(1.2, 0.9 * f.line), list);
 }
 
 void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
   list.shapes.emplace_back(RectShape{Box<2>::around(f.center, f.half - Vec<2>(0.04 * f.unit)),
-                                     0.96 * f.unit,
-                                     fill_of(body),
-                                     {Role::body_line, f.line, 0},
-                                     false});
+                                     0.96 * f.unit, fill_of(body), rim_of(body, f), false});
+  if (body.angle == 0 && body.angular_momentum.z == 0) return;
+  const Vec<2> way{std::cos(body.angle), -std::sin(body.angle)};  // how far it has turned
+  const double r = 0.96 * f.unit - f.line;
+  list.shapes.emplace_back(
+      LineShape{f.center + way * (0.36 * r), f.center + way * r, rim_of(body, f), false});
 }
 
 void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
   const bool round = body.look != Look::box && body.look != Look::bat;
-  list.shapes.emplace_back(RectShape{Box<2>::around(f.center, f.half),
-                                     round ? f.unit : 0,
-                                     fill_of(body),
-                                     {Role::body_line, std::min(0.8, 0.25 * f.unit), 0},
-                                     false});
+  list.shapes.emplace_back(
+      RectShape{Box<2>::around(f.center, f.half),
+                round ? f.unit : 0,
+                fill_of(body),
+                {body.dimmed ? Role::quiet_ink : Role::body_line, std::min(0.8, 0.25 * f.unit), 0},
+                false});
 }
 
 PolygonShape star(const Vec<2>& center, int corners, double radius, double turn, Role fill) {
@@ -165,16 +209,11 @@ void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list)
   }
 }
 
-void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list) {
-  Figure f;
-  f.center = place.center();
-  f.half = place.size() * 0.5;
-  f.unit = std::min(f.half.x, f.half.y);
-  f.line = pen(2 * f.unit);
-  const bool upright = body.look == Look::ghost;
-  f.gaze = direction(body, upright ? Vec<2>(0.8, 0.6) : Vec<2>(1.0, 0.0));
-  const bool small = 2 * std::max(f.half.x, f.half.y) < kPlainBelow;
-  if (plain || small) return draw_plain(body, f, list);
+namespace {
+
+void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, DrawList& list) {
+  if (std::vector<Vec<2>> outline = turned_outline(body, place); !outline.empty())
+    return draw_turned(body, f, std::move(outline), list);
   switch (body.look) {
     case Look::ghost:
       return draw_ghost(body, f, list);
@@ -182,16 +221,43 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
       return draw_player(body, f, list);
     case Look::ball:
     case Look::disc:
-      draw_round(body, f, list);
-      break;
+      return draw_round(body, f, list);
     case Look::bat:
-      draw_slab(body, f, 0.45 * f.unit, list);
-      break;
+      return draw_slab(body, f, 0.45 * f.unit, list);
     case Look::box:
-      draw_slab(body, f, 0.12 * f.unit, list);
-      break;
+      return draw_slab(body, f, 0.12 * f.unit, list);
   }
-  if (!body.asleep && fill_of(body) != Role::static_body)
+}
+
+}  // namespace
+
+void draw_zz(const Vec<2>& corner, double unit, double width, DrawList& list) {
+  const auto letter = [&](const Vec<2>& at, double size) {
+    const Vec<2> z[] = {at, at + Vec<2>(size, 0), at + Vec<2>(0, size), at + Vec<2>(size, size)};
+    for (int i = 1; i < 4; ++i)
+      list.shapes.emplace_back(LineShape{z[i - 1], z[i], {Role::ink, width, 0}, false});
+  };
+  letter(corner + Vec<2>(0, 0.18) * unit, 0.3 * unit);
+  letter(corner + Vec<2>(0.42, -0.04) * unit, 0.22 * unit);
+}
+
+void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list) {
+  if (is_half_space(body)) return draw_ground(body, place, list);
+  Figure f;
+  f.center = place.center();
+  f.half = place.size() * 0.5;
+  f.unit = std::min(f.half.x, f.half.y);
+  f.line = pen_width(2 * f.unit);
+  const bool upright = body.look == Look::ghost;
+  f.gaze = direction(body, upright ? Vec<2>(0.8, 0.6) : Vec<2>(1.0, 0.0));
+  const bool small = 2 * std::max(f.half.x, f.half.y) < kPlainBelow;
+  if (small || (plain && turned_outline(body, place).empty())) return draw_plain(body, f, list);
+  draw_look(body, f, place, list);
+  if (plain) return;
+  if (body.is_static) hatch_static(body, f, place, list);
+  if (body.asleep) draw_sleep(body, f, list);
+  const bool furniture = body.look != Look::ghost && body.look != Look::player;
+  if (furniture && !body.asleep && fill_of(body) != Role::static_body)
     draw_emblem(body.color, f.center, 0.3 * f.unit, list);
 }
 

@@ -12,7 +12,7 @@ namespace lantern {
 namespace {
 
 constexpr double kLeastRow = 25;  // a name has room in it
-constexpr double kMostRow = 66;
+constexpr double kMostRow = 96;
 constexpr double kGroupGap = 0.55;  // between groups, in rows
 constexpr double kAfter = 10;       // between a bar and its number, or its name
 constexpr double kTickLine = 30;
@@ -103,9 +103,10 @@ class Bars {
     area_.hi.y = area_.lo.y + rows() * row_;
     const int ticks = std::clamp(static_cast<int>(area_.size().x / 110), 2, 8);
     if (chart_.logarithmic) {
-      // A decade less, so that the least bar has a length.
+      // From 1 on where that is not far; otherwise half a decade less than the least bar, so that
+      // it has a length.
       const double low = most > 0 ? above_zero : 1;
-      axis_ = Axis::logarithmic(low == 1 ? 1 : low / 2, std::max(most, low), ticks);
+      axis_ = Axis::logarithmic(low >= 1 && low < 1e5 ? 1 : low / 3, std::max(most, low), ticks);
     } else {
       axis_ = Axis::linear(least, most, ticks);
     }
@@ -134,7 +135,7 @@ class Bars {
   }
 
   void draw_bar(const FrameBar& bar, double top) {
-    const double thick = std::min(0.72 * row_, 40.0), middle = top + row_ / 2;
+    const double thick = std::min(0.7 * row_, 52.0), middle = top + row_ / 2;
     const double from = x_of(zero()), to = x_of(bar.value);
     const Box<2> box{{std::min(from, to), middle - thick / 2},
                      {std::max(from, to), middle + thick / 2}};

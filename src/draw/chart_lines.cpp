@@ -95,7 +95,7 @@ class Lines {
     area_.hi.y -= kTickLength + 26 + (chart_.x_name.empty() ? 0 : 28);
     names_room_ = std::min(names, 0.42 * panel_.size().x);
     area_.hi.x -= names_room_ + kBeside + 4;
-    y_ = axis_for(ys, chart_.logarithmic, std::clamp(int(area_.size().y / 58), 2, 9));
+    y_ = axis_for(ys, chart_.logarithmic, std::clamp(int(area_.size().y / 50), 2, 9));
     double numbers = 0;
     for (const Axis::Tick& tick : y_.ticks())
       numbers = std::max(numbers, width_of(tick.text, kTick));
@@ -188,7 +188,6 @@ class Lines {
 
   void draw_end(const Line& line) {
     if (line.points.empty()) return;
-    list_.shapes.emplace_back(disc(line.points.back(), 12, Role::panel));
     draw_chart_mark(line.look, line.points.back(), 8.5, list_);
   }
 
@@ -200,7 +199,7 @@ class Lines {
     std::stable_sort(order.begin(), order.end(), [](const Line* a, const Line* b) {
       return a->points.back().y < b->points.back().y;
     });
-    const double top = panel_.lo.y + 14, bottom = area_.hi.y;
+    const double top = panel_.lo.y + 14, bottom = area_.hi.y - 8;
     const auto most = static_cast<std::size_t>(std::max(1.0, (bottom - top) / kLine));
     if (order.size() > most) order.resize(most);
     double least = top;
@@ -223,7 +222,7 @@ class Lines {
   void name_line(const Line& line) {
     const Vec<2> end = line.points.back();
     const bool newest_at_edge = end.x > area_.hi.x - 40;
-    const double x = newest_at_edge ? area_.hi.x + kBeside : area_.hi.x + kBeside;
+    const double x = area_.hi.x + kBeside;
     const double y = line.label + 0.36 * kLabel;
     if (std::abs(line.label - end.y) > 4 || !newest_at_edge)
       list_.shapes.emplace_back(LineShape{{std::min(end.x + 12, x - 5), end.y},

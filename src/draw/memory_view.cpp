@@ -17,8 +17,9 @@ constexpr double kHeading = 38;
 constexpr double kBracket = 30;    // under a row, for brackets and names
 constexpr double kRowGap = 12;     // between rows
 constexpr double kNamedSlot = 46;  // from here on a body's name has room under it
+constexpr double kChipSlot = 13;   // from here on each slot in use is drawn
 constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
-constexpr double kSlots[] = {62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
+constexpr double kSlots[] = {100, 84, 72, 62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
 constexpr std::size_t kMostShapes = 2600;  // that slots may take
 
 const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
@@ -45,7 +46,7 @@ Strip strip_for(std::uint32_t slots, double slot, double width) {
   s.gutter = text_width(last, kIndex.size, kIndex.weight) + 12;
   s.columns = static_cast<std::uint32_t>(std::max(1.0, (width - s.gutter) / slot));
   // Whole eights are easier to count.
-  if (s.columns > 16) s.columns -= s.columns % 8;
+  if (s.columns > 16 && s.columns < slots) s.columns -= s.columns % 8;
   s.columns = std::min(s.columns, std::max(slots, 1u));
   s.rows = (std::max(slots, 1u) + s.columns - 1) / s.columns;
   return s;
@@ -161,6 +162,22 @@ class MemoryView {
     });
   }
 
+  // Slots too small for chips: what is in use as one dark bar, what is kept free as a pale one.
+  void draw_dense(const FrameNode& leaf) {
+    const bool lit = leaf.mark == Mark::lit;
+    const auto bar = [&](std::uint32_t at, std::uint32_t slots, Role role) {
+      for_each_piece(at, slots, [&](std::uint32_t first, std::uint32_t count) {
+        Box<2> box = place(first, count);
+        box.hi.x -= 0.2 * strip_.slot;  // leaves stay apart
+        list_.shapes.emplace_back(filled(box, role));
+      });
+    };
+    bar(leaf.first, leaf.room, lit ? Role::lit_fill : Role::rule);
+    bar(leaf.first,
+        static_cast<std::uint32_t>(std::min<std::size_t>(leaf.bodies.size(), leaf.room)),
+        lit ? Role::lit : Role::cell_line_1);
+  }
+
   void draw_slot(BodyId id, const Box<2>& box, Role ground) {
     const auto found = bodies_.find(id);
     const double inset = std::max(1.0, 0.13 * strip_.slot);
@@ -174,7 +191,7 @@ class MemoryView {
     Box<2> chip = shrunk(box, inset);
     if (strip_.named()) {
       chip = Box<2>::around({box.center().x, box.lo.y + 0.5 * (box.size().y - 20)},
-                            Vec<2>(std::min(17.0, 0.33 * strip_.slot)));
+                            Vec<2>(std::min(30.0, 0.33 * strip_.slot)));
       TextStyle style = kIndex;
       style.role = ground == Role::lit_fill ? Role::ink : Role::quiet_ink;
       std::string name = body.name;

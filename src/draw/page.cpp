@@ -20,7 +20,8 @@ namespace {
 constexpr double kTop = 104;       // of the panels
 constexpr double kTitleLine = 58;  // baseline
 constexpr double kPanelGap = 44;
-constexpr double kStripGap = 30;  // over the strip of an array
+constexpr double kLeastForTwo = 460;  // height of a column with two panels
+constexpr double kStripGap = 30;      // over the strip of an array
 constexpr double kMostEnlarged = 1.45;
 constexpr double kStackBelow = 1.2;  // aspect of a page whose panels stand one above the other
 
@@ -134,15 +135,21 @@ std::vector<Box<2>> arranged(const Frame& frame, Box<2> area) {
   std::vector<Box<2>> boxes(panels.size());
   std::vector<std::vector<std::size_t>> columns;
   std::optional<std::size_t> shared;  // the column of all that take the rest
+  const auto is_strip = [&](std::size_t i) {
+    return panels[i] == Panel::memory && panels.size() > 1;
+  };
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    if (is_strip(i)) boxes[i] = cut_strip(frame, area);
+  const bool room_for_two = area.size().y >= kLeastForTwo;
   const bool with_others =
       std::any_of(panels.begin(), panels.end(), [](Panel panel) { return !takes_the_rest(panel); });
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (panels[i] == Panel::memory && panels.size() > 1) {
-      boxes[i] = cut_strip(frame, area);
+    if (is_strip(i)) {
+      continue;
     } else if (shared && takes_the_rest(panels[i])) {
       columns[*shared].push_back(i);
     } else {
-      if (with_others && takes_the_rest(panels[i])) shared = columns.size();
+      if (with_others && room_for_two && takes_the_rest(panels[i])) shared = columns.size();
       columns.push_back({i});
     }
   }

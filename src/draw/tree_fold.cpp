@@ -47,6 +47,7 @@ TreeFold::TreeFold(const Frame& frame)
     });
     Hash hash;
     hash.add(static_cast<std::uint64_t>(node.mark)).add(std::uint64_t{node.leaf});
+    hash.add(std::uint64_t{node.awake});
     hash.add(node.plane_name).add(named ? node.label : std::string());
     for (const BodyId id : node.bodies) hash.add(std::uint64_t{id});
     mark_[i] = node.mark;

@@ -8,7 +8,6 @@
 #include "draw/characters.hpp"
 #include "draw/font.hpp"
 #include "draw/pattern.hpp"
-#include "draw/tree_facts.hpp"
 #include "draw/tree_layout.hpp"
 
 namespace lantern {
@@ -67,11 +66,12 @@ class TreeView {
     const bool dashed = is_empty_leaf(branch);
     if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
     if (node.over_capacity) return {Role::warning, 2.6, 0};
-    const Role role = node.awake ? cell_line_role(std::min(node.depth, 2u)) : Role::asleep;
-    return {role, 2.2, dashed ? 5.5 : 0.0};
+    if (!node.awake) return {Role::quiet_ink, 2.0, 2.6};
+    return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
 
-  static Role ground_of(Mark mark) {
+  static Role ground_of(Mark mark, bool awake) {
+    if (!awake && mark == Mark::quiet) return Role::free_space;
     if (mark == Mark::lit) return Role::lit_fill;
     return mark == Mark::passed ? Role::passed_fill : Role::panel;
   }
@@ -81,19 +81,23 @@ class TreeView {
     const Box<2>& box = layout_.boxes[i];
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
-    const Role ground = ground_of(branch.mark);
+    const FrameNode& node = node_of(branch);
+    const Role ground = ground_of(branch.mark, node.awake);
+    // What never moves has sharp corners.
+    const double radius = node.of_static ? 1.5 : layout_.scale.radius;
     const bool pile = branch.kind == Branch::Kind::folded ||
                       (branch.kind == Branch::Kind::node && branch.copies > 1);
     if (pile) {
       Box<2> behind{box.lo + Vec<2>(5, -5), box.hi + Vec<2>(5, -5)};  // a pile of equal cards
-      list_.shapes.emplace_back(RectShape{behind, layout_.scale.radius, ground, outline, false});
+      list_.shapes.emplace_back(RectShape{behind, radius, ground, outline, false});
     }
-    list_.shapes.emplace_back(RectShape{box, layout_.scale.radius, ground, outline, false});
+    list_.shapes.emplace_back(RectShape{box, radius, ground, outline, false});
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
       draw_content(branch, box);
-    if (node_of(branch).over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
+    if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
+    if (!node.awake) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
   }
 
   // A dashed line where levels are left out.
@@ -258,13 +262,24 @@ class TreeView {
     return true;
   }
 
-  // Which side of the plane a BSP's child is.
+  // Which side of the plane a child is.
+  std::string side_of(const Branch& branch) const {
+    const bool behind = node_of(branch).slot == 0;
+    if (frame_.structure == StructureKind::bsp) return behind ? "behind" : "in front";
+    if (node_of(branch).parent == kNone) return "";
+    const FrameNode& parent = frame_.nodes[node_of(branch).parent];
+    if (frame_.structure != StructureKind::kd_tree || !parent.plane) return "";
+    const Vec<3>& normal = parent.plane->normal;
+    if (normal.x != 0) return behind ? "left" : "right";
+    if (normal.y != 0) return behind ? "below" : "above";
+    return behind ? "behind" : "in front";
+  }
+
   void label_edge(std::size_t i) {
     const Branch& branch = branches()[i];
-    if (frame_.structure != StructureKind::bsp || is_atlas() || branch.copies != 1 ||
-        branch.kind != Branch::Kind::node)
-      return;
-    const bool behind = node_of(branch).slot == 0;
+    if (is_atlas() || branch.copies != 1 || branch.kind != Branch::Kind::node) return;
+    const std::string side = side_of(branch);
+    if (side.empty()) return;
     const std::vector<Vec<2>> corners = layout_.edge(i);
     if (corners.size() > 3) return;  // no room for words between the rows
     const Vec<2> a = corners[corners.size() - 2], b = corners.back();
@@ -272,10 +287,9 @@ class TreeView {
     const TextStyle style{std::max(kLabel - 1, layout_.scale.label), Weight::regular,
                           Role::quiet_ink, Role::paper};
     const double align = b.x < a.x ? 1 : 0;
-    const double side = b.x < a.x ? -14 : 14;
-    labels_.try_add(behind ? "behind" : "in front",
-                    {{middle + Vec<2>(side, 2), align}, {middle + Vec<2>(0, 6), 0.5}}, style,
-                    panel_);
+    const double beside = b.x < a.x ? -14 : 14;
+    labels_.try_add(side, {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}},
+                    style, panel_);
   }
 
   const Frame& frame_;
@@ -290,10 +304,7 @@ class TreeView {
 
 }  // namespace
 
-void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  const double facts = draw_tree_facts(frame, panel, labels);
-  Box<2> diagram = panel;
-  diagram.hi.y -= facts + 4;
+void draw_one_tree(const Frame& frame, const Box<2>& diagram, DrawList& list, Labels& labels) {
   TreeView(frame, shrunk(diagram, 6), list, labels).draw();
 }
 

@@ -176,6 +176,7 @@ bool is_lit(const Stand& stand) {
 std::vector<Stand> stands_of(const Frame& frame, const WorldMap& map) {
   std::vector<Stand> stands;
   for (const FrameBody& body : frame.bodies) {
+    if (is_half_space(body)) continue;
     Stand mine = stand_of(body, frame, map);
     const auto same = std::find_if(stands.begin(), stands.end(), [&](const Stand& other) {
       const Vec<2> apart = other.center - mine.center;
@@ -220,7 +221,8 @@ void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList&
   }
 }
 
-void draw_bodies(const std::vector<Stand>& stands, const WorldMap& map, DrawList& list) {
+void draw_bodies(const std::vector<Stand>& stands, const WorldMap& map, bool boxes,
+                 DrawList& list) {
   std::size_t count = 0;
   std::vector<const Stand*> order;
   for (const Stand& stand : stands) {
@@ -239,7 +241,8 @@ void draw_bodies(const std::vector<Stand>& stands, const WorldMap& map, DrawList
       draw_stand(*stand, plain, map, list);
     const Look look = stand->bodies[0]->look;
     const bool is_its_box = look == Look::bat || look == Look::box;
-    if (!stand->outside && (is_lit(*stand) || (count <= kMostBoxed && !is_its_box)))
+    if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !is_its_box &&
+                                               !stand->bodies[0]->dimmed)))
       list.shapes.emplace_back(RectShape{
           page_part(page_box(*stand->bodies[0], map), map), 0, Role::none,
           is_lit(*stand) ? Stroke{Role::lit, 2.8, 0} : Stroke{Role::quiet_ink, 1.5, 5}, false});
@@ -265,7 +268,7 @@ std::size_t draw_crowd(const Frame& frame, const WorldMap& map, DrawList& list) 
   constexpr double kSquare = 18;
   std::set<std::pair<long, long>> taken;
   for (const FrameBody& body : frame.bodies) {
-    if (is_outside(body, frame)) continue;
+    if (is_half_space(body) || is_outside(body, frame)) continue;
     const Vec<2> p = map.to_page(body.box.center());
     const auto square = std::pair{std::lround(p.x / kSquare), std::lround(p.y / kSquare)};
     if (!taken.insert(square).second) continue;

@@ -3,6 +3,8 @@
 #include <optional>
 #include <tuple>
 
+#include "draw/pen.hpp"
+#include "draw/world_marks.hpp"
 #include "draw/world_parts.hpp"
 
 namespace lantern {
@@ -24,12 +26,18 @@ Role fill_of(Mark mark) {
   return mark == Mark::passed ? Role::passed_fill : Role::panel;
 }
 
+// How many children cover their parent without a gap; the fitted boxes of a kD-tree never do.
+std::size_t children_that_cover(StructureKind kind) {
+  if (kind == StructureKind::kd_tree) return ~std::size_t{0};
+  return kind == StructureKind::bsp ? 2 : 4;
+}
+
 // Which nodes are painted, and how. A node whose children cover it with one tone is painted as a
 // whole; a lit inner node is painted when the step is about it alone, with nothing lit inside.
 class Paint {
  public:
   explicit Paint(const Frame& frame) : nodes_(frame.nodes) {
-    const std::size_t all = frame.structure == StructureKind::bsp ? 2 : 4;
+    const std::size_t all = children_that_cover(frame.structure);
     tone_.resize(nodes_.size());
     child_tone_.resize(nodes_.size());
     std::vector<std::size_t> alike(nodes_.size());
@@ -186,7 +194,18 @@ void fill_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   }
 }
 
+// In a level the walls are what is strong, and the lines that divide it are thin and dashed; the
+// one that is looked at now is not.
+Stroke plane_stroke(const FrameNode& node, bool level) {
+  const bool lit = node.mark == Mark::lit;
+  const Role role = lit ? Role::lit : cell_line_role(node.depth);
+  if (level) return lit ? Stroke{role, 4, 14} : Stroke{role, 1.8, 6};
+  if (node.region.empty()) return {role, lit ? 3.0 : 2.0, 8};  // inside a fitted box
+  return {role, std::max(2.4, 4.6 - 0.7 * node.depth), 0};
+}
+
 void draw_planes(const Frame& frame, const WorldMap& map, DrawList& list) {
+  const bool level = is_level(frame);
   for (std::size_t i = std::min(frame.nodes.size(), kMostPlanes); i-- > 0;) {
     const FrameNode& node = frame.nodes[i];
     if (!node.plane) continue;
@@ -194,10 +213,36 @@ void draw_planes(const Frame& frame, const WorldMap& map, DrawList& list) {
     if (!line) continue;
     const Vec<2> a = map.to_page(line->first), b = map.to_page(line->second);
     const bool upright = a.x == b.x || a.y == b.y;
-    const Stroke stroke{node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth),
-                        std::max(2.4, 4.6 - 0.7 * node.depth), 0};
-    list.shapes.emplace_back(LineShape{a, b, stroke, upright});
+    list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
   }
+}
+
+// Branches that sleep, each from its highest node on, are hatched against the grain of what is
+// not made.
+void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
+  constexpr std::size_t kMostShapes = 1500;
+  Pen pen(list, map.rect);
+  for (const FrameNode& node : frame.nodes) {
+    const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
+    if (node.awake || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (list.shapes.size() > kMostShapes) return;
+    pen.hatch(page_region(node, map), 13, -1, {Role::asleep, 1.5, 0}, 60);
+  }
+}
+
+// Long dashes, so that both trees can be told apart where they stand in one picture.
+bool draw_static_cells(const Frame& frame, const WorldMap& map, DrawList& list) {
+  Borders borders;
+  for (const FrameNode& node : frame.nodes) {
+    const Box<2> cell = map.to_page(node.box);
+    if (node.of_static && node.depth > 0 && node.region.empty() && is_drawn(cell))
+      borders.add(cell, node.depth);
+  }
+  return borders.draw(
+      [](std::uint32_t depth) {
+        return Stroke{Role::static_body, line_width(depth) + 1.4, 16};
+      },
+      list);
 }
 
 void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
@@ -223,11 +268,17 @@ void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
 bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
   list.shapes.emplace_back(RectShape{map.rect, 0, Role::panel, {}, true});
   hatch_unmade(frame, map, list);
+  Grounds under;  // of what the cells' own grounds lie on
+  fill_views(frame, map, list, under);
   fill_cells(frame, map, list, grounds);
+  if (is_level(frame)) fill_sectors(frame, map, list, grounds);
+  grounds.insert(grounds.end(), under.begin(), under.end());
+  hatch_asleep(frame, map, list);
+  bool complete = draw_static_cells(frame, map, list);
   Borders borders;
-  bool complete = true;
+  const bool fitted = frame.structure == StructureKind::kd_tree;  // its root is not the world
   for (const FrameNode& node : frame.nodes) {
-    if (node.depth == 0 || !node.region.empty()) continue;
+    if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static) continue;
     const Box<2> cell = map.to_page(node.box);
     if (is_drawn(cell))
       borders.add(cell, node.depth);

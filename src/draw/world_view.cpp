@@ -4,11 +4,29 @@
 
 #include "draw/solid_view.hpp"
 #include "draw/world_bodies.hpp"
+#include "draw/world_marks.hpp"
 
 namespace lantern {
 namespace {
 
 constexpr std::size_t kCrowd = 700;  // more bodies than this are no longer drawn one by one
+
+}  // namespace
+
+namespace {
+
+// What lies over the bodies. Gives what had to be left out.
+std::string draw_marks(const Frame& frame, const WorldMap& map, DrawList& list, Labels& labels) {
+  draw_links(frame, map, list);
+  draw_views(frame, map, list);
+  draw_queries(frame, map, list);
+  draw_velocities(frame, map, list);
+  const bool all = draw_contacts(frame, map, list);
+  draw_rays(frame, map, list, labels);
+  if (frame.eye)
+    draw_eye_mark(map.to_page(*frame.eye), {1, 0}, Role::ink, shrunk(map.rect, -20), list);
+  return all ? "" : "not all contacts are drawn";
+}
 
 }  // namespace
 
@@ -18,24 +36,32 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   Grounds grounds;
   std::string note;
   const auto leave_out = [&](const std::string& what) {
-    note += (note.empty() ? "" : "; ") + what;
+    if (!what.empty()) note += (note.empty() ? "" : "; ") + what;
   };
   if (!draw_cells(frame, map, list, grounds)) leave_out("the smallest cells are not drawn");
+  draw_walls(frame, map, list);
   if (frame.bodies.size() > kCrowd) {
     const std::size_t marks = draw_crowd(frame, map, list);
     leave_out(fmt::format("{} bodies as {} marks", frame.bodies.size(), marks));
+    leave_out(draw_marks(frame, map, list, labels));
     return labels.add_note(note, map.rect);
   }
+  const std::vector<GroundPlace> ground = draw_half_spaces(frame, map, list, grounds);
   const std::vector<Stand> stands = stands_of(frame, map);
   if (!draw_pairs(frame, stands, list)) leave_out("not all pairs are drawn");
-  draw_bodies(stands, map, list);
+  const bool own_boxes = frame.structure != StructureKind::none && !frame.show_boxes;
+  draw_bodies(stands, map, own_boxes, list);
   for (const Stand& stand : stands)
     if (!stand.outside) draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
   draw_joints(frame, stands, list);
+  draw_broad_boxes(frame, map, list, labels);
+  leave_out(draw_marks(frame, map, list, labels));
   if (!note.empty()) labels.add_note(note, map.rect);
   std::vector<Box<2>> covered;
   for (const Stand& stand : stands) covered.push_back(stand.box);
+  number_sectors(frame, map, grounds, labels);
   label_cells(frame, map, covered, grounds, list, labels);
+  name_half_spaces(ground, map, grounds, labels);
   name_bodies(stands, map, grounds, labels);
 }
 

@@ -1,0 +1,53 @@
+#include "draw/body_shapes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace lantern {
+namespace {
+
+// Round the ends of a segment along y, in the body's own axes, counter-clockwise.
+std::vector<Vec<2>> capsule_outline(const Capsule& capsule) {
+  constexpr int kPerEnd = 14;
+  std::vector<Vec<2>> points;
+  for (const int end : {1, -1})
+    for (int i = 0; i <= kPerEnd; ++i) {
+      const double angle = (i / double(kPerEnd) + (end < 0)) * std::numbers::pi;
+      points.push_back(Vec<2>(std::cos(angle), std::sin(angle)) * capsule.radius +
+                       Vec<2>(0, end * capsule.half_length));
+    }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place) {
+  std::vector<Vec<2>> points;
+  if (const auto* box = std::get_if<OrientedBox<3>>(&body.shape)) {
+    const Vec<3>& h = box->half_size;
+    points = {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};
+  } else if (const auto* capsule = std::get_if<Capsule>(&body.shape)) {
+    points = capsule_outline(*capsule);
+  } else {
+    return points;
+  }
+  // One scale for both axes, or the shape would not keep its angles.
+  const Vec<3> size = body.box.size();
+  const Vec<2> room = place.size();
+  const double scale = std::max(size.x, size.y) > 0 ? std::min(size.x > 0 ? room.x / size.x : 1e300,
+                                                               size.y > 0 ? room.y / size.y : 1e300)
+                                                    : 0;
+  const double c = std::cos(body.angle), s = std::sin(body.angle);
+  for (Vec<2>& p : points)
+    p = place.center() + Vec<2>(c * p.x - s * p.y, -(s * p.x + c * p.y)) * scale;
+  return points;
+}
+
+Plane<2> page_surface(const FrameBody& body, const Vec<2>& through) {
+  const Vec<3>& normal = std::get<HalfSpace<3>>(body.shape).normal;
+  Vec<2> on_page{normal.x, -normal.y};
+  if (!(std::hypot(on_page.x, on_page.y) > 1e-9)) on_page = {0, -1};  // seen from above
+  return Plane<2>::through(through, on_page / std::hypot(on_page.x, on_page.y));
+}
+
+}  // namespace lantern
