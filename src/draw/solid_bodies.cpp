@@ -61,8 +61,8 @@ std::vector<Face> seen_faces(const Convex& box, const Vec<3>& eye) {
 
 Tone tone_of(const Vec<3>& normal, const Vec<3>& light) {
   const double towards = glm::dot(normal, light);
-  if (towards > 0.62) return Tone::lit;
-  return towards > 0.12 ? Tone::middle : Tone::shade;
+  if (towards > 0.66) return Tone::lit;
+  return towards > 0.27 ? Tone::middle : Tone::shade;
 }
 
 std::vector<Vec<3>> ends_of(const Convex& round) {
@@ -95,13 +95,25 @@ void draw_sleep(DrawList& list) {
     list.shapes.emplace_back(LineShape{z[i], z[i + 1], {Role::body_line, 0.3, 0}, false});
 }
 
+void recolor(DrawList& list, Role role) {
+  for (DrawShape& shape : list.shapes)
+    std::visit(
+        [&](auto& s) {
+          if constexpr (requires { s.fill; })
+            (s.fill != Role::none ? s.fill : s.stroke.role) = role;
+        },
+        shape);
+}
+
 // The mark that is the second cue beside a colour, in a square about the origin, y down.
-std::vector<DrawShape> mark_of(const FrameBody& body) {
+// On a shaded face it is as light as the lit ones.
+std::vector<DrawShape> mark_of(const FrameBody& body, Tone ground) {
   DrawList list;
   if (body.asleep)
     draw_sleep(list);
   else if (color_of(body) != Role::static_body)
     draw_emblem(body.color, {0, 0}, 1, list);
+  if (ground == Tone::shade && !body.asleep) recolor(list, in_tone(color_of(body), Tone::lit));
   return list.shapes;
 }
 
@@ -184,7 +196,8 @@ void draw_box(const SolidBody& b, const SolidView& view, std::vector<DrawShape>&
   const auto to_page = [&](const Vec<2>& p) {
     return view.to_page(widest->middle + u * p.x - v * p.y);
   };
-  put_on(mark_of(*b.body), to_page, size * view.scale_at(widest->middle), view, shapes);
+  const Tone tone = tone_of(widest->normal, view.light());
+  put_on(mark_of(*b.body, tone), to_page, size * view.scale_at(widest->middle), view, shapes);
 }
 
 void draw_round(const SolidBody& b, const SolidView& view, std::vector<DrawShape>& shapes) {
@@ -200,7 +213,7 @@ void draw_round(const SolidBody& b, const SolidView& view, std::vector<DrawShape
   if (across < kLeastMarked) return;
   const Vec<2> center = view.to_page(b.space.center);
   const auto to_page = [&](const Vec<2>& p) { return center + p * (0.14 * across); };
-  put_on(mark_of(*b.body), to_page, 0.14 * across, view, shapes);
+  put_on(mark_of(*b.body, Tone::middle), to_page, 0.14 * across, view, shapes);
 }
 
 // Characters stand upright and look at the viewer, wherever the camera is.
@@ -235,7 +248,7 @@ std::vector<SolidBody> solid_bodies(const Frame& frame, const SolidView& view) {
 }
 
 Piece body_piece(const SolidBody& body, const SolidView& view) {
-  Piece piece{body.space, body.outline, false, {}};
+  Piece piece{body.space, body.outline, false, false, {}};
   if (is_character(*body.body) && !body.body->dimmed)
     draw_upright(body, view, piece.shapes);
   else if (body.space.radius > 0)

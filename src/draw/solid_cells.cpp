@@ -8,7 +8,7 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostEdges = 700;
+constexpr std::size_t kMostEdges = 500;
 constexpr std::size_t kMostEdgesInCrowd = 250;  // lines must not hide a crowd of dots
 constexpr std::size_t kMostFills = 300;
 
@@ -23,11 +23,11 @@ struct Strength {
 };
 
 Stroke stroke_of(const Strength& s) {
-  constexpr double kWidths[] = {2.8, 2.1, 1.6, 1.3, 1.1};
-  const double width = s.depth < 5 ? kWidths[s.depth] : 1.0;
+  constexpr double kWidths[] = {2.8, 2.1, 1.5, 1.1, 0.9};
+  const double width = s.depth < 5 ? kWidths[s.depth] : 0.9;
   if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5, 0};
   const double dash = s.asleep != 0 ? 6 : 0;
-  if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(1.0, 0.6 * width), dash};
+  if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(0.8, 0.6 * width), dash};
   return {cell_line_role(s.depth), width, dash};
 }
 
@@ -102,7 +102,8 @@ class Edges {
       }
   }
 
-  // In a fixed order; of too many the deepest levels are left out, and the answer is false.
+  // In a fixed order; of too many the deepest levels are left out, but for lit cells, and the
+  // answer is false.
   bool take(std::size_t most, std::vector<Edge>& merged) {
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
       return std::tie(a.axis, a.at[0], a.at[1], a.from, a.to, a.strength) <
@@ -119,9 +120,12 @@ class Edges {
     bool complete = true;
     while (merged.size() > most) {
       std::uint32_t deepest = 0;
-      for (const Edge& e : merged) deepest = std::max(deepest, e.strength.depth);
+      for (const Edge& e : merged)
+        if (e.strength.lit != 0) deepest = std::max(deepest, e.strength.depth);
       if (deepest == 0) break;
-      std::erase_if(merged, [&](const Edge& e) { return e.strength.depth == deepest; });
+      std::erase_if(merged, [&](const Edge& e) {
+        return e.strength.lit != 0 && e.strength.depth == deepest;
+      });
       complete = false;
     }
     return complete;
@@ -203,8 +207,10 @@ bool add_cells(const Frame& frame, const std::vector<SolidBody>& bodies, const S
   // Deep ones first: of pieces equally far away the stronger lies on top.
   std::stable_sort(merged.begin(), merged.end(),
                    [](const Edge& a, const Edge& b) { return b.strength < a.strength; });
+  const std::size_t first = pieces.size();
   for (const Edge& e : merged)
     add_line(e.point(e.from), e.point(e.to), stroke_of(e.strength), {}, bodies, view, pieces);
+  for (std::size_t i = first; i < pieces.size(); ++i) pieces[i].yields = true;
   return complete;
 }
 

@@ -174,7 +174,7 @@ void add_drop_lines(const std::vector<SolidBody>& bodies, const SolidView& view,
     add_line(c, foot, {Role::quiet_ink, 1.4, 5}, {}, bodies, view, pieces);
     if (const auto page = view.segment(foot, foot); page && b.body->box.lo.y > foot.y) {
       const Box<2> spot = Box<2>::around(page->first, Vec<2>(2.6));
-      Piece mark{Convex::line(foot, foot), polygon_of(spot), true, {}};
+      Piece mark{Convex::line(foot, foot), polygon_of(spot), true, false, {}};
       mark.shapes.emplace_back(disc(page->first, 2.6, Role::quiet_ink));
       pieces.push_back(std::move(mark));
     }

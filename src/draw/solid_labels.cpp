@@ -37,10 +37,10 @@ void name_body(const SolidBody& b, const std::vector<SolidBody>& bodies, const S
 
 // At the corner of the cell that lies farthest out on the page, so that no two of a node's eight
 // children take the same one; on the cell's own side of it.
-void name_cell(const FrameNode& node, const SolidView& view, Labels& labels,
-               const std::vector<SolidBody>& bodies) {
-  TextStyle style{18, Weight::semibold, Role::quiet_ink, Role::panel};
-  if (node.mark == Mark::lit) style.role = Role::lit_ink;
+void name_cell(const FrameNode& node, const std::vector<SolidBody>& bodies, const SolidView& view,
+               DrawList& list, Labels& labels) {
+  const bool lit = node.mark == Mark::lit;
+  const TextStyle style{18, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink, Role::none};
   if (!view.in_front(node.box.center())) return;
   const Vec<2> middle = view.to_page(view.bounds().center());
   const Vec<2> own = view.to_page(node.box.center());
@@ -54,17 +54,21 @@ void name_cell(const FrameNode& node, const SolidView& view, Labels& labels,
   std::stable_sort(corners.begin(), corners.end(), [&](const Vec<2>& a, const Vec<2>& b) {
     return glm::length(a - middle) > glm::length(b - middle);
   });
+  const double cap = cap_height(style.weight) * style.size;
   const double half = text_width(node.label, style.size, style.weight) / 2;
   for (const Vec<2>& corner : corners) {
     const Vec<2> inwards = own - corner;
     const double length = glm::length(inwards);
     if (!(length > 1)) continue;
     const Vec<2> at = corner + inwards * (std::min(0.5 * length, half + 20) / length);
-    const Anchor anchor{{at.x, at.y + 6}, 0.5};
+    const Anchor anchor{{at.x, at.y + cap / 2}, 0.5};
+    const Box<2> plate = Box<2>::around(at, {half + 5, cap / 2 + 5});
     const Box<2> extent = Labels::extent(node.label, anchor, style);
     const bool covers = std::any_of(bodies.begin(), bodies.end(),
-                                    [&](const SolidBody& b) { return overlap(b.box, extent); });
+                                    [&](const SolidBody& b) { return overlap(b.box, plate); });
     if (covers || !labels.is_free(extent, shrunk(view.panel(), 4))) continue;
+    // Edges cross everywhere: a plate keeps them off the name.
+    list.shapes.emplace_back(filled(plate, lit ? Role::lit_fill : Role::panel, 5));
     return labels.add(node.label, anchor, style, view.panel());
   }
 }
@@ -72,7 +76,7 @@ void name_cell(const FrameNode& node, const SolidView& view, Labels& labels,
 }  // namespace
 
 void name_solids(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
-                 Labels& labels) {
+                 DrawList& list, Labels& labels) {
   for (const bool lit : {true, false})
     for (const SolidBody& b : bodies)
       if (b.body->lit == lit && !b.body->name.empty() && (lit || bodies.size() <= kMostNamed))
@@ -89,7 +93,7 @@ void name_solids(const Frame& frame, const std::vector<SolidBody>& bodies, const
     return std::pair{a->mark != Mark::lit, a->depth} < std::pair{b->mark != Mark::lit, b->depth};
   });
   if (cells.size() > kMostCells) cells.resize(kMostCells);
-  for (const FrameNode* cell : cells) name_cell(*cell, view, labels, bodies);
+  for (const FrameNode* cell : cells) name_cell(*cell, bodies, view, list, labels);
 }
 
 }  // namespace lantern

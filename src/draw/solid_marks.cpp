@@ -25,7 +25,8 @@ void add_piece(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, const
   const auto seen = view.in_sight(from, to);
   const auto page = view.segment(from, to);
   if (!seen || !page) return;
-  Piece piece{Convex::line(seen->first, seen->second), {page->first, page->second}, true, {}};
+  Piece piece{
+      Convex::line(seen->first, seen->second), {page->first, page->second}, true, false, {}};
   if (casing.width > 0)
     piece.shapes.emplace_back(LineShape{page->first, page->second, casing, false});
   piece.shapes.emplace_back(LineShape{page->first, page->second, stroke, false});
@@ -85,7 +86,7 @@ void add_head(const Vec<3>& from, const Vec<3>& to, double size, Role role, cons
   const Vec<2> back = tip - along * size;
   Outline head{tip, back + side * (0.45 * size), back - side * (0.45 * size)};
   if (!holds(view.panel(), box_of(head))) return;
-  Piece piece{Convex::line(to, to), hull_of(head), true, {}};
+  Piece piece{Convex::line(to, to), hull_of(head), true, false, {}};
   piece.shapes.emplace_back(PolygonShape{std::move(head), role, {}});
   pieces.push_back(std::move(piece));
 }
@@ -118,7 +119,7 @@ void add_spring(const FrameLink& link, const Stroke& stroke, const SolidView& vi
   bends.push_back(page->second);
   if (!holds(view.panel(), box_of(bends)))
     return add_piece(link.from, link.to, stroke, {}, view, pieces);
-  Piece piece{Convex::line(seen->first, seen->second), hull_of(bends), true, {}};
+  Piece piece{Convex::line(seen->first, seen->second), hull_of(bends), true, false, {}};
   for (std::size_t i = 0; i + 1 < bends.size(); ++i)
     piece.shapes.emplace_back(LineShape{bends[i], bends[i + 1], stroke, false});
   pieces.push_back(std::move(piece));
@@ -127,8 +128,7 @@ void add_spring(const FrameLink& link, const Stroke& stroke, const SolidView& vi
 void add_links(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
   for (const FrameLink& link : frame.links) {
-    const bool strained = std::abs(link.strain) > 0.1;
-    const Stroke stroke{strained ? Role::warning : Role::ink, strained ? 2.6 : 2.0, 0};
+    const Stroke stroke{Role::ink, 2.2, 0};
     if (link.kind == FrameLink::Kind::spring)
       add_spring(link, stroke, view, pieces);
     else if (link.kind == FrameLink::Kind::distance)
@@ -230,6 +230,7 @@ bool add_marks(const Frame& frame, const std::vector<SolidBody>& bodies, const S
 void draw_marks_over(const Frame& frame, const std::vector<SolidBody>& bodies,
                      const SolidView& view, DrawList& list) {
   draw_joints(frame, bodies, view, list);
+  for (const FrameRay& ray : frame.rays) draw_spot(ray.from, 4, Role::ray, view, list);
   for (const FrameRay& ray : frame.rays)
     for (const FrameRay::Hit& hit : ray.hits) draw_spot(hit.position, 6, Role::ray, view, list);
   for (const FrameLink& link : frame.links) {

@@ -78,6 +78,30 @@ void cut_round(Slab& slab, const Vec<3>& offset, const Vec<3>& way, double r) {
   slab.to = std::min(slab.to, (-b + std::sqrt(root)) / a);
 }
 
+// Thinner where it passes before others: a body must stay readable behind the edges of its cell.
+void thin(Piece& line, std::vector<std::pair<double, double>> over) {
+  constexpr double kThin = 0.5;
+  const LineShape whole = std::get<LineShape>(line.shapes.front());
+  LineShape thinner = whole;
+  thinner.stroke.width = std::max(0.9, kThin * whole.stroke.width);
+  line.shapes.clear();
+  const auto add = [&](LineShape shape, double from, double to) {
+    if (!(to > from)) return;
+    const Vec<2> way = whole.to - whole.from;
+    shape.from = whole.from + way * from;
+    shape.to = whole.from + way * to;
+    line.shapes.emplace_back(shape);
+  };
+  std::sort(over.begin(), over.end());
+  double start = 0;
+  for (const auto& [first, last] : over) {
+    add(whole, start, first);
+    add(thinner, std::max(start, first), last);
+    start = std::max(start, last);
+  }
+  add(whole, start, 1);
+}
+
 }  // namespace
 
 Convex Convex::line(const Vec<3>& a, const Vec<3>& b) {
@@ -158,12 +182,37 @@ bool nearer(const Convex& a, const Convex& b, const Vec<3>& eye) {
   return side < 0;
 }
 
+// Cyrus and Beck (1978).
+std::optional<std::pair<double, double>> inside_of(const Outline& outline, const Vec<2>& a,
+                                                   const Vec<2>& b) {
+  if (outline.size() < 3) return std::nullopt;
+  Vec<2> middle{0.0};
+  for (const Vec<2>& p : outline) middle += p / static_cast<double>(outline.size());
+  Slab part;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec<2> along = outline[(i + 1) % outline.size()] - outline[i];
+    Vec<2> inwards{-along.y, along.x};
+    if (glm::dot(inwards, middle - outline[i]) < 0) inwards = -inwards;
+    const double at_a = glm::dot(inwards, a - outline[i]);
+    const double way = glm::dot(inwards, b - a);
+    if (way > 0)
+      part.from = std::max(part.from, -at_a / way);
+    else if (way < 0)
+      part.to = std::min(part.to, -at_a / way);
+    else if (at_a < 0)
+      return std::nullopt;
+  }
+  if (!(part.from < part.to)) return std::nullopt;
+  return std::pair{part.from, part.to};
+}
+
 void paint(std::vector<Piece> pieces, const SolidView& view, DrawList& list) {
   const std::size_t n = pieces.size();
   std::vector<Box<2>> boxes;
   for (const Piece& piece : pieces) boxes.push_back(box_of(piece.outline));
   std::vector<std::vector<std::size_t>> later(n);  // who waits for whom
   std::vector<std::size_t> waits(n);
+  std::vector<std::vector<std::pair<double, double>>> over(n);  // of lines that yield
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
       if ((pieces[i].is_line && pieces[j].is_line) || !overlap(boxes[i], boxes[j]) ||
@@ -173,7 +222,13 @@ void paint(std::vector<Piece> pieces, const SolidView& view, DrawList& list) {
       const std::size_t behind = first_is_nearer ? j : i, before = first_is_nearer ? i : j;
       later[behind].push_back(before);
       ++waits[before];
+      if (!pieces[before].yields) continue;
+      const auto& line = std::get<LineShape>(pieces[before].shapes.front());
+      if (const auto part = inside_of(pieces[behind].outline, line.from, line.to))
+        over[before].push_back(*part);
     }
+  for (std::size_t i = 0; i < n; ++i)
+    if (!over[i].empty()) thin(pieces[i], std::move(over[i]));
   // By distance, then by their place in the list.
   using Key = std::pair<double, std::size_t>;
   std::vector<Key> keys;

@@ -35,8 +35,13 @@ struct Piece {
   Convex space;
   Outline outline;       // what it may cover on the page, convex
   bool is_line = false;  // lines are ordered against bodies, not against each other
+  bool yields = false;   // a line that is thinner where it passes before a body
   std::vector<DrawShape> shapes;
 };
+
+// The part of a segment on the page, from 0 to 1, that lies in a convex outline.
+std::optional<std::pair<double, double>> inside_of(const Outline& outline, const Vec<2>& a,
+                                                   const Vec<2>& b);
 
 // Paints all pieces, each after those that it covers. Where three or more cover each other in turn
 // the farthest goes first.

@@ -56,6 +56,6 @@ void draw_marks_over(const Frame& frame, const std::vector<SolidBody>& bodies,
                      const SolidView& view, DrawList& list);
 
 void name_solids(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
-                 Labels& labels);
+                 DrawList& list, Labels& labels);
 
 }  // namespace lantern

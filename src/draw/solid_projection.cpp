@@ -110,7 +110,9 @@ void SolidView::aim(const Camera& camera) {
   const Vec<3> above = std::abs(forward_.y) > 0.9999 ? Vec<3>(0, 0, -1) : Vec<3>(0, 1, 0);
   right_ = glm::normalize(glm::cross(forward_, above));
   up_ = glm::cross(right_, forward_);
-  light_ = glm::normalize(Vec<3>(0, 0.85, 0) - right_ * 0.42 - forward_ * 0.5);
+  // From above and the left, so that a box shows a lit top, a middle and a shaded side.
+  const Vec<3> level_back = glm::cross(right_, Vec<3>(0, 1, 0));
+  light_ = glm::normalize(Vec<3>(0, 0.72, 0) - right_ * 0.6 + level_back * 0.35);
 }
 
 void SolidView::fit(double field_of_view, bool chosen) {
@@ -186,39 +188,42 @@ std::optional<std::pair<Vec<2>, Vec<2>>> SolidView::segment(const Vec<3>& a,
   return std::pair{from + way * first, from + way * last};
 }
 
-//      axis                 The rim of the cap is a circle of normals n. Where the ball hides it
-//     .-^-.   rim of cap    (n . v below r / d, v towards the eye, d the distance), the outline of
-//    /-----\                the ball takes its place.
+namespace {
+
+// Normals at an angle to a unit axis whose cosine is given: a circle.
+std::vector<Vec<3>> circle(const Vec<3>& axis, double cosine) {
+  constexpr int kPoints = 48;
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const Vec<3> side =
+      glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9 ? Vec<3>(0, 1, 0) : Vec<3>(1, 0, 0)));
+  const Vec<3> other = glm::cross(axis, side);
+  std::vector<Vec<3>> normals;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kPoints;
+    normals.push_back(axis * cosine + (side * std::cos(angle) + other * std::sin(angle)) * sine);
+  }
+  return normals;
+}
+
+}  // namespace
+
+//      axis          The eye sees the normals n with n . v >= r / d: v towards the eye, d the
+//     .-^-.          distance. The cap as seen is bounded by its own rim, as far as that is seen,
+//    /-----\  rim    and by the outline of the ball, as far as that lies in the cap.
 //   |   c   |
 Outline SolidView::ball_cap(const Vec<3>& center, double radius, const Vec<3>& axis,
                             double least_cosine) const {
-  constexpr int kRim = 40;
   const Vec<3> to_eye = eye_ - center;
   const double distance = glm::length(to_eye);
   if (!(distance > radius * 1.0001) || !(radius > 0)) return {};
   const Vec<3> v = to_eye / distance;
   const double horizon = radius / distance;
-  const double horizon_sine = std::sqrt(1 - horizon * horizon);
-  const bool whole = least_cosine <= -1;
-  const Vec<3> pole = whole ? v : axis;
-  const double cosine = whole ? horizon : least_cosine;
-  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  const Vec<3> side =
-      glm::normalize(glm::cross(pole, std::abs(pole.y) < 0.9 ? Vec<3>(0, 1, 0) : Vec<3>(1, 0, 0)));
-  const Vec<3> other = glm::cross(pole, side);
   std::vector<Vec<3>> rim;
-  for (int i = 0; i < kRim; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kRim;
-    Vec<3> n = pole * cosine + (side * std::cos(angle) + other * std::sin(angle)) * sine;
-    const double towards = glm::dot(n, v);
-    if (towards < horizon) {
-      const Vec<3> flat_part = n - v * towards;
-      const double length = glm::length(flat_part);
-      if (length < 1e-9) continue;
-      n = v * horizon + flat_part * (horizon_sine / length);
-    }
-    rim.push_back(center + n * radius);
-  }
+  for (const Vec<3>& n : circle(v, horizon))
+    if (least_cosine <= -1 || glm::dot(n, axis) >= least_cosine) rim.push_back(center + n * radius);
+  if (least_cosine > -1)
+    for (const Vec<3>& n : circle(axis, least_cosine))
+      if (glm::dot(n, v) > horizon) rim.push_back(center + n * radius);
   return hull_of(polygon(rim));
 }
 

@@ -69,8 +69,9 @@ class SolidView {
   // The line of a segment before the panel cuts it.
   std::optional<std::pair<Vec<3>, Vec<3>>> in_sight(const Vec<3>& a, const Vec<3>& b) const;
 
-  // The part of a ball whose normals are within an angle of `axis`, as the eye sees it: a disc for
-  // the least cosine -1. Empty when the eye is in the ball.
+  // The part of a ball whose normals are near to the unit vector `axis`, as the eye sees it: all
+  // for the least cosine -1, otherwise at least 0. Where the axis points away from the eye, the
+  // hollow of a crescent is filled. Empty when the eye is in the ball.
   Outline ball_cap(const Vec<3>& center, double radius, const Vec<3>& axis,
                    double least_cosine) const;
 

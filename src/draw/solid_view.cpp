@@ -30,7 +30,7 @@ void draw_solid_world(const Frame& frame, const Box<2>& panel, DrawList& list, L
   }
   draw_marks_over(frame, bodies, view, list);
   if (!note.empty()) labels.add_note(note, panel);
-  name_solids(frame, bodies, view, labels);
+  name_solids(frame, bodies, view, list, labels);
 }
 
 }  // namespace lantern

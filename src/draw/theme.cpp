@@ -74,7 +74,7 @@ constexpr Theme theme_of(const Palette& p) {
   };
   const auto shade = [&](Role role) {
     mix(in_tone(role, Tone::lit), role, {255, 255, 255}, 0.38);
-    mix(in_tone(role, Tone::shade), role, {0, 0, 0}, 0.3);
+    mix(in_tone(role, Tone::shade), role, {0, 0, 0}, 0.36);
   };
   for (int color = 1; color <= 8; ++color) shade(body_role(color));
   shade(Role::static_body);

@@ -230,12 +230,40 @@ Frame crowd_frame() {
   return frame;
 }
 
+Frame inside_frame() {
+  Frame frame = culling_frame();
+  frame.title = "From within the world";
+  frame.camera = Camera{{7, 3.5, 15.5}, {9.5, 2.5, 5.5}, 0.8};
+  frame.views.clear();
+  return frame;
+}
+
+Frame pit_frame() {
+  Frame frame = solid_frame("pit", {{0, 0, 0}, {24, 10, 16}});
+  frame.title = "Forty bodies in a pit";
+  frame.camera = Camera{{20, 16, 42}, {12, 3, 8}, 0.5};
+  Random random(11);
+  for (BodyId i = 0; i < 40; ++i) {
+    const Vec<3> at{1 + 22 * random.unit(), 0.7 + 8 * random.unit() * random.unit(),
+                    1 + 14 * random.unit()};
+    Shape<3> shape = Sphere{0.3 + 0.5 * random.unit()};
+    if (i % 3 == 1) shape = OrientedBox<3>{{0.4 + 0.4 * random.unit(), 0.6, 0.5}};
+    if (i % 3 == 2) shape = Capsule{0.35, 0.5};
+    FrameBody body = solid_body(i, fmt::format("{}", i + 1), shape, at, 1 + int(i % 8));
+    body.orientation = turn({random.unit(), 1, random.unit()}, 3 * random.unit());
+    body.box = bounding_box(shape, at, body.orientation);
+    body.asleep = i % 7 == 0;
+    frame.bodies.push_back(body);
+  }
+  add_octree(frame);
+  light(frame, 5);
+  return frame;
+}
+
 std::vector<std::pair<std::string, Frame>> all_solid() {
-  return {{"octree", octree_frame()},
-          {"tower", tower_frame()},
-          {"culling", culling_frame()},
-          {"columns", columns_frame()},
-          {"crowd", crowd_frame()}};
+  return {{"octree", octree_frame()},   {"tower", tower_frame()}, {"culling", culling_frame()},
+          {"columns", columns_frame()}, {"crowd", crowd_frame()}, {"inside", inside_frame()},
+          {"pit", pit_frame()}};
 }
 
 }  // namespace lantern::samples

@@ -17,6 +17,8 @@ Frame tower_frame();    // boxes on a half-space, the lowest asleep, with contac
 Frame culling_frame();  // a view, a ray, links, and bodies of all shapes
 Frame columns_frame();  // a quadtree over x and z: characters on a floor
 Frame crowd_frame();    // more bodies than are drawn one by one
+Frame inside_frame();   // the eye is within the bounds
+Frame pit_frame();      // bodies of all shapes and turns, with a camera of its own
 
 std::vector<std::pair<std::string, Frame>> all_solid();
 
