@@ -204,6 +204,11 @@ TEST(Integrators, FarFromTheOriginNothingIsLostButThePlace) {
     SmoothScene<2> near = oscillator(3, 0.1, 0.5), far = near;
     const double offset = 0x1p30;
     for (Body<2>& body : far.bodies) body.position += offset;
+    std::vector<Increment<2>> here, there;
+    find_increments<2>(method, near.bodies, near.forces, 0.1, here, near.evaluations);
+    find_increments<2>(method, far.bodies, far.forces, 0.1, there, far.evaluations);
+    EXPECT_EQ(here[1].kick, there[1].kick) << to_string(method) << ": rounded within the step";
+    EXPECT_EQ(here[1].drift, there[1].drift) << to_string(method);
     near.run(method, 0x1p-8, 256);
     far.run(method, 0x1p-8, 256);
     EXPECT_NEAR(far.bodies[1].position.x - offset, near.bodies[1].position.x, 256 * 8 * 0x1p-22)
