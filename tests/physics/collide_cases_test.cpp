@@ -233,7 +233,7 @@ TEST(Collide, FeatureNamesStayWhileAStackJitters) {
   for (int step = 0; step < 500; ++step) {
     for (int i = 0; i < 3; ++i)
       upper.position[i] = (i == 1 ? 1.499 : 3) + random.between(-2e-5, 2e-5);
-    upper.orientation = turned_about(random_direction<3>(random), random.between(0, 2e-5));
+    upper.orientation = turned(Rotation<3>{}, random_arrow<3>(random, 0, 2e-5));
     const auto found = contact(lower, upper, 0.01);
     ASSERT_TRUE(found);
     ASSERT_EQ(features(*found), features(*first)) << "step " << step;
@@ -252,7 +252,7 @@ TEST(Collide, AHoveringBoxKeepsItsPointsAndTheirNames) {
   ASSERT_TRUE(first);
   for (int step = 0; step < 2000; ++step) {
     upper.position.y = 1.4 + random.between(-1e-4, 1e-4);
-    upper.orientation = turned_about(random_direction<3>(random), random.between(0, 1e-4));
+    upper.orientation = turned(Rotation<3>{}, random_arrow<3>(random, 0, 1e-4));
     const auto found = contact(lower, upper, 0.01);
     ASSERT_TRUE(found);
     ASSERT_EQ(features(*found), features(*first)) << "step " << step;
