@@ -157,6 +157,15 @@ TEST(Collide, CornersApartHaveTheirTrueDistance) {
   EXPECT_DOUBLE_EQ(least_separation(*solid), 7);  // 2, 3, 6
 }
 
+// Clipping counts a corner just beside a face as above it; the distance must not.
+TEST(Collide, CornersThatJustMissEachOtherHaveTheirTrueDistance) {
+  const auto found = contact<2>({AxisBox<2>{{1, 1}}, {0, 0}, {}},
+                                {AxisBox<2>{{1, 1}}, {2 + 4e-5, 2 + 3e-5}, {}}, 1);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(least_separation(*found), 5e-5, 1e-15);
+  EXPECT_LE(glm::length(found->normal - Vec<2>(0.8, 0.6)), 1e-10);
+}
+
 TEST(Collide, ParallelCapsulesMeetInTwoPoints) {
   const Thing<3> a{Capsule{0.5, 1}, {0, 0, 0}, {}};
   for (const double tilt : {0.0, 1e-16, 1e-12, 1e-8, 1e-6, 1e-4}) {
