@@ -52,9 +52,8 @@ struct Placed {
 //   of shapes that are apart their distance, of shapes that overlap the least depth by which they
 //   can be parted. The normal is the direction to do so, to about 1e-9 radians; less if the cores
 //   (centres, segments, boxes) are a distance below 1e-6 of the sizes apart.
-// - Overlapping boxes may report up to 1e-3 of their smallest half size more depth than that. Of
-// axes
-//   that are so nearly equal the first of a fixed order is taken, so that rounding does not choose.
+// - Overlapping boxes may report up to 1e-3 of their smallest half size more depth than that: of
+//   axes so nearly equal the first of a fixed order is taken, so that rounding does not choose.
 // - Further points, up to `margin`, are where the faces in contact end. A capsule that lies along a
 //   box or a capsule has two points.
 // - Features keep their names under small motion; names of one manifold differ.
