@@ -110,16 +110,18 @@ Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
 template <int D>
 Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
                             double bound, double rounding, double margin) {
+  using Kind = typename SeparatingAxis<D>::Kind;
+  if (axis.kind == Kind::side) return std::nullopt;
+  const bool apart = bound > rounding;
+  if (apart && (axis.kind == Kind::edges || axis.separation < bound - rounding))
+    return std::nullopt;  // they may still have a face's points, along another normal
   FaceContact<D> contact = contact_on(axis, a, b, margin);
   if (contact.manifold.count == 0) return std::nullopt;
-  const double least = least_separation(contact.manifold) + a.radius + b.radius;
-  if (bound > rounding) {  // apart
-    if (contact.least_distance > bound + rounding) return std::nullopt;
-    if (std::abs(least - bound) > rounding) return std::nullopt;
-    return contact.manifold;
-  }
-  if (std::abs(least - bound) > kAxisBias * smallest_half(a, b) + rounding) return std::nullopt;
-  set_least_separation(contact.manifold, axis.separation - a.radius - b.radius);
+  const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
+  const double exact = axis.separation - a.radius - b.radius;
+  if (std::abs(least_separation(contact.manifold) - exact) > allowed) return std::nullopt;
+  if (apart && contact.least_distance > bound + rounding) return std::nullopt;
+  set_least_separation(contact.manifold, exact);
   return contact.manifold;
 }
 
@@ -127,7 +129,6 @@ Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, co
 
 template <int D>
 Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
-  using Kind = typename SeparatingAxis<D>::Kind;
   const SeparatingAxes<D> axes = separating_axes(a, b);
   const double radii = a.radius + b.radius, bound = axes.greatest.separation;
   if (bound - radii > margin) return std::nullopt;
@@ -136,17 +137,16 @@ Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
   for (int i = 0; i < D; ++i) size += a.half[i] + b.half[i];
   const double rounding = kRounding * size;
   const bool apart = bound > rounding;
-  for (const SeparatingAxis<D>* axis : {&axes.chosen, &axes.greatest}) {
-    // Blocks that are apart meet in one point of an edge only if they cannot lie on a face.
-    if (axis->kind == Kind::side || (apart && axis->kind == Kind::edges)) continue;
-    if (axis == &axes.greatest && axis->normal == axes.chosen.normal) continue;  // tried already
-    if (const auto contact = contact_if_exact(*axis, a, b, bound, rounding, margin)) return contact;
-  }
+  if (auto contact = contact_if_exact(axes.chosen, a, b, bound, rounding, margin)) return contact;
+  if (!apart)
+    if (auto contact = contact_if_exact(axes.greatest, a, b, bound, rounding, margin))
+      return contact;
 
   const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest);
   Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
-  // Cores that meet have no direction between them.
-  if (!apart) normal = {axes.greatest.normal, bound};
+  // Where the axis is as good, it is the better direction: it does not come of small differences.
+  // Cores that meet have none but it.
+  if (normal.length <= bound + rounding || !apart) normal = {axes.greatest.normal, bound};
   if (normal.length - radii > margin) return std::nullopt;
   return contact_of_closest(a, b, closest, normal, axes.face, margin);
 }

@@ -123,19 +123,14 @@ double distance_to(const Block<D>& block, const Vec<D>& point) {
 
 // The deepest point, the one farthest from it, and on each side of the line through both the one
 // that spans the largest triangle; no more if the points lie on a line. So that rounding does not
-// swap equal ones, a later point must be deeper by `slack`, or wider by a part of 1e-6. The first
-// then stands for the deepest and takes over its height.
-std::vector<int> widest_four(const Outline<3>& outline, std::array<double, kMostCorners>& heights,
-                             const Vec<3>& normal, double slack) {
-  const auto height = [&](int i) -> double& { return heights[static_cast<std::size_t>(i)]; };
+// swap equal ones, a later point must be deeper by `slack`, or wider by a part of 1e-6.
+std::vector<int> widest_four(const Outline<3>& outline,
+                             const std::array<double, kMostCorners>& heights, const Vec<3>& normal,
+                             double slack) {
+  const auto height = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
   int deepest = 0;
-  double least = height(0);
-  for (int i = 1; i < outline.count; ++i) {
-    least = std::min(least, height(i));
+  for (int i = 1; i < outline.count; ++i)
     if (height(i) < height(deepest) - slack) deepest = i;
-  }
-  height(deepest) = least;
-
   std::vector<int> chosen{deepest};
   const auto add_best = [&](const auto& measure) {
     int best = -1;

@@ -12,19 +12,18 @@ namespace lantern {
 namespace {
 
 template <int D>
-Rotation<D> random_rotation(Random& random) {
-  if constexpr (D == 2)
-    return {random.between(-4, 4)};
-  else
-    return turned(Rotation<3>{},
-                  Vec<3>(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)));
-}
-
-template <int D>
 Vec<D> random_vec(Random& random, double lo, double hi) {
   Vec<D> v;
   for (int i = 0; i < D; ++i) v[i] = random.between(lo, hi);
   return v;
+}
+
+template <int D>
+Rotation<D> random_rotation(Random& random) {
+  if constexpr (D == 2)
+    return {random.between(-4, 4)};
+  else
+    return turned(Rotation<3>{}, random_vec<3>(random, -2, 2));
 }
 
 // Every corner lies within the box, and each of the box's faces is touched by one: no box is

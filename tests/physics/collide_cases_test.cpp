@@ -157,6 +157,15 @@ TEST(Collide, CornersApartHaveTheirTrueDistance) {
   EXPECT_DOUBLE_EQ(least_separation(*solid), 7);  // 2, 3, 6
 }
 
+// Clipping counts a corner just beside a face as above it; the distance must not.
+TEST(Collide, CornersThatJustMissEachOtherHaveTheirTrueDistance) {
+  const auto found = contact<2>({AxisBox<2>{{1, 1}}, {0, 0}, {}},
+                                {AxisBox<2>{{1, 1}}, {2 + 4e-5, 2 + 3e-5}, {}}, 1);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(least_separation(*found), 5e-5, 1e-15);
+  EXPECT_LE(glm::length(found->normal - Vec<2>(0.8, 0.6)), 1e-10);
+}
+
 TEST(Collide, ParallelCapsulesMeetInTwoPoints) {
   const Thing<3> a{Capsule{0.5, 1}, {0, 0, 0}, {}};
   for (const double tilt : {0.0, 1e-16, 1e-12, 1e-8, 1e-6, 1e-4}) {
@@ -233,7 +242,7 @@ TEST(Collide, FeatureNamesStayWhileAStackJitters) {
   for (int step = 0; step < 500; ++step) {
     for (int i = 0; i < 3; ++i)
       upper.position[i] = (i == 1 ? 1.499 : 3) + random.between(-2e-5, 2e-5);
-    upper.orientation = turned_about(random_direction<3>(random), random.between(0, 2e-5));
+    upper.orientation = turned(Rotation<3>{}, random_arrow<3>(random, 0, 2e-5));
     const auto found = contact(lower, upper, 0.01);
     ASSERT_TRUE(found);
     ASSERT_EQ(features(*found), features(*first)) << "step " << step;
@@ -252,7 +261,7 @@ TEST(Collide, AHoveringBoxKeepsItsPointsAndTheirNames) {
   ASSERT_TRUE(first);
   for (int step = 0; step < 2000; ++step) {
     upper.position.y = 1.4 + random.between(-1e-4, 1e-4);
-    upper.orientation = turned_about(random_direction<3>(random), random.between(0, 1e-4));
+    upper.orientation = turned(Rotation<3>{}, random_arrow<3>(random, 0, 1e-4));
     const auto found = contact(lower, upper, 0.01);
     ASSERT_TRUE(found);
     ASSERT_EQ(features(*found), features(*first)) << "step " << step;

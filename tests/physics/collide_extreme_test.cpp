@@ -41,7 +41,7 @@ void expect_ratios_work() {
           capsule->half_length *= ratio;
         }
         const double reach = size_of(a) + size_of(b);
-        b.position = a.position + random_direction<D>(random) * (reach * random.unit());
+        b.position = a.position + random_arrow<D>(random, 0, reach);
         expect_sane<D>(a, b, random, 1e9);
         if (testing::Test::HasFatalFailure()) return;
       }
@@ -63,7 +63,7 @@ void expect_thin_things_work() {
     const Thing<D> a{OrientedBox<D>{half_a}, Vec<D>(0.0), random_rotation(random, Rotation<D>{})};
     Thing<D> b{OrientedBox<D>{half_b}, Vec<D>(0.0), random_rotation(random, Rotation<D>{})};
     if (round % 3 == 0) b.shape = Capsule{1, 1e4};
-    b.position = random_direction<D>(random) * random.between(0, 2e4);
+    b.position = random_arrow<D>(random, 0, 2e4);
     expect_sane<D>(a, b, random, 1e9);
     if (testing::Test::HasFatalFailure()) return;
   }

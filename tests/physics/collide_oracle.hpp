@@ -130,6 +130,14 @@ Vec<D> random_direction(Random& random) {
   }
 }
 
+// In a random direction, of a random length. (In one expression the compiler would choose which of
+// the two is drawn first.)
+template <int D>
+Vec<D> random_arrow(Random& random, double shortest, double longest) {
+  const Vec<D> direction = random_direction<D>(random);
+  return direction * random.between(shortest, longest);
+}
+
 inline Rotation<2> random_rotation(Random& random, Rotation<2>) {
   // Every other one is a multiple of 45 degrees: there faces and edges are parallel.
   if (random.whole(0, 1) == 0) return {static_cast<double>(random.whole(0, 8)) * std::atan(1.0)};
@@ -138,7 +146,7 @@ inline Rotation<2> random_rotation(Random& random, Rotation<2>) {
 inline Rotation<3> random_rotation(Random& random, Rotation<3>) {
   Vec<3> by;
   for (int i = 0; i < 3; ++i) by[i] = static_cast<double>(random.whole(0, 4)) * std::atan(1.0);
-  if (random.whole(0, 1) == 0) by = random_direction<3>(random) * random.between(0, 3);
+  if (random.whole(0, 1) == 0) by = random_arrow<3>(random, 0, 3);
   return turned(Rotation<3>{}, by);
 }
 
@@ -166,7 +174,7 @@ std::pair<Thing<D>, Thing<D>> random_pair(Random& random, int kind_a, int kind_b
   Thing<D> a = random_thing<D>(random, kind_a), b = random_thing<D>(random, kind_b);
   const double reach = (size_of(a) + size_of(b)) * (random.whole(0, 15) == 0 ? 0 : 1.3);
   for (int i = 0; i < D; ++i) a.position[i] = random.between(-3, 3);
-  b.position = a.position + random_direction<D>(random) * (reach * random.unit());
+  b.position = a.position + random_arrow<D>(random, 0, reach);
   return {a, b};
 }
 

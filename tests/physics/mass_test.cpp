@@ -40,8 +40,8 @@ MassProperties<D> summed(const Shape<D>& shape, double density, int cells) {
 template <int D>
 void expect_mass_is_the_sum(const Shape<D>& shape) {
   const MassProperties<D> found = mass_of(shape, 2.5);
-  const MassProperties<D> expected = summed(shape, 2.5, D == 2 ? 800 : 120);
-  EXPECT_NEAR(found.mass / expected.mass, 1, 2e-3)
+  const MassProperties<D> expected = summed(shape, 2.5, D == 2 ? 300 : 60);
+  EXPECT_NEAR(found.mass / expected.mass, 1, 5e-3)
       << "shape " << shape.index() << " in " << D << "D";
   for (int i = 0; i < (D == 2 ? 1 : 3); ++i) {
     double one = 0, other = 0;
@@ -49,7 +49,7 @@ void expect_mass_is_the_sum(const Shape<D>& shape) {
       one = found.inertia, other = expected.inertia;
     else
       one = found.inertia[i], other = expected.inertia[i];
-    EXPECT_NEAR(one / other, 1, 4e-3) << "inertia " << i << " of shape " << shape.index();
+    EXPECT_NEAR(one / other, 1, 1e-2) << "inertia " << i << " of shape " << shape.index();
   }
 }
 
