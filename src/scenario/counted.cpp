@@ -123,8 +123,8 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
 }
 
 std::optional<std::string> read_plot(const TableReader& step, Draft& draft, ScriptState& state) {
-  if (!step.has("plot")) return std::nullopt;
-  state.has_plot = true;
+  if (step.has("plot")) state.has_plot = true;
+  if (!step.is_good("plot")) return std::nullopt;
   const auto& chart = draft.scenario.chart;
   if (!chart) {
     draft.problems.add(step.key_place("plot"), "'plot' needs a [chart], the scenario has none",

@@ -34,6 +34,8 @@ class TableReader {
 
   // Is the key written there, good or bad?
   bool has(std::string_view key) const { return entry(key) != nullptr; }
+  // And is it good? What else is wrong with a bad one is not told.
+  bool is_good(std::string_view key) const { return good(key) != nullptr; }
   // Of the key's value; of the table if it is not there.
   Place place(std::string_view key) const;
   Place key_place(std::string_view key) const;

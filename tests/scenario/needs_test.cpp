@@ -46,10 +46,30 @@ TEST(Needs, OfAnAtlas) {
 }
 
 TEST(Needs, NameWhatTheProductHasAndThisSceneDoesNot) {
+  for (const char* name : {"ghost_quadtree", "pong_bsp", "kdtree_atlas"})
+    for (const char* stage : {"rotation", "forces", "springs and joints", "static structure",
+                              "narrow phase", "contact solver", "friction", "sleeping", "queries",
+                              "level", "chart", "memory panel", "3D camera"})
+      EXPECT_FALSE(need(needs_of(scenario(name)), stage).used) << stage;
+}
+
+TEST(Needs, AreListedAsTheyAre) {
   for (const std::string& text : good_texts()) {
     const Needs needs = needs_of(good(text));
-    for (const char* stage : {"rotation", "forces", "narrow phase", "contact solver", "3D camera"})
-      EXPECT_FALSE(need(needs, stage).used) << stage;
+    EXPECT_EQ(need(needs, "rotation").used, needs.rotation);
+    EXPECT_EQ(need(needs, "forces").used, needs.forces);
+    EXPECT_EQ(need(needs, "springs and joints").used, needs.links);
+    EXPECT_EQ(need(needs, "static structure").used, needs.static_structure);
+    EXPECT_EQ(need(needs, "narrow phase").used, needs.narrow_phase);
+    EXPECT_EQ(need(needs, "contact solver").used, needs.solver);
+    EXPECT_EQ(need(needs, "friction").used, needs.friction);
+    EXPECT_EQ(need(needs, "sleeping").used, needs.sleeping);
+    EXPECT_EQ(need(needs, "queries").used, needs.queries);
+    EXPECT_EQ(need(needs, "level").used, needs.level);
+    EXPECT_EQ(need(needs, "chart").used, needs.chart);
+    EXPECT_EQ(need(needs, "3D camera").used, needs.camera);
+    EXPECT_EQ(need(needs, "chart panel").used, needs.chart_panel);
+    EXPECT_EQ(need(needs, "memory panel").used, needs.memory_panel);
     EXPECT_EQ(need(needs, "OpenGL").reason, "only for --format png");
     EXPECT_EQ(need(needs, "world").used, needs.world);
     EXPECT_EQ(need(needs, "motion").used, needs.motion);
