@@ -27,8 +27,8 @@ struct Named {
 // the reader of a bad file goes on and finds the other mistakes, too.
 class TableReader {
  public:
-  // `where` is the place of the table's header. `dimension` is the world's, 0 where it is not known:
-  // points may then have two or three numbers. `called` names the table in messages.
+  // `where` is the place of the table's header. `dimension` is the world's, 0 where it is not
+  // known: points may then have two or three numbers. `called` names the table in messages.
   TableReader(const TomlTable& table, Place where, const TableDoc& doc, Problems& problems,
               int dimension, std::string_view called = {});
 

@@ -109,6 +109,65 @@ TEST(Needs, SomethingMovesOnlyWhileItIsThere) {
             "no body ever moves");
 }
 
+TEST(Needs, OfASolidSceneWithEverything) {
+  const Needs needs = needs_of(good(std::string(kSolid)));
+  EXPECT_TRUE(needs.motion && needs.rotation && needs.forces && needs.links && needs.structure &&
+              needs.static_structure && needs.narrow_phase && needs.solver && needs.friction &&
+              needs.sleeping && needs.queries && needs.chart && needs.camera);
+  EXPECT_FALSE(needs.level || needs.atlas);
+  EXPECT_EQ(need(needs, "forces").reason, "gravity, springs");
+  EXPECT_EQ(need(needs, "springs and joints").reason, "3 springs, 1 joint");
+  EXPECT_EQ(need(needs, "contact solver").reason, "soft contacts in small steps");
+  EXPECT_EQ(need(needs, "rotation").reason, "ball turns, or may be turned");
+  EXPECT_EQ(need(needs, "queries").reason, "1 ray, cull or query");
+}
+
+// Each thing is needed for its own reason, and not without it.
+TEST(Needs, OfPhysicsAreTrue) {
+  const std::string head = "title = \"x\"\n[world]\nsize = [9, 9]\n";
+  const auto scene = [&](const std::string& world, const std::string& body,
+                         const std::string& rest = "") {
+    return needs_of(good(head + world + "[[body]]\nname = \"a\"\nposition = [1, 1]\n" + body +
+                         "[[body]]\nname = \"b\"\nposition = [5, 1]\nradius = 1\n" + rest +
+                         "[[step]]\ndo = \"insert\"\nbodies = [\"a\", \"b\"]\n"
+                         "[[step]]\ndo = \"run\"\nseconds = 1\n"));
+  };
+  const std::string ball = "radius = 1\n";
+  const Needs plain = scene("", ball);
+  EXPECT_FALSE(plain.motion || plain.rotation || plain.forces || plain.links || plain.solver ||
+               plain.narrow_phase || plain.friction || plain.sleeping || plain.camera);
+  EXPECT_EQ(need(plain, "narrow phase").reason, "the world lets bodies pass through each other");
+  const Needs falling = scene("gravity = [0, -1]\n", ball);
+  EXPECT_TRUE(falling.motion && falling.forces);
+  EXPECT_FALSE(falling.rotation) << "gravity turns nothing";
+  EXPECT_TRUE(scene("", "radius = 1\nspin = 5\n").rotation);
+  EXPECT_TRUE(scene("", "radius = 1\ndrag = 1\n").forces);
+  const Needs touching = scene("contacts = \"impulse\"\n", ball);
+  EXPECT_TRUE(touching.narrow_phase && touching.solver && touching.friction && touching.rotation);
+  EXPECT_FALSE(touching.forces);
+  EXPECT_EQ(need(touching, "contact solver").reason, "sequential impulses");
+  const Needs smooth = scene("contacts = \"impulse\"\n", "radius = 1\nfriction = 0\n");
+  EXPECT_FALSE(smooth.friction);
+  EXPECT_EQ(need(smooth, "friction").reason, "no two bodies have friction");
+  EXPECT_TRUE(scene("may_sleep = true\n", ball).sleeping);
+  const Needs tied = scene("", ball, "[[joint]]\nkind = \"pin\"\na = \"a\"\nb = \"b\"\n");
+  EXPECT_TRUE(tied.links && tied.solver && tied.motion);
+  EXPECT_FALSE(tied.narrow_phase || tied.forces);
+  EXPECT_EQ(need(tied, "contact solver").reason, "for the joints");
+  EXPECT_TRUE(scene("", ball, "[[spring]]\na = \"a\"\nb = \"b\"\nstiffness = 1\n").forces);
+}
+
+TEST(Needs, OfALevel) {
+  const Needs needs = needs_of(good(std::string(level_example())));
+  EXPECT_FALSE(needs.level);
+  EXPECT_EQ(need(needs, "level").reason, "no step compiles it");
+  EXPECT_TRUE(needs.world_panel) << "its walls are drawn";
+  const Needs compiled =
+      needs_of(good(std::string(level_example()) + "[[step]]\ndo = \"compile\"\n"));
+  EXPECT_TRUE(compiled.level && compiled.tree_panel);
+  EXPECT_EQ(need(compiled, "level").reason, "8 walls");
+}
+
 TEST(Needs, PanelsAreDerivedUnlessGiven) {
   using Panels = std::vector<Panel>;
   EXPECT_EQ(scenario("ghost_quadtree").panels, (Panels{Panel::world, Panel::tree}));

@@ -278,6 +278,13 @@ TEST(PatternsOf, AStackTouch) {
   EXPECT_NEAR(turned[1].position.y, 6, 1e-12) << "as high as they are, turned";
 }
 
+TEST(PatternsOf, AStackIsAsHighAsItIs) {
+  const std::string stack =
+      kFlat + "[[pattern]]\nname = \"p\"\ncount = 2\nradius = 1\narrange = \"stack\"\n";
+  good(stack + "min = [10, 99]\n" + kShow);
+  expect_mistakes(stack + "@max = [10, 9]\n" + kShow, {"a stack has no 'max'"});
+}
+
 TEST(PatternsOf, ALineReachItsEnds) {
   const auto line = pattern(
       kDeep, "count = 3\nradius = 1\narrange = \"line\"\nmin = [1, 2, 3]\nmax = [5, 2, 7]\n");
