@@ -98,10 +98,13 @@ enum class CountNeed {
   bodies,
   structure,
   kd_tree,
+  array,  // a structure whose leaves share one
+  split,  // one structure for what never moves, one for what does
+  asleep_nodes,
   contacts,  // the world parts bodies that touch
-  solver,    // contacts, or joints
+  sleep,     // of contacts, may_sleep and split_static one at least: what rests is told apart
+  physics,   // of contacts, gravity, springs and joints one at least: more than free flight
   query,     // a ray, cull or query was asked
-  level,
   compiled,  // the level was
   located,   // a point of the level was
   room,      // of an atlas: it was asked for room

@@ -235,9 +235,6 @@ TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
     expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"this world has no contacts"});
   expect_mistakes(free + steps({show + "@contacts_are = [] }"}), {"this world has no contacts"});
   expect_mistakes(free + steps({show + "at_most = { @contacts = 1 } }"}), {"no contacts"});
-  expect_mistakes(free + steps({show + "@constraint_rows = 1 }"}), {"neither contacts nor joints"});
-  good(free + "[[joint]]\nkind = \"pin\"\na = \"red\"\nb = \"pink\"\n" +
-       steps({show + "constraint_rows = 1 }"}));
   expect_mistakes(kScene + steps({show + "@stale = 1 }"}), {"no kd_tree at this step"});
   good(kScene + steps({"do = \"rebuild\"\nkind = \"kd_tree\"\nexpect = { stale = 0 }"}));
   for (const std::string count : {"slots", "node_bytes", "node_bytes_with_bounds", "nodes_asleep",
@@ -245,9 +242,12 @@ TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
     expect_mistakes(kRules + kBodies + steps({show + "@" + count + " = 1 }"}), {"no structure"});
   for (const std::string count : {"walls", "sectors"})
     expect_mistakes(kScene + steps({show + "@" + count + " = 1 }"}), {"no [level]"});
-  good(kRules + kBodies +
-       steps({show + "asleep = 0, awake = 0, rotations = 0, force_evaluations = "
-                     "0, energy = 0, momentum = 0 }"}));
+  for (const std::string count : {"static_builds", "dynamic_builds"})
+    expect_mistakes(kScene + steps({show + "@" + count + " = 1 }"}), {"no split_static"});
+  for (const std::string count : {"asleep", "awake", "nodes_asleep"})
+    expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"nothing sleeps"});
+  for (const std::string count : {"rotations", "force_evaluations", "energy", "momentum"})
+    expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"no contacts, gravity"});
   expect_mistakes(std::string(kSolid) + steps({show + "@turned = { ball = 1 } }"}), {"flat world"});
   expect_mistakes(kScene + steps({show + "@tolerance = 1 }"}), {"without a 'position'"});
   expect_mistakes("title = \"x\"\n[atlas]\nsize = [8, 8]\n" + steps({show + "@energy = 1 }"}),
