@@ -38,31 +38,58 @@ Place place_within(std::string_view file, Place where, std::string_view text, st
   return {where.line, where.column + 1 + static_cast<int>(letters(before))};
 }
 
+bool has_contacts(const Scenario& s) { return s.world.contacts != ContactChoice::none; }
+
+// Those that are built of an orthtree's nodes.
+bool shares_an_array(StructureKind kind) {
+  return kind == StructureKind::quadtree || kind == StructureKind::octree;
+}
+
+// Is what rests told apart from what is awake?
+bool tells_sleepers(const Scenario& s) {
+  return has_contacts(s) || s.world.may_sleep || s.structure.split_static;
+}
+
+bool has_physics(const Scenario& s) {
+  return has_contacts(s) || s.world.gravity != Vec<3>(0.0) || !s.links.empty();
+}
+
+// Of the structure that stands at this step.
+std::string why_not_in(const StructureSpec& structure, CountNeed need, const Scenario& scenario) {
+  const StructureKind kind = structure.kind;
+  if (kind == StructureKind::none) return "there is no structure at this step";
+  if (need == CountNeed::kd_tree && kind != StructureKind::kd_tree)
+    return "there is no kd_tree at this step";
+  if (need == CountNeed::split && !structure.split_static)
+    return "the structure has no split_static";
+  if (need == CountNeed::asleep_nodes && !tells_sleepers(scenario))
+    return "in this world nothing sleeps";
+  if (need == CountNeed::array && !shares_an_array(kind))
+    return fmt::format("the leaves of a {} share no array", to_string(kind));
+  return {};
+}
+
 // Of a world, at this step.
 std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState& state) {
   const Scenario& s = draft.scenario;
-  const bool has_contacts = s.world.contacts != ContactChoice::none;
-  const bool has_joints = std::any_of(s.links.begin(), s.links.end(), [](const LinkSpec& link) {
-    return link.kind != LinkSpec::Kind::spring;
-  });
   switch (need) {
     case CountNeed::bodies:
     case CountNeed::room:
       return {};
     case CountNeed::structure:
-      return state.structure.kind != StructureKind::none ? ""
-                                                         : "there is no structure at this step";
     case CountNeed::kd_tree:
-      return state.structure.kind == StructureKind::kd_tree ? ""
-                                                            : "there is no kd_tree at this step";
+    case CountNeed::array:
+    case CountNeed::split:
+    case CountNeed::asleep_nodes:
+      return why_not_in(state.structure, need, s);
     case CountNeed::contacts:
-      return has_contacts ? "" : "this world has no contacts";
-    case CountNeed::solver:
-      return has_contacts || has_joints ? "" : "this world has neither contacts nor joints";
+      return has_contacts(s) ? "" : "this world has no contacts";
+    case CountNeed::sleep:
+      return tells_sleepers(s) ? "" : "in this world nothing sleeps";
+    case CountNeed::physics:
+      return has_physics(s) ? "" : "this world has no contacts, gravity, springs or joints";
     case CountNeed::query:
       return state.queried ? "" : "no step has sent a ray, culled or queried yet";
-    case CountNeed::level:
-      return s.level ? "" : "the scenario has no [level]";
     case CountNeed::compiled:
       if (!s.level) return "the scenario has no [level]";
       return state.compiled ? "" : "no step has compiled the level yet";
@@ -74,7 +101,7 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
 }
 
 bool is_of_level(CountNeed need) {
-  return need == CountNeed::level || need == CountNeed::compiled || need == CountNeed::located;
+  return need == CountNeed::compiled || need == CountNeed::located;
 }
 
 }  // namespace
@@ -90,6 +117,8 @@ std::string why_not_counted(std::string_view name, const Draft& draft, const Scr
   if (doc->for_atlas && has_atlas) return {};
   if (!doc->for_world) return "the scenario has no [atlas]";
   if (name == "time" && draft.has_world) return {};
+  const bool of_any_tree = name == "nodes" || name == "leaves" || name == "depth";
+  if (of_any_tree && draft.scenario.level && state.compiled) return {};
   if (!has_bodies && !is_of_level(doc->need))
     return has_atlas ? "an atlas has none" : "the scenario has no bodies";
   return why_not_there(doc->need, draft, state);
@@ -123,8 +152,8 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
 }
 
 std::optional<std::string> read_plot(const TableReader& step, Draft& draft, ScriptState& state) {
-  if (!step.has("plot")) return std::nullopt;
-  state.has_plot = true;
+  if (step.has("plot")) state.has_plot = true;
+  if (!step.is_good("plot")) return std::nullopt;
   const auto& chart = draft.scenario.chart;
   if (!chart) {
     draft.problems.add(step.key_place("plot"), "'plot' needs a [chart], the scenario has none",

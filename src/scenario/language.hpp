@@ -29,25 +29,25 @@ inline constexpr std::size_t kMostWalls = 2'000;             // of a level
 inline constexpr std::size_t kMostCaption = 180;             // letters
 
 enum class KeyType {
-  text,          // on one line; `least` to `most` letters
-  whole,         // a whole number; always has a range
-  number,        // whole or with a fraction
-  truth,         // true or false
-  choice,        // one of `choices`
-  point,         // [x, y] or [x, y, z], as many as the world has dimensions, within the range
-  two_numbers,   // a list of two numbers, written as `form`
-  size,          // [width, height], whole numbers; always has a range
-  texts,         // a list of texts, at least one
-  names,         // a list of texts, which may be empty
-  loops,         // closed polygons: lists of three or more [x, y]
+  text,            // on one line; `least` to `most` letters
+  whole,           // a whole number; always has a range
+  number,          // whole or with a fraction
+  truth,           // true or false
+  choice,          // one of `choices`
+  point,           // [x, y] or [x, y, z], as many as the world has dimensions, within the range
+  two_numbers,     // a list of two numbers, written as `form`
+  size,            // [width, height], whole numbers; always has a range
+  texts,           // a list of texts, at least one
+  names,           // a list of texts, which may be empty
+  loops,           // closed polygons: lists of three or more [x, y]
   whole_or_names,  // a whole number, or a list of texts, at least one
-  choices_list,  // a list of `choices`, at least one, each once
-  table,         // the table `of`
-  tables,        // many of the table `of`; `most` of them
-  name_pairs,    // a list of pairs of names
-  name_wholes,   // a table from names to whole numbers
-  name_numbers,  // a table from names to numbers
-  name_points,   // a table from names to points
+  choices_list,    // a list of `choices`, at least one, each once
+  table,           // the table `of`
+  tables,          // many of the table `of`; `most` of them
+  name_pairs,      // a list of pairs of names
+  name_wholes,     // a table from names to whole numbers
+  name_numbers,    // a table from names to numbers
+  name_points,     // a table from names to points
 };
 
 struct KeyDoc {
@@ -98,10 +98,13 @@ enum class CountNeed {
   bodies,
   structure,
   kd_tree,
+  array,  // a structure whose leaves share one
+  split,  // one structure for what never moves, one for what does
+  asleep_nodes,
   contacts,  // the world parts bodies that touch
-  solver,    // contacts, or joints
+  sleep,     // of contacts, may_sleep and split_static one at least: what rests is told apart
+  physics,   // of contacts, gravity, springs and joints one at least: more than free flight
   query,     // a ray, cull or query was asked
-  level,
   compiled,  // the level was
   located,   // a point of the level was
   room,      // of an atlas: it was asked for room

@@ -177,6 +177,8 @@ TableDoc compile_verb() {
           {},
           R"([[step]]
 do = "compile"
+pace = "event"
+events = ["choose", "cut"]
 caption = "{walls} walls, {sectors} sectors, {cuts:wall} cut in two."
 expect = { walls = 8 }
 )"};

@@ -24,41 +24,39 @@ constexpr CountDoc kCounts[] = {
     {"begins", "Pairs that began to touch during the step.", true, false, contacts},
     {"ends", "Pairs that ceased to touch during the step.", true, false, contacts},
     {"constraint_rows", "Rows that the solver solves: of contacts and joints.", true, false,
-     solver},
+     contacts},
     {"friction_rows", "Those of them that are friction.", true, false, contacts},
     {"force_evaluations", "How often all forces were worked out, in the last world step.", true,
-     false, bodies},
-    {"rotations", "Bodies that were turned, in the last world step.", true, false, bodies},
-    {"asleep", "Bodies asleep.", true, false, bodies},
-    {"awake", "Bodies that can move and are not asleep.", true, false, bodies},
+     false, physics},
+    {"rotations", "Bodies that were turned, in the last world step.", true, false, physics},
+    {"asleep", "Bodies asleep.", true, false, sleep},
+    {"awake", "Bodies that can move and are not asleep.", true, false, sleep},
     {"box_tests", "Tests of a body against a node or plane since the tree was built.", true, false,
      structure},
     {"splits", "Leaves that split since the tree was built.", true, false, structure},
-    {"static_builds", "How often the structure of what never moves was built.", true, false,
-     structure},
-    {"dynamic_builds", "How often the structure of what moves was built, or the only one.", true,
-     false, structure},
-    {"nodes_asleep", "Nodes in whose bodies all are asleep or never move.", true, false, structure},
+    {"static_builds", "How often the structure of what never moves was built.", true, false, split},
+    {"dynamic_builds", "How often the structure of what moves was built.", true, false, split},
+    {"nodes_asleep", "Nodes in whose bodies all are asleep or never move.", true, false,
+     asleep_nodes},
     {"stale", "1 if a body has left the cells that the kD-tree fitted to it, 0 if not.", true,
      false, kd_tree},
     {"nodes_reused", "Nodes that took an old node's place instead of new memory.", true, false,
      structure},
     {"allocations", "Calls for memory since the structure was made.", true, false, structure},
-    {"slots", "Places of the array that all leaves share.", true, false, structure},
-    {"node_bytes", "Memory that the nodes take.", true, false, structure},
-    {"node_bytes_with_bounds", "What they would take if each stored its box.", true, false,
-     structure},
+    {"slots", "Places of the array that all leaves share.", true, false, array},
+    {"node_bytes", "Memory that the nodes take.", true, false, array},
+    {"node_bytes_with_bounds", "What they would take if each stored its box.", true, false, array},
     {"nodes_visited", "Nodes that the last ray, cull or query went into.", true, false, query},
     {"nodes_skipped", "Nodes that it left out, with all below them.", true, false, query},
     {"objects_tested", "Bodies that it tested.", true, false, query},
     {"hits", "Bodies that it found.", true, false, query},
-    {"walls", "Walls of the level.", true, false, level},
+    {"walls", "Walls of the level.", true, false, compiled},
     {"wall_pieces", "Walls after lines have cut them.", true, false, compiled},
     {"sectors", "Leaves of the level's BSP.", true, false, compiled},
     {"cuts", "Walls that a line has cut in two.", true, false, compiled},
-    {"plane_score", "Sum of the scores of the lines that were chosen.", true, false, compiled},
-    {"first_wall_score", "What it would be with each first wall's line.", true, false, compiled},
-    {"sector", "Where the last `locate` ended.", true, false, located},
+    {"plane_score", "Score of the line that divides the whole level.", true, false, compiled},
+    {"first_wall_score", "What the first wall's line would have scored.", true, false, compiled},
+    {"sector", "Where the last `locate` ended, from 1.", true, false, located},
     {"planes_tested", "Lines that it asked for the point's side.", true, false, located},
     {"textures", "Textures packed.", false, true},
     {"refused", "Textures that fit nowhere.", false, true},
@@ -77,13 +75,13 @@ constexpr CountDoc kTexts[] = {
 };
 
 constexpr CountDoc kMeasures[] = {
-    {"energy", "Kinetic and potential energy.", true, false, bodies},
-    {"kinetic_energy", "Energy of motion and rotation.", true, false, bodies},
-    {"potential_energy", "Energy of height and of springs.", true, false, bodies},
-    {"momentum", "Length of the momentum of all bodies.", true, false, bodies},
+    {"energy", "Kinetic and potential energy.", true, false, physics},
+    {"kinetic_energy", "Energy of motion and rotation.", true, false, physics},
+    {"potential_energy", "Energy of height and of springs.", true, false, physics},
+    {"momentum", "Length of the momentum of all bodies.", true, false, physics},
     {"angular_momentum",
      "Angular momentum of all bodies about the origin; its length in a solid world.", true, false,
-     bodies},
+     physics},
     {"penetration", "How deep the two bodies that overlap most do.", true, false, contacts},
 };
 
@@ -103,12 +101,18 @@ std::string_view when_counted(CountNeed need) {
       return "with a kD-tree";
     case contacts:
       return "with contacts";
-    case solver:
-      return "with contacts or joints";
+    case array:
+      return "with a tree whose leaves share an array";
+    case split:
+      return "with `split_static`";
+    case asleep_nodes:
+      return "with a structure and `may_sleep`, contacts or `split_static`";
+    case sleep:
+      return "with `may_sleep`, contacts or `split_static`";
+    case physics:
+      return "with contacts, gravity, springs or joints";
     case query:
       return "after a ray, cull or query";
-    case level:
-      return "with a level";
     case compiled:
       return "once the level is compiled";
     case located:

@@ -9,26 +9,27 @@
 namespace lantern {
 
 struct Need {
-  std::string stage;   // "world", "motion", "structure", "candidate pairs", "atlas", "tree panel", ...
+  std::string
+      stage;  // "world", "motion", "structure", "candidate pairs", "atlas", "tree panel", ...
   bool used = false;
   std::string reason;  // "3 bodies", "no body ever moves"
 };
 
 struct Needs {
   bool world = false;
-  bool motion = false;     // some step lets time pass while something moves
-  bool rotation = false;   // and something that turns, or may be made to
-  bool forces = false;     // gravity, drag, springs or those of a step, on a dynamic body
-  bool links = false;      // springs and joints
+  bool motion = false;    // some step lets time pass while something moves
+  bool rotation = false;  // and something that turns, or may be made to
+  bool forces = false;    // gravity, drag, springs or those of a step, on a dynamic body
+  bool links = false;     // springs and joints
   bool structure = false;
   bool static_structure = false;  // one of its own for what never moves
   bool pairs = false;
-  bool narrow_phase = false;      // which pairs really touch?
-  bool solver = false;            // contacts or joints hold bodies, while time passes
-  bool friction = false;          // between some of them
+  bool narrow_phase = false;  // which pairs really touch?
+  bool solver = false;        // contacts or joints hold bodies, while time passes
+  bool friction = false;      // between some of them
   bool sleeping = false;
   bool queries = false;
-  bool level = false;             // it is compiled
+  bool level = false;  // it is compiled
   bool atlas = false;
   bool chart = false;
   bool camera = false;

@@ -53,7 +53,7 @@ void read_body(const TomlValue& value, Draft& draft) {
   body.velocity = table.point("velocity").value_or(Vec<3>(0.0));
   check_motion(body, body.velocity != Vec<3>(0.0), table, "velocity", draft);
   check_motion(body, body.spin != 0, table, "spin", draft);
-  if (table.has("speed") && body.brain == Brain::none)
+  if (table.is_good("speed") && body.brain == Brain::none)
     draft.problems.add(table.key_place("speed"), "'speed' is of a body that follows or wanders",
                        "say where it goes: velocity");
   if (!has_room_for(1, value.where, draft)) return;

@@ -15,13 +15,13 @@ constexpr double kRadians = std::numbers::pi / 180;  // in a degree
 bool turns(const TableReader& table) { return table.has("turned") || table.has("spin"); }
 
 void check_oriented(const TableReader& table, Draft& draft) {
-  if (table.has("oriented") && !table.has("half_size"))
+  if (table.is_good("oriented") && !table.has("half_size"))
     draft.problems.add(table.key_place("oriented"), "only a box is 'oriented' or not",
                        "give it half_size, or leave out 'oriented'");
-  else if (table.has("oriented") && !table.truth("oriented") && turns(table))
+  else if (table.is_good("oriented") && !table.truth("oriented") && turns(table))
     draft.problems.add(table.place("oriented"), "a box that keeps to the axes does not turn",
                        "leave out 'oriented', or 'turned' and 'spin'");
-  else if (table.has("half_size") && table.has("may_turn") && table.truth("may_turn") &&
+  else if (table.has("half_size") && table.is_good("may_turn") && table.truth("may_turn") &&
            !table.truth("oriented") && !turns(table))
     draft.problems.add(table.key_place("may_turn"), "a box that keeps to the axes does not turn",
                        "write oriented = true");
@@ -66,7 +66,7 @@ BodyKind read_kind(const TableReader& table, Draft& draft) {
   const auto chosen = table.choice("kind");
   BodyKind kind = static_cast<BodyKind>(chosen.value_or(0));
   const bool is_static = kind == BodyKind::static_body;
-  if (table.has("static") && table.has("kind") && table.truth("static") != is_static)
+  if (table.is_good("static") && table.is_good("kind") && table.truth("static") != is_static)
     draft.problems.add(table.place("kind"),
                        fmt::format("kind = \"{}\" contradicts static = {}",
                                    table.text("kind").value_or(""), table.truth("static")),
@@ -84,10 +84,10 @@ void read_turn(const TableReader& table, BodySpec& body, Draft& draft) {
   body.angle = table.number("turned").value_or(0) * kRadians;
   body.spin = table.number("spin").value_or(0) * kRadians;
   body.axis = draft.dimension == 3 ? Vec<3>(0, 1, 0) : Vec<3>(0, 0, 1);
-  if (table.has("turned") && table.has("ground"))
+  if (table.is_good("turned") && table.has("ground"))
     draft.problems.add(table.key_place("turned"), "the ground is not turned",
                        "'ground' says where its face looks");
-  if (!table.has("axis")) return;
+  if (!table.is_good("axis")) return;
   if (draft.dimension == 2)
     draft.problems.add(table.key_place("axis"), "a flat world has no other axis to turn about",
                        "leave it out");
@@ -98,7 +98,7 @@ void read_turn(const TableReader& table, BodySpec& body, Draft& draft) {
 void read_matter(const TableReader& table, BodySpec& body, Draft& draft) {
   body.density = table.number("density").value_or(1);
   body.mass = table.number("mass").value_or(0);
-  if (table.has("density") && table.has("mass"))
+  if (table.is_good("density") && table.is_good("mass"))
     draft.problems.add(table.key_place("mass"), "a 'density' and a 'mass'",
                        "one of them is enough");
   body.material = {table.number("restitution").value_or(0), table.number("friction").value_or(0.5)};
@@ -115,7 +115,7 @@ void read_matter(const TableReader& table, BodySpec& body, Draft& draft) {
 }
 
 void read_follow(const TableReader& table, BodySpec& body, Draft& draft) {
-  if (table.has("follow_axes") && !table.has("follow"))
+  if (table.is_good("follow_axes") && !table.has("follow"))
     draft.problems.add(table.key_place("follow_axes"), "'follow_axes' without 'follow'",
                        "say whom, as follow = \"ball\"");
   if (!table.has("follow")) return;

@@ -20,7 +20,7 @@ LinkSpec read_link(const TableReader& table, bool is_spring, Draft& draft) {
   }
   link.kind = table.text("kind") == "pin" ? LinkSpec::Kind::pin : LinkSpec::Kind::distance;
   link.rest_length = table.number("length");
-  if (table.has("length") && link.kind == LinkSpec::Kind::pin)
+  if (table.is_good("length") && link.kind == LinkSpec::Kind::pin)
     draft.problems.add(table.key_place("length"), "a pin has no 'length'",
                        "take kind = \"distance\"");
   return link;
@@ -51,7 +51,7 @@ void read_pair(const TableReader& table, LinkSpec link, Draft& draft) {
         has_b ? table.key_place("to") : table.where(),
         has_b ? "a link ends at 'b' or at 'to', not at both" : "a link needs an other end",
         "give one of 'b', a body, and 'to', a point of the world");
-  if (has_to && table.has("at_b"))
+  if (has_to && table.is_good("at_b"))
     draft.problems.add(table.key_place("at_b"), "'at_b' is of 'b'",
                        "'to' is the point of the world itself");
   const auto a = body_of(table, "a", draft), b = body_of(table, "b", draft);
@@ -70,7 +70,7 @@ void read_pair(const TableReader& table, LinkSpec link, Draft& draft) {
 // Each member of a pattern to the next.
 void read_chain(const TableReader& table, const LinkSpec& like, Draft& draft) {
   for (const char* key : {"b", "to"})
-    if (table.has(key))
+    if (table.is_good(key))
       draft.problems.add(table.key_place(key),
                          fmt::format("'{}' goes with 'a', not with 'along'", key),
                          "'along' ties the members of a pattern to each other");

@@ -29,6 +29,12 @@ Box<3> read_region(const TableReader& table, const BodySpec& body, bool stack, D
     region.hi[i] = in_the_middle ? middle : std::max(bounds.hi[i] - half[i], middle);
   }
   region.lo = table.point("min").value_or(region.lo);
+  if (stack) {
+    if (table.is_good("max"))
+      draft.problems.add(table.key_place("max"), "a stack has no 'max'",
+                         "it is as high as its bodies; 'min' is the place of the lowest");
+    return {region.lo, region.lo};
+  }
   region.hi = table.point("max").value_or(region.hi);
   if (is_valid(region)) return region;
   const auto text = [&](const Vec<3>& v) {

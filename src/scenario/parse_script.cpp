@@ -192,7 +192,7 @@ void read_script(const TableReader& file, Draft& draft) {
   ScriptReader reader(draft);
   for (const TomlValue* value : file.tables("step")) reader.read(*value);
   if (draft.scenario.chart && !reader.has_plot() && !draft.problems.any())
-    draft.problems.add(file.key_place("chart"), "no step adds anything to the chart",
+    draft.problems.add(file.place("chart"), "no step adds anything to the chart",
                        "give steps a label in 'plot'");
 }
 

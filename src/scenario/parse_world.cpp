@@ -42,6 +42,7 @@ void read_camera(const TableReader& world, Draft& draft) {
   const bool eye = world.has("camera_eye"), target = world.has("camera_target");
   if (!eye && !target) return;
   const char* key = eye ? "camera_eye" : "camera_target";
+  if ((eye && !world.is_good("camera_eye")) || (target && !world.is_good("camera_target"))) return;
   if (draft.dimension == 2) {
     draft.problems.add(world.key_place(key), "a flat world has no camera",
                        "for a solid one, size = [16, 9, 16]");
@@ -78,18 +79,6 @@ void read_rules(const TableReader& world, Draft& draft) {
   w.show_velocities = world.truth("show_velocities");
 }
 
-// Keys that only one way of parting bodies heeds.
-void check_rules(const TableReader& world, Draft& draft) {
-  constexpr std::pair<const char*, const char*> kOf[] = {{"sub_steps", "soft"},
-                                                         {"iterations", "impulse"}};
-  const auto contacts = world.text("contacts");
-  for (const auto& [key, choice] : kOf)
-    if (world.has(key) && contacts && *contacts != choice)
-      draft.problems.add(world.key_place(key),
-                         fmt::format("'{}' is of contacts = \"{}\"", key, choice),
-                         fmt::format("this world's are \"{}\"", *contacts));
-}
-
 }  // namespace
 
 void read_world(const TableReader& file, Draft& draft) {
@@ -100,7 +89,6 @@ void read_world(const TableReader& file, Draft& draft) {
     draft.scenario.world.dimension = draft.dimension == 3 ? 3 : 2;
     draft.scenario.world.bounds = read_bounds(world, draft);
     read_rules(world, draft);
-    check_rules(world, draft);
     read_camera(world, draft);
   }
   read_structures(file, draft);

@@ -96,7 +96,7 @@ loops = [
 ]
 
 [[step]]
-do = "show"
+do = "compile"
 caption = "{walls:wall}: four around the room, four around the pillar."
 expect = { walls = 8 }
 )";

@@ -15,10 +15,10 @@ struct ScriptState {
   std::vector<bool> packed;    // by index of the texture; refused ones, too
   StructureSpec structure;     // as it stands
   bool asked_for_room = false;
-  bool queried = false;    // by a ray, cull or query
-  bool compiled = false;   // the level
-  bool located = false;    // a point in it
-  bool has_plot = false;   // some step adds to the chart
+  bool queried = false;      // by a ray, cull or query
+  bool compiled = false;     // the level
+  bool located = false;      // a point in it
+  bool has_plot = false;     // some step adds to the chart
   std::uint64_t frames = 0;  // in step pace
   std::uint64_t ticks = 0;   // world steps
   std::size_t named = 0;     // bodies and textures, over all steps

@@ -10,8 +10,8 @@
 
 namespace lantern {
 
-// Gathered in one walk over the steps. "Moving" and "turning" bodies are those that are in the world
-// while time passes, and that move or may be made to.
+// Gathered in one walk over the steps. "Moving" and "turning" bodies are those that are in the
+// world while time passes, and that move or may be made to.
 class ScriptWalk {
  public:
   explicit ScriptWalk(const Scenario& scenario);
@@ -51,8 +51,8 @@ class ScriptWalk {
   void push(std::size_t body, const Vec<3>& at);
 
   const Scenario& scenario_;
-  std::vector<bool> linked_;       // by body
-  std::set<std::size_t> movers_;   // that are in the world
+  std::vector<bool> linked_;      // by body
+  std::set<std::size_t> movers_;  // that are in the world
   std::set<std::size_t> turners_;
 };
 

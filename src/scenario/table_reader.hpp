@@ -27,13 +27,15 @@ struct Named {
 // the reader of a bad file goes on and finds the other mistakes, too.
 class TableReader {
  public:
-  // `where` is the place of the table's header. `dimension` is the world's, 0 where it is not known:
-  // points may then have two or three numbers. `called` names the table in messages.
+  // `where` is the place of the table's header. `dimension` is the world's, 0 where it is not
+  // known: points may then have two or three numbers. `called` names the table in messages.
   TableReader(const TomlTable& table, Place where, const TableDoc& doc, Problems& problems,
               int dimension, std::string_view called = {});
 
   // Is the key written there, good or bad?
   bool has(std::string_view key) const { return entry(key) != nullptr; }
+  // And is it good? What else is wrong with a bad one is not told.
+  bool is_good(std::string_view key) const { return good(key) != nullptr; }
   // Of the key's value; of the table if it is not there.
   Place place(std::string_view key) const;
   Place key_place(std::string_view key) const;

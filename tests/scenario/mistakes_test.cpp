@@ -269,8 +269,9 @@ TEST(Mistakes, OfAWorldsExtent) {
   expect_mistakes("title = \"x\"\n[world]\nmin = [0, 0]\nmax = @[-1, 1]\n" + rest, {"upper right"});
   expect_mistakes("title = \"x\"\n[world]\nsize = [1, 1]\n@min = [0, 0]\nmax = [1, 1]\n" + rest,
                   {"one of them is enough"});
-  const Box<2> box = good("title = \"x\"\n[world]\nmin = [-1, -2]\nmax = [3, 4]\n" + rest).bounds;
-  EXPECT_EQ(box, (Box<2>{{-1, -2}, {3, 4}}));
+  const Box<3> box =
+      good("title = \"x\"\n[world]\nmin = [-1, -2]\nmax = [3, 4]\n" + rest).world.bounds;
+  EXPECT_EQ(box, (Box<3>{{-1, -2, 0}, {3, 4, 0}}));
 }
 
 TEST(Mistakes, OfWhatIsMissingAround) {
@@ -321,7 +322,7 @@ TEST(Mistakes, OfPanelsThatCannotBe) {
   expect_mistakes("panels = [@\"world\"]\n" + kAtlas + "[[step]]\ndo = \"show\"\n",
                   {"needs a [world]"});
   expect_mistakes("title = \"x\"\npanels = [@\"tree\"]\n[[step]]\ndo = \"show\"\n",
-                  {"needs a [structure] or an [atlas]"});
+                  {"needs a [structure], a [level] or an [atlas]"});
 }
 
 TEST(Mistakes, OfNamesThatAreTaken) {

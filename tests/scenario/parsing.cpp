@@ -11,6 +11,86 @@
 
 namespace lantern::test {
 
+const std::string_view kSolid = R"(title = "solid"
+panels = ["world", "tree", "memory", "chart"]
+[world]
+size = [16, 9, 16]
+gravity = [0, -9.81, 0]
+contacts = "soft"
+may_sleep = true
+camera_eye = [0, 5, 20]
+camera_target = [8, 4, 8]
+[structure]
+kind = "octree"
+split_static = true
+[[body]]
+name = "floor"
+ground = [0, 1, 0]
+position = [0, 0, 0]
+[[pattern]]
+name = "tower"
+count = 5
+half_size = [1, 0.5, 1]
+oriented = true
+arrange = "stack"
+mass = 2
+[[pattern]]
+name = "chain"
+capsule = [0.2, 0.4]
+count = 4
+arrange = "line"
+min = [1, 8, 1]
+max = [5, 8, 1]
+[[body]]
+name = "bat"
+kind = "kinematic"
+half_size = [1, 1, 1]
+follow = "ball"
+follow_axes = [1, 0, 0]
+speed = 3
+position = [8, 1, 1]
+[[body]]
+name = "ball"
+radius = 0.5
+position = [8, 8, 1]
+restitution = 0.9
+wander = true
+speed = 2
+[[spring]]
+along = "chain"
+stiffness = 100
+[[joint]]
+kind = "pin"
+a = "chain1"
+to = [1, 9, 1]
+[chart]
+x = "bodies"
+y = ["pairs", "all_pairs"]
+[[step]]
+do = "insert"
+bodies = ["floor", "tower", "chain", "bat", "ball"]
+plot = "a"
+[[step]]
+do = "wait"
+event = "asleep"
+bodies = ["tower"]
+at_most = 10
+every = 10
+expect = { asleep = ["tower"], at_most = { penetration = 0.1, contacts = 30 }, awake = 4 }
+[[step]]
+do = "ray"
+from = [0, 1, 1]
+to = [16, 1, 1]
+hits = "all"
+expect = { hits_are = ["bat"], energy = 3, tolerance = 0.1, velocity = { bat = [0, 0, 0] } }
+)";
+
+std::string steps(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& step : list) text += "[[step]]\n" + step + "\n";
+  return text;
+}
+
 std::vector<Diagnostic> mistakes(const std::string& text) {
   try {
     parse_scenario(text, "ghosts.toml");
@@ -62,7 +142,8 @@ Scenario good(const std::string& text) {
 }
 
 std::vector<std::string> good_texts() {
-  std::vector<std::string> texts{std::string(world_example()), std::string(atlas_example())};
+  std::vector<std::string> texts{std::string(world_example()), std::string(atlas_example()),
+                                 std::string(level_example()), std::string(kSolid)};
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());

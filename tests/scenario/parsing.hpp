@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenario/scenario.hpp"
@@ -22,7 +23,13 @@ void expect_mistakes(const std::string& text, const std::vector<std::string>& wo
 // The good scenario of that text; fails the test if it is not good.
 Scenario good(const std::string& text);
 
-// The texts of the scenarios that come with Lantern, and of the reference page's.
+// A good scenario of a solid world that uses most of what a world can have.
+extern const std::string_view kSolid;
+
+// Steps in a row, each given by its keys.
+std::string steps(const std::vector<std::string>& list);
+
+// The texts of the scenarios that come with Lantern, and of the reference page's, and kSolid.
 std::vector<std::string> good_texts();
 
 std::string read_text(const std::string& path);

@@ -34,7 +34,7 @@ TEST(Patterns, AreUnrolledByName) {
     EXPECT_EQ(dots[i].name, "dot" + std::to_string(i + 1));
     EXPECT_EQ(dots[i].color, static_cast<int>(1 + i % 8)) << "colours cycle";
     EXPECT_EQ(dots[i].look, Look::ball);
-    EXPECT_EQ(dots[i].velocity, Vec<2>(0, 0));
+    EXPECT_EQ(dots[i].velocity, Vec<3>(0, 0, 0));
     EXPECT_EQ(dots[i].where.line, 5);
   }
   for (const BodySpec& dot : bodies("count = 3\nradius = 1\ncolor = 5\n")) EXPECT_EQ(dot.color, 5);
@@ -42,39 +42,40 @@ TEST(Patterns, AreUnrolledByName) {
 
 TEST(Patterns, LieInTheWorldOrWhereTheyAreTold) {
   for (const BodySpec& dot : bodies("count = 500\nhalf_size = [3, 2]\n")) {
-    EXPECT_TRUE(contains(Box<2>{{13, 22}, {47, 38}}, dot.position)) << "all of it in the world";
+    EXPECT_TRUE(contains(Box<3>{{13, 22, 0}, {47, 38, 0}}, dot.position))
+        << "all of it in the world";
     EXPECT_EQ(dot.look, Look::box);
   }
   for (const BodySpec& dot : bodies("count = 500\nradius = 3\nmin = [0, 0]\nmax = [1, 2]\n"))
-    EXPECT_TRUE(contains(Box<2>{{0, 0}, {1, 2}}, dot.position));
+    EXPECT_TRUE(contains(Box<3>{{0, 0, 0}, {1, 2, 0}}, dot.position));
   for (const BodySpec& dot : bodies("count = 5\nradius = 300\n"))
-    EXPECT_EQ(dot.position, Vec<2>(30, 30)) << "too large for the world: in its middle";
+    EXPECT_EQ(dot.position, Vec<3>(30, 30, 0)) << "too large for the world: in its middle";
   for (const BodySpec& dot : bodies("count = 5\nradius = 3\nmin = [7, 7]\nmax = [7, 7]\n"))
-    EXPECT_EQ(dot.position, Vec<2>(7, 7));
+    EXPECT_EQ(dot.position, Vec<3>(7, 7, 0));
   for (const BodySpec& dot :
        bodies("count = 5\nradius = 3\narrange = \"grid\"\nmin = [7, 7]\nmax = [7, 7]\n"))
-    EXPECT_EQ(dot.position, Vec<2>(7, 7));
+    EXPECT_EQ(dot.position, Vec<3>(7, 7, 0));
 }
 
 TEST(Patterns, OfAGridHaveRowsFromTheLowerLeft) {
   const auto dots = bodies("count = 8\nradius = 0\narrange = \"grid\"\n");
   ASSERT_EQ(dots.size(), 8u);
-  EXPECT_EQ(dots[0].position, Vec<2>(15, 25)) << "40 by 20 for 8: four columns and two rows";
-  EXPECT_EQ(dots[1].position, Vec<2>(25, 25));
-  EXPECT_EQ(dots[4].position, Vec<2>(15, 35));
+  EXPECT_EQ(dots[0].position, Vec<3>(15, 25, 0)) << "40 by 20 for 8: four columns and two rows";
+  EXPECT_EQ(dots[1].position, Vec<3>(25, 25, 0));
+  EXPECT_EQ(dots[4].position, Vec<3>(15, 35, 0));
   for (const int count : {1, 2, 3, 7, 50, 999}) {
     std::set<std::pair<double, double>> places;
     for (const BodySpec& dot :
          bodies("count = " + std::to_string(count) + "\nradius = 0\narrange = \"grid\"\n")) {
       places.emplace(dot.position.x, dot.position.y);
-      EXPECT_TRUE(contains(Box<2>{{10, 20}, {50, 40}}, dot.position));
+      EXPECT_TRUE(contains(Box<3>{{10, 20, 0}, {50, 40, 0}}, dot.position));
     }
     EXPECT_EQ(places.size(), static_cast<std::size_t>(count)) << "two at one place";
   }
 }
 
 TEST(Patterns, GoInAllDirectionsAtOneSpeed) {
-  Vec<2> sum(0.0);
+  Vec<3> sum(0.0);
   for (const BodySpec& dot : bodies("count = 1000\nradius = 1\nspeed = 2\n")) {
     EXPECT_NEAR(std::hypot(dot.velocity.x, dot.velocity.y), 2, 1e-12);
     sum += dot.velocity;
@@ -104,8 +105,8 @@ TEST(Patterns, DependOnTheSeedAndTheNameAlone) {
 // One body's place, bit for bit: the same on every machine.
 TEST(Patterns, AreTheSameOnEveryMachine) {
   const auto dots = bodies("count = 2\nradius = 1\nspeed = 1\nseed = 5\n");
-  EXPECT_EQ(dots[1].position, Vec<2>(0x1.22479df533c33p+4, 0x1.bd9d88f6c6082p+4));
-  EXPECT_EQ(dots[1].velocity, Vec<2>(0x1.ffddc1a02c71ap-1, 0x1.767dbffaf36cdp-6));
+  EXPECT_EQ(dots[1].position, Vec<3>(0x1.22479df533c33p+4, 0x1.bd9d88f6c6082p+4, 0));
+  EXPECT_EQ(dots[1].velocity, Vec<3>(0x1.ffddc1a02c71ap-1, 0x1.767dbffaf36cdp-6, 0));
 }
 
 TEST(Patterns, OfTexturesHaveSizesInRange) {
@@ -157,8 +158,8 @@ TEST(Patterns, AndBodiesHaveFittingLooks) {
   EXPECT_EQ(std::get<Sphere>(s.bodies[0].shape).radius, 1);
   EXPECT_EQ(s.bodies[1].look, Look::box);
   EXPECT_EQ(s.bodies[1].color, 8);
-  EXPECT_EQ(std::get<AxisBox<2>>(s.bodies[1].shape).half_size, Vec<2>(1, 2));
-  EXPECT_EQ(s.bodies[1].velocity, Vec<2>(3, 4));
+  EXPECT_EQ(std::get<AxisBox<3>>(s.bodies[1].shape).half_size, Vec<3>(1, 2, 0));
+  EXPECT_EQ(s.bodies[1].velocity, Vec<3>(3, 4, 0));
 }
 
 }  // namespace

@@ -44,12 +44,6 @@ min = [8, 8]
 max = [8, 8]
 )";
 
-std::string steps(const std::vector<std::string>& list) {
-  std::string text;
-  for (const std::string& step : list) text += "[[step]]\n" + step + "\n";
-  return text;
-}
-
 template <class Verb>
 Verb verb(const Scenario& scenario, std::size_t step) {
   return std::get<Verb>(scenario.steps.at(step).verb);
@@ -75,10 +69,10 @@ TEST(Script, VerbsOfAWorld) {
   EXPECT_EQ(s.steps[1].events, std::vector<std::string>{"split"});
   EXPECT_EQ(verb<Remove>(s, 2).bodies, (Indices{3}));
   EXPECT_EQ(verb<Move>(s, 3).body, 0u);
-  EXPECT_EQ(verb<Move>(s, 3).to, Vec<2>(3, 4));
+  EXPECT_EQ(verb<Move>(s, 3).to, Vec<3>(3, 4, 0));
   EXPECT_FALSE(verb<Move>(s, 3).velocity);
   EXPECT_EQ(verb<Move>(s, 4).body, 2u);
-  EXPECT_EQ(verb<Move>(s, 4).velocity, Vec<2>(3, 4));
+  EXPECT_EQ(verb<Move>(s, 4).velocity, Vec<3>(3, 4, 0));
   EXPECT_EQ(verb<lantern::Run>(s, 5).seconds, 1.5);
   EXPECT_EQ(s.steps[5].where.line, 42);
 }
@@ -169,7 +163,7 @@ TEST(Script, FramesOfAllStepsAreBounded) {
   good(kScene + steps({run, run}));
   expect_mistakes(kScene + steps({run, run, "do = @\"show\"", "do = \"show\""}),
                   {"100001 frames in all, the limit is 100000"});
-  expect_mistakes(kScene + steps({"do = \"run\"\nseconds = @25000.25"}), {"100001 time steps"});
+  expect_mistakes(kScene + steps({"do = \"run\"\nseconds = @25000.25"}), {"100001 frames in all"});
 }
 
 TEST(Script, WhatAllStepsNameIsBounded) {
@@ -227,7 +221,7 @@ TEST(Script, ExpectationsKeepTheirPlaces) {
   EXPECT_EQ(expect[3].kind, Expectation::Kind::pairs);
   EXPECT_EQ(expect[3].pairs, (std::vector<std::pair<std::string, std::string>>{{"red", "wall"}}));
   EXPECT_EQ(expect[4].kind, Expectation::Kind::position);
-  EXPECT_EQ(expect[4].position, Vec<2>(1, 2));
+  EXPECT_EQ(expect[4].position, Vec<3>(1, 2, 0));
   EXPECT_EQ(expect[4].tolerance, 0.5);
   ASSERT_EQ(s.steps[0].always.size(), 1u);
   EXPECT_EQ(s.steps[0].always[0].name, "all_pairs");
