@@ -115,6 +115,22 @@ TEST(BroadPhase, RefusesWhatItCannotDoAndStaysAsItWas) {
   EXPECT_EQ(phase.pairs(), before);
 }
 
+TEST(BroadPhase, TooManyPairsAreRefusedAndTheNextUpdateIsRight) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhaseConfig<2> config;
+    config.kind = kind;
+    config.most_pairs = 44;
+    BroadPhase<2> phase(config);
+    std::vector<Proxy<2>> proxies;
+    for (BodyId id = 0; id < 10; ++id) proxies.push_back({id, {{1, 1}, {2, 2}}});
+    EXPECT_THROW(phase.update(proxies), Refused) << name_of(kind) << ": 45 pairs";
+    EXPECT_TRUE(phase.pairs().empty()) << name_of(kind);
+    proxies.pop_back();
+    phase.update(proxies);
+    EXPECT_EQ(phase.pairs().size(), 36u) << name_of(kind);
+  }
+}
+
 // Bodies on a grid, each overlapping its neighbours to the right and above.
 std::vector<Proxy<2>> grid(int side) {
   std::vector<Proxy<2>> proxies;
