@@ -192,7 +192,11 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   Grounds under;  // of what the cells' own grounds lie on
   fill_views(frame, map, list, under);
   fill_cells(frame, map, list, grounds);
-  if (is_level(frame)) fill_sectors(frame, map, list, grounds);
+  if (is_level(frame)) {
+    Grounds sectors;  // over what is painted of inner nodes
+    fill_sectors(frame, map, list, sectors);
+    grounds.insert(grounds.begin(), sectors.begin(), sectors.end());
+  }
   grounds.insert(grounds.end(), under.begin(), under.end());
   hatch_asleep(frame, map, list);
   bool complete = true;
