@@ -14,12 +14,6 @@ namespace {
 constexpr double kLeastDepth = 10;  // page units of ground that can be seen as such
 const Vec<2> kRimOutside{20, 20};   // for ground that lies beyond the bounds
 
-Vec<2> middle_of(const std::vector<Vec<2>>& points) {
-  Vec<2> sum{0.0};
-  for (const Vec<2>& p : points) sum += p;
-  return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
-}
-
 // How far the polygon reaches behind the surface.
 double depth_behind(const std::vector<Vec<2>>& polygon, const Plane<2>& surface) {
   double depth = 0;
