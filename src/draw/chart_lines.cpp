@@ -55,7 +55,6 @@ class Lines {
       line.name = series.name;
       for (const Vec<2>& p : series.points)
         if (std::isfinite(p.x) && std::isfinite(p.y)) line.values.push_back(p);
-      if (!line.values.empty()) line.number = short_number(line.values.back().y);
       if (lines_.size() < kMostSeries) lines_.push_back(std::move(line));
     }
   }
@@ -73,26 +72,35 @@ class Lines {
   double under_ticks() const { return kTickLength + 8 + 0.78 * type_.tick.size; }
   bool alone() const { return chart_.series.size() <= 1; }
 
+  // Finer than the ticks are, or what has changed would not be seen.
+  std::string newest(const Line& line) const {
+    if (line.values.empty()) return "";
+    const double y = line.values.back().y;
+    return y_.decimals() > 1 && y_.decimals() < 7 ? number_text(y, y_.decimals() + 1)
+                                                  : short_number(y);
+  }
+
   void measure() {
     Range xs, ys;
-    double names = 0;
-    for (const Line& line : lines_) {
+    for (const Line& line : lines_)
       for (const Vec<2>& p : line.values) {
         xs.add(p.x);
         ys.add(p.y);
       }
-      const double name = alone() ? 0 : width_of(line.name, type_.name) + 10;
-      names = std::max(names, name + width_of(line.number, type_.number));
-    }
     const std::string y_name = alone() && !chart_.series.empty() && chart_.y_name.empty()
                                    ? chart_.series[0].name
                                    : chart_.y_name;
     area_ = panel_;
     area_.lo.y += std::max(10.0, draw_chart_heading(y_name, panel_, labels_));
     area_.hi.y -= under_ticks() + 8 + (chart_.x_name.empty() ? 0 : 1.5 * type_.name.size);
-    names_room_ = std::min(names + 1, 0.42 * panel_.size().x);
-    area_.hi.x -= names_room_ + kBeside + 4;
     y_ = axis_for(ys, chart_.logarithmic, std::clamp(int(area_.size().y / 50), 2, 9));
+    double names = 0;
+    for (Line& line : lines_) {
+      line.number = newest(line);
+      const double name = alone() ? 0 : width_of(line.name, type_.name) + 10;
+      names = std::max(names, name + width_of(line.number, type_.number));
+    }
+    area_.hi.x -= std::min(names + 1, 0.42 * panel_.size().x) + kBeside + 4;
     double numbers = 0;
     for (const Axis::Tick& tick : y_.ticks())
       numbers = std::max(numbers, width_of(tick.text, type_.tick));
@@ -243,7 +251,6 @@ class Lines {
   Labels& labels_;
   std::vector<Line> lines_;
   Box<2> area_;
-  double names_room_ = 0;
   Axis x_ = Axis::linear(0, 1, 2), y_ = Axis::linear(0, 1, 2);
 };
 

@@ -90,4 +90,10 @@ std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, do
   return points;
 }
 
+Vec<2> middle_of(const std::vector<Vec<2>>& points) {
+  Vec<2> sum{0.0};
+  for (const Vec<2>& p : points) sum += p;
+  return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
+}
+
 }  // namespace lantern

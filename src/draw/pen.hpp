@@ -36,4 +36,7 @@ class Pen {
 // The corners of a regular polygon, or of a circle with enough of them.
 std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, double turn = 0);
 
+// The mean of the points; the origin if there are none.
+Vec<2> middle_of(const std::vector<Vec<2>>& points);
+
 }  // namespace lantern

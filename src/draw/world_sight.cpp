@@ -23,12 +23,6 @@ std::vector<Vec<2>> page_corners(const FrameView& view, const WorldMap& map) {
   return corners;
 }
 
-Vec<2> middle_of(const std::vector<Vec<2>>& points) {
-  Vec<2> sum{0.0};
-  for (const Vec<2>& p : points) sum += p;
-  return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
-}
-
 bool are_finite(const std::vector<Vec<2>>& points) {
   return std::all_of(points.begin(), points.end(),
                      [](const Vec<2>& p) { return std::isfinite(p.x) && std::isfinite(p.y); });

@@ -38,6 +38,7 @@ TEST(NumberText, ThousandsStandApart) {
   EXPECT_EQ(number_text(2.5, 4), "2.5") << "zeros at the end say nothing";
   EXPECT_EQ(number_text(1.2e15), "1.2·10¹⁵");
   EXPECT_EQ(number_text(1e300), "10³⁰⁰");
+  EXPECT_EQ(number_text(-1e150), "−10¹⁵⁰");
   EXPECT_EQ(number_text(std::nan("")), "–");
   EXPECT_EQ(short_number(17.25), "17.2");
   EXPECT_EQ(short_number(40.0035), "40");
@@ -101,6 +102,12 @@ TEST(Chart, SaysTheNewestNumberOfEachLine) {
     for (const char* text : {"pairs", "brute force", "quadtree", "499\u2009500", "312"})
       EXPECT_TRUE(says(list, text)) << text << " is missing";
   }
+}
+
+TEST(Chart, ASmallDriftIsNotRoundedAway) {
+  FrameChart chart;
+  chart.series = {{"energy", {{0, 40}, {1, 40.0035}}}};
+  EXPECT_TRUE(says(page_of(charted(chart)), "40.0035"));
 }
 
 TEST(Chart, NamesOfLinesThatEndTogetherAreMovedApart) {

@@ -405,8 +405,8 @@ Frame unstructured() {
   return frame;
 }
 
-std::vector<std::pair<std::string, Frame>> all() {
-  std::vector<std::pair<std::string, Frame>> frames;
+static Named make_all() {
+  Named frames;
   for (const std::size_t n : {2, 3, 4}) frames.emplace_back(fmt::format("ghosts{}", n), ghosts(n));
   for (const double x : {6.0, 16.4, 25.0}) frames.emplace_back(fmt::format("pong{}", x), pong(x));
   frames.emplace_back("doom", doom());
@@ -429,6 +429,11 @@ std::vector<std::pair<std::string, Frame>> all() {
   frames.emplace_back("unstructured", unstructured());
   for (const Named& more : {charts(), memories(), worlds()})
     frames.insert(frames.end(), more.begin(), more.end());
+  return frames;
+}
+
+const Named& all() {
+  static const Named frames = make_all();
   return frames;
 }
 

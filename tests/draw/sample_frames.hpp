@@ -28,7 +28,7 @@ Named charts();    // lines and bars, few and many, plain and extreme
 Named memories();  // the array that all leaves share, from no slot to 10,000
 Named worlds();    // turned bodies, contacts, links, rays, views, levels, sleepers, two trees
 
-// Name and frame of all of the above, in several sizes.
-std::vector<std::pair<std::string, Frame>> all();
+// Name and frame of all of the above, in several sizes; made once.
+const Named& all();
 
 }  // namespace lantern::samples

@@ -170,7 +170,7 @@ Named memories() {
   Frame more = crowd(60, 1.4);
   store_in_array(more, 1, 12);
   frames.emplace_back("memory_crowd", more);
-  Frame many = crowd(2000, 0.6);
+  Frame many = crowd(900, 0.6);
   store_in_array(many, 1, 0);
   many.array_size = 10000;
   frames.emplace_back("memory_many", many);

@@ -313,10 +313,10 @@ Named worlds() {
   frames.emplace_back("world_linked", linked());
   frames.emplace_back("world_rays", rays());
   frames.emplace_back("world_culled", culled(30));
-  frames.emplace_back("world_culled2000", culled(2000));
+  frames.emplace_back("world_culled900", culled(900));
   frames.emplace_back("world_level", level());
   frames.emplace_back("world_forest", forest(20, 9));
-  frames.emplace_back("world_forest200", forest(200, 60));
+  frames.emplace_back("world_forest90", forest(90, 30));
   frames.emplace_back("world_sleepers", sleepers());
   frames.emplace_back("world_kd", kd(12));
   frames.emplace_back("world_kd100", kd(100));
