@@ -23,12 +23,14 @@ void draw_solid_world(const Frame& frame, const Box<2>& panel, DrawList& list, L
   if (!add_cells(frame, bodies, view, pieces)) leave_out("the deepest cells are not drawn");
   add_drop_lines(bodies, view, pieces);
   if (!add_marks(frame, bodies, view, pieces)) leave_out("not all pairs are drawn");
+  add_sight(frame, bodies, view, pieces);
   paint(std::move(pieces), view, list);
   if (crowd) {
     draw_solid_crowd(frame, view, list);
     leave_out(fmt::format("{} bodies as dots", frame.bodies.size()));
   }
-  draw_marks_over(frame, bodies, view, list);
+  if (!draw_marks_over(frame, bodies, view, list)) leave_out("not all contacts are drawn");
+  draw_sight_over(frame, view, list, labels);
   if (!note.empty()) labels.add_note(note, panel);
   name_solids(frame, bodies, view, list, labels);
 }
