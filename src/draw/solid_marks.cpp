@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <variant>
 
 #include "draw/solid_parts.hpp"
 
@@ -11,17 +12,30 @@ constexpr std::size_t kMostLinks = 900;
 constexpr std::size_t kMostJoined = 120;  // springs, joints and pins
 constexpr std::size_t kMostBoxed = 60;    // links with a casing and joints
 
-using ById = std::map<BodyId, const SolidBody*>;
+// The bodies that are drawn, and half-spaces, which are ground.
+using ById = std::map<BodyId, const FrameBody*>;
 
-ById by_id(const std::vector<SolidBody>& bodies) {
+ById by_id(const Frame& frame, const std::vector<SolidBody>& bodies) {
   ById found;
-  for (const SolidBody& b : bodies) found.emplace(b.body->id, &b);
+  for (const SolidBody& b : bodies) found.emplace(b.body->id, b.body);
+  if (bodies.empty()) return found;
+  for (const FrameBody& body : frame.bodies)
+    if (std::holds_alternative<HalfSpace<3>>(body.shape)) found.emplace(body.id, &body);
   return found;
+}
+
+// Where a pair's link ends at this body: its centre, or the place of the ground nearest to the
+// other one.
+Vec<3> end_at(const FrameBody& body, const FrameBody& other) {
+  const auto* ground = std::get_if<HalfSpace<3>>(&body.shape);
+  if (ground == nullptr) return body.position;
+  const double above = glm::dot(ground->normal, other.position - body.position);
+  return other.position - ground->normal * above;
 }
 
 bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
-  const ById found = by_id(bodies);
+  const ById found = by_id(frame, bodies);
   const bool many = frame.pairs.size() > kMostBoxed;
   std::size_t drawn = 0;
   for (const bool lit : {false, true})
@@ -31,8 +45,9 @@ bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const S
       if (a == found.end() || b == found.end()) continue;
       if (++drawn > kMostLinks) return false;
       const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
-      add_line(a->second->body->position, b->second->body->position, {Role::pair, width, 0},
-               {Role::panel, many ? 0 : width + 4, 0}, bodies, view, pieces);
+      add_line(end_at(*a->second, *b->second), end_at(*b->second, *a->second),
+               {Role::pair, width, 0}, {Role::panel, many ? 0 : width + 4, 0}, bodies, view,
+               pieces);
     }
   return true;
 }
@@ -41,14 +56,18 @@ bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const S
 void draw_joints(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                  DrawList& list) {
   if (frame.pairs.size() > kMostBoxed) return;
-  const ById found = by_id(bodies);
+  const ById found = by_id(frame, bodies);
   for (const FramePair& pair : frame.pairs) {
     const auto a = found.find(pair.pair.a), b = found.find(pair.pair.b);
     if (a == found.end() || b == found.end()) continue;
-    const Box<3>&one = a->second->body->box, &other = b->second->body->box;
-    if (!overlap(one, other)) continue;
-    const Box<3> common{glm::max(one.lo, other.lo), glm::min(one.hi, other.hi)};
-    draw_spot(common.center(), 6, Role::pair, view, list);
+    const FrameBody &one = *a->second, &other = *b->second;
+    if (!overlap(one.box, other.box)) continue;
+    const Box<3> common{glm::max(one.box.lo, other.box.lo), glm::min(one.box.hi, other.box.hi)};
+    const bool on_ground = std::holds_alternative<HalfSpace<3>>(one.shape) ||
+                           std::holds_alternative<HalfSpace<3>>(other.shape);
+    const Vec<3> foot =
+        std::holds_alternative<HalfSpace<3>>(one.shape) ? end_at(one, other) : end_at(other, one);
+    draw_spot(on_ground ? foot : common.center(), 6, Role::pair, view, list);
   }
 }
 // A spring's turns stand across its line on the page.
