@@ -58,6 +58,7 @@ Axis Axis::linear(double least, double most, int most_ticks) {
     if ((axis.high_ - axis.low_) / step + 1 <= most_ticks + 0.5 || most_ticks < 3) break;
     step = nice_step(step * 1.01, decimals);
   }
+  axis.decimals_ = decimals;
   const auto count = static_cast<int>(std::min(1000.0, (axis.high_ - axis.low_) / step + 0.5));
   for (int i = 0; i <= count; ++i) {
     const double value = axis.low_ + i * step;

@@ -23,10 +23,12 @@ class Axis {
   double share(double value) const;
   const std::vector<Tick>& ticks() const { return ticks_; }
   double low() const { return low_; }
+  int decimals() const { return decimals_; }  // that its ticks have after the point
 
  private:
   double low_ = 0, high_ = 1;
   bool logarithmic_ = false;
+  int decimals_ = 0;
   std::vector<Tick> ticks_;
 };
 

@@ -125,15 +125,18 @@ void draw_ground(const FrameBody& body, const Box<2>& place, DrawList& list) {
 // What never moves is hatched, whatever its tone.
 void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, DrawList& list) {
   constexpr std::size_t kMostShapes = 2600;
-  constexpr double kInset = 0.93;  // the hatch ends at the outline
+  constexpr double kInset = 1.6;  // the hatch ends at the outline
   if (list.shapes.size() > kMostShapes) return;
   std::vector<Vec<2>> outline = turned_outline(body, place);
   const bool round = body.look != Look::box && body.look != Look::bat;
   if (outline.empty() && round) outline = ring_of(f.center, f.unit, 24);
   if (outline.empty()) outline = polygon_of(place);
-  for (Vec<2>& p : outline) p = f.center + (p - f.center) * kInset;
+  for (Vec<2>& p : outline)
+    for (int axis = 0; axis < 2; ++axis)
+      p[axis] = f.center[axis] + (p[axis] - f.center[axis]) *
+                                     std::max(0.9, 1 - kInset / std::max(f.half[axis], 1e-9));
   Pen(list, place)
-      .hatch(outline, std::clamp(0.4 * f.unit, 7.0, 13.0), 1, {Role::quiet_ink, 1.1, 0}, 40);
+      .hatch(outline, std::clamp(0.4 * f.unit, 7.0, 13.0), 1, {Role::quiet_ink, 1.1, 0}, 60);
 }
 
 // "z z" for a body that sleeps: in the middle, or of a character beside its head.

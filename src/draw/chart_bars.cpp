@@ -15,11 +15,7 @@ constexpr double kLeastRow = 25;  // a name has room in it
 constexpr double kMostRow = 96;
 constexpr double kGroupGap = 0.55;  // between groups, in rows
 constexpr double kAfter = 10;       // between a bar and its number, or its name
-constexpr double kTickLine = 30;
-
-const TextStyle kName{kLabel, Weight::regular, Role::ink, Role::none};
-const TextStyle kValue{kLabel, Weight::semibold, Role::ink, Role::none};
-const TextStyle kTick{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
+constexpr double kTickLine = 34;
 
 double width_of(const std::string& text, const TextStyle& style) {
   return text_width(text, style.size, style.weight);
@@ -32,7 +28,12 @@ std::string value_text(double value) {
 class Bars {
  public:
   Bars(const FrameChart& chart, const Box<2>& panel, DrawList& list, Labels& labels)
-      : chart_(chart), panel_(panel), list_(list), labels_(labels), bars_(chart.bars) {
+      : chart_(chart),
+        panel_(panel),
+        type_(panel),
+        list_(list),
+        labels_(labels),
+        bars_(chart.bars) {
     std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
     std::stable_sort(bars_.begin(), bars_.end(),
                      [](const FrameBar& a, const FrameBar& b) { return a.group < b.group; });
@@ -58,7 +59,7 @@ class Bars {
     const double x = x_of(zero());
     list_.shapes.emplace_back(
         LineShape{{x, area_.lo.y}, {x, area_.hi.y}, {Role::ink, 2.2, 0}, true});
-    if (!note_.empty()) labels_.add(note_, {{area_.lo.x, panel_.hi.y - 5}, 0}, kTick, panel_);
+    if (!note_.empty()) labels_.add(note_, {{area_.lo.x, panel_.hi.y - 5}, 0}, type_.tick, panel_);
   }
 
  private:
@@ -83,7 +84,8 @@ class Bars {
     const auto room = [&] { return panel_.size().y - kTickLine * (bars_.size() < all ? 2 : 1); };
     while (!bars_.empty() && rows() * kLeastRow > room()) bars_.pop_back();
     if (bars_.size() < all)
-      note_ = shortened(fmt::format("and {} more", all - bars_.size()), panel_.size().x, kTick);
+      note_ =
+          shortened(fmt::format("and {} more", all - bars_.size()), panel_.size().x, type_.tick);
   }
 
   void measure() {
@@ -92,9 +94,11 @@ class Bars {
       least = std::min(least, bar.value);
       most = std::max(most, bar.value);
       if (bar.value > 0) above_zero = std::min(above_zero, bar.value);
-      names = std::max(names, width_of(bar.label, kName));
-      values = std::max(values, width_of(value_text(bar.value), kValue));
+      names = std::max(names, width_of(bar.label, type_.name));
+      values = std::max(values, width_of(value_text(bar.value), type_.number));
     }
+    names += 1;  // sums of widths lose a hair
+    values += 1;
     area_ = panel_;
     area_.lo.x += std::min(names, 0.4 * panel_.size().x) + kAfter;
     area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter;
@@ -119,10 +123,10 @@ class Bars {
     const double end = area_.hi.y + 6;
     double last = -1e9;
     for (const Axis::Tick& tick : axis_.ticks()) {
-      const double x = x_of(tick.value), half = width_of(tick.text, kTick) / 2;
+      const double x = x_of(tick.value), half = width_of(tick.text, type_.tick) / 2;
       list_.shapes.emplace_back(LineShape{{x, area_.lo.y}, {x, end}, {Role::rule, 1.6, 0}, true});
       if (x - half < last + 14 || x - half < panel_.lo.x || x + half > panel_.hi.x) continue;
-      labels_.add(tick.text, {{x, end + 17}, 0.5}, kTick, panel_);
+      labels_.add(tick.text, {{x, end + 4 + 0.78 * type_.tick.size}, 0.5}, type_.tick, panel_);
       last = x + half;
     }
   }
@@ -142,17 +146,18 @@ class Bars {
     if (box.size().x > 0.5)
       list_.shapes.emplace_back(
           RectShape{box, 2, body_role(color_of(bar)), {Role::body_line, 1.2, 0}, false});
-    const double cap = cap_height(kName.weight) * kName.size / 2;
+    const double cap = cap_height(type_.name.weight) * type_.name.size / 2;
     const double room = area_.lo.x - panel_.lo.x - kAfter;
-    labels_.add(shortened(bar.label, room, kName), {{area_.lo.x - kAfter, middle + cap}, 1}, kName,
-                panel_);
+    labels_.add(shortened(bar.label, room, type_.name), {{area_.lo.x - kAfter, middle + cap}, 1},
+                type_.name, panel_);
     const double left = std::max(from, to) + kAfter;
-    labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, kValue),
-                {{left, middle + cap}, 0}, kValue, panel_);
+    labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, type_.number),
+                {{left, middle + cap}, 0}, type_.number, panel_);
   }
 
   const FrameChart& chart_;
   Box<2> panel_;
+  ChartType type_;
   DrawList& list_;
   Labels& labels_;
   std::vector<FrameBar> bars_;

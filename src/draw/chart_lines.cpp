@@ -13,14 +13,9 @@ namespace {
 
 constexpr std::size_t kMostSeries = 12;
 constexpr std::size_t kMostPieces = 2400;  // of all lines together
-constexpr double kLine = 26;               // from one name to the next
 constexpr double kBeside = 16;             // between a line's end and its name
 constexpr double kTickLength = 7;
-constexpr double kMarkEvery = 46;  // page units between two marks of a line
-
-const TextStyle kTick{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
-const TextStyle kAxisName{kLabel, Weight::regular, Role::ink, Role::none};
-const TextStyle kNumber{kLabel, Weight::semibold, Role::ink, Role::none};
+constexpr double kMarkEvery = 24;  // page units between two marks of a line
 
 double width_of(const std::string& text, const TextStyle& style) {
   return text_width(text, style.size, style.weight);
@@ -53,14 +48,13 @@ struct Line {
 class Lines {
  public:
   Lines(const FrameChart& chart, const Box<2>& panel, DrawList& list, Labels& labels)
-      : chart_(chart), panel_(panel), list_(list), labels_(labels) {
+      : chart_(chart), panel_(panel), type_(panel), list_(list), labels_(labels) {
     for (const FrameSeries& series : chart.series) {
       Line line;
       line.look = lines_.size();
       line.name = series.name;
       for (const Vec<2>& p : series.points)
         if (std::isfinite(p.x) && std::isfinite(p.y)) line.values.push_back(p);
-      if (!line.values.empty()) line.number = short_number(line.values.back().y);
       if (lines_.size() < kMostSeries) lines_.push_back(std::move(line));
     }
   }
@@ -74,32 +68,43 @@ class Lines {
   }
 
  private:
+  double line_height() const { return 1.35 * type_.name.size; }  // from one name to the next
+  double under_ticks() const { return kTickLength + 8 + 0.78 * type_.tick.size; }
   bool alone() const { return chart_.series.size() <= 1; }
+
+  // Finer than the ticks are, or what has changed would not be seen.
+  std::string newest(const Line& line) const {
+    if (line.values.empty()) return "";
+    const double y = line.values.back().y;
+    return y_.decimals() > 1 && y_.decimals() < 7 ? number_text(y, y_.decimals() + 1)
+                                                  : short_number(y);
+  }
 
   void measure() {
     Range xs, ys;
-    double names = 0;
-    for (const Line& line : lines_) {
+    for (const Line& line : lines_)
       for (const Vec<2>& p : line.values) {
         xs.add(p.x);
         ys.add(p.y);
       }
-      const double name = alone() ? 0 : width_of(line.name, kAxisName) + 10;
-      names = std::max(names, name + width_of(line.number, kNumber));
-    }
     const std::string y_name = alone() && !chart_.series.empty() && chart_.y_name.empty()
                                    ? chart_.series[0].name
                                    : chart_.y_name;
     area_ = panel_;
     area_.lo.y += std::max(10.0, draw_chart_heading(y_name, panel_, labels_));
-    area_.hi.y -= kTickLength + 26 + (chart_.x_name.empty() ? 0 : 28);
-    names_room_ = std::min(names, 0.42 * panel_.size().x);
-    area_.hi.x -= names_room_ + kBeside + 4;
+    area_.hi.y -= under_ticks() + 8 + (chart_.x_name.empty() ? 0 : 1.5 * type_.name.size);
     y_ = axis_for(ys, chart_.logarithmic, std::clamp(int(area_.size().y / 50), 2, 9));
+    double names = 0;
+    for (Line& line : lines_) {
+      line.number = newest(line);
+      const double name = alone() ? 0 : width_of(line.name, type_.name) + 10;
+      names = std::max(names, name + width_of(line.number, type_.number));
+    }
+    area_.hi.x -= std::min(names + 1, 0.42 * panel_.size().x) + kBeside + 4;
     double numbers = 0;
     for (const Axis::Tick& tick : y_.ticks())
-      numbers = std::max(numbers, width_of(tick.text, kTick));
-    area_.lo.x += std::min(numbers, 0.3 * panel_.size().x) + kTickLength + 8;
+      numbers = std::max(numbers, width_of(tick.text, type_.tick));
+    area_.lo.x += std::min(numbers + 1, 0.3 * panel_.size().x) + kTickLength + 8;
     area_.hi.x = std::max(area_.hi.x, area_.lo.x + 10);
     area_.hi.y = std::max(area_.hi.y, area_.lo.y + 10);
     x_ = axis_for(xs, chart_.logarithmic, std::clamp(int(area_.size().x / 96), 2, 10));
@@ -121,18 +126,19 @@ class Lines {
           LineShape{{area_.lo.x - kTickLength, y}, {area_.hi.x, y}, {Role::rule, 1.5, 0}, true});
       if (y > last - 22) continue;
       const double room = area_.lo.x - kTickLength - 6 - panel_.lo.x;
-      labels_.try_add(shortened(tick.text, room, kTick),
-                      {{{area_.lo.x - kTickLength - 6, y + 6}, 1}}, kTick, panel_);
+      labels_.try_add(shortened(tick.text, room, type_.tick),
+                      {{{area_.lo.x - kTickLength - 6, y + 0.36 * type_.tick.size}, 1}}, type_.tick,
+                      panel_);
       last = y;
     }
     last = -1e9;
     for (const Axis::Tick& tick : x_.ticks()) {
       const double x = area_.lo.x + x_.share(tick.value) * area_.size().x;
-      const double half = width_of(tick.text, kTick) / 2;
+      const double half = width_of(tick.text, type_.tick) / 2;
       list_.shapes.emplace_back(
           LineShape{{x, area_.hi.y}, {x, area_.hi.y + kTickLength}, {Role::ink, 1.8, 0}, true});
       if (x - half < last + 12) continue;
-      if (labels_.try_add(tick.text, {{{x, area_.hi.y + kTickLength + 19}, 0.5}}, kTick, panel_))
+      if (labels_.try_add(tick.text, {{{x, area_.hi.y + under_ticks()}, 0.5}}, type_.tick, panel_))
         last = x + half;
     }
     for (const Vec<2>& end : {Vec<2>(area_.lo.x, area_.lo.y), Vec<2>(area_.hi.x, area_.hi.y)})
@@ -145,11 +151,11 @@ class Lines {
     std::string name = chart_.x_name;
     if (chart_.logarithmic) name += name.empty() ? "both logarithmic" : "  (both logarithmic)";
     const double left = area_.lo.x, right = panel_.hi.x;
-    std::string fitting = shortened(name, right - left, kAxisName);
-    if (fitting != name) fitting = shortened(chart_.x_name, right - left, kAxisName);
-    const double half = width_of(fitting, kAxisName) / 2;
+    std::string fitting = shortened(name, right - left, type_.name);
+    if (fitting != name) fitting = shortened(chart_.x_name, right - left, type_.name);
+    const double half = width_of(fitting, type_.name) / 2;
     const double x = std::clamp(area_.center().x, left + half, std::max(left + half, right - half));
-    labels_.try_add(fitting, {{{x, panel_.hi.y - 7}, 0.5}}, kAxisName, panel_);
+    labels_.try_add(fitting, {{{x, panel_.hi.y - 7}, 0.5}}, type_.name, panel_);
   }
 
   // Many points become as many as the page can tell apart: of each part of the line its first,
@@ -200,51 +206,51 @@ class Lines {
       return a->points.back().y < b->points.back().y;
     });
     const double top = panel_.lo.y + 14, bottom = area_.hi.y - 8;
-    const auto most = static_cast<std::size_t>(std::max(1.0, (bottom - top) / kLine));
+    const auto most = static_cast<std::size_t>(std::max(1.0, (bottom - top) / line_height()));
     if (order.size() > most) order.resize(most);
     double least = top;
     for (Line* line : order) {
       line->label = std::max(least, line->points.back().y);
-      least = line->label + kLine;
+      least = line->label + line_height();
     }
     double limit = bottom;
     for (std::size_t i = order.size(); i-- > 0;) {
       order[i]->label = std::min(order[i]->label, limit);
-      limit = order[i]->label - kLine;
+      limit = order[i]->label - line_height();
     }
     for (const Line* line : order) name_line(*line);
     const std::size_t left_out = chart_.series.size() - order.size();
     if (left_out > 0 && order.size() == most)
       labels_.try_add(fmt::format("and {} more", left_out),
-                      {{{panel_.hi.x, area_.hi.y + kTickLength + 19}, 1}}, kTick, panel_);
+                      {{{panel_.hi.x, area_.hi.y + under_ticks()}, 1}}, type_.tick, panel_);
   }
 
   void name_line(const Line& line) {
     const Vec<2> end = line.points.back();
     const bool newest_at_edge = end.x > area_.hi.x - 40;
     const double x = area_.hi.x + kBeside;
-    const double y = line.label + 0.36 * kLabel;
+    const double y = line.label + 0.36 * type_.name.size;
     if (std::abs(line.label - end.y) > 4 || !newest_at_edge)
       list_.shapes.emplace_back(LineShape{{std::min(end.x + 12, x - 5), end.y},
                                           {x - 5, line.label},
                                           {Role::cell_line_3, 1.4, newest_at_edge ? 0.0 : 4.0},
                                           false});
     const double room = panel_.hi.x - x;
-    const std::string number = shortened(line.number, room, kNumber);
-    const double number_width = width_of(number, kNumber);
-    labels_.try_add(number, {{{x, y}, 0}}, kNumber, panel_);
+    const std::string number = shortened(line.number, room, type_.number);
+    const double number_width = width_of(number, type_.number);
+    labels_.try_add(number, {{{x, y}, 0}}, type_.number, panel_);
     if (alone()) return;
-    const std::string name = shortened(line.name, room - number_width - 8, kAxisName);
-    if (!name.empty()) labels_.try_add(name, {{{x + number_width + 8, y}, 0}}, kAxisName, panel_);
+    const std::string name = shortened(line.name, room - number_width - 8, type_.name);
+    if (!name.empty()) labels_.try_add(name, {{{x + number_width + 8, y}, 0}}, type_.name, panel_);
   }
 
   const FrameChart& chart_;
   Box<2> panel_;
+  ChartType type_;
   DrawList& list_;
   Labels& labels_;
   std::vector<Line> lines_;
   Box<2> area_;
-  double names_room_ = 0;
   Axis x_ = Axis::linear(0, 1, 2), y_ = Axis::linear(0, 1, 2);
 };
 

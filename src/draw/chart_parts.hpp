@@ -12,6 +12,17 @@ inline constexpr int kChartLooks = 8;  // colours, marks and dashes that series 
 // The body colour of the i-th series: dark and unlike ones first.
 int chart_color(std::size_t i);
 
+// The type of a chart: larger on a panel that has the page for itself.
+struct ChartType {
+  explicit ChartType(const Box<2>& panel) {
+    const double k = panel.size().x > 1000 && panel.size().y > 380 ? 1.22 : 1;
+    tick = {k * (kLeastLabel + 0.4), Weight::regular, Role::quiet_ink, Role::none};
+    name = {k * kLabel, Weight::regular, Role::ink, Role::none};
+    number = {k * kLabel, Weight::semibold, Role::ink, Role::none};
+  }
+  TextStyle tick, name, number;
+};
+
 // The mark of the i-th series, `radius` large, with the panel's tone around it.
 void draw_chart_mark(std::size_t i, const Vec<2>& at, double radius, DrawList& list);
 

@@ -47,11 +47,11 @@ void draw_chart_mark(std::size_t i, const Vec<2>& at, double radius, DrawList& l
 }
 
 double draw_chart_heading(const std::string& text, const Box<2>& panel, Labels& labels) {
-  const TextStyle style{kLabel + 1, Weight::semibold, Role::ink, Role::none};
+  const TextStyle style = ChartType(panel).number;
   const std::string words = shortened(text, panel.size().x, style);
   if (words.empty() || panel.size().y < 60) return 0;
   labels.add(words, {{panel.lo.x, panel.lo.y + 0.78 * style.size}, 0}, style, panel);
-  return 32;
+  return 1.7 * style.size;
 }
 
 void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {

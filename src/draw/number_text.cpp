@@ -27,11 +27,11 @@ std::string without_end_zeros(std::string text) {
 
 // "1.2e+15" as "1.2·10¹⁵".
 std::string as_power(double number) {
-  const std::string text = fmt::format("{:.1e}", number);
+  const std::string text = fmt::format("{:.1e}", std::abs(number));
   const std::size_t e = text.find('e');
   const std::string lead = without_end_zeros(text.substr(0, e));
   const std::string power = "10" + raised(std::stoi(text.substr(e + 1)));
-  return lead == "1" ? power : lead + "·" + power;
+  return (number < 0 ? "−" : "") + (lead == "1" ? power : lead + "·" + power);
 }
 
 }  // namespace

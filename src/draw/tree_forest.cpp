@@ -1,6 +1,7 @@
 // A structure for what never moves beside the one for what does: two trees in one panel.
 #include <algorithm>
 
+#include "draw/sweep_view.hpp"
 #include "draw/tree_facts.hpp"
 #include "draw/tree_view.hpp"
 
@@ -99,6 +100,8 @@ void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& 
   const double facts = draw_tree_facts(frame, panel, labels);
   Box<2> diagram = panel;
   diagram.hi.y -= facts + 4;
+  if (frame.structure == StructureKind::sort_and_sweep && frame.nodes.empty())
+    return draw_sweep(frame, shrunk(diagram, 6), list, labels);
   const auto roots = std::count_if(frame.nodes.begin(), frame.nodes.end(),
                                    [](const FrameNode& node) { return node.parent == kNone; });
   if (roots > 1) return draw_forest(frame, diagram, list, labels);

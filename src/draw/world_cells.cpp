@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <tuple>
 
+#include "draw/borders.hpp"
 #include "draw/pen.hpp"
 #include "draw/world_marks.hpp"
 #include "draw/world_parts.hpp"
@@ -11,7 +11,6 @@ namespace lantern {
 namespace {
 
 constexpr std::size_t kMostFills = 500;
-constexpr std::size_t kMostLines = 800;
 constexpr std::size_t kMostPlanes = 400;
 constexpr double kLeastCell = 1.5;  // page units; smaller ones are below what a line can show
 
@@ -73,84 +72,6 @@ class Paint {
   const std::vector<FrameNode>& nodes_;
   std::vector<std::optional<Mark>> tone_;        // of the whole node, if it has one tone
   std::vector<std::optional<Mark>> child_tone_;  // of the children seen so far
-};
-
-// Borders of many cells as few long lines: pieces on one line that touch are joined.
-class Borders {
- public:
-  void add(const Box<2>& cell, std::uint32_t depth) {
-    for (const double y : {cell.lo.y, cell.hi.y})
-      pieces_.push_back({depth, 0, rounded(y), cell.lo.x, cell.hi.x});
-    for (const double x : {cell.lo.x, cell.hi.x})
-      pieces_.push_back({depth, 1, rounded(x), cell.lo.y, cell.hi.y});
-  }
-
-  // Only what lies within the place.
-  void add_inside(const Box<2>& place, const Box<2>& cell, std::uint32_t depth) {
-    for (int axis = 0; axis < 2; ++axis) {
-      const int across = 1 - axis;  // a line along `axis` is at one place across it
-      const double from = std::max(cell.lo[axis], place.lo[axis]);
-      const double to = std::min(cell.hi[axis], place.hi[axis]);
-      for (const double at : {cell.lo[across], cell.hi[across]})
-        if (place.lo[across] < at && at < place.hi[across])
-          pieces_.push_back({depth, axis, rounded(at), from, to});
-    }
-  }
-
-  // Deep ones first, so that the stronger lines of the upper levels lie on top. When there are too
-  // many, whole levels are left out from the deepest on, and the answer is false.
-  template <class StrokeOf>
-  bool draw(const StrokeOf& stroke_of, DrawList& list) {
-    join();
-    std::size_t count = 0;
-    while (count < pieces_.size() && count < kMostLines) {
-      const auto level_end =
-          std::find_if(pieces_.begin() + static_cast<std::ptrdiff_t>(count), pieces_.end(),
-                       [&](const Piece& p) { return p.depth != pieces_[count].depth; });
-      const auto end = static_cast<std::size_t>(level_end - pieces_.begin());
-      if (count > 0 && end > kMostLines) break;
-      count = end;
-    }
-    count = std::min(count, kMostLines);
-    for (std::size_t i = count; i-- > 0;) {
-      const Piece& p = pieces_[i];
-      const bool upright = p.axis == 1;
-      const Vec<2> from = upright ? Vec<2>(p.at, p.from) : Vec<2>(p.from, p.at);
-      const Vec<2> to = upright ? Vec<2>(p.at, p.to) : Vec<2>(p.to, p.at);
-      list.shapes.emplace_back(LineShape{from, to, stroke_of(p.depth), true});
-    }
-    return count == pieces_.size();
-  }
-
- private:
-  struct Piece {
-    std::uint32_t depth;
-    int axis;  // 0 level, 1 upright
-    double at, from, to;
-    auto key() const { return std::tie(depth, axis, at, from, to); }
-  };
-  // Neighbours compute the same border by different sums; a 64th of a unit is below any pixel.
-  static double rounded(double x) { return std::round(x * 64) / 64; }
-
-  void join() {
-    std::sort(pieces_.begin(), pieces_.end(),
-              [](const Piece& a, const Piece& b) { return a.key() < b.key(); });
-    std::vector<Piece> joined;
-    for (const Piece& p : pieces_) {
-      if (!joined.empty()) {
-        Piece& last = joined.back();
-        if (std::tie(last.depth, last.axis, last.at) == std::tie(p.depth, p.axis, p.at) &&
-            p.from <= last.to + 1.0 / 64) {
-          last.to = std::max(last.to, p.to);
-          continue;
-        }
-      }
-      joined.push_back(p);
-    }
-    pieces_ = std::move(joined);
-  }
-
-  std::vector<Piece> pieces_;
 };
 
 bool is_drawn(const Box<2>& cell) { return std::min(cell.size().x, cell.size().y) >= kLeastCell; }
@@ -230,7 +151,7 @@ void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
   }
 }
 
-// Long dashes, so that both trees can be told apart where they stand in one picture.
+// Long dashes, over the lines of the other tree, so that both can be told apart in one picture.
 bool draw_static_cells(const Frame& frame, const WorldMap& map, DrawList& list) {
   Borders borders;
   for (const FrameNode& node : frame.nodes) {
@@ -240,7 +161,7 @@ bool draw_static_cells(const Frame& frame, const WorldMap& map, DrawList& list) 
   }
   return borders.draw(
       [](std::uint32_t depth) {
-        return Stroke{Role::static_body, line_width(depth) + 1.4, 16};
+        return Stroke{Role::cell_line_3, std::max(1.6, 0.6 * line_width(depth)), 16};
       },
       list);
 }
@@ -271,10 +192,14 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   Grounds under;  // of what the cells' own grounds lie on
   fill_views(frame, map, list, under);
   fill_cells(frame, map, list, grounds);
-  if (is_level(frame)) fill_sectors(frame, map, list, grounds);
+  if (is_level(frame)) {
+    Grounds sectors;  // over what is painted of inner nodes
+    fill_sectors(frame, map, list, sectors);
+    grounds.insert(grounds.begin(), sectors.begin(), sectors.end());
+  }
   grounds.insert(grounds.end(), under.begin(), under.end());
   hatch_asleep(frame, map, list);
-  bool complete = draw_static_cells(frame, map, list);
+  bool complete = true;
   Borders borders;
   const bool fitted = frame.structure == StructureKind::kd_tree;  // its root is not the world
   for (const FrameNode& node : frame.nodes) {
@@ -290,6 +215,7 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
         return Stroke{cell_line_role(depth), line_width(depth), 0};
       },
       list);
+  complete &= draw_static_cells(frame, map, list);
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
   const bool lit = !frame.nodes.empty() && frame.nodes[0].mark == Mark::lit;

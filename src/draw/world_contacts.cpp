@@ -30,7 +30,7 @@ void draw_spring(Pen& pen, const Vec<2>& from, const Vec<2>& to, const Stroke& s
   if (!(length > 1)) return;
   const Vec<2> along = way / length, side{-along.y, along.x};
   constexpr int kTurns = 7;
-  const double end = std::min(0.14 * length, 16.0), reach = std::clamp(0.09 * length, 3.0, 10.0);
+  const double end = std::min(0.17 * length, 26.0), reach = std::clamp(0.09 * length, 3.0, 10.0);
   std::vector<Vec<2>> points{from, from + along * end};
   for (int i = 0; i < 2 * kTurns; ++i) {
     const double at = end + (length - 2 * end) * (i + 0.5) / (2 * kTurns);

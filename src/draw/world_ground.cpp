@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "draw/clip.hpp"
 #include "draw/font.hpp"
@@ -83,6 +84,27 @@ std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const WorldMap& ma
     places.push_back({&body, middle_of(solid)});
   }
   return places;
+}
+
+void draw_ground_pairs(const Frame& frame, const WorldMap& map, DrawList& list) {
+  constexpr std::size_t kMostLinks = 200;
+  std::map<BodyId, const FrameBody*> bodies;
+  for (const FrameBody& body : frame.bodies) bodies[body.id] = &body;
+  Pen pen(list, mark_limit(map));
+  std::size_t drawn = 0;
+  for (const FramePair& pair : frame.pairs) {
+    const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
+    if (a == bodies.end() || b == bodies.end()) continue;
+    if (is_half_space(*a->second) == is_half_space(*b->second)) continue;
+    const bool first = is_half_space(*a->second);
+    const FrameBody& ground = first ? *a->second : *b->second;
+    const FrameBody& body = first ? *b->second : *a->second;
+    const Plane<2> surface = page_surface(ground, map.to_page(ground.position));
+    const Vec<2> from = map.to_page(body.position);
+    const double height = surface.normal.x * from.x + surface.normal.y * from.y - surface.offset;
+    if (++drawn > kMostLinks) return;
+    pen.line(from, from - surface.normal * height, {Role::pair, pair.lit ? 4.4 : 3.0, 0}, 2);
+  }
 }
 
 void name_half_spaces(const std::vector<GroundPlace>& places, const WorldMap& map,

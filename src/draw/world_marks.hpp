@@ -14,6 +14,8 @@ struct GroundPlace {
 };
 std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const WorldMap& map, DrawList& list,
                                           Grounds& grounds);
+// From a body to the ground that it is to be tested with.
+void draw_ground_pairs(const Frame& frame, const WorldMap& map, DrawList& list);
 void name_half_spaces(const std::vector<GroundPlace>& places, const WorldMap& map,
                       const Grounds& grounds, Labels& labels);
 

@@ -49,6 +49,7 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   const std::vector<GroundPlace> ground = draw_half_spaces(frame, map, list, grounds);
   const std::vector<Stand> stands = stands_of(frame, map);
   if (!draw_pairs(frame, stands, list)) leave_out("not all pairs are drawn");
+  draw_ground_pairs(frame, map, list);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.show_boxes;
   draw_bodies(stands, map, own_boxes, list);
   for (const Stand& stand : stands)

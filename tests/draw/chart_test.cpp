@@ -1,0 +1,170 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "draw/axis.hpp"
+#include "draw/number_text.hpp"
+#include "draw/page.hpp"
+#include "draw/sample_frames.hpp"
+
+namespace lantern {
+namespace {
+
+DrawList page_of(const Frame& frame) {
+  Work work;
+  return draw_frame(frame, page_for(1600, 900), work);
+}
+
+bool says(const DrawList& list, const std::string& text) {
+  return std::any_of(list.labels.begin(), list.labels.end(),
+                     [&](const LabelBox& label) { return label.text == text; });
+}
+
+Frame charted(FrameChart chart) {
+  Frame frame;
+  frame.panels = {Panel::chart};
+  frame.chart = std::move(chart);
+  return frame;
+}
+
+TEST(NumberText, ThousandsStandApart) {
+  EXPECT_EQ(number_text(1234567), "1\u2009234\u2009567");
+  EXPECT_EQ(number_text(9999), "9999") << "four figures are one group";
+  EXPECT_EQ(number_text(-12345), "−12\u2009345");
+  EXPECT_EQ(number_text(0), "0");
+  EXPECT_EQ(number_text(-0.0), "0") << "there is no minus nothing";
+  EXPECT_EQ(number_text(0.25, 2), "0.25");
+  EXPECT_EQ(number_text(2.5, 4), "2.5") << "zeros at the end say nothing";
+  EXPECT_EQ(number_text(1.2e15), "1.2·10¹⁵");
+  EXPECT_EQ(number_text(1e300), "10³⁰⁰");
+  EXPECT_EQ(number_text(-1e150), "−10¹⁵⁰");
+  EXPECT_EQ(number_text(std::nan("")), "–");
+  EXPECT_EQ(short_number(17.25), "17.2");
+  EXPECT_EQ(short_number(40.0035), "40");
+  EXPECT_EQ(short_number(0.0123456), "0.0123");
+}
+
+TEST(Axis, LinearOneHoldsItsValuesAndHasFewTicks) {
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    double a = random.between(-1, 1) * std::pow(10, random.between(-12, 12));
+    double b = random.between(-1, 1) * std::pow(10, random.between(-12, 12));
+    if (a > b) std::swap(a, b);
+    const int most = static_cast<int>(random.whole(2, 10));
+    const Axis axis = Axis::linear(a, b, most);
+    ASSERT_GE(axis.ticks().size(), 2u) << a << " to " << b;
+    EXPECT_LE(axis.ticks().size(), static_cast<std::size_t>(most) + 2) << a << " to " << b;
+    EXPECT_LE(axis.ticks().front().value, a + 1e-9 * std::abs(a)) << a << " to " << b;
+    EXPECT_GE(axis.ticks().back().value, b - 1e-9 * std::abs(b)) << a << " to " << b;
+    EXPECT_LE(axis.share(a), axis.share(b));
+    for (const Axis::Tick& tick : axis.ticks()) EXPECT_TRUE(std::isfinite(tick.value));
+  }
+}
+
+TEST(Axis, TicksOfOneAxisReadDifferently) {
+  for (const double high : {1.0, 7.0, 0.03, 1234.0, 2.5e6, 40.004}) {
+    const Axis axis = Axis::linear(high > 40 && high < 41 ? 40 : 0, high, 6);
+    for (std::size_t i = 1; i < axis.ticks().size(); ++i)
+      EXPECT_NE(axis.ticks()[i].text, axis.ticks()[i - 1].text) << "up to " << high;
+  }
+}
+
+TEST(Axis, LogarithmicOneSpansWholeDecades) {
+  const Axis axis = Axis::logarithmic(20, 52000, 9);
+  ASSERT_EQ(axis.ticks().size(), 5u);
+  EXPECT_EQ(axis.ticks().front().text, "10");
+  EXPECT_EQ(axis.ticks().back().text, "100\u2009000");
+  EXPECT_NEAR(axis.share(1000), 0.5, 1e-12);
+  EXPECT_EQ(axis.share(0), 0) << "what has no logarithm lies at the lower end";
+  EXPECT_EQ(axis.share(-3), 0);
+  EXPECT_LE(Axis::logarithmic(1e-150, 1e150, 5).ticks().size(), 7u);
+}
+
+TEST(Axis, OneValueGetsARangeAllTheSame) {
+  for (const double value : {0.0, 5.0, -5.0, 1e300, -1e300}) {
+    const Axis axis = Axis::linear(value, value, 5);
+    const double share = axis.share(value);
+    EXPECT_TRUE(share >= 0 && share <= 1) << value;
+    EXPECT_GE(axis.ticks().size(), 2u) << value;
+  }
+}
+
+TEST(Chart, SaysTheNewestNumberOfEachLine) {
+  FrameChart chart;
+  chart.x_name = "bodies";
+  chart.y_name = "pairs";
+  chart.series = {{"brute force", {{10, 45}, {1000, 499500}}},
+                  {"quadtree", {{10, 9}, {1000, 312}}}};
+  for (const bool logarithmic : {false, true}) {
+    chart.logarithmic = logarithmic;
+    const DrawList list = page_of(charted(chart));
+    for (const char* text : {"pairs", "brute force", "quadtree", "499\u2009500", "312"})
+      EXPECT_TRUE(says(list, text)) << text << " is missing";
+  }
+}
+
+TEST(Chart, ASmallDriftIsNotRoundedAway) {
+  FrameChart chart;
+  chart.series = {{"energy", {{0, 40}, {1, 40.0035}}}};
+  EXPECT_TRUE(says(page_of(charted(chart)), "40.0035"));
+}
+
+TEST(Chart, NamesOfLinesThatEndTogetherAreMovedApart) {
+  FrameChart chart;
+  for (int i = 0; i < 9; ++i)
+    chart.series.push_back({"line " + std::to_string(i), {{0, 0}, {1, 5.0 + 0.001 * i}}});
+  const DrawList list = page_of(charted(chart));
+  for (const FrameSeries& series : chart.series)
+    EXPECT_TRUE(says(list, series.name)) << series.name << " has no name";
+}
+
+TEST(Chart, EveryBarHasItsNameAndNumber) {
+  for (const auto& [name, frame] : samples::charts()) {
+    if (name != "chart_bars" && name != "chart_barslog" && name != "chart_grouped") continue;
+    const DrawList list = page_of(frame);
+    for (const FrameBar& bar : frame.chart.bars) {
+      EXPECT_TRUE(says(list, bar.label)) << name << ": " << bar.label;
+      EXPECT_TRUE(says(list, number_text(bar.value))) << name << ": " << bar.value;
+    }
+  }
+}
+
+TEST(Chart, BarsAreAsLongAsTheirNumbers) {
+  FrameChart chart;
+  chart.bars = {{"one", 100, 0}, {"two", 200, 0}, {"none", 0, 0}};
+  std::vector<double> lengths;
+  for (const DrawShape& shape : page_of(charted(chart)).shapes)
+    if (const auto* rect = std::get_if<RectShape>(&shape);
+        rect && rect->fill >= Role::body_1 && rect->fill <= Role::body_8)
+      lengths.push_back(rect->box.size().x);
+  ASSERT_EQ(lengths.size(), 2u) << "a bar of 0 has no length";
+  EXPECT_NEAR(lengths[1], 2 * lengths[0], 1e-9);
+}
+
+TEST(Chart, WhatHasNoRoomIsSaid) {
+  FrameChart chart;
+  for (int i = 0; i < 100; ++i) chart.bars.push_back({"bar " + std::to_string(i), 1.0 * i, 0});
+  const DrawList list = page_of(charted(chart));
+  EXPECT_TRUE(std::any_of(list.labels.begin(), list.labels.end(), [](const LabelBox& label) {
+    return label.text.starts_with("and ") && label.text.ends_with(" more");
+  }));
+}
+
+TEST(Chart, ALongLineKeepsItsPeaks) {
+  FrameChart chart;
+  chart.series = {{"energy", {}}};
+  for (int i = 0; i < 20000; ++i)
+    chart.series[0].points.push_back({1.0 * i, i == 7777 ? 9.0 : 1.0});
+  double highest = 1e9, lowest = 0;
+  for (const DrawShape& shape : page_of(charted(chart)).shapes)
+    if (const auto* line = std::get_if<LineShape>(&shape);
+        line && line->stroke.role >= Role::body_1 && line->stroke.role <= Role::body_8) {
+      highest = std::min({highest, line->from.y, line->to.y});
+      lowest = std::max({lowest, line->from.y, line->to.y});
+    }
+  EXPECT_GT(lowest - highest, 200) << "the one high point was thinned out";
+}
+
+}  // namespace
+}  // namespace lantern

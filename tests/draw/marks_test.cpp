@@ -1,0 +1,221 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "draw/body_shapes.hpp"
+#include "draw/characters.hpp"
+#include "draw/clip.hpp"
+#include "draw/metrics.hpp"
+#include "draw/page.hpp"
+#include "draw/pen.hpp"
+#include "draw/sample_frames.hpp"
+#include "geometry/flat.hpp"
+
+namespace lantern {
+namespace {
+
+Frame sample(const std::string& name) {
+  for (auto& [known, frame] : samples::worlds())
+    if (known == name) return frame;
+  ADD_FAILURE() << "no sample " << name;
+  return {};
+}
+
+DrawList page_of(const Frame& frame) {
+  Work work;
+  return draw_frame(frame, page_for(1600, 900), work);
+}
+
+template <class Shape, class F>
+int count(const DrawList& list, const F& matches) {
+  int n = 0;
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* s = std::get_if<Shape>(&shape)) n += matches(*s);
+  return n;
+}
+
+int labels(const DrawList& list, const std::string& text) {
+  return static_cast<int>(std::count_if(list.labels.begin(), list.labels.end(),
+                                        [&](const LabelBox& l) { return l.text == text; }));
+}
+
+TEST(Clip, LinesAreCutToTheRectangle) {
+  const Box<2> rect{{0, 0}, {10, 10}};
+  const auto cut = cut_line({-5, 5}, {15, 5}, rect);
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(cut->first, Vec<2>(0, 5));
+  EXPECT_EQ(cut->second, Vec<2>(10, 5));
+  EXPECT_FALSE(cut_line({-5, 0}, {0, 20}, rect)) << "it passes the corner by";
+  EXPECT_FALSE(cut_line({std::nan(""), 0}, {5, 5}, rect));
+  EXPECT_FALSE(cut_line({0, 0}, {HUGE_VAL, 5}, rect));
+  const auto point = cut_line({3, 3}, {3, 3}, rect);
+  ASSERT_TRUE(point);
+  EXPECT_EQ(point->first, Vec<2>(3, 3));
+}
+
+TEST(Pen, NothingLeavesItsPlace) {
+  DrawList list;
+  const Box<2> place{{100, 100}, {300, 200}};
+  Pen pen(list, place);
+  pen.arrow({0, 0}, {500, 290}, {Role::ray, 3, 0}, 20);
+  pen.polygon({{0, 0}, {400, 0}, {400, 400}, {0, 400}}, Role::view_fill);
+  pen.hatch({{90, 90}, {350, 120}, {200, 260}}, 10, 1, {Role::ink, 1, 0});
+  pen.dot({299, 150}, 5, Role::ink);
+  EXPECT_FALSE(list.shapes.empty());
+  for (const DrawShape& shape : list.shapes) {
+    if (const auto* line = std::get_if<LineShape>(&shape)) {
+      EXPECT_TRUE(contains(place, line->from) && contains(place, line->to));
+    } else if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+      for (const Vec<2>& p : polygon->points) EXPECT_TRUE(holds(shrunk(place, -1e-9), {p, p}));
+    } else {
+      ADD_FAILURE() << "a dot that does not fit must not be drawn";
+    }
+  }
+}
+
+TEST(Pen, HatchOfAHugePlaceStaysFew) {
+  DrawList list;
+  Pen pen(list, {{0, 0}, {1e5, 1e5}});
+  pen.hatch({{0, 0}, {1e5, 0}, {1e5, 1e5}, {0, 1e5}}, 2, 1, {Role::ink, 1, 0}, 30);
+  EXPECT_LE(list.shapes.size(), 31u);
+  EXPECT_GE(list.shapes.size(), 10u);
+}
+
+TEST(BodyShapes, ATurnedBoxTouchesAllSidesOfItsBox) {
+  for (const double angle : {0.0, 0.3, 1.2, 2.9, -4.0})
+    for (const Shape<2>& shape : {Shape<2>(OrientedBox<2>{{2, 1}}), Shape<2>(Capsule{0.5, 1.5})}) {
+      FrameBody body;
+      body.shape = in_dimension<3>(shape);
+      body.angle = angle;
+      body.box = solid(bounding_box(shape, Vec<2>(0.0), Rotation<2>{angle}));
+      const Box<2> place = Box<2>::around({50, 60}, flat(body.box.size()) * 10.0);
+      const std::vector<Vec<2>> outline = turned_outline(body, place);
+      ASSERT_GE(outline.size(), 4u);
+      Box<2> reached{outline[0], outline[0]};
+      for (const Vec<2>& p : outline) reached = united(reached, Box<2>{p, p});
+      // A capsule's round ends are drawn with corners.
+      for (int axis = 0; axis < 2; ++axis) {
+        EXPECT_NEAR(reached.lo[axis], place.lo[axis], 0.2) << angle;
+        EXPECT_NEAR(reached.hi[axis], place.hi[axis], 0.2) << angle;
+      }
+    }
+}
+
+TEST(BodyShapes, CounterClockwiseIsCounterClockwiseOnThePage) {
+  FrameBody body;
+  body.shape = Capsule{0.1, 1};
+  body.angle = 0.5;  // its upper end leans left
+  body.box = solid(bounding_box(Shape<2>(Capsule{0.1, 1}), Vec<2>(0.0), Rotation<2>{0.5}));
+  const auto outline = turned_outline(body, Box<2>::around({0, 0}, flat(body.box.size()) * 50.0));
+  const auto top = std::min_element(outline.begin(), outline.end(),
+                                    [](const Vec<2>& a, const Vec<2>& b) { return a.y < b.y; });
+  EXPECT_LT(top->x, 0);
+}
+
+TEST(Marks, AnImpulseTwiceAsLargeHasALongerArrow) {
+  Frame frame = sample("world_slope");
+  FrameContact contact;
+  contact.normal = {0, 1, 0};
+  contact.points = {{{-4, 5, 0}, 0, 1}, {{0, 5, 0}, 0, 2}, {{4, 5, 0}, 0, 4}};
+  frame.contacts = {contact};
+  std::vector<double> lengths;
+  for (const DrawShape& shape : page_of(frame).shapes)
+    if (const auto* line = std::get_if<LineShape>(&shape);
+        line && line->stroke.role == Role::contact)
+      lengths.push_back(line->from.y - line->to.y);
+  ASSERT_EQ(lengths.size(), 3u);
+  EXPECT_LT(lengths[0], lengths[1]);
+  EXPECT_LT(lengths[1], lengths[2]);
+  EXPECT_GT(lengths[0], 0) << "up in the world is up on the page";
+}
+
+TEST(Marks, HitsAreNumberedInOrder) {
+  const DrawList list = page_of(sample("world_rays"));
+  for (const char* number : {"1", "2", "3", "4", "5"}) EXPECT_GE(labels(list, number), 1) << number;
+}
+
+TEST(Marks, SectorsAreNumberedFromOneInOrder) {
+  Frame frame = sample("world_level");
+  frame.panels = {Panel::world};
+  frame.steps = 0;
+  frame.counts.clear();
+  const DrawList list = page_of(frame);
+  for (const char* number : {"1", "2", "3", "4"}) EXPECT_EQ(labels(list, number), 1) << number;
+}
+
+TEST(Marks, NeighbouringSectorsHaveDifferentTones) {
+  Frame frame = sample("world_level");
+  for (FrameNode& node : frame.nodes) {
+    node.mark = Mark::quiet;
+    node.solid = false;
+  }
+  std::vector<const PolygonShape*> sectors;
+  const DrawList list = page_of(frame);
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape);
+        polygon && polygon->fill >= Role::sector_1 && polygon->fill <= Role::sector_4)
+      sectors.push_back(polygon);
+  ASSERT_EQ(sectors.size(), 4u);
+  EXPECT_NE(sectors[0]->fill, sectors[1]->fill) << "back.back and back.front share the corridor";
+  EXPECT_NE(sectors[2]->fill, sectors[3]->fill) << "front.back and front.front share the gate";
+}
+
+TEST(Marks, DimmedBodiesAreDottedAndPale) {
+  FrameBody body;
+  body.look = Look::disc;
+  body.dimmed = true;
+  DrawList list;
+  draw_character(body, {{0, 0}, {60, 60}}, false, list);
+  const auto& rect = std::get<RectShape>(list.shapes[0]);
+  EXPECT_EQ(rect.fill, Role::panel);
+  EXPECT_GT(rect.stroke.dash, 0);
+}
+
+TEST(Marks, StaticBodiesAreHatchedInPrintToo) {
+  FrameBody body;
+  DrawList moving, still;
+  draw_character(body, {{0, 0}, {60, 60}}, false, moving);
+  body.is_static = true;
+  draw_character(body, {{0, 0}, {60, 60}}, false, still);
+  const auto any = [](const LineShape&) { return true; };
+  EXPECT_EQ(count<LineShape>(moving, any), 0);
+  EXPECT_GE(count<LineShape>(still, any), 3);
+}
+
+TEST(Marks, ASleepingBranchIsHatchedOnce) {
+  const auto hatched = [](const LineShape& line) { return line.stroke.role == Role::asleep; };
+  Frame frame = sample("world_sleepers");
+  EXPECT_GT(count<LineShape>(page_of(frame), hatched), 5);
+  for (FrameNode& node : frame.nodes) node.awake = true;
+  EXPECT_EQ(count<LineShape>(page_of(frame), hatched), 0);
+}
+
+TEST(Marks, BothTreesOfAForestAreDrawn) {
+  const DrawList list = page_of(sample("world_forest"));
+  EXPECT_EQ(labels(list, "dynamic"), 1);
+  EXPECT_EQ(labels(list, "static: never moves"), 1);
+  EXPECT_EQ(labels(list, "root"), 2) << "each tree has a root";
+}
+
+TEST(Marks, GroundAtTheEdgeOfTheWorldIsStillSeen) {
+  const DrawList list = page_of(sample("world_stack5"));
+  EXPECT_GE(
+      count<PolygonShape>(list, [](const PolygonShape& p) { return p.fill == Role::free_space; }),
+      1);
+}
+
+TEST(Marks, BoxesAndVelocitiesOnlyWhenAskedFor) {
+  Frame frame = sample("world_shapes");
+  const auto dashed = [](const RectShape& r) { return r.stroke.dash == 6; };
+  const auto arrows = [](const LineShape& l) {
+    return l.stroke.role == Role::ink && l.stroke.width == 2.8;
+  };
+  EXPECT_GT(count<RectShape>(page_of(frame), dashed), 3);
+  EXPECT_EQ(count<LineShape>(page_of(frame), arrows), 2);
+  frame.show_boxes = frame.show_velocities = false;
+  EXPECT_EQ(count<RectShape>(page_of(frame), dashed), 0);
+  EXPECT_EQ(count<LineShape>(page_of(frame), arrows), 0);
+}
+
+}  // namespace
+}  // namespace lantern
