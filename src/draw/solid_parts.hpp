@@ -48,9 +48,12 @@ void add_box(const Box<3>& box, const Stroke& stroke, const std::vector<SolidBod
 // A disc on the page, over whatever is there; whole or not at all.
 void draw_spot(const Vec<3>& at, double radius, Role role, const SolidView& view, DrawList& list);
 
-// The floor with its grid, half-spaces, shadows and views' insides: what lies under all else.
-void draw_ground(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
-                 DrawList& list);
+// The floor with its grid, half-spaces, and views' insides: what lies under all else.
+void draw_solid_ground(const Frame& frame, const SolidView& view, DrawList& list);
+
+// Straight below each body on the floor; seen through the grounds of cells, or they would hide how
+// high a body is.
+void draw_shadows(const std::vector<SolidBody>& bodies, const SolidView& view, DrawList& list);
 
 // The lines from bodies to the floor.
 void add_drop_lines(const std::vector<SolidBody>& bodies, const SolidView& view,

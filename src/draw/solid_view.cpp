@@ -16,8 +16,9 @@ void draw_solid_world(const Frame& frame, const Box<2>& panel, DrawList& list, L
   const bool crowd = frame.bodies.size() > kCrowd;
   const std::vector<SolidBody> bodies =
       crowd ? std::vector<SolidBody>() : solid_bodies(frame, view);
-  draw_ground(frame, bodies, view, list);
+  draw_solid_ground(frame, view, list);
   draw_cell_grounds(frame, view, list);
+  draw_shadows(bodies, view, list);
   std::vector<Piece> pieces;
   for (const SolidBody& body : bodies) pieces.push_back(body_piece(body, view));
   if (!add_cells(frame, bodies, view, pieces)) leave_out("the deepest cells are not drawn");
