@@ -61,8 +61,8 @@ std::vector<Face> seen_faces(const Convex& box, const Vec<3>& eye) {
 
 Tone tone_of(const Vec<3>& normal, const Vec<3>& light) {
   const double towards = glm::dot(normal, light);
-  if (towards > 0.66) return Tone::lit;
-  return towards > 0.27 ? Tone::middle : Tone::shade;
+  if (towards > 0.7) return Tone::lit;
+  return towards > 0.12 ? Tone::middle : Tone::shade;
 }
 
 std::vector<Vec<3>> ends_of(const Convex& round) {
@@ -249,7 +249,7 @@ std::vector<SolidBody> solid_bodies(const Frame& frame, const SolidView& view) {
 
 Piece body_piece(const SolidBody& body, const SolidView& view) {
   Piece piece{body.space, body.outline, false, false, {}};
-  if (is_character(*body.body) && !body.body->dimmed)
+  if (is_character(*body.body))
     draw_upright(body, view, piece.shapes);
   else if (body.space.radius > 0)
     draw_round(body, view, piece.shapes);

@@ -17,7 +17,7 @@ constexpr std::size_t kMostFills = 300;
 struct Strength {
   int lit = 1;              // 0 of a lit cell
   std::uint32_t depth = 0;  // of the cell
-  int asleep = 0;           // 1 of a cell in which nothing moves
+  int dashed = 0;           // 1 of a cell that sleeps, 2 of the tree of what never moves
   int quiet = 0;            // 1 where it lies before the cell's inside, or upright in a column
   auto operator<=>(const Strength&) const = default;
 };
@@ -26,7 +26,7 @@ Stroke stroke_of(const Strength& s) {
   constexpr double kWidths[] = {2.8, 2.1, 1.5, 1.1, 0.9};
   const double width = s.depth < 5 ? kWidths[s.depth] : 0.9;
   if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5, 0};
-  const double dash = s.asleep != 0 ? 6 : 0;
+  const double dash = s.dashed == 2 ? 16 : 6 * s.dashed;
   if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(0.8, 0.6 * width), dash};
   return {cell_line_role(s.depth), width, dash};
 }
@@ -96,7 +96,10 @@ class Edges {
         e.to = rounded(box.hi[axis]);
         const bool before = faces_eye(box, j, high_j) && faces_eye(box, k, high_k);
         const bool faint = column && (axis == 1 || top) && node.depth > 0;
-        e.strength = {node.mark == Mark::lit ? 0 : 1, node.depth, node.awake ? 0 : 1,
+        e.strength = {node.mark == Mark::lit ? 0 : 1, node.depth,
+                      node.of_static ? 2
+                      : node.awake   ? 0
+                                     : 1,
                       before || faint ? 1 : 0};
         edges_.push_back(e);
       }

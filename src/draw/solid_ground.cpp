@@ -153,13 +153,15 @@ void fill_view(const FrameView& seen, const SolidView& view, DrawList& list) {
 
 }  // namespace
 
-void draw_ground(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
-                 DrawList& list) {
+void draw_solid_ground(const Frame& frame, const SolidView& view, DrawList& list) {
   draw_floor(view, list);
   for (const FrameBody& body : frame.bodies)
     if (std::holds_alternative<HalfSpace<3>>(body.shape)) draw_half_space(body, view, list);
   for (const FrameView& seen : frame.views) fill_view(seen, view, list);
   draw_grid(view, list);
+}
+
+void draw_shadows(const std::vector<SolidBody>& bodies, const SolidView& view, DrawList& list) {
   for (const SolidBody& b : bodies) draw_shadow(b, view, list);
 }
 

@@ -83,8 +83,8 @@ void name_solids(const Frame& frame, const std::vector<SolidBody>& bodies, const
         name_body(b, bodies, view, labels);
   std::vector<const FrameNode*> cells;
   for (const FrameNode& node : frame.nodes)
-    if (node.leaf && node.depth > 0 && !node.label.empty() && is_valid(node.box) &&
-        (node.mark == Mark::lit || !node.bodies.empty()))
+    if (node.leaf && node.depth > 0 && !node.of_static && !node.label.empty() &&
+        is_valid(node.box) && (node.mark == Mark::lit || !node.bodies.empty()))
       cells.push_back(&node);
   const auto is_quiet = [](const FrameNode* n) { return n->mark != Mark::lit; };
   if (std::count_if(cells.begin(), cells.end(), is_quiet) > kMostQuietCells)

@@ -1,41 +1,41 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <variant>
 
-#include "draw/clip.hpp"
 #include "draw/solid_parts.hpp"
 
 namespace lantern {
 namespace {
 
 constexpr std::size_t kMostLinks = 900;
-constexpr std::size_t kMostBoxed = 60;  // links with a casing and joints
+constexpr std::size_t kMostJoined = 120;  // springs, joints and pins
+constexpr std::size_t kMostBoxed = 60;    // links with a casing and joints
 
-using ById = std::map<BodyId, const SolidBody*>;
+// The bodies that are drawn, and half-spaces, which are ground.
+using ById = std::map<BodyId, const FrameBody*>;
 
-ById by_id(const std::vector<SolidBody>& bodies) {
+ById by_id(const Frame& frame, const std::vector<SolidBody>& bodies) {
   ById found;
-  for (const SolidBody& b : bodies) found.emplace(b.body->id, &b);
+  for (const SolidBody& b : bodies) found.emplace(b.body->id, b.body);
+  if (bodies.empty()) return found;
+  for (const FrameBody& body : frame.bodies)
+    if (std::holds_alternative<HalfSpace<3>>(body.shape)) found.emplace(body.id, &body);
   return found;
 }
 
-// The part of a line that is in front of the eye and in the panel, as one piece.
-void add_piece(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, const Stroke& casing,
-               const SolidView& view, std::vector<Piece>& pieces) {
-  const auto seen = view.in_sight(from, to);
-  const auto page = view.segment(from, to);
-  if (!seen || !page) return;
-  Piece piece{
-      Convex::line(seen->first, seen->second), {page->first, page->second}, true, false, {}};
-  if (casing.width > 0)
-    piece.shapes.emplace_back(LineShape{page->first, page->second, casing, false});
-  piece.shapes.emplace_back(LineShape{page->first, page->second, stroke, false});
-  pieces.push_back(std::move(piece));
+// Where a pair's link ends at this body: its centre, or the place of the ground nearest to the
+// other one.
+Vec<3> end_at(const FrameBody& body, const FrameBody& other) {
+  const auto* ground = std::get_if<HalfSpace<3>>(&body.shape);
+  if (ground == nullptr) return body.position;
+  const double above = glm::dot(ground->normal, other.position - body.position);
+  return other.position - ground->normal * above;
 }
 
 bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
-  const ById found = by_id(bodies);
+  const ById found = by_id(frame, bodies);
   const bool many = frame.pairs.size() > kMostBoxed;
   std::size_t drawn = 0;
   for (const bool lit : {false, true})
@@ -45,60 +45,31 @@ bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const S
       if (a == found.end() || b == found.end()) continue;
       if (++drawn > kMostLinks) return false;
       const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
-      add_line(a->second->body->position, b->second->body->position, {Role::pair, width, 0},
-               {Role::panel, many ? 0 : width + 4, 0}, bodies, view, pieces);
+      add_line(end_at(*a->second, *b->second), end_at(*b->second, *a->second),
+               {Role::pair, width, 0}, {Role::panel, many ? 0 : width + 4, 0}, bodies, view,
+               pieces);
     }
   return true;
 }
 
-void add_box(const Box<3>& box, const Stroke& stroke, const std::vector<SolidBody>& bodies,
-             const SolidView& view, std::vector<Piece>& pieces) {
-  const std::vector<Vec<3>> c = corners_of(box);
-  for (unsigned i = 0; i < 8; ++i)
-    for (const unsigned bit : {1u, 2u, 4u})
-      if ((i & bit) == 0) add_line(c[i], c[i + bit], stroke, {}, bodies, view, pieces);
-}
-
-void add_views(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
-               std::vector<Piece>& pieces) {
-  const Stroke strong{Role::frustum, 2.6, 0}, faint{Role::frustum, 1.6, 6};
-  for (const FrameView& seen : frame.views) {
-    if (seen.corners.size() != 8) continue;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t next = (i + 1) % 4;
-      const Vec<3>&near_corner = seen.corners[i], &far_corner = seen.corners[i + 4];
-      add_line(near_corner, seen.corners[next], strong, {}, bodies, view, pieces);
-      add_line(far_corner, seen.corners[next + 4], strong, {}, bodies, view, pieces);
-      add_line(near_corner, far_corner, strong, {}, bodies, view, pieces);
-      add_line(seen.eye, near_corner, faint, {}, bodies, view, pieces);
-    }
+// Where two bodies that are to be tested cover each other, in space.
+void draw_joints(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
+                 DrawList& list) {
+  if (frame.pairs.size() > kMostBoxed) return;
+  const ById found = by_id(frame, bodies);
+  for (const FramePair& pair : frame.pairs) {
+    const auto a = found.find(pair.pair.a), b = found.find(pair.pair.b);
+    if (a == found.end() || b == found.end()) continue;
+    const FrameBody &one = *a->second, &other = *b->second;
+    if (!overlap(one.box, other.box)) continue;
+    const Box<3> common{glm::max(one.box.lo, other.box.lo), glm::min(one.box.hi, other.box.hi)};
+    const bool on_ground = std::holds_alternative<HalfSpace<3>>(one.shape) ||
+                           std::holds_alternative<HalfSpace<3>>(other.shape);
+    const Vec<3> foot =
+        std::holds_alternative<HalfSpace<3>>(one.shape) ? end_at(one, other) : end_at(other, one);
+    draw_spot(on_ground ? foot : common.center(), 6, Role::pair, view, list);
   }
 }
-
-// An arrow head at the end of a line on the page.
-void add_head(const Vec<3>& from, const Vec<3>& to, double size, Role role, const SolidView& view,
-              std::vector<Piece>& pieces) {
-  if (!view.in_front(from) || !view.in_front(to)) return;
-  const Vec<2> tip = view.to_page(to), way = tip - view.to_page(from);
-  const double length = glm::length(way);
-  if (!(length > size)) return;
-  const Vec<2> along = way / length, side{-along.y, along.x};
-  const Vec<2> back = tip - along * size;
-  Outline head{tip, back + side * (0.45 * size), back - side * (0.45 * size)};
-  if (!holds(view.panel(), box_of(head))) return;
-  Piece piece{Convex::line(to, to), hull_of(head), true, false, {}};
-  piece.shapes.emplace_back(PolygonShape{std::move(head), role, {}});
-  pieces.push_back(std::move(piece));
-}
-
-void add_rays(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
-              std::vector<Piece>& pieces) {
-  for (const FrameRay& ray : frame.rays) {
-    add_line(ray.from, ray.to, {Role::ray, 3.4, 0}, {Role::panel, 6, 0}, bodies, view, pieces);
-    if (ray.hits.empty()) add_head(ray.from, ray.to, 16, Role::ray, view, pieces);
-  }
-}
-
 // A spring's turns stand across its line on the page.
 void add_spring(const FrameLink& link, const Stroke& stroke, const SolidView& view,
                 std::vector<Piece>& pieces) {
@@ -125,120 +96,118 @@ void add_spring(const FrameLink& link, const Stroke& stroke, const SolidView& vi
   pieces.push_back(std::move(piece));
 }
 
+// Stretched, pressed together, or neither: by colour, and the more the heavier.
+Stroke stroke_of(double strain) {
+  constexpr double kRest = 0.005;
+  const double size = std::min(std::abs(strain), 1.0);
+  if (!(size > kRest)) return {Role::quiet_ink, 2.2, 0};
+  return {strain > 0 ? Role::warning : Role::ray, 2.4 + 3.2 * size, 0};
+}
+
 void add_links(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
-  for (const FrameLink& link : frame.links) {
-    const Stroke stroke{Role::ink, 2.2, 0};
+  for (std::size_t i = 0; i < std::min(frame.links.size(), kMostJoined); ++i) {
+    const FrameLink& link = frame.links[i];
+    if (view.lost(link.from) || view.lost(link.to)) continue;
+    const Stroke stroke = stroke_of(link.strain);
     if (link.kind == FrameLink::Kind::spring)
       add_spring(link, stroke, view, pieces);
     else if (link.kind == FrameLink::Kind::distance)
-      add_line(link.from, link.to, stroke, {}, bodies, view, pieces);
+      add_line(link.from, link.to, {stroke.role, std::max(3.0, stroke.width), 0}, {}, bodies, view,
+               pieces);
+    else
+      add_line(link.from, link.to, {Role::ink, 1.6, 0}, {}, bodies, view, pieces);
   }
 }
 
+// 1, 2 or 5 times a power of ten that is not above `x`, so that arrows keep their scale while the
+// fastest body changes a little.
+double round_below(double x) {
+  double power = 1;
+  while (power > x && power > 1e-300) power /= 10;
+  while (power * 10 <= x && power < 1e300) power *= 10;
+  for (const double k : {5.0, 2.0})
+    if (k * power <= x) return k * power;
+  return power;
+}
+
+// As far as each body goes in one time, the same for all.
 void add_velocities(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                     std::vector<Piece>& pieces) {
-  if (!frame.show_velocities) return;
-  constexpr double kSeconds = 0.25;  // as far as it goes in this time
+  constexpr std::size_t kMostArrows = 300;
+  if (!frame.show_velocities || bodies.size() > kMostArrows) return;
+  double fastest = 0;
   for (const SolidBody& b : bodies) {
-    const Vec<3> from = b.body->position, to = from + b.body->velocity * kSeconds;
-    if (view.lost(to) || !(glm::length(to - from) > 1e-3 * view.size())) continue;
-    add_line(from, to, {Role::ink, 2.2, 0}, {}, bodies, view, pieces);
-    add_head(from, to, 11, Role::ink, view, pieces);
+    const double speed = glm::length(b.body->velocity);
+    if (std::isfinite(speed)) fastest = std::max(fastest, speed);
+  }
+  if (!(fastest > 1e-12)) return;
+  const double seconds = round_below(0.16 * view.size() / fastest);
+  for (const SolidBody& b : bodies) {
+    const Vec<3> from = b.body->position, to = from + b.body->velocity * seconds;
+    if (view.lost(to) || !(glm::length(to - from) > 3e-3 * view.size())) continue;
+    add_line(from, to, {Role::ink, 2.8, 0}, {Role::panel, 5, 0}, bodies, view, pieces);
+    add_head(from, to, 13, Role::ink, view, pieces);
   }
 }
 
-void draw_spot(const Vec<3>& at, double radius, Role role, const SolidView& view, DrawList& list) {
-  if (view.lost(at) || !view.in_front(at)) return;
-  const Vec<2> page = view.to_page(at);
-  if (!holds(view.panel(), Box<2>::around(page, Vec<2>(radius + 2)))) return;
-  list.shapes.emplace_back(disc(page, radius, role, {Role::panel, 2, 0}));
+double most_impulse(const Frame& frame) {
+  double most = 0;
+  for (const FrameContact& contact : frame.contacts)
+    for (const FrameContact::Point& point : contact.points)
+      if (std::isfinite(point.impulse)) most = std::max(most, point.impulse);
+  return most;
 }
 
-// Where two bodies that are to be tested cover each other, in space.
-void draw_joints(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
-                 DrawList& list) {
-  if (frame.pairs.size() > kMostBoxed) return;
-  const ById found = by_id(bodies);
-  for (const FramePair& pair : frame.pairs) {
-    const auto a = found.find(pair.pair.a), b = found.find(pair.pair.b);
-    if (a == found.end() || b == found.end()) continue;
-    const Box<3>&one = a->second->body->box, &other = b->second->body->box;
-    if (!overlap(one, other)) continue;
-    const Box<3> common{glm::max(one.lo, other.lo), glm::min(one.hi, other.hi)};
-    draw_spot(common.center(), 6, Role::pair, view, list);
-  }
-}
-
-void draw_contacts(const Frame& frame, const SolidView& view, DrawList& list) {
-  constexpr std::size_t kMostWithNormal = 60;
-  const double length = 0.035 * view.size();
+// An arrow along the normal, longer for a larger impulse.
+bool draw_contacts(const Frame& frame, const SolidView& view, DrawList& list) {
+  constexpr std::size_t kMostPoints = 500, kFewPoints = 60;
+  std::size_t points = 0;
+  for (const FrameContact& contact : frame.contacts) points += contact.points.size();
+  const double k = points > kFewPoints ? 0.6 : 1, most = most_impulse(frame);
+  std::size_t drawn = 0;
   for (const FrameContact& contact : frame.contacts)
     for (const FrameContact::Point& point : contact.points) {
-      const Vec<3> end = point.position + contact.normal * length;
-      if (view.lost(point.position) || view.lost(end)) continue;
-      if (const auto line = view.segment(point.position, end);
-          line && frame.contacts.size() <= kMostWithNormal) {
-        list.shapes.emplace_back(LineShape{line->first, line->second, {Role::panel, 4, 0}, false});
-        list.shapes.emplace_back(
-            LineShape{line->first, line->second, {Role::contact, 2, 0}, false});
-      }
-      draw_spot(point.position, contact.begins ? 5 : 3.6, Role::contact, view, list);
+      if (++drawn > kMostPoints) return false;
+      if (view.lost(point.position)) continue;
+      const bool pushes = point.impulse > 0 && most > 0;
+      const double part = pushes ? 0.02 + 0.05 * std::min(1.0, point.impulse / most) : 0.025;
+      const Vec<3> end = point.position + contact.normal * (part * view.size());
+      std::vector<Piece> arrow;
+      const double width = (pushes ? 2.6 : 1.8) * k;
+      add_piece(point.position, end, {Role::contact, width, 0}, {Role::panel, width + 2, 0}, view,
+                arrow);
+      add_head(point.position, end, 10 * k, Role::contact, view, arrow);
+      for (Piece& piece : arrow)
+        for (DrawShape& shape : piece.shapes) list.shapes.push_back(std::move(shape));
+      draw_spot(point.position, (contact.begins ? 5.5 : 3.8) * k, Role::contact, view, list);
     }
+  return true;
 }
 
 }  // namespace
 
-void add_line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, const Stroke& casing,
-              const std::vector<SolidBody>& bodies, const SolidView& view,
-              std::vector<Piece>& pieces) {
-  if (view.lost(from) || view.lost(to)) return;
-  const Box<3> reach{glm::min(from, to), glm::max(from, to)};
-  std::vector<std::pair<double, double>> hidden;
-  for (const SolidBody& b : bodies) {
-    if (!overlap(b.body->box, reach)) continue;
-    if (const auto part = inside_of(b.space, from, to)) hidden.push_back(*part);
-  }
-  std::sort(hidden.begin(), hidden.end());
-  double start = 0;
-  const auto add = [&](double end) {
-    if (end - start > 1e-6)
-      add_piece(from + (to - from) * start, from + (to - from) * end, stroke, casing, view, pieces);
-  };
-  for (const auto& [first, last] : hidden) {
-    add(first);
-    start = std::max(start, last);
-  }
-  add(1);
-}
-
 bool add_marks(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
   const bool complete = add_pairs(frame, bodies, view, pieces);
-  add_views(frame, bodies, view, pieces);
-  add_rays(frame, bodies, view, pieces);
   add_links(frame, bodies, view, pieces);
   add_velocities(frame, bodies, view, pieces);
-  if (frame.show_boxes && bodies.size() <= kMostBoxed)
-    for (const SolidBody& b : bodies)
-      add_box(b.body->box, {Role::quiet_ink, 1.4, 5}, bodies, view, pieces);
-  for (const FrameQuery& query : frame.queries)
-    add_box(query.box, {Role::ray, 2.6, query.radius > 0 ? 6.0 : 0.0}, bodies, view, pieces);
+  for (const SolidBody& b : bodies)
+    if (frame.show_boxes && (b.body->lit || bodies.size() <= kMostBoxed))
+      add_box(b.body->box, {b.body->lit ? Role::lit : Role::quiet_ink, 1.5, 5}, bodies, view,
+              pieces);
   return complete;
 }
 
-void draw_marks_over(const Frame& frame, const std::vector<SolidBody>& bodies,
+bool draw_marks_over(const Frame& frame, const std::vector<SolidBody>& bodies,
                      const SolidView& view, DrawList& list) {
   draw_joints(frame, bodies, view, list);
-  for (const FrameRay& ray : frame.rays) draw_spot(ray.from, 4, Role::ray, view, list);
-  for (const FrameRay& ray : frame.rays)
-    for (const FrameRay::Hit& hit : ray.hits) draw_spot(hit.position, 6, Role::ray, view, list);
-  for (const FrameLink& link : frame.links) {
-    draw_spot(link.from, 3.4, Role::ink, view, list);
-    draw_spot(link.to, 3.4, Role::ink, view, list);
+  for (std::size_t i = 0; i < std::min(frame.links.size(), kMostJoined); ++i) {
+    const FrameLink& link = frame.links[i];
+    if (link.kind != FrameLink::Kind::pin) draw_spot(link.from, 4, Role::ink, view, list);
+    draw_spot(link.to, link.kind == FrameLink::Kind::pin ? 6 : 4, Role::ink, view, list);
   }
-  for (const FrameView& seen : frame.views) draw_spot(seen.eye, 6.5, Role::frustum, view, list);
-  draw_contacts(frame, view, list);
+  return draw_contacts(frame, view, list);
 }
 
 }  // namespace lantern

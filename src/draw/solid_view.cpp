@@ -16,19 +16,22 @@ void draw_solid_world(const Frame& frame, const Box<2>& panel, DrawList& list, L
   const bool crowd = frame.bodies.size() > kCrowd;
   const std::vector<SolidBody> bodies =
       crowd ? std::vector<SolidBody>() : solid_bodies(frame, view);
-  draw_ground(frame, bodies, view, list);
+  draw_solid_ground(frame, view, list);
   draw_cell_grounds(frame, view, list);
+  draw_shadows(bodies, view, list);
   std::vector<Piece> pieces;
   for (const SolidBody& body : bodies) pieces.push_back(body_piece(body, view));
   if (!add_cells(frame, bodies, view, pieces)) leave_out("the deepest cells are not drawn");
   add_drop_lines(bodies, view, pieces);
   if (!add_marks(frame, bodies, view, pieces)) leave_out("not all pairs are drawn");
+  add_sight(frame, bodies, view, pieces);
   paint(std::move(pieces), view, list);
   if (crowd) {
     draw_solid_crowd(frame, view, list);
     leave_out(fmt::format("{} bodies as dots", frame.bodies.size()));
   }
-  draw_marks_over(frame, bodies, view, list);
+  if (!draw_marks_over(frame, bodies, view, list)) leave_out("not all contacts are drawn");
+  draw_sight_over(frame, view, list, labels);
   if (!note.empty()) labels.add_note(note, panel);
   name_solids(frame, bodies, view, list, labels);
 }

@@ -148,6 +148,7 @@ Frame tower_frame() {
   pill.box = bounding_box(pill.shape, pill.position, pill.orientation);
   frame.bodies.push_back(pill);
   frame.show_velocities = true;
+  frame.pairs = {{{0, 1}, false}, {{0, 21}, true}, {{21, 22}, false}};
   return frame;
 }
 
