@@ -79,6 +79,15 @@ struct SubStep {
       if (pair.rows.count > 0)
         f(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b]);
   }
+  // Every other sweep goes backwards, so that neither end of a stack, nor side of a box, is
+  // preferred.
+  template <class F>
+  void each_pair_in_turn(int turn, F&& f) {
+    for (std::size_t i = 0; i < island.pairs.size(); ++i) {
+      ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
+      if (rows.count > 0) f(rows, island.movers[rows.a], island.movers[rows.b]);
+    }
+  }
   template <class F>
   void each_joint(F&& f) {
     for (JointRows<D>& rows : island.joints)
@@ -120,10 +129,11 @@ struct SubStep {
     for (int i = 0; i < most_sweeps(); ++i) {
       Sweep sweep;
       each_joint([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, sweep); });
-      each_pair([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, h, sweep); });
+      each_pair_in_turn(
+          i, [&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, h, sweep); });
       count(sweep);
       if (sweep.change <= kSweepTolerance * sweep.largest) break;
-      if (impulse_method() || settled || i + 1 < kGuessingSweeps) continue;
+      if (impulse_method() || i % kGuessingSweeps != kGuessingSweeps - 1) continue;
       Sweep all;
       settled = direct.settle_velocities(island, h, all);
       count(all);
