@@ -13,6 +13,7 @@
 // so they lag by the same share; a block at rest then has no drift at all, and friction stops a
 // block where the closed form says.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "physics/direct_solve.hpp"
@@ -22,10 +23,11 @@
 namespace lantern {
 namespace {
 
-constexpr int kMostSweeps = 24;  // a sub-step; of the soft method
-constexpr int kGuessingSweeps = 2;  // before all rows are solved at once
-constexpr double kSweepTolerance = 1e-9;  // of the largest impulse
-constexpr double kBounceSteps = 2;       // slower than gravity makes in so many sub-steps: no bounce
+constexpr int kMostSweeps = 24;             // a sub-step; of the soft method
+constexpr double kCarriedTolerance = 1e-3;  // of the largest push out of penetration
+constexpr double kSettledTolerance = 1e-7;  // the same, once all rows were solved at once
+constexpr double kSweepTolerance = 1e-9;    // of the largest impulse
+constexpr double kBounceSteps = 2;  // slower than gravity makes in so many sub-steps: no bounce
 
 template <int D>
 bool may_turn(const Body<D>& body) {
@@ -69,6 +71,7 @@ struct SubStep {
   WorldWork& work;
   DirectSolve<D>& direct;
   bool settled = false;  // by the direct solve
+  double pressing = 0;   // the largest impulse
 
   bool impulse_method() const { return config.contacts == ContactMethod::impulse; }
   int most_sweeps() const { return impulse_method() ? config.iterations : kMostSweeps; }
@@ -76,13 +79,20 @@ struct SubStep {
   template <class F>
   void each_pair(F&& f) {
     for (IslandPair<D>& pair : island.pairs)
-      if (pair.rows.count > 0)
-        f(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b]);
+      if (pair.rows.count > 0) f(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b]);
+  }
+  // Every other sweep goes backwards, so that neither end of a stack, nor side of a box, is
+  // preferred.
+  template <class F>
+  void each_pair_in_turn(int turn, F&& f) {
+    for (std::size_t i = 0; i < island.pairs.size(); ++i) {
+      ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
+      if (rows.count > 0) f(rows, island.movers[rows.a], island.movers[rows.b]);
+    }
   }
   template <class F>
   void each_joint(F&& f) {
-    for (JointRows<D>& rows : island.joints)
-      f(rows, island.movers[rows.a], island.movers[rows.b]);
+    for (JointRows<D>& rows : island.joints) f(rows, island.movers[rows.a], island.movers[rows.b]);
   }
 
   void refresh_rows() {
@@ -120,10 +130,13 @@ struct SubStep {
     for (int i = 0; i < most_sweeps(); ++i) {
       Sweep sweep;
       each_joint([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, sweep); });
-      each_pair([&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, h, sweep); });
+      each_pair_in_turn(
+          i, [&](auto& rows, auto& a, auto& b) { sweep_velocities(rows, a, b, h, sweep); });
       count(sweep);
-      if (sweep.change <= kSweepTolerance * sweep.largest) break;
-      if (impulse_method() || settled || i + 1 < kGuessingSweeps) continue;
+      pressing = sweep.largest;
+      if (sweep.change <= (settled ? kSettledTolerance : kSweepTolerance) * sweep.largest) break;
+      if (impulse_method() || !std::has_single_bit(static_cast<unsigned>(i + 1)) || i == 0)
+        continue;  // else all at once, after 2, 4, 8 ... sweeps
       Sweep all;
       settled = direct.settle_velocities(island, h, all);
       count(all);
@@ -135,8 +148,7 @@ struct SubStep {
       Mover<D>& mover = island.movers[i];
       const Increment<D>& increment = island.increments[i];
       const Vec<D> pressed = mover.velocity - island.kicked[i];
-      mover.mean_velocity =
-          mover.velocity + increment.drift / h - pressed * lag_of(increment, h);
+      mover.mean_velocity = mover.velocity + increment.drift / h - pressed * lag_of(increment, h);
       mover.mean_spin = mover.spin;
     }
     const auto& increments = island.increments;
@@ -155,7 +167,8 @@ struct SubStep {
       each_pair([&](auto& rows, auto& a, auto& b) { sweep_carriage(rows, a, b, h, sweep); });
       count(sweep);
       largest = std::max(largest, sweep.change);
-      if (sweep.change <= 1e-3 * largest) break;
+      if (sweep.change <= std::max(kCarriedTolerance * largest, kSettledTolerance * pressing))
+        break;
     }
   }
 
@@ -277,9 +290,9 @@ void move_island(Island<D>& island, const WorldConfig<D>& config, double h, doub
   const int count = std::max(1, static_cast<int>(std::ceil(share - 1e-9)));
   const double sub_step = h / count;
   look_for_contacts(island, config.warm_start ? sub_step : 0, work);
-  const bool bound = !island.joints.empty() ||
-                     std::any_of(island.pairs.begin(), island.pairs.end(),
-                                 [](const auto& pair) { return pair.rows.count > 0; });
+  const bool bound =
+      !island.joints.empty() || std::any_of(island.pairs.begin(), island.pairs.end(),
+                                            [](const auto& pair) { return pair.rows.count > 0; });
   if (!bound) {
     find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
@@ -311,14 +324,14 @@ void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
   record = renewed;
 }
 
-#define LANTERN_INSTANTIATE(D)                                                                   \
-  template Mover<D> mover_of(const Body<D>&);                                                    \
-  template void fly(Body<D>&, const Increment<D>&, double, WorldWork&);                          \
-  template bool any_force(std::span<const Body<D>>, const Forces<D>&);                           \
-  template void find_increments_if_any(const WorldConfig<D>&, std::span<const Body<D>>,          \
-                                       const Forces<D>&, double, std::vector<Increment<D>>&,     \
-                                       WorldWork&);                                              \
-  template void move_island(Island<D>&, const WorldConfig<D>&, double, double, WorldWork&);      \
+#define LANTERN_INSTANTIATE(D)                                                               \
+  template Mover<D> mover_of(const Body<D>&);                                                \
+  template void fly(Body<D>&, const Increment<D>&, double, WorldWork&);                      \
+  template bool any_force(std::span<const Body<D>>, const Forces<D>&);                       \
+  template void find_increments_if_any(const WorldConfig<D>&, std::span<const Body<D>>,      \
+                                       const Forces<D>&, double, std::vector<Increment<D>>&, \
+                                       WorldWork&);                                          \
+  template void move_island(Island<D>&, const WorldConfig<D>&, double, double, WorldWork&);  \
   template void renew_record(Contact<D>&, const Manifold<D>&);
 
 LANTERN_INSTANTIATE(2)
