@@ -71,8 +71,7 @@ void set_points(ContactRows<D>& rows, const Manifold<D>& manifold, const Body<D>
     const Vec<D> to_b = from.position + half_gap - b.position;
     p.core_a = (to_a - p.round_a) * axes_a;  // a vector times a matrix: by its inverse
     p.core_b = (to_b - p.round_b) * axes_b;
-    p.offset = from.separation -
-               glm::dot(rows.normal, (b.position - a.position) + to_b - to_a);
+    p.offset = from.separation - glm::dot(rows.normal, (b.position - a.position) + to_b - to_a);
     if (remembered != nullptr)
       for (int j = 0; j < remembered->manifold.count; ++j) {
         const auto old = static_cast<std::size_t>(j);
@@ -166,8 +165,8 @@ void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a
     const double slip = glm::length(p.slip);
     const double change = glm::length((p.kicked_slip - p.slip) * used - p.kicked_slip);
     const double time = change > 0 ? std::min(slip * used / change, 1.0) : 0;
-    p.wanted_slip = p.slip * (time / 2) +
-                    across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
+    p.wanted_slip =
+        p.slip * (time / 2) + across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
   }
 }
 
@@ -204,15 +203,15 @@ void sweep_carriage(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sw
   }
 }
 
-#define LANTERN_INSTANTIATE(D)                                                                    \
-  template void set_points(ContactRows<D>&, const Manifold<D>&, const Body<D>&, const Body<D>&,  \
-                           const Contact<D>*, double);                                           \
-  template void refresh(ContactRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&,        \
-                        const Mover<D>&, double);                                                \
-  template void warm_start(ContactRows<D>&, Mover<D>&, Mover<D>&);                               \
-  template void sweep_velocities(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);         \
-  template void begin_carrying(ContactRows<D>&, Mover<D>&, Mover<D>&, double, double);           \
-  template double wanted_carriage(const ContactPoint<D>&, double);                               \
+#define LANTERN_INSTANTIATE(D)                                                                  \
+  template void set_points(ContactRows<D>&, const Manifold<D>&, const Body<D>&, const Body<D>&, \
+                           const Contact<D>*, double);                                          \
+  template void refresh(ContactRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&,       \
+                        const Mover<D>&, double);                                               \
+  template void warm_start(ContactRows<D>&, Mover<D>&, Mover<D>&);                              \
+  template void sweep_velocities(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);        \
+  template void begin_carrying(ContactRows<D>&, Mover<D>&, Mover<D>&, double, double);          \
+  template double wanted_carriage(const ContactPoint<D>&, double);                              \
   template void sweep_carriage(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);
 
 LANTERN_INSTANTIATE(2)

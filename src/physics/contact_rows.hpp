@@ -57,7 +57,7 @@ struct ContactRows {
 
 // What one sweep did.
 struct Sweep {
-  double change = 0;  // largest change of an impulse
+  double change = 0;   // largest change of an impulse
   double largest = 0;  // largest impulse
   std::uint64_t rows = 0;
   std::uint64_t friction_rows = 0;

@@ -194,8 +194,8 @@ bool DirectSolve<D>::settle_velocities(Island<D>& island, double h, Sweep& sweep
     sweep.rows += rows_.size();
     values_.clear();
     for (const Row& row : rows_) {
-      const Vec<D> u = relative_velocity(island.movers[row.a], row.arm_a, island.movers[row.b],
-                                         row.arm_b);
+      const Vec<D> u =
+          relative_velocity(island.movers[row.a], row.arm_a, island.movers[row.b], row.arm_b);
       double wanted = 0;
       if (row.point != nullptr && row.tangent < 0)
         wanted = row.point->bounce - std::max(row.point->separation, 0.0) / h;
@@ -226,8 +226,8 @@ template <int D>
 bool DirectSolve<D>::settle_carriage(Island<D>& island, double h, Sweep& sweep) {
   values_.clear();
   for (const Row& row : rows_) {
-    const Vec<D> u = relative_carriage(island.movers[row.a], row.arm_a, island.movers[row.b],
-                                       row.arm_b);
+    const Vec<D> u =
+        relative_carriage(island.movers[row.a], row.arm_a, island.movers[row.b], row.arm_b);
     const double wanted = row.joint != nullptr ? wanted_carriage(*row.joint, row.direction, h)
                           : row.tangent < 0    ? wanted_carriage(*row.point, h)
                                                : glm::dot(row.point->wanted_slip, row.direction);

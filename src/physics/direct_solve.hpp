@@ -35,9 +35,9 @@ class DirectSolve {
     Spin<D> gained_a{0.0}, gained_b{0.0};
     ContactPoint<D>* point = nullptr;  // of a contact; null for a joint
     JointRows<D>* joint = nullptr;
-    double most = 0;    // friction coefficient
-    int tangent = -1;   // which of the tangents; -1: a normal or joint row
-    int axis = 0;       // of a pin
+    double most = 0;   // friction coefficient
+    int tangent = -1;  // which of the tangents; -1: a normal or joint row
+    int axis = 0;      // of a pin
   };
 
   void list_rows(Island<D>& island);

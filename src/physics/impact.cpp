@@ -6,9 +6,9 @@
 namespace lantern {
 namespace {
 
-constexpr int kMostRounds = 2000;     // through all touching pairs, in one impact
-constexpr int kMostPointSweeps = 200;  // over the points of one pair
-constexpr double kTouching = 1e-9;    // of the sizes: so near is touching
+constexpr int kMostRounds = 2000;       // through all touching pairs, in one impact
+constexpr int kMostPointSweeps = 200;   // over the points of one pair
+constexpr double kTouching = 1e-9;      // of the sizes: so near is touching
 constexpr double kFastestRest = 1e-12;  // of the bodies' speeds: slower is not an approach
 
 template <int D>
@@ -63,9 +63,8 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     const double size = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
     pair.rows.count = 0;
     ++work.narrow_tests;
-    const auto manifold =
-        collide(Placed<D>{a.shape, a.position, a.orientation},
-                Placed<D>{b.shape, b.position, b.orientation}, kTouching * size);
+    const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
+                                  Placed<D>{b.shape, b.position, b.orientation}, kTouching * size);
     if (!manifold) continue;
     set_points<D>(pair.rows, *manifold, a, b, nullptr, 0);
     refresh(pair.rows, a, b, island.movers[pair.rows.a], island.movers[pair.rows.b], 0);
@@ -135,12 +134,13 @@ struct Impact {
 
 // The next impact. Pairs that meet too slowly become contacts on the way.
 template <int D>
-std::optional<Impact<D>> next_impact(Island<D>& island, double within, WorldWork& work) {
+std::optional<Impact<D>> next_impact(Island<D>& island, double within, double step,
+                                     WorldWork& work) {
   const std::vector<Course<D>> flying = courses(island, within);
   std::optional<Impact<D>> first;
   for (IslandPair<D>& pair : island.pairs) {
     if (!pair.located || pair.pressed) continue;
-    const auto met = meeting(flying[pair.rows.a], flying[pair.rows.b], within, pair.reach,
+    const auto met = meeting(flying[pair.rows.a], flying[pair.rows.b], within, step, pair.reach,
                              work.narrow_tests);
     if (!met) continue;
     if (met->rests)
@@ -161,7 +161,7 @@ void advance_island(Island<D>& island, const WorldConfig<D>& config, double h, i
                                        [](const auto& pair) { return pair.located; });
   while (any_located) {
     find_increments_if_any<D>(config, island.bodies, island.forces, left, island.increments, work);
-    const auto next = next_impact(island, left, work);
+    const auto next = next_impact(island, left, h, work);
     if (!next) break;
     if (budget <= 0) {  // the rest of the step is soft for all
       for (IslandPair<D>& pair : island.pairs) pair.pressed = true;
@@ -173,15 +173,15 @@ void advance_island(Island<D>& island, const WorldConfig<D>& config, double h, i
     work.impacts_located += static_cast<std::uint64_t>(impacts);
     budget -= std::max(impacts, 1);
     if (impacts == 0) next->pair->pressed = true;  // others have moved its bodies off their course
-    for (IslandPair<D>& pair : island.pairs)  // what does not bounce stays
+    for (IslandPair<D>& pair : island.pairs)       // what does not bounce stays
       if (pair.touched && pair.rows.restitution == 0) pair.pressed = true;
     if (!(left > 0)) return;
   }
   move_island(island, config, left, h, work);
 }
 
-#define LANTERN_INSTANTIATE(D)                                                                 \
-  template int resolve_impacts(Island<D>&, WorldWork&);                                        \
+#define LANTERN_INSTANTIATE(D)                          \
+  template int resolve_impacts(Island<D>&, WorldWork&); \
   template void advance_island(Island<D>&, const WorldConfig<D>&, double, int&, WorldWork&);
 
 LANTERN_INSTANTIATE(2)

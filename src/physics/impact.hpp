@@ -23,10 +23,12 @@ struct Meeting {
 
 // The first moment within `within` seconds at which the two bodies touch and approach; nothing if
 // there is none. By conservative advancement (Mirtich, "Impulse-based Dynamic Simulation", 1996):
-// go on for as long as they surely cannot touch. `counted` grows by the narrow phase's calls.
+// go on for as long as they surely cannot touch. What would part for less than a small share of
+// `step` seconds only is said to rest. Farther apart than `reach` they are not looked at. `counted`
+// grows by the narrow phase's calls.
 template <int D>
 std::optional<Meeting<D>> meeting(const Course<D>& a, const Course<D>& b, double within,
-                                  double reach, std::uint64_t& counted);
+                                  double step, double reach, std::uint64_t& counted);
 
 // How fast a body's surface can move because it turns, per radian: 0 for balls.
 template <int D>

@@ -18,7 +18,7 @@ struct IslandPair {
   bool pressed = false;  // solved as a contact; an impact that is located needs no rows
   double reach = 0;      // how near they must be to be looked at
   bool remembered = false;
-  Contact<D> memory;  // of the last sub-step
+  Contact<D> memory;   // of the last sub-step
   double seconds = 0;  // of that sub-step
   bool touched = false;
   Contact<D> record;  // what the step tells
@@ -26,7 +26,7 @@ struct IslandPair {
 
 template <int D>
 struct Island {
-  std::vector<Body<D>> bodies;  // by id: those that move together and those that they touch
+  std::vector<Body<D>> bodies;        // by id: those that move together and those that they touch
   std::vector<std::uint32_t> places;  // of the bodies in the world
   Forces<D> forces;                   // those that act among them
   std::vector<IslandPair<D>> pairs;   // by ids

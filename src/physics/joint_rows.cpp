@@ -85,12 +85,12 @@ void sweep_carriage(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Swee
   sweep.rows += rows.joint.kind == JointKind::pin ? D : 1;
 }
 
-#define LANTERN_INSTANTIATE(D)                                                              \
-  template void refresh(JointRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&,     \
-                        const Mover<D>&);                                                   \
-  template void warm_start(JointRows<D>&, Mover<D>&, Mover<D>&);                            \
-  template void sweep_velocities(JointRows<D>&, Mover<D>&, Mover<D>&, Sweep&);              \
-  template double wanted_carriage(const JointRows<D>&, const Vec<D>&, double);              \
+#define LANTERN_INSTANTIATE(D)                                                          \
+  template void refresh(JointRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&, \
+                        const Mover<D>&);                                               \
+  template void warm_start(JointRows<D>&, Mover<D>&, Mover<D>&);                        \
+  template void sweep_velocities(JointRows<D>&, Mover<D>&, Mover<D>&, Sweep&);          \
+  template double wanted_carriage(const JointRows<D>&, const Vec<D>&, double);          \
   template void sweep_carriage(JointRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);
 
 LANTERN_INSTANTIATE(2)

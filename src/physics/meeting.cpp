@@ -22,14 +22,14 @@ struct Look {
 template <int D>
 class Approach {
  public:
-  Approach(const Course<D>& a, const Course<D>& b, double within, double reach,
+  Approach(const Course<D>& a, const Course<D>& b, double within, double step, double reach,
            std::uint64_t& counted)
       : a_(a), b_(b), within_(within), reach_(reach), counted_(counted) {
     turn_a_ = turning(a);
     turn_b_ = turning(b);
     const double spin = spin_of(a) + spin_of(b);
     bend_ = 2 * glm::length(b.bend - a.bend) + spin * (turn_a_ + turn_b_);
-    slow_ = std::max(2 * glm::length(b.bend - a.bend) * within_ * kShortestBounce,
+    slow_ = std::max(2 * glm::length(b.bend - a.bend) * step * kShortestBounce,
                      1e-12 * (glm::length(a.velocity) + glm::length(b.velocity)));
     size_ = glm::length(a.body->position) + glm::length(b.body->position);
     for (const Course<D>* course : {&a, &b})
@@ -59,7 +59,7 @@ class Approach {
       if (!(next < within_)) return std::nullopt;
       // No nearer in numbers, or so slowly that it is as good as there.
       if (next == t || (i > kMostAdvances / 2 && seen->gap < size_ * 1e-9))
-        return seen->closing > slow_ ? std::optional(Meeting<D>{t, false})
+        return seen->closing > slow_    ? std::optional(Meeting<D>{t, false})
                : seen->closing > -slow_ ? std::optional(Meeting<D>{t, true})
                                         : std::nullopt;
       t = next;
@@ -92,7 +92,8 @@ class Approach {
     if (!manifold) return std::nullopt;
     Look<D> seen;
     seen.gap = manifold->room[0].separation;
-    for (const ManifoldPoint<D>& p : manifold->points()) seen.gap = std::min(seen.gap, p.separation);
+    for (const ManifoldPoint<D>& p : manifold->points())
+      seen.gap = std::min(seen.gap, p.separation);
     seen.bound = -glm::dot(b.velocity - a.velocity, manifold->normal) + turn_a_ + turn_b_;
     seen.closing = -seen.bound - 1;
     bool first = true;
@@ -121,8 +122,8 @@ class Approach {
 
 template <int D>
 std::optional<Meeting<D>> meeting(const Course<D>& a, const Course<D>& b, double within,
-                                  double reach, std::uint64_t& counted) {
-  return Approach<D>(a, b, within, reach, counted).find();
+                                  double step, double reach, std::uint64_t& counted) {
+  return Approach<D>(a, b, within, step, reach, counted).find();
 }
 
 template <int D>
@@ -146,10 +147,10 @@ double thickness(const Shape<D>& shape) {
   return kEndless;
 }
 
-#define LANTERN_INSTANTIATE(D)                                                                \
-  template std::optional<Meeting<D>> meeting(const Course<D>&, const Course<D>&, double,      \
-                                             double, std::uint64_t&);                         \
-  template double turning_reach<D>(const Shape<D>&);                                          \
+#define LANTERN_INSTANTIATE(D)                                                                   \
+  template std::optional<Meeting<D>> meeting(const Course<D>&, const Course<D>&, double, double, \
+                                             double, std::uint64_t&);                            \
+  template double turning_reach<D>(const Shape<D>&);                                             \
   template double thickness<D>(const Shape<D>&);
 
 LANTERN_INSTANTIATE(2)

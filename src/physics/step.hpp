@@ -21,8 +21,8 @@ struct World<D>::Step {
   std::vector<TimedPush> pushes = {};
   std::vector<Increment<D>> increments = {};  // over the whole step, if nothing touches
   std::vector<Pair> pairs = {};               // of the broad phase
-  std::vector<IslandPair<D>> near = {};  // pairs that may touch; places are among all bodies
-  std::vector<std::uint32_t> root = {};  // of each body's island; static ones have their own
+  std::vector<IslandPair<D>> near = {};       // pairs that may touch; places are among all bodies
+  std::vector<std::uint32_t> root = {};       // of each body's island; static ones have their own
   std::vector<Touch> touching = {};
   std::vector<Contact<D>> contacts = {};
   std::vector<ContactEvent> events = {};
@@ -39,9 +39,7 @@ struct World<D>::Step {
 
  private:
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
-  std::uint32_t place_of(BodyId id) const {
-    return static_cast<std::uint32_t>(world.index_of(id));
-  }
+  std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
   bool stirs(const Body<D>& body) const;
   bool is_slow(std::size_t place) const;
   const Touch* remembered(BodyId a, BodyId b) const;

@@ -69,8 +69,7 @@ Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
   for (const Push<D>& push : forces.pushes)
     if (belongs(push.body)) island.forces.pushes.push_back(push);
   std::sort(island.places.begin(), island.places.end());
-  island.places.erase(std::unique(island.places.begin(), island.places.end()),
-                      island.places.end());
+  island.places.erase(std::unique(island.places.begin(), island.places.end()), island.places.end());
   for (const std::uint32_t place : island.places) island.bodies.push_back(moved[place]);
 
   const auto local = [&](std::uint32_t place) {
@@ -206,8 +205,9 @@ void World<D>::Step::fall_asleep() {
 // Contacts in order of ids, with those of bodies that slept through, and what is new about them.
 template <int D>
 void World<D>::Step::tell() {
-  const auto rests = [&](BodyId id) { return !stirs(world.bodies_[place_of(id)]) &&
-                                             !stirs(moved[place_of(id)]); };
+  const auto rests = [&](BodyId id) {
+    return !stirs(world.bodies_[place_of(id)]) && !stirs(moved[place_of(id)]);
+  };
   for (const Touch& touch : world.touching_)
     if (rests(touch.record.a) && rests(touch.record.b)) touching.push_back(touch);
   const auto pair_of = [](const Contact<D>& c) { return Pair{c.a, c.b}; };
@@ -224,8 +224,8 @@ void World<D>::Step::tell() {
   const std::vector<Contact<D>>& old = world.contacts_;
   std::size_t i = 0, j = 0;
   while (i < old.size() || j < contacts.size()) {
-    const bool ends = j == contacts.size() ||
-                      (i < old.size() && pair_of(old[i]) < pair_of(contacts[j]));
+    const bool ends =
+        j == contacts.size() || (i < old.size() && pair_of(old[i]) < pair_of(contacts[j]));
     const bool stays = !ends && i < old.size() && pair_of(old[i]) == pair_of(contacts[j]);
     const Pair pair = pair_of(ends ? old[i] : contacts[j]);
     const auto kind = ends    ? ContactEvent::Kind::end
@@ -252,12 +252,12 @@ void World<D>::Step::commit() {
   ++world.work_.steps;
 }
 
-#define LANTERN_INSTANTIATE(D)                                   \
-  template void World<D>::Step::move();                          \
-  template void World<D>::Step::require_no_overflow() const;     \
-  template bool World<D>::Step::stayed_within_reach();           \
-  template void World<D>::Step::fall_asleep();                   \
-  template void World<D>::Step::tell();                          \
+#define LANTERN_INSTANTIATE(D)                               \
+  template void World<D>::Step::move();                      \
+  template void World<D>::Step::require_no_overflow() const; \
+  template bool World<D>::Step::stayed_within_reach();       \
+  template void World<D>::Step::fall_asleep();               \
+  template void World<D>::Step::tell();                      \
   template void World<D>::Step::commit();
 
 LANTERN_INSTANTIATE(2)

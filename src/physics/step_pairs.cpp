@@ -9,8 +9,8 @@
 namespace lantern {
 namespace {
 
-constexpr double kSlack = 1e-3;     // of a body's thickness: nearer is looked at, too
-constexpr double kFast = 0.5;       // of the thinner body's thickness in a step: may pass through
+constexpr double kSlack = 1e-3;  // of a body's thickness: nearer is looked at, too
+constexpr double kFast = 0.5;    // of the thinner body's thickness in a step: may pass through
 constexpr double kPi = 3.141592653589793;
 
 template <int D>
@@ -89,8 +89,10 @@ bool World<D>::Step::look_for_near_pairs() {
   std::vector<Proxy<D>> proxies;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Box<D> box = moved[i].box();
-    proxies.push_back({moved[i].id, {box.lo - Vec<D>(reach[i]), box.hi + Vec<D>(reach[i])},
-                       moved[i].kind == BodyKind::static_body, stirs(moved[i])});
+    proxies.push_back({moved[i].id,
+                       {box.lo - Vec<D>(reach[i]), box.hi + Vec<D>(reach[i])},
+                       moved[i].kind == BodyKind::static_body,
+                       stirs(moved[i])});
   }
   if (!world.broad_phase_) world.broad_phase_.emplace(world.config_.broad_phase);
   world.broad_phase_->update(proxies);
@@ -116,8 +118,8 @@ std::optional<IslandPair<D>> World<D>::Step::nearing(const Pair& pair) const {
   const double way = glm::length(velocity_of(b) - velocity_of(a)) * h;
   // What an earlier try has looked for beyond the bodies' own ways is looked for here, too.
   const double own_a = glm::length(velocity_of(a)) * h, own_b = glm::length(velocity_of(b)) * h;
-  found.reach = way + std::max(0.0, reach[found.rows.a] - own_a) +
-                std::max(0.0, reach[found.rows.b] - own_b);
+  found.reach =
+      way + std::max(0.0, reach[found.rows.a] - own_a) + std::max(0.0, reach[found.rows.b] - own_b);
   ++world.work_.narrow_tests;
   const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
                                 Placed<D>{b.shape, b.position, b.orientation}, found.reach);
@@ -139,9 +141,10 @@ std::optional<IslandPair<D>> World<D>::Step::nearing(const Pair& pair) const {
 
 template <int D>
 const typename World<D>::Touch* World<D>::Step::remembered(BodyId a, BodyId b) const {
-  const auto touch = std::lower_bound(
-      world.touching_.begin(), world.touching_.end(), Pair{a, b},
-      [](const Touch& t, const Pair& pair) { return Pair{t.record.a, t.record.b} < pair; });
+  const auto touch = std::lower_bound(world.touching_.begin(), world.touching_.end(), Pair{a, b},
+                                      [](const Touch& t, const Pair& pair) {
+                                        return Pair{t.record.a, t.record.b} < pair;
+                                      });
   if (touch == world.touching_.end() || touch->record.a != a || touch->record.b != b)
     return nullptr;
   return &*touch;
@@ -196,8 +199,7 @@ void World<D>::Step::make_islands() {
       sets.unite(a, b);
   };
   for (const IslandPair<D>& pair : near) unite(pair.rows.a, pair.rows.b);
-  for (const auto& entry : world.joints_)
-    unite(place_of(entry.second.a), place_of(entry.second.b));
+  for (const auto& entry : world.joints_) unite(place_of(entry.second.a), place_of(entry.second.b));
   for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
   root.clear();
   for (std::size_t i = 0; i < moved.size(); ++i)
@@ -208,10 +210,10 @@ void World<D>::Step::make_islands() {
         root[i] == i && moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
 }
 
-#define LANTERN_INSTANTIATE(D)                                                                   \
-  template void World<D>::Step::find_forces();                                                   \
-  template void World<D>::Step::find_near_pairs();                                               \
-  template void World<D>::Step::make_islands();                                                  \
+#define LANTERN_INSTANTIATE(D)                     \
+  template void World<D>::Step::find_forces();     \
+  template void World<D>::Step::find_near_pairs(); \
+  template void World<D>::Step::make_islands();    \
   template bool World<D>::Step::stirs(const Body<D>&) const;
 
 LANTERN_INSTANTIATE(2)

@@ -23,7 +23,10 @@
 namespace lantern {
 namespace {
 
-constexpr int kMostSweeps = 24;             // a sub-step; of the soft method
+// Sweeps in a sub-step of the soft method, if they do not end earlier: more for small islands.
+constexpr int kFewestSweeps = 24, kMostSweeps = 256;
+constexpr int kMostSolved = 2048;           // pairs times sweeps
+constexpr double kGoodGuess = 0.05;         // the same, to be left alone
 constexpr double kCarriedTolerance = 1e-3;  // of the largest push out of penetration
 constexpr double kSettledTolerance = 1e-7;  // the same, once all rows were solved at once
 constexpr double kSweepTolerance = 1e-9;    // of the largest impulse
@@ -74,7 +77,11 @@ struct SubStep {
   double pressing = 0;   // the largest impulse
 
   bool impulse_method() const { return config.contacts == ContactMethod::impulse; }
-  int most_sweeps() const { return impulse_method() ? config.iterations : kMostSweeps; }
+  int most_sweeps() const {
+    if (impulse_method()) return config.iterations;
+    const auto rows = static_cast<int>(island.pairs.size() + island.joints.size());
+    return std::clamp(kMostSolved / rows, kFewestSweeps, kMostSweeps);
+  }
 
   template <class F>
   void each_pair(F&& f) {
@@ -123,6 +130,19 @@ struct SubStep {
     work.friction_rows += sweep.friction_rows;
   }
 
+  // All at once after 2, 4, 8 ... sweeps, never last. Where something slips, a guess that is good
+  // already is left alone: friction that lags behind would only spoil it.
+  bool wants_direct(int done, const Sweep& sweep) {
+    if (impulse_method() || done == 0 || done + 1 >= most_sweeps()) return false;
+    if (!std::has_single_bit(static_cast<unsigned>(done + 1))) return false;
+    bool slips = false;
+    each_pair([&](const ContactRows<D>& rows, auto&, auto&) {
+      for (const ContactPoint<D>& p : rows.points())
+        slips |= rows.friction > 0 && p.pn > 0 && !p.sticks;
+    });
+    return !slips || sweep.change > kGoodGuess * sweep.largest;
+  }
+
   void solve_velocities() {
     each_joint([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
     each_pair([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
@@ -135,8 +155,7 @@ struct SubStep {
       count(sweep);
       pressing = sweep.largest;
       if (sweep.change <= (settled ? kSettledTolerance : kSweepTolerance) * sweep.largest) break;
-      if (impulse_method() || !std::has_single_bit(static_cast<unsigned>(i + 1)) || i == 0)
-        continue;  // else all at once, after 2, 4, 8 ... sweeps
+      if (!wants_direct(i, sweep)) continue;
       Sweep all;
       settled = direct.settle_velocities(island, h, all);
       count(all);

@@ -62,7 +62,8 @@ Spin<2> momentum_for(const Body<2>& body, double spin) {
 Spin<3> momentum_for(const Body<3>& body, const Vec<3>& spin) {
   const Mat<3> r = matrix(body.orientation);
   Vec<3> l = spin * r;  // into the body's axes
-  for (int i = 0; i < 3; ++i) l[i] = body.inverse_inertia[i] > 0 ? l[i] / body.inverse_inertia[i] : 0;
+  for (int i = 0; i < 3; ++i)
+    l[i] = body.inverse_inertia[i] > 0 ? l[i] / body.inverse_inertia[i] : 0;
   return r * l;
 }
 
@@ -343,9 +344,8 @@ void World<D>::rouse(std::vector<BodyId> ids) {
 
 template <int D>
 void World<D>::forget_contacts_of(BodyId id) {
-  std::erase_if(touching_, [&](const Touch& touch) {
-    return touch.record.a == id || touch.record.b == id;
-  });
+  std::erase_if(touching_,
+                [&](const Touch& touch) { return touch.record.a == id || touch.record.b == id; });
 }
 
 template <int D>

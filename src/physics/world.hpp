@@ -39,7 +39,7 @@ class World {
   BodyId add(Body<D> body);
   // Its springs, joints and pushes go with it. Does nothing if there is no such body.
   void remove(BodyId id);
-  const Body<D>* find(BodyId id) const;  // null if not there
+  const Body<D>* find(BodyId id) const;                           // null if not there
   const std::vector<Body<D>>& bodies() const { return bodies_; }  // in order of ids
 
   // Only `place` moves a static body.

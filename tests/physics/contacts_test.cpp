@@ -1,0 +1,145 @@
+// Friction, rolling and what a step tells of contacts, against closed forms.
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "world_scene.hpp"
+
+namespace lantern {
+namespace {
+
+template <int D>
+Vec<D> heading(int i) {
+  const double angle = 2 * std::numbers::pi * i / 24;
+  Vec<D> direction{0.0};
+  direction.x = std::cos(angle);
+  direction[D - 1] = std::sin(angle);
+  return direction;
+}
+
+TEST(Contacts, SlidesAsFarInEveryHeading) {
+  for (const bool turns : {false, true})
+    for (int i = 0; i < 24; ++i) {
+      World<3> world(falling<3>());
+      world.add(floor_at<3>());
+      Body<3> box = box_at<3>(up<3>(0.5));
+      box.velocity = heading<3>(i) * 5.0;
+      box.may_turn = turns;
+      world.add(box);
+      run(world, 1.5);
+      const Vec<3> way = world.bodies()[1].position - box.position;
+      EXPECT_NEAR(glm::length(way), 2.5, turns ? 1e-6 : 3e-9) << "v^2 / (2 mu g), heading " << i;
+      EXPECT_NEAR(glm::dot(way, heading<3>(i)), 2.5, turns ? 1e-6 : 3e-9) << "left its heading " << i;
+    }
+}
+
+TEST(Contacts, SlidingDoesNotDependOnTheStep) {
+  for (const Integrator integrator : {Integrator::semi_implicit_euler, Integrator::velocity_verlet})
+    for (const double h : {1.0 / 30, 1.0 / 60, 1.0 / 144}) {
+      WorldConfig<2> config = falling<2>();
+      config.integrator = integrator;
+      World<2> world(config);
+      world.add(floor_at<2>());
+      Body<2> box = box_at<2>(up<2>(0.5));
+      box.velocity = {3, 0};
+      world.add(box);
+      run(world, 2, h);
+      EXPECT_NEAR(world.bodies()[1].position.x, 0.9, 1e-6) << to_string(integrator) << " " << h;
+    }
+}
+
+TEST(Contacts, ABallSlipsThenRolls) {
+  World<3> world(falling<3>());
+  world.add(floor_at<3>());
+  world.add(ball_at<3>(up<3>(0.5), along<3>(7)));
+  run(world, 3);
+  const Body<3>& ball = world.bodies()[1];
+  EXPECT_NEAR(ball.velocity.x, 5, 1e-9) << "5/7 of its speed";
+  EXPECT_NEAR(angular_velocity(ball).z, -10, 1e-9) << "rolls without slipping";
+  EXPECT_NEAR(ball.position.y, 0.5, 1e-9);
+}
+
+// sticks if and only if tan(alpha) <= mu
+TEST(Contacts, SticksOnASlopeUpToTheFrictionAngle) {
+  for (const double mu : {0.3, 0.5, 1.0})
+    for (const double off : {-1e-3, 1e-3})
+      for (const Integrator integrator :
+           {Integrator::semi_implicit_euler, Integrator::velocity_verlet}) {
+        WorldConfig<2> config;
+        const double alpha = std::atan(mu + off);
+        config.gravity = {10 * std::sin(alpha), -10 * std::cos(alpha)};
+        config.integrator = integrator;
+        World<2> world(config);
+        world.add(floor_at<2>(0, mu));
+        Body<2> box = box_at<2>(up<2>(0.5));
+        box.material.friction = mu;
+        box.may_turn = false;
+        world.add(box);
+        run(world, 2);
+        const double a = 10 * (std::sin(alpha) - mu * std::cos(alpha));
+        EXPECT_NEAR(world.bodies()[1].velocity.x, off > 0 ? a * 2 : 0, 1e-9);
+        if (off < 0) {
+          EXPECT_NEAR(world.bodies()[1].position.x, 0, 1e-9) << "creeps";
+        }
+      }
+}
+
+TEST(Contacts, PressesWithItsWeight) {
+  World<2> world(falling<2>());
+  world.add(floor_at<2>());
+  world.add(box_at<2>(up<2>(0.5)));
+  run(world, 0.2);
+  ASSERT_EQ(world.contacts().size(), 1u);
+  const Contact<2>& contact = world.contacts()[0];
+  EXPECT_EQ(contact.a, 0u);
+  EXPECT_EQ(contact.b, 1u);
+  EXPECT_EQ(contact.manifold.normal, (Vec<2>{0, 1}));
+  EXPECT_NEAR(contact.normal_impulses[0] + contact.normal_impulses[1], 10 * kStep, 1e-9);
+}
+
+TEST(Contacts, EachPairBeginsStaysAndEndsOnce) {
+  WorldConfig<2> config = falling<2>();
+  config.may_sleep = false;
+  World<2> world(config);
+  world.add(floor_at<2>());
+  world.add(box_at<2>(up<2>(0.6)));
+  std::string story;
+  for (int i = 0; i < 60; ++i) {
+    if (i == 40) world.set_velocity(1, {0, 3});
+    world.step(kStep);
+    ASSERT_LE(world.events().size(), 1u);
+    for (const ContactEvent& event : world.events()) {
+      const char letter = "bse"[static_cast<int>(event.kind)];
+      if (story.empty() || story.back() != letter) story += letter;
+    }
+  }
+  EXPECT_EQ(story, "bse") << "begins, stays, ends";
+}
+
+TEST(Contacts, FrictionRowsOnlyWhereThereIsFriction) {
+  World<2> world(falling<2>());
+  world.add(floor_at<2>(0, 0));
+  Body<2> box = box_at<2>(up<2>(0.5));
+  world.add(box);
+  run(world, 0.5);
+  EXPECT_GT(world.work().constraint_rows, 0u);
+  EXPECT_EQ(world.work().friction_rows, 0u);
+}
+
+TEST(Contacts, DeepOverlapComesApartSlowly) {
+  WorldConfig<2> config;
+  World<2> world(config);
+  world.add(box_at<2>({0, 0}));
+  world.add(box_at<2>({0.1, 0}));
+  double fastest = 0;
+  for (int i = 0; i < 120; ++i) {
+    world.step(kStep);
+    for (const Body<2>& body : world.bodies())
+      fastest = std::max(fastest, glm::length(body.velocity));
+  }
+  EXPECT_LE(deepest(world), 1e-3);
+  EXPECT_LE(fastest, 1e-9) << "pushing apart must not become motion";
+}
+
+}  // namespace
+}  // namespace lantern

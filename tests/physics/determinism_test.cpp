@@ -1,0 +1,115 @@
+// The same input gives the same bits, whatever finds the pairs; and nothing is done that a scene
+// does not need.
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "world_scene.hpp"
+
+namespace lantern {
+namespace {
+
+template <int D>
+World<D> crowd(WorldConfig<D> config) {
+  World<D> world(config);
+  Random random(7);
+  world.add(floor_at<D>());
+  for (int i = 0; i < 40; ++i) {
+    Vec<D> place = up<D>(1 + i / 4 * 1.2);
+    place.x = i % 4 * 1.1 + random.between(0, 0.2);
+    Body<D> body = i % 3 == 0 ? ball_at<D>(place) : box_at<D>(place, 0.4);
+    body.material.restitution = i % 5 == 0 ? 0.4 : 0;
+    body.velocity.x = random.between(-2, 2);
+    world.add(body);
+  }
+  return world;
+}
+
+template <int D>
+void expect_same_over_broad_phases() {
+  std::optional<std::uint64_t> expected;
+  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+    if (D == 2 && kind == BroadPhaseKind::octree) continue;
+    WorldConfig<D> config = falling<D>();
+    config.broad_phase.kind = kind;
+    World<D> world = crowd(config);
+    run(world, 1);
+    if (!expected) expected = world.hash();
+    EXPECT_EQ(world.hash(), *expected) << D << "D: " << name_of(kind) << " changes the trajectory";
+  }
+}
+
+TEST(Determinism, EveryBroadPhaseGivesTheSameBits) {
+  expect_same_over_broad_phases<2>();
+  expect_same_over_broad_phases<3>();
+}
+
+TEST(Determinism, SwitchingTheBroadPhaseMidRunChangesNothing) {
+  World<2> one = crowd(falling<2>()), other = crowd(falling<2>());
+  run(one, 1);
+  run(other, 0.5);
+  BroadPhaseConfig<2> config;
+  config.kind = BroadPhaseKind::sort_and_sweep;
+  other.switch_broad_phase(config);
+  run(other, 0.5);
+  EXPECT_EQ(one.hash(), other.hash());
+}
+
+TEST(Determinism, RepeatsItself) {
+  World<3> one = crowd(falling<3>()), other = crowd(falling<3>());
+  run(one, 0.5);
+  run(other, 0.5);
+  EXPECT_EQ(one.hash(), other.hash());
+}
+
+// A stage that is forced on but has nothing to do gives the same bits.
+TEST(Determinism, StagesThatAreNotNeededChangeNothing) {
+  const auto hash_with = [](ContactMethod method) {
+    WorldConfig<3> config = falling<3>();
+    config.contacts = method;
+    World<3> world(config);
+    for (int i = 0; i < 10; ++i) {
+      Body<3> body = box_at<3>(along<3>(5.0 * i));
+      body.velocity = Vec<3>(0.1 * i, 1, -1);
+      body.angular_momentum = {0.3, 0.1 * i, 0.2};
+      world.add(body);
+    }
+    run(world, 1);
+    return world.hash();
+  };
+  EXPECT_EQ(hash_with(ContactMethod::soft), hash_with(ContactMethod::none));
+  EXPECT_EQ(hash_with(ContactMethod::impulse), hash_with(ContactMethod::none));
+}
+
+TEST(Determinism, StagesThatAreNotNeededAreLeftOut) {
+  World<2> free_flight;
+  free_flight.add(ball_at<2>({0, 0}, {1, 0}));
+  free_flight.add(ball_at<2>({0, 0}, {-1, 0}));
+  run(free_flight, 1);
+  EXPECT_EQ(free_flight.work().steps, 60u);
+  EXPECT_EQ(free_flight.work().force_evaluations, 0u);
+  EXPECT_EQ(free_flight.work().pair_tests, 0u);
+  EXPECT_EQ(free_flight.work().narrow_tests, 0u);
+  EXPECT_EQ(free_flight.work().rotations_integrated, 0u);
+  EXPECT_EQ(free_flight.broad_phase(), nullptr);
+
+  World<2> still(falling<2>());  // nothing can move
+  still.add(floor_at<2>());
+  run(still, 1);
+  EXPECT_EQ(still.broad_phase(), nullptr);
+}
+
+TEST(Determinism, FarFromTheOriginItIsTheSame) {
+  const auto height = [](double x) {
+    World<2> world(falling<2>());
+    world.add(floor_at<2>());
+    world.add(box_at<2>({x, 0.5}));
+    world.add(box_at<2>({x, 1.5}));
+    run(world, 2);
+    return glm::length(world.bodies()[2].position - Vec<2>(x, 1.5));
+  };
+  EXPECT_LE(height(0), 1e-6);
+  EXPECT_LE(height(1e7), 1e-6);
+}
+
+}  // namespace
+}  // namespace lantern

@@ -1,0 +1,113 @@
+// Sleep, and what wakes.
+#include <gtest/gtest.h>
+
+#include "world_scene.hpp"
+
+namespace lantern {
+namespace {
+
+// Three boxes in a pile, one apart, all asleep.
+World<2> sleeping() {
+  World<2> world(falling<2>());
+  world.add(floor_at<2>());
+  for (int i = 0; i < 3; ++i) world.add(box_at<2>(up<2>(0.5 + i)));
+  world.add(box_at<2>({10, 0.5}));
+  run(world, 1);
+  return world;
+}
+
+void expect_awake(const World<2>& world, std::vector<bool> awake, const char* why) {
+  for (std::size_t i = 0; i < awake.size(); ++i)
+    EXPECT_EQ(!world.bodies()[i + 1].asleep, awake[i]) << why << ": box " << i + 1;
+}
+
+TEST(Islands, FallAsleepWhenTheyRest) {
+  World<2> world(falling<2>());
+  world.add(floor_at<2>());
+  world.add(box_at<2>(up<2>(0.5)));
+  run(world, 0.4);
+  EXPECT_FALSE(world.bodies()[1].asleep) << "too early";
+  run(world, 0.4);
+  EXPECT_TRUE(world.bodies()[1].asleep);
+  EXPECT_EQ(world.bodies()[1].velocity, (Vec<2>{0, 0}));
+  const std::uint64_t rows = world.work().constraint_rows, tests = world.work().narrow_tests;
+  const Vec<2> place = world.bodies()[1].position;
+  run(world, 1);
+  EXPECT_EQ(world.work().constraint_rows, rows) << "sleeping bodies are solved";
+  EXPECT_EQ(world.work().narrow_tests, tests);
+  EXPECT_EQ(world.bodies()[1].position, place);
+  ASSERT_EQ(world.events().size(), 1u);
+  EXPECT_EQ(world.events()[0].kind, ContactEvent::Kind::stay) << "they still touch";
+}
+
+TEST(Islands, AnImpulseWakesThePileButNotTheOther) {
+  World<2> world = sleeping();
+  expect_awake(world, {false, false, false, false}, "before");
+  EXPECT_EQ(world.work().asleep, 4u);
+  world.apply_impulse(2, {0.1, 0}, {0, 1.5});
+  expect_awake(world, {true, true, true, false}, "impulse");
+}
+
+TEST(Islands, ScriptsWake) {
+  const auto woken_by = [](auto&& action, const char* why) {
+    World<2> world = sleeping();
+    action(world);
+    expect_awake(world, {true, true, true, false}, why);
+  };
+  woken_by([](World<2>& w) { w.wake(3); }, "wake");
+  woken_by([](World<2>& w) { w.push(1, {1, 0}, {0, 0.5}); }, "push");
+  woken_by([](World<2>& w) { w.set_velocity(1, {0, 0}); }, "velocity");
+  woken_by([](World<2>& w) { w.set_angular_velocity(1, 0.1); }, "spin");
+  woken_by([](World<2>& w) { w.place(1, {0, 0.5}, {0, 0}); }, "place");
+}
+
+TEST(Islands, WithoutItsSupportAPileFalls) {
+  World<2> world = sleeping();
+  world.remove(1);
+  run(world, 1);
+  EXPECT_NEAR(world.find(2)->position.y, 0.5, 1e-3);
+  EXPECT_NEAR(world.find(3)->position.y, 1.5, 1e-3);
+}
+
+TEST(Islands, ATouchWakes) {
+  World<2> world = sleeping();
+  world.add(ball_at<2>({0, 4.5}, {0, -1}));
+  int steps = 0;
+  while (world.bodies()[1].asleep && steps < 200) {
+    world.step(kStep);
+    ++steps;
+  }
+  EXPECT_GT(steps, 10) << "woke before it was touched";
+  EXPECT_LT(steps, 60) << "was never woken";
+  EXPECT_TRUE(world.bodies()[4].asleep) << "the other one sleeps on";
+}
+
+TEST(Islands, AMovingKinematicBodyWakesAndKeepsAwake) {
+  World<2> world = sleeping();
+  Body<2> pusher = box_at<2>({-2, 0.5});
+  pusher.kind = BodyKind::kinematic_body;
+  pusher.velocity = {0.5, 0};
+  const BodyId id = world.add(pusher);
+  run(world, 4);
+  EXPECT_NEAR(world.find(id)->position.x, 0, 1e-9) << "it goes its way";
+  EXPECT_NEAR(world.find(1)->position.x, 1, 1e-2) << "and pushes";
+  EXPECT_FALSE(world.find(1)->asleep);
+}
+
+TEST(Islands, AFreeBodyThatMovesSlowlyDoesNotSleep) {
+  World<2> world((WorldConfig<2>()));
+  world.add(ball_at<2>({0, 0}, {1e-4, 0}));
+  run(world, 10);
+  EXPECT_NEAR(world.bodies()[0].position.x, 1e-3, 1e-12);
+}
+
+TEST(Islands, AreAsManyAsThereArePiles) {
+  World<2> world(falling<2>());
+  world.add(floor_at<2>());
+  for (int i = 0; i < 6; ++i) world.add(box_at<2>({i / 2 * 5.0, 0.5 + i % 2}));
+  world.step(kStep);
+  EXPECT_EQ(world.work().islands, 3u) << "the floor must not join them";
+}
+
+}  // namespace
+}  // namespace lantern
