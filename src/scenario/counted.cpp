@@ -18,7 +18,7 @@ const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
 // Names that can be counted or quoted here, for suggestions.
 std::vector<std::string_view> quotable(const Draft& draft, const ScriptState& state) {
   std::vector<std::string_view> names;
-  for (const auto docs : {known_counts(), known_texts()})
+  for (const auto docs : {known_counts(), known_texts(), known_measures()})
     for (const CountDoc& doc : docs)
       if (why_not_counted(doc.name, draft, state).empty()) names.push_back(doc.name);
   return names;
@@ -128,7 +128,8 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
   const std::string caption = step.text("caption").value_or("");
   const auto kind_of = [](std::string_view name) {
     if (find_in(known_counts(), name)) return Placeholder::count;
-    return find_in(known_texts(), name) ? Placeholder::text : Placeholder::unknown;
+    const bool is_text = find_in(known_texts(), name) || find_in(known_measures(), name);
+    return is_text ? Placeholder::text : Placeholder::unknown;
   };
   const auto can_be_quoted = [&](std::string_view name) {
     return kind_of(name) != Placeholder::unknown && why_not_counted(name, draft, state).empty();

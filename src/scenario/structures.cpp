@@ -100,7 +100,7 @@ class TreePicture {
       frame_.nodes.push_back(std::move(node));
       return true;
     });
-    if (only_awake_) find_awake();
+    if (only_awake_ && !of_static) find_awake();
     const Counters c = tree.counters();
     counters.nodes += c.nodes;
     counters.leaves += c.leaves;
