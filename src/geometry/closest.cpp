@@ -27,15 +27,20 @@ double meeting_parameter(const Segment<D>& a, const Segment<D>& b) {
 
 }  // namespace
 
+template <int D>
+PointPair<D> crossing_points(const Segment<D>& a, const Segment<D>& b) {
+  const Vec<D> on_b = closest_point(b, a.at(meeting_parameter(a, b)));
+  return {closest_point(a, on_b), on_b};
+}
+
 // Either an end of one segment is the closest to the other one, or the lines meet inside both.
 // Every candidate is a pair of real points, so rounding can only pick one that is not quite the
 // closest.
 template <int D>
 PointPair<D> closest_points(const Segment<D>& a, const Segment<D>& b) {
-  const Vec<D> on_b = closest_point(b, a.at(meeting_parameter(a, b)));
   const PointPair<D> candidates[] = {
-      {a.a, closest_point(b, a.a)}, {a.b, closest_point(b, a.b)},   {closest_point(a, b.a), b.a},
-      {closest_point(a, b.b), b.b}, {closest_point(a, on_b), on_b},
+      {a.a, closest_point(b, a.a)}, {a.b, closest_point(b, a.b)}, {closest_point(a, b.a), b.a},
+      {closest_point(a, b.b), b.b}, crossing_points(a, b),
   };
   PointPair<D> best = candidates[0];
   for (const PointPair<D>& candidate : candidates)
@@ -43,6 +48,8 @@ PointPair<D> closest_points(const Segment<D>& a, const Segment<D>& b) {
   return best;
 }
 
+template PointPair<2> crossing_points(const Segment<2>&, const Segment<2>&);
+template PointPair<3> crossing_points(const Segment<3>&, const Segment<3>&);
 template PointPair<2> closest_points(const Segment<2>&, const Segment<2>&);
 template PointPair<3> closest_points(const Segment<3>&, const Segment<3>&);
 

@@ -63,11 +63,18 @@ struct PointPair {
   double square() const { return glm::dot(b - a, b - a); }
 };
 
+// Where the endless lines of both segments come closest to each other, or as near to it as the
+// segments reach. If the closest points of the segments lie inside both of them, it is those.
+template <int D>
+PointPair<D> crossing_points(const Segment<D>& a, const Segment<D>& b);
+
 // The points, one of each segment, that are closest to each other. If several pairs are, as of
 // parallel segments, one of them.
 template <int D>
 PointPair<D> closest_points(const Segment<D>& a, const Segment<D>& b);
 
+extern template PointPair<2> crossing_points(const Segment<2>&, const Segment<2>&);
+extern template PointPair<3> crossing_points(const Segment<3>&, const Segment<3>&);
 extern template PointPair<2> closest_points(const Segment<2>&, const Segment<2>&);
 extern template PointPair<3> closest_points(const Segment<3>&, const Segment<3>&);
 

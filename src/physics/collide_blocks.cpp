@@ -8,19 +8,21 @@ namespace {
 constexpr std::uint32_t kFaceOfA = 0u << 16, kFaceOfB = 1u << 16, kEdges = 2u << 16,
                         kClosest = 3u << 16;
 
-// A normal within this of a face's (the cosine, 6 degrees) has that face's contact.
-constexpr double kNearFace = 0.995;
+// A normal within this of a face's (the cosine, 2 degrees) has that face's contact.
+constexpr double kNearFace = 0.9995;
 
 template <int D>
 void mark(Manifold<D>& manifold, std::uint32_t kind) {
   for (auto& point : manifold.room) point.feature |= kind;
 }
 
+// `normal` is the face's or leans a little.
 template <int D>
-FaceContact<D> contact_on_face(const Block<D>& a, const Block<D>& b, bool of_a, int axis,
+FaceContact<D> contact_on_face(const SeparatingAxis<D>& face, const Block<D>& a, const Block<D>& b,
                                const Vec<D>& normal, double margin) {
-  FaceContact<D> contact =
-      of_a ? face_contact(a, b, axis, normal, margin) : face_contact(b, a, axis, -normal, margin);
+  const bool of_a = face.kind == SeparatingAxis<D>::Kind::face_of_a;
+  FaceContact<D> contact = of_a ? face_contact(a, b, face.axis_a, normal, margin)
+                                : face_contact(b, a, face.axis_b, -normal, margin);
   contact.manifold.normal = normal;
   mark(contact.manifold, of_a ? kFaceOfA : kFaceOfB);
   return contact;
@@ -64,11 +66,9 @@ FaceContact<3> contact_of_edges(const Block<3>& a, const Block<3>& b,
 template <int D>
 FaceContact<D> contact_on(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
                           double margin) {
-  using Kind = typename SeparatingAxis<D>::Kind;
   if constexpr (D == 3)
-    if (axis.kind == Kind::edges) return contact_of_edges(a, b, axis);
-  const bool of_a = axis.kind == Kind::face_of_a;
-  return contact_on_face(a, b, of_a, of_a ? axis.axis_a : axis.axis_b, axis.normal, margin);
+    if (axis.kind == SeparatingAxis<D>::Kind::edges) return contact_of_edges(a, b, axis);
+  return contact_on_face(axis, a, b, axis.normal, margin);
 }
 
 template <int D>
@@ -78,26 +78,51 @@ double least_separation(const Manifold<D>& manifold) {
   return least;
 }
 
+// The deepest point stands for the true separation, which is known to be nearly that.
+template <int D>
+void set_least_separation(Manifold<D>& manifold, double exact) {
+  const double least = least_separation(manifold);
+  for (auto& point : manifold.room)
+    point.separation = point.separation == least ? exact : std::max(point.separation, exact);
+}
+
 // Of cores that are apart, where the separating axis is not the direction of their distance. Near a
-// face's normal, that face still gives its many points, so that a capsule over the rim of a box
-// rests on it rather than rocking.
+// face's normal they still have that face's points, so that a box over the rim of another one, or
+// a capsule, settles on it rather than rocking.
 template <int D>
 Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
                                const ClosestFeatures<D>& closest, const Direction<D>& normal,
-                               const SeparatingAxis<D>& axis, double margin) {
+                               const SeparatingAxis<D>& face, double margin) {
   const Manifold<D> single =
       one_point(closest.points.a, a.radius, b.radius, normal, kClosest | closest.feature);
-  if (axis.kind == SeparatingAxis<D>::Kind::edges) return single;
-  if (glm::dot(axis.normal, normal.unit) < kNearFace) return single;
-  const bool of_a = axis.kind == SeparatingAxis<D>::Kind::face_of_a;
-  Manifold<D> manifold =
-      contact_on_face(a, b, of_a, of_a ? axis.axis_a : axis.axis_b, normal.unit, margin).manifold;
-  if (manifold.count < 2) return single;
-  // Its deepest point stands for the closest ones, whose distance is exact.
-  const double least = least_separation(manifold);
-  for (auto& point : manifold.room)
-    if (point.separation == least) point.separation = normal.length - a.radius - b.radius;
-  return manifold;
+  if (glm::dot(face.normal, normal.unit) < kNearFace) return single;
+  const double radii = a.radius + b.radius, exact = normal.length - radii;
+  const double size = radii + smallest_half(a, b);
+  const double near = std::min(margin, exact + 0.1 * size);
+  Manifold<D> many = contact_on_face(face, a, b, normal.unit, near).manifold;
+  // Heights along the leaning normal are nearly distances, or the face is not what is closest.
+  if (many.count < 2 || std::abs(least_separation(many) - exact) > 1e-3 * size) return single;
+  set_least_separation(many, exact);
+  return many;
+}
+
+// The contact on a separating axis. Nothing if it does not reach the bound that the axes give.
+template <int D>
+Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
+                            double bound, double rounding, double margin) {
+  using Kind = typename SeparatingAxis<D>::Kind;
+  if (axis.kind == Kind::side) return std::nullopt;
+  const bool apart = bound > rounding;
+  if (apart && (axis.kind == Kind::edges || axis.separation < bound - rounding))
+    return std::nullopt;  // they may still have a face's points, along another normal
+  FaceContact<D> contact = contact_on(axis, a, b, margin);
+  if (contact.manifold.count == 0) return std::nullopt;
+  const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
+  const double exact = axis.separation - a.radius - b.radius;
+  if (std::abs(least_separation(contact.manifold) - exact) > allowed) return std::nullopt;
+  if (apart && contact.least_distance > bound + rounding) return std::nullopt;
+  set_least_separation(contact.manifold, exact);
+  return contact.manifold;
 }
 
 }  // namespace
@@ -112,23 +137,18 @@ Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
   for (int i = 0; i < D; ++i) size += a.half[i] + b.half[i];
   const double rounding = kRounding * size;
   const bool apart = bound > rounding;
+  if (auto contact = contact_if_exact(axes.chosen, a, b, bound, rounding, margin)) return contact;
+  if (!apart)
+    if (auto contact = contact_if_exact(axes.greatest, a, b, bound, rounding, margin))
+      return contact;
 
-  // A contact on an axis is right if it reaches the bound that the axes give.
-  const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
-  for (const SeparatingAxis<D>* axis : {&axes.chosen, &axes.greatest}) {
-    const FaceContact<D> contact = contact_on(*axis, a, b, margin);
-    if (contact.manifold.count == 0) continue;
-    const double least = least_separation(contact.manifold);
-    if (std::abs(least + radii - bound) > allowed) continue;
-    if (apart && contact.least_distance > bound + rounding) continue;
-    return contact.manifold;
-  }
-
-  const ClosestFeatures<D> closest = closest_features(a, b);
+  const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest);
   Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
-  if (!apart) normal = {axes.greatest.normal, bound};
+  // Where the axis is as good, it is the better direction: it does not come of small differences.
+  // Cores that meet have none but it.
+  if (normal.length <= bound + rounding || !apart) normal = {axes.greatest.normal, bound};
   if (normal.length - radii > margin) return std::nullopt;
-  return contact_of_closest(a, b, closest, normal, axes.chosen, margin);
+  return contact_of_closest(a, b, closest, normal, axes.face, margin);
 }
 
 template <int D>

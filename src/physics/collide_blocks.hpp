@@ -14,7 +14,8 @@ namespace lantern::narrow {
 // A direction along which the cores were measured.
 template <int D>
 struct SeparatingAxis {
-  enum class Kind : std::uint8_t { face_of_a, face_of_b, edges };
+  // `side`: across a block without thickness, where it has no face.
+  enum class Kind : std::uint8_t { face_of_a, face_of_b, edges, side };
 
   Vec<D> normal{0.0};     // unit, from a to b
   double separation = 0;  // of the cores along it; below 0 they overlap
@@ -27,6 +28,7 @@ template <int D>
 struct SeparatingAxes {
   SeparatingAxis<D> chosen;    // the one to build the contact on
   SeparatingAxis<D> greatest;  // the one of the largest separation
+  SeparatingAxis<D> face;      // the best of a face; its normal is 0 if neither block has any
 };
 
 // Gottschalk, Lin, Manocha (OBBTree, 1996). If the largest separation is above 0, the cores are at
@@ -34,7 +36,7 @@ struct SeparatingAxes {
 //
 // Where two axes are nearly equal, as for boxes that lie flat on each other, rounding must not
 // choose. So a later kind of axis must be better than an earlier one by kAxisBias of the smallest
-// half size: faces of a, faces of b, edges.
+// half size: faces of a, faces of b, edges, sides.
 inline constexpr double kAxisBias = 1e-3;
 
 template <int D>
@@ -60,7 +62,8 @@ FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, in
                             const Vec<D>& normal, double margin);
 
 // The point of each core that is closest to the other one, if they are apart, and a name of the
-// features on which they lie.
+// features on which they lie. `axis` is one along which they are apart; the better it is, the less
+// work is left.
 template <int D>
 struct ClosestFeatures {
   PointPair<D> points;
@@ -68,6 +71,7 @@ struct ClosestFeatures {
 };
 
 template <int D>
-ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b);
+ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b,
+                                    const SeparatingAxis<D>& axis);
 
 }  // namespace lantern::narrow

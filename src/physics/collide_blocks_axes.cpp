@@ -19,18 +19,23 @@ class Search {
       : a_(a), b_(b), offset_(b.center - a.center), bias_(kAxisBias * smallest_half(a, b)) {}
 
   SeparatingAxes<D> run() {
-    for (int i = 0; i < D; ++i) try_face(Kind::face_of_a, i, is_face(a_, i));
+    for (int i = 0; i < D; ++i)
+      if (is_face(a_, i)) try_across(a_, b_, i, Kind::face_of_a);
     settle();
-    for (int i = 0; i < D; ++i) try_face(Kind::face_of_b, i, is_face(b_, i));
+    for (int i = 0; i < D; ++i)
+      if (is_face(b_, i)) try_across(b_, a_, i, Kind::face_of_b);
     settle();
+    found_.face = found_.chosen;
     if constexpr (D == 3) {
       for (int i = 0; i < D; ++i)
         for (int j = 0; j < D; ++j)
           if (a_.half[i] > 0 && b_.half[j] > 0) try_edges(i, j);
       settle();
     }
-    for (int i = 0; i < D; ++i) try_face(Kind::face_of_a, i, !is_face(a_, i));
-    for (int i = 0; i < D; ++i) try_face(Kind::face_of_b, i, !is_face(b_, i));
+    for (int i = 0; i < D; ++i) {
+      if (!is_face(a_, i)) try_across(a_, b_, i, Kind::side);
+      if (!is_face(b_, i)) try_across(b_, a_, i, Kind::side);
+    }
     settle();
     return found_;
   }
@@ -43,11 +48,7 @@ class Search {
     return true;
   }
 
-  void try_face(Kind kind, int axis, bool wanted) {
-    if (!wanted) return;
-    const bool of_a = kind == Kind::face_of_a;
-    const Block<D>& own = of_a ? a_ : b_;
-    const Block<D>& other = of_a ? b_ : a_;
+  void try_across(const Block<D>& own, const Block<D>& other, int axis, Kind kind) {
     const Vec<D> n = own.axes[axis];
     const double along = glm::dot(n, offset_);
     consider(

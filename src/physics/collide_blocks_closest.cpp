@@ -1,3 +1,4 @@
+#include <array>
 #include <limits>
 
 #include "physics/collide_blocks.hpp"
@@ -40,34 +41,91 @@ Vec<D> closest_point(const Block<D>& block, const Vec<D>& point) {
   return block.world(glm::clamp(block.local(point), -block.half, block.half));
 }
 
+// Two convex bodies with flat faces are closest in a corner and a point of the other one, or in two
+// edges. They are tried one by one, but for those that lie too far back: if the closest points lie
+// u and v behind the fronts of their blocks along the axis,
+//
+//   distance >= separation along the axis + u + v,
+//
+// so that features with a larger u + v than `distance so far - separation` cannot be better.
+template <int D>
+class ClosestSearch {
+ public:
+  ClosestSearch(const Block<D>& a, const Block<D>& b, const SeparatingAxis<D>& axis)
+      : a_(a), b_(b), axis_(axis), reach_a_(a.reach(axis.normal)), reach_b_(b.reach(axis.normal)) {}
+
+  ClosestFeatures<D> run() {
+    each_corner(a_, [&](const Vec<D>& corner, std::uint32_t name) {
+      if (behind_a(corner) <= slack_)
+        consider({corner, closest_point(b_, corner)}, 1u << 10 | name);
+    });
+    each_corner(b_, [&](const Vec<D>& corner, std::uint32_t name) {
+      if (behind_b(corner) <= slack_)
+        consider({closest_point(a_, corner), corner}, 2u << 10 | name);
+    });
+    if constexpr (D == 3) try_edges();
+    return best_;
+  }
+
+ private:
+  struct Edge {
+    Segment<3> segment;
+    double behind = 0;
+    std::uint32_t name = 0;
+  };
+
+  // Ends of edges are corners, which have been tried: what is left is where edges cross.
+  void try_edges() {
+    std::array<Edge, 12> of_b;
+    std::size_t count = 0;
+    each_edge(b_, [&](const Segment<3>& edge, std::uint32_t name) {
+      const double behind = std::min(behind_b(edge.a), behind_b(edge.b));
+      if (behind <= slack_) of_b[count++] = {edge, behind, name};
+    });
+    each_edge(a_, [&](const Segment<3>& edge, std::uint32_t name) {
+      const double behind = std::min(behind_a(edge.a), behind_a(edge.b));
+      for (std::size_t i = 0; i < count; ++i)
+        if (behind + of_b[i].behind <= slack_)
+          consider(crossing_points(edge, of_b[i].segment), 3u << 10 | name << 5 | of_b[i].name);
+    });
+  }
+
+  void consider(const PointPair<D>& points, std::uint32_t feature) {
+    const double square = points.square();
+    if (square >= least_) return;
+    least_ = square;
+    best_ = {points, feature};
+    const double rounding = kRounding * (reach_a_ + reach_b_ + std::abs(axis_.separation));
+    slack_ = std::sqrt(square) - axis_.separation + rounding;
+  }
+
+  double behind_a(const Vec<D>& p) const {
+    return reach_a_ - glm::dot(p - a_.center, axis_.normal);
+  }
+  double behind_b(const Vec<D>& p) const {
+    return reach_b_ + glm::dot(p - b_.center, axis_.normal);
+  }
+
+  const Block<D>& a_;
+  const Block<D>& b_;
+  const SeparatingAxis<D>& axis_;
+  double reach_a_, reach_b_;
+  double least_ = std::numeric_limits<double>::infinity();  // the square of the least distance
+  double slack_ = std::numeric_limits<double>::infinity();
+  ClosestFeatures<D> best_;
+};
+
 }  // namespace
 
-// Two convex bodies with flat faces are closest in a corner and a point of the other one, or in two
-// edges. All are tried: it is needed only where no face looks at the other block.
 template <int D>
-ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b) {
-  ClosestFeatures<D> best;
-  double least = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const PointPair<D>& points, std::uint32_t feature) {
-    if (const double square = points.square(); square < least)
-      least = square, best = {points, feature};
-  };
-  each_corner(a, [&](const Vec<D>& corner, std::uint32_t name) {
-    consider({corner, closest_point(b, corner)}, 1u << 10 | name);
-  });
-  each_corner(b, [&](const Vec<D>& corner, std::uint32_t name) {
-    consider({closest_point(a, corner), corner}, 2u << 10 | name);
-  });
-  if constexpr (D == 3)
-    each_edge(a, [&](const Segment<3>& edge_a, std::uint32_t name_a) {
-      each_edge(b, [&](const Segment<3>& edge_b, std::uint32_t name_b) {
-        consider(closest_points(edge_a, edge_b), 3u << 10 | name_a << 5 | name_b);
-      });
-    });
-  return best;
+ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b,
+                                    const SeparatingAxis<D>& axis) {
+  return ClosestSearch<D>(a, b, axis).run();
 }
 
-template ClosestFeatures<2> closest_features(const Block<2>&, const Block<2>&);
-template ClosestFeatures<3> closest_features(const Block<3>&, const Block<3>&);
+template ClosestFeatures<2> closest_features(const Block<2>&, const Block<2>&,
+                                             const SeparatingAxis<2>&);
+template ClosestFeatures<3> closest_features(const Block<3>&, const Block<3>&,
+                                             const SeparatingAxis<3>&);
 
 }  // namespace lantern::narrow

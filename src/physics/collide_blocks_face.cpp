@@ -6,8 +6,11 @@
 //       |   |       |              the corner p of the other block's face lies outside the
 //       p---x-------x----          reference face; it is cut back to its side
 //           |  reference |
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "physics/collide_blocks.hpp"
 
@@ -19,24 +22,33 @@ namespace {
 // jitter.
 constexpr double kSlack = 1e-4;
 
-// A corner of the clipped face. Its name is made of the lines that meet in it: 0 ... 3 are edges of
-// the other block's face, 4 ... 7 sides of the reference face.
+// A corner of the clipped face, and the line that leaves it: 0 ... 3 are edges of the other block's
+// face, 4 ... 7 sides of the reference face.
 template <int D>
 struct Corner {
   Vec<D> point{0.0};
-  std::uint32_t line_in = 0;
-  std::uint32_t line_out = 0;
+  std::uint32_t line = 0;
+  std::uint32_t name = 0;  // made of the two lines that met here first
 };
 
-// At most the 4 corners of a face and one more for each of the 4 sides that cut it.
+constexpr std::uint32_t name_of(std::uint32_t line_in, std::uint32_t line_out) {
+  return line_in << 3 | line_out;
+}
+
+// A face has 4 corners and each of the 4 sides that cut it adds one. Rounding may fray a corner, so
+// there is room for more; beyond it corners are left out.
+constexpr std::size_t kMostCorners = 12;
+
 template <int D>
 struct Outline {
-  std::array<Corner<D>, 8> room;
+  std::array<Corner<D>, kMostCorners> room;
   int count = 0;
 
   Corner<D>& operator[](int i) { return room[static_cast<std::size_t>(i)]; }
   const Corner<D>& operator[](int i) const { return room[static_cast<std::size_t>(i)]; }
-  void add(const Corner<D>& corner) { room[static_cast<std::size_t>(count++)] = corner; }
+  void add(const Corner<D>& corner) {
+    if (count < static_cast<int>(kMostCorners)) (*this)[count++] = corner;
+  }
 };
 
 // The face of a block that looks most against the normal.
@@ -66,13 +78,12 @@ Outline<D> outline_of(const Block<D>& block, const Facing& face) {
     if (i != face.axis && block.half[i] > 0) spread[count++] = i;
 
   Outline<D> outline;
-  const int corners = 1 << count;
-  for (int k = 0; k < corners; ++k) {
+  const std::uint32_t corners = 1u << count;
+  for (std::uint32_t k = 0; k < corners; ++k) {
     Vec<D> corner = center;
     if (count > 0) corner[spread[0]] = block.half[spread[0]] * (k == 0 || k == 3 ? -1 : 1);
     if (count > 1) corner[spread[1]] = block.half[spread[1]] * (k < 2 ? -1 : 1);
-    outline.add({block.world(corner), static_cast<std::uint32_t>((k + corners - 1) % corners),
-                 static_cast<std::uint32_t>(k)});
+    outline.add({block.world(corner), k, name_of((k + corners - 1) % corners, k)});
   }
   return outline;
 }
@@ -89,15 +100,17 @@ Outline<D> cut(const Outline<D>& outline, const Height& height, double slack, st
     const double h = height(here.point), h_next = height(next.point);
     const bool inside = h <= slack, next_inside = h_next <= slack;
     if (inside) kept.add(here);
-    if (inside == next_inside || std::min(h, h_next) > 0) continue;  // the kept one ends the edge
-    if (!is_loop && inside) continue;  // its outer end is cut when its turn comes
+    if (inside == next_inside) continue;
     const Vec<D> at = here.point + (next.point - here.point) * (h / (h - h_next));
-    if (!is_loop)
-      kept.add({at, side, side});
-    else if (inside)
-      kept.add({at, here.line_out, side});
-    else
-      kept.add({at, side, here.line_out});
+    const bool is_cut = std::min(h, h_next) <= 0;  // if not, the kept corner is the edge's end
+    if (inside && is_loop) {
+      if (is_cut)
+        kept.add({at, side, name_of(here.line, side)});
+      else
+        kept[kept.count - 1].line = side;
+    } else if (next_inside && is_cut) {
+      kept.add({at, here.line, name_of(side, is_loop ? here.line : side)});
+    }
   }
   return kept;
 }
@@ -109,38 +122,39 @@ double distance_to(const Block<D>& block, const Vec<D>& point) {
 }
 
 // The deepest point, the one farthest from it, and on each side of the line through both the one
-// that spans the largest triangle. A later point must be better by a part of 1e-6, so that equal
-// ones are not swapped by rounding.
-std::array<int, 4> widest_four(const Outline<3>& outline, const std::array<double, 8>& heights,
-                               const Vec<3>& normal, double slack) {
-  std::array<int, 4> chosen{0, -1, -1, -1};
+// that spans the largest triangle; no more if the points lie on a line. So that rounding does not
+// swap equal ones, a later point must be deeper by `slack`, or wider by a part of 1e-6.
+std::vector<int> widest_four(const Outline<3>& outline,
+                             const std::array<double, kMostCorners>& heights, const Vec<3>& normal,
+                             double slack) {
   const auto height = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
+  int deepest = 0;
   for (int i = 1; i < outline.count; ++i)
-    if (height(i) < height(chosen[0]) - slack) chosen[0] = i;
-  const Vec<3> first = outline[chosen[0]].point;
-  const auto pick = [&](int slot, const auto& measure) {
-    double best = 0;
-    for (int i = 0; i < outline.count; ++i)
-      if (const double m = measure(outline[i].point); m > best * (1 + 1e-6))
-        best = m, chosen[static_cast<std::size_t>(slot)] = i;
+    if (height(i) < height(deepest) - slack) deepest = i;
+  std::vector<int> chosen{deepest};
+  const auto add_best = [&](const auto& measure) {
+    int best = -1;
+    double most = 0;
+    for (int i = 0; i < outline.count; ++i) {
+      const double m = measure(outline[i].point);
+      if (m <= most * (1 + 1e-6) || std::count(chosen.begin(), chosen.end(), i) != 0) continue;
+      most = m, best = i;
+    }
+    if (best >= 0) chosen.push_back(best);
   };
-  pick(1, [&](const Vec<3>& p) { return glm::dot(p - first, p - first); });
-  if (chosen[1] < 0) return chosen;
-  const Vec<3> across = glm::cross(normal, outline[chosen[1]].point - first);
-  pick(2, [&](const Vec<3>& p) { return glm::dot(p - first, across); });
-  pick(3, [&](const Vec<3>& p) { return -glm::dot(p - first, across); });
+  const Vec<3> first = outline[deepest].point;
+  add_best([&](const Vec<3>& p) { return glm::dot(p - first, p - first); });
+  const Vec<3> across = glm::cross(normal, outline[chosen.back()].point - first);
+  add_best([&](const Vec<3>& p) { return glm::dot(p - first, across); });
+  add_best([&](const Vec<3>& p) { return -glm::dot(p - first, across); });
+  std::sort(chosen.begin(), chosen.end());
   return chosen;
 }
 
-}  // namespace
-
+// The other block's face, cut back to what is above the reference face across an axis.
 template <int D>
-FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, int axis,
-                            const Vec<D>& normal, double margin) {
-  const double slack = kSlack * smallest_half(reference, other);
-  const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
-  const Vec<D> outward = reference.axes[axis] * sign;
-  const Facing face = facing(other, normal);
+Outline<D> clipped_face(const Block<D>& reference, int axis, const Block<D>& other,
+                        const Facing& face, double slack) {
   Outline<D> outline = outline_of(other, face);
   std::uint32_t side = 4;
   for (int i = 0; i < D; ++i) {
@@ -153,15 +167,27 @@ FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, in
       ++side;
     }
   }
+  return outline;
+}
 
-  // Along a normal that is not quite the face's, heights above the face grow by 1 / cosine.
-  const double cosine = glm::dot(outward, normal);
+}  // namespace
+
+template <int D>
+FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, int axis,
+                            const Vec<D>& normal, double margin) {
+  const double slack = kSlack * smallest_half(reference, other);
+  const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
+  const Vec<D> outward = reference.axes[axis] * sign;
+  const double cosine = glm::dot(outward, normal);  // heights along a leaning normal are longer
   const double radii = reference.radius + other.radius;
+  const Facing face = facing(other, normal);
+
   FaceContact<D> contact;
   contact.manifold.normal = normal;
   contact.least_distance = std::numeric_limits<double>::infinity();
-  std::array<double, 8> heights{};
+  std::array<double, kMostCorners> heights{};
   Outline<D> close;
+  const Outline<D> outline = clipped_face(reference, axis, other, face, slack);
   for (int i = 0; i < outline.count; ++i) {
     const Vec<D> p = outline[i].point;
     contact.least_distance = std::min(contact.least_distance, distance_to(reference, p));
@@ -171,16 +197,16 @@ FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, in
     close.add(outline[i]);
   }
 
-  std::array<int, 4> chosen{0, 1, 2, 3};
+  std::vector<int> chosen(static_cast<std::size_t>(close.count));
+  std::iota(chosen.begin(), chosen.end(), 0);
   if constexpr (D == 3)
     if (close.count > 4) chosen = widest_four(close, heights, normal, slack);
   const std::uint32_t faces =
       static_cast<std::uint32_t>(axis * 2 + (sign > 0 ? 1 : 0)) << 3 | face.name();
   for (const int i : chosen) {
-    if (i < 0 || i >= close.count) continue;
     const double separation = heights[static_cast<std::size_t>(i)] - radii;
     contact.manifold.add({close[i].point - normal * (other.radius + separation / 2), separation,
-                          faces << 6 | close[i].line_in << 3 | close[i].line_out});
+                          faces << 6 | close[i].name});
   }
   return contact;
 }

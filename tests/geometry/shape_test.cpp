@@ -1,0 +1,146 @@
+// Boxes around turned shapes, and closest points.
+#include "geometry/shape.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "geometry/closest.hpp"
+
+namespace lantern {
+namespace {
+
+template <int D>
+Vec<D> random_vec(Random& random, double lo, double hi) {
+  Vec<D> v;
+  for (int i = 0; i < D; ++i) v[i] = random.between(lo, hi);
+  return v;
+}
+
+template <int D>
+Rotation<D> random_rotation(Random& random) {
+  if constexpr (D == 2)
+    return {random.between(-4, 4)};
+  else
+    return turned(Rotation<3>{}, random_vec<3>(random, -2, 2));
+}
+
+// Every corner lies within the box, and each of the box's faces is touched by one: no box is
+// smaller.
+template <int D>
+void expect_tight_box() {
+  Random random(D);
+  for (int round = 0; round < 2000; ++round) {
+    const Vec<D> half = random_vec<D>(random, 0, 3), position = random_vec<D>(random, -5, 5);
+    const Rotation<D> turn = random_rotation<D>(random);
+    const Box<D> box = bounding_box<D>(OrientedBox<D>{half}, position, turn);
+    Vec<D> most(0.0);  // of |R| * half
+    Box<D> corners{position, position};
+    for (unsigned signs = 0; signs < (1u << D); ++signs) {
+      Vec<D> corner = half;
+      for (int i = 0; i < D; ++i)
+        if ((signs >> i & 1u) == 0) corner[i] = -corner[i];
+      corner = position + matrix(turn) * corner;
+      corners = united(corners, Box<D>{corner, corner});
+    }
+    for (int i = 0; i < D; ++i) {
+      for (int k = 0; k < D; ++k) most[i] += std::abs(matrix(turn)[k][i]) * half[k];
+      ASSERT_NEAR(box.hi[i] - position[i], most[i], 1e-14) << "half sizes are not |R| * half";
+      ASSERT_NEAR(box.lo[i], corners.lo[i], 1e-14) << "no corner touches the lower face " << i;
+      ASSERT_NEAR(box.hi[i], corners.hi[i], 1e-14) << "no corner touches the upper face " << i;
+    }
+  }
+}
+
+TEST(Shape, ATurnedBoxHasTheSmallestBoxAroundItsCorners) {
+  expect_tight_box<2>();
+  expect_tight_box<3>();
+}
+
+TEST(Shape, AnAxisBoxDoesNotTurn) {
+  EXPECT_EQ((bounding_box<2>(AxisBox<2>{{1, 2}}, {3, 4}, {0.7})),
+            (bounding_box<2>(AxisBox<2>{{1, 2}}, {3, 4})));
+}
+
+// The farthest point of a capsule along an axis is that of one of its end balls.
+template <int D>
+void expect_box_of_end_balls() {
+  Random random(10 + D);
+  for (int round = 0; round < 2000; ++round) {
+    const Capsule capsule{random.between(0, 2), random.between(0, 3)};
+    const Rotation<D> turn = random_rotation<D>(random);
+    const Vec<D> position = random_vec<D>(random, -5, 5);
+    const Vec<D> end = matrix(turn)[1] * capsule.half_length;
+    const Box<D> expected = united(Box<D>::around(position + end, Vec<D>(capsule.radius)),
+                                   Box<D>::around(position - end, Vec<D>(capsule.radius)));
+    const Box<D> found = bounding_box<D>(capsule, position, turn);
+    for (int i = 0; i < D; ++i) {
+      ASSERT_NEAR(found.lo[i], expected.lo[i], 1e-14);
+      ASSERT_NEAR(found.hi[i], expected.hi[i], 1e-14);
+    }
+  }
+}
+
+TEST(Shape, ACapsuleHasTheBoxOfItsEnds) {
+  expect_box_of_end_balls<2>();
+  expect_box_of_end_balls<3>();
+}
+
+TEST(Shape, AHalfSpaceEndsOnlyAlongAnAxis) {
+  const Box<2> floor = bounding_box<2>(HalfSpace<2>{{0, 1}}, {3, 4});
+  EXPECT_EQ(floor.hi.y, 4);
+  EXPECT_EQ(floor.lo.y, -kEndless);
+  EXPECT_EQ(floor.hi.x, kEndless);
+  EXPECT_EQ(bounding_box<2>(HalfSpace<2>{{0.6, 0.8}}, {3, 4}),
+            Box<2>::around(Vec<2>(0.0), Vec<2>(kEndless)));
+}
+
+TEST(Direction, HasUnitLengthAtEveryScale) {
+  const Vec<3> up(0, 1, 0);
+  for (const double scale : {5e-324, 1e-300, 1e-160, 1e-20, 1.0, 1e20, 1e160, 1e307}) {
+    const Direction<3> found = direction_of(Vec<3>(0, -scale, 0), up);
+    EXPECT_EQ(found.unit, -up) << scale;
+    EXPECT_EQ(found.length, scale);
+  }
+  EXPECT_EQ(direction_of(Vec<3>(0.0), up).unit, up);
+  EXPECT_EQ(direction_of(Vec<3>(0.0), up).length, 0);
+  EXPECT_DOUBLE_EQ(direction_of(Vec<2>(3e-200, 4e-200), Vec<2>(0, 1)).length, 5e-200);
+}
+
+// No pair of points of the segments is closer, on a fine grid around the ones found and all along.
+template <int D>
+void expect_closest(const Segment<D>& a, const Segment<D>& b) {
+  const PointPair<D> found = closest_points(a, b);
+  const double distance = glm::length(found.b - found.a);
+  const double size = glm::length(a.b - a.a) + glm::length(b.b - b.a) + glm::length(b.a - a.a);
+  ASSERT_LE(glm::length(found.a - closest_point(a, found.a)), 1e-14 * size) << "not on the segment";
+  ASSERT_LE(glm::length(found.b - closest_point(b, found.b)), 1e-14 * size) << "not on the segment";
+  for (int i = 0; i <= 200; ++i) {
+    const Vec<D> p = a.at(i / 200.0), q = b.at(i / 200.0);
+    ASSERT_LE(distance, glm::length(closest_point(b, p) - p) + 1e-13 * size);
+    ASSERT_LE(distance, glm::length(closest_point(a, q) - q) + 1e-13 * size);
+  }
+}
+
+template <int D>
+void expect_closest_of_random_segments() {
+  Random random(20 + D);
+  for (int round = 0; round < 2000; ++round) {
+    Segment<D> a{random_vec<D>(random, -3, 3), random_vec<D>(random, -3, 3)};
+    Segment<D> b{random_vec<D>(random, -3, 3), random_vec<D>(random, -3, 3)};
+    const double tilt = std::ldexp(1, -static_cast<int>(random.whole(10, 60)));
+    if (round % 4 == 1) b.b = b.a;  // a point
+    if (round % 4 == 2) b.b = b.a + (a.b - a.a) * 0.7 + random_vec<D>(random, -tilt, tilt);
+    if (round % 8 == 3) a.b = a.a;
+    expect_closest<D>(a, b);
+  }
+}
+
+TEST(Segment, ClosestPointsAreCloserThanAllOthers) {
+  expect_closest_of_random_segments<2>();
+  expect_closest_of_random_segments<3>();
+}
+
+}  // namespace
+}  // namespace lantern
