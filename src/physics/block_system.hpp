@@ -26,7 +26,7 @@ class BlockSystem {
 
   // `count` groups of B unknowns, of which the linked ones (different, in any order, perhaps named
   // more than once) share entries.
-  BlockSystem(std::size_t count, const std::vector<Link>& links) : diagonal_(count), least_(count) {
+  BlockSystem(std::size_t count, const std::vector<Link>& links) : diagonal_(count) {
     plan(count, links);
   }
 
@@ -35,9 +35,6 @@ class BlockSystem {
     for (auto& column : columns_)
       for (auto& [row, block] : column) block = Block{};
   }
-
-  // `least`: the matrix is known to be no smaller than this times the identity, in these unknowns.
-  void set_least(std::size_t i, double least) { least_[place_[i]] = least; }
 
   void add(std::size_t i, int row, int column, double value) {
     diagonal_[place_[i]][row * B + column] += value;
@@ -53,11 +50,10 @@ class BlockSystem {
     entry(low, high)[row * B + column] += value;
   }
 
-  // Replaces the matrix by its factor. False if it is not positive definite; with `mend`, pivots
-  // that rounding has brought below the least possible are raised to it instead.
-  bool factor(bool mend) {
+  // Replaces the matrix by its factor. False if it is not positive definite.
+  bool factor() {
     for (std::size_t j = 0; j < columns_.size(); ++j) {
-      if (!factor_diagonal(diagonal_[j], mend ? least_[j] : 0)) return false;
+      if (!factor_diagonal(diagonal_[j])) return false;
       auto& column = columns_[j];
       for (auto& [row, block] : column) divide(block, diagonal_[j]);
       for (std::size_t r = 0; r < column.size(); ++r) {
@@ -134,16 +130,13 @@ class BlockSystem {
         ->second;
   }
 
-  // Cholesky's factor in the lower half.
-  static bool factor_diagonal(Block& m, double least) {
+  // Cholesky's factor in the lower half; false if there is none.
+  static bool factor_diagonal(Block& m) {
     for (int i = 0; i < B; ++i) {
       for (int j = 0; j <= i; ++j) {
         double sum = m[i * B + j];
         for (int k = 0; k < j; ++k) sum -= m[i * B + k] * m[j * B + k];
-        if (i == j && !(sum > least)) {
-          if (least == 0) return false;
-          sum = least;
-        }
+        if (i == j && !(sum > 0)) return false;
         m[i * B + j] = i == j ? std::sqrt(sum) : sum / m[j * B + j];
       }
     }
@@ -170,7 +163,6 @@ class BlockSystem {
 
   std::vector<std::size_t> place_;  // of a group in the order of elimination; all below is by place
   std::vector<Block> diagonal_;
-  std::vector<double> least_;
   std::vector<std::vector<std::pair<std::size_t, Block>>> columns_;  // below the diagonal, by row
 };
 

@@ -1,7 +1,11 @@
-// Newton's method on the momentum that is missing. Where the true derivative is not positive
-// definite the projected one is taken, whose direction always leads down in energy; a search along
-// the direction stops where the missing momentum has no part left along it. So the method finds its
-// way from any start, and near the solution doubles the number of right digits each time.
+// Newton's method on the momentum that is missing. Near the solution it doubles the number of right
+// digits each time. Far from it two things may go wrong, and each has a cure:
+//
+// - The way that the equations show may lead up instead of down in energy, because compressed
+//   springs want to buckle. Then that part of the equations is left out.
+// - The way may be too long. A search along it stops where nothing is missing along it. But in a
+//   curved valley (a stiff spring that swings) each such step is tiny, while whole steps climb the
+//   wall, fall back and are there. So whole steps are tried first, and undone if they do not help.
 #include "physics/implicit_stage.hpp"
 
 #include <cmath>
@@ -16,6 +20,7 @@ namespace {
 
 constexpr double kEpsilon = 0x1p-52;
 constexpr int kMostSteps = 200;
+constexpr int kWholeSteps = 10;  // tried before as many searches
 
 double size_of(double spin) { return std::abs(spin); }
 template <int D>
@@ -32,21 +37,34 @@ class Newton {
 
   // False if it does not converge.
   bool run(SmoothState<D>& state) {
-    look(state);
+    if (!guess(state)) return false;
+    SmoothState<D> before;
+    double lacked = 0;
     for (int step = 0; step < kMostSteps; ++step) {
       if (done(state, step)) return true;
-      if (!matrix_.factor(state, time_, Stiffness::exact))
-        matrix_.factor(state, time_, Stiffness::projected);
+      const int phase = step % (2 * kWholeSteps);
+      if (phase == 0) {
+        before = state;
+        lacked = lack();
+      } else if (phase == kWholeSteps && !(lack() < 0.01 * lacked)) {
+        state = before;
+        look(state);
+      }
+      if (!factor(state, time_ * time_)) return false;
       std::vector<Row> direction = missing_;
       matrix_.solve(direction);
-      if (!(along(direction) > 0)) return false;  // not a number
-      search(state, direction);
+      if (phase < kWholeSteps) {
+        go(state, SmoothState<D>(state), direction, 1);
+        look(state);
+      } else {
+        search(state, direction);
+      }
     }
     return false;
   }
 
-  // One solution with places as they are.
-  void kick(SmoothState<D>& state) {
+  // One solution with places as they are. False if there is none.
+  bool kick(SmoothState<D>& state) {
     pull_ = system_.evaluate(state);
     std::vector<Row> step(system_.movers().size());
     for (std::size_t n = 0; n < step.size(); ++n) {
@@ -54,10 +72,10 @@ class Newton {
       put(step[n], time_ / system_.bodies()[i].inverse_mass * pull_.acceleration[i],
           time_ * pull_.torque[i]);
     }
-    matrix_.factor(state, time_, Stiffness::none);
+    if (!factor(state, 0)) return false;
     matrix_.solve(step);
-    const SmoothState<D> before = state;
-    go(state, before, step, 1);
+    go(state, SmoothState<D>(state), step, 1);
+    return true;
   }
 
  private:
@@ -68,10 +86,36 @@ class Newton {
       for (int c = 0; c < 3; ++c) row[D + c] = angular[c];
   }
 
+  // False if numbers fail.
+  bool factor(const SmoothState<D>& state, double time_squared) {
+    if (matrix_.factor(state, time_squared, time_, true, 1)) return true;
+    for (double heavier = 1; heavier < 1e18; heavier *= 8)
+      if (matrix_.factor(state, time_squared, time_, false, heavier)) return true;
+    return false;
+  }
+
+  // Where forces that are linear about the start lead: the solution itself if they are linear. A
+  // free flight would be no good guess, since a stiff spring never lets the body fly so far; and
+  // from the wrong side of an anchor Newton's method finds a solution of no meaning.
+  bool guess(SmoothState<D>& state) {
+    pull_ = system_.evaluate(state);
+    find_missing(state);
+    if (!factor(state, time_ * time_)) return false;
+    matrix_.subtract_stretching(state, time_, missing_);
+    matrix_.solve(missing_);
+    go(state, SmoothState<D>(state), missing_, 1);
+    look(state);
+    return true;
+  }
+
   // Evaluates the forces where the state's velocities lead, and what momentum is missing.
   void look(SmoothState<D>& state) {
     system_.fly(state, state, time_);
     pull_ = system_.evaluate(state);
+    find_missing(state);
+  }
+
+  void find_missing(const SmoothState<D>& state) {
     missing_.assign(system_.movers().size(), Row{});
     for (std::size_t n = 0; n < missing_.size(); ++n) {
       const std::size_t i = system_.movers()[n];
@@ -106,6 +150,7 @@ class Newton {
       for (int c = 0; c < B; ++c) sum += direction[n][c] * missing_[n][c];
     return sum;
   }
+  double lack() const { return std::sqrt(along(missing_)); }
 
   // Goes along the direction: all the way if that is no worse, else to about where nothing is
   // missing along it, which is bracketed since it was too near at first and too far at last.
@@ -130,16 +175,36 @@ class Newton {
   // What is missing is no more than rounding makes, or, after many steps, little.
   bool done(const SmoothState<D>& state, int steps) const {
     const double allowed = steps < 20 ? 8 * kEpsilon : steps < 60 ? 1e-13 : 1e-10;
-    std::vector<double> scale(system_.bodies().size(), 0.0), turning = scale;
-    for (const std::size_t i : system_.movers()) {
-      const Vec<D> pulled = time_ * pull_.acceleration[i];
-      scale[i] =
-          (size_of<D>(pulled) + size_of<D>(state.kick[i])) / system_.bodies()[i].inverse_mass;
-      turning[i] = time_ * size_of(pull_.torque[i]) + size_of(state.twist[i]);
+    const auto [linear, angular] = sizes(state);
+    for (std::size_t n = 0; n < missing_.size(); ++n) {
+      const std::size_t i = system_.movers()[n];
+      for (int c = 0; c < B; ++c)
+        if (!(std::abs(missing_[n][c]) <= allowed * (c < D ? linear[i] : angular[i]))) return false;
     }
+    return true;
+  }
+
+  // Of the momenta and angular momenta that cancel when nothing is missing, a sum of sizes a body.
+  std::pair<std::vector<double>, std::vector<double>> sizes(const SmoothState<D>& state) const {
+    const std::span<const Body<D>> bodies = system_.bodies();
+    const Forces<D>& forces = system_.forces();
+    std::vector<double> linear(bodies.size(), 0.0), angular = linear;
+    for (const std::size_t i : system_.movers()) {
+      const Body<D>& body = bodies[i];
+      linear[i] =
+          (size_of<D>(state.kick[i]) + time_ * size_of<D>(forces.gravity)) / body.inverse_mass +
+          time_ * body.linear_drag * size_of<D>(system_.velocity(state, i));
+      if (system_.turns(i))
+        angular[i] = size_of(state.twist[i]) + time_ * size_of(pull_.torque[i]) +
+                     time_ * body.angular_drag * size_of(system_.angular_velocity(state, i));
+    }
+    const auto add = [&](std::size_t i, double arm, double momentum) {
+      linear[i] += momentum;
+      angular[i] += arm * momentum;
+    };
     for (std::size_t k = 0; k < system_.ends().size(); ++k) {
       const auto [a, b] = system_.ends()[k];
-      const Spring<D>& spring = system_.forces().springs[k];
+      const Spring<D>& spring = forces.springs[k];
       const Stretch<D> s = system_.stretch(state, k);
       const double arm_a = size_of<D>(s.arm_a), arm_b = size_of<D>(s.arm_b);
       const double lengths = s.length + spring.rest_length + arm_a + arm_b +
@@ -147,17 +212,14 @@ class Newton {
       const double speeds =
           size_of<D>(system_.velocity(state, a)) + size_of<D>(system_.velocity(state, b));
       const double momentum = time_ * (spring.stiffness * lengths + spring.damping * speeds);
-      scale[a] += momentum;
-      scale[b] += momentum;
-      turning[a] += momentum * arm_a;
-      turning[b] += momentum * arm_b;
+      add(a, arm_a, momentum);
+      add(b, arm_b, momentum);
     }
-    for (std::size_t n = 0; n < missing_.size(); ++n) {
-      const std::size_t i = system_.movers()[n];
-      for (int c = 0; c < B; ++c)
-        if (!(std::abs(missing_[n][c]) <= allowed * (c < D ? scale[i] : turning[i]))) return false;
+    for (std::size_t k = 0; k < forces.pushes.size(); ++k) {
+      const Push<D>& push = forces.pushes[k];
+      add(system_.pushed()[k], size_of<D>(push.at), time_ * size_of<D>(push.force));
     }
-    return true;
+    return {linear, angular};
   }
 
   SmoothSystem<D>& system_;
@@ -184,11 +246,9 @@ SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_
 
 template <int D>
 void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time) {
-  if (system.any_turns()) {
-    Newton<D, kTurning<D>>(system, time).kick(state);
-  } else {
-    Newton<D, D>(system, time).kick(state);
-  }
+  const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time).kick(state)
+                                        : Newton<D, D>(system, time).kick(state);
+  if (!found) throw Refused(fmt::format("damping has no solution over {} s", time));
 }
 
 template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double);

@@ -15,7 +15,8 @@ SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_
                               double h);
 
 // Kicks `state`, whose places stay, for `time` by forces that use the velocities after the kick:
-// v := v + time a(x, v_new). One evaluation and one linear solution.
+// v := v + time a(x, v_new). One evaluation and one linear solution. Throws Refused if numbers fail
+// (damping beyond 1e16 times mass / time).
 template <int D>
 void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time);
 

@@ -7,19 +7,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "physics/block_system.hpp"
 #include "physics/smooth_system.hpp"
 
 namespace lantern {
-
-enum class Stiffness {
-  none,       // K = 0: only velocities are unknown, places are known
-  exact,      // K is the true derivative, perhaps not positive: a compressed spring wants to buckle
-  projected,  // what is negative is left out (Teran and others, "Robust quasistatic finite elements
-              // and flesh simulation", 2005), so that A is positive definite
-};
 
 // Unknowns are changes of velocity, one group a mover; if B > D, also of angular velocity.
 template <int D, int B>
@@ -30,17 +25,43 @@ class MotionMatrix {
   explicit MotionMatrix(const SmoothSystem<D>& system)
       : system_(system), number_(numbers(system)), blocks_(system.movers().size(), links()) {}
 
-  // At a state that is `time` after the start. False if not positive definite, which can only be
-  // with exact stiffness.
-  bool factor(const SmoothState<D>& state, double time, Stiffness stiffness) {
+  // Of a state that is `time` after the start; `time_squared` may be 0, which leaves K out. False
+  // if the matrix is not positive definite: springs that are compressed want to buckle. Without
+  // `buckling` K leaves that out (Teran and others, "Robust quasistatic finite elements and flesh
+  // simulation", 2005); what fails then is rounding, and bodies taken as `heavier` mend it.
+  bool factor(const SmoothState<D>& state, double time_squared, double time, bool buckling,
+              double heavier) {
+    buckling_ = buckling;
     blocks_.clear();
-    for (std::size_t n = 0; n < system_.movers().size(); ++n) add_body(state, time, n);
-    for (std::size_t k = 0; k < system_.ends().size(); ++k) add_spring(state, time, stiffness, k);
-    return blocks_.factor(stiffness != Stiffness::exact);
+    for (std::size_t n = 0; n < system_.movers().size(); ++n) add_body(state, time, n, heavier);
+    for (std::size_t k = 0; k < system_.ends().size(); ++k)
+      add_spring(state, time_squared, time, k);
+    return blocks_.factor();
   }
 
   // Momenta to velocities. After `factor`.
   void solve(std::vector<Row>& rows) const { blocks_.solve(rows); }
+
+  // rows -= time^2 K v: the momenta that springs give for the way that v leads in the time. K is
+  // that of the last `factor`.
+  void subtract_stretching(const SmoothState<D>& state, double time, std::vector<Row>& rows) const {
+    for (std::size_t k = 0; k < system_.ends().size(); ++k) {
+      const auto [a, b] = system_.ends()[k];
+      const Stretch<D> s = system_.stretch(state, k);
+      const Sides sides = sides_of(s, k, time * time, 0);
+      const Vec<D> motion = (system_.velocity(state, b) - system_.velocity(state, a)) +
+                            cross(system_.angular_velocity(state, b), s.arm_b) -
+                            cross(system_.angular_velocity(state, a), s.arm_a);
+      const Vec<D> momentum = sides.across * motion + (sides.along - sides.across) *
+                                                          glm::dot(motion, s.direction) *
+                                                          s.direction;
+      const auto columns_a = columns(a, s.arm_a), columns_b = columns(b, s.arm_b);
+      for (int c = 0; c < B; ++c) {
+        if (system_.moves(a)) rows[number_[a]][c] += glm::dot(columns_a[c], momentum);
+        if (system_.moves(b)) rows[number_[b]][c] -= glm::dot(columns_b[c], momentum);
+      }
+    }
+  }
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -58,48 +79,51 @@ class MotionMatrix {
     return all;
   }
 
-  void add_body(const SmoothState<D>& state, double time, std::size_t n) {
+  void add_body(const SmoothState<D>& state, double time, std::size_t n, double heavier) {
     const std::size_t i = system_.movers()[n];
     const Body<D>& body = system_.bodies()[i];
     const double mass = 1 / body.inverse_mass;
-    for (int r = 0; r < D; ++r) blocks_.add(n, r, r, mass + time * body.linear_drag);
-    double least = mass;
+    for (int r = 0; r < D; ++r) blocks_.add(n, r, r, heavier * mass + time * body.linear_drag);
     if constexpr (B > D) {
       if (!system_.turns(i)) {
         for (int r = D; r < B; ++r) blocks_.add(n, r, r, mass);  // unknowns that will be zero
       } else {
         for (int c = D; c < B; ++c) {
           const Spin<D> column = system_.inertia_times(state, i, unit_spin(c));
-          for (int r = D; r < B; ++r) blocks_.add(n, r, c, component(column, r));
+          for (int r = D; r < B; ++r) blocks_.add(n, r, c, heavier * component(column, r));
           blocks_.add(n, c, c, time * body.angular_drag);
-        }
-        if constexpr (D == 2) {
-          least = std::min(least, 1 / body.inverse_inertia);
-        } else {
-          for (int k = 0; k < 3; ++k) least = std::min(least, 1 / body.inverse_inertia[k]);
         }
       }
     }
-    blocks_.set_least(n, least);
   }
 
-  // A spring pushes back along its line by k and c. Sideways a tense spring pulls straight: by
-  // tension / length, which is negative when compressed.
-  void add_spring(const SmoothState<D>& state, double time, Stiffness stiffness, std::size_t k) {
+  // What a spring gives for a motion of its ends along its line and across it. Along it pushes back
+  // by k and c; across, a tense spring pulls straight, by tension / length, which is negative when
+  // it is compressed.
+  struct Sides {
+    double along;
+    double across;
+  };
+  Sides sides_of(const Stretch<D>& s, std::size_t k, double time_squared, double time) const {
+    const Spring<D>& spring = system_.forces().springs[k];
+    const double along = time_squared * spring.stiffness;
+    if (!(s.length > 0)) {  // no direction: the spring pulls only if it has no rest length
+      const double any = spring.rest_length > 0 ? 0 : along;
+      return {any, any};
+    }
+    const double across = time_squared * s.tension / s.length;
+    return {along + time * spring.damping, buckling_ ? across : std::max(across, 0.0)};
+  }
+
+  void add_spring(const SmoothState<D>& state, double time_squared, double time, std::size_t k) {
     const auto [a, b] = system_.ends()[k];
     if (a == b) return;
-    const Spring<D>& spring = system_.forces().springs[k];
     const Stretch<D> s = system_.stretch(state, k);
-    const double squared = stiffness == Stiffness::none ? 0 : time * time;
-    double along = squared * spring.stiffness + time * spring.damping;
-    double sideways = s.length > 0 ? squared * s.tension / s.length : 0;
-    if (!(s.length > 0)) along = sideways = spring.rest_length > 0 ? 0 : squared * spring.stiffness;
-    if (stiffness != Stiffness::exact) sideways = std::max(sideways, 0.0);
-
+    const Sides sides = sides_of(s, k, time_squared, time);
     const auto columns_a = columns(a, s.arm_a), columns_b = columns(b, s.arm_b);
     const auto product = [&](const Vec<D>& u, const Vec<D>& v) {
       const double un = glm::dot(u, s.direction), vn = glm::dot(v, s.direction);
-      return sideways * glm::dot(u, v) + (along - sideways) * un * vn;
+      return sides.across * glm::dot(u, v) + (sides.along - sides.across) * un * vn;
     };
     const bool linked = system_.moves(a) && system_.moves(b);
     for (int r = 0; r < B; ++r) {
@@ -109,9 +133,9 @@ class MotionMatrix {
         if (linked) blocks_.add(number_[b], number_[a], r, c, -product(columns_b[r], columns_a[c]));
       }
     }
-    const Vec<D> force = squared * s.tension * s.direction;
-    add_lever(a, s.arm_a, force, stiffness);
-    add_lever(b, s.arm_b, -force, stiffness);
+    const Vec<D> force = time_squared * s.tension * s.direction;
+    add_lever(a, s.arm_a, force);
+    add_lever(b, s.arm_b, -force);
   }
 
   // How the end of an arm moves with each unknown.
@@ -127,13 +151,13 @@ class MotionMatrix {
 
   // A force turns a body back that its arm has turned away from: the symmetric part of
   // (arm . force) I - arm force^T, which in 2D is all of it.
-  void add_lever(std::size_t i, const Vec<D>& arm, const Vec<D>& force, Stiffness stiffness) {
+  void add_lever(std::size_t i, const Vec<D>& arm, const Vec<D>& force) {
     if constexpr (B > D) {
       if (!system_.turns(i)) return;
       const double back = glm::dot(arm, force);
       if constexpr (D == 2) {
-        blocks_.add(number_[i], D, D, stiffness == Stiffness::exact ? back : std::max(back, 0.0));
-      } else if (stiffness == Stiffness::exact) {
+        blocks_.add(number_[i], D, D, buckling_ ? back : std::max(back, 0.0));
+      } else if (buckling_) {
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c)
             blocks_.add(number_[i], D + r, D + c,
@@ -162,6 +186,7 @@ class MotionMatrix {
   const SmoothSystem<D>& system_;
   std::vector<std::size_t> number_;  // of a body among the movers
   BlockSystem<B> blocks_;
+  bool buckling_ = true;
 };
 
 }  // namespace lantern

@@ -55,7 +55,8 @@ class SmoothSystem {
 
   std::span<const Body<D>> bodies() const { return bodies_; }
   const Forces<D>& forces() const { return forces_; }
-  const std::vector<Ends>& ends() const { return ends_; }  // one a spring
+  const std::vector<Ends>& ends() const { return ends_; }             // one a spring
+  const std::vector<std::size_t>& pushed() const { return pushed_; }  // bodies, one a push
 
   SmoothState<D> start() const;
   // Velocities are those of the start and `pull` for `time`.

@@ -1,0 +1,199 @@
+#include "physics/free_rotation.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "physics/energy.hpp"
+
+namespace lantern {
+namespace {
+
+Body<3> spinning(const Vec<3>& inertia, const Vec<3>& spin) {
+  Body<3> body;
+  body.shape = Sphere{1};
+  body.inverse_mass = 1;
+  body.inverse_inertia = 1.0 / inertia;
+  body.angular_momentum = inertia * spin;  // the body's axes are the world's at first
+  return body;
+}
+
+// A box of 1 x 4 x 9 and mass 12, thrown almost about its middle axis.
+const Vec<3> kBoxInertia{16 + 81, 1 + 81, 1 + 16};
+Body<3> thrown_box() { return spinning(kBoxInertia, {0.1, 5, 0.1}); }
+
+double rotational(const Body<3>& body) {
+  return glm::dot(body.angular_momentum, angular_velocity(body)) / 2;
+}
+
+struct Drift {
+  double energy = 0;
+  double momentum = 0;
+};
+
+// Largest relative change over 10 s.
+Drift drift_of(RotationMethod method, double h, int steps) {
+  Body<3> body = thrown_box();
+  const double energy = rotational(body), momentum = glm::length(body.angular_momentum);
+  const Vec<3> axis = body.angular_momentum;
+  Drift worst;
+  for (int i = 0; i < steps; ++i) {
+    turn_freely(body, h, method);
+    worst.energy = std::max(worst.energy, std::abs(rotational(body) / energy - 1));
+    worst.momentum = std::max(worst.momentum, glm::length(body.angular_momentum - axis) / momentum);
+  }
+  return worst;
+}
+
+// The top in long double by the classical Runge-Kutta method: orientation and Euler's equation.
+using Long = long double;
+struct Top {
+  std::array<Long, 4> q{1, 0, 0, 0};
+  std::array<Long, 3> w{};
+};
+Top rate(const Top& t, const std::array<Long, 3>& inertia) {
+  const auto [w, x, y, z] = t.q;
+  const auto [a, b, c] = t.w;
+  Top d;
+  d.q = {(-x * a - y * b - z * c) / 2, (w * a + y * c - z * b) / 2, (w * b + z * a - x * c) / 2,
+         (w * c + x * b - y * a) / 2};
+  d.w = {(inertia[1] - inertia[2]) * b * c / inertia[0],
+         (inertia[2] - inertia[0]) * c * a / inertia[1],
+         (inertia[0] - inertia[1]) * a * b / inertia[2]};
+  return d;
+}
+Top plus(Top t, const Top& d, Long h) {
+  for (int i = 0; i < 4; ++i) t.q[i] += h * d.q[i];
+  for (int i = 0; i < 3; ++i) t.w[i] += h * d.w[i];
+  return t;
+}
+glm::dquat reference(const Vec<3>& inertia, const Vec<3>& spin, Long time, int steps) {
+  const std::array<Long, 3> in{inertia.x, inertia.y, inertia.z};
+  Top t;
+  t.w = {spin.x, spin.y, spin.z};
+  const Long h = time / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Top a = rate(t, in), b = rate(plus(t, a, h / 2), in), c = rate(plus(t, b, h / 2), in),
+              d = rate(plus(t, c, h), in);
+    t = plus(plus(plus(plus(t, a, h / 6), b, h / 3), c, h / 3), d, h / 6);
+  }
+  return glm::normalize(glm::dquat(static_cast<double>(t.q[0]), static_cast<double>(t.q[1]),
+                                   static_cast<double>(t.q[2]), static_cast<double>(t.q[3])));
+}
+
+// The angle, in radians, between two orientations.
+double angle_between(const glm::dquat& a, const glm::dquat& b) {
+  const glm::dquat d = glm::conjugate(a) * b;
+  return 2 * std::asin(std::min(1.0, glm::length(Vec<3>(d.x, d.y, d.z))));
+}
+
+TEST(FreeRotation, TheThrownBoxKeepsEnergyAndAngularMomentum) {
+  const Drift second = drift_of(RotationMethod::splitting_2, 1e-3, 10000);
+  EXPECT_LE(second.energy, 4e-7);
+  EXPECT_LE(second.momentum, 1e-12);
+  const Drift fourth = drift_of(RotationMethod::splitting_4, 1e-3, 10000);
+  EXPECT_LE(fourth.energy, 1e-12);
+  EXPECT_LE(fourth.momentum, 1e-12);
+}
+
+TEST(FreeRotation, TheNaiveMethodIsAWarning) {
+  const Drift naive = drift_of(RotationMethod::explicit_gyroscopic, 1e-3, 10000);
+  EXPECT_GT(naive.energy, 1e-4);
+  EXPECT_GT(naive.momentum, 1e-4);
+}
+
+TEST(FreeRotation, TheErrorFallsByTheOrderOfTheMethod) {
+  const Vec<3> spin{3, 4, 5};
+  const glm::dquat exact = reference(kBoxInertia, spin, 5, 100000);
+  const auto error = [&](RotationMethod method, int steps) {
+    Body<3> body = spinning(kBoxInertia, spin);
+    for (int i = 0; i < steps; ++i) turn_freely(body, 5.0 / steps, method);
+    return angle_between(exact, body.orientation.q);
+  };
+  const auto expect_order = [&](RotationMethod method, double order, int first, const char* name) {
+    for (int halving = 0; halving < 4; ++halving)
+      EXPECT_NEAR(
+          std::log2(error(method, first << halving) / error(method, first << (halving + 1))), order,
+          0.1)
+          << name << " halving " << halving;
+  };
+  expect_order(RotationMethod::splitting_2, 2, 200, "splitting_2");
+  expect_order(RotationMethod::splitting_4, 4, 70, "splitting_4");
+}
+
+// Two equal inertias: the axis of the top runs round L at |L| / I, at any step.
+TEST(FreeRotation, ASymmetricTopIsExactAtAnyStep) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double other : {0.3, 5.0}) {
+      Vec<3> inertia(2.0), spin{0.7, -1.1, 0.4};
+      inertia[axis] = other;
+      Body<3> body = spinning(inertia, spin);
+      for (int i = 0; i < 7; ++i) turn_freely(body, 0.5, RotationMethod::splitting_2);
+      EXPECT_LT(angle_between(reference(inertia, spin, 3.5L, 20000), body.orientation.q), 1e-13)
+          << "axis " << axis << " inertia " << other;
+    }
+  }
+}
+
+TEST(FreeRotation, ASphereTurnsAboutItsAxisExactly) {
+  const Vec<3> spin{0.7, -1.1, 0.4};
+  Body<3> body = spinning(Vec<3>(2.5), spin);
+  body.orientation = freely_turned(body, 3.0);
+  const glm::dquat exact = turned(Rotation<3>{}, spin * 3.0).q;
+  EXPECT_LT(angle_between(exact, body.orientation.q), 1e-15);
+}
+
+TEST(FreeRotation, ADiscTurnsByItsSpin) {
+  Body<2> body;
+  body.shape = Sphere{1};
+  body.inverse_inertia = 0.25;
+  body.angular_momentum = 3;
+  EXPECT_EQ(freely_turned(body, 2.0).angle, 1.5);
+  turn_freely(body, 2.0, RotationMethod::explicit_gyroscopic);
+  EXPECT_EQ(body.orientation.angle, 1.5);
+}
+
+TEST(FreeRotation, TurningBackLeadsBack) {
+  Random random(3);
+  for (int round = 0; round < 20; ++round) {
+    const auto any = [&](double lo, double hi) {
+      return Vec<3>{random.between(lo, hi), random.between(lo, hi), random.between(lo, hi)};
+    };
+    for (const auto method : {RotationMethod::splitting_2, RotationMethod::splitting_4}) {
+      Body<3> body = spinning(any(0.1, 3), any(-9, 9));
+      for (int i = 0; i < 100; ++i) turn_freely(body, 0.02, method);
+      for (int i = 0; i < 100; ++i) turn_freely(body, -0.02, method);
+      EXPECT_LT(angle_between(glm::dquat(1, 0, 0, 0), body.orientation.q), 1e-12);
+    }
+  }
+}
+
+// Almost a rod: no inertia about its axis to speak of.
+TEST(FreeRotation, ExtremeInertiaStaysBounded) {
+  Body<3> body = spinning({1, 1, 1e-4}, {0.3, 1, 20});
+  const double energy = rotational(body);
+  for (int i = 0; i < 10000; ++i) turn_freely(body, 1e-3, RotationMethod::splitting_2);
+  EXPECT_NEAR(rotational(body) / energy, 1, 1e-12);
+  EXPECT_NEAR(glm::length(body.orientation.q), 1, 1e-15);
+}
+
+TEST(FreeRotation, WhoTurnsAndWhoDoesNot) {
+  Body<3> body = thrown_box();
+  body.asleep = true;
+  EXPECT_EQ(freely_turned(body, 1.0).q, body.orientation.q) << "a sleeper turns";
+  body.asleep = false;
+  body.kind = BodyKind::static_body;
+  EXPECT_EQ(freely_turned(body, 1.0).q, body.orientation.q) << "a static body turns";
+  body.kind = BodyKind::kinematic_body;
+  body.kinematic_spin = {0, 0, 2};
+  EXPECT_LT(angle_between(freely_turned(body, 0.5).q, turned(Rotation<3>{}, {0, 0, 1}).q), 1e-15);
+  body.kind = BodyKind::dynamic_body;
+  body.inverse_inertia = Vec<3>(0.0);
+  turn_freely(body, 1.0, RotationMethod::explicit_gyroscopic);
+  EXPECT_EQ(body.orientation.q, glm::dquat(1, 0, 0, 0)) << "infinite inertia turns";
+}
+
+}  // namespace
+}  // namespace lantern
