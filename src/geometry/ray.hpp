@@ -55,7 +55,8 @@ std::optional<RaySpan> span_in(const Ray<D>& ray, const Box<D>& box) {
     span.from = std::max(span.from, d > 0 ? low : high);
     span.to = std::min(span.to, d > 0 ? high : low);
   }
-  if (span.from > span.to) return std::nullopt;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (span.from > span.to || span.from == kNever) return std::nullopt;
   return span;
 }
 

@@ -281,6 +281,13 @@ void BroadPhase<D>::pair_static() {
       static_.structure);
 }
 
+template <int D>
+void BroadPhase<D>::refuse_pair(BodyId body) const {
+  throw Refused(
+      fmt::format("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
+                  body, config_.most_pairs));
+}
+
 // Counted into one row for each lower rank; rows are short, and in them copies stand side by side.
 template <int D>
 void BroadPhase<D>::sort_pairs() {

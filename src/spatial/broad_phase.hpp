@@ -42,6 +42,8 @@ struct BroadPhaseConfig {
   bool no_progress_stop = true;
   std::vector<BspPlane<D>> planes;  // of a BSP
   bool split_static = true;         // static bodies in a structure of their own
+  // Of overlaps met, each once for each leaf that both bodies share.
+  std::uint64_t most_pairs = std::uint64_t{1} << 26;
 };
 
 // What the broad phase knows of a body.
@@ -125,7 +127,9 @@ class BroadPhase {
   explicit BroadPhase(const Config& config);
 
   // Finds the pairs. Proxies may come in any order. Throws Refused, naming the body, for a box that
-  // is not valid and for two proxies of one id; nothing changes then.
+  // is not valid and for two proxies of one id; nothing changes then. Throws Refused, too, when
+  // more than `most_pairs` meet (coincident bodies have n(n-1)/2 pairs): there are no pairs then,
+  // and the next update begins as ever.
   void update(std::span<const Proxy<D>> proxies);
 
   // Of the last update.
@@ -199,8 +203,10 @@ class BroadPhase {
   void find_awake_nodes(const Tree& tree);
   void pair_bodies(std::span<const BodyId> bodies);
   void add_pair(std::uint32_t rank_a, std::uint32_t rank_b) {
+    if (found_.size() == config_.most_pairs) refuse_pair(sorted_[rank_a].id);
     found_.push_back(rank_a < rank_b ? RankPair{rank_a, rank_b} : RankPair{rank_b, rank_a});
   }
+  [[noreturn]] void refuse_pair(BodyId body) const;
   void sort_pairs();
   std::uint64_t structure_allocations() const;
   std::size_t own_places() const;

@@ -10,29 +10,17 @@
 //
 // Two boxes that share a point share a leaf: the point lies on one side, and both reach that side.
 //
-// The rule. A node that holds more than `capacity` bodies and lies above `max_depth` is split:
-//   1. Axes are tried in the order of the spread of the bodies' centres, the largest first (of
-//   equal
-//      ones, x before y before z).
-//   2. On an axis, the plane goes through the upper face nearest below or at the median of the
-//      centres, or the nearest above it: the one that leaves fewer bodies on its fuller side, then
-//      the one that cuts fewer bodies, then the lower one. It must leave something out on each side
-//      and cut at most half of the bodies.
-//   3. If no axis has such a plane, all upper faces of all axes are compared in the same way.
-//   4. If that fails, too, the node stays a leaf: either all its boxes share a point, so that no
-//      plane parts any pair (no progress), or every plane would copy more than it parts.
-//   5. Nothing more is split once the tree holds `most_entries` entries.
-// The rule asks for boxes only, so the tree does not depend on the order of the items.
+// A node that holds more than `capacity` bodies and lies above `max_depth` is split where
+// kd_cut.hpp says, unless there is no such plane; nothing more is split once the tree holds
+// `most_entries` entries. The rule asks for boxes only, so the tree does not depend on the order of
+// the items.
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,6 +28,7 @@
 
 #include "base/error.hpp"
 #include "spatial/ids.hpp"
+#include "spatial/kd_cut.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern {
@@ -133,9 +122,9 @@ class KdTree {
     c.leaves = (nodes_.size() + 1) / 2;
     c.depth = deepest_;
     c.entries = stored_.size();
-    c.box_tests = box_tests_;
+    c.box_tests = box_tests_ + cuts_.tests();
     c.splits = nodes_.size() / 2;
-    c.allocations = allocations_;
+    c.allocations = allocations_ + cuts_.allocations();
     c.nodes_reused = std::min(most_nodes_before_, nodes_.size());
     return c;
   }
@@ -149,6 +138,7 @@ class KdTree {
     std::uint32_t first = 0;     // of a leaf, in stored_
     std::uint32_t count = 0;
     bool is_leaf() const { return axis == kLeaf; }
+    KdCut cut() const { return {axis, plane}; }
   };
   static constexpr int kLeaf = -1;
 
@@ -166,21 +156,6 @@ class KdTree {
     std::vector<BodyId>& room;
   };
 
-  struct Cut {
-    int axis = 0;
-    double plane = 0;
-    std::size_t fuller = 0;  // bodies on the side that holds more
-    std::size_t both = 0;    // bodies on both sides
-
-    bool better_than(const Cut& other) const {
-      return std::tie(fuller, both, axis, plane) <
-             std::tie(other.fuller, other.both, other.axis, other.plane);
-    }
-  };
-
-  static bool behind(const Box<D>& box, int axis, double plane) { return box.lo[axis] <= plane; }
-  static bool in_front(const Box<D>& box, int axis, double plane) { return box.hi[axis] > plane; }
-
   // --- building ---
 
   // Makes the node from the items in work_ from `begin` on, and takes them away.
@@ -189,7 +164,8 @@ class KdTree {
     deepest_ = std::max<std::uint64_t>(deepest_, at.depth);
     const auto count = static_cast<std::uint32_t>(work_.size() - begin);
     if (count > config_.capacity) {
-      const auto cut = at.depth < config_.max_depth ? cut_of(begin) : std::nullopt;
+      const auto cut =
+          may_split(at) ? cuts_.best(items_, std::span(work_).subspan(begin)) : std::nullopt;
       if (cut) return split(at, begin, *cut, observer);
       const Event::Kind why =
           at.depth < config_.max_depth ? Event::Kind::no_progress : Event::Kind::depth_limit;
@@ -208,8 +184,12 @@ class KdTree {
     work_.resize(begin);
   }
 
+  bool may_split(const Spot& at) const {
+    return at.depth < config_.max_depth && entries_expected_ < config_.most_entries;
+  }
+
   template <class Observer>
-  void split(const Spot& at, std::size_t begin, const Cut& cut, Observer& observer) {
+  void split(const Spot& at, std::size_t begin, const KdCut& cut, Observer& observer) {
     const std::size_t end = work_.size();
     const BodyId last = items_[work_.back()].id;
     observer(Event{Event::Kind::split, at.node, last, static_cast<std::uint32_t>(end - begin),
@@ -226,8 +206,7 @@ class KdTree {
     for (const bool front : {false, true}) {
       for (std::size_t i = begin; i < end; ++i) {
         const Box<D>& box = items_[work_[i]].box;
-        if (front ? in_front(box, cut.axis, cut.plane) : behind(box, cut.axis, cut.plane))
-          append(work_, std::uint32_t{work_[i]});
+        if (front ? cut.in_front(box) : cut.behind(box)) append(work_, std::uint32_t{work_[i]});
       }
       box_tests_ += end - begin;
       Spot child{first_child + (front ? 1u : 0u), at.depth + 1, at.cell};
@@ -247,102 +226,6 @@ class KdTree {
     return part;
   }
 
-  std::span<const std::uint32_t> items_from(std::size_t begin) const {
-    return std::span(work_).subspan(begin);
-  }
-
-  // The rule above, from 1 on.
-  std::optional<Cut> cut_of(std::size_t begin) {
-    if (entries_expected_ >= config_.most_entries) return std::nullopt;
-    for (const int axis : axes_by_spread(begin)) {
-      const auto cut = cut_at_median(begin, axis);
-      if (cut) return cut;
-    }
-    std::optional<Cut> best;
-    for (int axis = 0; axis < D; ++axis) keep_better(best, best_cut(begin, axis));
-    return best;
-  }
-
-  static void keep_better(std::optional<Cut>& best, const std::optional<Cut>& cut) {
-    if (cut && (!best || cut->better_than(*best))) best = cut;
-  }
-
-  std::array<int, D> axes_by_spread(std::size_t begin) const {
-    std::array<double, D> spread{};
-    std::array<int, D> axes{};
-    for (int axis = 0; axis < D; ++axis) {
-      double least = center(work_[begin], axis), most = least;
-      for (const std::uint32_t i : items_from(begin)) {
-        least = std::min(least, center(i, axis));
-        most = std::max(most, center(i, axis));
-      }
-      spread[axis] = most - least;
-      axes[axis] = axis;
-    }
-    std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return spread[a] > spread[b]; });
-    return axes;
-  }
-
-  double center(std::uint32_t item, int axis) const {
-    return 0.5 * items_[item].box.lo[axis] + 0.5 * items_[item].box.hi[axis];
-  }
-
-  std::optional<Cut> cut_at_median(std::size_t begin, int axis) {
-    numbers_.clear();
-    for (const std::uint32_t i : items_from(begin)) append(numbers_, center(i, axis));
-    const auto middle = numbers_.begin() + static_cast<std::ptrdiff_t>((numbers_.size() - 1) / 2);
-    std::nth_element(numbers_.begin(), middle, numbers_.end());
-    double below = -std::numeric_limits<double>::infinity(), above = -below;
-    for (const std::uint32_t i : items_from(begin)) {
-      const double face = items_[i].box.hi[axis];
-      if (face <= *middle) below = std::max(below, face);
-      if (face > *middle) above = std::min(above, face);
-    }
-    std::optional<Cut> best;
-    for (const double plane : {below, above})
-      if (std::isfinite(plane)) keep_better(best, tried(begin, axis, plane));
-    return best;
-  }
-
-  // Nothing if the plane parts no pair, or cuts more than half.
-  static std::optional<Cut> judged(std::size_t bodies, int axis, double plane, std::size_t in_back,
-                                   std::size_t in_front) {
-    const Cut cut{axis, plane, std::max(in_back, in_front), in_back + in_front - bodies};
-    if (cut.fuller == bodies || 2 * cut.both > bodies) return std::nullopt;
-    return cut;
-  }
-
-  std::optional<Cut> tried(std::size_t begin, int axis, double plane) {
-    std::size_t back = 0, front = 0;
-    for (const std::uint32_t i : items_from(begin)) {
-      back += behind(items_[i].box, axis, plane);
-      front += in_front(items_[i].box, axis, plane);
-    }
-    box_tests_ += work_.size() - begin;
-    return judged(work_.size() - begin, axis, plane, back, front);
-  }
-
-  // Of all upper faces, in one sweep: numbers_ holds the lower faces, faces_ the upper ones.
-  std::optional<Cut> best_cut(std::size_t begin, int axis) {
-    numbers_.clear();
-    faces_.clear();
-    for (const std::uint32_t i : items_from(begin)) {
-      append(numbers_, double{items_[i].box.lo[axis]});
-      append(faces_, double{items_[i].box.hi[axis]});
-    }
-    std::sort(numbers_.begin(), numbers_.end());
-    std::sort(faces_.begin(), faces_.end());
-    box_tests_ += faces_.size();
-    std::optional<Cut> best;
-    std::size_t back = 0;
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      if (i + 1 < faces_.size() && faces_[i + 1] == faces_[i]) continue;
-      while (back < numbers_.size() && numbers_[back] <= faces_[i]) ++back;
-      keep_better(best, judged(faces_.size(), axis, faces_[i], back, faces_.size() - i - 1));
-    }
-    return best;
-  }
-
   // --- memory ---
 
   void clear_lists() {
@@ -351,6 +234,7 @@ class KdTree {
     stored_.clear();
     work_.clear();
     deepest_ = box_tests_ = 0;
+    cuts_.forget_tests();
   }
 
   void make_node() { append(nodes_, Node{}); }
@@ -406,7 +290,7 @@ class KdTree {
     if (node.is_leaf()) return united(node.box, moved) == node.box;
     for (const bool front : {false, true}) {
       const auto reaches = [&](const Box<D>& box) {
-        return front ? in_front(box, node.axis, node.plane) : behind(box, node.axis, node.plane);
+        return front ? node.cut().in_front(box) : node.cut().behind(box);
       };
       if (reaches(stored) != reaches(moved)) return false;
       if (!reaches(stored)) continue;
@@ -419,11 +303,11 @@ class KdTree {
   }
 
   Config config_;
-  std::vector<Item<D>> items_;           // by id
-  std::vector<Node> nodes_;              // the root first, siblings side by side
-  std::vector<BodyId> stored_;           // of all leaves, each ascending
-  std::vector<std::uint32_t> work_;      // items of the nodes that are being made, the deepest last
-  std::vector<double> numbers_, faces_;  // while a cut is sought
+  std::vector<Item<D>> items_;       // by id
+  std::vector<Node> nodes_;          // the root first, siblings side by side
+  std::vector<BodyId> stored_;       // of all leaves, each ascending
+  std::vector<std::uint32_t> work_;  // items of the nodes that are being made, the deepest last
+  KdCuts<D> cuts_;
   std::size_t most_nodes_before_ = 0;
   std::uint64_t entries_expected_ = 0;
   std::uint64_t deepest_ = 0;

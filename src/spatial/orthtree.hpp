@@ -305,7 +305,10 @@ class Orthtree {
 
   // Adds the ids that the leaf holds, in order of storing.
   void add_ids(const Node& leaf, std::vector<BodyId>& ids) const {
-    for (const std::uint32_t item : contents_.values(leaf.contents)) ids.push_back(items_[item].id);
+    const auto values = contents_.values(leaf.contents);
+    const std::size_t before = ids.size();
+    ids.resize(before + values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) ids[before + i] = items_[values[i]].id;
   }
 
   template <class F>

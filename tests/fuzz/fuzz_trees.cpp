@@ -1,6 +1,7 @@
 // Run by tests/spatial/fuzz_test.cpp over seeded bytes. As a libFuzzer target:
 //   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -DLANTERN_LIBFUZZER -Isrc -Itests
-//     tests/fuzz/fuzz_trees.cpp src/atlas/atlas.cpp -lfmt -o fuzz_trees && ./fuzz_trees
+//     tests/fuzz/fuzz_trees.cpp src/atlas/atlas.cpp src/spatial/*.cpp src/geometry/*.cpp -lfmt -o
+//     fuzz_trees && ./fuzz_trees
 #include "fuzz/fuzz_trees.hpp"
 
 #include <algorithm>
@@ -11,11 +12,14 @@
 
 #include "atlas/atlas.hpp"
 #include "base/check.hpp"
+#include "spatial/broad_phase.hpp"
 #include "spatial/brute_force.hpp"
 #include "spatial/bsp.hpp"
 #include "spatial/orthtree.hpp"
+#include "spatial/overlap_query.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
+#include "spatial/raycast.hpp"
 
 namespace lantern {
 namespace {
@@ -178,6 +182,70 @@ void fuzz_bsp(Bytes& bytes) {
   check_structure(*bsp, items);
 }
 
+// All kinds of broad phase on the same bodies, updated several times: the same pairs. And a ray and
+// a ball find the same bodies in each.
+template <int D>
+void fuzz_broad_phase(Bytes& bytes) {
+  std::vector<BroadPhase<D>> phases;
+  BroadPhaseConfig<D> config;
+  config.bounds = {Vec<D>(0.0), Vec<D>(64.0)};
+  config.capacity = 1 + bytes.next() % 5u;
+  config.max_depth = bytes.next() % 12u;
+  config.eager_children = bytes.next() % 2 != 0;
+  config.no_progress_stop = bytes.next() % 2 != 0;
+  config.split_static = bytes.next() % 4 != 0;
+  Plane<D> plane;
+  plane.normal[0] = plane.normal[1] = 1;
+  plane.offset = bytes.number();
+  if (std::isfinite(plane.offset)) config.planes.push_back({plane});
+  for (const BroadPhaseKind kind : kBroadPhaseKinds)
+    if (config.kind = kind; D == 3 || kind != BroadPhaseKind::octree) phases.emplace_back(config);
+  std::vector<Proxy<D>> proxies;
+  for (int update = 0; update < 4; ++update) {
+    while (bytes.next() % 8 != 0 && proxies.size() < kMostBodies) {
+      const std::uint8_t flags = bytes.next();
+      const Proxy<D> proxy{static_cast<BodyId>(proxies.size() * 7919 % 101), read_box<D>(bytes),
+                           flags % 3 == 0, flags % 5 != 0};
+      if (is_valid(proxy.box)) proxies.push_back(proxy);
+    }
+    Ray<D> ray;
+    Ball<D> ball;
+    for (int i = 0; i < D; ++i) {
+      ray.origin[i] = bytes.next();
+      ball.center[i] = bytes.next();
+      ray.direction[i] = bytes.next() - 128.0;
+    }
+    ball.radius = bytes.next() / 2.0;
+    if (ray.direction == Vec<D>(0.0)) ray.direction[0] = 1;
+    const auto box_of = [&](BodyId id) {
+      return std::find_if(proxies.begin(), proxies.end(), [&](const auto& p) { return p.id == id; })
+          ->box;
+    };
+    std::vector<RayHit> hits;
+    std::vector<BodyId> near;
+    for (BroadPhase<D>& phase : phases) {
+      phase.update(proxies);
+      LANTERN_CHECK(phase.pairs() == phases.front().pairs(), ==, true);
+      phase.with_dynamic([&](const auto& structure) {
+        const AllHits all = raycast_all(structure, ray, box_of);
+        const Found found = overlap_query(structure, ball, box_of);
+        const NearestHit first = raycast_nearest(structure, ray, box_of);
+        if (&phase == &phases.front()) hits = all.hits, near = found.ids;
+        LANTERN_CHECK(all.hits == hits, ==, true);
+        LANTERN_CHECK(found.ids == near, ==, true);
+        LANTERN_CHECK(first.hit == (hits.empty() ? std::nullopt : std::optional(hits.front())), ==,
+                      true);
+      });
+    }
+    for (Proxy<D>& proxy : proxies) {
+      const std::uint8_t what = bytes.next();
+      if (what % 2 == 0) proxy.awake = !proxy.awake;
+      if (what % 8 == 1 && is_valid(Box<D>{proxy.box.lo + 1.0, proxy.box.hi + 1.0}))
+        proxy.box = {proxy.box.lo + 1.0, proxy.box.hi + 1.0};
+    }
+  }
+}
+
 void check_atlas(const Atlas& atlas, const std::vector<std::pair<TextureId, Rect>>& packed) {
   std::int64_t used = 0, free = 0;
   std::set<TextureId> seen;
@@ -239,7 +307,7 @@ void fuzz_atlas(Bytes& bytes) {
 
 void fuzz_trees(std::span<const std::uint8_t> input) {
   Bytes bytes(input);
-  switch (bytes.next() % 5) {
+  switch (bytes.next() % 7) {
     case 0:
       return fuzz_orthtree<2>(bytes);
     case 1:
@@ -248,6 +316,10 @@ void fuzz_trees(std::span<const std::uint8_t> input) {
       return fuzz_bsp<2>(bytes);
     case 3:
       return fuzz_bsp<3>(bytes);
+    case 4:
+      return fuzz_broad_phase<2>(bytes);
+    case 5:
+      return fuzz_broad_phase<3>(bytes);
     default:
       return fuzz_atlas(bytes);
   }

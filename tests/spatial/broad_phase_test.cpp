@@ -1,0 +1,324 @@
+// Every kind of broad phase against n(n-1)/2 comparisons, in worlds that move, sleep and wake.
+#include "spatial/broad_phase.hpp"
+
+#include <gtest/gtest.h>
+
+#include "geometry/shape.hpp"
+#include "spatial/planes.hpp"
+#include "spatial/worlds.hpp"
+
+namespace lantern {
+namespace {
+
+using testing::kSorts;
+using testing::Sort;
+
+template <int D>
+std::vector<Pair> true_pairs(const std::vector<Proxy<D>>& proxies) {
+  std::vector<Pair> pairs;
+  for (const Proxy<D>& a : proxies)
+    for (const Proxy<D>& b : proxies)
+      if (a.id < b.id && overlap(a.box, b.box) &&
+          ((a.awake && !a.is_static) || (b.awake && !b.is_static)))
+        pairs.push_back({a.id, b.id});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+template <int D>
+std::vector<Proxy<D>> random_proxies(Sort sort, std::size_t bodies, Random& random) {
+  std::vector<Proxy<D>> proxies;
+  for (const Item<D>& item : testing::random_world<D>(sort, bodies, random))
+    proxies.push_back({item.id, item.box, random.whole(0, 2) == 0, random.whole(0, 2) != 0});
+  // A floor without end, standing in for a half-space.
+  Box<D> floor{Vec<D>(-kEndless), Vec<D>(kEndless)};
+  floor.hi.y = 7;
+  if (random.bits() % 2 == 0) proxies.front().box = floor;
+  return proxies;
+}
+
+template <int D>
+void move(Sort sort, std::vector<Proxy<D>>& proxies, Random& random) {
+  for (Proxy<D>& proxy : proxies) {
+    if (random.whole(0, 3) == 0) proxy.awake = !proxy.awake;
+    if (proxy.awake && !proxy.is_static && random.bits() % 2 == 0)
+      proxy.box = testing::random_box<D>(sort, random);
+    if (random.whole(0, 60) == 0) proxy.is_static = !proxy.is_static;
+  }
+  if (random.whole(0, 2) == 0 && proxies.size() > 1) proxies.pop_back();
+  testing::shuffle(proxies, random);
+}
+
+template <int D>
+std::vector<BroadPhaseKind> kinds() {
+  std::vector<BroadPhaseKind> kinds(kBroadPhaseKinds.begin(), kBroadPhaseKinds.end());
+  if (D == 2) std::erase(kinds, BroadPhaseKind::octree);
+  return kinds;
+}
+
+template <int D>
+BroadPhaseConfig<D> config_of(BroadPhaseKind kind, Sort sort, Random& random) {
+  BroadPhaseConfig<D> config;
+  config.kind = kind;
+  config.bounds = testing::bounds_of<D>(sort);
+  config.capacity = static_cast<std::uint32_t>(random.whole(1, 6));
+  config.max_depth = static_cast<std::uint32_t>(random.whole(0, 6));
+  config.eager_children = random.bits() % 2 == 0;
+  config.no_progress_stop = random.bits() % 2 == 0;
+  config.split_static = random.whole(0, 3) != 0;
+  config.planes = testing::random_planes<D>(sort, 9, random);
+  return config;
+}
+
+template <int D>
+void every_kind_is_exact(std::size_t bodies, std::uint64_t seeds) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      Random random(100 * seed + static_cast<std::uint64_t>(sort));
+      std::vector<BroadPhase<D>> phases;
+      for (const BroadPhaseKind kind : kinds<D>())
+        phases.emplace_back(config_of<D>(kind, sort, random));
+      auto proxies = random_proxies<D>(sort, bodies, random);
+      for (int update = 0; update < 5; ++update) {
+        const auto expected = true_pairs(proxies);
+        for (BroadPhase<D>& phase : phases) {
+          phase.update(proxies);
+          ASSERT_EQ(phase.pairs(), expected)
+              << name_of(phase.config().kind) << " in " << D << "D, sort " << static_cast<int>(sort)
+              << ", seed " << seed << ", update " << update;
+        }
+        move(sort, proxies, random);
+      }
+    }
+}
+
+TEST(BroadPhase, EveryKindEqualsBruteForceIn2D) { every_kind_is_exact<2>(70, 12); }
+TEST(BroadPhase, EveryKindEqualsBruteForceIn3D) { every_kind_is_exact<3>(70, 8); }
+
+TEST(BroadPhase, NamesAreReadBack) {
+  for (const BroadPhaseKind kind : kBroadPhaseKinds)
+    EXPECT_EQ(broad_phase_named(name_of(kind)), kind) << name_of(kind);
+  EXPECT_EQ(broad_phase_named("quad tree"), std::nullopt);
+}
+
+TEST(BroadPhase, RefusesWhatItCannotDoAndStaysAsItWas) {
+  BroadPhaseConfig<2> config;
+  config.kind = BroadPhaseKind::octree;
+  EXPECT_THROW(BroadPhase<2>{config}, Refused) << "an octree in two dimensions";
+  BroadPhase<2> phase({});
+  const Box<2> box{{0, 0}, {1, 1}};
+  phase.update(std::vector<Proxy<2>>{{4, box}, {2, box}});
+  const std::vector<Pair> before = phase.pairs();
+  ASSERT_EQ(before, (std::vector<Pair>{{2, 4}}));
+  EXPECT_THROW(phase.update(std::vector<Proxy<2>>{{2, box}, {2, box}}), Refused) << "an id twice";
+  EXPECT_THROW(phase.update(std::vector<Proxy<2>>{{2, {{1, 0}, {0, 1}}}}), Refused) << "inverted";
+  EXPECT_EQ(phase.pairs(), before);
+}
+
+TEST(BroadPhase, TooManyPairsAreRefusedAndTheNextUpdateIsRight) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhaseConfig<2> config;
+    config.kind = kind;
+    config.most_pairs = 44;
+    BroadPhase<2> phase(config);
+    std::vector<Proxy<2>> proxies;
+    for (BodyId id = 0; id < 10; ++id) proxies.push_back({id, {{1, 1}, {2, 2}}});
+    EXPECT_THROW(phase.update(proxies), Refused) << name_of(kind) << ": 45 pairs";
+    EXPECT_TRUE(phase.pairs().empty()) << name_of(kind);
+    proxies.pop_back();
+    phase.update(proxies);
+    EXPECT_EQ(phase.pairs().size(), 36u) << name_of(kind);
+  }
+}
+
+// Bodies on a grid, each overlapping its neighbours to the right and above.
+std::vector<Proxy<2>> grid(int side) {
+  std::vector<Proxy<2>> proxies;
+  for (int i = 0; i < side * side; ++i) {
+    const Vec<2> center(4.0 * (i % side) + 2, 4.0 * (i / side) + 2);
+    proxies.push_back({static_cast<BodyId>(i), Box<2>::around(center, Vec<2>(2.1))});
+  }
+  return proxies;
+}
+
+BroadPhaseConfig<2> grid_config(BroadPhaseKind kind, int side) {
+  BroadPhaseConfig<2> config;
+  config.kind = kind;
+  config.bounds = {Vec<2>(0.0), Vec<2>(4.0 * side)};
+  for (std::uint32_t i = 0; i + 1 < 8; ++i)
+    config.planes.push_back({Plane<2>{{1, 0}, side / 2.0 * (i + 1)}, i == 0 ? kNone : i - 1, true});
+  return config;
+}
+
+TEST(BroadPhase, TheStaticStructureIsBuiltOnceAndAgainOnlyWhenStaticBodiesChange) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhase<2> phase(grid_config(kind, 12));
+    auto proxies = grid(12);
+    for (std::size_t i = 0; i < proxies.size(); ++i) proxies[i].is_static = i % 3 != 0;
+    for (int step = 0; step < 10; ++step) {
+      for (Proxy<2>& p : proxies)
+        if (!p.is_static) p.box = {p.box.lo + 0.01, p.box.hi + 0.01};
+      phase.update(proxies);
+    }
+    EXPECT_EQ(phase.counters().static_builds, 1u) << name_of(kind) << ": nothing static changed";
+    EXPECT_EQ(phase.counters().dynamic_builds, 10u) << name_of(kind);
+    proxies[1].awake = false;  // says nothing of a static body
+    phase.update(proxies);
+    EXPECT_EQ(phase.counters().static_builds, 1u) << name_of(kind);
+    proxies.erase(proxies.begin() + 1);  // a wall is blown up
+    phase.update(proxies);
+    EXPECT_EQ(phase.counters().static_builds, 2u) << name_of(kind) << ": a static body went";
+    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << name_of(kind);
+  }
+}
+
+TEST(BroadPhase, WhereNothingIsAwakeNothingIsBuilt) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhase<2> phase(grid_config(kind, 8));
+    auto proxies = grid(8);
+    for (Proxy<2>& p : proxies) p.awake = false;
+    for (int step = 0; step < 5; ++step) phase.update(proxies);
+    EXPECT_EQ(phase.counters().dynamic_builds, 0u) << name_of(kind);
+    EXPECT_EQ(phase.counters().pair_tests, 0u) << name_of(kind);
+    EXPECT_TRUE(phase.pairs().empty()) << name_of(kind);
+    proxies[0].awake = true;
+    phase.update(proxies);
+    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << name_of(kind) << ": the first one woke";
+    proxies[0].awake = false;
+    phase.update(proxies);
+    EXPECT_EQ(phase.counters().dynamic_builds, 1u) << name_of(kind) << ": all sleep again";
+    std::size_t shown = 0;
+    phase.visit_dynamic([&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
+    EXPECT_GE(shown, proxies.size()) << name_of(kind) << ": the tree that stood is still right";
+    proxies[5].box.hi += 1.0;
+    phase.update(proxies);
+    shown = 0;
+    phase.visit_dynamic([&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
+    EXPECT_EQ(shown, 0u) << name_of(kind) << ": a tree that is wrong must not be shown";
+  }
+}
+
+TEST(BroadPhase, BranchesWhereAllSleepAreSkipped) {
+  for (const BroadPhaseKind kind :
+       {BroadPhaseKind::quadtree, BroadPhaseKind::kd_tree, BroadPhaseKind::bsp}) {
+    BroadPhase<2> phase(grid_config(kind, 16));
+    auto proxies = grid(16);
+    phase.update(proxies);
+    const BroadPhaseCounters all_awake = phase.counters();
+    EXPECT_EQ(all_awake.nodes_skipped_asleep, 0u) << name_of(kind);
+    for (Proxy<2>& p : proxies) p.awake = p.id == 0;
+    phase.update(proxies);
+    const BroadPhaseCounters one_awake = phase.counters();
+    EXPECT_GT(one_awake.nodes_skipped_asleep, 0u) << name_of(kind);
+    EXPECT_LT(one_awake.nodes_visited, all_awake.nodes_visited) << name_of(kind);
+    EXPECT_LT(5 * one_awake.pair_tests, all_awake.pair_tests) << name_of(kind);
+    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << name_of(kind);
+
+    const std::vector<bool> awake = phase.awake_dynamic_nodes();
+    std::size_t at = 0;
+    phase.visit_dynamic([&](const NodeView<2>& node) {
+      const bool has = std::count(node.bodies.begin(), node.bodies.end(), 0u) != 0;
+      EXPECT_TRUE(!node.leaf || awake[at] == has) << name_of(kind) << ", node " << at;
+      EXPECT_TRUE(!awake[at] || node.parent == kNone || awake[node.parent])
+          << name_of(kind) << ": an awake node wakes those above";
+      ++at;
+      return true;
+    });
+    EXPECT_EQ(at, awake.size()) << name_of(kind);
+    EXPECT_TRUE(awake[0]) << name_of(kind);
+  }
+}
+
+TEST(BroadPhase, ASteadyStateAsksForNoMemoryAndReusesNodes) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhase<2> phase(grid_config(kind, 16));
+    auto proxies = grid(16);
+    for (Proxy<2>& p : proxies) p.is_static = p.id % 5 == 0;
+    for (int step = 0; step < 3; ++step) phase.update(proxies);
+    const std::uint64_t before = phase.counters().allocations;
+    for (int step = 0; step < 20; ++step) {
+      for (Proxy<2>& p : proxies)
+        if (!p.is_static) {
+          const Vec<2> by(step % 2 == 0 ? 0.05 : -0.05);
+          p.box = {p.box.lo + by, p.box.hi + by};
+        }
+      phase.update(proxies);
+    }
+    EXPECT_EQ(phase.counters().allocations, before) << name_of(kind);
+    const bool has_nodes = kind == BroadPhaseKind::quadtree || kind == BroadPhaseKind::kd_tree;
+    EXPECT_TRUE(!has_nodes || phase.counters().nodes_reused > 100) << name_of(kind);
+  }
+}
+
+TEST(BroadPhase, BodiesOutsideTheBoundsAndFarAwayKeepTheirPairs) {
+  for (const BroadPhaseKind kind : kinds<3>()) {
+    BroadPhaseConfig<3> config;
+    config.kind = kind;
+    config.bounds = {Vec<3>(0.0), Vec<3>(1.0)};
+    config.capacity = 1;
+    BroadPhase<3> phase(config);
+    const auto at = [](BodyId id, double x) {
+      return Proxy<3>{id, Box<3>::around(Vec<3>(x, -x, x), Vec<3>(1.0))};
+    };
+    phase.update(std::vector{at(0, 1e9), at(1, 1e9 + 2), at(2, -1e9), at(3, 1e9 + 4.5), at(4, 0)});
+    EXPECT_EQ(phase.pairs(), (std::vector<Pair>{{0, 1}})) << name_of(kind);
+  }
+}
+
+TEST(BroadPhase, AFlatQuadtreeLooksAtXAndZOnly) {
+  BroadPhaseConfig<3> config;
+  config.kind = BroadPhaseKind::quadtree;
+  config.bounds = {Vec<3>(0.0), Vec<3>(64.0)};
+  config.capacity = 2;
+  BroadPhase<3> phase(config);
+  const auto at = [](BodyId id, double x, double y, double z) {
+    return Proxy<3>{id, Box<3>::around(Vec<3>(x, y, z), Vec<3>(1.0))};
+  };
+  phase.update(
+      std::vector{at(0, 10, 5, 10), at(1, 10, 60, 10), at(2, 50, 5, 10), at(3, 10, 5, 50)});
+  std::vector<std::vector<BodyId>> leaves;
+  phase.visit_dynamic([&](const NodeView<3>& node) {
+    EXPECT_EQ(node.box.lo.y, 0) << "nodes reach from bottom to top";
+    EXPECT_EQ(node.box.hi.y, 64);
+    if (node.leaf) leaves.emplace_back(node.bodies.begin(), node.bodies.end());
+    return true;
+  });
+  EXPECT_EQ(leaves, (std::vector<std::vector<BodyId>>{{3}, {0, 1}, {2}}))
+      << "those above each other share a leaf, z parts the upper from the lower";
+  EXPECT_TRUE(phase.pairs().empty()) << "they share a leaf, but do not overlap";
+}
+
+TEST(BroadPhase, AHundredThousandAtOnePointAreNoHangWhileTheySleep) {
+  for (const BroadPhaseKind kind : kinds<3>()) {
+    BroadPhaseConfig<3> config;
+    config.kind = kind;
+    BroadPhase<3> phase(config);
+    std::vector<Proxy<3>> proxies(100'000, Proxy<3>{0, {Vec<3>(-1.0), Vec<3>(1.0)}, false, false});
+    for (BodyId id = 0; id < proxies.size(); ++id) proxies[id].id = id;
+    proxies[77].awake = true;
+    phase.update(proxies);
+    EXPECT_EQ(phase.pairs().size(), 99'999u) << name_of(kind);
+    EXPECT_EQ(phase.counters().pair_tests, 99'999u) << name_of(kind);
+  }
+}
+
+TEST(BroadPhase, ManyBodiesLargerThanAllCellsMakeTheTreeShallowerAndNothingWorse) {
+  Random random(5);
+  BroadPhaseConfig<2> config;
+  config.bounds = {Vec<2>(0.0), Vec<2>(64.0)};
+  config.capacity = 1;
+  config.max_depth = 10;
+  config.no_progress_stop = false;
+  std::vector<Proxy<2>> proxies;
+  for (BodyId id = 0; id < 300; ++id)
+    proxies.push_back({id, Box<2>::around(testing::random_point<2>(random, 0, 64), Vec<2>(60.0))});
+  BroadPhase<2> phase(config);
+  phase.update(proxies);
+  EXPECT_EQ(phase.pairs(), true_pairs(proxies));
+  std::uint64_t entries = 0;
+  phase.visit_dynamic([&](const NodeView<2>& node) { return entries += node.bodies.size(), true; });
+  EXPECT_LE(entries, 4096u + 64u * 512u) << "the tree grew out of proportion";
+}
+
+}  // namespace
+}  // namespace lantern

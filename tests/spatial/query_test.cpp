@@ -1,0 +1,293 @@
+// Rays, boxes, balls and views through every structure, against asking each body.
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "geometry/shape.hpp"
+#include "spatial/broad_phase.hpp"
+#include "spatial/frustum_cull.hpp"
+#include "spatial/overlap_query.hpp"
+#include "spatial/planes.hpp"
+#include "spatial/raycast.hpp"
+#include "spatial/worlds.hpp"
+
+namespace lantern {
+namespace {
+
+using testing::kSorts;
+using testing::Sort;
+
+template <int D>
+class Scene {
+ public:
+  Scene(Sort sort, std::size_t bodies, std::uint64_t seed)
+      : random_(seed), sort_(sort), items_(testing::random_world<D>(sort, bodies, random_)) {
+    for (const Item<D>& item : items_) boxes_[item.id] = item.box;
+  }
+
+  Random& random() { return random_; }
+  const std::vector<Item<D>>& items() const { return items_; }
+  Box<D> box_of(BodyId id) const { return boxes_.at(id); }
+
+  // f(structure, name) for each, holding all bodies.
+  template <class F>
+  void with_each(F&& f) {
+    typename Orthtree<D>::Config config;
+    config.bounds = testing::bounds_of<D>(sort_);
+    config.capacity = static_cast<std::uint32_t>(random_.whole(1, 4));
+    config.max_depth = static_cast<std::uint32_t>(random_.whole(0, 7));
+    config.eager_children = random_.bits() % 2 == 0;
+    config.no_progress_stop = true;
+    Orthtree<D> orthtree(config);
+    Bsp<D> bsp(testing::random_planes<D>(sort_, 12, random_), config.bounds);
+    BruteForce<D> brute;
+    SortAndSweep<D> sweep;
+    KdTree<D> kd({config.capacity, config.max_depth});
+    kd.build(items_);
+    for (const Item<D>& item : items_) {
+      orthtree.insert(item);
+      bsp.insert(item);
+      brute.insert(item);
+      sweep.insert(item);
+    }
+    f(orthtree, "orthtree");
+    f(bsp, "bsp");
+    f(brute, "brute force");
+    f(sweep, "sort and sweep");
+    f(kd, "kd-tree");
+    if constexpr (D == 3) {
+      FlatQuadtree flat({config.bounds, {{}, config.capacity, config.max_depth}});
+      for (const Item<D>& item : items_) flat.insert(item);
+      f(flat, "flat quadtree");
+    }
+  }
+
+  Vec<D> point() {
+    const Box<D> b = testing::bounds_of<D>(sort_);
+    Vec<D> p = b.lo + testing::random_point<D>(random_, -20, 84);
+    if (sort_ == Sort::aligned)
+      for (int i = 0; i < D; ++i) p[i] = 4.0 * static_cast<double>(random_.whole(-2, 18));
+    return p;
+  }
+
+  // Some along an axis, some from a corner to a corner, some endless.
+  Ray<D> ray() {
+    Ray<D> ray{point(), testing::random_point<D>(random_, -1, 1)};
+    if (random_.bits() % 2 == 0) ray.direction = point() - ray.origin;
+    if (random_.whole(0, 2) == 0) ray.direction[0] = 0;
+    if (random_.whole(0, 2) == 0) ray.direction[1] = -0.0;
+    if (ray.direction == Vec<D>(0.0)) ray.direction[D - 1] = -1;
+    if (random_.bits() % 2 == 0) ray.length = random_.between(0, 2);
+    return ray;
+  }
+
+  Frustum<D> view() {
+    const double near = random_.between(0, 5), far = near + random_.between(1, 60);
+    const double angle = random_.between(0.05, 2.8);
+    if constexpr (D == 2)
+      return view_wedge(point(), testing::random_point<2>(random_, -1, 1), angle, near, far);
+    else
+      return view_frustum(point(), point() + Vec<3>(0.1, 0.2, 0.3), {0, 1, 0}, angle,
+                          random_.between(0.3, 3), near, far);
+  }
+
+ private:
+  Random random_;
+  Sort sort_;
+  std::vector<Item<D>> items_;
+  std::map<BodyId, Box<D>> boxes_;
+};
+
+// Counts as told must be the counts returned, and no body is tested twice.
+struct Tally {
+  QueryCounts counts;
+  std::set<BodyId> tested, hit;
+  void operator()(const QueryEvent& event) {
+    counts.nodes_visited += event.kind == QueryEvent::Kind::visit;
+    counts.nodes_skipped += event.kind == QueryEvent::Kind::skip;
+    if (event.kind == QueryEvent::Kind::test) {
+      EXPECT_TRUE(tested.insert(event.body).second) << "body " << event.body << " tested twice";
+      ++counts.objects_tested;
+    }
+    if (event.kind == QueryEvent::Kind::hit) hit.insert(event.body);
+  }
+  void expect_agrees(const QueryCounts& other) const {
+    EXPECT_EQ(counts.nodes_visited, other.nodes_visited);
+    EXPECT_EQ(counts.nodes_skipped, other.nodes_skipped);
+    EXPECT_EQ(counts.objects_tested, other.objects_tested);
+  }
+};
+
+// A ball within the box, as a true shape that is not its box.
+template <int D>
+std::optional<double> entry_of_ball_in(const Ray<D>& ray, const Box<D>& box) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < D; ++i) radius = std::min(radius, box.size()[i] / 2);
+  return entry<D>(ray, Sphere{radius}, box.center());
+}
+
+template <int D>
+void rays_equal_brute_force(Sort sort, std::uint64_t seed) {
+  Scene<D> scene(sort, 60, seed);
+  const auto box_of = [&](BodyId id) { return scene.box_of(id); };
+  scene.with_each([&](const auto& structure, const char* name) {
+    for (int round = 0; round < 12; ++round) {
+      const Ray<D> ray = scene.ray();
+      for (const bool shapes : {false, true}) {
+        std::vector<RayHit> expected;
+        for (const Item<D>& item : scene.items())
+          if (const auto span = span_in(ray, item.box)) {
+            const auto t = shapes ? entry_of_ball_in(ray, item.box) : span->from;
+            if (t) expected.push_back({item.id, std::max(*t, span->from)});
+          }
+        std::sort(expected.begin(), expected.end(), [](const RayHit& a, const RayHit& b) {
+          return std::tie(a.distance, a.id) < std::tie(b.distance, b.id);
+        });
+        Tally all_told, nearest_told;
+        const auto hit = [&](BodyId id) -> std::optional<double> {
+          return shapes ? entry_of_ball_in(ray, box_of(id)) : span_in(ray, box_of(id))->from;
+        };
+        const AllHits all = raycast_all(structure, ray, box_of, hit, all_told);
+        const NearestHit nearest = raycast_nearest(structure, ray, box_of, hit, nearest_told);
+        ASSERT_EQ(all.hits, expected) << name << " lost or invented hits, sort "
+                                      << static_cast<int>(sort) << ", seed " << seed;
+        ASSERT_EQ(nearest.hit, expected.empty() ? std::nullopt : std::optional(expected.front()))
+            << name << ", sort " << static_cast<int>(sort) << ", seed " << seed;
+        ASSERT_TRUE(shapes || raycast_nearest(structure, ray, box_of).hit == nearest.hit) << name;
+        all_told.expect_agrees(all.counts);
+        nearest_told.expect_agrees(nearest.counts);
+        EXPECT_EQ(all_told.hit.size(), all.hits.size());
+        EXPECT_LE(nearest.counts.objects_tested, all.counts.objects_tested);
+      }
+    }
+  });
+}
+
+template <int D>
+void overlaps_equal_brute_force(Sort sort, std::uint64_t seed) {
+  Scene<D> scene(sort, 60, seed);
+  const auto box_of = [&](BodyId id) { return scene.box_of(id); };
+  const auto expected = [&](const auto& what, bool odd) {
+    std::vector<BodyId> ids;
+    for (const Item<D>& item : scene.items())
+      if (overlap(what, item.box) && (!odd || item.id % 2 == 1)) ids.push_back(item.id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  };
+  const auto is_odd = [](BodyId id) { return id % 2 == 1; };
+  const auto check = [&](const auto& query, const auto& what, const char* name, const char* of) {
+    ASSERT_EQ(query(AlwaysTrue{}, NoQueryObserver{}).ids, expected(what, false))
+        << of << " in " << name << ", sort " << static_cast<int>(sort) << ", seed " << seed;
+    Tally told;
+    const Found odd = query(is_odd, told);
+    ASSERT_EQ(odd.ids, expected(what, true)) << of << " in " << name;
+  };
+  scene.with_each([&](const auto& structure, const char* name) {
+    for (int round = 0; round < 8; ++round) {
+      const Vec<D> a = scene.point(), b = scene.point();
+      const Box<D> box{glm::min(a, b), glm::max(a, b)};
+      const Ball<D> ball{a, round % 4 == 0 ? 0.0 : scene.random().between(0, 30)};
+      const Frustum<D> view = scene.view();
+      check([&](auto e, auto t) { return overlap_query(structure, box, box_of, e, t); }, box, name,
+            "box");
+      check([&](auto e, auto t) { return overlap_query(structure, ball, box_of, e, t); }, ball,
+            name, "ball");
+      check([&](auto e, auto t) { return frustum_cull(structure, view, box_of, e, t); }, view, name,
+            "view");
+    }
+  });
+}
+
+TEST(Query, RaysEqualBruteForceIn2D) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < 6; ++seed) rays_equal_brute_force<2>(sort, seed);
+}
+TEST(Query, RaysEqualBruteForceIn3D) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < 6; ++seed) rays_equal_brute_force<3>(sort, seed);
+}
+TEST(Query, OverlapsAndViewsEqualBruteForceIn2D) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < 6; ++seed) overlaps_equal_brute_force<2>(sort, seed);
+}
+TEST(Query, OverlapsAndViewsEqualBruteForceIn3D) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < 6; ++seed) overlaps_equal_brute_force<3>(sort, seed);
+}
+
+// A row of unit boxes at x = 10, 20, ... in a quadtree of cells.
+TEST(Query, TheNearestHitEndsTheSearch) {
+  Quadtree tree({{{0, 0}, {128, 128}}, 1, 5});
+  std::map<BodyId, Box<2>> boxes;
+  for (BodyId id = 0; id < 12; ++id) {
+    boxes[id] = Box<2>::around({10.0 * (id + 1), 3}, Vec<2>(0.5));
+    tree.insert({id, boxes[id]});
+  }
+  const auto box_of = [&](BodyId id) { return boxes.at(id); };
+  for (const bool back : {false, true}) {
+    const Ray<2> ray = back ? Ray<2>{{200, 3}, {-1, 0}} : Ray<2>{{-5, 3}, {1, 0}};
+    const NearestHit nearest = raycast_nearest(tree, ray, box_of);
+    const AllHits all = raycast_all(tree, ray, box_of);
+    ASSERT_TRUE(nearest.hit);
+    EXPECT_EQ(nearest.hit->id, back ? 11u : 0u);
+    EXPECT_EQ(nearest.hit->distance, back ? 79.5 : 14.5);
+    EXPECT_EQ(nearest.counts.objects_tested, 1u) << "front to back, the first one tested is it";
+    EXPECT_EQ(all.hits.size(), 12u);
+    EXPECT_EQ(all.counts.objects_tested, 12u);
+    EXPECT_LT(nearest.counts.nodes_visited, all.counts.nodes_visited);
+    EXPECT_GT(nearest.counts.nodes_skipped, 0u);
+  }
+}
+
+TEST(Query, BodiesOutsideTheRootAreFoundInRimCells) {
+  Quadtree tree({{{0, 0}, {64, 64}}, 1, 4});
+  const Box<2> away = Box<2>::around({1000, 1000}, Vec<2>(1.0));
+  tree.insert({1, away});
+  tree.insert({2, Box<2>::around({8, 8}, Vec<2>(1.0))});
+  tree.insert({3, Box<2>::around({40, 8}, Vec<2>(1.0))});
+  const auto box_of = [&](BodyId id) { return id == 1 ? away : Box<2>{}; };
+  const auto nearest = raycast_nearest(tree, Ray<2>{{1000, 900}, {0, 1}}, box_of);
+  ASSERT_TRUE(nearest.hit) << "the ray never enters the root's box";
+  EXPECT_EQ(nearest.hit->distance, 99);
+  EXPECT_EQ(overlap_query(tree, Ball<2>{{1002, 1000}, 1.0}, box_of).ids, std::vector<BodyId>{1});
+  EXPECT_EQ(frustum_cull(tree, view_wedge({990, 1000}, {1, 0}, 0.5, 0, 20), box_of).ids,
+            std::vector<BodyId>{1});
+}
+
+TEST(Query, ABspSkipsRegionsThatTheRayDoesNotReach) {
+  // Two planes side by side: x = 10, and in front of it y = 10.
+  Bsp<2> bsp({{{{1, 0}, 10}}, {{{0, 1}, 10}, 0, true}}, {{0, 0}, {20, 20}});
+  bsp.insert({1, Box<2>::around({5, 15}, Vec<2>(1.0))});
+  bsp.insert({2, Box<2>::around({15, 15}, Vec<2>(1.0))});
+  bsp.insert({3, Box<2>::around({15, 5}, Vec<2>(1.0))});
+  const auto none = [](BodyId) { return Box<2>{Vec<2>(-9.0), Vec<2>(-9.0)}; };
+  // Crosses y = 10 behind the first plane, where the second one does not count.
+  const AllHits all = raycast_all(bsp, Ray<2>{{0, 5}, {1, 1}}, none);
+  EXPECT_EQ(all.counts.objects_tested, 2u) << "bodies 1 and 2";
+  EXPECT_EQ(all.counts.nodes_skipped, 1u) << "the region of body 3";
+}
+
+TEST(Query, ThroughABroadPhaseBodiesHaveTheirOwnIds) {
+  BroadPhase<2> phase({});
+  const Box<2> wall = Box<2>::around({10, 0}, Vec<2>(1.0));
+  const Box<2> ball = Box<2>::around({5, 0}, Vec<2>(1.0));
+  phase.update(std::vector<Proxy<2>>{{900, wall, true}, {77, ball}});
+  const auto box_of = [&](BodyId id) { return id == 900 ? wall : ball; };
+  const Ray<2> ray{{0, 0}, {1, 0}};
+  const auto cast = [&](const auto& s) { return raycast_nearest(s, ray, box_of).hit; };
+  EXPECT_EQ(phase.with_static(cast), std::optional(RayHit{900, 9}));
+  EXPECT_EQ(phase.with_dynamic(cast), std::optional(RayHit{77, 4}));
+}
+
+TEST(Query, RefusesWhatIsNoQuery) {
+  const BruteForce<2> brute;
+  const auto box_of = [](BodyId) { return Box<2>{}; };
+  EXPECT_THROW(raycast_nearest(brute, Ray<2>{{0, 0}, {0, 0}}, box_of), Refused);
+  EXPECT_THROW(raycast_nearest(brute, Ray<2>{{0, NAN}, {1, 0}}, box_of), Refused);
+  EXPECT_THROW(raycast_all(brute, Ray<2>{{0, 0}, {1, 0}, -1}, box_of), Refused);
+  EXPECT_THROW(overlap_query(brute, Box<2>{{1, 0}, {0, 0}}, box_of), Refused);
+  EXPECT_THROW(overlap_query(brute, Ball<2>{{0, 0}, -1}, box_of), Refused);
+}
+
+}  // namespace
+}  // namespace lantern

@@ -1,0 +1,79 @@
+#include "spatial/sort_and_sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include "spatial/worlds.hpp"
+
+namespace lantern {
+namespace {
+
+using testing::kSorts;
+using testing::Sort;
+
+template <int D>
+std::vector<Pair> swept(SortAndSweep<D>& sweep) {
+  std::vector<Pair> pairs;
+  sweep.sweep([&](BodyId a, BodyId b) { pairs.push_back({std::min(a, b), std::max(a, b)}); });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+TEST(SortAndSweep, FindsEachPairOnceWhateverStoodThereBefore) {
+  for (const Sort sort : kSorts) {
+    SortAndSweep<3> sweep;
+    Random random(static_cast<std::uint64_t>(sort));
+    for (int round = 0; round < 20; ++round) {
+      const auto count = static_cast<std::size_t>(random.whole(0, 60));
+      const auto items = testing::random_world<3>(sort, count, random);
+      sweep.clear();
+      for (const auto& item : items) sweep.insert(item);
+      EXPECT_EQ(swept(sweep), testing::true_overlaps(items)) << "sort " << static_cast<int>(sort);
+      for (const auto& item : items) {
+        std::set<BodyId> near;
+        sweep.query(item.box, [&](BodyId id) { near.insert(id); });
+        for (const auto& other : items)
+          EXPECT_TRUE(!overlap(item.box, other.box) || near.contains(other.id));
+      }
+    }
+  }
+}
+
+TEST(SortAndSweep, SweepsAlongTheAxisOnWhichCentresVaryTheMost) {
+  for (int axis = 0; axis < 2; ++axis) {
+    SortAndSweep<2> sweep;
+    for (BodyId id = 0; id < 50; ++id) {
+      Vec<2> center(1e9);  // far away, digits must be kept
+      center[axis] += 3.0 * id;
+      sweep.insert({id, Box<2>::around(center, Vec<2>(1.0))});
+    }
+    Box<2> floor{Vec<2>(-kEndless), Vec<2>(kEndless)};
+    floor.hi[1 - axis] = 0;  // its centre would make the other axis seem wide
+    sweep.insert({50, floor});
+    EXPECT_TRUE(swept(sweep).empty());
+    EXPECT_EQ(sweep.axis(), axis);
+    EXPECT_EQ(sweep.counters().box_tests, 50u) << "the endless one with each, and no other pair";
+  }
+}
+
+TEST(SortAndSweep, ComparesOnlyWhatOverlapsOnTheAxisAndWhereOneIsAwake) {
+  SortAndSweep<2> sweep;
+  //  0 |--------|
+  //  1     |--------|
+  //  2        |--|
+  //  3               |--|
+  sweep.insert({0, {{0, 0}, {9, 1}}});
+  sweep.insert({1, {{4, 0}, {13, 1}}});
+  sweep.insert({2, {{7, 0}, {10, 1}}});
+  sweep.insert({3, {{14, 0}, {17, 1}}});
+  std::vector<Pair> pairs;
+  const auto keep = [&](BodyId a, BodyId b) { pairs.push_back({a, b}); };
+  EXPECT_EQ(sweep.sweep([](BodyId) { return true; }, keep), 3u);
+  EXPECT_EQ(pairs, (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}}));
+  pairs.clear();
+  EXPECT_EQ(sweep.sweep([](BodyId id) { return id == 1; }, keep), 2u);
+  EXPECT_EQ(pairs, (std::vector<Pair>{{0, 1}, {1, 2}}));
+  EXPECT_EQ(sweep.sweep([](BodyId) { return false; }, keep), 0u);
+}
+
+}  // namespace
+}  // namespace lantern

@@ -1,0 +1,58 @@
+// No memory is asked for in the steady state: counted where memory is really asked for.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "base/random.hpp"
+#include "spatial/broad_phase.hpp"
+#include "spatial/planes.hpp"
+
+namespace {
+std::atomic<std::uint64_t> calls{0};
+}
+
+void* operator new(std::size_t size) {
+  ++calls;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++calls;
+  return std::malloc(size == 0 ? 1 : size);
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace lantern {
+namespace {
+
+TEST(SteadyState, AnUpdateAsksForNoMemory) {
+  Random random(9);
+  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+    BroadPhaseConfig<3> config;
+    config.kind = kind;
+    config.bounds = testing::bounds_of<3>(testing::Sort::uniform);
+    config.planes = testing::random_planes<3>(testing::Sort::uniform, 9, random);
+    BroadPhase<3> phase(config);
+    std::vector<Proxy<3>> proxies;
+    for (BodyId id = 0; id < 300; ++id)
+      proxies.push_back(
+          {id, testing::random_box<3>(testing::Sort::uniform, random), id % 4 == 0, id % 7 != 0});
+    const auto shake = [&](double by) {
+      for (Proxy<3>& p : proxies)
+        if (!p.is_static && p.awake) p.box = {p.box.lo + by, p.box.hi + by};
+      phase.update(proxies);
+    };
+    for (const double by : {0.1, -0.1, 0.1, -0.1}) shake(by);
+    const std::uint64_t before = calls, counted = phase.counters().allocations;
+    EXPECT_GT(counted, 0u);
+    for (int step = 0; step < 10; ++step) shake(step % 2 == 0 ? 0.1 : -0.1);
+    EXPECT_EQ(calls - before, 0u) << name_of(kind) << " asked for memory";
+    EXPECT_EQ(phase.counters().allocations, counted) << name_of(kind) << ": the count is wrong";
+  }
+}
+
+}  // namespace
+}  // namespace lantern
