@@ -121,9 +121,7 @@ class Director {
     show("broad_phase", before);
     let_time_pass();
     const Frame after = frames_.picture(frames_.touched, "integrate");
-    Frame meeting = before;
-    meeting.contacts = after.contacts;
-    meeting.counts = after.counts;
+    const Frame meeting = met(before, after);
     Frame narrow = meeting;
     for (FrameContact& contact : narrow.contacts)
       for (FrameContact::Point& point : contact.points) point.impulse = 0;
@@ -135,6 +133,21 @@ class Director {
   void act(const Rebuild& rebuild) {
     stage_.engine->rebuild_as(rebuild.structure);
     frames_.settle("rebuild");
+  }
+
+  // Bodies and structure as they were before the step, contacts as it found them.
+  static Frame met(const Frame& before, const Frame& after) {
+    static constexpr std::string_view kOfTheStep[] = {
+        "contacts",      "contact_points",    "begins",   "ends", "narrow_tests", "constraint_rows",
+        "friction_rows", "force_evaluations", "rotations"};
+    Frame frame = before;
+    frame.contacts = after.contacts;
+    for (auto& [name, number] : frame.counts)
+      if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep))
+        number = after.count(name).value_or(number);
+    for (auto& [name, number] : frame.measures)
+      if (name == "penetration") number = after.measure(name).value_or(number);
+    return frame;
   }
 
   // --- questions that the structure answers ---

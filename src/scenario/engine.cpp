@@ -27,6 +27,22 @@ WorldConfig<D> config_of(const Scenario& scenario) {
   return config;
 }
 
+// What one world step did.
+struct StepWork {
+  std::uint64_t narrow_tests = 0;
+  std::uint64_t constraint_rows = 0;
+  std::uint64_t friction_rows = 0;
+  std::uint64_t force_evaluations = 0;
+  std::uint64_t rotations = 0;
+};
+
+StepWork difference(const WorldWork& after, const WorldWork& before) {
+  return {after.narrow_tests - before.narrow_tests, after.constraint_rows - before.constraint_rows,
+          after.friction_rows - before.friction_rows,
+          after.force_evaluations - before.force_evaluations,
+          after.rotations_integrated - before.rotations_integrated};
+}
+
 template <int D>
 class EngineOf : public Engine {
  public:
@@ -79,7 +95,9 @@ class EngineOf : public Engine {
   void step() override {
     const double h = scenario_.world.time_step;
     brains_.steer(world(), h, [&](std::size_t i) { return players_.id_of(i); });
+    const WorldWork before = world().work();
     world().step(h);
+    last_ = difference(world().work(), before);
     ++work_.world_steps;
     for (const ContactEvent& event : world().events()) {
       begins_ += event.kind == ContactEvent::Kind::begin;
@@ -167,7 +185,6 @@ class EngineOf : public Engine {
     const auto add = [&](const char* name, std::uint64_t n) {
       frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
     };
-    const WorldWork& work = players_.world().work();
     if (has_contacts()) {
       std::uint64_t points = 0;
       for (const FrameContact& c : frame.contacts) points += c.points.size();
@@ -175,9 +192,9 @@ class EngineOf : public Engine {
       add("contact_points", points);
       add("begins", begins_);
       add("ends", ends_);
-      add("narrow_tests", work.narrow_tests);
-      add("constraint_rows", work.constraint_rows);
-      add("friction_rows", work.friction_rows);
+      add("narrow_tests", last_.narrow_tests);
+      add("constraint_rows", last_.constraint_rows);
+      add("friction_rows", last_.friction_rows);
     }
     if (only_awake()) {
       std::uint64_t asleep = 0, awake = 0;
@@ -187,8 +204,8 @@ class EngineOf : public Engine {
       add("awake", awake);
     }
     if (!has_physics()) return;
-    add("force_evaluations", work.force_evaluations);
-    add("rotations", work.rotations_integrated);
+    add("force_evaluations", last_.force_evaluations);
+    add("rotations", last_.rotations);
   }
 
   const Scenario& scenario_;
@@ -196,6 +213,7 @@ class EngineOf : public Engine {
   Players<D> players_;
   Structures<D> structures_;
   Brains<D> brains_;
+  StepWork last_;
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
 };

@@ -96,6 +96,11 @@ class TreePicture {
       FrameNode node = frame_node(view);
       node.mark = touched.mark_of(view.handle);
       node.of_static = of_static;
+      // The array of what moves is pictured; that of what does not is another one.
+      if (shows_memory_ && !of_static) {
+        node.first = view.first;
+        node.room = view.room;
+      }
       most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
       frame_.nodes.push_back(std::move(node));
       return true;
@@ -130,10 +135,6 @@ class TreePicture {
     node.leaf = view.leaf;
     node.box = solid(view.box);
     node.bodies.assign(view.bodies.begin(), view.bodies.end());
-    if (shows_memory_) {
-      node.first = view.first;
-      node.room = view.room;
-    }
     node.label = "root";
     const FrameNode* parent = node.parent == kNone ? nullptr : &frame_.nodes[node.parent];
     if (parent) node.label = (is_bsp ? bsp_label : child_label)(parent->label, view.slot);
@@ -195,13 +196,19 @@ CandidatePairs awake_pairs(const Tree& tree, const Register<D>& bodies) {
   return found;
 }
 
+void add_pair(CandidatePairs& found, const Pair& pair) {
+  if (found.pairs.size() == kMostPairs)
+    throw Refused(fmt::format("more than {} candidate pairs; take fewer bodies", kMostPairs));
+  found.pairs.push_back(pair);
+}
+
 // The sweep compares boxes itself: its pairs overlap, and its tests are those comparisons.
 template <int D>
 CandidatePairs swept_pairs(SortAndSweep<D> sweep, const Register<D>& bodies, bool only_awake) {
   CandidatePairs found;
   found.pair_tests = sweep.sweep([&](BodyId id) { return !only_awake || bodies[id].awake; },
                                  [&](BodyId a, BodyId b) {
-                                   found.pairs.push_back({std::min(a, b), std::max(a, b)});
+                                   add_pair(found, {std::min(a, b), std::max(a, b)});
                                  });
   return found;
 }
@@ -284,7 +291,10 @@ auto Structures<D>::made() const -> Tree {
 template <int D>
 void Structures<D>::insert(const Resident<D>& resident, const Watch& watch) {
   std::vector<Item<D>>& items = is_for_static(resident) ? static_items_ : items_;
+  std::uint64_t& builds = is_for_static(resident) ? static_builds_ : dynamic_builds_;
   items.push_back(resident.item);
+  // The first body begins the structure; one that is fitted to its bodies begins again with each.
+  if (builds == 0 || spec_.kind == StructureKind::kd_tree) ++builds;
   std::visit(
       [&](auto& tree) {
         using T = std::decay_t<decltype(tree)>;
@@ -363,7 +373,7 @@ void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>>
       for (const Resident<D>& r : residents)
         if (!r.is_static && r.awake)
           tree.query(r.item.box, [&](BodyId id) {
-            candidates.pairs.push_back({std::min(id, r.item.id), std::max(id, r.item.id)});
+            add_pair(candidates, {std::min(id, r.item.id), std::max(id, r.item.id)});
             ++candidates.pair_tests;
           });
     } else if constexpr (std::is_same_v<T, SortAndSweep<D>>) {

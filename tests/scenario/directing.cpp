@@ -1,0 +1,91 @@
+#include "scenario/directing.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.hpp"
+
+namespace lantern::test {
+
+std::vector<Frame> frames_of(const Scenario& scenario, Pace pace) {
+  Work work;
+  std::vector<Frame> frames;
+  direct(scenario, pace, work, [&](const Frame& frame) {
+    frames.push_back(frame);
+    return true;
+  });
+  return frames;
+}
+
+std::vector<Frame> frames_of(const std::string& name, Pace pace) {
+  return frames_of(shipped(name), pace);
+}
+
+Scenario shipped(const std::string& name) {
+  return load_scenario(LANTERN_ROOT "/scenarios/" + name + ".toml");
+}
+
+std::vector<std::string> all_scenarios() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+const Frame& at(const std::vector<Frame>& frames, const std::string& event) {
+  const auto found = std::find_if(frames.begin(), frames.end(),
+                                  [&](const Frame& frame) { return frame.event == event; });
+  EXPECT_NE(found, frames.end()) << "no frame of event " << event;
+  return found == frames.end() ? frames.front() : *found;
+}
+
+const FrameNode& node(const Frame& frame, const std::string& label) {
+  static const FrameNode kNothing;
+  for (const FrameNode& n : frame.nodes)
+    if (n.label == label) return n;
+  ADD_FAILURE() << "no node " << label;
+  return kNothing;
+}
+
+const FrameBody& body(const Frame& frame, const std::string& name) {
+  static const FrameBody kNobody;
+  for (const FrameBody& b : frame.bodies)
+    if (b.name == name) return b;
+  ADD_FAILURE() << "no body " << name;
+  return kNobody;
+}
+
+Names bodies_in(const Frame& frame, const std::string& label) {
+  const std::vector<std::string> list = names(frame, node(frame, label).bodies);
+  return Names(list.begin(), list.end());
+}
+
+std::vector<std::string> names(const Frame& frame, const std::vector<BodyId>& ids) {
+  std::vector<std::string> list;
+  for (const BodyId id : ids)
+    for (const FrameBody& b : frame.bodies)
+      if (b.id == id) list.push_back(b.name);
+  return list;
+}
+
+std::uint64_t motion_hash(const Frame& frame) {
+  Hash hash;
+  hash.add(frame.time);
+  for (const FrameBody& b : frame.bodies) {
+    hash.add(std::string_view(b.name)).add(std::uint64_t{b.asleep});
+    for (int i = 0; i < 3; ++i)
+      hash.add(b.position[i]).add(b.velocity[i]).add(b.angular_momentum[i]);
+    const auto& q = b.orientation.q;
+    hash.add(b.angle).add(q.w).add(q.x).add(q.y).add(q.z);
+  }
+  return hash.value();
+}
+
+std::string world_text(const std::string& keys, const std::string& rest) {
+  return "title = \"test\"\n[world]\n" + keys + "\n" + rest;
+}
+
+}  // namespace lantern::test

@@ -1,0 +1,243 @@
+// Every frame of every scenario tells the truth about the engine.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.hpp"
+#include "scenario/directing.hpp"
+
+namespace lantern::test {
+namespace {
+
+// Long runs are looked at frame by frame for the first few, then here and there.
+bool is_sampled(const Frame& frame) { return frame.index < 24 || frame.index % 29 == 0; }
+
+// What a scenario says of its world, as far as pairs depend on it.
+class Rules {
+ public:
+  explicit Rules(const Scenario& scenario) : scenario_(scenario) {}
+
+  // Pairs of two that rest are left out where bodies collide or sleep.
+  bool only_awake() const {
+    const WorldSpec& world = scenario_.world;
+    return world.contacts != ContactChoice::none || world.may_sleep ||
+           scenario_.structure.split_static;
+  }
+
+  // Is the structure older than the bodies' boxes? A move may leave it as it was.
+  bool is_stale(const Frame& frame) const {
+    bool stale = false;
+    for (std::size_t i = 0; i <= frame.step; ++i) {
+      const Verb& verb = scenario_.steps[i].verb;
+      if (const auto* move = std::get_if<Move>(&verb)) stale = !move->rebuild;
+      if (std::holds_alternative<Run>(verb) || std::holds_alternative<Wait>(verb) ||
+          std::holds_alternative<Phases>(verb) || std::holds_alternative<Rebuild>(verb) ||
+          std::holds_alternative<Remove>(verb))
+        stale = false;
+    }
+    return stale;
+  }
+
+ private:
+  const Scenario& scenario_;
+};
+
+bool rests(const FrameBody& body) { return body.is_static || body.asleep; }
+
+bool is_midst_of_insertion(const Frame& frame) {
+  static const std::set<std::string> kEvents = {"split",      "store",       "test",       "miss",
+                                                "make_child", "depth_limit", "no_progress"};
+  return frame.event == "hand_down" || kEvents.contains(frame.event);
+}
+
+void expect_no_pair_missed(const Frame& frame, const Rules& rules) {
+  if (frame.structure == StructureKind::none) return;
+  std::set<Pair> listed;
+  for (const FramePair& p : frame.pairs) listed.insert(p.pair);
+  EXPECT_EQ(listed.size(), frame.pairs.size()) << "a pair is listed twice on " << frame.index;
+  std::map<BodyId, const FrameBody*> by_id;
+  for (const FrameBody& b : frame.bodies) by_id[b.id] = &b;
+  for (const Pair& p : listed) {
+    ASSERT_TRUE(by_id.contains(p.a) && by_id.contains(p.b)) << "a pair of a body that left";
+    EXPECT_FALSE(rules.only_awake() && rests(*by_id[p.a]) && rests(*by_id[p.b]))
+        << by_id[p.a]->name << " and " << by_id[p.b]->name << " rest, on " << frame.index;
+  }
+  if (is_midst_of_insertion(frame) || rules.is_stale(frame)) return;
+  for (const FrameBody& a : frame.bodies)
+    for (const FrameBody& b : frame.bodies) {
+      if (a.id >= b.id || !overlap(a.box, b.box)) continue;
+      if (rules.only_awake() && rests(a) && rests(b)) continue;
+      EXPECT_TRUE(listed.contains({a.id, b.id}))
+          << a.name << " and " << b.name << " overlap, but are no pair on " << frame.index;
+    }
+}
+
+// n(n-1)/2
+std::int64_t pairs_among(std::int64_t n) { return n * (n - 1) / 2; }
+
+// How many pairs the structure of what moves tests, leaf by leaf.
+std::int64_t leaf_tests(const Frame& frame, const Rules& rules) {
+  std::set<BodyId> resting;
+  for (const FrameBody& b : frame.bodies)
+    if (rests(b)) resting.insert(b.id);
+  std::int64_t tests = 0;
+  for (const FrameNode& n : frame.nodes) {
+    if (n.of_static) continue;
+    tests += pairs_among(std::int64_t(n.bodies.size()));
+    if (rules.only_awake())
+      tests -= pairs_among(std::count_if(n.bodies.begin(), n.bodies.end(),
+                                         [&](BodyId id) { return resting.contains(id); }));
+  }
+  return tests;
+}
+
+void expect_counts_of_what_is_listed(const Frame& frame, const Rules& rules) {
+  if (frame.nodes.empty()) return;
+  std::int64_t leaves = 0, depth = 0, entries = 0;
+  bool has_static = false;
+  for (const FrameNode& n : frame.nodes) {
+    leaves += n.leaf;
+    depth = std::max<std::int64_t>(depth, n.depth);
+    entries += std::int64_t(n.bodies.size());
+    has_static = has_static || n.of_static;
+  }
+  EXPECT_EQ(frame.count("nodes"), std::int64_t(frame.nodes.size()));
+  EXPECT_EQ(frame.count("leaves"), leaves);
+  EXPECT_EQ(frame.count("depth"), depth);
+  if (frame.structure == StructureKind::none) return;
+  EXPECT_EQ(frame.count("entries"), entries);
+  EXPECT_EQ(frame.count("pairs"), std::int64_t(frame.pairs.size()));
+  EXPECT_EQ(frame.count("bodies"), std::int64_t(frame.bodies.size()));
+  EXPECT_EQ(frame.count("all_pairs"), pairs_among(std::int64_t(frame.bodies.size())));
+  EXPECT_LE(*frame.count("overlaps"), *frame.count("pairs"));
+  EXPECT_GE(*frame.count("pair_tests"), *frame.count("pairs")) << "each pair is met at least once";
+  const std::int64_t tests = *frame.count("pair_tests"), by_leaf = leaf_tests(frame, rules);
+  if (frame.structure == StructureKind::sort_and_sweep) {
+    EXPECT_LE(tests, *frame.count("all_pairs")) << "the sweep tests a pair twice";
+  } else if (has_static) {
+    EXPECT_GE(tests, by_leaf);
+  } else {
+    EXPECT_EQ(tests, by_leaf);
+  }
+}
+
+// One tree, or two where what never moves has its own; a root first, parents before children.
+void expect_whole_trees(const Frame& frame) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> ways;
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const FrameNode& n = frame.nodes[i];
+    EXPECT_EQ(n.id, i);
+    if (i == 0 || (n.of_static && !frame.nodes[i - 1].of_static)) {
+      EXPECT_EQ(n.parent, kNone);
+      EXPECT_EQ(n.depth, 0u);
+      continue;
+    }
+    ASSERT_LT(n.parent, i) << "a parent must stand before its child";
+    const FrameNode& parent = frame.nodes[n.parent];
+    EXPECT_EQ(n.of_static, parent.of_static) << "a node has strayed into the other tree";
+    EXPECT_FALSE(parent.leaf);
+    EXPECT_EQ(n.depth, parent.depth + 1);
+    EXPECT_TRUE(ways.insert({n.parent, n.slot}).second) << "two children in one slot";
+  }
+}
+
+void expect_sleepers_below_sleeping_nodes(const Frame& frame) {
+  std::set<BodyId> awake;
+  for (const FrameBody& b : frame.bodies)
+    if (!rests(b)) awake.insert(b.id);
+  std::vector<bool> holds_awake(frame.nodes.size());
+  for (std::size_t i = frame.nodes.size(); i-- > 0;) {
+    const FrameNode& n = frame.nodes[i];
+    for (const BodyId id : n.bodies) holds_awake[i] = holds_awake[i] || awake.contains(id);
+    if (holds_awake[i] && n.parent != kNone) holds_awake[n.parent] = true;
+    EXPECT_TRUE(n.awake || !holds_awake[i]) << "below a sleeping node something is awake";
+  }
+}
+
+void expect_memory_in_order(const Frame& frame) {
+  std::set<std::uint32_t> taken;
+  for (const FrameNode& n : frame.nodes) {
+    if (n.first == kNone) continue;
+    EXPECT_LE(n.bodies.size(), n.room) << "a leaf writes beyond its room";
+    EXPECT_LE(n.first + n.room, frame.array_size) << "a leaf lies beyond the array";
+    for (std::uint32_t i = 0; i < n.room; ++i)
+      EXPECT_TRUE(taken.insert(n.first + i).second) << "two leaves share slot " << n.first + i;
+  }
+}
+
+void expect_words(const Frame& frame) {
+  EXPECT_FALSE(frame.caption.empty()) << "frame " << frame.index << " is silent";
+  EXPECT_FALSE(frame.event.empty());
+  EXPECT_EQ(frame.caption.find('{'), std::string::npos) << frame.caption;
+}
+
+void expect_finite(const Frame& frame) {
+  for (const FrameBody& b : frame.bodies)
+    for (int i = 0; i < 3; ++i)
+      EXPECT_TRUE(std::isfinite(b.position[i]) && std::isfinite(b.velocity[i])) << b.name;
+  for (const auto& [name, value] : frame.measures) EXPECT_TRUE(std::isfinite(value)) << name;
+}
+
+class EveryFrame : public testing::TestWithParam<std::tuple<std::string, Pace>> {
+ protected:
+  // `look` at each frame of a run that keeps its promises.
+  void run(const std::function<void(const Frame&)>& look) const {
+    Work work;
+    const DirectorReport report =
+        direct(scenario_, std::get<1>(GetParam()), work, [&](const Frame& frame) {
+          look(frame);
+          return !HasFatalFailure();
+        });
+    for (const Diagnostic& d : report.unmet) ADD_FAILURE() << to_string(d);
+  }
+
+  const Scenario scenario_ = shipped(std::get<0>(GetParam()));
+};
+
+TEST_P(EveryFrame, TellsTheTruth) {
+  const Rules rules(scenario_);
+  std::uint32_t index = 0;
+  run([&](const Frame& frame) {
+    EXPECT_EQ(frame.index, index++);
+    expect_words(frame);
+    if (!is_sampled(frame)) return;
+    SCOPED_TRACE("frame " + std::to_string(frame.index) + ", " + frame.event);
+    expect_no_pair_missed(frame, rules);
+    expect_counts_of_what_is_listed(frame, rules);
+    expect_whole_trees(frame);
+    expect_sleepers_below_sleeping_nodes(frame);
+    expect_memory_in_order(frame);
+    expect_finite(frame);
+  });
+}
+
+TEST_P(EveryFrame, IsTheSameOnASecondRun) {
+  std::vector<std::uint64_t> first;
+  const auto digest = [](const Frame& frame) {
+    Hash hash;
+    hash.add(frame.hash).add(std::string_view(frame.caption));
+    if (is_sampled(frame)) hash.add(std::string_view(to_json(frame)));
+    return hash.value();
+  };
+  run([&](const Frame& frame) { first.push_back(digest(frame)); });
+  std::size_t i = 0;
+  run([&](const Frame& frame) {
+    ASSERT_LT(i, first.size());
+    EXPECT_EQ(first[i++], digest(frame)) << "frame " << frame.index;
+  });
+  EXPECT_EQ(i, first.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, EveryFrame,
+                         testing::Combine(testing::ValuesIn(all_scenarios()),
+                                          testing::Values(Pace::step, Pace::event)),
+                         [](const auto& each) {
+                           return std::get<0>(each.param) +
+                                  (std::get<1>(each.param) == Pace::step ? "_step" : "_event");
+                         });
+
+}  // namespace
+}  // namespace lantern::test

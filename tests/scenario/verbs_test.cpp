@@ -1,0 +1,240 @@
+// What each verb of the script does to the bodies.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "scenario/directing.hpp"
+#include "scenario/parsing.hpp"
+
+namespace lantern::test {
+namespace {
+
+// A disc of mass 2 at rest in the midst of nothing.
+const std::string kDisc = R"([[body]]
+name = "disc"
+radius = 1
+mass = 2
+position = [8, 8]
+)";
+
+std::vector<Frame> played(const std::string& world, const std::string& bodies,
+                          const std::vector<std::string>& script) {
+  return frames_of(
+      good(world_text("size = [16, 16]\ntime_step = 0.125\n" + world, bodies + steps(script))));
+}
+
+const std::string kInsertDisc = "do = \"insert\"\nbodies = [\"disc\"]";
+
+TEST(Verbs, AForceActsUntilItIsEnded) {
+  const auto frames = played("", kDisc,
+                             {kInsertDisc, "do = \"force\"\nbody = \"disc\"\nforce = [4, 0]",
+                              "do = \"run\"\nseconds = 1\nname = \"pushed\"\nevery = 8",
+                              "do = \"force\"\nbody = \"disc\"\nforce = [0, 0]",
+                              "do = \"run\"\nseconds = 1\nname = \"free\"\nevery = 8"});
+  // a = 2; eight steps of 1/8 s, each with the velocity of its end: a h² (1 + ... + 8)
+  const FrameBody& pushed = body(at(frames, "pushed"), "disc");
+  EXPECT_EQ(pushed.velocity, Vec<3>(2, 0, 0));
+  EXPECT_EQ(pushed.position, Vec<3>(8 + 1.125, 8, 0));
+  const FrameBody& free = body(at(frames, "free"), "disc");
+  EXPECT_EQ(free.velocity, Vec<3>(2, 0, 0)) << "a force of zero still pushes";
+  EXPECT_EQ(free.position, Vec<3>(11.125, 8, 0));
+  EXPECT_EQ(free.angular_momentum.z, 0) << "a force at the centre turns nothing";
+}
+
+TEST(Verbs, ANewForceTakesTheOldOnesPlace) {
+  const auto frames = played(
+      "", kDisc,
+      {kInsertDisc, "do = \"force\"\nbody = \"disc\"\nforce = [4, 0]",
+       "do = \"force\"\nbody = \"disc\"\nforce = [0, 4]", "do = \"run\"\nseconds = 1\nevery = 8"});
+  EXPECT_EQ(body(frames.back(), "disc").velocity, Vec<3>(0, 2, 0)) << "two forces act at once";
+}
+
+TEST(Verbs, AnImpulseStrikesOnce) {
+  const auto frames =
+      played("", kDisc,
+             {kInsertDisc, "do = \"impulse\"\nbody = \"disc\"\nimpulse = [6, 0]\nat = [0, 0.5]",
+              "do = \"run\"\nseconds = 1\nevery = 8"});
+  EXPECT_EQ(body(frames[1], "disc").velocity, Vec<3>(3, 0, 0));
+  EXPECT_EQ(body(frames[1], "disc").angular_momentum.z, -3) << "arm × impulse";
+  EXPECT_EQ(body(frames[1], "disc").position, Vec<3>(8, 8, 0)) << "no time has passed";
+  EXPECT_EQ(body(frames[2], "disc").position, Vec<3>(11, 8, 0));
+  EXPECT_LT(body(frames[2], "disc").angle, 0) << "it turns clockwise";
+}
+
+TEST(Verbs, AnImpulseMovesNothingKinematic) {
+  const auto frames =
+      played("", "[[body]]\nname = \"disc\"\nradius = 1\nkind = \"kinematic\"\nposition = [8, 8]\n",
+             {kInsertDisc, "do = \"impulse\"\nbody = \"disc\"\nimpulse = [6, 0]"});
+  EXPECT_EQ(body(frames.back(), "disc").velocity, Vec<3>(0.0));
+}
+
+TEST(Verbs, ASleeperHangsInTheAirUntilItIsWoken) {
+  const std::string run = "do = \"run\"\nseconds = 1\nevery = 8\nname = ";
+  const auto frames = played("gravity = [0, -8]\nmay_sleep = true", kDisc,
+                             {kInsertDisc, "do = \"sleep\"\nbodies = [\"disc\"]", run + "\"slept\"",
+                              "do = \"wake\"\nbodies = [\"disc\"]", run + "\"woken\""});
+  EXPECT_TRUE(body(frames[1], "disc").asleep);
+  EXPECT_EQ(frames[1].count("asleep"), 1);
+  const Frame& slept = at(frames, "slept");
+  EXPECT_EQ(body(slept, "disc").position, Vec<3>(8, 8, 0)) << "a sleeper was moved by gravity";
+  EXPECT_FALSE(body(frames[3], "disc").asleep);
+  EXPECT_LT(body(at(frames, "woken"), "disc").position.y, 8);
+}
+
+TEST(Verbs, AMoveTurnsAndSpins) {
+  const auto frames =
+      played("",
+             "[[body]]\nname = \"disc\"\nhalf_size = [2, 1]\noriented = true\n"
+             "position = [8, 8]\n",
+             {kInsertDisc, "do = \"move\"\nbody = \"disc\"\nturned = 90\nspin = 180",
+              "do = \"run\"\nseconds = 1\nevery = 8"});
+  constexpr double kPi = std::numbers::pi;
+  EXPECT_EQ(body(frames[0], "disc").box.size(), Vec<3>(4, 2, 0));
+  EXPECT_NEAR(body(frames[1], "disc").angle, kPi / 2, 1e-12);
+  EXPECT_NEAR(body(frames[1], "disc").box.size().y, 4, 1e-12) << "its box did not turn with it";
+  EXPECT_NEAR(std::remainder(body(frames[2], "disc").angle - 1.5 * kPi, 2 * kPi), 0, 1e-9);
+  EXPECT_EQ(body(frames[2], "disc").position, Vec<3>(8, 8, 0));
+}
+
+TEST(Verbs, AMoveInASolidWorldTurnsAboutTheBodysAxis) {
+  const Scenario s = good(world_text(
+      "size = [9, 9, 9]\ntime_step = 0.125",
+      "[[body]]\nname = \"rod\"\nhalf_size = [3, 1, 2]\noriented = true\naxis = [0, 0, 1]\n"
+      "position = [4, 4, 4]\n" +
+          steps({"do = \"insert\"\nbodies = [\"rod\"]",
+                 "do = \"move\"\nbody = \"rod\"\nturned = 90\nto = [5, 4, 4]"})));
+  const FrameBody rod = body(frames_of(s).back(), "rod");
+  EXPECT_EQ(rod.position, Vec<3>(5, 4, 4));
+  const Vec<3> size = rod.box.size();
+  EXPECT_NEAR(size.x, 2, 1e-12);
+  EXPECT_NEAR(size.y, 6, 1e-12);
+  EXPECT_NEAR(size.z, 4, 1e-12) << "it turned about another axis";
+}
+
+TEST(Verbs, FramesComeEveryFewWorldStepsAndAtTheEnd) {
+  const auto times = [](const std::string& every) {
+    std::vector<double> list;
+    for (const Frame& frame :
+         played("frame_every = 3", kDisc, {kInsertDisc, "do = \"run\"\nseconds = 1\n" + every}))
+      list.push_back(frame.time);
+    return list;
+  };
+  EXPECT_EQ(times(""), (std::vector<double>{0, 0.375, 0.75, 1}));
+  EXPECT_EQ(times("every = 4"), (std::vector<double>{0, 0.5, 1})) << "the step's own goes first";
+  EXPECT_EQ(times("every = 1").size(), 9u);
+}
+
+// A ball flies to a wall and back.
+const std::string kWallAndBall = R"([[body]]
+name = "wall"
+static = true
+half_size = [1, 6]
+position = [14, 8]
+restitution = 1
+friction = 0
+[[body]]
+name = "ball"
+radius = 1
+position = [4, 8]
+velocity = [8, 0]
+friction = 0
+)";
+const std::string kInsertBoth = "do = \"insert\"\nbodies = [\"wall\", \"ball\"]";
+
+TEST(Verbs, WaitEndsWithTheTouchAndWithTheParting) {
+  for (const std::string contacts : {"impulse", "soft"}) {
+    SCOPED_TRACE(contacts);
+    const auto frames = played(
+        "contacts = \"" + contacts + "\"", kWallAndBall,
+        {kInsertBoth,
+         "do = \"wait\"\nevent = \"touch\"\nbodies = [\"ball\", \"wall\"]\nat_most = 4\n"
+         "name = \"touch\"\nevery = 1000\nexpect = { contacts_are = [[\"wall\", \"ball\"]] }",
+         "do = \"wait\"\nevent = \"part\"\nbodies = [\"wall\", \"ball\"]\nat_most = 4\n"
+         "name = \"part\"\nevery = 1000\nexpect = { contacts = 0, ends = 1 }",
+         "do = \"run\"\nseconds = 0.5\nevery = 4\nname = \"after\""});
+    ASSERT_EQ(frames.size(), 4u) << "one frame for each wait";
+    EXPECT_GT(frames[1].time, 0.5);
+    EXPECT_LT(frames[1].time, 1.0) << "8 units at 8 a second";
+    EXPECT_EQ(frames[1].count("begins"), 1);
+    EXPECT_GT(frames[2].time, frames[1].time);
+    EXPECT_NEAR(body(frames[3], "ball").velocity.x, -8, 1e-6) << "it keeps its speed";
+  }
+}
+
+TEST(Verbs, WaitEndsWhenAllAreAsleep) {
+  const auto frames =
+      played("gravity = [0, -10]\nmay_sleep = true\ncontacts = \"soft\"",
+             "[[body]]\nname = \"ground\"\nstatic = true\nhalf_size = [8, 1]\nposition = [8, 1]\n"
+             "[[body]]\nname = \"box\"\nhalf_size = [1, 1]\nposition = [8, 4]\n",
+             {"do = \"insert\"\nbodies = [\"ground\", \"box\"]",
+              "do = \"wait\"\nevent = \"asleep\"\nbodies = [\"box\"]\nat_most = 10\nevery = 1000\n"
+              "expect = { asleep = [\"box\"], awake = 0 }"});
+  EXPECT_TRUE(body(frames.back(), "box").asleep);
+  EXPECT_LT(frames.back().time, 10);
+  EXPECT_FALSE(body(frames.front(), "box").asleep);
+}
+
+TEST(Verbs, AWaitInVainIsReportedAtItsLine) {
+  const Scenario s =
+      good(world_text("size = [16, 16]\ntime_step = 0.125\ncontacts = \"impulse\"",
+                      kWallAndBall + steps({kInsertBoth,
+                                            "do = \"wait\"\nevent = \"touch\"\n"
+                                            "bodies = [\"ball\", \"wall\"]\nat_most = 0.5",
+                                            "do = \"show\"\nname = \"after\""})));
+  Work work;
+  std::vector<Frame> frames;
+  const DirectorReport report = direct(s, Pace::step, work, [&](const Frame& frame) {
+    frames.push_back(frame);
+    return true;
+  });
+  ASSERT_EQ(report.unmet.size(), 1u) << "a wait in vain was not noticed";
+  EXPECT_NE(report.unmet[0].message.find("has not happened within 0.5 s"), std::string::npos)
+      << report.unmet[0].message;
+  EXPECT_EQ(report.unmet[0].where.line, s.steps[1].where.line);
+  EXPECT_EQ(frames.back().event, "after") << "the rest of the script is still shown";
+}
+
+TEST(Verbs, PhasesShowsOneWorldStepInFourFrames) {
+  const auto frames =
+      played("contacts = \"impulse\"", kWallAndBall,
+             {kInsertBoth, "do = \"move\"\nbody = \"ball\"\nto = [12.05, 8]", "do = \"phases\""});
+  ASSERT_EQ(frames.size(), 6u);
+  const Frame &moved = frames[1], &broad = frames[2], &narrow = frames[3], &solve = frames[4];
+  const Frame& last = frames[5];
+  EXPECT_EQ(broad.event, "broad_phase");
+  EXPECT_EQ(narrow.event, "narrow_phase");
+  EXPECT_EQ(solve.event, "solve");
+  EXPECT_TRUE(broad.contacts.empty()) << "the broad phase knows no contacts";
+  ASSERT_EQ(narrow.contacts.size(), 1u);
+  ASSERT_EQ(solve.contacts.size(), 1u);
+  EXPECT_TRUE(solve.contacts[0].begins);
+  double before = 0, after = 0;
+  for (const FrameContact::Point& p : narrow.contacts[0].points) before += p.impulse;
+  for (const FrameContact::Point& p : solve.contacts[0].points) after += p.impulse;
+  EXPECT_EQ(before, 0) << "the narrow phase shows impulses before they are there";
+  EXPECT_GT(after, 0);
+  for (const Frame* frame : {&broad, &narrow, &solve})
+    EXPECT_EQ(motion_hash(*frame), motion_hash(moved)) << frame->event << " has moved a body";
+  EXPECT_NE(motion_hash(last), motion_hash(moved));
+  EXPECT_DOUBLE_EQ(last.time, 0.125);
+  EXPECT_EQ(narrow.count("contacts"), 1);
+  EXPECT_EQ(narrow.count("all_pairs"), 1);
+  for (const Frame* frame : {&broad, &narrow, &solve}) EXPECT_FALSE(frame->caption.empty());
+}
+
+TEST(Verbs, PhasesCountTheStructureThatTheyShow) {
+  const auto frames = played(
+      "contacts = \"impulse\"", "[structure]\nkind = \"quadtree\"\ncapacity = 1\n" + kWallAndBall,
+      {kInsertBoth, "do = \"move\"\nbody = \"ball\"\nto = [11.9, 3]\nvelocity = [60, 0]",
+       "do = \"phases\""});
+  for (const Frame& frame : frames) {
+    EXPECT_EQ(frame.count("nodes"), std::int64_t(frame.nodes.size())) << frame.event;
+    EXPECT_EQ(frame.count("pairs"), std::int64_t(frame.pairs.size())) << frame.event;
+    EXPECT_EQ(frame.count("contacts"), std::int64_t(frame.contacts.size())) << frame.event;
+  }
+}
+
+}  // namespace
+}  // namespace lantern::test
