@@ -251,11 +251,17 @@ void draw_bodies(const std::vector<Stand>& stands, const WorldMap& map, bool box
 
 void name_bodies(const std::vector<Stand>& stands, const WorldMap& map, const Grounds& grounds,
                  Labels& labels) {
-  constexpr std::size_t kMostNamed = 60;  // of more, only those the step is about
+  constexpr std::size_t kMostNamed = 35;        // of more, only those the step is about
+  constexpr std::size_t kMostStaticNamed = 12;  // of more bodies, no wall or pillar that is quiet
   constexpr double kWidestName = 210;
+  // Bodies, not stands: these merge and part as bodies move, and names must not come and go.
+  std::size_t bodies = 0;
+  for (const Stand& stand : stands) bodies += stand.bodies.size();
   std::vector<const Stand*> order;
   for (const Stand& stand : stands)
-    if (stands.size() <= kMostNamed || is_lit(stand)) order.push_back(&stand);
+    if (is_lit(stand) ||
+        (bodies <= kMostNamed && (bodies <= kMostStaticNamed || !stand.bodies.front()->is_static)))
+      order.push_back(&stand);
   std::stable_partition(order.begin(), order.end(), [](const Stand* s) { return is_lit(*s); });
   if (order.size() > kMostNamed) order.resize(kMostNamed);
   for (const Stand* stand : order) {

@@ -99,7 +99,16 @@ void hatch_unmade(const Frame& frame, const WorldMap& map, DrawList& list) {
   }
 }
 
+// In a tree of many leaves that are all lit, the tone would tell nothing and drown the bodies.
+bool all_lit(const Frame& frame) {
+  constexpr std::size_t kMany = 40;
+  return frame.nodes.size() > kMany &&
+         std::all_of(frame.nodes.begin(), frame.nodes.end(),
+                     [](const FrameNode& n) { return !n.leaf || n.mark == Mark::lit; });
+}
+
 void fill_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
+  if (all_lit(frame)) return;
   const Paint paint(frame);
   std::vector<std::size_t> painted = paint.painted();
   std::erase_if(painted, [&](std::size_t i) { return !is_drawn(map.to_page(frame.nodes[i].box)); });
@@ -145,9 +154,9 @@ void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
   Pen pen(list, map.rect);
   for (const FrameNode& node : frame.nodes) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
-    if (node.awake || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (node.awake || node.of_static || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
-    pen.hatch(page_region(node, map), 13, -1, {Role::asleep, 1.5, 0}, 60);
+    pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1, 0}, 60);
   }
 }
 
@@ -167,6 +176,7 @@ bool draw_static_cells(const Frame& frame, const WorldMap& map, DrawList& list) 
 }
 
 void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
+  if (all_lit(frame)) return;
   Borders borders;
   std::size_t outlined = 0;
   for (const FrameNode& node : frame.nodes) {
@@ -218,7 +228,7 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   complete &= draw_static_cells(frame, map, list);
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
-  const bool lit = !frame.nodes.empty() && frame.nodes[0].mark == Mark::lit;
+  const bool lit = !frame.nodes.empty() && !all_lit(frame) && frame.nodes[0].mark == Mark::lit;
   list.shapes.emplace_back(RectShape{
       map.rect, 0, Role::none, {lit ? Role::lit : Role::cell_line_0, line_width(0), 0}, true});
   return complete;
