@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/vec.hpp"
+#include "geometry/segment.hpp"
 
 namespace lantern {
 
@@ -31,15 +31,6 @@ Direction<D> direction_of(const Vec<D>& v, const Vec<D>& fallback) {
   const double length = glm::length(scaled);
   return {scaled / length, length * most};
 }
-
-// All points a + t (b - a) with t in [0, 1]; the ends may coincide.
-template <int D>
-struct Segment {
-  Vec<D> a{0.0};
-  Vec<D> b{0.0};
-
-  Vec<D> at(double t) const { return a + (b - a) * t; }
-};
 
 // Where along the segment, from 0 to 1, it comes closest to the point.
 template <int D>

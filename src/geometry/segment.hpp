@@ -1,4 +1,4 @@
-// Directed segments in the plane, and the lines that they lie on.
+// Directed segments, and in the plane the lines that they lie on.
 //
 //        left: in front of the line
 //     a ---------------> b
@@ -9,31 +9,26 @@
 
 namespace lantern {
 
+// All points a + t (b - a) with t in [0, 1]; the ends may coincide.
+template <int D>
 struct Segment {
-  Vec<2> a{0.0};
-  Vec<2> b{0.0};
+  Vec<D> a{0.0};
+  Vec<D> b{0.0};
 
-  Vec<2> middle() const { return a + (b - a) * 0.5; }
+  Vec<D> at(double t) const { return a + (b - a) * t; }  // t from 0 to 1
+  Vec<D> middle() const { return at(0.5); }
   bool operator==(const Segment&) const = default;
 };
 
-inline double length(const Segment& s) {
-  const Vec<2> along = s.b - s.a;
-  return std::sqrt(along.x * along.x + along.y * along.y);
+template <int D>
+double length(const Segment<D>& s) {
+  return glm::length(s.b - s.a);
 }
 
 // The line through a segment that is not a point: its normal has unit length and points left.
-inline Plane<2> line_of(const Segment& s) {
+inline Plane<2> line_of(const Segment<2>& s) {
   const Vec<2> along = (s.b - s.a) / length(s);
   return Plane<2>::through(s.a, {-along.y, along.x});
-}
-
-// How far the point lies in front of the plane, in lengths of its normal; negative behind it.
-template <int D>
-double height_over(const Plane<D>& plane, const Vec<D>& point) {
-  double sum = 0;
-  for (int i = 0; i < D; ++i) sum += plane.normal[i] * point[i];
-  return sum - plane.offset;
 }
 
 }  // namespace lantern

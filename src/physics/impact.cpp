@@ -6,25 +6,20 @@
 namespace lantern {
 namespace {
 
-constexpr int kMostRounds = 2000;       // through all touching pairs, in one impact
-constexpr int kMostPointSweeps = 200;   // over the points of one pair
-constexpr double kTouching = 1e-9;      // of the sizes: so near is touching
-constexpr double kFastestRest = 1e-12;  // of the bodies' speeds: slower is not an approach
-
-template <int D>
-double speed_scale(const Mover<D>& a, const Mover<D>& b) {
-  return glm::length(a.velocity) + glm::length(b.velocity) + std::sqrt(dot(a.spin, a.spin)) +
-         std::sqrt(dot(b.spin, b.spin));
-}
+constexpr int kBouncingRounds = 64;    // through all touching pairs, in one impact
+constexpr int kMostRounds = 96;        // the last ones without restitution
+constexpr int kMostPointSweeps = 200;  // over the points of one pair
+constexpr double kTouching = 1e-9;     // of the sizes: so near is touching
 
 // Newton's law of restitution at all points of a pair at once: those that approach will part with
 // the given part of their speed.
 template <int D>
-bool resolve(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, WorldWork& work) {
+bool resolve(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, double slow,
+             WorldWork& work) {
   bool approaches = false;
   for (ContactPoint<D>& p : rows.points()) {
     const double parting = glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
-    if (parting < -kFastestRest * speed_scale(a, b)) approaches = true;
+    if (parting < -slow) approaches = true;
     p.bounce = parting < 0 ? -restitution * parting : 0;
     p.pn = 0;
     p.pt = Vec<D>(0.0);
@@ -87,14 +82,15 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
   for (int round = 0; any && round < kMostRounds; ++round) {
     any = false;
     // A blow that does not come to its end is ended without restitution.
-    const bool tired = round > kMostRounds / 2;
+    const bool tired = round >= kBouncingRounds;
     for (const std::size_t i : touching) {
       IslandPair<D>& pair = island.pairs[i];
       const double restitution = tired ? 0 : pair.rows.restitution;
       if (!resolve(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b], restitution,
-                   work))
+                   pair.slow, work))
         continue;
       record_impulses(pair);
+      pair.pressed |= tired;
       ++impacts;
       any = true;
     }
@@ -122,7 +118,11 @@ std::vector<Course<D>> courses(const Island<D>& island, double within) {
     all.push_back(course);
   }
   for (const IslandPair<D>& pair : island.pairs)
-    if (pair.pressed) all[pair.rows.a].bend = all[pair.rows.b].bend = Vec<D>(0.0);
+    if (pair.pressed)
+      for (const std::uint32_t i : {pair.rows.a, pair.rows.b}) {
+        all[i].held = glm::length(island.increments[i].kick) / within;
+        all[i].bend = Vec<D>(0.0);
+      }
   return all;
 }
 
@@ -139,9 +139,11 @@ std::optional<Impact<D>> next_impact(Island<D>& island, double within, double st
   const std::vector<Course<D>> flying = courses(island, within);
   std::optional<Impact<D>> first;
   for (IslandPair<D>& pair : island.pairs) {
+    const Course<D>& a = flying[pair.rows.a];
+    const Course<D>& b = flying[pair.rows.b];
+    pair.slow = slowest_impact(a, b, step);
     if (!pair.located || pair.pressed) continue;
-    const auto met = meeting(flying[pair.rows.a], flying[pair.rows.b], within, step, pair.reach,
-                             work.narrow_tests);
+    const auto met = meeting(a, b, within, pair.slow, pair.reach, work.narrow_tests);
     if (!met) continue;
     if (met->rests)
       pair.pressed = true;

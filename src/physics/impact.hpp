@@ -13,6 +13,7 @@ struct Course {
   const Body<D>* body = nullptr;
   Vec<D> velocity{0.0};
   Vec<D> bend{0.0};
+  double held = 0;  // acceleration that forces would give it, if it did not rest on something
 };
 
 template <int D>
@@ -23,12 +24,17 @@ struct Meeting {
 
 // The first moment within `within` seconds at which the two bodies touch and approach; nothing if
 // there is none. By conservative advancement (Mirtich, "Impulse-based Dynamic Simulation", 1996):
-// go on for as long as they surely cannot touch. What would part for less than a small share of
-// `step` seconds only is said to rest. Farther apart than `reach` they are not looked at. `counted`
-// grows by the narrow phase's calls.
+// go on for as long as they surely cannot touch. What approaches more slowly than `slow` is said to
+// rest. Farther apart than `reach` they are not looked at. `counted` grows by the narrow phase's
+// calls.
 template <int D>
 std::optional<Meeting<D>> meeting(const Course<D>& a, const Course<D>& b, double within,
-                                  double step, double reach, std::uint64_t& counted);
+                                  double slow, double reach, std::uint64_t& counted);
+
+// A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
+// lower and lower comes to rest after finitely many impacts. This is the speed of such a bounce.
+template <int D>
+double slowest_impact(const Course<D>& a, const Course<D>& b, double step);
 
 // How fast a body's surface can move because it turns, per radian: 0 for balls.
 template <int D>
@@ -39,7 +45,8 @@ template <int D>
 double thickness(const Shape<D>& shape);
 
 // All pairs that touch and approach get the impulses of an impact, one pair after another until
-// none approaches: so the blow runs through a row of balls. Returns how many impacts there were.
+// none approaches: so the blow runs through a row of balls. Pairs between which it does not come to
+// an end become contacts. Returns how many impacts there were.
 template <int D>
 int resolve_impacts(Island<D>& island, WorldWork& work);
 

@@ -16,6 +16,7 @@ struct IslandPair {
   ContactRows<D> rows;
   bool located = false;  // bouncing or fast: their impacts are located in time
   bool pressed = false;  // solved as a contact; an impact that is located needs no rows
+  double slow = 0;       // approaches slower than this are no impacts
   double reach = 0;      // how near they must be to be looked at
   bool remembered = false;
   Contact<D> memory;   // of the last sub-step

@@ -8,9 +8,7 @@ namespace lantern {
 namespace {
 
 constexpr int kMostAdvances = 200;
-// A bounce shorter than this part of the step is none. So a ball that bounces lower and lower comes
-// to rest after finitely many impacts.
-constexpr double kShortestBounce = 1.0 / 32;
+constexpr double kShortestBounce = 1.0 / 32;  // of a step
 
 template <int D>
 struct Look {
@@ -22,15 +20,14 @@ struct Look {
 template <int D>
 class Approach {
  public:
-  Approach(const Course<D>& a, const Course<D>& b, double within, double step, double reach,
+  Approach(const Course<D>& a, const Course<D>& b, double within, double slow, double reach,
            std::uint64_t& counted)
       : a_(a), b_(b), within_(within), reach_(reach), counted_(counted) {
     turn_a_ = turning(a);
     turn_b_ = turning(b);
     const double spin = spin_of(a) + spin_of(b);
     bend_ = 2 * glm::length(b.bend - a.bend) + spin * (turn_a_ + turn_b_);
-    slow_ = std::max(2 * glm::length(b.bend - a.bend) * step * kShortestBounce,
-                     1e-12 * (glm::length(a.velocity) + glm::length(b.velocity)));
+    slow_ = slow;
     size_ = glm::length(a.body->position) + glm::length(b.body->position);
     for (const Course<D>* course : {&a, &b})
       if (const double t = thickness<D>(course->body->shape); t < kEndless) size_ += t;
@@ -122,8 +119,15 @@ class Approach {
 
 template <int D>
 std::optional<Meeting<D>> meeting(const Course<D>& a, const Course<D>& b, double within,
-                                  double step, double reach, std::uint64_t& counted) {
-  return Approach<D>(a, b, within, step, reach, counted).find();
+                                  double slow, double reach, std::uint64_t& counted) {
+  return Approach<D>(a, b, within, slow, reach, counted).find();
+}
+
+template <int D>
+double slowest_impact(const Course<D>& a, const Course<D>& b, double step) {
+  const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
+  return std::max(pull * step * kShortestBounce,
+                  1e-12 * (glm::length(a.velocity) + glm::length(b.velocity)));
 }
 
 template <int D>
@@ -150,6 +154,7 @@ double thickness(const Shape<D>& shape) {
 #define LANTERN_INSTANTIATE(D)                                                                   \
   template std::optional<Meeting<D>> meeting(const Course<D>&, const Course<D>&, double, double, \
                                              double, std::uint64_t&);                            \
+  template double slowest_impact(const Course<D>&, const Course<D>&, double);                    \
   template double turning_reach<D>(const Shape<D>&);                                             \
   template double thickness<D>(const Shape<D>&);
 

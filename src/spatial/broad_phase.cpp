@@ -17,11 +17,6 @@ constexpr std::array<std::string_view, kBroadPhaseKinds.size()> kNames = {
 // More entries or nodes than this are out of proportion.
 std::uint64_t most_entries(std::uint64_t room) { return 4096 + 64 * room; }
 
-template <class Structure>
-inline constexpr bool kIsOrthtree =
-    std::is_same_v<Structure, Orthtree<2>> || std::is_same_v<Structure, Orthtree<3>> ||
-    std::is_same_v<Structure, FlatQuadtree>;
-
 }  // namespace
 
 std::string_view name_of(BroadPhaseKind kind) { return kNames[static_cast<std::size_t>(kind)]; }

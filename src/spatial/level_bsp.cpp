@@ -20,7 +20,7 @@ std::optional<LevelBsp::Place> LevelBsp::locate(const Vec<2>& point) const {
   Place place;
   NodeHandle handle = 0;
   for (place.nodes_visited = 1; !nodes_[handle].is_leaf(); ++place.nodes_visited)
-    handle = nodes_[handle].first_child + (height_over(nodes_[handle].plane, point) >= 0 ? 1u : 0u);
+    handle = nodes_[handle].first_child + (height(point, nodes_[handle].plane) >= 0 ? 1u : 0u);
   place.sector = nodes_[handle].sector;
   place.floor = true;
   for (const std::uint32_t p : nodes_[handle].pieces)

@@ -31,7 +31,7 @@ namespace lantern {
 struct WallPiece {
   std::uint32_t wall = 0;
   bool back = false;  // the back of a two-sided wall
-  Segment line;
+  Segment<2> line;
   NodeHandle node = kNone;  // on whose dividing line it lies; kNone when only a sector's border
   std::uint32_t sector = kNone;
 };
@@ -181,7 +181,7 @@ class LevelBsp {
   bool walk(NodeHandle handle, const Vec<2>& eye, bool near_first, F& f) const {
     const LevelNode& node = nodes_[handle];
     if (node.is_leaf()) return f(node.sector);
-    const bool eye_in_front = height_over(node.plane, eye) >= 0;
+    const bool eye_in_front = height(eye, node.plane) >= 0;
     const NodeHandle first = node.first_child + (eye_in_front == near_first ? 1u : 0u);
     const NodeHandle second = node.first_child + (eye_in_front == near_first ? 0u : 1u);
     return walk(first, eye, near_first, f) && walk(second, eye, near_first, f);

@@ -203,9 +203,9 @@ class LevelCompiler {
     const Plane<2>& plane = level_.nodes_[handle].plane;
     const WallPiece whole = level_.pieces_[p];
     // Where the whole wall crosses the line: whatever was cut off before does not show.
-    const Segment& wall = level_.walls_[whole.wall].line;
-    const double a = height_over(plane, wall.a);
-    const double b = height_over(plane, wall.b);
+    const Segment<2>& wall = level_.walls_[whole.wall].line;
+    const double a = height(wall.a, plane);
+    const double b = height(wall.b, plane);
     const Vec<2> at = level_.grid_.snapped(wall.a + (wall.b - wall.a) * (a / (a - b)));
     const bool starts_in_front = level_.grid_.side(plane, whole.line.a) > 0;
     level_.pieces_[p].line.b = at;

@@ -66,7 +66,7 @@ Vec<2> LevelGrid::snapped(const Vec<2>& point) const {
 }
 
 int LevelGrid::side(const Plane<2>& line, const Vec<2>& point) const {
-  const double h = height_over(line, point);
+  const double h = height(point, line);
   return h > tolerance_ ? 1 : h < -tolerance_ ? -1 : 0;
 }
 
@@ -81,8 +81,8 @@ Polygon LevelGrid::clipped(const Polygon& polygon, const Plane<2>& line, bool ke
     if (s >= 0) kept.push_back(from);
     any = any || s > 0;
     if (s * side(line, to) * wanted >= 0) continue;
-    const double a = height_over(line, from);
-    const double b = height_over(line, to);
+    const double a = height(from, line);
+    const double b = height(to, line);
     kept.push_back(snapped(from + (to - from) * (a / (a - b))));
   }
   if (kept.size() < 3 || !any) kept.clear();
@@ -113,12 +113,12 @@ std::vector<Wall> walls_of_loops(std::span<const std::vector<Vec<2>>> loops) {
   std::vector<Wall> walls;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const auto& loop = loops[i];
-    const Segment first{loop[0], loop[1]};
+    const Segment<2> first{loop[0], loop[1]};
     const Vec<2> along = first.b - first.a;
     const Vec<2> beside = first.middle() + Vec<2>(-along.y, along.x) * 0x1p-20;
     const bool keep = is_floor(beside, loops);
     for (std::size_t k = 0; k < loop.size(); ++k) {
-      Segment s{loop[k], loop[(k + 1) % loop.size()]};
+      Segment<2> s{loop[k], loop[(k + 1) % loop.size()]};
       if (!keep) std::swap(s.a, s.b);
       walls.push_back({s, false, fmt::format("loop {} wall {}", i, k)});
     }

@@ -22,7 +22,7 @@ namespace lantern {
 //     v            |
 //     ------------->
 struct Wall {
-  Segment line;
+  Segment<2> line;
   bool two_sided = false;
   std::string name;  // for messages; may be empty
 };

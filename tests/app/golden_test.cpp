@@ -1,9 +1,14 @@
-// Golden images: every step frame of every scenario, small, with a hash of its facts. Missing ones
-// fail. After a wanted change, `./run golden` takes today's pictures as the expected ones.
+// Golden images of every scenario, small. All frames in step pace are compared by the hashes of
+// their pictures' and facts' bytes. Pictures are kept of all frames of short sequences; of long
+// ones of every twentieth frame and of the last, so that a difference can be looked at. Missing
+// ones fail. After a wanted change, `./run golden` takes today's pictures as the expected ones.
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -49,6 +54,12 @@ std::string explain(const std::string& name, const fs::path& actual, const Image
                      c.differing, name, c.largest, folder.string(), name);
 }
 
+// `index` of `count` frames.
+bool is_kept(std::size_t index, std::size_t count) {
+  constexpr std::size_t kShort = 70, kEvery = 20;
+  return count <= kShort || index % kEvery == 0 || index + 1 == count;
+}
+
 class Golden : public testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, FramesAreAsExpected) {
@@ -59,16 +70,22 @@ TEST_P(Golden, FramesAreAsExpected) {
                           " --size 480x270 --png small --pace step -o " + out.string());
   ASSERT_EQ(o.code, 0) << o.err;
   Hashes found;
+  std::vector<std::string> pictures;
   for (const auto& entry : fs::directory_iterator(out / name))
     if (entry.path().filename() != "manifest.json")
       found[entry.path().filename()] = hash_of(read_text(entry.path()));
+  for (const auto& [file, hash] : found)
+    if (fs::path(file).extension() == ".png") pictures.push_back(file);
+  std::set<std::string> kept;
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    if (is_kept(i, pictures.size())) kept.insert(pictures[i]);
   if (setting()) {
     fs::remove_all(expected);
     fs::create_directories(expected);
     std::string lines;
     for (const auto& [file, hash] : found) {
       lines += file + " " + hash + "\n";
-      if (fs::path(file).extension() == ".png") fs::copy_file(out / name / file, expected / file);
+      if (kept.contains(file)) fs::copy_file(out / name / file, expected / file);
     }
     write_text(expected / "hashes.txt", lines);
     return;
@@ -79,7 +96,7 @@ TEST_P(Golden, FramesAreAsExpected) {
     EXPECT_TRUE(found.contains(file)) << file << " is expected, but was not made";
   for (const auto& [file, hash] : found) {
     ASSERT_TRUE(hashes.contains(file)) << file << " has no golden counterpart; see ./run golden";
-    if (fs::path(file).extension() == ".png") {
+    if (kept.contains(file)) {
       const auto a = decode_png(read_text(expected / file));
       const auto b = decode_png(read_text(out / name / file));
       ASSERT_TRUE(a && b) << file << " is no picture";

@@ -71,18 +71,18 @@ inline void expect_pieces_in_one_place(const LevelBsp& bsp) {
 
 // The pieces of each side of each wall, end to end, are the wall.
 inline void expect_walls_whole(const LevelBsp& bsp) {
-  std::map<std::pair<std::uint32_t, bool>, std::vector<Segment>> sides;
+  std::map<std::pair<std::uint32_t, bool>, std::vector<Segment<2>>> sides;
   for (const WallPiece& piece : bsp.pieces()) sides[{piece.wall, piece.back}].push_back(piece.line);
   std::size_t expected = 0;
   for (const Wall& wall : bsp.walls()) expected += wall.two_sided ? 2 : 1;
   EXPECT_EQ(sides.size(), expected);
   for (auto& [side, parts] : sides) {
-    Segment whole = bsp.walls()[side.first].line;
+    Segment<2> whole = bsp.walls()[side.first].line;
     if (side.second) std::swap(whole.a, whole.b);
     std::ranges::sort(parts, {},
-                      [&](const Segment& s) { return glm::dot(s.a, whole.b - whole.a); });
+                      [&](const Segment<2>& s) { return glm::dot(s.a, whole.b - whole.a); });
     double total = 0;
-    for (const Segment& part : parts) total += length(part);
+    for (const Segment<2>& part : parts) total += length(part);
     EXPECT_NEAR(total, length(whole), slack(bsp)) << "splitting changed a wall's length";
     EXPECT_EQ(parts.front().a, whole.a);
     EXPECT_EQ(parts.back().b, whole.b);
@@ -117,9 +117,9 @@ inline std::pair<double, double> span_inside(const Polygon& polygon, const Vec<2
                                              const Vec<2>& along) {
   double from = 0, to = 1e300;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Segment edge{polygon[i], polygon[(i + 1) % polygon.size()]};
+    const Segment<2> edge{polygon[i], polygon[(i + 1) % polygon.size()]};
     const Plane<2> line = line_of(edge);
-    const double h = height_over(line, eye);
+    const double h = height(eye, line);
     const double rise = glm::dot(line.normal, along);
     if (rise > 0) from = std::max(from, -h / rise);
     if (rise < 0) to = std::min(to, -h / rise);

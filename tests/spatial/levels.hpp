@@ -103,7 +103,7 @@ inline Level random_level(Style style, int cells, Random& random) {
 }
 
 // Twice the area on the left of a closed loop, seen from `origin`.
-inline double doubled_area(const Segment& s, const Vec<2>& origin) {
+inline double doubled_area(const Segment<2>& s, const Vec<2>& origin) {
   const Vec<2> a = s.a - origin, b = s.b - origin;
   return a.x * b.y - a.y * b.x;
 }
@@ -138,13 +138,13 @@ inline bool is_floor(const Level& level, const Vec<2>& p) {
 inline double depth_in(const Polygon& polygon, const Vec<2>& p) {
   double least = polygon.empty() ? -1e300 : 1e300;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Segment edge{polygon[i], polygon[(i + 1) % polygon.size()]};
-    if (edge.a != edge.b) least = std::min(least, height_over(line_of(edge), p));
+    const Segment<2> edge{polygon[i], polygon[(i + 1) % polygon.size()]};
+    if (edge.a != edge.b) least = std::min(least, height(p, line_of(edge)));
   }
   return least;
 }
 
-inline double distance_to(const Segment& s, const Vec<2>& p) {
+inline double distance_to(const Segment<2>& s, const Vec<2>& p) {
   const Vec<2> along = s.b - s.a;
   const double t = std::clamp(glm::dot(p - s.a, along) / glm::dot(along, along), 0.0, 1.0);
   return glm::length(p - (s.a + along * t));
