@@ -32,7 +32,7 @@ seconds = 0.5
 every = 6
 caption = "{time} s: pink runs to the right, {pairs:pair} to test."
 always = { bodies = 3 }
-expect = { position = { pink = [4, 2] } }
+expect = { position = { pink = [4.5, 2] } }
 )"};
 }
 

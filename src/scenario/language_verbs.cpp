@@ -117,7 +117,7 @@ TableDoc force_verb() {
           R"([[step]]
 do = "force"
 body = "player"
-force = [0, 4]
+force = [-4, 0]
 )"};
 }
 
@@ -136,7 +136,7 @@ TableDoc impulse_verb() {
           R"([[step]]
 do = "impulse"
 body = "pink"
-impulse = [-3, 0]
+impulse = [2.56, 0]
 )"};
 }
 

@@ -13,8 +13,8 @@ namespace lantern::test {
 namespace {
 
 const std::vector<std::string> kFlat = {
-    "none",     "brute_force", "sort_and_sweep",
-    "quadtree", "kd_tree",     "bsp\"\nplanes = [{ point = [16, 0], normal = [1, 0] }]\n#"};
+    "brute_force", "sort_and_sweep", "quadtree", "kd_tree",
+    "bsp\"\nplanes = [{ point = [16, 0], normal = [1, 0] }]\n#"};
 const std::vector<std::string> kSolidKinds = {"brute_force", "sort_and_sweep", "quadtree", "octree",
                                               "kd_tree"};
 
