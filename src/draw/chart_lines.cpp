@@ -184,7 +184,8 @@ class Lines {
     const Role role = body_role(chart_color(line.look));
     const std::vector<Vec<2>> points = thinned(line.points);
     for (std::size_t i = 1; i < points.size(); ++i)
-      list_.shapes.emplace_back(LineShape{points[i - 1], points[i], {role, 3, 0}, false});
+      if (points[i].x != points[i - 1].x)  // the same x again begins a line anew
+        list_.shapes.emplace_back(LineShape{points[i - 1], points[i], {role, 3, 0}, false});
     const Vec<2>* last = nullptr;  // marks that are not too close
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       if (last && std::hypot(points[i].x - last->x, points[i].y - last->y) < kMarkEvery) continue;

@@ -99,16 +99,20 @@ void hatch_unmade(const Frame& frame, const WorldMap& map, DrawList& list) {
   }
 }
 
-// In a tree of many leaves that are all lit, the tone would tell nothing and drown the bodies.
-bool all_lit(const Frame& frame) {
-  constexpr std::size_t kMany = 40;
-  return frame.nodes.size() > kMany &&
-         std::all_of(frame.nodes.begin(), frame.nodes.end(),
-                     [](const FrameNode& n) { return !n.leaf || n.mark == Mark::lit; });
+// In a tree of many leaves that are nearly all lit, the tone would tell nothing and drown the
+// bodies.
+bool nearly_all_lit(const Frame& frame) {
+  constexpr std::size_t kMany = 200;  // nodes
+  std::size_t leaves = 0, lit = 0;
+  for (const FrameNode& node : frame.nodes) {
+    leaves += node.leaf;
+    lit += node.leaf && node.mark == Mark::lit;
+  }
+  return frame.nodes.size() > kMany && 10 * lit > 7 * leaves;
 }
 
 void fill_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
-  if (all_lit(frame)) return;
+  if (nearly_all_lit(frame)) return;
   const Paint paint(frame);
   std::vector<std::size_t> painted = paint.painted();
   std::erase_if(painted, [&](std::size_t i) { return !is_drawn(map.to_page(frame.nodes[i].box)); });
@@ -176,7 +180,7 @@ bool draw_static_cells(const Frame& frame, const WorldMap& map, DrawList& list) 
 }
 
 void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
-  if (all_lit(frame)) return;
+  if (nearly_all_lit(frame)) return;
   Borders borders;
   std::size_t outlined = 0;
   for (const FrameNode& node : frame.nodes) {
@@ -228,7 +232,8 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   complete &= draw_static_cells(frame, map, list);
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
-  const bool lit = !frame.nodes.empty() && !all_lit(frame) && frame.nodes[0].mark == Mark::lit;
+  const bool lit =
+      !frame.nodes.empty() && !nearly_all_lit(frame) && frame.nodes[0].mark == Mark::lit;
   list.shapes.emplace_back(RectShape{
       map.rect, 0, Role::none, {lit ? Role::lit : Role::cell_line_0, line_width(0), 0}, true});
   return complete;
