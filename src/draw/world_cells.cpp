@@ -108,7 +108,7 @@ bool nearly_all_lit(const Frame& frame) {
     leaves += node.leaf;
     lit += node.leaf && node.mark == Mark::lit;
   }
-  return frame.nodes.size() > kMany && 10 * lit > 7 * leaves;
+  return frame.nodes.size() > kMany && frame.bodies.size() > kMany / 4 && 10 * lit > 7 * leaves;
 }
 
 void fill_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
