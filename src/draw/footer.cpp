@@ -53,8 +53,26 @@ std::vector<Counter> atlas_counters(const Frame& frame) {
           {frame.count("textures").value_or(0), of, of, false}};
 }
 
+// Of a ray, view or region: how few bodies it had to test.
+std::vector<Counter> query_counters(const Frame& frame) {
+  const std::int64_t tested = frame.count("objects_tested").value_or(0);
+  const std::int64_t hits = frame.count("hits").value_or(0);
+  const std::string of = fmt::format("of {} bodies tested", frame.bodies.size());
+  return {{tested, of, of, true}, {hits, counted(hits, "hit", "hits"), "hits", false}};
+}
+
+std::vector<Counter> level_counters(const Frame& frame) {
+  const std::int64_t sectors = frame.count("sectors").value_or(0);
+  const std::int64_t walls = frame.count("walls").value_or(0);
+  return {{sectors, counted(sectors, "sector", "sectors"), "sectors", true},
+          {walls, counted(walls, "wall", "walls"), "walls", false}};
+}
+
 std::vector<Counter> counters_of(const Frame& frame) {
   if (!frame.textures.empty()) return atlas_counters(frame);
+  if (!frame.rays.empty() || !frame.views.empty() || !frame.queries.empty())
+    return query_counters(frame);
+  if (frame.count("sectors")) return level_counters(frame);
   const auto pairs = frame.count("pairs"), all = frame.count("all_pairs");
   if (pairs) {
     std::vector<Counter> counters{

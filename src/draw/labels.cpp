@@ -82,8 +82,16 @@ bool Labels::try_add(std::string_view text, std::initializer_list<Anchor> anchor
   return false;
 }
 
+// From a number's last digit back to the front of its `place`-th, counted from 1. The thousands of
+// numbers with more than four digits stand a little apart.
+double Labels::width_to(std::int64_t place, std::int64_t digits, const TextStyle& style) {
+  constexpr double kGap = 0.3;  // of a digit
+  const auto gaps = static_cast<double>(digits > 4 ? (place - 1) / 3 : 0);
+  return (static_cast<double>(place) + kGap * gaps) * width_of("0", style);
+}
+
 double Labels::number_width(std::int64_t digits, const TextStyle& style) {
-  return static_cast<double>(digits) * width_of("0", style);
+  return width_to(digits, digits, style);
 }
 
 void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyle& style,
@@ -95,7 +103,7 @@ void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyl
   box.lo.x = right.x - number_width(count, style);
   list_.labels.push_back({box, panel, digits});
   for (std::int64_t place = 0; place < count; ++place) {  // from the last digit on
-    const Vec<2> at{right.x - number_width(place + 1, style) + half_cell, right.y};
+    const Vec<2> at{right.x - width_to(place + 1, count, style) + half_cell, right.y};
     const auto i = static_cast<std::size_t>(count - 1 - place);
     list_.shapes.emplace_back(TextShape{std::string(1, digits[i]), at, style.size, style.weight,
                                         0.5, style.role, style.halo});

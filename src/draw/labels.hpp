@@ -57,6 +57,8 @@ class Labels {
   void add_note(std::string_view note, const Box<2>& picture);
 
  private:
+  static double width_to(std::int64_t place, std::int64_t digits, const TextStyle& style);
+
   DrawList& list_;
   std::vector<Box<2>> blocked_;
 };

@@ -51,13 +51,15 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   }
   const std::vector<GroundPlace> ground = draw_half_spaces(frame, map, list, grounds);
   const std::vector<Stand> stands = stands_of(frame, map);
-  if (!draw_pairs(frame, stands, list)) leave_out("not all pairs are drawn");
-  draw_ground_pairs(frame, map, list);
+  // A ray, view or region is about bodies, not about pairs.
+  const bool asks = !frame.rays.empty() || !frame.views.empty() || !frame.queries.empty();
+  if (!asks && !draw_pairs(frame, stands, list)) leave_out("not all pairs are drawn");
+  if (!asks) draw_ground_pairs(frame, map, list);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.show_boxes;
   draw_bodies(stands, map, own_boxes, list);
   for (const Stand& stand : stands)
     if (!stand.outside) draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
-  draw_joints(frame, stands, list);
+  if (!asks) draw_joints(frame, stands, list);
   draw_broad_boxes(frame, map, list, labels);
   leave_out(draw_marks(frame, map, list, labels));
   if (!note.empty()) labels.add_note(note, map.rect);
