@@ -68,14 +68,21 @@ void label_cell(const FrameNode& node, const WorldMap& map, const std::vector<Bo
 void label_unmade(const Frame& frame, const WorldMap& map, const std::vector<Box<2>>& bodies,
                   Labels& labels) {
   const TextStyle style{kLabel, Weight::regular, Role::quiet_ink, Role::paper};
-  for (const Box<2>& quarter : unmade_quarters(frame)) {
+  constexpr std::size_t kMostNamed = 3;  // then the hatching is known
+  std::vector<Box<2>> quarters = unmade_quarters(frame);
+  std::stable_sort(quarters.begin(), quarters.end(),
+                   [](const Box<2>& a, const Box<2>& b) { return a.size().x > b.size().x; });
+  std::size_t named = 0;
+  for (const Box<2>& quarter : quarters) {
+    if (named == kMostNamed) return;
     const Box<2> box = map.to_page(quarter);
     const Anchor anchor{{box.center().x, box.center().y + 6}, 0.5};
     const Box<2> extent = Labels::extent("not made", anchor, style);
     const bool covered = std::any_of(bodies.begin(), bodies.end(),
                                      [&](const Box<2>& body) { return overlap(body, extent); });
-    if (!covered && holds(shrunk(box, 8), extent))
-      labels.try_add("not made", {anchor}, style, map.rect);
+    if (!covered && holds(shrunk(box, 8), extent) &&
+        labels.try_add("not made", {anchor}, style, map.rect))
+      ++named;
   }
 }
 

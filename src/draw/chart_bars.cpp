@@ -35,12 +35,12 @@ class Bars {
         labels_(labels),
         bars_(chart.bars) {
     std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
+    for (FrameBar& bar : bars_) bar.label = chart_words(bar.label);
     std::stable_sort(bars_.begin(), bars_.end(),
                      [](const FrameBar& a, const FrameBar& b) { return a.group < b.group; });
     for (const FrameBar& bar : bars_) {
       const auto known = std::find(names_.begin(), names_.end(), bar.label);
       if (known == names_.end()) names_.push_back(bar.label);
-      if (groups_.empty() || groups_.back() != bar.group) groups_.push_back(bar.group);
     }
   }
 
@@ -64,8 +64,9 @@ class Bars {
 
  private:
   std::string heading() const {
-    if (!chart_.logarithmic) return chart_.y_name;
-    return chart_.y_name + (chart_.y_name.empty() ? "" : ", ") + "logarithmic scale";
+    const std::string name = chart_words(chart_.y_name);
+    if (!chart_.logarithmic) return name;
+    return name + (name.empty() ? "" : ", ") + "logarithmic scale";
   }
 
   double rows() const {
@@ -131,9 +132,9 @@ class Bars {
     }
   }
 
-  // One colour, or where groups have bars of the same names, one for each name.
+  // One for each name, from the first bar on: groups to come have bars of the same names, and no
+  // bar may change its colour when they do.
   int color_of(const FrameBar& bar) const {
-    if (names_.size() == bars_.size() || groups_.size() < 2) return chart_color(0);
     const auto at = std::find(names_.begin(), names_.end(), bar.label) - names_.begin();
     return chart_color(static_cast<std::size_t>(at));
   }
@@ -162,7 +163,6 @@ class Bars {
   Labels& labels_;
   std::vector<FrameBar> bars_;
   std::vector<std::string> names_;
-  std::vector<int> groups_;
   std::string note_;
   Box<2> area_;
   double row_ = kLeastRow;

@@ -52,7 +52,7 @@ class Lines {
     for (const FrameSeries& series : chart.series) {
       Line line;
       line.look = lines_.size();
-      line.name = series.name;
+      line.name = chart_words(series.name);
       for (const Vec<2>& p : series.points)
         if (std::isfinite(p.x) && std::isfinite(p.y)) line.values.push_back(p);
       if (lines_.size() < kMostSeries) lines_.push_back(std::move(line));
@@ -87,9 +87,9 @@ class Lines {
         xs.add(p.x);
         ys.add(p.y);
       }
-    const std::string y_name = alone() && !chart_.series.empty() && chart_.y_name.empty()
-                                   ? chart_.series[0].name
-                                   : chart_.y_name;
+    const std::string y_name = chart_words(
+        alone() && !chart_.series.empty() && chart_.y_name.empty() ? chart_.series[0].name
+                                                                   : chart_.y_name);
     area_ = panel_;
     area_.lo.y += std::max(10.0, draw_chart_heading(y_name, panel_, labels_));
     area_.hi.y -= under_ticks() + 8 + (chart_.x_name.empty() ? 0 : 1.5 * type_.name.size);
@@ -148,11 +148,12 @@ class Lines {
   }
 
   void name_x() {
-    std::string name = chart_.x_name;
+    const std::string plain = chart_words(chart_.x_name);
+    std::string name = plain;
     if (chart_.logarithmic) name += name.empty() ? "both logarithmic" : "  (both logarithmic)";
     const double left = area_.lo.x, right = panel_.hi.x;
     std::string fitting = shortened(name, right - left, type_.name);
-    if (fitting != name) fitting = shortened(chart_.x_name, right - left, type_.name);
+    if (fitting != name) fitting = shortened(plain, right - left, type_.name);
     const double half = width_of(fitting, type_.name) / 2;
     const double x = std::clamp(area_.center().x, left + half, std::max(left + half, right - half));
     labels_.try_add(fitting, {{{x, panel_.hi.y - 7}, 0.5}}, type_.name, panel_);
@@ -183,7 +184,8 @@ class Lines {
     const Role role = body_role(chart_color(line.look));
     const std::vector<Vec<2>> points = thinned(line.points);
     for (std::size_t i = 1; i < points.size(); ++i)
-      list_.shapes.emplace_back(LineShape{points[i - 1], points[i], {role, 3, 0}, false});
+      if (points[i].x != points[i - 1].x)  // the same x again begins a line anew
+        list_.shapes.emplace_back(LineShape{points[i - 1], points[i], {role, 3, 0}, false});
     const Vec<2>* last = nullptr;  // marks that are not too close
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       if (last && std::hypot(points[i].x - last->x, points[i].y - last->y) < kMarkEvery) continue;

@@ -26,6 +26,9 @@ struct ChartType {
 // The mark of the i-th series, `radius` large, with the panel's tone around it.
 void draw_chart_mark(std::size_t i, const Vec<2>& at, double radius, DrawList& list);
 
+// A count's name as words: "pair tests" of "pair_tests".
+std::string chart_words(std::string name);
+
 // A heading at the panel's upper left; gives the height it takes, 0 for an empty text.
 double draw_chart_heading(const std::string& text, const Box<2>& panel, Labels& labels);
 

@@ -1,5 +1,7 @@
 #include "draw/chart_view.hpp"
 
+#include <algorithm>
+
 #include "draw/chart_parts.hpp"
 #include "draw/pen.hpp"
 
@@ -8,6 +10,11 @@ namespace lantern {
 int chart_color(std::size_t i) {
   constexpr int kColors[kChartLooks] = {4, 1, 5, 8, 7, 2, 6, 3};
   return kColors[i % kChartLooks];
+}
+
+std::string chart_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 void draw_chart_mark(std::size_t i, const Vec<2>& at, double radius, DrawList& list) {

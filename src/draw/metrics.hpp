@@ -21,6 +21,14 @@ inline bool holds(const Box<2>& outer, const Box<2>& inner) {
          inner.hi.y <= outer.hi.y;
 }
 
+// The part of its greatest length that a velocity's arrow has, in a world `extent` long. Speeds
+// far above the world's measure are pressed together, so that the scale depends on no other body
+// and an arrow changes from frame to frame only as its own body does.
+inline double arrow_share(double speed, double extent) {
+  const double half = 0.12 * extent;  // this far in a second: half the length
+  return speed > 0 && half > 0 ? speed / (speed + half) : 0;
+}
+
 inline RectShape filled(const Box<2>& box, Role fill, double radius = 0) {
   return {box, radius, fill, {}, false};
 }

@@ -17,8 +17,9 @@
 namespace lantern {
 namespace {
 
-constexpr double kTop = 104;       // of the panels
-constexpr double kTitleLine = 58;  // baseline
+constexpr double kLeastSolid = 0.95, kMostSolid = 1.35;  // aspects of a solid world's panel
+constexpr double kTop = 104;                             // of the panels
+constexpr double kTitleLine = 58;                        // baseline
 constexpr double kPanelGap = 44;
 constexpr double kLeastForTwo = 460;  // height of a column with two panels
 constexpr double kStripGap = 30;      // over the strip of an array
@@ -67,7 +68,12 @@ void draw_title(const Frame& frame, double margin, DrawList& list, Labels& label
 double wanted_width(const Frame& frame, Panel panel, double height) {
   if (panel == Panel::atlas) return atlas_width(frame, height);
   if (panel != Panel::world) return 0;
-  if (frame.dimension == 3) return height * 1.4;
+  if (frame.dimension == 3) {
+    // Seen from aside, what is wide or deep takes width.
+    const Vec<3> solid = frame.bounds.size();
+    const double aspect = solid.y > 0 ? std::max(solid.x, solid.z) / solid.y : 1;
+    return height * std::clamp(aspect, kLeastSolid, kMostSolid);
+  }
   const Vec<2> size = frame.bounds.size();
   return size.y > 0 ? height * size.x / size.y : height;
 }

@@ -6,7 +6,7 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostNamed = 40;          // of more bodies, only those that the step is about
+constexpr std::size_t kMostNamed = 35;          // of more bodies, only those that the step is about
 constexpr std::ptrdiff_t kMostQuietCells = 10;  // of more, only lit ones: in space names soon crowd
 constexpr std::size_t kMostCells = 16;
 constexpr double kWidestName = 210;

@@ -120,31 +120,16 @@ void add_links(const Frame& frame, const std::vector<SolidBody>& bodies, const S
   }
 }
 
-// 1, 2 or 5 times a power of ten that is not above `x`, so that arrows keep their scale while the
-// fastest body changes a little.
-double round_below(double x) {
-  double power = 1;
-  while (power > x && power > 1e-300) power /= 10;
-  while (power * 10 <= x && power < 1e300) power *= 10;
-  for (const double k : {5.0, 2.0})
-    if (k * power <= x) return k * power;
-  return power;
-}
-
-// As far as each body goes in one time, the same for all.
+// The faster the longer, by one rule for all bodies and frames.
 void add_velocities(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                     std::vector<Piece>& pieces) {
   constexpr std::size_t kMostArrows = 300;
   if (!frame.show_velocities || bodies.size() > kMostArrows) return;
-  double fastest = 0;
   for (const SolidBody& b : bodies) {
     const double speed = glm::length(b.body->velocity);
-    if (std::isfinite(speed)) fastest = std::max(fastest, speed);
-  }
-  if (!(fastest > 1e-12)) return;
-  const double seconds = round_below(0.16 * view.size() / fastest);
-  for (const SolidBody& b : bodies) {
-    const Vec<3> from = b.body->position, to = from + b.body->velocity * seconds;
+    if (!std::isfinite(speed) || !(speed > 1e-12)) continue;
+    const double length = 0.18 * view.size() * arrow_share(speed, view.size());
+    const Vec<3> from = b.body->position, to = from + b.body->velocity * (length / speed);
     if (view.lost(to) || !(glm::length(to - from) > 3e-3 * view.size())) continue;
     add_line(from, to, {Role::ink, 2.8, 0}, {Role::panel, 5, 0}, bodies, view, pieces);
     add_head(from, to, 13, Role::ink, view, pieces);

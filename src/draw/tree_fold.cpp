@@ -168,8 +168,11 @@ void TreeFold::open_rows(Opening& opening, std::vector<Branch>& list, const Fits
       continue;
     }
     opening = before;
-    std::stable_sort(closed.begin(), closed.end(),
-                     [](const Branch& a, const Branch& b) { return a.mark > b.mark; });
+    std::stable_sort(closed.begin(), closed.end(), [](const Branch& a, const Branch& b) {
+      // Not what was merely passed: that changes from frame to frame, and the
+      // diagram with it.
+      return a.mark == Mark::lit && b.mark != Mark::lit;
+    });
     for (const Branch& branch : closed) {
       if (++tries > kMostTries) return;
       opening.open.insert(branch.node);

@@ -127,6 +127,22 @@ std::vector<Link> links_of(const Frame& frame, const std::vector<Stand>& stands,
   return links;
 }
 
+// Where a link to `stand` ends. A long wall or floor is met at its place nearest to the other body:
+// links to its middle would all run into one point, far from where the two could touch.
+Vec<2> link_end(const Stand& stand, const Vec<2>& other) {
+  constexpr double kLong = 260;  // page units
+  const Vec<2> size = stand.box.size();
+  if (stand.bodies.size() > 1 || !stand.bodies.front()->is_static || stand.outside ||
+      std::max(size.x, size.y) < kLong)
+    return stand.center;
+  Vec<2> end = other;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double inset = std::min(6.0, size[axis] / 2);
+    end[axis] = std::clamp(other[axis], stand.box.lo[axis] + inset, stand.box.hi[axis] - inset);
+  }
+  return end;
+}
+
 std::string names_of(const Stand& stand) {
   if (stand.bodies.size() == 1) return stand.bodies.front()->name;
   constexpr std::size_t kMostNames = 4;
@@ -199,7 +215,8 @@ bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& 
   for (const bool lit : {false, true})
     for (const Link& link : links) {
       if (link.lit != lit) continue;
-      const Vec<2> from = stands[link.a].center, to = stands[link.b].center;
+      const Vec<2> from = link_end(stands[link.a], stands[link.b].center);
+      const Vec<2> to = link_end(stands[link.b], from);
       const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
       if (!many) list.shapes.emplace_back(LineShape{from, to, {Role::panel, width + 4, 0}, false});
       list.shapes.emplace_back(LineShape{from, to, {Role::pair, width, 0}, false});
@@ -251,11 +268,17 @@ void draw_bodies(const std::vector<Stand>& stands, const WorldMap& map, bool box
 
 void name_bodies(const std::vector<Stand>& stands, const WorldMap& map, const Grounds& grounds,
                  Labels& labels) {
-  constexpr std::size_t kMostNamed = 60;  // of more, only those the step is about
+  constexpr std::size_t kMostNamed = 35;        // of more, only those the step is about
+  constexpr std::size_t kMostStaticNamed = 12;  // of more bodies, no wall or pillar that is quiet
   constexpr double kWidestName = 210;
+  // Bodies, not stands: these merge and part as bodies move, and names must not come and go.
+  std::size_t bodies = 0;
+  for (const Stand& stand : stands) bodies += stand.bodies.size();
   std::vector<const Stand*> order;
   for (const Stand& stand : stands)
-    if (stands.size() <= kMostNamed || is_lit(stand)) order.push_back(&stand);
+    if (is_lit(stand) ||
+        (bodies <= kMostNamed && (bodies <= kMostStaticNamed || !stand.bodies.front()->is_static)))
+      order.push_back(&stand);
   std::stable_partition(order.begin(), order.end(), [](const Stand* s) { return is_lit(*s); });
   if (order.size() > kMostNamed) order.resize(kMostNamed);
   for (const Stand* stand : order) {

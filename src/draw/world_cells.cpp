@@ -99,7 +99,20 @@ void hatch_unmade(const Frame& frame, const WorldMap& map, DrawList& list) {
   }
 }
 
+// In a tree of many leaves that are nearly all lit, the tone would tell nothing and drown the
+// bodies.
+bool nearly_all_lit(const Frame& frame) {
+  constexpr std::size_t kMany = 200;  // nodes
+  std::size_t leaves = 0, lit = 0;
+  for (const FrameNode& node : frame.nodes) {
+    leaves += node.leaf;
+    lit += node.leaf && node.mark == Mark::lit;
+  }
+  return frame.nodes.size() > kMany && frame.bodies.size() > kMany / 4 && 10 * lit > 7 * leaves;
+}
+
 void fill_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
+  if (nearly_all_lit(frame)) return;
   const Paint paint(frame);
   std::vector<std::size_t> painted = paint.painted();
   std::erase_if(painted, [&](std::size_t i) { return !is_drawn(map.to_page(frame.nodes[i].box)); });
@@ -145,9 +158,9 @@ void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
   Pen pen(list, map.rect);
   for (const FrameNode& node : frame.nodes) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
-    if (node.awake || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (node.awake || node.of_static || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
-    pen.hatch(page_region(node, map), 13, -1, {Role::asleep, 1.5, 0}, 60);
+    pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1, 0}, 60);
   }
 }
 
@@ -167,6 +180,7 @@ bool draw_static_cells(const Frame& frame, const WorldMap& map, DrawList& list) 
 }
 
 void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
+  if (nearly_all_lit(frame)) return;
   Borders borders;
   std::size_t outlined = 0;
   for (const FrameNode& node : frame.nodes) {
@@ -218,7 +232,8 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   complete &= draw_static_cells(frame, map, list);
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
-  const bool lit = !frame.nodes.empty() && frame.nodes[0].mark == Mark::lit;
+  const bool lit =
+      !frame.nodes.empty() && !nearly_all_lit(frame) && frame.nodes[0].mark == Mark::lit;
   list.shapes.emplace_back(RectShape{
       map.rect, 0, Role::none, {lit ? Role::lit : Role::cell_line_0, line_width(0), 0}, true});
   return complete;

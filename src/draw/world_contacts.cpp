@@ -11,18 +11,7 @@ constexpr std::size_t kMostPoints = 500;
 constexpr std::size_t kFewPoints = 60;  // more are drawn smaller
 constexpr double kNormal = 24;          // page units
 constexpr double kLeastImpulse = 20, kMostImpulse = 92;
-constexpr double kFastest = 110;  // the longest velocity arrow
-
-// 1, 2 or 5 times a power of ten that is not above `x`, so that arrows keep their scale while the
-// fastest body changes a little.
-double round_below(double x) {
-  double power = 1;
-  while (power > x && power > 1e-300) power /= 10;
-  while (power * 10 <= x && power < 1e300) power *= 10;
-  for (const double k : {5.0, 2.0})
-    if (k * power <= x) return k * power;
-  return power;
-}
+constexpr double kFastest = 120;  // what the longest velocity arrows come near to
 
 void draw_spring(Pen& pen, const Vec<2>& from, const Vec<2>& to, const Stroke& stroke) {
   const Vec<2> way = to - from;
@@ -108,19 +97,18 @@ bool draw_contacts(const Frame& frame, const WorldMap& map, DrawList& list) {
 void draw_velocities(const Frame& frame, const WorldMap& map, DrawList& list) {
   if (!frame.show_velocities) return;
   constexpr std::size_t kMostArrows = 300;
-  double fastest = 0;
-  for (const FrameBody& body : frame.bodies) {
-    const double speed = std::hypot(body.velocity.x, body.velocity.y);
-    if (std::isfinite(speed)) fastest = std::max(fastest, speed);
-  }
-  if (!(fastest > 1e-12) || frame.bodies.size() > kMostArrows) return;
-  const double per_speed = round_below(kFastest / fastest);
+  if (frame.bodies.size() > kMostArrows) return;
+  const Vec<3> size = frame.bounds.size();
+  const double extent = std::max(size.x, size.y);
   Pen pen(list, mark_limit(map));
   for (const FrameBody& body : frame.bodies) {
     if (is_half_space(body)) continue;
     const Vec<2> from = map.to_page(body.position);
-    const Vec<2> way = Vec<2>(body.velocity.x, -body.velocity.y) * per_speed;
-    const double length = std::hypot(way.x, way.y);
+    const Vec<2> page_velocity = Vec<2>(body.velocity.x, -body.velocity.y);
+    const double speed = std::hypot(page_velocity.x, page_velocity.y);
+    if (!std::isfinite(speed) || !(speed > 1e-12)) continue;
+    const double length = kFastest * arrow_share(speed, extent);
+    const Vec<2> way = page_velocity * (length / speed);
     if (length > 2) pen.arrow(from, from + way, {Role::ink, 2.8, 0}, 13, 1.6);
   }
 }

@@ -25,7 +25,7 @@ void draw_links(const Frame& frame, const WorldMap& map, DrawList& list);
 // Points, normals and impulses. False if there are too many, and not all are drawn.
 bool draw_contacts(const Frame& frame, const WorldMap& map, DrawList& list);
 
-// An arrow from each body's centre; the same time of travel for all bodies.
+// An arrow from each body's centre, the faster the longer, by one rule for all frames.
 void draw_velocities(const Frame& frame, const WorldMap& map, DrawList& list);
 
 // Dashed, with its half sizes where the step is about the body or there are few bodies.

@@ -68,8 +68,12 @@ std::vector<Box<2>> unmade_quarters(const Frame& frame) {
   std::vector<unsigned> made(frame.nodes.size());  // a bit for each child
   for (const FrameNode& node : frame.nodes)
     if (node.parent != kNone) made[node.parent] |= 1u << node.slot;
+  // Of two trees only the dynamic one's: the other's would lie under cells that are there.
+  const bool dynamic = std::any_of(frame.nodes.begin(), frame.nodes.end(),
+                                   [](const FrameNode& node) { return !node.of_static; });
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
+    if (node.of_static && dynamic) continue;
     for (std::uint32_t slot = 0; slot < 4 && !node.leaf; ++slot) {
       if ((made[i] >> slot & 1u) != 0) continue;
       // In the lecture's order: upper left, upper right, lower left, lower right.

@@ -23,8 +23,11 @@ std::string draw_marks(const Frame& frame, const WorldMap& map, DrawList& list, 
   draw_velocities(frame, map, list);
   const bool all = draw_contacts(frame, map, list);
   draw_rays(frame, map, list, labels);
-  if (frame.eye)
-    draw_eye_mark(map.to_page(*frame.eye), {1, 0}, Role::ink, shrunk(map.rect, -20), list);
+  if (frame.eye) {
+    const Vec<2> eye = map.to_page(*frame.eye);
+    draw_eye_mark(eye, {1, 0}, Role::ink, shrunk(map.rect, -20), list);
+    labels.block(Box<2>::around(eye, {24, 18}));
+  }
   return all ? "" : "not all contacts are drawn";
 }
 

@@ -50,11 +50,21 @@ Parts parts_of(std::string_view inside) {
   return parts;
 }
 
+// Long numbers with their thousands apart by a thin space, as a book prints them.
+std::string grouped(std::int64_t n) {
+  std::string digits = fmt::format("{}", n);
+  constexpr std::int64_t kShort = 10'000;
+  if (n < kShort && n > -kShort) return digits;
+  for (std::size_t i = digits.size() - 3; i > (n < 0 ? 1u : 0u) && i < digits.size(); i -= 3)
+    digits.insert(i, "\u2009");
+  return digits;
+}
+
 std::string with_noun(std::int64_t n, const Parts& parts) {
-  if (!parts.one) return fmt::format("{}", n);
+  if (!parts.one) return grouped(n);
   if (n == 1) return fmt::format("1 {}", *parts.one);
-  if (parts.many) return fmt::format("{} {}", n, *parts.many);
-  return fmt::format("{} {}s", n, *parts.one);
+  if (parts.many) return fmt::format("{} {}", grouped(n), *parts.many);
+  return fmt::format("{} {}s", grouped(n), *parts.one);
 }
 
 template <class F>

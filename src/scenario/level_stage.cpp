@@ -79,17 +79,17 @@ void LevelStage::forget_questions() {
 }
 
 void LevelStage::locate(const Vec<2>& point) {
+  order_.clear();
   place_ = compiled().locate(point);
   eye_ = point;
 }
 
 void LevelStage::order_from(const Vec<2>& eye) {
-  order_.clear();
+  locate(eye);  // its sector is the first
   compiled().front_to_back(eye, [&](std::uint32_t sector) {
     order_.push_back(sector);
     return true;
   });
-  eye_ = eye;
 }
 
 void LevelStage::picture_walls(Frame& frame) const {

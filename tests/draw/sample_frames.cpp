@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "draw/solid_samples.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::samples {
@@ -429,6 +430,7 @@ static Named make_all() {
   frames.emplace_back("unstructured", unstructured());
   for (const Named& more : {charts(), memories(), worlds()})
     frames.insert(frames.end(), more.begin(), more.end());
+  for (auto& [name, frame] : all_solid()) frames.emplace_back("solid_" + name, frame);
   return frames;
 }
 

@@ -30,6 +30,16 @@ TEST(Caption, QuotesCountsWithTheirNouns) {
   EXPECT_EQ(filled("{two:Ghost × 2/Geister ö}"), "2 Geister ö");
 }
 
+TEST(Caption, PartsTheThousandsOfLongNumbers) {
+  const auto said = [](std::int64_t n) {
+    return fill_caption("{n}", nullptr, [&](std::string_view) { return n; });
+  };
+  EXPECT_EQ(said(9999), "9999");
+  EXPECT_EQ(said(10'000), "10\u2009000");
+  EXPECT_EQ(said(4'498'500), "4\u2009498\u2009500");
+  EXPECT_EQ(said(-123'456), "-123\u2009456");
+}
+
 TEST(Caption, QuotesTextsAsTheyAre) {
   EXPECT_EQ(filled("{texture}!"), "A {two}!") << "what is quoted is not filled in again";
 }
