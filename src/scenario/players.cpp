@@ -67,9 +67,10 @@ template <int D>
 void Players<D>::make_link(const LinkSpec& spec, Link& link) {
   const auto [from, to] = ends_of(spec);
   link = {true, spec.rest_length.value_or(glm::length(to - from))};
-  const BodyId a = *ids_[spec.a], b = spec.b ? *ids_[*spec.b] : add_anchor(to);
+  const Vec<D> away = spec.b ? Vec<D>(0.0) : out_of_the_way();
+  const BodyId a = *ids_[spec.a], b = spec.b ? *ids_[*spec.b] : add_anchor(away);
   const Vec<D> at_a = in_dimension<D>(spec.at_a);
-  const Vec<D> at_b = spec.b ? in_dimension<D>(spec.at_b) : Vec<D>(0.0);
+  const Vec<D> at_b = spec.b ? in_dimension<D>(spec.at_b) : to - away;
   if (spec.kind == LinkSpec::Kind::spring) {
     world_.add_spring({a, b, at_a, at_b, link.rest_length, spec.stiffness, spec.damping});
     return;
@@ -84,7 +85,16 @@ void Players<D>::make_link(const LinkSpec& spec, Link& link) {
   world_.add_joint(joint);
 }
 
-// A point of the world is a static body without size.
+// Beyond the world's lowest corner by its own size: bodies that go on below it are not likely to
+// meet a point there.
+template <int D>
+Vec<D> Players<D>::out_of_the_way() const {
+  const Box<D> bounds = in_dimension<D>(scenario_.world.bounds);
+  return bounds.lo - bounds.size();
+}
+
+// A point of the world is fixed to a static body without size. That body would be an obstacle, so
+// it does not lie at the point itself.
 template <int D>
 BodyId Players<D>::add_anchor(const Vec<D>& at) {
   Body<D> anchor;

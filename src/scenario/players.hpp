@@ -65,6 +65,7 @@ class Players {
   };
 
   void make_link(const LinkSpec& spec, Link& link);
+  Vec<D> out_of_the_way() const;
   BodyId add_anchor(const Vec<D>& at);
   std::pair<Vec<D>, Vec<D>> ends_of(const LinkSpec& link) const;
 

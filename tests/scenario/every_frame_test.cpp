@@ -186,11 +186,10 @@ class EveryFrame : public testing::TestWithParam<std::tuple<std::string, Pace>> 
   // `look` at each frame of a run.
   DirectorReport run(const std::function<void(const Frame&)>& look) const {
     Work work;
-    const DirectorReport report =
-        direct(scenario_, std::get<1>(GetParam()), work, [&](const Frame& frame) {
-          look(frame);
-          return !HasFatalFailure();
-        });
+    return direct(scenario_, std::get<1>(GetParam()), work, [&](const Frame& frame) {
+      look(frame);
+      return !HasFatalFailure();
+    });
   }
 
   const Scenario scenario_ = shipped(std::get<0>(GetParam()));
