@@ -10,22 +10,19 @@ constexpr int kBouncingRounds = 64;    // through all touching pairs, in one imp
 constexpr int kMostRounds = 96;        // the last ones without restitution
 constexpr int kMostPointSweeps = 200;  // over the points of one pair
 constexpr double kTouching = 1e-9;     // of the sizes: so near is touching
+constexpr double kGainByRounding = 1e-12;
 
 // Newton's law of restitution at all points of a pair at once: those that approach will part with
 // the given part of their speed.
 template <int D>
-bool resolve(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, double slow,
-             WorldWork& work) {
-  bool approaches = false;
+void strike(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, WorldWork& work) {
   for (ContactPoint<D>& p : rows.points()) {
     const double parting = glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
-    if (parting < -slow) approaches = true;
     p.bounce = parting < 0 ? -restitution * parting : 0;
     p.pn = 0;
     p.pt = Vec<D>(0.0);
     p.separation = 0;
   }
-  if (!approaches) return false;
   for (int i = 0; i < kMostPointSweeps; ++i) {
     Sweep sweep;
     sweep_velocities(rows, a, b, 1, sweep);
@@ -34,6 +31,72 @@ bool resolve(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution,
     if (rows.count == 1 && rows.friction == 0) break;
     if (sweep.change <= 1e-15 * sweep.largest) break;
   }
+}
+
+// The sum of impulse times relative velocity.
+template <int D>
+double power(const ContactRows<D>& rows, const Mover<D>& a, const Mover<D>& b) {
+  double sum = 0;
+  for (const ContactPoint<D>& p : rows.points())
+    sum += glm::dot(rows.normal * p.pn + p.pt, relative_velocity(a, p.arm_a, b, p.arm_b));
+  return sum;
+}
+
+template <int D>
+void blend(Mover<D>& to, const Mover<D>& from, double share) {
+  to.velocity = from.velocity + (to.velocity - from.velocity) * share;
+  to.spin = from.spin + (to.spin - from.spin) * share;
+  to.twist = from.twist + (to.twist - from.twist) * share;
+}
+
+// With friction, Newton's law may give energy (Kane and Levinson, "Dynamics", 1985). Without
+// restitution it never does. Between the two blows the energy is a parabola,
+//
+//   E(s) = E0 + s (p.v0) + s^2 (p.v1 - p.v0) / 2      p: the second blow's impulses less the
+//   first's
+//
+// and the pair gets as much of its restitution as leaves E no higher than before the blow. Impulses
+// stay within the cone of friction, which is convex.
+template <int D>
+void take_back_gained_energy(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, const Mover<D>& old_a,
+                             const Mover<D>& old_b, WorldWork& work) {
+  const double size = std::abs(power(rows, old_a, old_b));
+  const double gained = (power(rows, old_a, old_b) + power(rows, a, b)) / 2;
+  if (!(gained > kGainByRounding * size)) return;
+  ContactRows<D> dead_rows = rows;
+  Mover<D> dead_a = old_a, dead_b = old_b;
+  strike(dead_rows, dead_a, dead_b, 0, work);
+  const double lost = -(power(dead_rows, old_a, old_b) + power(dead_rows, dead_a, dead_b)) / 2;
+  ContactRows<D> more = rows;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rows.count); ++i) {
+    more.room[i].pn -= dead_rows.room[i].pn;
+    more.room[i].pt -= dead_rows.room[i].pt;
+  }
+  const double slope = power(more, dead_a, dead_b);
+  const double bend = power(more, a, b) - slope;
+  // s of bend s^2 / 2 + slope s = lost, in the form that does not cancel.
+  const double root = std::sqrt(slope * slope + 2 * bend * std::max(lost, 0.0));
+  const double share =
+      slope + root > 0 ? std::clamp(2 * std::max(lost, 0.0) / (slope + root), 0.0, 1.0) : 0;
+  blend(a, dead_a, share);
+  blend(b, dead_b, share);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rows.count); ++i) {
+    rows.room[i].pn = dead_rows.room[i].pn + more.room[i].pn * share;
+    rows.room[i].pt = dead_rows.room[i].pt + more.room[i].pt * share;
+  }
+}
+
+// Returns whether there was a blow: points that approach.
+template <int D>
+bool resolve(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, double slow,
+             WorldWork& work) {
+  bool approaches = false;
+  for (const ContactPoint<D>& p : rows.points())
+    approaches |= glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal) < -slow;
+  if (!approaches) return false;
+  const Mover<D> old_a = a, old_b = b;
+  strike(rows, a, b, restitution, work);
+  if (restitution > 0 && rows.friction > 0) take_back_gained_energy(rows, a, b, old_a, old_b, work);
   return true;
 }
 
@@ -90,7 +153,10 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
                    pair.slow, work))
         continue;
       record_impulses(pair);
-      pair.pressed |= tired;
+      if (tired) {  // squeezed: nor may it bounce in the sub-steps that follow
+        pair.pressed = true;
+        pair.rows.restitution = 0;
+      }
       ++impacts;
       any = true;
     }

@@ -82,6 +82,8 @@ Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
     rows.a = local(rows.a);
     rows.b = local(rows.b);
   }
+  const bool soft = world.config_.contacts != ContactMethod::impulse;
+  const double whole_sub_step = soft ? h / world.config_.sub_steps : h;
   for (const std::size_t i : joints) {
     JointRows<D> rows;
     rows.joint = world.joints_[i].second;
@@ -89,7 +91,9 @@ Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
     rows.a = local(place_of(rows.joint.a));
     rows.b = local(place_of(rows.joint.b));
     const JointMemory& memory = world.joint_memories_[i];
-    if (memory.seconds > 0) rows.impulse = memory.impulse / memory.seconds;  // of one second
+    // Of one second. A blow in a shorter sub-step is not taken for a force (see sub_steps.cpp).
+    if (memory.seconds > 0)
+      rows.impulse = memory.impulse / std::max(memory.seconds, whole_sub_step);
     island.joints.push_back(rows);
   }
   island.joint_seconds = 1;

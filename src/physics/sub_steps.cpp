@@ -47,6 +47,10 @@ double lag_of(const Increment<D>& increment, double h) {
   return std::clamp(-glm::dot(increment.drift, increment.kick) / (h * kick), 0.0, 1.0);
 }
 
+// Impulses of what presses go with time, those of a blow do not. A blow in the shortest of
+// sub-steps must not be taken for a force, so a guess is only ever made smaller.
+double rescaled(double seconds, double old) { return std::min(seconds / old, 1.0); }
+
 template <int D>
 void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
   for (IslandPair<D>& pair : island.pairs) {
@@ -59,7 +63,7 @@ void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
     const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
                                   Placed<D>{b.shape, b.position, b.orientation}, pair.reach);
     if (!manifold) continue;
-    const double scale = pair.seconds > 0 ? scale_to / pair.seconds : 0;
+    const double scale = pair.seconds > 0 ? rescaled(scale_to, pair.seconds) : 0;
     set_points(rows, *manifold, a, b, pair.remembered ? &pair.memory : nullptr, scale);
     renew_record(pair.record, *manifold);
     work.contact_points += static_cast<std::uint64_t>(rows.count);
@@ -320,7 +324,7 @@ void move_island(Island<D>& island, const WorldConfig<D>& config, double h, doub
     return;
   }
   const double old = island.joint_seconds;
-  const double scale = config.warm_start && old > 0 ? sub_step / old : 0;
+  const double scale = config.warm_start && old > 0 ? rescaled(sub_step, old) : 0;
   for (JointRows<D>& rows : island.joints) rows.impulse *= scale;
   DirectSolve<D> direct;
   for (int i = 0; i < count; ++i) SubStep<D>{island, config, sub_step, work, direct}.run();
