@@ -171,8 +171,8 @@ bool World<D>::Step::is_slow(std::size_t place) const {
          std::sqrt(dot(spin, spin)) + spun <= world.config_.sleep_spin;
 }
 
-// An island sleeps when all of it has been slow for a while and something holds it; a body that
-// nothing holds sleeps only if it does not move at all.
+// An island sleeps when all of it has been slow for a while and something holds it, or drag brakes
+// it; a body that flies freely sleeps only if it does not move at all.
 template <int D>
 void World<D>::Step::fall_asleep() {
   world.work_.asleep = 0;
@@ -192,7 +192,9 @@ void World<D>::Step::fall_asleep() {
       if (body.kind != BodyKind::dynamic_body || body.asleep) continue;
       const bool still = body.velocity == Vec<D>(0.0) && body.angular_momentum == Spin<D>(0.0) &&
                          increments[i].kick == Vec<D>(0.0);
-      rested[i] = (held[root[i]] ? is_slow(i) : still) ? rested[i] + h : 0;
+      const bool braked = body.linear_drag > 0 && (body.angular_drag > 0 || !body.may_turn ||
+                                                   body.angular_momentum == Spin<D>(0.0));
+      rested[i] = (held[root[i]] || braked ? is_slow(i) : still) ? rested[i] + h : 0;
       if (!(rested[i] >= world.config_.sleep_after)) restless[root[i]] = true;
     }
     for (std::size_t i = 0; i < moved.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "scenario/questions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "spatial/frustum_cull.hpp"
 #include "spatial/overlap_query.hpp"
@@ -103,8 +104,14 @@ class Question {
       return view_wedge(flat(view.eye), flat(view.target - view.eye), view.angle, view.near,
                         view.far);
     else
-      return view_frustum(view.eye, view.target, {0, 1, 0}, view.angle, kAspect, view.near,
-                          view.far);
+      return view_frustum(view.eye, view.target, up_of(view.target - view.eye), view.angle, kAspect,
+                          view.near, view.far);
+  }
+
+  // Upwards, but for a view straight up or down: there the picture's top is the world's back.
+  static Vec<3> up_of(const Vec<3>& forward) {
+    const bool upright = std::abs(forward.y) > 0.999 * glm::length(forward);
+    return upright ? Vec<3>(0, 0, -1) : Vec<3>(0, 1, 0);
   }
 
   // Round the wedge, or round the near plane and then the far one.
