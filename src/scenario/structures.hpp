@@ -87,6 +87,10 @@ class Structures {
 template <int D>
 BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds);
 
+// Of a child of the node `parent`: "1.3", or in a BSP "front.back"; children of the root have no
+// prefix.
+std::string child_label(StructureKind kind, const std::string& parent, std::uint32_t slot);
+
 // "capacity 2, depth limit 4, all children made"
 std::string settings_text(const StructureSpec& structure);
 

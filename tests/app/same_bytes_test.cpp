@@ -99,6 +99,30 @@ TEST_F(SameBytes, AfterARunThatWasKilled) {
   EXPECT_TRUE(cut_off) << "no run was cut off in the midst";
 }
 
+// Solid worlds are drawn of the same shapes, and the engine's steps are the same in every run.
+TEST_F(SameBytes, OfSolidAndMovingWorlds) {
+  for (const std::string name : {"octree_split", "falling_boxes"}) {
+    const auto files = [&](const std::string& folder, const std::string& before,
+                           const std::string& words) {
+      const fs::path out = fresh_folder(folder + "-" + name);
+      const Outcome o =
+          shell(before + " lantern render " + repository("scenarios/" + name + ".toml").string() +
+                " --size 480x270 --frames 10-24 " + words + " -o " + out.string());
+      EXPECT_EQ(o.code, 0) << o.err;
+      Files found;
+      for (const auto& entry : fs::directory_iterator(out / name))
+        found[entry.path().filename()] = read_text(entry.path());
+      return found;
+    };
+    const Files expected = files("moving", "", "-j 1 --backend osmesa");
+    EXPECT_GE(expected.size(), 30u);
+    expect_same(expected, files("moving-j", "", "-j 4"), name + " with -j 4");
+    expect_same(expected, files("moving-egl", "", "--backend egl"), name + " with EGL");
+    expect_same(expected, files("moving-sse2", "export GALLIUM_OVERRIDE_CPU_CAPS=sse2;", ""),
+                name + " with sse2");
+  }
+}
+
 TEST_F(SameBytes, AfterCtrlC) {
   const fs::path out = fresh_folder("same-interrupted");
   const std::string words =
