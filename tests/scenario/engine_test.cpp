@@ -70,6 +70,29 @@ TEST(Engine, AnotherStructureChangesNoBitOfTheMotion) {
     }
 }
 
+// Discs that fall side by side and never meet.
+std::string rain(const std::string& world_keys, const std::string& body_keys) {
+  return world_text("size = [32, 64]\ngravity = [0, -10]\ntime_step = 0.015625\n" + world_keys,
+                    "[structure]\nkind = \"quadtree\"\n[[pattern]]\nname = \"drop\"\n"
+                    "arrange = \"grid\"\ncount = 12\nradius = 0.5\ndrag = 0.1\n"
+                    "min = [2, 40]\nmax = [30, 60]\n" +
+                        body_keys) +
+         steps({"do = \"insert\"\nbodies = [\"drop\"]", kRun, kRun});
+}
+
+// What a scene does not need may be there or not: no bit of the motion tells.
+TEST(Engine, AStageThatIsNotNeededChangesNoBit) {
+  const auto plain = motions(rain("contacts = \"none\"\n", ""));
+  ASSERT_EQ(plain.size(), 8u);
+  EXPECT_NE(plain.front(), plain.back()) << "nothing moves: the test says nothing";
+  EXPECT_EQ(motions(rain("contacts = \"impulse\"\n", "")), plain) << "an idle narrow phase";
+  EXPECT_EQ(motions(rain("contacts = \"soft\"\n", "")), plain) << "an idle soft solver";
+  EXPECT_EQ(motions(rain("contacts = \"soft\"\nsub_steps = 32\n", "")), plain) << "sub-steps";
+  EXPECT_EQ(motions(rain("contacts = \"soft\"\nmay_sleep = true\n", "")), plain) << "sleep";
+  EXPECT_EQ(motions(rain("contacts = \"soft\"\n", "friction = 0\n")), plain) << "friction";
+  EXPECT_EQ(motions(rain("contacts = \"soft\"\n", "may_turn = false\n")), plain) << "rotation";
+}
+
 TEST(Engine, TheSameScenarioRunsTheSame) {
   const std::string text = changing(heap(true, "soft"), {"kind = \"octree\"", ""});
   const auto first = frames_of(good(text)), second = frames_of(good(text));
