@@ -10,11 +10,6 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostViews = 8;
-constexpr std::size_t kMostQueries = 60;
-constexpr std::size_t kMostRays = 120;
-constexpr std::size_t kMostHits = 60;
-
 std::size_t few(std::size_t count, std::size_t most) { return std::min(count, most); }
 
 void add_views(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,

@@ -6,6 +6,12 @@
 
 namespace lantern {
 
+// Of each this many are drawn on one frame, flat or solid; the rest is left out.
+inline constexpr std::size_t kMostViews = 8;
+inline constexpr std::size_t kMostQueries = 60;
+inline constexpr std::size_t kMostRays = 120;
+inline constexpr std::size_t kMostHits = 60;
+
 // Half-spaces: hatched ground, cut to the bounds, or to a rim under them where none of it lies
 // inside. Gives the places of their names and adds what was painted to `grounds`.
 struct GroundPlace {

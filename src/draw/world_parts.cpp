@@ -15,14 +15,11 @@ Polygon page_region(const FrameNode& node, const WorldMap& map) {
 std::optional<std::pair<Vec<2>, Vec<2>>> dividing_line(const FrameNode& node) {
   const Plane<2> plane = flat(*node.plane);
   const Polygon region = node.region.empty() ? polygon_of(flat(node.box)) : node.region;
-  const auto height = [&](const Vec<2>& p) {
-    return plane.normal.x * p.x + plane.normal.y * p.y - plane.offset;
-  };
   const Vec<2> along{-plane.normal.y, plane.normal.x};
   std::vector<Vec<2>> hits;
   for (std::size_t i = 0; i < region.size(); ++i) {
     const Vec<2> a = region[i], b = region[(i + 1) % region.size()];
-    const double ha = height(a), hb = height(b);
+    const double ha = height(a, plane), hb = height(b, plane);
     if (ha == 0) hits.push_back(a);
     if ((ha < 0 && hb > 0) || (ha > 0 && hb < 0)) hits.push_back(a + (b - a) * (ha / (ha - hb)));
   }

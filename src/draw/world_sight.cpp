@@ -11,10 +11,6 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostViews = 8;
-constexpr std::size_t kMostQueries = 60;
-constexpr std::size_t kMostRays = 120;
-constexpr std::size_t kMostHits = 60;
 constexpr double kHit = 12.5;  // radius of a numbered mark
 
 std::vector<Vec<2>> page_corners(const FrameView& view, const WorldMap& map) {

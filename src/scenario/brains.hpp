@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/hash.hpp"
-#include "base/random.hpp"
+#include "geometry/random_direction.hpp"
 #include "physics/world.hpp"
 #include "scenario/scenario.hpp"
 
@@ -73,15 +73,13 @@ class Brains {
     world.set_velocity(id, way * spec.brain_speed);
   }
 
-  // Of unit length, on the floor of a solid world. No sine, so it is the same on every machine.
+  // On the floor of a solid world.
   static Vec<D> direction(Random& random) {
-    for (;;) {
-      Vec<D> way{0.0};
-      way[0] = random.between(-1, 1);
-      way[D - 1] = random.between(-1, 1);
-      const double square = glm::dot(way, way);
-      if (square >= 0.01 && square <= 1) return way / std::sqrt(square);
-    }
+    const Vec<2> on_floor = random_direction<2>(random);
+    Vec<D> way{0.0};
+    way[0] = on_floor.x;
+    way[D - 1] = on_floor.y;
+    return way;
   }
 
   Random& random_of(BodyId id, const BodySpec& spec) {

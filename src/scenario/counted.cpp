@@ -38,7 +38,7 @@ Place place_within(std::string_view file, Place where, std::string_view text, st
   return {where.line, where.column + 1 + static_cast<int>(letters(before))};
 }
 
-bool has_contacts(const Scenario& s) { return s.world.contacts != ContactChoice::none; }
+bool has_contacts(const Scenario& s) { return s.world.contacts != ContactMethod::none; }
 
 // Those that are built of an orthtree's nodes.
 bool shares_an_array(StructureKind kind) {

@@ -17,9 +17,7 @@ WorldConfig<D> config_of(const Scenario& scenario) {
   WorldConfig<D> config;
   config.gravity = in_dimension<D>(spec.gravity);
   config.integrator = spec.integrator;
-  config.contacts = spec.contacts == ContactChoice::soft      ? ContactMethod::soft
-                    : spec.contacts == ContactChoice::impulse ? ContactMethod::impulse
-                                                              : ContactMethod::none;
+  config.contacts = spec.contacts;
   config.sub_steps = spec.sub_steps;
   config.iterations = spec.iterations;
   config.may_sleep = spec.may_sleep;
@@ -169,7 +167,7 @@ class EngineOf : public Engine {
     return asked<D>(verb, structures_, players_.world(), residents);
   }
 
-  bool has_contacts() const { return scenario_.world.contacts != ContactChoice::none; }
+  bool has_contacts() const { return scenario_.world.contacts != ContactMethod::none; }
 
   // Where bodies collide or sleep, pairs of two that rest are of no interest.
   bool only_awake() const {

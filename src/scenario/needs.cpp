@@ -100,16 +100,16 @@ std::string counters_reason(const ScriptWalk& walk) {
   return counted(walk.promises, "promise is", "promises are") + " verified on them";
 }
 
-std::string contact_name(ContactChoice choice) {
-  return choice == ContactChoice::impulse ? "sequential impulses" : "soft contacts in small steps";
+std::string contact_name(ContactMethod choice) {
+  return choice == ContactMethod::impulse ? "sequential impulses" : "soft contacts in small steps";
 }
 
 std::string solver_reason(const Scenario& scenario, const ScriptWalk& walk) {
   const bool joints = count_links(scenario, false) > 0;
-  if (scenario.world.contacts == ContactChoice::none && !joints)
+  if (scenario.world.contacts == ContactMethod::none && !joints)
     return "no contact is resolved, and there is no joint";
   if (walk.seconds == 0) return kNoTime;
-  if (scenario.world.contacts == ContactChoice::none) return "for the joints";
+  if (scenario.world.contacts == ContactMethod::none) return "for the joints";
   return contact_name(scenario.world.contacts);
 }
 
@@ -130,7 +130,7 @@ void list_motion(const Scenario& scenario, const ScriptWalk& walk, Needs& needs)
 }
 
 void list_contacts(const Scenario& scenario, const ScriptWalk& walk, Needs& needs) {
-  const bool has_contacts = scenario.world.contacts != ContactChoice::none;
+  const bool has_contacts = scenario.world.contacts != ContactMethod::none;
   const std::vector<Need> contacts = {
       {"structure", needs.structure, structure_reason(walk)},
       {"static structure", needs.static_structure, static_reason(walk)},
@@ -203,7 +203,7 @@ void list_pictures(const Scenario& scenario, const ScriptWalk& walk, Needs& need
 void find_stages(const Scenario& scenario, const ScriptWalk& walk, Needs& needs) {
   const bool time_passes = walk.seconds > 0;
   needs.world = !scenario.bodies.empty();
-  const bool has_contacts = needs.world && scenario.world.contacts != ContactChoice::none;
+  const bool has_contacts = needs.world && scenario.world.contacts != ContactMethod::none;
   needs.motion = walk.moving_seconds > 0;
   needs.rotation = !walk.turner.empty();
   needs.forces = time_passes && !forces_of(scenario, walk).empty();

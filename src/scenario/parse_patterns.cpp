@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "geometry/random_direction.hpp"
 #include "scenario/draft.hpp"
 
 namespace lantern {
@@ -75,21 +76,6 @@ Vec<3> grid_place(const Box<3>& region, std::size_t index,
   return place;
 }
 
-// A direction from points of the unit disc or ball, but not of its middle, where they would be
-// coarse. No sine, so it is the same on every machine.
-Vec<3> random_direction(int dimension, Random& random) {
-  for (;;) {
-    Vec<3> v(0.0);
-    double square = 0;
-    for (int i = 0; i < dimension; ++i) {
-      v[i] = random.between(-1, 1);
-      square += v[i] * v[i];
-    }
-    if (square < 0.01 || square > 1) continue;
-    return v / std::sqrt(square);
-  }
-}
-
 // The places of one pattern, in order.
 class Places {
  public:
@@ -140,7 +126,9 @@ void unroll_pattern(const BodySpec& like, std::size_t count, const TableReader& 
     body.name = fmt::format("{}{}", like.name, i + 1);
     body.color = cycled_color(color, i);
     body.position = places.at(i, random);
-    if (speed > 0) body.velocity = random_direction(dimension, random) * speed;
+    if (speed > 0)
+      body.velocity = speed * (dimension == 2 ? solid(random_direction<2>(random))
+                                              : random_direction<3>(random));
     const NamedRange range{draft.scenario.bodies.size(), 1, table.place("name")};
     if (!draft.bodies.add(body.name, range, false, draft.problems)) return;
     draft.scenario.bodies.push_back(std::move(body));

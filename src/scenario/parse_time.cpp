@@ -66,7 +66,7 @@ void check_event(const TableReader& table, Wait::Event event, Draft& draft) {
   if (event == Wait::Event::asleep && !world.may_sleep)
     draft.problems.add(table.place("event"), "in this world nothing falls asleep",
                        "give [world] may_sleep = true");
-  else if (event != Wait::Event::asleep && world.contacts == ContactChoice::none)
+  else if (event != Wait::Event::asleep && world.contacts == ContactMethod::none)
     draft.problems.add(table.place("event"), "in this world nothing touches",
                        "give [world] contacts = \"impulse\" or \"soft\"");
 }

@@ -71,7 +71,7 @@ void read_rules(const TableReader& world, Draft& draft) {
   if (const auto n = world.whole("iterations")) w.iterations = static_cast<int>(*n);
   w.gravity = world.point("gravity").value_or(Vec<3>(0.0));
   if (const auto choice = world.choice("contacts"))
-    w.contacts = static_cast<ContactChoice>(*choice);
+    w.contacts = static_cast<ContactMethod>(*choice);
   if (const auto choice = world.choice("integrator"))
     w.integrator = static_cast<Integrator>(*choice);
   w.may_sleep = world.truth("may_sleep");

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "geometry/flat.hpp"
+#include "physics/contact_method.hpp"
 #include "physics/integrator.hpp"
 
 namespace lantern {
@@ -21,24 +22,23 @@ enum class Children { eager, lazy };  // all made at a split, or each when somet
 enum class Panel { world, tree, atlas, chart, memory };
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box };
-enum class ContactChoice { none, impulse, soft };  // how bodies that touch are parted
-enum class Brain { none, follow, wander };         // who steers a body
+enum class Brain { none, follow, wander };  // who steers a body
 
 // A point has three coordinates; in a flat world the third is 0.
 struct WorldSpec {
   int dimension = 2;
-  Box<3> bounds;                     // of the world and of the tree's root
-  double time_step = 1.0 / 60.0;     // seconds
-  int frame_every = 1;               // world steps from frame to frame of a run
+  Box<3> bounds;                  // of the world and of the tree's root
+  double time_step = 1.0 / 60.0;  // seconds
+  int frame_every = 1;            // world steps from frame to frame of a run
   Vec<3> gravity{0.0};
-  ContactChoice contacts = ContactChoice::none;
+  ContactMethod contacts = ContactMethod::none;
   Integrator integrator = Integrator::semi_implicit_euler;
-  int sub_steps = 8;                 // of the soft contacts
-  int iterations = 10;               // of the impulse contacts
+  int sub_steps = 8;    // of the soft contacts
+  int iterations = 10;  // of the impulse contacts
   bool may_sleep = false;
-  bool show_boxes = false;           // broad-phase boxes are drawn
+  bool show_boxes = false;  // broad-phase boxes are drawn
   bool show_velocities = false;
-  Vec<3> camera_eye{0.0};            // of a solid world
+  Vec<3> camera_eye{0.0};  // of a solid world
   Vec<3> camera_target{0.0};
   bool has_camera = false;
 };
@@ -69,17 +69,17 @@ struct BodySpec {
   Shape<3> shape;
   Vec<3> position{0.0};
   Vec<3> velocity{0.0};
-  double angle = 0;        // radians, counter-clockwise, or about `axis`
-  double spin = 0;         // radians a second, the same way
-  Vec<3> axis{0, 0, 1};    // unit; of a solid world
+  double angle = 0;      // radians, counter-clockwise, or about `axis`
+  double spin = 0;       // radians a second, the same way
+  Vec<3> axis{0, 0, 1};  // unit; of a solid world
   BodyKind kind = BodyKind::dynamic_body;
   double density = 1;
-  double mass = 0;         // 0: from shape and density
+  double mass = 0;  // 0: from shape and density
   Material material;
   double linear_drag = 0;
   double angular_drag = 0;
   bool may_turn = true;
-  bool asleep = false;     // when it enters
+  bool asleep = false;  // when it enters
   Brain brain = Brain::none;
   std::size_t follows = 0;  // the body that it follows
   Vec<3> brain_axes{1.0};   // 0 where it does not follow
@@ -87,17 +87,17 @@ struct BodySpec {
   SourcePosition where;
 };
 
-// A spring or joint between points of two bodies, or of a body and a point of the world. It is there
-// while its bodies are.
+// A spring or joint between points of two bodies, or of a body and a point of the world. It is
+// there while its bodies are.
 struct LinkSpec {
   enum class Kind { spring, distance, pin };
   Kind kind = Kind::spring;
   std::size_t a = 0;
-  std::optional<std::size_t> b;      // none: it is tied to the world
-  Vec<3> at_a{0.0};                  // from the body's centre, in its own axes
-  Vec<3> at_b{0.0};                  // the same, or a point of the world
-  std::optional<double> rest_length; // else as long as it is when it comes to be
-  double stiffness = 0;              // of a spring
+  std::optional<std::size_t> b;       // none: it is tied to the world
+  Vec<3> at_a{0.0};                   // from the body's centre, in its own axes
+  Vec<3> at_b{0.0};                   // the same, or a point of the world
+  std::optional<double> rest_length;  // else as long as it is when it comes to be
+  double stiffness = 0;               // of a spring
   double damping = 0;
   SourcePosition where;
 };
@@ -111,8 +111,8 @@ struct LevelSpec {
 };
 
 struct ChartSpec {
-  std::string x;                   // a count; empty for bars
-  std::vector<std::string> y;      // counts; of bars one
+  std::string x;               // a count; empty for bars
+  std::vector<std::string> y;  // counts; of bars one
   bool logarithmic = false;
   SourcePosition where;
 };
@@ -170,89 +170,121 @@ struct Expectation {
 };
 
 // The script's verbs. Bodies and textures are indices into the scenario's lists.
-struct Show {};                                             // nothing happens; the caption speaks
-struct Insert { std::vector<std::size_t> bodies; };         // enter world and structure
-struct Remove { std::vector<std::size_t> bodies; };         // leave both; the structure is rebuilt
-struct Move {                                               // set anew; the structure is rebuilt
+struct Show {};  // nothing happens; the caption speaks
+struct Insert {
+  std::vector<std::size_t> bodies;
+};  // enter world and structure
+struct Remove {
+  std::vector<std::size_t> bodies;
+};             // leave both; the structure is rebuilt
+struct Move {  // set anew; the structure is rebuilt
   std::size_t body = 0;
   std::optional<Vec<3>> to;
   std::optional<Vec<3>> velocity;
-  std::optional<double> turned;      // radians
-  std::optional<double> spin;        // radians a second
-  bool rebuild = true;               // false: the structure is left as it was
+  std::optional<double> turned;  // radians
+  std::optional<double> spin;    // radians a second
+  bool rebuild = true;           // false: the structure is left as it was
 };
-struct Run {                                                // a frame every `frame_every` steps
+struct Run {  // a frame every `frame_every` steps
   double seconds = 0;
-  int every = 0;                     // instead of the world's frame_every; 0: that
+  int every = 0;  // instead of the world's frame_every; 0: that
 };
-struct Wait {                                               // as Run, until something happens
-  enum class Event { touch, part, asleep };                 // two bodies; two bodies; all of them
+struct Wait {                                // as Run, until something happens
+  enum class Event { touch, part, asleep };  // two bodies; two bodies; all of them
   Event event = Event::touch;
   std::vector<std::size_t> bodies;
-  double at_most = 0;                // seconds; if it has not happened by then, the run fails
+  double at_most = 0;  // seconds; if it has not happened by then, the run fails
   int every = 0;
 };
-struct Phases {};                                           // one world step, phase by phase
-struct Rebuild { StructureSpec structure; };                // all bodies anew, with these settings
-struct ApplyForce { std::size_t body = 0; Vec<3> force{0.0}; Vec<3> at{0.0}; };  // from now on; 0 ends it
-struct ApplyImpulse { std::size_t body = 0; Vec<3> impulse{0.0}; Vec<3> at{0.0}; };  // N s, now
-struct Sleep { std::vector<std::size_t> bodies; };
-struct Wake { std::vector<std::size_t> bodies; };
-struct CastRay { Vec<3> from{0.0}; Vec<3> to{0.0}; bool all = false; };  // nearest hit, or all
-struct Cull {                                               // what does the camera see?
+struct Phases {};  // one world step, phase by phase
+struct Rebuild {
+  StructureSpec structure;
+};  // all bodies anew, with these settings
+struct ApplyForce {
+  std::size_t body = 0;
+  Vec<3> force{0.0};
+  Vec<3> at{0.0};
+};  // from now on; 0 ends it
+struct ApplyImpulse {
+  std::size_t body = 0;
+  Vec<3> impulse{0.0};
+  Vec<3> at{0.0};
+};  // N s, now
+struct Sleep {
+  std::vector<std::size_t> bodies;
+};
+struct Wake {
+  std::vector<std::size_t> bodies;
+};
+struct CastRay {
+  Vec<3> from{0.0};
+  Vec<3> to{0.0};
+  bool all = false;
+};             // nearest hit, or all
+struct Cull {  // what does the camera see?
   Vec<3> eye{0.0};
   Vec<3> target{0.0};
-  double angle = 1;                  // radians of opening, in a solid world from bottom to top
+  double angle = 1;  // radians of opening, in a solid world from bottom to top
   double near = 0.1;
-  double far = 10;                   // both along the view
+  double far = 10;  // both along the view
 };
-struct Query { Box<3> box; double radius = 0; };            // radius > 0: a ball about its centre
-struct CompileLevel {};                                     // the BSP of the level
-struct Locate { Vec<2> point{0.0}; };                       // in which sector?
-struct OrderFrom { Vec<2> eye{0.0}; };                      // sectors front to back
-struct Pack {                                               // textures in this order
+struct Query {
+  Box<3> box;
+  double radius = 0;
+};                       // radius > 0: a ball about its centre
+struct CompileLevel {};  // the BSP of the level
+struct Locate {
+  Vec<2> point{0.0};
+};  // in which sector?
+struct OrderFrom {
+  Vec<2> eye{0.0};
+};             // sectors front to back
+struct Pack {  // textures in this order
   std::vector<std::size_t> textures;
-  bool each = true;                                         // one frame a texture, or one for all
-  std::string free_name;                                    // label of the largest free leaf it leaves
+  bool each = true;       // one frame a texture, or one for all
+  std::string free_name;  // label of the largest free leaf it leaves
 };
-struct AskRoom { int width = 0; int height = 0; };          // does any free leaf have room?
+struct AskRoom {
+  int width = 0;
+  int height = 0;
+};  // does any free leaf have room?
 
-using Verb = std::variant<Show, Insert, Remove, Move, Run, Wait, Phases, Rebuild, ApplyForce,
-                          ApplyImpulse, Sleep, Wake, CastRay, Cull, Query, CompileLevel, Locate,
-                          OrderFrom, Pack, AskRoom>;
+using Verb =
+    std::variant<Show, Insert, Remove, Move, Run, Wait, Phases, Rebuild, ApplyForce, ApplyImpulse,
+                 Sleep, Wake, CastRay, Cull, Query, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
 
 struct Step {
   Verb verb;
-  std::string name;                  // for --at; may be empty
-  std::string part;                  // from here on shown behind the title; may be empty
-  std::string caption;               // with {count} and {count:noun}; may be empty
-  std::optional<std::string> plot;   // adds a point to the chart, or a bar of this label
-  std::optional<Pace> pace;          // of this step alone
-  std::vector<std::string> events;   // in event pace, only these give frames; empty for all
-  std::vector<Expectation> expect;   // after the step
-  std::vector<Expectation> always;   // on every frame of the step
+  std::string name;                 // for --at; may be empty
+  std::string part;                 // from here on shown behind the title; may be empty
+  std::string caption;              // with {count} and {count:noun}; may be empty
+  std::optional<std::string> plot;  // adds a point to the chart, or a bar of this label
+  std::optional<Pace> pace;         // of this step alone
+  std::vector<std::string> events;  // in event pace, only these give frames; empty for all
+  std::vector<Expectation> expect;  // after the step
+  std::vector<Expectation> always;  // on every frame of the step
   SourcePosition where;
 };
 
 struct Scenario {
-  std::string name;     // [a-z0-9_]+, from the file's name unless given; names files and folders
-  std::string file;     // as it was given
+  std::string name;  // [a-z0-9_]+, from the file's name unless given; names files and folders
+  std::string file;  // as it was given
   std::string title;
-  std::string source;   // the part of the lecture it shows
+  std::string source;  // the part of the lecture it shows
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
-  std::vector<Panel> panels;         // as wished, or what `needs` derives
+  std::vector<Panel> panels;  // as wished, or what `needs` derives
   WorldSpec world;
   StructureSpec structure;
   std::optional<LevelSpec> level;
   std::optional<ChartSpec> chart;
   std::optional<AtlasSpec> atlas;
-  std::vector<BodySpec> bodies;      // patterns unrolled
+  std::vector<BodySpec> bodies;  // patterns unrolled
   std::vector<LinkSpec> links;
   std::vector<TextureSpec> textures;
   std::vector<Step> steps;
-  std::uint64_t text_hash = 0;       // of the file's bytes
-  std::string text;                  // the file's bytes, for diagnostics of the run
+  std::uint64_t text_hash = 0;  // of the file's bytes
+  std::string text;             // the file's bytes, for diagnostics of the run
 };
 
 // Throws ScenarioError with every mistake found, IoError if the file cannot be read.

@@ -49,7 +49,7 @@ void ScriptWalk::see(const Insert& insert) {
     const bool pulled =
         body.kind == BodyKind::dynamic_body && (world.gravity != Vec<3>(0.0) || linked_[i]);
     const bool touched =
-        body.kind == BodyKind::dynamic_body && world.contacts != ContactChoice::none;
+        body.kind == BodyKind::dynamic_body && world.contacts != ContactMethod::none;
     set_in(movers_, i,
            body.velocity != Vec<3>(0.0) || body.spin != 0 || body.brain != Brain::none || pulled);
     set_in(turners_, i,

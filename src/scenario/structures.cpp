@@ -74,8 +74,8 @@ std::string settings_text(const StructureSpec& s) {
     case StructureKind::sort_and_sweep:
       return "sorted along one axis, then swept" + split;
     case StructureKind::bsp:
-      return fmt::format("{} dividing {}{}{}", s.planes.size(), "line",
-                         s.planes.size() == 1 ? "" : "s", split);
+      return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
+                         split);
     case StructureKind::kd_tree:
       return fmt::format("fitted to its bodies, capacity {}, depth limit {}{}", s.capacity,
                          s.max_depth, split);

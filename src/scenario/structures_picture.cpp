@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "scenario/structures.hpp"
+#include "spatial/awake.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern {
@@ -63,7 +64,7 @@ class TreePicture {
       frame_.nodes.push_back(std::move(node));
       return true;
     });
-    if (only_awake_ && !of_static) find_awake();
+    if (only_awake_ && !of_static) mark_awake(tree);
     const Counters c = tree.counters();
     counters.nodes += c.nodes;
     counters.leaves += c.leaves;
@@ -118,17 +119,15 @@ class TreePicture {
     }
   }
 
-  // A node sleeps when nothing below it is awake. Parents stand before children.
-  void find_awake() {
-    for (std::size_t i = first_; i < frame_.nodes.size(); ++i) {
-      const auto& ids = frame_.nodes[i].bodies;
-      frame_.nodes[i].awake =
-          std::any_of(ids.begin(), ids.end(), [&](BodyId id) { return bodies_[id].awake; });
+  // A node sleeps when nothing below it is awake.
+  template <class Tree>
+  void mark_awake(const Tree& tree) {
+    const std::vector<bool> awake = awake_nodes(tree, [&](BodyId id) { return bodies_[id].awake; });
+    for (std::size_t i = 0; i < awake.size(); ++i) {
+      FrameNode& node = frame_.nodes[first_ + i];
+      node.awake = awake[i];
+      nodes_asleep += !node.awake && !node.bodies.empty();
     }
-    for (std::size_t i = frame_.nodes.size(); i-- > first_ + 1;)
-      if (frame_.nodes[i].awake) frame_.nodes[frame_.nodes[i].parent].awake = true;
-    for (std::size_t i = first_; i < frame_.nodes.size(); ++i)
-      nodes_asleep += !frame_.nodes[i].awake && !frame_.nodes[i].bodies.empty();
   }
 
   const StructureSpec& spec_;

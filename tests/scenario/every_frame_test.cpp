@@ -23,7 +23,7 @@ class Rules {
   // Pairs of two that rest are left out where bodies collide or sleep.
   bool only_awake() const {
     const WorldSpec& world = scenario_.world;
-    return world.contacts != ContactChoice::none || world.may_sleep ||
+    return world.contacts != ContactMethod::none || world.may_sleep ||
            scenario_.structure.split_static;
   }
 

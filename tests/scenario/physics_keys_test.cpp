@@ -79,14 +79,14 @@ TEST(World, RulesAreRead) {
           kShow)
           .world;
   EXPECT_EQ(w.gravity, Vec<3>(0, -9.81, 0));
-  EXPECT_EQ(w.contacts, ContactChoice::soft);
+  EXPECT_EQ(w.contacts, ContactMethod::soft);
   EXPECT_EQ(w.integrator, Integrator::implicit_midpoint);
   EXPECT_EQ(w.sub_steps, 4);
   EXPECT_EQ(w.iterations, 20);
   EXPECT_EQ(w.frame_every, 5);
   EXPECT_TRUE(w.may_sleep && w.show_boxes && w.show_velocities);
   const WorldSpec plain = good(kFlat + kShow).world;
-  EXPECT_EQ(plain.contacts, ContactChoice::none) << "bodies fly freely unless told otherwise";
+  EXPECT_EQ(plain.contacts, ContactMethod::none) << "bodies fly freely unless told otherwise";
   EXPECT_EQ(plain.integrator, Integrator::semi_implicit_euler);
   EXPECT_EQ(plain.sub_steps, 8);
   EXPECT_EQ(plain.iterations, 10);

@@ -1,0 +1,26 @@
+// Directions of a seeded random generator.
+#pragma once
+
+#include <cmath>
+
+#include "base/random.hpp"
+#include "geometry/vec.hpp"
+
+namespace lantern {
+
+// Of unit length, from points of the unit disc or ball, but not of its middle, where they would be
+// coarse. No sine, so it is the same on every machine.
+template <int D>
+Vec<D> random_direction(Random& random) {
+  for (;;) {
+    Vec<D> v{0.0};
+    double square = 0;
+    for (int i = 0; i < D; ++i) {
+      v[i] = random.between(-1, 1);
+      square += v[i] * v[i];
+    }
+    if (square >= 0.01 && square <= 1) return v / std::sqrt(square);
+  }
+}
+
+}  // namespace lantern
