@@ -1,10 +1,14 @@
 #include "render/support.hpp"
 
 #include <cstdlib>
+#include <memory>
 #include <ostream>
+#include <utility>
 
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <gtest/gtest.h>
 
 #include "base/file.hpp"
 #include "render/renderer.hpp"
@@ -27,16 +31,36 @@ DrawList page_of(double width, double height, std::vector<DrawShape> shapes) {
   return list;
 }
 
-Image drawn(const DrawList& list, int width, int height, bool transparent, const Theme& theme) {
-  static std::map<std::pair<int, int>, std::unique_ptr<Renderer>> renderers;
-  // A context is current from when it is made until the next one is: one at a time.
-  if (!renderers.contains({width, height})) {
-    renderers.clear();
-    renderers[{width, height}] =
-        std::make_unique<Renderer>(Context::create(Backend::automatic), width, height);
+namespace {
+
+// The renderer of the last size asked for, kept from test to test. It must go before main ends: in
+// the exit handlers the GL library may be torn down before a static object of ours is.
+class LastRenderer : public testing::Environment {
+ public:
+  Renderer& of(int width, int height) {
+    // A context is current from when it is made until the next one is: one at a time.
+    if (!renderer_ || size_ != std::pair(width, height)) {
+      renderer_.reset();
+      renderer_ = std::make_unique<Renderer>(Context::create(Backend::automatic), width, height);
+      size_ = {width, height};
+    }
+    return *renderer_;
   }
+  void TearDown() override { renderer_.reset(); }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+  std::pair<int, int> size_;
+};
+
+LastRenderer& last_renderer =
+    *static_cast<LastRenderer*>(testing::AddGlobalTestEnvironment(new LastRenderer));
+
+}  // namespace
+
+Image drawn(const DrawList& list, int width, int height, bool transparent, const Theme& theme) {
   Image image;
-  renderers[{width, height}]->draw(list, theme, transparent, image);
+  last_renderer.of(width, height).draw(list, theme, transparent, image);
   return image;
 }
 
