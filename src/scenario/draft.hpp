@@ -68,6 +68,7 @@ void read_bodies(const TableReader& file, Draft& draft);
 void read_links(const TableReader& file, Draft& draft);
 void read_level(const TableReader& file, Draft& draft);
 void read_chart(const TableReader& file, Draft& draft);
+void read_problem(const TableReader& file, Draft& draft);
 void read_atlas(const TableReader& file, Draft& draft);
 void read_script(const TableReader& file, Draft& draft);
 

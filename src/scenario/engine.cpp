@@ -42,6 +42,25 @@ StepWork difference(const WorldWork& after, const WorldWork& before) {
 }
 
 template <int D>
+BodyState state_of(const Body<D>& body) {
+  BodyState state;
+  state.there = true;
+  state.position = solid(body.position);
+  state.velocity = solid(body.velocity);
+  if constexpr (D == 2) {
+    state.angle = body.orientation.angle;
+    state.orientation = turned(Rotation<3>(), Vec<3>(0, 0, state.angle));
+    state.angular_velocity.z = angular_velocity(body);
+    state.angular_momentum.z = body.angular_momentum;
+  } else {
+    state.orientation = body.orientation;
+    state.angular_velocity = angular_velocity(body);
+    state.angular_momentum = body.angular_momentum;
+  }
+  return state;
+}
+
+template <int D>
 class EngineOf : public Engine {
  public:
   EngineOf(const Scenario& scenario, Work& work)
@@ -141,6 +160,16 @@ class EngineOf : public Engine {
 
   std::string label_of(NodeHandle node) const override { return structures_.label_of(node); }
   const StructureSpec& structure() const override { return structures_.spec(); }
+  void observe(std::vector<BodyState>& states) const override {
+    states.resize(scenario_.bodies.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Body<D>* body = players_.body(i);
+      states[i] = body ? state_of(*body) : BodyState{};
+    }
+  }
+  const WorldWork& world_work() const override { return players_.world().work(); }
+  std::uint64_t world_hash() const override { return players_.world().hash(); }
+
   void forget_events() override { begins_ = ends_ = 0; }
 
   void picture(const Touched& touched, Frame& frame) const override {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/work.hpp"
+#include "physics/world_config.hpp"
+#include "scenario/body_state.hpp"
 #include "scenario/frame.hpp"
 #include "scenario/touched.hpp"
 #include "spatial/query.hpp"
@@ -53,6 +55,11 @@ class Engine {
   virtual bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const = 0;
   virtual std::string label_of(NodeHandle node) const = 0;
   virtual const StructureSpec& structure() const = 0;
+
+  // One state a body of the scenario, in its order; without pixels, and without structures.
+  virtual void observe(std::vector<BodyState>& states) const = 0;
+  virtual const WorldWork& world_work() const = 0;  // of the world since it was made
+  virtual std::uint64_t world_hash() const = 0;
 
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;

@@ -42,6 +42,7 @@ TableDoc file_table() {
           Row(tables, "joint", "One joint each.").at_most(kMostLinks).holds("joint"),
           Row(table, "level", "Walls, to be made a BSP of.").holds("level"),
           Row(table, "chart", "Counts of steps as lines or bars.").holds("chart"),
+          Row(table, "problem", "The known answer that it is measured against.").holds("problem"),
           Row(table, "atlas", "The image that textures are packed into.").holds("atlas"),
           Row(tables, "texture", "One texture each.").at_most(kMostTextures).holds("texture"),
           Row(tables, "texture_pattern", "Many textures each.")
@@ -84,9 +85,10 @@ const KeyDoc* TableDoc::find(std::string_view key) const {
 
 std::span<const TableDoc> language_tables() {
   static const std::vector<TableDoc> tables = {
-      file_table(),    world_table(),   structure_table(),       planes_table(), body_table(),
-      pattern_table(), spring_table(),  joint_table(),           level_table(),  chart_table(),
-      atlas_table(),   texture_table(), texture_pattern_table(), step_table(),   expect_table()};
+      file_table(),    world_table(),           structure_table(), planes_table(),
+      body_table(),    pattern_table(),         spring_table(),    joint_table(),
+      level_table(),   chart_table(),           problem_table(),   atlas_table(),
+      texture_table(), texture_pattern_table(), step_table(),      expect_table()};
   return tables;
 }
 

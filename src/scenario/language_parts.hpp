@@ -16,6 +16,7 @@ TableDoc spring_table();
 TableDoc joint_table();
 TableDoc level_table();
 TableDoc chart_table();
+TableDoc problem_table();
 TableDoc atlas_table();
 TableDoc texture_table();
 TableDoc texture_pattern_table();

@@ -83,6 +83,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   read_links(file, draft);
   read_level(file, draft);
   read_chart(file, draft);
+  read_problem(file, draft);
   read_atlas(file, draft);
   read_script(file, draft);
   read_panels(file, draft);

@@ -117,6 +117,39 @@ struct ChartSpec {
   SourcePosition where;
 };
 
+// Whose answer is known in closed form.
+enum class Solution {
+  projectile,
+  oscillator,
+  chain,
+  kepler,
+  pendulum,
+  free_top,
+  bouncing_ball,
+  blocks_and_wall,
+  collisions,
+  billiards,
+  slide,
+  slip_then_roll,
+  incline,
+  topple,
+  stack,
+  hanging_chain,
+};
+enum class ProblemVariant { plain, stiff, extreme };
+
+// What `lantern measure` holds the scenario's runs against.
+struct ProblemSpec {
+  Solution solution = Solution::projectile;
+  ProblemVariant variant = ProblemVariant::plain;
+  double seconds = 1;
+  std::uint32_t samples = 20;         // moments that are looked at, equally far apart
+  double step = 1;                    // the largest, seconds
+  int halvings = 7;                   // of the step, a run each
+  std::vector<std::string> methods;   // names; empty for all that make a difference
+  SourcePosition where;
+};
+
 struct TextureSpec {
   std::string name;
   int width = 0;
@@ -279,6 +312,7 @@ struct Scenario {
   std::optional<LevelSpec> level;
   std::optional<ChartSpec> chart;
   std::optional<AtlasSpec> atlas;
+  std::optional<ProblemSpec> problem;
   std::vector<BodySpec> bodies;  // patterns unrolled
   std::vector<LinkSpec> links;
   std::vector<TextureSpec> textures;
@@ -299,5 +333,7 @@ Diagnostic diagnose(const Scenario& scenario, const SourcePosition& where, std::
 
 std::string_view to_string(StructureKind kind);
 std::string_view to_string(Children children);
+std::string_view to_string(Solution solution);
+std::string_view to_string(ProblemVariant variant);
 
 }  // namespace lantern

@@ -24,7 +24,8 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"scenario", {"physics", "atlas"}},
     {"draw", {"scenario"}},
     {"render", {"draw"}},
-    {"report", {"scenario", "draw", "render"}},
+    {"measure", {"scenario"}},
+    {"report", {"measure", "draw", "render"}},
     {"app", {"report"}},
 };
 

@@ -1,0 +1,60 @@
+// One interface for whoever can move the bodies of a scenario: Lantern's engine by any of its
+// methods, and the peers that it is measured beside. All are fed the same scenario and asked for
+// the same states, so that one yardstick fits them all.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenario/body_state.hpp"
+#include "scenario/scenario.hpp"
+
+namespace lantern {
+
+// Work that is counted, not timed: the same on every machine. Zero for what a peer does not tell.
+struct Counted {
+  std::uint64_t steps = 0;
+  std::uint64_t force_evaluations = 0;
+  std::uint64_t constraint_rows = 0;
+  std::uint64_t pair_tests = 0;
+};
+
+// A scenario on its way. Bodies are named by their index in the scenario.
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  // `steps` steps. This is what is timed: nothing else happens in it. Throws Refused if it cannot
+  // go on, naming the reason; it may then only be destroyed.
+  virtual void advance(std::uint64_t steps) = 0;
+
+  // The script's other verbs. Peers know none: their bodies are there from the start.
+  virtual void act(const Verb&) {}
+
+  // One state a body of the scenario, in its order.
+  virtual void observe(std::vector<BodyState>& states) const = 0;
+  virtual std::uint64_t impacts() const { return 0; }  // so far; 0 if it does not tell
+  virtual Counted counted() const { return {}; }       // so far
+  virtual std::uint64_t hash() const { return 0; }     // of the state; 0 if it has none
+};
+
+// Who makes simulations: a method of Lantern, or a peer.
+class Contestant {
+ public:
+  virtual ~Contestant() = default;
+  virtual std::string name() const = 0;     // "velocity_verlet", "Bullet"
+  virtual std::string version() const = 0;  // of a peer; empty for Lantern itself
+  bool is_peer() const { return !version().empty(); }
+
+  // Why it cannot do this scenario ("Box2D is flat"); nothing if it can.
+  virtual std::optional<std::string> cannot(const Scenario& scenario) const = 0;
+
+  // All bodies as the scenario's first frame has them, with steps of `h` > 0 seconds. The scenario
+  // must outlive the simulation. Throws Refused for what it cannot do.
+  virtual std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const = 0;
+};
+
+}  // namespace lantern

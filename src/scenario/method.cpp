@@ -1,0 +1,77 @@
+#include "scenario/method.hpp"
+
+#include <array>
+#include <charconv>
+
+namespace lantern {
+namespace {
+
+struct Known {
+  std::string_view name;
+  Method method;
+};
+
+const std::array<Known, 11>& known() {
+  static const std::array<Known, 11> table = [] {
+    std::array<Known, 11> t;
+    std::size_t n = 0;
+    for (int i = 0; i < 6; ++i, ++n) {
+      t[n].method.integrator = static_cast<Integrator>(i);
+      t[n].name = to_string(static_cast<Integrator>(i));
+    }
+    constexpr std::string_view kRotations[] = {"splitting_2", "splitting_4", "explicit_gyroscopic"};
+    for (int i = 0; i < 3; ++i, ++n) {
+      t[n].method.rotation = static_cast<RotationMethod>(i);
+      t[n].name = kRotations[i];
+    }
+    t[n].method.contacts = ContactMethod::impulse;
+    t[n++].name = "impulse";
+    t[n].method.contacts = ContactMethod::soft;
+    t[n++].name = "soft";
+    return t;
+  }();
+  return table;
+}
+
+// "16": nothing if it is no number from 1 on.
+std::optional<int> effort_of(std::string_view text) {
+  int effort = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), effort);
+  if (error != std::errc() || end != text.data() + text.size() || effort < 1) return std::nullopt;
+  return effort;
+}
+
+}  // namespace
+
+std::optional<Method> method_named(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  for (const Known& k : known()) {
+    if (k.name != name.substr(0, colon)) continue;
+    Method method = k.method;
+    method.name = name;
+    if (colon == std::string_view::npos) return method;
+    method.effort = effort_of(name.substr(colon + 1));
+    const int most = method.contacts == ContactMethod::soft ? 1000 : 100'000;
+    if (!method.contacts || !method.effort || *method.effort > most) return std::nullopt;
+    return method;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> method_names() {
+  std::vector<std::string_view> names;
+  for (const Known& k : known()) names.push_back(k.name);
+  return names;
+}
+
+Scenario moved_by(Scenario scenario, const Method& method, double h) {
+  WorldSpec& world = scenario.world;
+  world.time_step = h;
+  if (method.integrator) world.integrator = *method.integrator;
+  if (method.contacts) world.contacts = *method.contacts;
+  if (method.effort)
+    (world.contacts == ContactMethod::soft ? world.sub_steps : world.iterations) = *method.effort;
+  return scenario;
+}
+
+}  // namespace lantern

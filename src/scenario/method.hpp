@@ -1,0 +1,34 @@
+// A way to move a scene: what `lantern measure` compares. A name of the form "velocity_verlet",
+// "splitting_4", "soft:16" or "impulse:100"; the number is of sub-steps or of sweeps.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "physics/contact_method.hpp"
+#include "physics/free_rotation.hpp"
+#include "physics/integrator.hpp"
+#include "scenario/scenario.hpp"
+
+namespace lantern {
+
+struct Method {
+  std::string name;
+  std::optional<Integrator> integrator;
+  std::optional<RotationMethod> rotation;
+  std::optional<ContactMethod> contacts;
+  std::optional<int> effort;  // sub-steps of soft contacts, sweeps of impulses
+};
+
+// Nothing for a name that is none.
+std::optional<Method> method_named(std::string_view name);
+
+// All names but for their numbers, for help and suggestions.
+std::vector<std::string_view> method_names();
+
+// The scenario, moved by `method` in steps of `h` seconds; what the method leaves open stays.
+Scenario moved_by(Scenario scenario, const Method& method, double h);
+
+}  // namespace lantern
