@@ -69,8 +69,11 @@ struct Circumstances {
   std::string flags;
   std::string processor;
   std::uint64_t seed = 1;
-  bool full = false;  // --full
+  std::string effort;  // "quick", "normal", "full"
 };
+
+// Of this build on this machine; `version` is Lantern's.
+Circumstances here(std::string_view version);
 
 struct Measurement {
   Circumstances circumstances;
