@@ -30,13 +30,13 @@ double misses_parabola() {
   for (int i = 1; i <= 10000; ++i) {
     world.step(kFine);
     const double t = i * kFine;
-    worst = std::max(worst, std::abs(world.bodies()[0].position.y + kGravity * t * t / 2));
+    worst = largest(worst, std::abs(world.bodies()[0].position.y + kGravity * t * t / 2));
   }
   return worst;
 }
 
 StressResult free_fall() {
-  return at_most(1e-10, std::max(misses_parabola<2>(), misses_parabola<3>()), "m",
+  return at_most(1e-10, largest(misses_parabola<2>(), misses_parabola<3>()), "m",
                  "2D and 3D, 10 s at 1 ms");
 }
 
@@ -56,8 +56,8 @@ Drift drift_of_top(const Vec<3>& half_size, const Vec<3>& spin) {
   for (int i = 0; i < 10000; ++i) {
     world.step(kFine);
     const Vec<3>& now = world.bodies()[0].angular_momentum;
-    drift.momentum = std::max(drift.momentum, glm::length(now - before) / glm::length(before));
-    drift.energy = std::max(drift.energy, std::abs(energy_now() / energy_before - 1));
+    drift.momentum = largest(drift.momentum, glm::length(now - before) / glm::length(before));
+    drift.energy = largest(drift.energy, std::abs(energy_now() / energy_before - 1));
   }
   return drift;
 }
@@ -100,10 +100,10 @@ Pile pile_of(int count, int sub_steps, double seconds, double top_density = 1) {
   Pile pile;
   for (int i = 0; i < seconds * 60; ++i) {
     world.step(kStep);
-    pile.depth = std::max(pile.depth, deepest(world));
+    pile.depth = largest(pile.depth, deepest(world));
   }
   for (int i = 0; i < count; ++i)
-    pile.moved = std::max(
+    pile.moved = largest(
         pile.moved,
         glm::length(world.bodies()[static_cast<std::size_t>(i + 1)].position - at<D>(0, 0.5 + i)));
   return pile;
@@ -115,11 +115,11 @@ std::string told(const Pile& pile) {
 
 StressResult stack_of_60() {
   const Pile pile = pile_of<2>(60, 16, 10);
-  return at_most(1e-4, std::max(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
+  return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
 }
 StressResult stack_of_60_solid() {
   const Pile pile = pile_of<3>(60, 16, 10);
-  return at_most(1e-4, std::max(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
+  return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
 }
 StressResult stack_of_100() {
   const Pile pile = pile_of<2>(100, 16, 10);
@@ -129,11 +129,11 @@ StressResult stack_of_100() {
 template <int D>
 StressResult heavy_on_light() {
   const Pile pile = pile_of<D>(2, 16, 10, 1e4);
-  return at_most(5e-3, std::max(pile.depth, pile.moved), "m", told(pile) + "; 1e4 : 1");
+  return at_most(5e-3, largest(pile.depth, pile.moved), "m", told(pile) + "; 1e4 : 1");
 }
 StressResult heaviest_on_light() {
   const Pile pile = pile_of<2>(2, 16, 10, 1e6);
-  return at_most(5e-3, std::max(pile.depth, pile.moved), "m", told(pile) + "; 1e6 : 1");
+  return at_most(5e-3, largest(pile.depth, pile.moved), "m", told(pile) + "; 1e6 : 1");
 }
 
 // --- chains ---
@@ -165,7 +165,7 @@ double chain_stretch(JointKind kind, double ratio) {
       const Body<D>&a = *world.find(joint.a), &b = *world.find(joint.b);
       const double gap = glm::length(b.position + matrix(b.orientation) * joint.at_b - a.position -
                                      matrix(a.orientation) * joint.at_a);
-      worst = std::max(worst, std::abs(gap - (joint.kind == JointKind::pin ? 0 : joint.length)));
+      worst = largest(worst, std::abs(gap - (joint.kind == JointKind::pin ? 0 : joint.length)));
     }
   }
   return worst;
@@ -174,7 +174,7 @@ double chain_stretch(JointKind kind, double ratio) {
 template <JointKind Kind>
 StressResult heavy_chain() {
   const double flat = chain_stretch<2>(Kind, 1000), solid = chain_stretch<3>(Kind, 1000);
-  return at_most(10e-3, std::max(flat, solid), "m",
+  return at_most(10e-3, largest(flat, solid), "m",
                  fmt::format("2D {:.1e} m, 3D {:.1e} m; ten links, 1000 : 1", flat, solid));
 }
 

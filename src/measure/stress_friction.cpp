@@ -33,7 +33,7 @@ double sliding_error(double mu, double speed, double heading) {
 StressResult sliding() {
   double worst = 0;
   for (const double mu : {0.1, 0.5, 1.0, 10.0})
-    worst = std::max({worst, sliding_error<2>(mu, 5, 0), sliding_error<3>(mu, 5, 0)});
+    worst = largest({worst, sliding_error<2>(mu, 5, 0), sliding_error<3>(mu, 5, 0)});
   return at_most(1e-6, worst, "m", "5 m/s, friction 0.1, 0.5, 1, 10; 2D and 3D");
 }
 
@@ -41,7 +41,7 @@ StressResult sliding() {
 StressResult headings() {
   double worst = 0;
   for (int i = 0; i < 24; ++i)
-    worst = std::max(worst, sliding_error<3>(0.5, 3, 2 * std::numbers::pi * i / 24));
+    worst = largest(worst, sliding_error<3>(0.5, 3, 2 * std::numbers::pi * i / 24));
   return at_most(1e-6, worst, "m", "24 headings, 3 m/s, friction 0.5");
 }
 
@@ -60,7 +60,7 @@ double incline_error(double mu, double off) {
   box.may_turn = false;
   world.add(box);
   run(world, 2);
-  const double slides = std::max(0.0, kGravity * (std::sin(alpha) - mu * std::cos(alpha)));
+  const double slides = largest(0.0, kGravity * (std::sin(alpha) - mu * std::cos(alpha)));
   return std::abs(world.bodies()[1].velocity.x - 2 * slides);
 }
 
@@ -69,7 +69,7 @@ StressResult incline() {
   for (const double mu : {0.0, 0.5, 10.0})
     for (const double off : {-1e-4, 1e-4}) {
       if (mu + off < 0) continue;
-      worst = std::max({worst, incline_error<2>(mu, off), incline_error<3>(mu, off)});
+      worst = largest({worst, incline_error<2>(mu, off), incline_error<3>(mu, off)});
     }
   return at_most(5e-5, worst, "m/s", "after 2 s, tan = friction ± 1e-4; friction 0, 0.5, 10");
 }
@@ -81,6 +81,7 @@ StressResult topple() {
     const double alpha = std::atan(0.25 * (1 + off));
     WorldConfig<2> config;
     config.gravity = {kGravity * std::sin(alpha), -kGravity * std::cos(alpha)};
+    config.may_sleep = false;  // at the edge it starts as slowly as what comes to rest
     World<2> world(config);
     world.add(make_floor<2>(0, 2));
     Body<2> tower = make_body<2>(OrientedBox<2>{{0.5, 2}}, {0, 2}, "tower");
@@ -106,7 +107,7 @@ StressResult rolling() {
     world.add(ball);
     run(world, 2);
     const double expected = 5.0 / 7 * kGravity * std::sin(alpha) * 2;
-    worst = std::max(worst, std::abs(world.bodies()[1].velocity.x / expected - 1));
+    worst = largest(worst, std::abs(world.bodies()[1].velocity.x / expected - 1));
   }
   return at_most(1e-6, worst, "relative", "speed after 2 s, slopes 0.01, 0.3, 1 rad");
 }

@@ -37,7 +37,7 @@ double bounce_drift(double h) {
   double worst = 0;
   for (long i = 0, n = std::lround(20 / h); i < n; ++i) {
     world.step(h);
-    worst = std::max(worst, std::abs(energy() / before - 1));
+    worst = largest(worst, std::abs(energy() / before - 1));
   }
   return worst;
 }
@@ -45,7 +45,7 @@ double bounce_drift(double h) {
 StressResult elastic_bounce() {
   double worst = 0;
   for (const double h : {1e-3, 0.01, 1.0 / 60, 0.1, 0.3, 1.0, 3.0})
-    worst = std::max({worst, bounce_drift<2>(h), bounce_drift<3>(h)});
+    worst = largest({worst, bounce_drift<2>(h), bounce_drift<3>(h)});
   return at_most(1e-12, worst, "relative", "20 s, 2D and 3D, steps from 1 ms to 3 s");
 }
 
@@ -61,8 +61,8 @@ StressResult zeno() {
     ball.material.restitution = e;
     world.add(ball);
     run(world, std::sqrt(2 * 0.8 / kGravity) * (1 + e) / (1 - e) + 0.1);
-    worst = std::max({worst, std::abs(world.bodies()[1].position.y - 0.5),
-                      std::abs(world.bodies()[1].velocity.y)});
+    worst = largest({worst, std::abs(world.bodies()[1].position.y - 0.5),
+                     std::abs(world.bodies()[1].velocity.y)});
     most = std::max(most, world.work().impacts_located);
   }
   return at_most(1e-6, worst, "m or m/s",
@@ -88,7 +88,7 @@ StressResult pi_by_blocks() {
     block.mass = ratio;
     world.add(block);
     run(world, 12);
-    worst = std::max(
+    worst = largest(
         worst, std::abs(static_cast<double>(world.work().impacts_located) - std::floor(expected)));
   }
   return at_most(0, worst, "impacts", "off floor(pi 10^k), k = 0 ... 3: 3, 31, 314, 3141");
@@ -114,14 +114,14 @@ double superball_error() {
       const double common = (3 * ratio - 1) / (ratio + 1);
       const double heavy = common - e * 4 / (ratio + 1);
       const double light = common + e * 4 * ratio / (ratio + 1);
-      worst = std::max({worst, std::abs(world.bodies()[0].velocity.x - heavy) / 4,
-                        std::abs(world.bodies()[1].velocity.x - light) / 4});
+      worst = largest({worst, std::abs(world.bodies()[0].velocity.x - heavy) / 4,
+                       std::abs(world.bodies()[1].velocity.x - light) / 4});
     }
   return worst;
 }
 
 StressResult superball() {
-  return at_most(1e-12, std::max(superball_error<2>(), superball_error<3>()), "relative",
+  return at_most(1e-12, largest(superball_error<2>(), superball_error<3>()), "relative",
                  "2D and 3D, mass ratios 1 to 1e9, restitution 0, 0.4, 1");
 }
 
@@ -137,8 +137,8 @@ StressResult cradle() {
     }
     run(world, 1.5);
     for (int i = 0; i < 5; ++i)
-      worst = std::max(worst, std::abs(world.bodies()[static_cast<std::size_t>(i)].velocity.x -
-                                       (i < 5 - moving ? 0 : 2)));
+      worst = largest(worst, std::abs(world.bodies()[static_cast<std::size_t>(i)].velocity.x -
+                                      (i < 5 - moving ? 0 : 2)));
   }
   return at_most(1e-12, worst, "m/s", "five balls, one to four of them moving");
 }

@@ -53,7 +53,7 @@ double worst_deviation(double offset, int steps) {
   const auto near = relative_places<D>(0, steps), far = relative_places<D>(offset, steps);
   double worst = 0;
   for (std::size_t i = 0; i < near.size(); ++i)
-    worst = std::max(worst, glm::length(far[i] - near[i]));
+    worst = largest(worst, glm::length(far[i] - near[i]));
   return worst;
 }
 
@@ -61,7 +61,7 @@ StressResult moved_by(double offset) {
   const int steps = 60;
   const double ulp = std::nextafter(offset, 2 * offset) - offset;
   const double worst =
-      std::max(worst_deviation<2>(offset, steps), worst_deviation<3>(offset, steps));
+      largest(worst_deviation<2>(offset, steps), worst_deviation<3>(offset, steps));
   return at_most(8, worst / ulp / steps, "ulp a step",
                  fmt::format("{:.1e} m after {} steps, 2D and 3D", worst, steps));
 }
@@ -78,7 +78,7 @@ double settling_error(double offset) {
 }
 
 StressResult far_from_origin() {
-  return at_most(1e-6, std::max(settling_error<2>(1e7), settling_error<3>(1e7)), "m",
+  return at_most(1e-6, largest(settling_error<2>(1e7), settling_error<3>(1e7)), "m",
                  "a box that settles 1e7 m away, 2D and 3D");
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,14 @@ inline constexpr double kGravity = 10;     // units / s^2
 inline constexpr Integrator kIntegrators[] = {
     Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::velocity_verlet,
     Integrator::runge_kutta_4,  Integrator::implicit_midpoint,   Integrator::implicit_euler};
+
+// The larger one; what is no number wins, and is never lost.
+inline double largest(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+inline double largest(std::initializer_list<double> values) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const double value : values) most = largest(most, value);
+  return most;
+}
 
 // (x, y) in either dimension.
 template <int D>
@@ -82,7 +92,7 @@ double deepest(const World<D>& world) {
   double depth = 0;
   for (const Contact<D>& contact : world.contacts())
     for (const ManifoldPoint<D>& point : contact.manifold.points())
-      depth = std::max(depth, -point.separation);
+      depth = largest(depth, -point.separation);
   return depth;
 }
 

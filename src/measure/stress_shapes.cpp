@@ -57,7 +57,7 @@ StressResult parallel_edges() {
         ++tried;
         if (!found || !is_sane(*found)) return at_most(1e-3, kInfinity, "rad", "no unit normal");
         if (previous != Vec<3>(0.0))
-          worst = std::max(worst, glm::length(found->normal - previous) - 100 * turn);
+          worst = largest(worst, glm::length(found->normal - previous) - 100 * turn);
         previous = found->normal;
       }
   }
@@ -72,7 +72,7 @@ StressResult parallel_capsules() {
     const auto found = collide<3>(
         {rod, Vec<3>(0.0), {}}, {rod, {0.2, 10, 0}, turned(Rotation<3>{}, Vec<3>(turn, 0, 0))}, 1);
     if (!found || !is_sane(*found)) return at_most(1e-9, kInfinity, "rad", "no unit normal");
-    worst = std::max(worst, glm::length(found->normal - Vec<3>(1, 0, 0)));
+    worst = largest(worst, glm::length(found->normal - Vec<3>(1, 0, 0)));
   }
   return at_most(1e-9, worst, "rad", "the normal's error; rods of 1 : 1e5, 0 ... 1e-6 rad apart");
 }
@@ -114,28 +114,28 @@ double ratio_error() {
   double worst = 0;
   for (const double ratio : {1e-6, 1e-3, 1.0, 1e3, 1e6})
     for (int round = 0; round < 200; ++round) {
-      const double radius = ratio * random.between(0.1, 1), larger = std::max(1.0, radius);
+      const double radius = ratio * random.between(0.1, 1), larger = largest(1.0, radius);
       const Vec<D> place = random_direction<D>(random) * (random.between(1, 2) + radius);
       const Shape<D> unit = Sphere{1}, ball = Sphere{radius}, box = AxisBox<D>{Vec<D>(1.0)};
       const auto balls = collide<D>({unit, Vec<D>(0.0), {}}, {ball, place, {}}, 1e9);
       const auto mixed = collide<D>({box, Vec<D>(0.0), {}}, {ball, place, {}}, 1e9);
       if (!balls || !mixed || !is_sane(*balls) || !is_sane(*mixed)) return kInfinity;
-      worst = std::max(
+      worst = largest(
           worst, std::abs(balls->room[0].separation - (glm::length(place) - 1 - radius)) / larger);
       double beyond = 0;  // squared distance from the box, where the centre is outside
       for (int i = 0; i < D; ++i) {
-        const double over = std::max(0.0, std::abs(place[i]) - 1);
+        const double over = largest(0.0, std::abs(place[i]) - 1);
         beyond += over * over;
       }
       if (beyond < 1e-12) continue;
-      worst = std::max(worst,
-                       std::abs(least_separation(*mixed) - (std::sqrt(beyond) - radius)) / larger);
+      worst = largest(worst,
+                      std::abs(least_separation(*mixed) - (std::sqrt(beyond) - radius)) / larger);
     }
   return worst;
 }
 
 StressResult contact_size_ratio() {
-  return at_most(4e-12, std::max(ratio_error<2>(), ratio_error<3>()), "of the size",
+  return at_most(4e-12, largest(ratio_error<2>(), ratio_error<3>()), "of the size",
                  "separations of balls and boxes, ratios 1e-6 ... 1e6");
 }
 
@@ -166,13 +166,13 @@ double needle_error() {
     const auto parted =
         collide<D>({a, Vec<D>(0.0), turn_a}, {b, place - found->normal * separation, turn_b}, 1e9);
     if (!parted || !is_sane(*parted)) return kInfinity;
-    worst = std::max(worst, std::abs(least_separation(*parted)) / 1e4);
+    worst = largest(worst, std::abs(least_separation(*parted)) / 1e4);
   }
   return worst;
 }
 
 StressResult contact_aspect_ratio() {
-  return at_most(1e-6, std::max(needle_error<2>(), needle_error<3>()), "of the size",
+  return at_most(1e-6, largest(needle_error<2>(), needle_error<3>()), "of the size",
                  "left over when boxes of 1 : 1e4 are parted as their contact says");
 }
 
@@ -186,7 +186,7 @@ StressResult zero_size_contacts() {
       const auto miss = collide<3>({a, {1, 2, 3}, {}}, {b, {1, 2 + 3e-7, 3 + 4e-7}, {}}, 1);
       if (!meet || !miss || !is_sane(*meet) || !is_sane(*miss))
         return at_most(1e-15, kInfinity, "m", "no contact, or no unit normal");
-      worst = std::max(
+      worst = largest(
           {worst, std::abs(meet->room[0].separation), std::abs(miss->room[0].separation - 5e-7)});
     }
   return at_most(1e-15, worst, "m", "error of their separation");
@@ -210,7 +210,7 @@ double zero_size_error() {
 }
 
 StressResult zero_size() {
-  return at_most(1e-3, std::max(zero_size_error<2>(), zero_size_error<3>()), "m",
+  return at_most(1e-3, largest(zero_size_error<2>(), zero_size_error<3>()), "m",
                  "a point with a mass on the floor, 2D and 3D; without one it is refused");
 }
 

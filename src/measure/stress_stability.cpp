@@ -13,6 +13,8 @@
 namespace lantern {
 namespace {
 
+using namespace stress;
+
 constexpr double kRatios[] = {0, 0.01, 0.1, 0.5, 1, 2, 10, 1e3};  // damping ratios
 constexpr double kFar = 1e6;                                      // an excursion that says enough
 
@@ -22,13 +24,14 @@ double farthest(Integrator method, double omega_h, double zeta, int steps) {
   double far = 0;
   for (int i = 0; i < steps && far < kFar; ++i) {
     world.step(1);
-    far = std::max(far, std::abs(world.bodies()[1].position.x));
+    far = largest(far, std::abs(world.bodies()[1].position.x));
   }
   return far;
 }
 
 // Long enough for what grows at 1.01 times the limit to pass kFar, whatever the damping.
 int long_enough(Integrator method, double zeta) {
+  if (method == Integrator::velocity_verlet && zeta > 10) return 800000;
   return method == Integrator::explicit_euler && zeta < 1 ? 80000 : 20000;
 }
 
@@ -44,7 +47,7 @@ StressResult below_limit() {
     if (!has_limit(Method, zeta)) continue;
     const double far = farthest(Method, 0.99 * stability_limit(Method, zeta), zeta, 10000);
     if (far > worst) at = zeta;
-    worst = std::max(worst, far);
+    worst = largest(worst, far);
   }
   return at_most(100, worst, "x the start", fmt::format("worst at damping ratio {}", at));
 }
@@ -72,7 +75,7 @@ StressResult at_every_step() {
       const double far = farthest(Method, omega_h, zeta, 1000);
       if (far > worst)
         where = fmt::format("worst at damping ratio {}, omega h {:g}", zeta, omega_h);
-      worst = std::max(worst, far);
+      worst = largest(worst, far);
     }
   return at_most(1 + 1e-9, worst, "x the start", where);
 }
@@ -97,7 +100,7 @@ double misses_law(Integrator method, std::initializer_list<double> omega_hs, int
       world.step(1);
       expected *= law(w * w);
     }
-    worst = std::max(worst, std::abs(energy_of(world, w) / expected - 1));
+    worst = largest(worst, std::abs(energy_of(world, w) / expected - 1));
   }
   return worst;
 }
@@ -140,7 +143,7 @@ StressResult verlet_energy() {
     const double before = energy_of(world, w);
     for (int i = 0; i < 20000; ++i) {
       world.step(1);
-      worst = std::max(worst, std::abs(energy_of(world, w) / before - 1) / (w * w / 4));
+      worst = largest(worst, std::abs(energy_of(world, w) / before - 1) / (w * w / 4));
     }
   }
   return at_most(1.01, worst, "x (omega h)^2/4", "20000 steps, omega h 0.01, 0.1, 0.5");
@@ -155,7 +158,7 @@ StressResult semi_implicit_energy() {
     for (int i = 0; i < 20000; ++i) {
       world.step(1);
       const double change = std::abs(energy_of(world, w) / before - 1);
-      worst = std::max(worst, change / (w / (2 - w)));
+      worst = largest(worst, change / (w / (2 - w)));
     }
   }
   return at_most(1.01, worst, "x bound", "20000 steps; the bound is omega h/(2 - omega h)");
@@ -169,7 +172,7 @@ StressResult many_periods() {
   double worst = 0;
   for (int i = 0; i < 20'000'000; ++i) {
     world.step(1);
-    worst = std::max(worst, std::abs(energy_of(world, w) / before - 1));
+    worst = largest(worst, std::abs(energy_of(world, w) / before - 1));
   }
   return at_most(w * w / 4 * 1.01, worst, "relative", "1e6 periods of 20 steps");
 }

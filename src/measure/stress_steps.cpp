@@ -1,6 +1,7 @@
 // Steps of every length, numbers that overflow, and bodies that begin inside each other.
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -75,24 +76,24 @@ double rest_error(Integrator method, double h, int steps) {
   const bool told =
       !why || (why->find("'") != std::string::npos && why->find("step") != std::string::npos);
   if (!told || !is_finite(world)) return std::numeric_limits<double>::infinity();
-  return std::max(glm::length(world.bodies()[1].position - at<D>(0, 0.5)),
-                  glm::length(world.bodies()[2].position - at<D>(0, 1.5)));
+  return largest(glm::length(world.bodies()[1].position - at<D>(0, 0.5)),
+                 glm::length(world.bodies()[2].position - at<D>(0, 1.5)));
 }
 
 double worst_rest_error(double h, int steps) {
   double worst = 0;
   for (const Integrator method : kIntegrators)
-    worst = std::max({worst, rest_error<2>(method, h, steps), rest_error<3>(method, h, steps)});
+    worst = largest({worst, rest_error<2>(method, h, steps), rest_error<3>(method, h, steps)});
   return worst;
 }
 
 StressResult step_tiny() {
-  return at_most(1e-3, std::max(worst_rest_error(1e-12, 100), worst_rest_error(1e-9, 100)), "m",
+  return at_most(1e-3, largest(worst_rest_error(1e-12, 100), worst_rest_error(1e-9, 100)), "m",
                  "what rests has moved; h = 1e-12 and 1e-9, every method, 2D and 3D");
 }
 
 StressResult step_huge() {
-  return at_most(1e-3, std::max(worst_rest_error(1, 10), worst_rest_error(1e3, 10)), "m",
+  return at_most(1e-3, largest(worst_rest_error(1, 10), worst_rest_error(1e3, 10)), "m",
                  "what rests has moved; h = 1 and 1e3, every method, 2D and 3D");
 }
 
@@ -106,10 +107,15 @@ bool tells(World<D>& world, const char* who, double h) {
          world.hash() == before && is_finite(world);
 }
 
+constexpr Integrator kExplicit[] = {Integrator::explicit_euler, Integrator::semi_implicit_euler,
+                                    Integrator::velocity_verlet, Integrator::runge_kutta_4};
+constexpr Integrator kImplicit[] = {Integrator::implicit_midpoint, Integrator::implicit_euler};
+
+// By speed, and by force.
 template <int D>
-int silent_overflows(int& tried) {
+int silent_overflows(std::span<const Integrator> methods) {
   int silent = 0;
-  for (const Integrator method : kIntegrators) {
+  for (const Integrator method : methods) {
     World<D> by_speed = resting<D>(method);
     Body<D> fast = make_ball<D>(at<D>(9, 9));
     fast.name = "fast";
@@ -123,16 +129,23 @@ int silent_overflows(int& tried) {
     light.mass = 1e-300;
     by_force.push(by_force.add(light), at<D>(1e9), at<D>(9, 9));
     silent += !tells(by_force, "'light'", kStep);
-    tried += 2;
   }
   return silent;
 }
 
+StressResult overflow_of(std::span<const Integrator> methods) {
+  const int silent = silent_overflows<2>(methods) + silent_overflows<3>(methods);
+  return at_most(
+      0, silent, "runs",
+      fmt::format("of {} that do not name body and step, or change the world", 4 * methods.size()));
+}
+StressResult overflow() { return overflow_of(kExplicit); }
+StressResult overflow_implicit() { return overflow_of(kImplicit); }
+
 // An explicit method far beyond its limit blows up: it ends with a refusal, never with a NaN.
-int silent_blow_ups(int& tried) {
+StressResult blow_up() {
   int silent = 0;
-  for (const Integrator method : {Integrator::explicit_euler, Integrator::semi_implicit_euler,
-                                  Integrator::velocity_verlet, Integrator::runge_kutta_4}) {
+  for (const Integrator method : kExplicit) {
     WorldConfig<2> config;
     config.integrator = method;
     World<2> world(config);
@@ -147,19 +160,10 @@ int silent_blow_ups(int& tried) {
     const auto why = refusal([&] {
       for (int i = 0; i < 2000; ++i) world.step(kStep);
     });
-    ++tried;
     silent += !why || why->find("'bob'") == std::string::npos ||
               why->find("in step") == std::string::npos || !is_finite(world);
   }
-  return silent;
-}
-
-StressResult overflow() {
-  int tried = 0;
-  const int silent =
-      silent_overflows<2>(tried) + silent_overflows<3>(tried) + silent_blow_ups(tried);
-  return at_most(0, silent, "runs",
-                 fmt::format("of {} that do not name body and step, or change the world", tried));
+  return at_most(0, silent, "runs", "of 4 explicit methods that do not end naming body and step");
 }
 
 // The greatest speed of two equal bodies that begin `apart` along x, over 4 s; endless if they are
@@ -174,7 +178,7 @@ double exit_speed(const Body<D>& body, double apart) {
   double fastest = 0;
   for (int i = 0; i < 240; ++i) {
     world.step(kStep);
-    for (const Body<D>& b : world.bodies()) fastest = std::max(fastest, glm::length(b.velocity));
+    for (const Body<D>& b : world.bodies()) fastest = largest(fastest, glm::length(b.velocity));
   }
   return deepest(world) <= 1e-3 && is_finite(world) ? fastest
                                                     : std::numeric_limits<double>::infinity();
@@ -188,20 +192,20 @@ double worst_exit_speed(std::initializer_list<double> aparts) {
     for (const Body<D>& body : {make_ball<D>(place), make_box<D>(place),
                                 make_body<D>(Capsule{0.3, 0.5}, place, "capsule"),
                                 make_body<D>(AxisBox<D>{Vec<D>(0.5)}, place, "axis box")})
-      worst = std::max(worst, exit_speed<D>(body, apart));
+      worst = largest(worst, exit_speed<D>(body, apart));
   return worst;
 }
 
 StressResult deep_overlap() {
   return at_most(
-      1e-6, std::max(worst_exit_speed<2>({0.05, 0.1, 0.4}), worst_exit_speed<3>({0.05, 0.1, 0.4})),
+      1e-6, largest(worst_exit_speed<2>({0.05, 0.1, 0.4}), worst_exit_speed<3>({0.05, 0.1, 0.4})),
       "m/s", "while they part, 0.05, 0.1 and 0.4 m apart; 4 shapes, 2D and 3D");
 }
 
 StressResult coincident_centres() {
   return at_most(
       1e-6,
-      std::max(worst_exit_speed<2>({0.0, 1e-300, 1e-9}), worst_exit_speed<3>({0.0, 1e-300, 1e-9})),
+      largest(worst_exit_speed<2>({0.0, 1e-300, 1e-9}), worst_exit_speed<3>({0.0, 1e-300, 1e-9})),
       "m/s", "while they part, 0, 1e-300 and 1e-9 m apart; 4 shapes, 2D and 3D");
 }
 
@@ -219,6 +223,10 @@ void add_step_cases(std::vector<StressCase>& cases) {
         "What rests does so at steps of 1000 s, or the world says who does not.", step_huge},
        {"overflow", kGroup, "A number that overflows ends the run, naming body and step.",
         overflow},
+       {"overflow_implicit", kGroup,
+        "An implicit method ends a run that overflows, naming body and step.", overflow_implicit},
+       {"blow_up", kGroup, "A spring beyond its method's limit ends the run, naming body and step.",
+        blow_up},
        {"deep_overlap", kGroup, "Bodies deep in each other part, and do not fly off.",
         deep_overlap},
        {"coincident_centres", kGroup, "Bodies with a common centre part, and do not fly off.",

@@ -172,14 +172,14 @@ double futile_nodes() {
     for (const Item<D>& item : coincident<D>(place)) tree.insert(item);
     KdTree<D> fitted;
     fitted.build(coincident<D>(place));
-    most = std::max({most, static_cast<double>(tree.counters().nodes),
-                     static_cast<double>(fitted.counters().nodes)});
+    most = largest({most, static_cast<double>(tree.counters().nodes),
+                    static_cast<double>(fitted.counters().nodes)});
   }
   return most;
 }
 
 StressResult coincident_bodies() {
-  return at_most(1, std::max(futile_nodes<2>(), futile_nodes<3>()), "nodes",
+  return at_most(1, largest(futile_nodes<2>(), futile_nodes<3>()), "nodes",
                  "quadtree, octree and kD-trees of 100000 equal boxes, depth limit 32");
 }
 
@@ -195,13 +195,13 @@ double memory_growth() {
       for (BodyId id = 0; id < n; ++id) tree.insert({id, Box<D>::around(place, Vec<D>(0.5))});
       return static_cast<double>(tree.counters().entries) / static_cast<double>(n);
     };
-    most = std::max(most, entries_of(kMany / 10) / entries_of(100));
+    most = largest(most, entries_of(kMany / 10) / entries_of(100));
   }
   return most;
 }
 
 StressResult coincident_memory() {
-  return at_most(1, std::max(memory_growth<2>(), memory_growth<3>()), "x",
+  return at_most(1, largest(memory_growth<2>(), memory_growth<3>()), "x",
                  "entries a body, 10000 equal boxes over 100, stopped by the depth limit 8 only");
 }
 
@@ -214,7 +214,7 @@ double miscounted_pairs() {
 }
 
 StressResult coincident_pairs_counted() {
-  return at_most(0, std::max(miscounted_pairs<2>(), miscounted_pairs<3>()), "pairs",
+  return at_most(0, largest(miscounted_pairs<2>(), miscounted_pairs<3>()), "pairs",
                  "off n(n-1)/2 = 4999950000, counted without being collected");
 }
 
@@ -267,20 +267,20 @@ double worst_root(std::initializer_list<double> lows) {
   double worst = 0;
   for (const double low : lows) {
     const double next = std::nextafter(low, std::numeric_limits<double>::infinity());
-    worst = std::max(worst, nodes_of_root<D>({Vec<D>(low), Vec<D>(next)}));
+    worst = largest(worst, nodes_of_root<D>({Vec<D>(low), Vec<D>(next)}));
   }
   return worst;
 }
 
 StressResult root_too_small() {
   const auto lows = {0.0, 1.0, 1 + 0x1p-52, 2 * 0x1p-1074, -1.0};
-  return at_most(1, std::max(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
+  return at_most(1, largest(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
                  "roots from one number to the next, near 0 and 1");
 }
 
 StressResult root_too_far() {
   const auto lows = {1e9, 1e16, 1e300, 1.7e308};
-  return at_most(1, std::max(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
+  return at_most(1, largest(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
                  "roots from one number to the next, at 1e9 ... 1.7e308");
 }
 
