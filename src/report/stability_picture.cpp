@@ -234,7 +234,8 @@ class Picture {
     const auto mark = [&](const Vec<2>& from, const Vec<2>& to) {
       list_.shapes.emplace_back(LineShape{from, to, {Role::ink, 1.8, 0}, true});
     };
-    for (const Axis::Tick& tick : Axis::logarithmic(map_.omega_low, map_.omega_high, 9).ticks()) {
+    const Axis steps = Axis::logarithmic(map_.omega_low, map_.omega_high, 9);
+    for (const Axis::Tick& tick : steps.ticks()) {
       const double x = x_of(tick.value, plot);
       mark({x, plot.hi.y}, {x, plot.hi.y + 6});
       if (last) labels_.add(tick.text, {{x, plot.hi.y + 25}, 0.5}, kTick, page());
@@ -243,7 +244,8 @@ class Picture {
       mark({plot.lo.x - 6, y}, {plot.lo.x, y});
       if (first) labels_.add(text, {{plot.lo.x - 12, y + 6.5}, 1}, kTick, page());
     };
-    for (const Axis::Tick& tick : Axis::logarithmic(map_.zeta_low, map_.zeta_high, 9).ticks()) {
+    const Axis ratios = Axis::logarithmic(map_.zeta_low, map_.zeta_high, 9);
+    for (const Axis::Tick& tick : ratios.ticks()) {
       // The lowest would stand too close to the row of no damping.
       if (tick.value > 2 * map_.zeta_low) row(y_of(tick.value, plot), tick.text);
     }
