@@ -95,7 +95,7 @@ void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
 
 template <int D>
 BroadPhaseCost measure_one(const BoxUpdates<D>& scene, const std::vector<std::vector<Pair>>& truth,
-                           const BroadPhaseCost& what, const TimingPlan& plan) {
+                           const BroadPhaseCost& what, const TimingRule& plan) {
   BroadPhaseConfig<D> config;
   config.kind = what.kind;
   config.bounds = scene.bounds;

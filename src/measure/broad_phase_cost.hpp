@@ -59,7 +59,7 @@ struct BroadPhaseCost {
 struct BroadPhaseCostConfig {
   std::vector<std::uint32_t> capacities = {1, 2, 4, 8, 16, 32, 64};
   std::vector<std::uint32_t> depth_limits = {2, 3, 4, 5, 6, 7, 8, 9, 10};
-  TimingPlan timing{5, 0.002};
+  TimingRule timing{5, 0.002};
 };
 
 // Rows of a scene in order of kinds, capacities and depth limits; brute force first. `progress` is

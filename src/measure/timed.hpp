@@ -7,7 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/clock.hpp"
-#include "measure/row.hpp"
+#include "measure/run.hpp"
 
 namespace lantern {
 
@@ -29,25 +29,20 @@ inline Timing timing_of(const std::vector<double>& seconds) {
           quantile(seconds, 0.75) - quantile(seconds, 0.25)};
 }
 
-struct TimingPlan {
-  int repeats = 15;
-  double least_seconds = 0.05;  // of a repeat: what is quicker is done often enough
-};
-
 // Seconds of one call of `work`, which is called once before for warmth. Without repeats it is not
 // called at all.
 template <class F>
-Timing timed(const TimingPlan& plan, F&& work) {
-  if (plan.repeats < 1) return {};
+Timing timed(const TimingRule& rule, F&& work) {
+  if (rule.repeats < 1) return {};
   work();
   const Stopwatch first;
   work();
   const double once = first.seconds();
   constexpr double kMostCalls = 1e6;
-  const double wanted = once > 0 ? plan.least_seconds / once : kMostCalls;
+  const double wanted = once > 0 ? rule.least_seconds / once : kMostCalls;
   const auto calls = static_cast<std::uint64_t>(std::clamp(wanted + 1, 1.0, kMostCalls));
   std::vector<double> seconds;
-  for (int i = 0; i < plan.repeats; ++i) {
+  for (int i = 0; i < rule.repeats; ++i) {
     const Stopwatch watch;
     for (std::uint64_t call = 0; call < calls; ++call) work();
     seconds.push_back(watch.seconds() / static_cast<double>(calls));

@@ -36,7 +36,7 @@ struct PictureConfig {
   int width = 1280, height = 720;
   Theme theme;
   Backend backend = Backend::automatic;
-  TimingPlan timing{5, 0.05};
+  TimingRule timing{5, 0.05};
 };
 
 struct PictureReport {
