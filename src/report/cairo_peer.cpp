@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "draw/font.hpp"
-#include "render/library.hpp"
+#include "base/library.hpp"
 
 namespace lantern {
 
