@@ -30,3 +30,8 @@ lantern_peer(box2d "${box2d_VERSION}, single precision" FOUND ${box2d_FOUND}
   LIBRARIES ${box2d_LINK_LIBRARIES})
 lantern_peer(ode "${ode_VERSION}, double precision" FOUND ${ode_FOUND}
   LIBRARIES ${ode_LINK_LIBRARIES} DEFINITIONS dIDEDOUBLE)
+if(TARGET mujoco::mujoco)
+  set(mujoco_library mujoco::mujoco)
+endif()
+lantern_peer(mujoco "${mujoco_VERSION}, double precision" FOUND ${mujoco_FOUND}
+  LIBRARIES ${mujoco_library})

@@ -19,9 +19,9 @@ struct PeerBody {
   Vec<3> position{0.0};
   Vec<3> velocity{0.0};
   Rotation<3> orientation;
-  double angle = 0;  // of a flat world, radians
-  Vec<3> spin{0.0};  // radians a second, world's axes
-  double mass = 0;   // 0 for what no force moves
+  double angle = 0;     // of a flat world, radians
+  Vec<3> spin{0.0};     // radians a second, world's axes
+  double mass = 0;      // 0 for what no force moves
   Vec<3> inertia{0.0};  // about its own axes; of a flat body thrice the one about z
   bool may_turn = true;
   Material material;

@@ -16,8 +16,7 @@ Vec<3> from_box2d(const b2Vec2& v) { return {v.x, v.y, 0}; }
 
 class Box2dRun : public PeerRun {
  public:
-  Box2dRun(const PeerScene& scene, double h)
-      : PeerRun(scene, h), world_(to_box2d(scene.gravity)) {
+  Box2dRun(const PeerScene& scene, double h) : PeerRun(scene, h), world_(to_box2d(scene.gravity)) {
     world_.SetAllowSleeping(false);
     const b2BodyDef fixed;
     ground_ = world_.CreateBody(&fixed);
@@ -59,9 +58,9 @@ class Box2dRun : public PeerRun {
  private:
   void add(const PeerBody& spec) {
     b2BodyDef def;
-    def.type = spec.is_dynamic()                         ? b2_dynamicBody
+    def.type = spec.is_dynamic()                       ? b2_dynamicBody
                : spec.kind == BodyKind::kinematic_body ? b2_kinematicBody
-                                                         : b2_staticBody;
+                                                       : b2_staticBody;
     def.position = to_box2d(spec.position);
     def.angle = number(spec.angle);
     def.linearVelocity = to_box2d(spec.velocity);

@@ -66,8 +66,10 @@ class OdeRun : public PeerRun {
     const dBodyID body = bodies_[i];
     if (!body) return motion_at_start(scene_.bodies[i]);
     const dReal* q = dBodyGetQuaternion(body);
-    return {from_ode(dBodyGetPosition(body)), from_ode(dBodyGetLinearVel(body)),
-            {glm::dquat(q[0], q[1], q[2], q[3])}, from_ode(dBodyGetAngularVel(body))};
+    return {from_ode(dBodyGetPosition(body)),
+            from_ode(dBodyGetLinearVel(body)),
+            {glm::dquat(q[0], q[1], q[2], q[3])},
+            from_ode(dBodyGetAngularVel(body))};
   }
 
   std::pair<Vec<3>, Vec<3>> centre(std::size_t i) const override {

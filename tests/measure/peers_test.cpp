@@ -85,8 +85,7 @@ TEST_F(Peers, HaveNamesAndVersions) {
 }
 
 TEST_F(Peers, AreAllThereOrMissingWithAHint) {
-  for (const std::string& line : missing_)
-    EXPECT_NE(line.find(": "), std::string::npos) << line;
+  for (const std::string& line : missing_) EXPECT_NE(line.find(": "), std::string::npos) << line;
   EXPECT_LE(missing_.size(), 4u);
 }
 
