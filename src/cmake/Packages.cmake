@@ -14,4 +14,5 @@ find_path(LANTERN_GL_DIR GL/glcorearb.h REQUIRED)
 pkg_check_modules(bullet QUIET bullet-float64)
 pkg_check_modules(box2d QUIET box2d)
 pkg_check_modules(ode QUIET ode)
-find_package(mujoco QUIET CONFIG)
+find_library(LANTERN_MUJOCO mujoco)  # its CMake file asks for a folder that need not be there
+find_path(LANTERN_MUJOCO_DIR mujoco/mujoco.h)

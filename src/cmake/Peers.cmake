@@ -30,8 +30,11 @@ lantern_peer(box2d "${box2d_VERSION}, single precision" FOUND ${box2d_FOUND}
   LIBRARIES ${box2d_LINK_LIBRARIES})
 lantern_peer(ode "${ode_VERSION}, double precision" FOUND ${ode_FOUND}
   LIBRARIES ${ode_LINK_LIBRARIES} DEFINITIONS dIDEDOUBLE)
-if(TARGET mujoco::mujoco)
-  set(mujoco_library mujoco::mujoco)
+if(LANTERN_MUJOCO AND LANTERN_MUJOCO_DIR)
+  file(STRINGS ${LANTERN_MUJOCO_DIR}/mujoco/mujoco.h mujoco_version REGEX "mjVERSION_HEADER [0-9]")
+  string(REGEX REPLACE ".* ([0-9])([0-9])([0-9])$" "\\1.\\2.\\3" mujoco_version
+    "${mujoco_version}")
+  set(mujoco_FOUND TRUE)
 endif()
-lantern_peer(mujoco "${mujoco_VERSION}, double precision" FOUND ${mujoco_FOUND}
-  LIBRARIES ${mujoco_library})
+lantern_peer(mujoco "${mujoco_version}, double precision" FOUND ${mujoco_FOUND}
+  LIBRARIES ${LANTERN_MUJOCO})
