@@ -53,6 +53,10 @@ class Box2dRun : public PeerRun {
     bodies_[i]->ApplyTorque(number(cross(arm, force).z), true);
   }
 
+  void set_velocity(std::size_t i, const Vec<3>& velocity) override {
+    bodies_[i]->SetLinearVelocity(to_box2d(velocity));
+  }
+
   std::optional<double> whole_angle(std::size_t i) const override { return bodies_[i]->GetAngle(); }
 
  private:

@@ -83,6 +83,10 @@ class BulletRun : public PeerRun {
     bodies_[i]->applyForce(to_bullet(force), to_bullet(arm));
   }
 
+  void set_velocity(std::size_t i, const Vec<3>& velocity) override {
+    bodies_[i]->setLinearVelocity(to_bullet(velocity));
+  }
+
  private:
   void add(const PeerBody& spec) {
     shapes_.push_back(shape_of(spec, scene_.is_flat()));

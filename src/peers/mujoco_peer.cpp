@@ -212,6 +212,12 @@ class MujocoRun : public PeerRun {
   std::pair<Vec<3>, Vec<3>> centre(std::size_t) const override { return {}; }
   void push(std::size_t, const Vec<3>&, const Vec<3>&) override {}
 
+  void set_velocity(std::size_t i, const Vec<3>& velocity) override {
+    if (!scene_.bodies[i].is_dynamic()) return;
+    for (int axis = 0; axis < scene_.dimension; ++axis)
+      data_->qvel[places_[i].v + axis] = velocity[axis];
+  }
+
  private:
   struct Place {
     int q, v;  // first coordinate and speed

@@ -84,6 +84,10 @@ class OdeRun : public PeerRun {
     dBodyAddTorque(bodies_[i], torque.x, torque.y, torque.z);
   }
 
+  void set_velocity(std::size_t i, const Vec<3>& velocity) override {
+    if (bodies_[i]) dBodySetLinearVel(bodies_[i], velocity.x, velocity.y, velocity.z);
+  }
+
  private:
   void add(std::size_t index) {
     const PeerBody& spec = scene_.bodies[index];

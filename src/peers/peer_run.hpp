@@ -34,6 +34,15 @@ class PeerRun : public Simulation {
     }
   }
 
+  // Of all verbs a problem uses one: to set a velocity anew.
+  void act(const Verb& verb) override {
+    const auto* move = std::get_if<Move>(&verb);
+    if (!move) return;
+    if (move->to || move->turned || move->spin)
+      throw Refused("other engines' bodies are not put elsewhere on their way");
+    if (move->velocity) set_velocity(move->body, *move->velocity);
+  }
+
   void observe(std::vector<BodyState>& states) const override {
     states.resize(scene_.bodies.size());
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -67,6 +76,7 @@ class PeerRun : public Simulation {
   virtual PeerMotion motion(std::size_t body) const = 0;
   virtual std::pair<Vec<3>, Vec<3>> centre(std::size_t body) const = 0;  // position, velocity
   virtual void push(std::size_t body, const Vec<3>& force, const Vec<3>& arm) = 0;
+  virtual void set_velocity(std::size_t body, const Vec<3>& velocity) = 0;
   // Nothing if the peer keeps no whole turns itself.
   virtual std::optional<double> whole_angle(std::size_t) const { return std::nullopt; }
 
