@@ -19,10 +19,11 @@ struct PeerBody {
   Vec<3> position{0.0};
   Vec<3> velocity{0.0};
   Rotation<3> orientation;
-  double angle = 0;     // of a flat world, radians
-  Vec<3> spin{0.0};     // radians a second, world's axes
-  double mass = 0;      // 0 for what no force moves
-  Vec<3> inertia{0.0};  // about its own axes; of a flat body thrice the one about z
+  double angle = 0;            // of a flat world, radians
+  Vec<3> spin{0.0};            // radians a second, world's axes
+  double mass = 0;             // 0 for what no force moves
+  Vec<3> inertia{0.0};         // about its own axes; of a flat body thrice the one about z
+  double attracting_mass = 0;  // by which it attracts others; of what stands still if it was given
   bool may_turn = true;
   Material material;
   double linear_drag = 0;
@@ -49,7 +50,8 @@ struct PeerScene {
   int dimension = 2;
   Box<3> bounds;
   Vec<3> gravity{0.0};
-  bool contacts = false;  // else bodies pass through each other
+  double gravitation = 0;  // Newton's constant between the bodies
+  bool contacts = false;   // else bodies pass through each other
   std::vector<PeerBody> bodies;
   std::vector<PeerLink> links;
 

@@ -38,6 +38,7 @@ PeerBody body_of(const BodySpec& spec, bool is_flat) {
     else
       weigh<3>(spec, body);
   }
+  body.attracting_mass = body.is_dynamic() ? body.mass : spec.mass;
   const bool has_inertia = std::min({body.inertia.x, body.inertia.y, body.inertia.z}) > 0;
   body.may_turn = spec.may_turn && has_inertia && !std::holds_alternative<AxisBox<3>>(spec.shape);
   if (body.is_dynamic() && !body.may_turn) body.spin = Vec<3>(0.0);

@@ -252,6 +252,7 @@ class MujocoPeer : public Peer {
   std::string version() const override { return LANTERN_PEER_VERSION; }
 
   std::optional<std::string> cannot(const PeerScene& scene) const override {
+    if (scene.gravitation > 0) return "MuJoCo has no forces between two bodies but tendons";
     for (const PeerBody& body : scene.bodies) {
       if (body.kind == BodyKind::kinematic_body)
         return "body '" + body.name + "': MuJoCo has no bodies that keep their velocity";

@@ -1,4 +1,5 @@
-// What all peers' simulations share: springs as forces, states as Lantern gives them.
+// What all peers' simulations share: springs and gravitation as forces, states as Lantern gives
+// them.
 #pragma once
 
 #include <cmath>
@@ -22,12 +23,14 @@ class PeerRun : public Simulation {
  public:
   PeerRun(PeerScene scene, double h) : scene_(std::move(scene)), h_(h) {
     for (const PeerBody& body : scene_.bodies) turns_.push_back({body.angle, body.spin.z, 0});
+    find_attractions();
   }
 
   // Several of the engines stop the whole program, or never end, on a state that is not a number.
   void advance(std::uint64_t steps) override {
     for (std::uint64_t i = 0; i < steps; ++i) {
       for (const PeerLink& link : pulling_) pull(link);
+      for (const Attraction& attraction : attractions_) pull(attraction);
       step();
       ++steps_;
       if (!is_finite()) throw Refused("a position or velocity is no longer finite");
@@ -92,6 +95,31 @@ class PeerRun : public Simulation {
     std::uint64_t steps;
   };
 
+  struct Attraction {
+    std::size_t a, b;
+    double strength;  // of the force at a distance of 1
+  };
+
+  void find_attractions() {
+    if (!(scene_.gravitation > 0)) return;
+    const std::vector<PeerBody>& all = scene_.bodies;
+    for (std::size_t a = 0; a < all.size(); ++a)
+      for (std::size_t b = a + 1; b < all.size(); ++b) {
+        const double masses = all[a].attracting_mass * all[b].attracting_mass;
+        if (masses > 0 && (all[a].is_dynamic() || all[b].is_dynamic()))
+          attractions_.push_back({a, b, scene_.gravitation * masses});
+      }
+  }
+
+  void pull(const Attraction& attraction) {
+    const Vec<3> line = centre(attraction.b).first - centre(attraction.a).first;
+    const double square = glm::dot(line, line);
+    if (!(square > 0)) return;
+    const Vec<3> force = line * (attraction.strength / (square * std::sqrt(square)));
+    push(attraction.a, force, Vec<3>(0.0));
+    push(attraction.b, -force, Vec<3>(0.0));
+  }
+
   End end(std::size_t body, const Vec<3>& at) const {
     if (at == Vec<3>(0.0)) {
       const auto [position, velocity] = centre(body);
@@ -129,6 +157,7 @@ class PeerRun : public Simulation {
   }
 
   std::vector<PeerLink> pulling_;
+  std::vector<Attraction> attractions_;
   std::uint64_t steps_ = 0;
   mutable std::vector<Turn> turns_;  // when last looked at
 };
