@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+// Semi-implicit Euler falls g T h / 2 too far, explicit Euler too little, higher orders nothing.
 TEST_F(Peers, AProjectileMissesByItsFirstOrderError) {
   each([](const Contestant& peer, int dimension) {
     Scenario s = scene(dimension, {ball({-1, 2, 0}, {3, 4, 0})});
@@ -108,6 +109,7 @@ TEST_F(Peers, TurnTheRightWayAndCountWholeTurns) {
   });
 }
 
+// A disc that is held by a spring off its centre: wrong levers would turn it the other way.
 TEST_F(Peers, SpringsPullAtTheirPoints) {
   each([](const Contestant& peer, int dimension) {
     Scenario s = scene(dimension, {ball({0, 0, 0})});
@@ -127,6 +129,7 @@ TEST_F(Peers, SpringsPullAtTheirPoints) {
   });
 }
 
+// Soft by a force, stiff by the engine's own joint where it has one: the swing stays bounded.
 TEST_F(Peers, AnOscillatorKeepsItsPeriod) {
   each([](const Contestant& peer, int dimension) {
     Scenario s = scene(dimension, {ball({1, 0, 0})});

@@ -22,12 +22,6 @@ TEST_F(Peers, AreAllThereOrMissingWithAHint) {
   EXPECT_LE(missing_.size(), 4u);
 }
 
-// Semi-implicit Euler falls g T h / 2 too far, explicit Euler too little, higher orders nothing.
-
-// A disc that is held by a spring off its centre: wrong levers would turn it the other way.
-
-// Soft by a force, stiff by the engine's own joint where it has one: the swing stays bounded.
-
 TEST_F(Peers, RefuseWhatTheyCannotDo) {
   for (const auto& peer : found_) {
     Scenario steered = scene(2, {ball({0, 0, 0})});
@@ -44,7 +38,6 @@ TEST_F(Peers, RefuseWhatTheyCannotDo) {
 }
 
 // What a module throws must be caught as what it is.
-
 TEST_F(Peers, RefuseWhatTheirStepHasNoRoomFor) {
   for (const auto& peer : found_) {
     if (!peer->name().starts_with("Box2D")) continue;
@@ -55,7 +48,6 @@ TEST_F(Peers, RefuseWhatTheirStepHasNoRoomFor) {
 }
 
 // Engines that stop the program, or never end, on a state that is not a number.
-
 TEST_F(Peers, RefuseToGoOnBeyondNumbers) {
   each([](const Contestant& peer, int dimension) {
     Scenario s = scene(dimension, {ball({1, 0, 0}), ball({0, 0, 0})});
@@ -76,7 +68,6 @@ TEST_F(Peers, RefuseToGoOnBeyondNumbers) {
 }
 
 // The problems and scenarios that come with Lantern: run for a moment or refused with a reason.
-
 TEST_F(Peers, RunOrRefuseEveryScenario) {
   namespace fs = std::filesystem;
   for (const char* folder : {"/scenarios", "/scenarios/problems"})
