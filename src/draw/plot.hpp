@@ -1,6 +1,7 @@
 // A plot of measured points on two axes: what the reports are made of.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct PlotPoint {
   std::string note;     // written beside it if there is room; mostly empty
 };
 
-// Points of one contestant, joined in their order.
+// Points of one contestant, joined in their order; those beyond stand alone.
 struct PlotSeries {
   std::string name;
   std::vector<PlotPoint> points;
@@ -23,10 +24,24 @@ struct PlotSeries {
   bool joined = true;
 };
 
-// A line that is not measured: an order's slope, a rounding floor, a theoretical limit, a bar.
+// A line that is not measured: a rounding floor, a theoretical limit, a bar. It is cut to the plot
+// and does not widen its axes.
 struct PlotGuide {
   std::string name;
   std::vector<Vec<2>> points;
+};
+
+// An order: y goes as x^exponent. Shown as a fan of thin lines in an empty corner, on logarithmic
+// axes only.
+struct PlotSlope {
+  std::string name;
+  double exponent = 0;
+};
+
+enum class PlotNames {
+  ends,    // at the lines' ends where all have room, else in a legend below
+  legend,  // in a legend below
+  none,    // elsewhere: several plots share one legend
 };
 
 struct Plot {
@@ -36,7 +51,13 @@ struct Plot {
        log_y = true;  // on a logarithmic axis, what is not above 0 is at its lower end
   std::vector<PlotSeries> series;
   std::vector<PlotGuide> guides;
+  std::vector<PlotSlope> slopes;
   std::vector<Vec<2>> front;  // the Pareto front's corners, ascending in x; drawn as stairs
+  PlotNames names = PlotNames::ends;
+  double size = kLabel;             // of the names; all else follows it
+  std::string beyond = "diverged";  // the name of the strip at the upper edge
+  std::string empty = "no point";   // said when there is none
+  std::optional<Vec<2>> x_range;    // the least range of x: plots beside each other share theirs
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that
