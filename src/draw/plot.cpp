@@ -51,6 +51,7 @@ class Drawing {
     for (const Placed& placed : placed_) draw_marks(placed, namer);
     name_strip(namer);
     for (std::size_t i = 0; i < guides_.size(); ++i) name_guide(i, namer);
+    name_front(namer);
     draw_slopes(namer);
     if (!with_legend && plot_.names == PlotNames::ends)
       for (const Placed& placed : placed_) all_named_ &= name_end(placed, namer);
@@ -60,8 +61,9 @@ class Drawing {
   bool all_named() const { return all_named_; }
 
  private:
-  double radius() const { return 0.31 * plot_.size; }
-  double width() const { return 0.135 * plot_.size; }
+  double radius() const { return plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size; }
+  double width() const { return 0.44 * radius(); }
+  double front_width() const { return 1.15 * radius(); }
 
   bool is_drawn(const PlotPoint& p) const {
     if (!std::isfinite(p.at.x) || (plot_.log_x && p.at.x <= 0)) return false;
@@ -78,8 +80,6 @@ class Drawing {
         else
           ys_.add(p.at.y, plot_.log_y);
       }
-    if (plot_.x_range && !xs_.empty())
-      for (int end = 0; end < 2; ++end) xs_.add((*plot_.x_range)[end], plot_.log_x);
     if (ys_.empty()) ys_ = {plot_.log_y ? 0.1 : 0.0, 1};
   }
 
@@ -183,14 +183,29 @@ class Drawing {
     if (steps.empty()) return;
     steps.insert(steps.begin(), {steps.front().x, area_.lo.y + strip_});
     steps.push_back({area_.hi.x, steps.back().y});
-    for (std::size_t i = 1; i < steps.size(); ++i)
-      if (const auto part = cut_line(steps[i - 1], steps[i], area_))
-        list_.shapes.emplace_back(
-            LineShape{part->first, part->second, {Role::lit, 0.42 * plot_.size, 0}, false});
-    for (std::size_t i = 1; i < steps.size(); ++i)
-      if (const auto part = cut_line(steps[i - 1], steps[i], area_))
-        list_.shapes.emplace_back(LineShape{
-            part->first, part->second, {Role::lit_fill, 0.42 * plot_.size - 2.4, 0}, false});
+    const Box<2> inside = shrunk(area_, front_width() / 2 + 1);
+    const double rim = 0.3 * radius();
+    for (const auto& [role, width] :
+         {std::pair(Role::lit, front_width()), std::pair(Role::lit_fill, front_width() - rim)})
+      for (std::size_t i = 1; i < steps.size(); ++i)
+        if (const auto part = cut_line(steps[i - 1], steps[i], inside))
+          list_.shapes.emplace_back(LineShape{part->first, part->second, {role, width, 0}, false});
+    front_ = std::move(steps);
+  }
+
+  // Along the last step, else along the others.
+  void name_front(PlotNamer& namer) {
+    std::vector<Anchor> anchors;
+    const double lift = front_width() / 2 + 0.35 * type_.tick.size;
+    for (std::size_t i = front_.size(); i-- > 1;) {
+      if (front_[i].y != front_[i - 1].y) continue;
+      const double right = std::min(front_[i].x, area_.hi.x) - 4;
+      anchors.push_back({{right, front_[i].y - lift}, 1});
+      anchors.push_back({{right, front_[i].y + lift + 0.7 * type_.tick.size}, 1});
+    }
+    TextStyle style = type_.tick;
+    style.role = Role::lit_ink;
+    namer.name(plot_.front_name, anchors, style, 0);
   }
 
   void draw_guides(PlotNamer& namer) {
@@ -246,41 +261,57 @@ class Drawing {
                type_.tick, 3);
   }
 
-  // A fan of slopes: all lines begin at one point and fall (or rise) as an order would.
-  void draw_slopes(PlotNamer& namer) {
-    if (plot_.slopes.empty() || !plot_.log_x || !plot_.log_y) return;
+  // The lines of a fan, `reach` long, and the least distance between two of their ends.
+  std::vector<Vec<2>> fan(double reach, double& least_gap) const {
     const double per_x = area_.size().x / x_.decades();
     const double per_y = (area_.size().y - strip_) / y_.decades();
-    double text = 0;
-    for (const PlotSlope& s : plot_.slopes)
-      text = std::max(text, text_width(s.name, type_.tick.size, Weight::regular));
-    const double reach = 4.2 * plot_.size;
     std::vector<Vec<2>> ends;
-    double least_gap = 1e9, depth = 0;
+    least_gap = 1e9;
     for (const PlotSlope& s : plot_.slopes) {
       const Vec<2> direction{per_x, -s.exponent * per_y};
       ends.push_back(direction * (reach / std::hypot(direction.x, direction.y)));
-      depth = std::max(depth, ends.back().y);
-      for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-        least_gap =
-            std::min(least_gap, std::hypot(ends.back().x - ends[i].x, ends.back().y - ends[i].y));
+      for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const Vec<2> between = ends.back() - ends[i];
+        least_gap = std::min(least_gap, std::hypot(between.x, between.y));
+      }
     }
-    if (least_gap < 0.9 * type_.tick.size) return;  // they could not be told apart
-    const Vec<2> size{reach + text + 10, depth + type_.tick.size};
+    return ends;
+  }
+
+  // A fan of slopes: all lines begin at one point and fall (or rise) as an order would. The least
+  // one whose names can be told apart, in an empty corner.
+  void draw_slopes(PlotNamer& namer) {
+    if (plot_.slopes.empty() || !plot_.log_x || !plot_.log_y) return;
+    double text = 0;
+    for (const PlotSlope& s : plot_.slopes)
+      text = std::max(text, text_width(s.name, type_.tick.size, Weight::regular));
+    for (const double sizes : {3.5, 4.5, 6.0, 8.0}) {
+      double gap = 0;
+      const std::vector<Vec<2>> ends = fan(sizes * plot_.size, gap);
+      if (gap < 1.02 * type_.tick.size) continue;
+      Box<2> reach{{0, 0}, {0, 0}};
+      for (const Vec<2>& end : ends) reach = united(reach, Box<2>{end, end});
+      reach.lo.y -= 0.6 * type_.tick.size;
+      reach.hi += Vec<2>{text + 8, 0.6 * type_.tick.size};
+      place_fan(ends, reach, namer);
+      return;
+    }
+  }
+
+  void place_fan(const std::vector<Vec<2>>& ends, const Box<2>& reach, PlotNamer& namer) {
+    const Vec<2> size = reach.size();
     const double top = area_.lo.y + strip_ + 6, left = area_.lo.x + 8;
     const double bottom = area_.hi.y - size.y - 6, right = area_.hi.x - size.x - 8;
     for (const Vec<2>& corner :
          {Vec<2>{left, bottom}, Vec<2>{right, top}, Vec<2>{left, top}, Vec<2>{right, bottom}}) {
-      if (namer.crowd({corner, corner + size}) > 0 ||
-          !labels_.is_free({corner, corner + size}, area_))
-        continue;
-      const Vec<2> from = corner + Vec<2>{0, 0.5 * type_.tick.size};
+      const Box<2> place{corner, corner + size};
+      if (namer.crowd(place) > 0 || !labels_.is_free(place, area_)) continue;
+      const Vec<2> from = corner - reach.lo;
       for (std::size_t i = 0; i < ends.size(); ++i) {
-        list_.shapes.emplace_back(
-            LineShape{from, from + ends[i], {Role::quiet_ink, 1.4, 0}, false});
-        labels_.try_add(plot_.slopes[i].name,
-                        {{from + ends[i] + Vec<2>{5, 0.36 * type_.tick.size}, 0}}, type_.tick,
-                        area_);
+        const Vec<2> end = from + ends[i];
+        list_.shapes.emplace_back(LineShape{from, end, {Role::quiet_ink, 1.4, 0}, false});
+        labels_.try_add(plot_.slopes[i].name, {{end + Vec<2>{5, 0.36 * type_.tick.size}, 0}},
+                        type_.tick, area_);
       }
       return;
     }
@@ -329,6 +360,7 @@ class Drawing {
   double strip_ = 0;
   bool any_beyond_ = false, all_named_ = true;
   std::vector<Placed> placed_;
+  std::vector<Vec<2>> front_;
   std::vector<std::vector<std::pair<Vec<2>, Vec<2>>>> guides_;
 };
 

@@ -1,7 +1,6 @@
 // A plot of measured points on two axes: what the reports are made of.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,11 +52,12 @@ struct Plot {
   std::vector<PlotGuide> guides;
   std::vector<PlotSlope> slopes;
   std::vector<Vec<2>> front;  // the Pareto front's corners, ascending in x; drawn as stairs
+  std::string front_name = "Pareto front";
   PlotNames names = PlotNames::ends;
   double size = kLabel;             // of the names; all else follows it
+  double mark = 0;                  // radius of the marks; 0 follows the size
   std::string beyond = "diverged";  // the name of the strip at the upper edge
   std::string empty = "no point";   // said when there is none
-  std::optional<Vec<2>> x_range;    // the least range of x: plots beside each other share theirs
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that

@@ -49,7 +49,7 @@ class Table {
     const double y = top + 0.7 * kRow;
     put(name, b.name, kText, y);
     put(bar, (b.at_least ? "≥ " : "≤ ") + with_unit(figure(b.bound), b.unit), kText, y);
-    put(measured, b.value ? with_unit(figure(*b.value), b.unit) : "–", kText, y);
+    put(measured, told(b), kText, y);
     const auto met = b.met();
     put(verdict, !met ? "not run" : *met ? "met" : "missed", met == false ? kBold : kText, y);
     put(elsewhere, b.elsewhere.empty() ? "–" : b.elsewhere, kText, y);
@@ -68,6 +68,11 @@ class Table {
   void put(Column c, const std::string& text, const TextStyle& style, double y) {
     const double room = x(static_cast<Column>(c + 1)) - x(c) - (c + 1 == end ? 0 : 14);
     labels_.add(shortened(text, room, style), {{x(c), y}, 0}, style, place_);
+  }
+
+  static std::string told(const Bar& b) {
+    if (!b.value) return "–";
+    return std::isfinite(*b.value) ? with_unit(figure(*b.value), b.unit) : "not finite";
   }
 
   // Decades from the bar: below 0 is better.

@@ -36,8 +36,9 @@ class Records {
   bool fresh_ = true;
 };
 
-constexpr std::string_view kBeforeNorms[] = {"problem", "family", "variant", "method",
-                                             "version", "step",   "status",  "reason"};
+constexpr std::string_view kBeforeNorms[] = {"problem",   "family",    "variant", "file",
+                                             "text_hash", "method",    "version", "step",
+                                             "status",    "reference", "reason"};
 constexpr std::string_view kAfterNorms[] = {
     "drift_energy", "drift_momentum",    "drift_angular_momentum", "penetration",
     "repeats",      "seconds_median",    "seconds_least",          "seconds_spread",
@@ -45,8 +46,10 @@ constexpr std::string_view kAfterNorms[] = {
     "hash"};
 
 void write_row(const Row& row, std::size_t norms, Records& csv) {
-  csv.text(row.problem).text(row.family).text(row.variant).text(row.method).text(row.version);
-  csv.number(row.step).text(to_string(row.status)).text(row.reason);
+  csv.text(row.problem).text(row.family).text(row.variant);
+  csv.text(row.file).text(fmt::format("{:016x}", row.text_hash));
+  csv.text(row.method).text(row.version).number(row.step);
+  csv.text(to_string(row.status)).text(row.reference).text(row.reason);
   for (std::size_t i = 0; i < norms; ++i) {
     const bool there = i < row.norms.size();
     csv.text(there ? row.norms[i].name : "");
@@ -86,7 +89,7 @@ std::string to_csv(const Circumstances& c) {
   csv.text("flags").text(c.flags).end();
   csv.text("processor").text(c.processor).end();
   csv.text("seed").count(c.seed).end();
-  csv.text("full").text(c.full ? "true" : "false").end();
+  csv.text("effort").text(c.effort).end();
   return csv.all();
 }
 

@@ -57,15 +57,21 @@ class Writer {
   JsonWriter json;
 };
 
+// As text: many readers would round so large a number.
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
 void write(const Row& row, Writer& w) {
   w.json.line().begin_object();
   w.text("problem", row.problem);
   w.text("family", row.family);
   w.text("variant", row.variant);
+  w.text("file", row.file);
+  w.text("text_hash", hash_text(row.text_hash));
   w.text("method", row.method);
   w.text("version", row.version);
   w.number("step", row.step);
   w.text("status", to_string(row.status));
+  w.text("reference", row.reference);
   w.text("reason", row.reason);
   w.json.key("norms").begin_array();
   for (const Norm& norm : row.norms) {
@@ -89,8 +95,8 @@ void write(const Row& row, Writer& w) {
   w.json.member("force_evaluations", row.counted.force_evaluations);
   w.json.member("constraint_rows", row.counted.constraint_rows);
   w.json.member("pair_tests", row.counted.pair_tests).end_object();
-  // As text: many readers would round so large a number.
-  w.json.member("hash", fmt::format("{:016x}", row.hash)).end_object();
+  w.text("hash", hash_text(row.hash));
+  w.json.end_object();
 }
 
 using Json = nlohmann::json;
@@ -152,10 +158,13 @@ Row read_row(const Json& json) {
   row.problem = text(json, "problem");
   row.family = text(json, "family");
   row.variant = text(json, "variant");
+  row.file = text(json, "file");
+  row.text_hash = hash(text(json, "text_hash"));
   row.method = text(json, "method");
   row.version = text(json, "version");
   row.step = number(json, "step");
   row.status = status(text(json, "status"));
+  row.reference = text(json, "reference");
   row.reason = text(json, "reason");
   for (const Json& norm : list(json, "norms"))
     row.norms.push_back({text(norm, "name"), number(norm, "value")});
@@ -185,7 +194,8 @@ std::string to_json(const Measurement& measurement) {
   w.text("compiler", c.compiler);
   w.text("flags", c.flags);
   w.text("processor", c.processor);
-  w.json.member("seed", c.seed).member("full", c.full).end_object();
+  w.text("effort", c.effort);
+  w.json.member("seed", c.seed).end_object();
   w.json.line().key("rows").begin_array();
   for (const Row& row : measurement.rows) write(row, w);
   w.json.line().end_array().line().end_object();
@@ -205,8 +215,7 @@ std::optional<Measurement> read_measurement(std::string_view json) {
     c.flags = text(told, "flags");
     c.processor = text(told, "processor");
     c.seed = count(told, "seed");
-    if (!part(told, "full").is_boolean()) return std::nullopt;
-    c.full = part(told, "full").get<bool>();
+    c.effort = text(told, "effort");
     for (const Json& row : list(all, "rows")) measurement.rows.push_back(read_row(row));
     return measurement;
   } catch (const Damaged&) {

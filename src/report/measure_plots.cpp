@@ -72,12 +72,6 @@ void send_far_ones_off(Plot& plot) {
   plot.beyond = "diverged, or beyond 1000";
 }
 
-std::string norm_name(const ProblemRows& problem) {
-  for (const Row& row : problem.rows)
-    if (!row.norms.empty()) return row.norms.front().name;
-  return "";
-}
-
 void add_rule(DrawList& list, double y) {
   list.shapes.emplace_back(
       LineShape{{kMargin, y}, {list.page.x - kMargin, y}, {Role::rule, 1.6, 0}, true});
@@ -90,9 +84,7 @@ void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
   const std::string title = shortened(problem_words(problem), 0.6 * band.size().x, bold);
   labels.add(title, {{kMargin, kTitleLine}, 0}, bold, band);
   const double x = kMargin + text_width(title, bold.size, bold.weight) + 11;
-  const std::string norm = norm_name(problem);
-  const std::string rest = fmt::format("·  error{} against cost  ·  {}",
-                                       norm.empty() ? "" : " “" + norm + "”", problem.problem);
+  const std::string rest = fmt::format("·  error against cost  ·  {}.toml", problem.problem);
   labels.add(shortened(rest, band.hi.x - x, quiet), {{x, kTitleLine}, 0}, quiet, band);
   add_rule(list, 78);
 }
@@ -123,6 +115,17 @@ double draw_foot(const ProblemRows& problem, const Circumstances& circumstances,
   return top;
 }
 
+std::string error_words(const ProblemRows& problem) {
+  const std::string norm = main_norm(problem);
+  return norm.empty() ? "error" : fmt::format("error: {} (“{}”)", norm_words(norm), norm);
+}
+
+// Whether a peer that was run has no point, because it does not count its work.
+bool any_without(const Plot& plot) {
+  return std::any_of(plot.series.begin(), plot.series.end(),
+                     [](const PlotSeries& s) { return s.is_peer && s.points.empty(); });
+}
+
 std::vector<LegendEntry> legend_of(const Plot& plot) {
   std::vector<LegendEntry> entries;
   for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
@@ -144,7 +147,8 @@ std::string circumstances_text(const Circumstances& c) {
   std::string text = "Lantern " + c.version;
   for (const std::string& part : {c.compiler, c.flags, c.processor})
     if (!part.empty()) text += " · " + part;
-  return text + fmt::format(" · seed {}{}", c.seed, c.full ? " · full" : "");
+  return text +
+         fmt::format(" · seed {}{}", c.seed, c.effort.empty() ? "" : " · effort: " + c.effort);
 }
 
 Plot cost_plot(const ProblemRows& problem, const Cost& cost,
@@ -178,12 +182,12 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
   return plot;
 }
 
-DrawList measure_page(const ProblemRows& problem, const Circumstances& circumstances,
-                      const std::map<std::string, int>& looks) {
+DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement) {
+  const std::map<std::string, int> looks = looks_of(measurement.rows);
   DrawList list;
   Labels labels(list);
   draw_title(problem, list, labels);
-  const double bottom = draw_foot(problem, circumstances, list, labels) - 18;
+  const double bottom = draw_foot(problem, measurement.circumstances, list, labels) - 18;
   const WorkCount work = work_count(problem);
   Plot timed = cost_plot(problem, seconds_of, looks, true);
   timed.title = "Error against time";
@@ -194,6 +198,8 @@ DrawList measure_page(const ProblemRows& problem, const Circumstances& circumsta
   counted.title = "Error against " + work.name;
   counted.x_name = work.name + " in the whole run";
   counted.empty = "no work was counted";
+  timed.y_name = counted.y_name = error_words(problem);
+  if (any_without(counted)) counted.x_name += " (not told by peers)";
   const std::vector<LegendEntry> legend = legend_of(timed);
   const double width = list.page.x - 2 * kMargin, gap = 48;
   const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
@@ -208,14 +214,6 @@ DrawList measure_page(const ProblemRows& problem, const Circumstances& circumsta
     draw_plot(*plot, panel, list, labels);
   }
   return list;
-}
-
-std::vector<MeasurePage> measure_pages(const Measurement& measurement) {
-  const std::map<std::string, int> looks = looks_of(measurement.rows);
-  std::vector<MeasurePage> pages;
-  for (const ProblemRows& problem : by_problem(measurement.rows))
-    pages.push_back({problem.problem, measure_page(problem, measurement.circumstances, looks)});
-  return pages;
 }
 
 }  // namespace lantern

@@ -3,7 +3,6 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/plot.hpp"
@@ -18,18 +17,11 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
                const std::map<std::string, int>& looks, bool with_orders);
 
 // A page of 1600 x 900: error against seconds at the left, against counted work at the right, one
-// legend, the sentence below. Where no row is timed, the left plot says so.
-DrawList measure_page(const ProblemRows& problem, const Circumstances& circumstances,
-                      const std::map<std::string, int>& looks);
+// legend, the sentence below. Where no row is timed, the left plot says so. Looks and circumstances
+// are those of the measurement, of which the problem is a part.
+DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement);
 
-// One for each problem, named after it.
-struct MeasurePage {
-  std::string name;
-  DrawList list;
-};
-std::vector<MeasurePage> measure_pages(const Measurement& measurement);
-
-// "version 0.1.0 · g++ 13 · AMD ... · seed 1".
+// "Lantern 0.1.0 · gcc 13 · AMD ... · seed 1".
 std::string circumstances_text(const Circumstances& circumstances);
 
 // "oscillator, stiff" of oscillator_stiff; only the name where the variant is plain.

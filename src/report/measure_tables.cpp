@@ -85,16 +85,11 @@ std::string to_table(const Measurement& measurement) {
   std::string text;
   for (const ProblemRows& problem : by_problem(measurement.rows)) {
     const WorkCount work = work_count(problem);
-    std::string norm = "error";
-    for (const Row& row : problem.rows)
-      if (!row.norms.empty()) {
-        norm = row.norms.front().name;
-        break;
-      }
+    const std::string norm = main_norm(problem);
     text += fmt::format("{}{} ({}, {})\n", text.empty() ? "" : "\n", problem.problem,
                         problem.family, problem.variant);
-    text += line({"method", "runs ok", "order", norm, "at h", "time",
-                  work.name == "force evaluations" ? "force evals" : work.name, "else"});
+    text += line({"method", "runs ok", "order", norm.empty() ? "error" : norm, "at h", "time",
+                  work.name == "force evaluations" ? "force evals" : work.name, "failures"});
     for (const ContestantRows& c : by_contestant(problem)) text += line_for(c, work);
     text += folded(sentence(problem));
   }

@@ -14,10 +14,12 @@
 namespace lantern {
 namespace {
 
-constexpr double kWidth = 1600, kLeastHeight = 2263;  // of A3
+constexpr double kLeastWidth = 1600;
+constexpr double kTall = 1.41421356;  // height over width of an A3 page
+constexpr double kCell = 320;         // least width of a small plot with its words
 constexpr double kMargin = 56;
 constexpr double kGap = 34;
-constexpr double kSmall = 16.5, kText = 17.5;  // on A3, 1 unit is 0.53 points
+constexpr double kSmall = 16.5, kText = 17.5;  // on A3, a page 1600 wide has 0.53 points a unit
 constexpr double kLine = 22;
 constexpr std::size_t kMostLines = 5;  // of a sentence
 
@@ -35,7 +37,6 @@ class Page {
         labels_(list_) {
     for (const ProblemRows& problem : problems_)
       plots_.push_back(cost_plot(problem, seconds_of, looks_, false));
-    list_.page = {kWidth, kLeastHeight};
   }
 
   DrawList draw() {
@@ -49,41 +50,52 @@ class Page {
   }
 
  private:
-  double inner() const { return kWidth - 2 * kMargin; }
+  double inner() const { return width_ - 2 * kMargin; }
   Box<2> band(double top, double bottom) const {
-    return {{kMargin, top}, {kWidth - kMargin, bottom}};
+    return {{kMargin, top}, {width_ - kMargin, bottom}};
   }
   double cell_width() const {
     return (inner() - kGap * static_cast<double>(columns_ - 1)) / static_cast<double>(columns_);
   }
 
-  // Columns, and the height of a row of cells: what is left of the page, but enough to be read.
+  // As few columns as keep the page from being taller than A3, so that type is as large as can be.
   void plan() {
-    const std::size_t n = problems_.size();
-    columns_ = n <= 1 ? 1 : n <= 4 ? 2 : n <= 9 ? 3 : n <= 24 ? 4 : 5;
-    const auto rows = static_cast<double>((n + columns_ - 1) / columns_);
-    for (const ProblemRows& problem : problems_) {
-      said_.push_back(wrapped(sentence(problem), cell_width(), kSaid));
-      if (said_.back().size() > kMostLines) {
-        said_.back().resize(kMostLines);
-        said_.back().back() = shortened(said_.back().back() + " …", cell_width(), kSaid);
-      }
-      lines_ = std::max(lines_, said_.back().size());
-    }
     legend_ = legend();
-    const double head = 132, foot = 84;
-    const double bars = bars_.empty() ? 0 : bars_table_height(bars_) + 30;
-    const double legend_height = plot_legend_height(legend_, inner(), kSmall) + 60;
-    const double fixed = head + foot + bars + legend_height;
-    const double texts = 60 + kLine * static_cast<double>(lines_);
-    const double least = texts + std::max(150.0, 0.5 * cell_width());
-    if (rows > 0) {
-      row_ = std::max(least, (kLeastHeight - fixed) / rows);
-      row_ = std::min(row_, texts + 0.95 * cell_width());
+    const std::size_t n = problems_.size();
+    columns_ = n <= 1 ? 1 : n <= 4 ? 2 : n <= 9 ? 3 : 4;
+    plan_rows();
+    while (list_.page.y > 1.02 * kTall * width_ && columns_ < 12) {
+      ++columns_;
+      plan_rows();
     }
-    list_.page.y = std::max(n > 0 ? 0.0 : 400.0, std::ceil(fixed + rows * row_));
-    if (list_.page.y < kLeastHeight && list_.page.y > 0.75 * kLeastHeight)
-      list_.page.y = kLeastHeight;
+  }
+
+  // The width, the sentences' lines, and the height of a row of cells: what is left of the page,
+  // but enough to be read and no more than is of use.
+  void plan_rows() {
+    const auto columns = static_cast<double>(columns_);
+    width_ = std::max(kLeastWidth, 2 * kMargin + columns * (kCell + kGap) - kGap);
+    said_.clear();
+    lines_ = 1;
+    for (const ProblemRows& problem : problems_) {
+      const std::string said = columns_ < 4 ? sentence(problem) : short_sentence(problem);
+      std::vector<std::string> lines = wrapped(said, cell_width(), kSaid);
+      if (lines.size() > kMostLines) {
+        lines.resize(kMostLines);
+        lines.back() = shortened(lines.back() + " …", cell_width(), kSaid);
+      }
+      lines_ = std::max(lines_, lines.size());
+      said_.push_back(std::move(lines));
+    }
+    const auto rows = static_cast<double>((problems_.size() + columns_ - 1) / columns_);
+    const double head = 140, foot = 84;
+    const double bars = bars_.empty() ? 0 : bars_table_height(bars_) + 24;
+    const double fixed = head + foot + bars + plot_legend_height(legend_, inner(), kSmall) + 48;
+    const double texts = 56 + kLine * static_cast<double>(lines_);
+    const double page = kTall * width_;
+    row_ = rows > 0 ? (page - fixed) / rows : 0;
+    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + 1.0 * cell_width());
+    list_.page = {width_, std::max(page, std::ceil(fixed + rows * row_))};
   }
 
   std::vector<LegendEntry> legend() const {
@@ -105,7 +117,7 @@ class Page {
 
   void rule(double y, double weight = 1.4) {
     list_.shapes.emplace_back(
-        LineShape{{kMargin, y}, {kWidth - kMargin, y}, {Role::ink, weight, 0}, true});
+        LineShape{{kMargin, y}, {width_ - kMargin, y}, {Role::ink, weight, 0}, true});
   }
 
   double draw_head() {
@@ -113,8 +125,8 @@ class Page {
     labels_.add("Error against run time", {{kMargin, 74}, 0},
                 {38, Weight::semibold, Role::ink, Role::none}, place);
     const std::string how = fmt::format(
-        "{} problems, {} runs. Each plot: the error of a run upwards, the seconds that it takes to "
-        "the right, both logarithmic; lower left is better.",
+        "{} problems, {} runs. Each plot: the error of a run (of what is named at its upper right) "
+        "upwards, its seconds to the right, both logarithmic; lower left is better.",
         problems_.size(), measurement_.rows.size());
     labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
                 {{kMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none}, place);
@@ -145,16 +157,16 @@ class Page {
   }
 
   void draw_cell(std::size_t i, const Box<2>& cell) {
-    const std::string name = shortened(problem_words(problems_[i]), cell.size().x, kBold);
+    const std::string name = shortened(problems_[i].problem + ".toml", cell.size().x, kBold);
     labels_.add(name, {{cell.lo.x, cell.lo.y + 16}, 0}, kBold, cell);
-    const double end = cell.lo.x + text_width(name, kBold.size, kBold.weight) + 14;
-    const std::string file = problems_[i].problem + ".toml";
-    labels_.add(shortened(file, cell.hi.x - end, kQuiet), {{cell.hi.x, cell.lo.y + 16}, 1}, kQuiet,
-                cell);
+    const std::string norm = norm_words(main_norm(problems_[i]));
+    labels_.try_add(norm, {{{cell.hi.x, cell.lo.y + 16}, 1}}, kQuiet, cell);
     const double said = cell.hi.y - kLine * static_cast<double>(lines_);
     Plot& plot = plots_[i];
     plot.names = PlotNames::none;
     plot.size = kSmall;
+    plot.mark = columns_ < 4 ? 4.8 : 4.2;
+    plot.front_name.clear();
     plot.empty = "no run was timed";
     for (PlotGuide& guide : plot.guides) guide.name.clear();
     draw_plot(plot, {{cell.lo.x, cell.lo.y + 22}, {cell.hi.x, said - 4}}, list_, labels_);
@@ -187,7 +199,7 @@ class Page {
   std::vector<LegendEntry> legend_;
   std::vector<std::vector<std::string>> said_;
   std::size_t columns_ = 4, lines_ = 1;
-  double row_ = 0;
+  double width_ = kLeastWidth, row_ = 0;
   DrawList list_;
   Labels labels_;
 };
@@ -199,7 +211,7 @@ std::optional<bool> Bar::met() const {
   return at_least ? *value >= bound : *value <= bound;  // false for NaN
 }
 
-DrawList overview(const Measurement& measurement, const std::vector<Bar>& bars) {
+DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars) {
   return Page(measurement, bars).draw();
 }
 

@@ -24,8 +24,8 @@ struct Bar {
   std::optional<bool> met() const;
 };
 
-// 1600 units wide and at least 2263 high (the proportions of A3), higher for many problems. Each
-// small plot names its scenario, so that every number can be found in the rows.
-DrawList overview(const Measurement& measurement, const std::vector<Bar>& bars);
+// In the proportions of A3, 1600 units wide (2263 high) or as much larger as many problems need.
+// Each small plot names its scenario's file, so that every number can be found in the rows.
+DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars);
 
 }  // namespace lantern

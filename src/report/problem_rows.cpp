@@ -111,6 +111,30 @@ std::string method_words(std::string_view method) {
   return words;
 }
 
+std::string norm_words(std::string_view norm) {
+  constexpr std::array<std::array<std::string_view, 2>, 10> kWords{{
+      {"traj", "state"},
+      {"att", "attitude"},
+      {"inv", "drift"},
+      {"a", "acceleration"},
+      {"v", "speed"},
+      {"E", "energy"},
+      {"p", "momentum"},
+      {"L", "angular momentum"},
+      {"times", "impact times"},
+      {"class", "wrong outcome"},
+  }};
+  for (const auto& [name, words] : kWords)
+    if (name == norm) return std::string(words);
+  return std::string(norm);
+}
+
+std::string main_norm(const ProblemRows& problem) {
+  for (const Row& row : problem.rows)
+    if (!row.norms.empty()) return row.norms.front().name;
+  return "";
+}
+
 std::map<std::string, int> looks_of(std::span<const Row> rows) {
   std::map<std::string, int> looks;
   std::set<int> taken;

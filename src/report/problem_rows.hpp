@@ -34,6 +34,12 @@ std::vector<ContestantRows> by_contestant(const ProblemRows& problem);
 // stays as it is.
 std::string method_words(std::string_view method);
 
+// What a norm measures: "state" of "traj". Others stay as they are.
+std::string norm_words(std::string_view norm);
+
+// The name of the problem's main norm; empty if no row has one.
+std::string main_norm(const ProblemRows& problem);
+
 // A look for each contestant: the known methods have always the same, others in order of their
 // first row, peers from kFirstPeerLook on.
 std::map<std::string, int> looks_of(std::span<const Row> rows);

@@ -52,12 +52,12 @@ std::string count_text(double n, const std::string& name) {
 }
 
 // "0.8 ms at h = 0.005 s, 2060 force evaluations".
-std::string price(const Row& row, const WorkCount& work) {
+std::string price(const Row& row, const WorkCount& work, bool brief) {
   const bool by_tolerance = row.method.starts_with("dormand");
   const std::string at = by_tolerance ? fmt::format("at a tolerance of {}", figure(row.step))
                                       : fmt::format("at h = {} s", figure(row.step));
   const auto seconds = seconds_of(row);
-  const auto count = work.of(row);
+  const auto count = brief && seconds ? std::nullopt : work.of(row);
   std::string text = seconds ? seconds_text(*seconds) + " " + at : at;
   if (count) text += ", " + count_text(*count, work.name);
   return text;
@@ -67,7 +67,7 @@ std::string peer_name(const Row& row) { return row.method + " " + row.version; }
 
 class Teller {
  public:
-  explicit Teller(const ProblemRows& problem) : work_(work_count(problem)) {
+  Teller(const ProblemRows& problem, bool brief) : work_(work_count(problem)), brief_(brief) {
     bound_ = error_bound(problem);
     for (const ContestantRows& c : by_contestant(problem)) {
       if (!c.is_peer) ++methods_;
@@ -92,11 +92,12 @@ class Teller {
     const Best peer = cheapest(peers_, cost(timed_ && timed_peers_));
     const bool peer_first = peer.row && best.row && peer.cost < best.cost && timed_ && timed_peers_;
     const std::string name = method_words(row.method);
-    const std::string own_price = price(row, work_);
+    const std::string own_price = price(row, work_, brief_);
     std::string text;
     if (peer_first)
       text = fmt::format("The cheapest under {} is {}, a peer: {}; of Lantern's methods, {}: {}",
-                         limit, peer_name(*peer.row), price(*peer.row, work_), name, own_price);
+                         limit, peer_name(*peer.row), price(*peer.row, work_, brief_), name,
+                         own_price);
     else if (methods_ == 1)
       text = fmt::format("{} gets under {} with {}", capital(name), limit, own_price);
     else if (best.equal.empty())
@@ -129,8 +130,8 @@ class Teller {
   }
 
   std::string never() const {
-    if (never_.empty()) return "";
-    if (never_.size() > 3) return fmt::format("; {} other methods never get there", never_.size());
+    if (never_.empty() || brief_) return "";
+    if (never_.size() > 3) return fmt::format("; {} methods never get there", never_.size());
     return fmt::format("; {} never {} there", listed(never_), never_.size() == 1 ? "gets" : "get");
   }
 
@@ -141,7 +142,7 @@ class Teller {
         methods_ == 0 ? "Only peers were run" : "No method of Lantern gets under " + limit;
     return fmt::format("{}; the cheapest peer {} is {}: {}.", who,
                        methods_ == 0 ? "under " + limit : "that does", peer_name(row),
-                       price(row, work_));
+                       price(row, work_, brief_));
   }
 
   std::string nothing() const {
@@ -156,6 +157,7 @@ class Teller {
   }
 
   WorkCount work_;
+  bool brief_ = false;
   std::optional<double> bound_;
   std::size_t methods_ = 0;
   std::vector<std::string> never_;
@@ -181,7 +183,15 @@ std::optional<double> error_bound(const ProblemRows& problem) {
   return std::max(bound, *least);
 }
 
-std::string sentence(const ProblemRows& problem) { return Teller(problem).text(); }
+std::string sentence(const ProblemRows& problem) { return Teller(problem, false).text(); }
+
+std::vector<std::string> sentences(const Measurement& measurement) {
+  std::vector<std::string> all;
+  for (const ProblemRows& problem : by_problem(measurement.rows)) all.push_back(sentence(problem));
+  return all;
+}
+
+std::string short_sentence(const ProblemRows& problem) { return Teller(problem, true).text(); }
 
 std::string seconds_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";

@@ -16,6 +16,12 @@ std::optional<double> error_bound(const ProblemRows& problem);
 // counted work. A peer that is cheaper than all methods is named first.
 std::string sentence(const ProblemRows& problem);
 
+// The same without counted work and without those that never get there.
+std::string short_sentence(const ProblemRows& problem);
+
+// The sentence of each problem, in order.
+std::vector<std::string> sentences(const Measurement& measurement);
+
 // "12 s", "0.8 ms", "41 µs".
 std::string seconds_text(double seconds);
 // "1e-6", "3.2e-9", "0.012": three figures, as one types them.

@@ -35,9 +35,10 @@ TEST(Pictures, DISABLED_OfTheSampleRows) {
   const char* file = std::getenv("LANTERN_MEASUREMENT");
   const Measurement m =
       file ? read_measurement(read_file(file, 1u << 28)).value() : samples::measurement();
-  for (const MeasurePage& page : measure_pages(m)) write("page_" + page.name, page.list, 1);
-  write("overview", overview(m, samples::bars()), 1);
-  if (!file) write("overview_many", overview(samples::measurement(36), samples::bars()), 1);
+  for (const ProblemRows& problem : by_problem(m.rows))
+    write("page_" + problem.problem, draw_problem(problem, m), 1);
+  write("overview", draw_overview(m, samples::bars()), 1);
+  if (!file) write("overview_many", draw_overview(samples::measurement(36), samples::bars()), 1);
   std::puts(to_table(m).c_str());
 }
 

@@ -56,6 +56,8 @@ Row run(const Problem& problem, const Method& method, double h, Random& random) 
   row.problem = problem.name;
   row.family = problem.family;
   row.variant = problem.variant;
+  row.file = row.problem + ".toml";
+  row.reference = "closed form";
   row.method = method.name;
   row.version = method.version;
   row.step = h;
@@ -106,7 +108,7 @@ Measurement measurement(std::size_t problems, std::uint64_t seed) {
   Measurement m;
   m.circumstances = {
       "0.1.0", "g++ 13.2.0", "-O3 -ffp-contract=off", "Intel(R) Xeon(R) Platinum 8488C",
-      seed,    false};
+      seed,    "normal"};
   for (std::size_t i = 0; i < problems; ++i) {
     Problem problem = kProblems[i % std::size(kProblems)];
     const std::string name =
