@@ -20,15 +20,15 @@ std::vector<BoxScene> scenes_of(const MeasureBroadPhaseOptions& options) {
   return scenes;
 }
 
-std::vector<std::pair<std::string, DrawList>> pages_of(const std::vector<BroadPhaseCost>& rows,
-                                                       const std::vector<BoxScene>& scenes) {
-  std::vector<std::pair<std::string, DrawList>> pages;
+std::vector<ReportPage> pages_of(const std::vector<BroadPhaseCost>& rows,
+                                 const std::vector<BoxScene>& scenes) {
+  std::vector<ReportPage> pages;
   for (const BoxScene& scene : scenes)
     for (const BroadPhaseKind kind : kBroadPhaseKinds)
       if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
           best != nullptr && best->has_settings())
-        pages.emplace_back(fmt::format("broad_phase_{}_{}", scene.name, name_of(kind)),
-                           draw_broad_phase_page(rows, scene, kind));
+        pages.push_back({fmt::format("broad_phase_{}_{}", scene.name, name_of(kind)),
+                         draw_broad_phase_page(rows, scene, kind)});
   return pages;
 }
 

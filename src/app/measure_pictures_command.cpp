@@ -62,9 +62,9 @@ int measure_pictures_command(const MeasurePicturesOptions& options) {
   folder.write("pictures.txt", table);
   folder.write("pictures.csv", to_csv(report));
   folder.write("pictures.json", json);
-  std::vector<std::pair<std::string, DrawList>> pages;
+  std::vector<ReportPage> pages;
   for (const std::string& scene : report.scenes)
-    pages.emplace_back("pictures_" + scene, page_of(picture_plot(report, scene)));
+    pages.push_back({"pictures_" + scene, page_of(picture_plot(report, scene))});
   folder.draw(pages, options.theme);
   write_stdout(options.json ? json : table);
   return kGood;
