@@ -99,8 +99,8 @@ long double carlson_rf(long double x, long double y, long double z) {
 
 long double carlson_rj(long double x, long double y, long double z, long double p) {
   const long double start = (x + y + z + 2 * p) / 5;
-  const long double spread = std::max({std::abs(start - x), std::abs(start - y),
-                                       std::abs(start - z), std::abs(start - p)});
+  const long double spread = std::max(
+      {std::abs(start - x), std::abs(start - y), std::abs(start - z), std::abs(start - p)});
   const long double dx = start - x, dy = start - y, dz = start - z;
   const long double delta = (p - x) * (p - y) * (p - z);
   long double a = start, q = spread * 1e4L, four = 1, sum = 0;
@@ -122,8 +122,8 @@ long double carlson_rj(long double x, long double y, long double z, long double 
   const long double e3 = ex * ey * ez + 2 * e2 * ep + 4 * ep * ep * ep;
   const long double e4 = (2 * ex * ey * ez + e2 * ep + 3 * ep * ep * ep) * ep;
   const long double e5 = ex * ey * ez * ep * ep;
-  const long double series = 1 - 3 * e2 / 14 + e3 / 6 + 9 * e2 * e2 / 88 - 3 * e4 / 22 -
-                             9 * e2 * e3 / 52 + 3 * e5 / 26;
+  const long double series =
+      1 - 3 * e2 / 14 + e3 / 6 + 9 * e2 * e2 / 88 - 3 * e4 / 22 - 9 * e2 * e3 / 52 + 3 * e5 / 26;
   return series / (four * a * std::sqrt(a)) + 6 * sum;
 }
 

@@ -36,14 +36,14 @@ class FreeTop {
   LongVec momentum_{0.0L};
   LongVec spin_{0.0L};  // angular velocity in the body's axes
 
-  LongQuat names_;  // from the body's axes to those named 1, 2, 3
-  LongQuat base_;   // from the frame of L to the world's
-  long double inverse1_ = 1;   // a1
-  long double length_ = 0;     // of L
-  LongVec size_{0.0L};         // A1, A2, A3
-  long double rate_ = 0;       // of u
+  LongQuat names_;              // from the body's axes to those named 1, 2, 3
+  LongQuat base_;               // from the frame of L to the world's
+  long double inverse1_ = 1;    // a1
+  long double length_ = 0;      // of L
+  LongVec size_{0.0L};          // A1, A2, A3
+  long double rate_ = 0;        // of u
   long double m1_ = 1, n_ = 0;  // complementary parameter, characteristic
-  long double wobble_ = 0;     // (a1 - a3) n
+  long double wobble_ = 0;      // (a1 - a3) n
   long double u0_ = 0;
   long double half_period_ = 1, half_integral_ = 0, integral0_ = 0;
 };

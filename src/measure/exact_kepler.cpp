@@ -58,8 +58,7 @@ Orbit exact_orbit(long double mu, const Orbit& start, long double time) {
   const Precise phase = product(root(quotient(mu, a * a * a)), time);
   const long double turns = std::round(phase.high / (2 * kPi));
   const long double two_pi_low = -1.0033115225336664e-19L;  // 2 pi - its long double
-  const long double mean =
-      std::fma(-turns, 2 * kPi, phase.high) + (phase.low - turns * two_pi_low);
+  const long double mean = std::fma(-turns, 2 * kPi, phase.high) + (phase.low - turns * two_pi_low);
   const long double e = anomaly(s, 1 - r0 / a, mean);
   const long double half = std::sin(e / 2), sin = std::sin(e), versine = 2 * half * half;
   const long double r = a * (1 + s * sin - (1 - r0 / a) * (1 - versine));

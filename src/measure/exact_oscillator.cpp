@@ -10,10 +10,11 @@ namespace {
 // With fall = c / 2m and omega^2 = k/m:
 //
 //     x = A x0 + S v0,   v = B v0 - omega^2 S x0,      S = e^(-fall t) sin(w t) / w
-//     A = e^(-fall t) cos(w t) + fall S,   B = e^(-fall t) cos(w t) - fall S,   w^2 = omega^2 - fall^2
+//     A = e^(-fall t) cos(w t) + fall S,   B = e^(-fall t) cos(w t) - fall S,   w^2 = omega^2 -
+//     fall^2
 //
-// Above critical damping w = i u, and cos and sin become cosh and sinh: two rates of decay, fall - u
-// and fall + u.
+// Above critical damping w = i u, and cos and sin become cosh and sinh: two rates of decay, fall -
+// u and fall + u.
 struct Basis {
   long double a = 1;
   long double b = 1;

@@ -30,9 +30,8 @@ void require_links(const Scenario& scenario, std::size_t count, std::string_view
 double mass_of_body(const Scenario& scenario, std::size_t body) {
   const BodySpec& spec = scenario.bodies[body];
   if (spec.mass > 0) return spec.mass;
-  return scenario.world.dimension == 3
-             ? mass_of<3>(spec.shape, spec.density).mass
-             : mass_of<2>(in_dimension<2>(spec.shape), spec.density).mass;
+  return scenario.world.dimension == 3 ? mass_of<3>(spec.shape, spec.density).mass
+                                       : mass_of<2>(in_dimension<2>(spec.shape), spec.density).mass;
 }
 
 Tie read_tie(const Scenario& scenario, const LinkSpec& link, std::string_view problem) {

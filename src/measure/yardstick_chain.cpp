@@ -29,8 +29,7 @@ class ChainYardstick : public Trajectory {
     std::vector<long double> x, v;
     motion_.at(time, x, v);
     for (std::size_t i = 0; i < row_.bodies.size(); ++i)
-      states.push_back({row_.bodies[i],
-                        Vec<3>(row_.from + (row_.rest[i] + x[i]) * row_.direction),
+      states.push_back({row_.bodies[i], Vec<3>(row_.from + (row_.rest[i] + x[i]) * row_.direction),
                         Vec<3>(v[i] * row_.direction)});
   }
 
@@ -69,9 +68,8 @@ std::optional<LongVec3> follow(std::vector<Bond>& bonds, Line& row) {
     if (bond != first && !bond->tie.b) return bond->tie.anchor;
     if (bond != first) at = bond->tie.a == at ? *bond->tie.b : bond->tie.a;
     row.bodies.push_back(at);
-    bond = std::find_if(bonds.begin(), bonds.end(), [&](const Bond& b) {
-      return !b.used && (b.tie.a == at || b.tie.b == at);
-    });
+    bond = std::find_if(bonds.begin(), bonds.end(),
+                        [&](const Bond& b) { return !b.used && (b.tie.a == at || b.tie.b == at); });
   }
   return std::nullopt;
 }

@@ -16,11 +16,10 @@ class FreeTopYardstick : public Yardstick {
 
   void look(const Observation& now) override {
     const glm::dquat q = now.states[body_].orientation.q;
-    const LongQuat off = glm::conjugate(top_.orientation(now.time)) *
-                         LongQuat(q.w, q.x, q.y, q.z);
+    const LongQuat off = glm::conjugate(top_.orientation(now.time)) * LongQuat(q.w, q.x, q.y, q.z);
     // The angle of a turn, whatever the quaternion's sign and length.
-    const long double angle = 2 * std::atan2(std::sqrt(off.x * off.x + off.y * off.y + off.z * off.z),
-                                             std::abs(off.w));
+    const long double angle =
+        2 * std::atan2(std::sqrt(off.x * off.x + off.y * off.y + off.z * off.z), std::abs(off.w));
     const auto error = static_cast<double>(angle);
     if (!std::isnan(worst_) && !(error <= worst_)) worst_ = error;
   }
@@ -47,8 +46,7 @@ std::unique_ptr<Yardstick> free_top_yardstick(const Scenario& scenario) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(mass.inertia[axis] > 0)) throw Refused("free_top: its body has no extent");
   const Rotation<3> start = turned(Rotation<3>(), body.axis * body.angle);
-  const LongQuat orientation =
-      glm::normalize(LongQuat(start.q.w, start.q.x, start.q.y, start.q.z));
+  const LongQuat orientation = glm::normalize(LongQuat(start.q.w, start.q.x, start.q.y, start.q.z));
   const LongVec spin = glm::conjugate(orientation) * (LongVec(body.axis) * LongVec(body.spin));
   LongVec inverse, momentum;
   for (int axis = 0; axis < 3; ++axis) {

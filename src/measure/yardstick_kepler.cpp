@@ -31,8 +31,8 @@ class KeplerYardstick : public Trajectory {
     const Orbit now = exact_orbit(c_.mu, c_.start, time);
     const LongVec3 centre = c_.centre + static_cast<long double>(time) * c_.drift;
     const auto add = [&](std::size_t body, long double share) {
-      states.push_back({body, Vec<3>(centre + share * now.position),
-                        Vec<3>(c_.drift + share * now.velocity)});
+      states.push_back(
+          {body, Vec<3>(centre + share * now.position), Vec<3>(c_.drift + share * now.velocity)});
     };
     if (c_.a_moves) add(c_.a, -c_.share_a);
     add(c_.b, c_.share_b);

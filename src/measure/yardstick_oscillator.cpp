@@ -25,8 +25,8 @@ class OscillatorYardstick : public Trajectory {
   void exact(double time, std::vector<Exact>& states) const override {
     LongVec3 x, v;
     for (int axis = 0; axis < 3; ++axis) {
-      const Swing swing = exact_swing(o_.stiffness, o_.damping, o_.mass,
-                                      {o_.away[axis], o_.velocity[axis]}, time);
+      const Swing swing =
+          exact_swing(o_.stiffness, o_.damping, o_.mass, {o_.away[axis], o_.velocity[axis]}, time);
       x[axis] = o_.rest[axis] + swing.x;
       v[axis] = swing.v;
     }

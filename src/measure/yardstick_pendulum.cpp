@@ -63,8 +63,7 @@ std::unique_ptr<Yardstick> pendulum_yardstick(const Scenario& scenario) {
   const BodySpec& body = scenario.bodies[p.body];
   const LinkSpec& link = scenario.links.front();
   if (link.kind == LinkSpec::Kind::pin) throw Refused("pendulum: its rod has kind \"distance\"");
-  if (body.linear_drag != 0 || link.damping != 0)
-    throw Refused("pendulum: nothing may brake it");
+  if (body.linear_drag != 0 || link.damping != 0) throw Refused("pendulum: nothing may brake it");
   const Tie tie = read_tie(scenario, link, "pendulum");
   const LongVec3 gravity(scenario.world.gravity), velocity(body.velocity);
   const LongVec3 rod = LongVec3(body.position) - tie.anchor;

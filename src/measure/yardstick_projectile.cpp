@@ -24,8 +24,8 @@ struct Flight {
 
   void at(std::size_t i, long double time, LongVec3& way, LongVec3& velocity) const {
     for (int axis = 0; axis < 3; ++axis) {
-      const FlightState state = exact_flight({0, bodies[i].velocity[axis]}, gravity[axis],
-                                             bodies[i].rate, time);
+      const FlightState state =
+          exact_flight({0, bodies[i].velocity[axis]}, gravity[axis], bodies[i].rate, time);
       way[axis] = state.position;
       velocity[axis] = state.velocity;
     }

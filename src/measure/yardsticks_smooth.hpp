@@ -14,8 +14,8 @@ namespace lantern {
 std::unique_ptr<Yardstick> projectile_yardstick(const Scenario& scenario);
 
 // One body on one spring to a fixed point, under any damping: along a line, or, if the spring has
-// no rest length and no damping, in any direction. "traj" is relative to the amplitude that it would
-// have undamped, and to that times the frequency.
+// no rest length and no damping, in any direction. "traj" is relative to the amplitude that it
+// would have undamped, and to that times the frequency.
 std::unique_ptr<Yardstick> oscillator_yardstick(const Scenario& scenario);
 
 // Bodies in a row between one or two fixed points, tied each to the next by springs without

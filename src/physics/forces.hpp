@@ -53,8 +53,8 @@ struct Stretch {
   Vec<D> arm_b{0.0};
   Vec<D> direction{0.0};  // from a's point to b's, of unit length; zero if they coincide
   double length = 0;
-  double rate = 0;     // of the length, units a second
-  double tension = 0;  // N; a is pulled along the direction, b against it
+  double rate = 0;       // of the length, units a second
+  double tension = 0;    // N; a is pulled along the direction, b against it
   double stiffness = 0;  // by how much the tension grows with the length; below 0 of attraction
   double damping = 0;    // and with the rate
 };

@@ -207,8 +207,8 @@ class Newton {
       const double rest = k < forces.springs.size() ? forces.springs[k].rest_length : 0;
       const Stretch<D> s = system_.stretch(state, k);
       const double arm_a = size_of<D>(s.arm_a), arm_b = size_of<D>(s.arm_b);
-      const double lengths = s.length + rest + arm_a + arm_b +
-                             size_of<D>(state.shift[a]) + size_of<D>(state.shift[b]);
+      const double lengths =
+          s.length + rest + arm_a + arm_b + size_of<D>(state.shift[a]) + size_of<D>(state.shift[b]);
       const double speeds =
           size_of<D>(system_.velocity(state, a)) + size_of<D>(system_.velocity(state, b));
       const double momentum = time_ * (std::abs(s.stiffness) * lengths + s.damping * speeds);

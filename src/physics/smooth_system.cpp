@@ -62,8 +62,8 @@ template <int D>
 void SmoothSystem<D>::find_what_attracts() {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
-      const double strength = forces_.gravitation * attracting_mass(bodies_[i]) *
-                              attracting_mass(bodies_[j]);
+      const double strength =
+          forces_.gravitation * attracting_mass(bodies_[i]) * attracting_mass(bodies_[j]);
       if (!(strength > 0) || !(moves(i) || moves(j))) continue;
       ends_.push_back({i, j});
       strengths_.push_back(strength);
