@@ -177,8 +177,8 @@ TEST(Kepler, ReturnsAfterTenThousandPeriods) {
   for (const long double e : {0.0L, 0.6L, 0.9L}) {
     const Orbit start{{1 - e, 0, 0}, {0, std::sqrt((1 + e) / (1 - e)), 0}};
     const Orbit end = exact_orbit(1, start, 2 * kPi * 10000);
-    // The end of the time itself is rounded, by 1e4 * 2.5e-19.
-    EXPECT_LT(static_cast<double>(glm::length(end.position - start.position)), 1e-13) << "e " << e;
+    // The end of the time itself is rounded, and so is the axis of a narrow ellipse.
+    EXPECT_LT(static_cast<double>(glm::length(end.position - start.position)), 3e-12) << "e " << e;
     const long double half = glm::length(exact_orbit(1, start, kPi).position);
     EXPECT_NEAR(static_cast<double>(half - (1 + e)), 0, 1e-17) << "e " << e;
   }
