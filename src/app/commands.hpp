@@ -74,6 +74,16 @@ struct BenchOptions {
 };
 int bench_frames_command(const BenchOptions& options);
 
+struct StressOptions {
+  std::vector<std::string> cases;  // names; empty for all that are not slow
+  std::string output;              // folder; empty for none
+  std::string theme = "light";
+  std::string backend = "auto";  // auto, osmesa, egl
+  bool list = false;
+  bool full = false;  // the slow ones, too
+  bool json = false;
+};
+int stress_command(const StressOptions& options);
 // Error of antialiasing against milliseconds a frame.
 struct MeasurePicturesOptions {
   std::vector<std::string> files;  // scenarios; empty for three of the lecture's

@@ -40,14 +40,15 @@ void Plan::prepare(std::size_t index) {
   prepared.invariants = std::make_unique<Invariants>(scenario);
   if (scenario.problem) make_yardstick(scenario);  // is it the problem that it claims to be?
   const std::vector<double> steps = steps_for(scenario, prepared.course);
-  prepared.finest = *std::ranges::min_element(steps);
+  prepared.finest = steps.front();
   for (const std::size_t contestant : contestants_for(scenario)) {
     const double coarse = steps.front();
-    const double first =
-        estimated_seconds(scenario, prepared.course, *contestants_[contestant], coarse);
+    per_step_[{index, contestant}] =
+        estimated_seconds(scenario, prepared.course, *contestants_[contestant], coarse) /
+        static_cast<double>(prepared.course.steps(coarse));
     for (const double step : steps) {
-      const Job job{index, contestant, step, first * coarse / step};
-      (job.seconds > longest() ? left_out_ : jobs_).push_back(job);
+      jobs_.push_back({index, contestant, step});
+      if (!is_too_long(jobs_.back())) prepared.finest = std::min(prepared.finest, step);
     }
   }
 }
@@ -93,13 +94,18 @@ double Plan::longest() const {
 }
 
 const TimingRule& Plan::timing(const Job& job) const {
-  if (job.seconds > kTooLongToRepeat) return kOnce;
+  if (seconds(job) > kTooLongToRepeat) return kOnce;
   return options_.effort == Effort::quick ? kQuick : kGood;
 }
 
 double Plan::seconds(const Job& job) const {
+  return per_step_.at({job.scenario, job.contestant}) *
+         static_cast<double>(prepared_[job.scenario].course.steps(job.step));
+}
+
+double Plan::seconds_with_repeats(const Job& job) const {
   const TimingRule& rule = timing(job);
-  return job.seconds + rule.repeats * std::max(job.seconds, rule.least_seconds);
+  return seconds(job) + rule.repeats * std::max(seconds(job), rule.least_seconds);
 }
 
 std::optional<Row> Plan::run(const Job& job, const std::function<bool()>& stop) {
@@ -107,8 +113,12 @@ std::optional<Row> Plan::run(const Job& job, const std::function<bool()>& stop) 
   if (!prepared.reference)
     prepared.reference =
         reference_for(scenario(job), prepared.course, prepared.finest / kFinerReference);
-  return measure(scenario(job), prepared.course, contestant(job), job.step, *prepared.reference,
-                 *prepared.invariants, timing(job), stop);
+  std::optional<Row> row = measure(scenario(job), prepared.course, contestant(job), job.step,
+                                   *prepared.reference, *prepared.invariants, timing(job), stop);
+  if (row && row->timing.repeats > 0)
+    per_step_[{job.scenario, job.contestant}] =
+        row->timing.median / static_cast<double>(prepared.course.steps(job.step));
+  return row;
 }
 
 }  // namespace lantern

@@ -30,8 +30,7 @@ struct PlanOptions {
 struct Job {
   std::size_t scenario = 0;  // of the plan's
   std::size_t contestant = 0;
-  double step = 0;     // fitted
-  double seconds = 0;  // of one run, estimated
+  double step = 0;  // fitted
 };
 
 class Plan {
@@ -42,10 +41,12 @@ class Plan {
   Plan(PlanOptions options, const std::function<void(const Scenario&)>& told);
 
   const std::vector<Job>& jobs() const { return jobs_; }
-  const std::vector<Job>& left_out() const { return left_out_; }  // too long
+  // One run of it, estimated: from its first milliseconds, and, once one was run, from the last
+  // run of the same contestant on the same scenario.
+  double seconds(const Job& job) const;
+  double seconds_with_repeats(const Job& job) const;
+  bool is_too_long(const Job& job) const { return seconds(job) > longest(); }
   const std::vector<std::string>& missing_peers() const { return missing_peers_; }
-  const TimingRule& timing(const Job& job) const;
-  double seconds(const Job& job) const;  // with all repeats, estimated
 
   const Scenario& scenario(const Job& job) const { return options_.scenarios[job.scenario]; }
   const Contestant& contestant(const Job& job) const { return *contestants_[job.contestant]; }
@@ -58,13 +59,14 @@ class Plan {
     Course course;
     std::unique_ptr<Invariants> invariants;
     std::optional<Reference> reference;
-    double finest = 0;  // step
+    double finest = 0;  // step that is run
   };
 
   void prepare(std::size_t scenario);
   std::vector<std::size_t> contestants_for(const Scenario& scenario);
   std::vector<double> steps_for(const Scenario& scenario, const Course& course) const;
   double longest() const;
+  const TimingRule& timing(const Job& job) const;
 
   PlanOptions options_;
   std::vector<Prepared> prepared_;
@@ -72,7 +74,9 @@ class Plan {
   std::map<std::string, std::size_t> by_name_;
   std::size_t first_peer_ = 0, peers_ = 0;
   std::vector<std::string> missing_peers_;
-  std::vector<Job> jobs_, left_out_;
+  std::vector<Job> jobs_;
+  std::map<std::pair<std::size_t, std::size_t>, double>
+      per_step_;  // seconds, by scenario, contestant
 };
 
 }  // namespace lantern

@@ -106,9 +106,9 @@ void evaluate(const Scenario& scenario, const Course& course, const Contestant& 
 void judge(Row& row) {
   if (row.status != Status::ok) return;
   for (const Norm& norm : row.norms)
-    if (!std::isfinite(norm.value)) {
+    if (!std::isfinite(norm.value) || (norm.name == "traj" && norm.value > kBeyondSense)) {
       row.status = Status::diverged;
-      row.reason = fmt::format("the error '{}' is beyond all numbers", norm.name);
+      row.reason = fmt::format("the error '{}' grew to {:.3g}", norm.name, norm.value);
     }
   if (row.status == Status::ok && row.drift.energy && !(*row.drift.energy < kBeyondSense)) {
     row.status = Status::diverged;

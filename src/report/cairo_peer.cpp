@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "draw/font.hpp"
-#include "render/library.hpp"
+#include "base/library.hpp"
 
 namespace lantern {
 
