@@ -1,6 +1,7 @@
 // The subcommands: what each is told, and its exit code. Reading the command line is in main.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,22 @@ struct CompareOptions {
   bool json = false;
 };
 int compare_command(const CompareOptions& options);
+
+struct MeasureOptions {
+  std::vector<std::string> problems;  // names, families or files; empty for all
+  std::string output = "output/measure";
+  std::vector<std::string> methods;  // empty for those of each problem
+  std::vector<double> steps;         // seconds; empty for those of each problem
+  bool quick = false;
+  bool full = false;
+  std::optional<double> longest;  // seconds of one run; longer ones are left out
+  bool peers = true;
+  std::string theme = "light";
+  std::string backend = "auto";
+  bool list = false;
+  bool json = false;
+};
+int measure_command(const MeasureOptions& options);
 
 struct BenchOptions {
   std::string scenario = "scenarios/ghost_quadtree.toml";

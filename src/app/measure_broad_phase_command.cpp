@@ -20,15 +20,15 @@ std::vector<BoxScene> scenes_of(const MeasureBroadPhaseOptions& options) {
   return scenes;
 }
 
-std::vector<std::pair<std::string, DrawList>> pages_of(const std::vector<BroadPhaseCost>& rows,
-                                                       const std::vector<BoxScene>& scenes) {
-  std::vector<std::pair<std::string, DrawList>> pages;
+std::vector<ReportPage> pages_of(const std::vector<BroadPhaseCost>& rows,
+                                 const std::vector<BoxScene>& scenes) {
+  std::vector<ReportPage> pages;
   for (const BoxScene& scene : scenes)
     for (const BroadPhaseKind kind : kBroadPhaseKinds)
       if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
           best != nullptr && best->has_settings())
-        pages.emplace_back(fmt::format("broad_phase_{}_{}", scene.name, name_of(kind)),
-                           draw_broad_phase_page(rows, scene, kind));
+        pages.push_back({fmt::format("broad_phase_{}_{}", scene.name, name_of(kind)),
+                         draw_broad_phase_page(rows, scene, kind)});
   return pages;
 }
 
@@ -40,15 +40,20 @@ int measure_broad_phase_command(const MeasureBroadPhaseOptions& options) {
   BroadPhaseCostConfig config;
   if (options.full) config.timing = {15, 0.05};
   std::vector<BroadPhaseCost> rows;
+  std::size_t all = 0, done = 0;
+  for (const BoxScene& scene : scenes) all += broad_phase_rows(scene, config);
   std::uint64_t wrong = 0;
-  for (const BoxScene& scene : scenes) {
-    say(fmt::format("{}: {} structures and settings, each timed {} times", scene.name,
-                    broad_phase_rows(scene, config), config.timing.repeats));
-    const std::vector<BroadPhaseCost> more =
-        measure_broad_phases(scene, config, [] { return !interrupted(); });
-    if (interrupted()) return kInterrupted;
-    for (const BroadPhaseCost& row : more) wrong += row.counts.missed + row.counts.invented;
-    rows.insert(rows.end(), more.begin(), more.end());
+  {
+    Progress progress("measure broad_phase", all, "rows");
+    for (const BoxScene& scene : scenes) {
+      const std::vector<BroadPhaseCost> more = measure_broad_phases(scene, config, [&] {
+        progress.done(++done);
+        return !interrupted();
+      });
+      if (interrupted()) return kInterrupted;
+      for (const BroadPhaseCost& row : more) wrong += row.counts.missed + row.counts.invented;
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
   }
   const std::string table = to_table(rows, scenes), json = to_json(rows, scenes);
   folder.write("broad_phase.txt", table);

@@ -56,15 +56,23 @@ int measure_pictures_command(const MeasurePicturesOptions& options) {
   }
   say(fmt::format("{} pictures of {} x {}, each against one of 16 x 16 times as many pixels",
                   scenes.size(), config.width, config.height));
-  const PictureReport report = measure_pictures(scenes, config, [] { return !interrupted(); });
+  PictureReport report;
+  {
+    Progress progress("measure pictures", kPictureRows * scenes.size(), "rows");
+    std::uint64_t done = 0;
+    report = measure_pictures(scenes, config, [&] {
+      progress.done(++done);
+      return !interrupted();
+    });
+  }
   if (interrupted()) return kInterrupted;
   const std::string table = to_table(report), json = to_json(report);
   folder.write("pictures.txt", table);
   folder.write("pictures.csv", to_csv(report));
   folder.write("pictures.json", json);
-  std::vector<std::pair<std::string, DrawList>> pages;
+  std::vector<ReportPage> pages;
   for (const std::string& scene : report.scenes)
-    pages.emplace_back("pictures_" + scene, page_of(picture_plot(report, scene)));
+    pages.push_back({"pictures_" + scene, page_of(picture_plot(report, scene))});
   folder.draw(pages, options.theme);
   write_stdout(options.json ? json : table);
   return kGood;

@@ -1,13 +1,12 @@
-// A folder for a measurement's files.
+// A folder for a report's files.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "draw/draw_list.hpp"
+#include "report/pictures.hpp"
 
 namespace lantern {
 
@@ -18,11 +17,12 @@ class ReportFolder {
   explicit ReportFolder(const std::string& path);
 
   bool wanted() const { return !path_.empty(); }
-  void write(std::string_view name, std::string_view bytes) const;
+  const std::filesystem::path& path() const { return path_; }
 
-  // Pages of 1600 x 900 as PNG, by file names without ending.
-  void draw(const std::vector<std::pair<std::string, DrawList>>& pages,
-            const std::string& theme) const;
+  void write(std::string_view name, std::string_view bytes) const;
+  // As SVG and PNG; throws BackendError, when the SVG files are there, if there is no OpenGL.
+  void draw(const std::vector<ReportPage>& pages, const std::string& theme,
+            const std::string& backend = "auto") const;
 
  private:
   std::filesystem::path path_;

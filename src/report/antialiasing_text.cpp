@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/json_writer.hpp"
 #include "draw/number_text.hpp"
 #include "report/antialiasing.hpp"
+#include "report/pareto.hpp"
 
 namespace lantern {
 namespace {
@@ -20,16 +20,11 @@ const PictureRow* row_of(const PictureReport& report, const std::string& scene,
   return nullptr;
 }
 
-// Of the timed rows those that none beats in both time and error, ascending in time.
 std::vector<Vec<2>> front_of(const std::vector<const PictureRow*>& rows) {
-  std::vector<Vec<2>> points;
+  std::vector<Vec<2>> points, front;
   for (const PictureRow* row : rows)
     if (is_timed(*row)) points.push_back({milliseconds(*row), row->error.rms});
-  std::sort(points.begin(), points.end(),
-            [](const Vec<2>& a, const Vec<2>& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<Vec<2>> front;
-  for (const Vec<2>& point : points)
-    if (front.empty() || point.y < front.back().y) front.push_back(point);
+  for (const std::size_t i : pareto_front(points)) front.push_back(points[i]);
   return front;
 }
 
