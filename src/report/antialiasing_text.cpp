@@ -16,7 +16,8 @@ bool is_timed(const PictureRow& row) { return row.timing.repeats > 0; }
 const PictureRow* row_of(const PictureReport& report, const std::string& scene,
                          const std::string& family, const std::string& choice) {
   for (const PictureRow& row : report.rows)
-    if (row.scene == scene && row.family == family && row.choice == choice) return &row;
+    if (row.scene == scene && row.family == family && row.choice == choice && row.part.empty())
+      return &row;
   return nullptr;
 }
 
@@ -33,7 +34,7 @@ std::vector<Vec<2>> front_of(const std::vector<const PictureRow*>& rows) {
 Plot picture_plot(const PictureReport& report, const std::string& scene) {
   std::vector<const PictureRow*> rows;
   for (const PictureRow& row : report.rows)
-    if (row.scene == scene) rows.push_back(&row);
+    if (row.scene == scene && row.part.empty()) rows.push_back(&row);
   Plot plot;
   plot.title = fmt::format("Antialiasing of {} at {} × {}", scene, report.width, report.height);
   plot.x_name = "milliseconds a frame";
@@ -96,8 +97,10 @@ std::string to_table(const PictureReport& report) {
                         "worst", "strays", "ms", "least", "iqr");
     for (const PictureRow& row : report.rows) {
       if (row.scene != scene) continue;
-      text += fmt::format("  {:<20}{:>8.3f}{:>8.3f}{:>8.1f}{:>8}", row.family + " " + row.choice,
-                          row.error.mean, row.error.rms, row.error.worst, row.error.strays);
+      const std::string name =
+          row.part.empty() ? row.family + " " + row.choice : row.part + ", " + row.family;
+      text += fmt::format("  {:<20}{:>8.3f}{:>8.3f}{:>8.1f}{:>8}", name, row.error.mean,
+                          row.error.rms, row.error.worst, row.error.strays);
       text += is_timed(row) ? fmt::format("{:>10.2f}{:>10.2f}{:>8.2f}\n", milliseconds(row),
                                           1e3 * row.timing.least, 1e3 * row.timing.spread)
                             : fmt::format("{:>10}\n", "not timed");
@@ -109,14 +112,14 @@ std::string to_table(const PictureReport& report) {
 
 std::string to_csv(const PictureReport& report) {
   std::string text =
-      "scene,family,choice,version,width,height,edge_pixels,error_mean,error_rms,error_worst,"
+      "scene,part,family,choice,version,width,height,edge_pixels,error_mean,error_rms,error_worst,"
       "strays,repeats,seconds_median,seconds_least,seconds_iqr\n";
   for (const PictureRow& row : report.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6g},{:.6g},{:.6g}\n",
-                        row.scene, row.family, row.choice, row.version, report.width, report.height,
-                        row.error.edge_pixels, row.error.mean, row.error.rms, row.error.worst,
-                        row.error.strays, row.timing.repeats, row.timing.median, row.timing.least,
-                        row.timing.spread);
+    text += fmt::format("{},{},{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6g},{:.6g},{:.6g}\n",
+                        row.scene, row.part, row.family, row.choice, row.version, report.width,
+                        report.height, row.error.edge_pixels, row.error.mean, row.error.rms,
+                        row.error.worst, row.error.strays, row.timing.repeats, row.timing.median,
+                        row.timing.least, row.timing.spread);
   return text;
 }
 
@@ -129,7 +132,8 @@ std::string to_json(const PictureReport& report) {
   for (const std::string& scene : report.scenes) json.value(picture_sentence(report, scene));
   json.end_array().line().key("rows").begin_array();
   for (const PictureRow& row : report.rows) {
-    json.line().begin_object().member("scene", row.scene).member("family", row.family);
+    json.line().begin_object().member("scene", row.scene).member("part", row.part);
+    json.member("family", row.family);
     json.member("choice", row.choice).member("version", row.version);
     json.key("error").begin_object().member("edge_pixels", row.error.edge_pixels);
     json.member("mean", row.error.mean).member("rms", row.error.rms);

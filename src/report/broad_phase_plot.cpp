@@ -199,18 +199,18 @@ class Page {
     const TextStyle plain{20, Weight::regular, Role::ink, Role::none};
     const TextStyle strong{20, Weight::semibold, Role::lit_ink, Role::none};
     const double right = place.hi.x, middle = with_time ? right - 120 : right;
-    const double step = (place.hi.y - place.lo.y - 34) / 6;
+    const double step = scene_.dimension() == 3 ? 36 : 42;
     double y = place.lo.y + head.size;
-    labels_.add("The same scene otherwise", {{place.lo.x, y}, 0}, head, place);
+    labels_.add("Cheapest capacity / limit", {{place.lo.x, y}, 0}, head, place);
     const TextStyle quiet{18, Weight::regular, Role::quiet_ink, Role::none};
-    labels_.add("work", {{middle, y}, 1}, quiet, place);
+    labels_.add("tests", {{middle, y}, 1}, quiet, place);
     if (with_time) labels_.add("time", {{right, y}, 1}, quiet, place);
     y += 34;
     for (const BroadPhaseKind kind : kBroadPhaseKinds) {
       const BroadPhaseCost* row = cheapest(rows_, scene_.name, kind, CostBy::work);
       if (row == nullptr) continue;
       const TextStyle& style = kind == kind_ ? strong : plain;
-      const std::string name = row->has_settings() ? fmt::format("{}, {} / {}", words_of(kind),
+      const std::string name = row->has_settings() ? fmt::format("{} {} / {}", words_of(kind),
                                                                  row->capacity, row->depth_limit)
                                                    : words_of(kind);
       const std::string work = number_text(work_of(*row));
