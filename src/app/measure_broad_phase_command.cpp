@@ -40,15 +40,20 @@ int measure_broad_phase_command(const MeasureBroadPhaseOptions& options) {
   BroadPhaseCostConfig config;
   if (options.full) config.timing = {15, 0.05};
   std::vector<BroadPhaseCost> rows;
+  std::size_t all = 0, done = 0;
+  for (const BoxScene& scene : scenes) all += broad_phase_rows(scene, config);
   std::uint64_t wrong = 0;
-  for (const BoxScene& scene : scenes) {
-    say(fmt::format("{}: {} structures and settings, each timed {} times", scene.name,
-                    broad_phase_rows(scene, config), config.timing.repeats));
-    const std::vector<BroadPhaseCost> more =
-        measure_broad_phases(scene, config, [] { return !interrupted(); });
-    if (interrupted()) return kInterrupted;
-    for (const BroadPhaseCost& row : more) wrong += row.counts.missed + row.counts.invented;
-    rows.insert(rows.end(), more.begin(), more.end());
+  {
+    Progress progress("measure broad_phase", all, "rows");
+    for (const BoxScene& scene : scenes) {
+      const std::vector<BroadPhaseCost> more = measure_broad_phases(scene, config, [&] {
+        progress.done(++done);
+        return !interrupted();
+      });
+      if (interrupted()) return kInterrupted;
+      for (const BroadPhaseCost& row : more) wrong += row.counts.missed + row.counts.invented;
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
   }
   const std::string table = to_table(rows, scenes), json = to_json(rows, scenes);
   folder.write("broad_phase.txt", table);

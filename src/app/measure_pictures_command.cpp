@@ -56,7 +56,15 @@ int measure_pictures_command(const MeasurePicturesOptions& options) {
   }
   say(fmt::format("{} pictures of {} x {}, each against one of 16 x 16 times as many pixels",
                   scenes.size(), config.width, config.height));
-  const PictureReport report = measure_pictures(scenes, config, [] { return !interrupted(); });
+  PictureReport report;
+  {
+    Progress progress("measure pictures", kPictureRows * scenes.size(), "rows");
+    std::uint64_t done = 0;
+    report = measure_pictures(scenes, config, [&] {
+      progress.done(++done);
+      return !interrupted();
+    });
+  }
   if (interrupted()) return kInterrupted;
   const std::string table = to_table(report), json = to_json(report);
   folder.write("pictures.txt", table);

@@ -40,7 +40,7 @@ std::uint64_t count_candidates(const BroadPhase<D>& broad_phase, std::span<const
   return met.size();
 }
 
-// Halves the bodies at the median of their centres, on the axes in turn, as a kD-tree would.
+// Halves the bodies at the median of their centres, across the axis of their widest spread.
 template <int D>
 class MedianPlanes {
  public:
@@ -55,7 +55,7 @@ class MedianPlanes {
  private:
   void halve(std::vector<BodyId> bodies, std::uint32_t parent, bool front, std::uint32_t depth) {
     if (bodies.size() <= capacity_ || depth == most_depth_) return;
-    const int axis = static_cast<int>(depth % D);
+    const int axis = widest_axis(bodies);
     const auto at = [&](BodyId i) { return boxes_[i].box.center()[axis]; };
     std::sort(bodies.begin(), bodies.end(),
               [&](BodyId a, BodyId b) { return at(a) != at(b) ? at(a) < at(b) : a < b; });
@@ -68,6 +68,20 @@ class MedianPlanes {
     planes_.push_back({{normal, offset}, parent, front});
     halve({bodies.begin(), middle}, own, false, depth + 1);
     halve({middle, bodies.end()}, own, true, depth + 1);
+  }
+
+  // Along which the centres are spread most.
+  int widest_axis(const std::vector<BodyId>& bodies) const {
+    const Vec<D> first = boxes_[bodies[0]].box.center();
+    Box<D> around{first, first};
+    for (const BodyId i : bodies) {
+      const Vec<D> center = boxes_[i].box.center();
+      around = united(around, {center, center});
+    }
+    int widest = 0;
+    for (int i = 1; i < D; ++i)
+      if (around.size()[i] > around.size()[widest]) widest = i;
+    return widest;
   }
 
   std::span<const Proxy<D>> boxes_;
@@ -88,7 +102,8 @@ void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
   const Counters tree =
       broad_phase.with_dynamic([](const auto& structure) { return structure.counters(); });
   c.entries += tree.entries;
-  c.box_tests += tree.box_tests;
+  // What the sweep calls its tests are those of pairs, which are counted above.
+  if (cost.kind != BroadPhaseKind::sort_and_sweep) c.box_tests += tree.box_tests;
   c.nodes += tree.nodes;
   cost.depth = std::max(cost.depth, tree.depth);
 }
@@ -207,6 +222,13 @@ const BroadPhaseCost* cheapest(std::span<const BroadPhaseCost> rows, const std::
     if (row.scene == scene && row.kind == kind && (best == nullptr || before(row, *best)))
       best = &row;
   return best;
+}
+
+bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& row) {
+  return std::any_of(rows.begin(), rows.end(), [&](const BroadPhaseCost& other) {
+    return other.scene == row.scene && other.kind == row.kind && other.capacity == row.capacity &&
+           other.depth_limit < row.depth_limit && other.depth > row.depth;
+  });
 }
 
 const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::string& scene,

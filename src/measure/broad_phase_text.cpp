@@ -26,11 +26,30 @@ std::string settings_of(const BroadPhaseCost& row) {
 
 std::string table_row(const BroadPhaseCost& row) {
   return fmt::format(
-      "  {:<15}{:<28}{:>12}{:>10}{:>10.2f}{:>9.2f}{:>9}{:>7}{:>10.3f}{:>10.3f}{:>8.3f}\n",
-      name_of(row.kind), settings_of(row), row.counts.pair_tests, row.counts.entries,
-      row.false_per_true(), row.entries_per_body(), row.counts.nodes,
+      "  {:<15}{:<28}{:>12}{:>12}{:>9}{:>12.2f}{:>10.2f}{:>8}{:>7}{:>10.3f}{:>10.3f}{:>9.3f}\n",
+      name_of(row.kind), settings_of(row), row.counts.pair_tests, row.counts.box_tests,
+      row.counts.entries, row.false_per_true(), row.entries_per_body(), row.counts.nodes,
       row.counts.missed + row.counts.invented, 1e3 * row.timing.median, 1e3 * row.timing.least,
       1e3 * row.timing.spread);
+}
+
+// What smallest and largest leaves cost more, if it can be told.
+std::string neighbour_words(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& best) {
+  std::uint32_t most = 1;
+  for (const BroadPhaseCost& row : rows) most = std::max(most, row.capacity);
+  std::string text;
+  const auto beside = [&](std::uint32_t capacity, std::uint64_t BroadPhaseCounts::*count,
+                          const char* words) {
+    const BroadPhaseCost* row = row_of(rows, best.scene, best.kind, capacity, best.depth_limit);
+    if (row == nullptr || best.counts.*count == 0) return;
+    const double ratio =
+        static_cast<double>(row->counts.*count) / static_cast<double>(best.counts.*count);
+    if (ratio > 1.05)
+      text += fmt::format("; capacity {} needs {:.1f} times as many {}", capacity, ratio, words);
+  };
+  beside(1, &BroadPhaseCounts::entries, "entries");
+  beside(most, &BroadPhaseCounts::pair_tests, "pair tests");
+  return text;
 }
 
 }  // namespace
@@ -39,29 +58,27 @@ std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene&
                            BroadPhaseKind kind) {
   const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
   if (best == nullptr) return "";
-  const auto tests = [](const BroadPhaseCost& row) { return row.counts.pair_tests / row.updates; };
-  std::string text = fmt::format("For {}: capacity {}, depth limit {}: {} tests", scene.words,
-                                 best->capacity, best->depth_limit, grouped(tests(*best)));
+  const auto work = [](const BroadPhaseCost& row) {
+    return grouped((row.counts.work() + row.updates / 2) / row.updates);
+  };
+  std::string text = fmt::format("For {}: capacity {}, depth limit {}: {} comparisons", scene.words,
+                                 best->capacity, best->depth_limit, work(*best));
   if (best->updates > 1) text += " an update";
-  const BroadPhaseCost* one = row_of(rows, scene.name, kind, 1, best->depth_limit);
-  if (one != nullptr && one != best && best->counts.entries > 0)
-    text += fmt::format(
-        "; capacity 1 needs {:.1f} times as many entries",
-        static_cast<double>(one->counts.entries) / static_cast<double>(best->counts.entries));
+  text += neighbour_words(rows, *best);
   for (const BroadPhaseKind other : {BroadPhaseKind::sort_and_sweep, BroadPhaseKind::brute_force})
     if (const BroadPhaseCost* row = cheapest(rows, scene.name, other, CostBy::work))
       text += fmt::format("; {} {}",
                           other == BroadPhaseKind::brute_force ? "brute force" : "sort and sweep",
-                          grouped(tests(*row)));
+                          work(*row));
   return text + ".";
 }
 
 // Of the trees only the cheapest cells; all of them are in the files.
 std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes) {
   std::string text =
-      fmt::format("  {:<15}{:<28}{:>12}{:>10}{:>10}{:>9}{:>9}{:>7}{:>10}{:>10}{:>8}\n", "structure",
-                  "cheapest settings", "pair tests", "entries", "false/true", "ent/body", "nodes",
-                  "wrong", "ms", "least", "iqr");
+      fmt::format("  {:<15}{:<28}{:>12}{:>12}{:>9}{:>12}{:>10}{:>8}{:>7}{:>10}{:>10}{:>9}\n",
+                  "structure", "cheapest settings", "pair tests", "box tests", "entries",
+                  "false/true", "ent/body", "nodes", "wrong", "ms", "least", "iqr");
   for (const BoxScene& scene : scenes) {
     std::string lines;
     for (const BroadPhaseKind kind : kBroadPhaseKinds)

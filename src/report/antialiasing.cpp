@@ -21,6 +21,18 @@ void nudge(DrawList& list) {
       for (Vec<2>& point : polygon->points) point += Vec<2>(1e-7);
 }
 
+constexpr std::array<const char*, std::variant_size_v<DrawShape>> kParts = {"rects", "lines",
+                                                                            "polygons", "texts"};
+
+// Shapes of one kind alone.
+DrawList only(const DrawList& list, std::size_t kind) {
+  DrawList part;
+  part.page = list.page;
+  for (const DrawShape& shape : list.shapes)
+    if (shape.index() == kind) part.shapes.push_back(shape);
+  return part;
+}
+
 class Measurer {
  public:
   Measurer(const PictureScene& scene, const PictureConfig& config, const Theme& theme)
@@ -63,13 +75,33 @@ class Measurer {
     return row;
   }
 
+  // One kind of shape by coverage, and by cairo if there is one. None if there is no such shape.
+  std::vector<PictureRow> part(std::size_t kind, bool with_cairo) const {
+    const DrawList list = only(list_, kind);
+    if (list.shapes.empty()) return {};
+    const int width = config_.width, height = config_.height;
+    const ReferencePicture reference =
+        reference_picture(list, theme_, width, height, config_.backend);
+    Image image;
+    Renderer(Context::create(config_.backend), width, height).draw(list, theme_, false, image);
+    std::vector<PictureRow> rows = {
+        {name_, "coverage", "1 x 1", "", error_of(image, reference), {}, kParts[kind]}};
+    if (!with_cairo) return rows;
+    CairoPeer peer(width, height);
+    peer.draw(list, theme_);
+    peer.read(image);
+    rows.push_back(
+        {name_, "cairo", "default", peer.version(), error_of(image, reference), {}, kParts[kind]});
+    return rows;
+  }
+
   PictureRow samples(std::size_t which) const {
     return made("samples", std::to_string(kSampleCounts[which]), reference_.sampled[which]);
   }
 
  private:
   PictureRow made(std::string family, std::string choice, const Image& image) const {
-    return {name_, std::move(family), std::move(choice), "", error_of(image, reference_), {}};
+    return {name_, std::move(family), std::move(choice), "", error_of(image, reference_), {}, ""};
   }
 
   std::string name_;
@@ -97,6 +129,9 @@ bool measure_scene(Measurer& scene, bool with_cairo, const std::function<bool()>
     if (with_cairo && !add(scene.cairo(antialias, choice))) return false;
   for (std::size_t i = 0; i < std::size(kSampleCounts); ++i)
     if (!add(scene.samples(i))) return false;
+  for (std::size_t kind = 0; kind < kParts.size(); ++kind)
+    for (PictureRow& row : scene.part(kind, with_cairo))
+      if (!add(std::move(row))) return false;
   return true;
 }
 

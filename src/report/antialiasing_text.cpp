@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/json_writer.hpp"
 #include "draw/number_text.hpp"
 #include "report/antialiasing.hpp"
+#include "report/pareto.hpp"
 
 namespace lantern {
 namespace {
@@ -16,20 +16,16 @@ bool is_timed(const PictureRow& row) { return row.timing.repeats > 0; }
 const PictureRow* row_of(const PictureReport& report, const std::string& scene,
                          const std::string& family, const std::string& choice) {
   for (const PictureRow& row : report.rows)
-    if (row.scene == scene && row.family == family && row.choice == choice) return &row;
+    if (row.scene == scene && row.family == family && row.choice == choice && row.part.empty())
+      return &row;
   return nullptr;
 }
 
-// Of the timed rows those that none beats in both time and error, ascending in time.
 std::vector<Vec<2>> front_of(const std::vector<const PictureRow*>& rows) {
-  std::vector<Vec<2>> points;
+  std::vector<Vec<2>> points, front;
   for (const PictureRow* row : rows)
     if (is_timed(*row)) points.push_back({milliseconds(*row), row->error.rms});
-  std::sort(points.begin(), points.end(),
-            [](const Vec<2>& a, const Vec<2>& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<Vec<2>> front;
-  for (const Vec<2>& point : points)
-    if (front.empty() || point.y < front.back().y) front.push_back(point);
+  for (const std::size_t i : pareto_front(points)) front.push_back(points[i]);
   return front;
 }
 
@@ -38,7 +34,7 @@ std::vector<Vec<2>> front_of(const std::vector<const PictureRow*>& rows) {
 Plot picture_plot(const PictureReport& report, const std::string& scene) {
   std::vector<const PictureRow*> rows;
   for (const PictureRow& row : report.rows)
-    if (row.scene == scene) rows.push_back(&row);
+    if (row.scene == scene && row.part.empty()) rows.push_back(&row);
   Plot plot;
   plot.title = fmt::format("Antialiasing of {} at {} × {}", scene, report.width, report.height);
   plot.x_name = "milliseconds a frame";
@@ -101,8 +97,10 @@ std::string to_table(const PictureReport& report) {
                         "worst", "strays", "ms", "least", "iqr");
     for (const PictureRow& row : report.rows) {
       if (row.scene != scene) continue;
-      text += fmt::format("  {:<20}{:>8.3f}{:>8.3f}{:>8.1f}{:>8}", row.family + " " + row.choice,
-                          row.error.mean, row.error.rms, row.error.worst, row.error.strays);
+      const std::string name =
+          row.part.empty() ? row.family + " " + row.choice : row.part + ", " + row.family;
+      text += fmt::format("  {:<20}{:>8.3f}{:>8.3f}{:>8.1f}{:>8}", name, row.error.mean,
+                          row.error.rms, row.error.worst, row.error.strays);
       text += is_timed(row) ? fmt::format("{:>10.2f}{:>10.2f}{:>8.2f}\n", milliseconds(row),
                                           1e3 * row.timing.least, 1e3 * row.timing.spread)
                             : fmt::format("{:>10}\n", "not timed");
@@ -114,14 +112,14 @@ std::string to_table(const PictureReport& report) {
 
 std::string to_csv(const PictureReport& report) {
   std::string text =
-      "scene,family,choice,version,width,height,edge_pixels,error_mean,error_rms,error_worst,"
+      "scene,part,family,choice,version,width,height,edge_pixels,error_mean,error_rms,error_worst,"
       "strays,repeats,seconds_median,seconds_least,seconds_iqr\n";
   for (const PictureRow& row : report.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6g},{:.6g},{:.6g}\n",
-                        row.scene, row.family, row.choice, row.version, report.width, report.height,
-                        row.error.edge_pixels, row.error.mean, row.error.rms, row.error.worst,
-                        row.error.strays, row.timing.repeats, row.timing.median, row.timing.least,
-                        row.timing.spread);
+    text += fmt::format("{},{},{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6g},{:.6g},{:.6g}\n",
+                        row.scene, row.part, row.family, row.choice, row.version, report.width,
+                        report.height, row.error.edge_pixels, row.error.mean, row.error.rms,
+                        row.error.worst, row.error.strays, row.timing.repeats, row.timing.median,
+                        row.timing.least, row.timing.spread);
   return text;
 }
 
@@ -134,7 +132,8 @@ std::string to_json(const PictureReport& report) {
   for (const std::string& scene : report.scenes) json.value(picture_sentence(report, scene));
   json.end_array().line().key("rows").begin_array();
   for (const PictureRow& row : report.rows) {
-    json.line().begin_object().member("scene", row.scene).member("family", row.family);
+    json.line().begin_object().member("scene", row.scene).member("part", row.part);
+    json.member("family", row.family);
     json.member("choice", row.choice).member("version", row.version);
     json.key("error").begin_object().member("edge_pixels", row.error.edge_pixels);
     json.member("mean", row.error.mean).member("rms", row.error.rms);

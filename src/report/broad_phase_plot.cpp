@@ -49,7 +49,9 @@ std::string words_of(BroadPhaseKind kind) {
   return "";
 }
 
-std::string ratio_text(double ratio) { return number_text(ratio, ratio < 9.95 ? 1 : 0) + "×"; }
+std::string ratio_text(double ratio) {
+  return ratio < 9.95 ? fmt::format("{:.1f}×", ratio) : number_text(ratio) + "×";
+}
 
 double milliseconds(const BroadPhaseCost& row) { return 1e3 * row.timing.least; }
 
@@ -119,9 +121,13 @@ class Page {
     const bool large = by == CostBy::work;
     const TextStyle head{large ? 23.0 : 20.0, Weight::semibold, Role::ink, Role::none};
     const TextStyle tick{large ? 22.0 : 18.0, Weight::regular, Role::quiet_ink, Role::none};
-    labels_.add(large ? "Boxes compared + entries in leaves, an update"
-                      : fmt::format("Milliseconds an update, least of {}", best.timing.repeats),
-                {{place.lo.x, place.lo.y + head.size}, 0}, head, place);
+    const std::string words =
+        large ? "Box comparisons an update, building and pairing"
+              : fmt::format("Milliseconds an update, least of {}", best.timing.repeats);
+    labels_.add(words, {{place.lo.x, place.lo.y + head.size}, 0}, head, place);
+    if (large)
+      labels_.add("times the cheapest", {{place.hi.x, place.lo.y + head.size}, 1}, tick, place);
+
     const double left = place.lo.x + (large ? 128 : 62);
     const double top = place.lo.y + (large ? 112 : 84);
     const Vec<2> cell((place.hi.x - left) / static_cast<double>(capacities_.size()),
@@ -157,7 +163,12 @@ class Page {
     const Tone& tone = tone_of(ratio);
     list_.shapes.emplace_back(
         RectShape{box, 0, tone.fill, {Role::paper, large ? 3.0 : 2.0, 0}, true});
-    if (&row != &best) return cell_text(ratio_text(ratio), box, large ? 23 : 17.4, tone.ink, false);
+    const bool cut_back = large && was_cut_back(rows_, row);
+    some_cut_back_ |= cut_back;
+    if (&row != &best)
+      return cell_text(ratio_text(ratio) + (cut_back ? " †" : ""), box, large ? 23 : 17.4, tone.ink,
+                       false);
+
     if (!large) return cell_text(short_number(milliseconds(row)), box, 17.4, tone.ink, true);
     cell_text(number_text(work_of(row)), box, 24, tone.ink, true);
   }
@@ -188,18 +199,18 @@ class Page {
     const TextStyle plain{20, Weight::regular, Role::ink, Role::none};
     const TextStyle strong{20, Weight::semibold, Role::lit_ink, Role::none};
     const double right = place.hi.x, middle = with_time ? right - 120 : right;
-    const double step = (place.hi.y - place.lo.y - 34) / 6;
+    const double step = scene_.dimension() == 3 ? 36 : 42;
     double y = place.lo.y + head.size;
-    labels_.add("The same scene otherwise", {{place.lo.x, y}, 0}, head, place);
+    labels_.add("Cheapest capacity / limit", {{place.lo.x, y}, 0}, head, place);
     const TextStyle quiet{18, Weight::regular, Role::quiet_ink, Role::none};
-    labels_.add("work", {{middle, y}, 1}, quiet, place);
+    labels_.add("tests", {{middle, y}, 1}, quiet, place);
     if (with_time) labels_.add("time", {{right, y}, 1}, quiet, place);
     y += 34;
     for (const BroadPhaseKind kind : kBroadPhaseKinds) {
       const BroadPhaseCost* row = cheapest(rows_, scene_.name, kind, CostBy::work);
       if (row == nullptr) continue;
       const TextStyle& style = kind == kind_ ? strong : plain;
-      const std::string name = row->has_settings() ? fmt::format("{}, {} / {}", words_of(kind),
+      const std::string name = row->has_settings() ? fmt::format("{} {} / {}", words_of(kind),
                                                                  row->capacity, row->depth_limit)
                                                    : words_of(kind);
       const std::string work = number_text(work_of(*row));
@@ -221,12 +232,16 @@ class Page {
       labels_.add(line, {{kMargin, y}, 0}, style, place);
       y += 42;
     }
+    if (some_cut_back_)
+      labels_.add("† out of proportion (over 64 entries a body): built with half the depth limit",
+                  {{kMargin, y - 4}, 0}, {20, Weight::regular, Role::quiet_ink, Role::none}, place);
   }
 
   std::span<const BroadPhaseCost> rows_;
   const BoxScene& scene_;
   BroadPhaseKind kind_;
   std::set<std::uint32_t> capacities_, depths_;
+  bool some_cut_back_ = false;
   DrawList list_;
   Labels labels_;
 };

@@ -37,7 +37,6 @@ namespace lantern {
   X(void, line_to, (void*, double, double))                                    \
   X(void, curve_to, (void*, double, double, double, double, double, double))   \
   X(void, arc, (void*, double x, double y, double radius, double, double))     \
-  X(void, rectangle, (void*, double x, double y, double width, double height)) \
   X(void, close_path, (void*))                                                 \
   X(void, fill, (void*))                                                       \
   X(void, fill_preserve, (void*))                                              \
@@ -144,12 +143,15 @@ void CairoPeer::paint(Role fill, const Stroke& stroke, double line_width) {
 }
 
 void CairoPeer::outline(const Box<2>& box, double radius) {
-  if (radius <= 0) {
-    cairo_->rectangle(context_, box.lo.x, box.lo.y, box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+  if (radius <= 0) {  // from the upper right corner, where Lantern's dashes begin, too
+    cairo_->move_to(context_, box.hi.x, box.lo.y);
+    cairo_->line_to(context_, box.hi.x, box.hi.y);
+    cairo_->line_to(context_, box.lo.x, box.hi.y);
+    cairo_->line_to(context_, box.lo.x, box.lo.y);
+    cairo_->close_path(context_);
     return;
   }
   const Vec<2> lo = box.lo + Vec<2>(radius), hi = box.hi - Vec<2>(radius);
-  cairo_->move_to(context_, lo.x, box.lo.y);  // where Lantern's dashes begin, too
   cairo_->arc(context_, hi.x, lo.y, radius, -kQuarter, 0);
   cairo_->arc(context_, hi.x, hi.y, radius, 0, kQuarter);
   cairo_->arc(context_, lo.x, hi.y, radius, kQuarter, 2 * kQuarter);

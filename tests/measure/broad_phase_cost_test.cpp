@@ -58,8 +58,12 @@ TEST(BroadPhaseCost, CandidatesLieBetweenTruePairsAndTests) {
       EXPECT_LE(row.counts.candidates, row.counts.pair_tests) << scene.name;
       EXPECT_LE(row.counts.candidates, all) << "a pair was counted twice in " << scene.name;
       EXPECT_GE(row.counts.entries, kBodies * row.updates) << "a body lies in no leaf";
+      if (row.kind == BroadPhaseKind::sort_and_sweep) {
+        EXPECT_EQ(row.counts.work(), row.counts.pair_tests) << "a pair counts twice";
+      }
       if (row.kind == BroadPhaseKind::brute_force) {
         EXPECT_EQ(row.counts.pair_tests, all);
+        EXPECT_EQ(row.counts.work(), all) << "it compares nothing but pairs";
         EXPECT_EQ(row.counts.false_candidates(), all - row.counts.true_pairs);
       }
     }

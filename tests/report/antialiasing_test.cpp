@@ -1,6 +1,7 @@
 // The measure of antialiasing against areas computed by hand, and against itself.
 #include "report/antialiasing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -205,12 +206,16 @@ TEST(Antialiasing, IdenticalInputGivesIdenticalErrors) {
   config.timing.repeats = 0;
   const auto measure_it = [&] { return measure_pictures(scenes, config, [] { return true; }); };
   const PictureReport first = measure_it(), second = measure_it();
-  ASSERT_GE(first.rows.size(), 6u) << "three of coverage, three of samples";
+  ASSERT_GE(first.rows.size(), 7u) << "three of coverage, three of samples, the polygon alone";
   ASSERT_EQ(first.rows.size(), second.rows.size());
   for (std::size_t i = 0; i < first.rows.size(); ++i) {
     EXPECT_EQ(first.rows[i].error, second.rows[i].error) << first.rows[i].choice;
     EXPECT_EQ(first.rows[i].timing.repeats, 0);
   }
+  // All that there is is a polygon: alone it is the picture.
+  const auto polygon = std::ranges::find(first.rows, "polygons", &PictureRow::part);
+  ASSERT_NE(polygon, first.rows.end());
+  EXPECT_EQ(polygon->error, first.rows[0].error);
   const std::string csv = to_csv(first);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
             first.rows.size() + 1);
@@ -225,12 +230,13 @@ TEST(Antialiasing, APlotHasAPointForEachTimedRow) {
   PictureReport report;
   report.scenes = {"s"};
   Timing timing{5, 0.002, 0.002, 0};
-  report.rows.push_back({"s", "coverage", "1 x 1", "", {10, 0.5, 0.7, 3, 0}, timing});
+  report.rows.push_back({"s", "coverage", "1 x 1", "", {10, 0.5, 0.7, 3, 0}, timing, ""});
   timing.median = 0.02;
-  report.rows.push_back({"s", "coverage", "4 x 4", "", {10, 0.3, 0.4, 2, 0}, timing});
+  report.rows.push_back({"s", "coverage", "4 x 4", "", {10, 0.3, 0.4, 2, 0}, timing, ""});
   timing.median = 0.03;
-  report.rows.push_back({"s", "cairo", "default", "1.16", {10, 0.5, 0.8, 3, 0}, timing});
-  report.rows.push_back({"s", "samples", "1", "", {10, 30, 40, 120, 0}, {}});
+  report.rows.push_back({"s", "cairo", "default", "1.16", {10, 0.5, 0.8, 3, 0}, timing, ""});
+  report.rows.push_back({"s", "samples", "1", "", {10, 30, 40, 120, 0}, {}, ""});
+  report.rows.push_back({"s", "coverage", "1 x 1", "", {10, 0.5, 0.7, 3, 0}, {}, "texts"});
   const Plot plot = picture_plot(report, "s");
   ASSERT_EQ(plot.series.size(), 2u);
   EXPECT_EQ(plot.series[0].points.size(), 2u);
