@@ -95,7 +95,7 @@ class CaseProgress {
 };
 
 StressReport run_all(const std::vector<StressCase>& cases) {
-  StressReport report{kVersion, {}, true};
+  StressReport report{std::string(kVersion), {}, true};
   CaseProgress progress(cases.size());
   for (const StressCase& one : cases) {
     if (interrupted()) break;
