@@ -1,21 +1,25 @@
 # With LANTERN_PCH, the headers that most sources read are parsed once, not 300 times: headers of the
-# language and of packages only, never our own. Such a build does not notice a missing #include of
-# these, so it is off by default: every build without the option is the check, among them the
-# release build of `./run`.
+# language and of packages only, never our own. The compiler then does not notice where an #include
+# of one of these is missing. So a plain build has none, and `./run test` gives the rooms none in its
+# release build, which is the check that each file of a room includes what it uses.
 
-# lantern_headers(TARGET LINKS ... HEADERS ...): TARGET holds nothing but the precompiled headers.
+# lantern_headers(TARGET LINKS ... OPTIONS ... HEADERS ...): TARGET is nothing but these headers,
+# precompiled with these compile options.
 function(lantern_headers target)
-  cmake_parse_arguments(ARG "" "" "LINKS;HEADERS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINKS;OPTIONS;HEADERS" ${ARGN})
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/embedded/${target}.cpp CONTENT "")
   add_library(${target} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/embedded/${target}.cpp)
   target_link_libraries(${target} PRIVATE ${ARG_LINKS})
+  target_compile_options(${target} PRIVATE ${ARG_OPTIONS})
   target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
 endfunction()
 
-# lantern_precompiled(TARGET HEADERS): the sources of TARGET start from those of lantern_headers.
-function(lantern_precompiled target headers)
-  if(LANTERN_PCH)
-    target_precompile_headers(${target} REUSE_FROM ${headers})
+# lantern_precompile(TARGET FOR WHICH FROM HEADERS): the sources of TARGET start from HEADERS where
+# LANTERN_PCH names one of WHICH.
+function(lantern_precompile target)
+  cmake_parse_arguments(ARG "" "FROM" "FOR" ${ARGN})
+  if(LANTERN_PCH IN_LIST ARG_FOR)
+    target_precompile_headers(${target} REUSE_FROM ${ARG_FROM})
   endif()
 endfunction()
 
