@@ -23,8 +23,8 @@ struct ChartType {
   TextStyle tick, name, number;
 };
 
-// The mark of the i-th series, `radius` large, with the panel's tone around it.
-void draw_chart_mark(std::size_t i, const Vec<2>& at, double radius, DrawList& list);
+// The mark of the i-th series in a body's colour, `radius` large, with the panel's tone around it.
+void draw_chart_mark(std::size_t i, int color, const Vec<2>& at, double radius, DrawList& list);
 
 // A count's name as words: "pair tests" of "pair_tests".
 std::string chart_words(std::string name);
