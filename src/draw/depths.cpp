@@ -43,15 +43,18 @@ std::string depth_text(double depth) {
   if (!(depth > 5e-10)) return "0";
   static constexpr struct {
     double size;
+    double from;  // depths, so that nothing is rounded up to the next unit
     const char* name;
-  } kUnits[] = {{1, "m"}, {0.01, "cm"}, {1e-3, "mm"}, {1e-6, "µm"}, {1e-9, "nm"}};
+  } kUnits[] = {{1, 0.995, "m"},
+                {0.01, 0.0995, "cm"},
+                {1e-3, 0.995e-4, "mm"},
+                {1e-6, 0.995e-6, "µm"},
+                {1e-9, 0, "nm"}};
   for (const auto& unit : kUnits) {
-    // Centimetres only where millimetres would have three figures.
-    const double least = unit.size == 0.01 ? 0.0995 : 0.995 * unit.size;
-    if (depth < least && unit.size > 1e-9) continue;
+    if (depth < unit.from) continue;
     const double number = depth / unit.size;
-    return number < 9.95 ? fmt::format("{:.1f} {}", number, unit.name)
-                         : fmt::format("{:.0f} {}", number, unit.name);
+    const int decimals = number < 0.995 ? 2 : number < 9.95 ? 1 : 0;
+    return fmt::format("{:.{}f} {}", number, decimals, unit.name);
   }
   return "0";
 }

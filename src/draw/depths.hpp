@@ -11,7 +11,7 @@
 
 namespace lantern {
 
-// "12 mm", "0.34 mm", "1.5 m": two figures, and a unit that keeps them near 1. "0" when nothing
+// "12 mm", "0.34 mm", "1.5 m": two figures, and a unit that keeps them readable. "0" when nothing
 // overlaps. A unit of the world is taken for a metre.
 std::string depth_text(double depth);
 

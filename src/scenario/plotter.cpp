@@ -6,19 +6,17 @@
 namespace lantern {
 namespace {
 
-// How long the script's parts run at most: each by itself, or all in one. Nothing if that depends
-// on what happens.
-std::optional<double> longest_run(const Scenario& scenario, bool each_part) {
-  double seconds = 0, longest = 0;
+// How long the script runs, or only this part of it. Nothing if that depends on what happens.
+std::optional<double> seconds_of(const Scenario& scenario, const std::string* only) {
+  double seconds = 0;
   std::string part;
   for (const Step& step : scenario.steps) {
-    if (each_part && !step.part.empty() && step.part != part) seconds = 0;
     if (!step.part.empty()) part = step.part;
+    if (only && part != *only) continue;
     if (const auto* run = std::get_if<Run>(&step.verb)) seconds += run->seconds;
     if (std::holds_alternative<Wait>(step.verb)) return std::nullopt;
-    longest = std::max(longest, seconds);
   }
-  return longest > 0 ? std::optional(longest) : std::nullopt;
+  return seconds > 0 ? std::optional(seconds) : std::nullopt;
 }
 
 std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
@@ -31,7 +29,7 @@ Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenari
   chart_.logarithmic = spec_.logarithmic;
   chart_.least = spec_.least;
   chart_.most = spec_.most;
-  if (over_time()) chart_.seconds = longest_run(scenario, spec_.each_part);
+  if (over_time()) chart_.seconds = seconds_of(scenario, spec_.each_part ? &part_ : nullptr);
   if (!spec_.x.empty()) name_series(scenario);
 }
 
@@ -62,6 +60,7 @@ void Plotter::begin_part(const std::string& part, double time) {
   if (!over_time() || !spec_.each_part || part == part_) return;
   part_ = part;
   begun_ = time;
+  chart_.seconds = seconds_of(scenario_, &part_);
   for (FrameSeries& series : chart_.series) series.points.clear();
 }
 
