@@ -74,4 +74,34 @@ struct BenchOptions {
 };
 int bench_frames_command(const BenchOptions& options);
 
+struct StressOptions {
+  std::vector<std::string> cases;  // names; empty for all that are not slow
+  std::string output;              // folder; empty for none
+  std::string theme = "light";
+  std::string backend = "auto";  // auto, osmesa, egl
+  bool list = false;
+  bool full = false;  // the slow ones, too
+  bool json = false;
+};
+int stress_command(const StressOptions& options);
+// Error of antialiasing against milliseconds a frame.
+struct MeasurePicturesOptions {
+  std::vector<std::string> files;  // scenarios; empty for three of the lecture's
+  std::string output;              // folder of table, CSV, JSON and plots; empty: only the table
+  std::string theme = "light";     // of the plots
+  bool full = false;               // 1280 x 720 and 15 repeats instead of 640 x 360 and 5
+  bool json = false;
+};
+int measure_pictures_command(const MeasurePicturesOptions& options);
+
+// Pairs missed, work and time of the broad phases over capacity and depth limit.
+struct MeasureBroadPhaseOptions {
+  std::vector<std::string> files;  // scenarios, whose bodies are measured; empty for seeded scenes
+  std::string output;              // folder of table, CSV, JSON and plots; empty: only the table
+  std::string theme = "light";     // of the plots
+  bool full = false;               // 15 repeats of 50 ms instead of 5 of 2 ms
+  bool json = false;
+};
+int measure_broad_phase_command(const MeasureBroadPhaseOptions& options);
+
 }  // namespace lantern

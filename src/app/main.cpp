@@ -123,6 +123,26 @@ void add_bench(CLI::App& app, BenchOptions& o, Run& run) {
   frames->callback([&] { run = [&] { return bench_frames_command(o); }; });
 }
 
+void add_stress(CLI::App& app, StressOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand(
+      "stress", "What must hold on extreme input, stiff springs and at the limits of stability");
+  c->add_option("CASE", o.cases, "names of cases; the default is all that are not slow");
+  c->add_option("-o,--output", o.output,
+                "folder for stress.csv, stress.json, stability_map.png and .svg")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  c->add_option("--theme", o.theme, "colours of the stability map")
+      ->check(CLI::IsMember({"light", "dark", "print"}))
+      ->capture_default_str();
+  c->add_option("--backend", o.backend, "off-screen OpenGL")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
+      ->capture_default_str();
+  c->add_flag("--list", o.list, "list the cases and end");
+  c->add_flag("--full", o.full, "run the slow cases, too");
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return stress_command(o); }; });
+}
+
 void add_texts(CLI::App& app, Run& run) {
   const auto print = [&app, &run](const char* name, const char* help, std::string (*text)()) {
     app.add_subcommand(name, help)->callback([&run, text] {
@@ -139,7 +159,7 @@ void add_texts(CLI::App& app, Run& run) {
 // A misspelt subcommand gets the nearest one.
 std::string usage_hint(int argc, char** argv) {
   static constexpr std::string_view kCommands[] = {
-      "render", "check", "list", "explain", "doctor", "compare", "bench", "reference", "schema"};
+      "render", "check", "list", "explain", "doctor", "compare", "bench", "stress", "reference", "schema"};
   if (argc < 2 || argv[1][0] == '-') return "see 'lantern --help'";
   const std::string_view word = argv[1];
   for (const std::string_view command : kCommands)
@@ -183,6 +203,7 @@ int lantern_main(int argc, char** argv) {
   DoctorOptions doctor;
   CompareOptions compare;
   BenchOptions bench;
+  StressOptions stress;
   Run run;
   add_render(app, render, run);
   add_check(app, check, run);
@@ -191,6 +212,7 @@ int lantern_main(int argc, char** argv) {
   add_doctor(app, doctor, run);
   add_compare(app, compare, run);
   add_bench(app, bench, run);
+  add_stress(app, stress, run);
   add_texts(app, run);
   try {
     app.parse(argc, argv);

@@ -1,7 +1,9 @@
-# Writes HEADER and SOURCE so that each of FILES is a std::string_view in lantern::NAMESPACE.
+# Writes HEADER and SOURCE so that each of FILES is a std::string_view in lantern::NAMESPACE, and
+# all of them a list of names and bytes, `files`, in the order of FILES.
 string(REPLACE "|" ";" FILES "${FILES}")
-file(WRITE ${HEADER}.new "#pragma once\n#include <string_view>\nnamespace lantern::${NAMESPACE} {\n")
+file(WRITE ${HEADER}.new "#pragma once\n#include <string_view>\n#include <utility>\n#include <vector>\nnamespace lantern::${NAMESPACE} {\n")
 file(WRITE ${SOURCE} "#include \"${HEADER}\"\nnamespace lantern::${NAMESPACE} {\n")
+set(entries "")
 foreach(path ${FILES})
   get_filename_component(name ${path} NAME)
   string(MAKE_C_IDENTIFIER ${name} name)
@@ -13,7 +15,12 @@ foreach(path ${FILES})
   file(APPEND ${HEADER}.new "extern const std::string_view ${name};\n")
   file(APPEND ${SOURCE} "static const unsigned char ${name}_bytes[] = {${bytes}};\n"
     "const std::string_view ${name}{reinterpret_cast<const char*>(${name}_bytes), ${size}};\n")
+  get_filename_component(stem ${path} NAME_WE)
+  string(APPEND entries "{\"${stem}\", ${name}},")
 endforeach()
+file(APPEND ${HEADER}.new "std::vector<std::pair<std::string_view, std::string_view>> files();\n")
+file(APPEND ${SOURCE} "std::vector<std::pair<std::string_view, std::string_view>> files() {\n"
+  "  return {${entries}};\n}\n")
 file(APPEND ${HEADER}.new "}  // namespace lantern::${NAMESPACE}\n")
 file(APPEND ${SOURCE} "}  // namespace lantern::${NAMESPACE}\n")
 file(RENAME ${HEADER}.new ${HEADER})

@@ -39,10 +39,13 @@ struct Row {
   std::string problem;  // the scenario's name: "oscillator_stiff"
   std::string family;   // "oscillator": these share a plot's colours
   std::string variant;  // "plain", "stiff", "extreme"
+  std::string file;     // of the scenario, and a hash of its bytes
+  std::uint64_t text_hash = 0;
   std::string method;   // the contestant's name
   std::string version;  // of a peer; empty for Lantern
   double step = 0;      // seconds; of an adaptive method its tolerance
   Status status = Status::ok;
+  std::string reference;    // what the error is held against: "closed form", "own run at 1e-4 s"
   std::string reason;       // of any other status
   std::vector<Norm> norms;  // the main one first; empty if there is none
   Drift drift;
@@ -66,8 +69,11 @@ struct Circumstances {
   std::string flags;
   std::string processor;
   std::uint64_t seed = 1;
-  bool full = false;  // --full
+  std::string effort;  // "quick", "normal", "full"
 };
+
+// Of this build on this machine; `version` is Lantern's.
+Circumstances here(std::string_view version);
 
 struct Measurement {
   Circumstances circumstances;

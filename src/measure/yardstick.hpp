@@ -29,6 +29,8 @@ class Yardstick {
   virtual ~Yardstick() = default;
   // Called for the start and then once for each of the problem's samples, in order of time.
   virtual void look(const Observation& now) = 0;
+  // After each look: a problem may have something done to its bodies at a moment.
+  virtual void interfere(const Observation&, Simulation&) {}
   // The main norm first. Not finite if the run was.
   virtual std::vector<Norm> norms() const = 0;
 };

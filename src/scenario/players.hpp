@@ -40,6 +40,11 @@ class Players {
     return index_of_[id] == kAnchor ? nullptr : &scenario_.bodies[index_of_[id]];
   }
 
+  // Its index in the scenario; nothing for an anchor.
+  std::optional<std::size_t> index_of(BodyId id) const {
+    return index_of_[id] == kAnchor ? std::nullopt : std::optional(index_of_[id]);
+  }
+
   // All bodies but anchors, in order of ids.
   std::vector<Resident<D>> residents() const;
   static Resident<D> resident(const Body<D>& body) {

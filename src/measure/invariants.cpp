@@ -1,0 +1,190 @@
+#include "measure/invariants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/energy.hpp"
+#include "physics/manifold.hpp"
+#include "scenario/players.hpp"
+
+namespace lantern {
+
+class Invariants::Model {
+ public:
+  virtual ~Model() = default;
+  virtual Kept of(const std::vector<BodyState>& states) const = 0;
+};
+
+namespace {
+
+template <int D>
+class ModelOf : public Invariants::Model {
+ public:
+  explicit ModelOf(const Scenario& scenario)
+      : collides_(scenario.world.contacts != ContactMethod::none),
+        players_(scenario, config_of(scenario)) {
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
+  }
+
+  Kept of(const std::vector<BodyState>& states) const override {
+    std::vector<Body<D>> bodies = players_.world().bodies();
+    for (Body<D>& body : bodies)
+      if (const auto index = players_.index_of(body.id)) put(body, states[*index]);
+    const std::span<const Body<D>> all(bodies);
+    const Energy energy = lantern::energy(all, players_.world().forces());
+    Kept kept;
+    kept.energy = energy.total();
+    kept.kinetic_energy = energy.kinetic();
+    kept.spring_energy = energy.springs;
+    kept.momentum = solid(momentum(all));
+    if constexpr (D == 2)
+      kept.angular_momentum.z = angular_momentum<D>(all);
+    else
+      kept.angular_momentum = angular_momentum<D>(all);
+    for (const Body<D>& body : bodies) add_flow(body, kept);
+    if (collides_) kept.penetration = deepest(bodies);
+    return kept;
+  }
+
+ private:
+  static WorldConfig<D> config_of(const Scenario& scenario) {
+    WorldConfig<D> config;
+    config.gravity = in_dimension<D>(scenario.world.gravity);
+    return config;
+  }
+
+  static void put(Body<D>& body, const BodyState& state) {
+    if (!state.there) return make_absent(body);
+    body.position = in_dimension<D>(state.position);
+    body.velocity = in_dimension<D>(state.velocity);
+    if constexpr (D == 2) {
+      body.orientation.angle = state.angle;
+      body.angular_momentum = state.angular_momentum.z;
+    } else {
+      body.orientation = state.orientation;
+      body.angular_momentum = state.angular_momentum;
+    }
+  }
+
+  // Counts as nothing and meets nothing.
+  static void make_absent(Body<D>& body) {
+    body.kind = BodyKind::static_body;
+    body.inverse_mass = 0;
+    body.inverse_inertia = Spin<D>(0.0);
+    body.shape = Sphere{0};
+    body.velocity = Vec<D>(0.0);
+  }
+
+  static void add_flow(const Body<D>& body, Kept& kept) {
+    if (body.kind != BodyKind::dynamic_body || body.inverse_mass == 0) return;
+    const Vec<D> mv = body.velocity / body.inverse_mass;
+    kept.flow += glm::length(mv);
+    if constexpr (D == 2)
+      kept.swirl += std::abs(cross(body.position, mv)) + std::abs(body.angular_momentum);
+    else
+      kept.swirl += glm::length(cross(body.position, mv)) + glm::length(body.angular_momentum);
+  }
+
+  bool are_joined(BodyId a, BodyId b) const {
+    return std::ranges::any_of(players_.world().joints(), [&](const auto& entry) {
+      const Joint<D>& j = entry.second;
+      return !j.collide && ((j.a == a && j.b == b) || (j.a == b && j.b == a));
+    });
+  }
+
+  double deepest(const std::vector<Body<D>>& bodies) const {
+    double depth = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+        const Body<D>&a = bodies[i], &b = bodies[j];
+        if ((!a.moves() && !b.moves()) || !overlap(a.box(), b.box())) continue;
+        if (!players_.index_of(a.id) || !players_.index_of(b.id) || are_joined(a.id, b.id))
+          continue;
+        const auto manifold = collide<D>({a.shape, a.position, a.orientation},
+                                         {b.shape, b.position, b.orientation}, 0.0);
+        if (!manifold) continue;
+        for (const ManifoldPoint<D>& point : manifold->points())
+          depth = std::max(depth, -point.separation);
+      }
+    return depth;
+  }
+
+  bool collides_;
+  Players<D> players_;
+};
+
+std::unique_ptr<Invariants::Model> make_model(const Scenario& scenario) {
+  if (scenario.world.dimension == 3) return std::make_unique<ModelOf<3>>(scenario);
+  return std::make_unique<ModelOf<2>>(scenario);
+}
+
+}  // namespace
+
+Invariants::Invariants(const Scenario& scenario) : model_(make_model(scenario)) {
+  const WorldSpec& world = scenario.world;
+  const bool collides = world.contacts != ContactMethod::none;
+  bool drags = false, damps = false, tied = false, rough = false, walls = false, steered = false;
+  for (const BodySpec& body : scenario.bodies) {
+    drags = drags || body.linear_drag > 0 || body.angular_drag > 0;
+    rough = rough || body.material.friction > 0 ||
+            (body.kind == BodyKind::dynamic_body && body.material.restitution < 1);
+    walls = walls || body.kind != BodyKind::dynamic_body;
+    steered = steered || body.brain != Brain::none;
+  }
+  for (const LinkSpec& link : scenario.links) {
+    damps = damps || link.damping > 0;
+    const auto held = [&](std::size_t i) {
+      return scenario.bodies[i].kind != BodyKind::dynamic_body;
+    };
+    tied = tied || !link.b || held(link.a) || held(*link.b);
+  }
+  bool pushed = steered;  // a script may do what it likes
+  for (const Step& step : scenario.steps)
+    pushed = pushed || std::holds_alternative<ApplyForce>(step.verb) ||
+             std::holds_alternative<ApplyImpulse>(step.verb) ||
+             std::holds_alternative<Move>(step.verb) || std::holds_alternative<Remove>(step.verb);
+  if (!scenario.problem && scenario.steps.size() > 0) {
+    int inserts = 0;  // what enters late brings its own
+    for (const Step& step : scenario.steps) inserts += std::holds_alternative<Insert>(step.verb);
+    pushed = pushed || inserts > 1;
+  }
+  keeps_energy_ = !pushed && !drags && !damps && (!collides || !rough);
+  const bool alone = !pushed && !drags && !tied && world.gravity == Vec<3>(0.0);
+  keeps_momentum_ = alone && (!collides || !walls);
+  keeps_angular_momentum_ = keeps_momentum_;
+}
+
+Invariants::~Invariants() = default;
+
+Kept Invariants::of(const std::vector<BodyState>& states) const { return model_->of(states); }
+
+void DriftMeter::look(const std::vector<BodyState>& states) {
+  const Kept now = invariants_.of(states);
+  penetration_ = std::max(penetration_, now.penetration);
+  most_kinetic_ = std::max(most_kinetic_, now.kinetic_energy);
+  if (!begun_) {
+    start_ = now;
+    begun_ = true;
+    return;
+  }
+  energy_ = std::max(energy_, std::abs(now.energy - start_.energy));
+  momentum_ = std::max(momentum_, glm::length(now.momentum - start_.momentum));
+  angular_momentum_ =
+      std::max(angular_momentum_, glm::length(now.angular_momentum - start_.angular_momentum));
+}
+
+// Changes of energy against what the scene starts with, or, dropped from rest, with its largest
+// kinetic energy.
+Drift DriftMeter::drift() const {
+  const auto relative = [](double change, double scale) { return scale > 0 ? change / scale : 0; };
+  const double energy = start_.kinetic_energy + start_.spring_energy;
+  Drift drift;
+  if (invariants_.keeps_energy())
+    drift.energy = relative(energy_, energy > 0 ? energy : most_kinetic_);
+  if (invariants_.keeps_momentum()) drift.momentum = relative(momentum_, start_.flow);
+  if (invariants_.keeps_angular_momentum())
+    drift.angular_momentum = relative(angular_momentum_, start_.swirl);
+  return drift;
+}
+
+}  // namespace lantern

@@ -1,0 +1,124 @@
+#include "measure/plan.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "measure/lantern_contestant.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr int kOwnHalvings = 6;          // of a scenario's own step
+constexpr double kFinerReference = 16;   // times finer than the finest measured step
+constexpr double kTooLongToRepeat = 10;  // seconds
+
+constexpr TimingRule kQuick{3, 0.002};
+constexpr TimingRule kGood{15, 0.05};
+constexpr TimingRule kOnce{1, 0};
+
+}  // namespace
+
+Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
+    : options_(std::move(options)), prepared_(options_.scenarios.size()) {
+  for (std::size_t i = 0; i < options_.scenarios.size(); ++i) {
+    told(options_.scenarios[i]);
+    try {
+      prepare(i);
+    } catch (const Refused& refused) {
+      throw Refused(fmt::format("{}: {}", options_.scenarios[i].file, refused.what()));
+    }
+  }
+}
+
+void Plan::prepare(std::size_t index) {
+  const Scenario& scenario = options_.scenarios[index];
+  Prepared& prepared = prepared_[index];
+  prepared.course = Course::of(scenario);
+  prepared.invariants = std::make_unique<Invariants>(scenario);
+  if (scenario.problem) make_yardstick(scenario);  // is it the problem that it claims to be?
+  const std::vector<double> steps = steps_for(scenario, prepared.course);
+  prepared.finest = steps.front();
+  for (const std::size_t contestant : contestants_for(scenario)) {
+    const double coarse = steps.front();
+    per_step_[{index, contestant}] =
+        estimated_seconds(scenario, prepared.course, *contestants_[contestant], coarse) /
+        static_cast<double>(prepared.course.steps(coarse));
+    for (const double step : steps) {
+      jobs_.push_back({index, contestant, step});
+      if (!is_too_long(jobs_.back())) prepared.finest = std::min(prepared.finest, step);
+    }
+  }
+}
+
+std::vector<std::size_t> Plan::contestants_for(const Scenario& scenario) {
+  std::vector<Method> methods;
+  for (const std::string& name : options_.methods) methods.push_back(*method_named(name));
+  if (methods.empty()) methods = methods_for(scenario);
+  std::vector<std::size_t> chosen;
+  for (const Method& method : methods) {
+    if (!by_name_.contains(method.name)) {
+      by_name_[method.name] = contestants_.size();
+      contestants_.push_back(std::make_unique<LanternContestant>(method));
+    }
+    const std::size_t contestant = by_name_[method.name];
+    if (!contestants_[contestant]->cannot(scenario)) chosen.push_back(contestant);
+  }
+  return chosen;
+}
+
+// The coarsest first.
+std::vector<double> Plan::steps_for(const Scenario& scenario, const Course& course) const {
+  std::vector<double> wished = options_.steps;
+  if (wished.empty()) {
+    double step = scenario.problem ? scenario.problem->step : scenario.world.time_step;
+    const int halvings = scenario.problem ? scenario.problem->halvings : kOwnHalvings;
+    for (int i = 0; i <= halvings; ++i, step /= 2) wished.push_back(step);
+  }
+  std::ranges::sort(wished, std::greater());
+  std::vector<double> steps;
+  for (const double step : wished) {
+    const double fitted = course.fitted_step(step);
+    if (steps.empty() || fitted < steps.back()) steps.push_back(fitted);
+  }
+  return steps;
+}
+
+double Plan::longest() const {
+  if (options_.longest) return *options_.longest;
+  if (options_.effort == Effort::quick) return 0.1;
+  if (options_.effort == Effort::normal) return 2;
+  return std::numeric_limits<double>::infinity();
+}
+
+const TimingRule& Plan::timing(const Job& job) const {
+  if (seconds(job) > kTooLongToRepeat) return kOnce;
+  return options_.effort == Effort::quick ? kQuick : kGood;
+}
+
+double Plan::seconds(const Job& job) const {
+  return per_step_.at({job.scenario, job.contestant}) *
+         static_cast<double>(prepared_[job.scenario].course.steps(job.step));
+}
+
+double Plan::seconds_with_repeats(const Job& job) const {
+  const TimingRule& rule = timing(job);
+  return seconds(job) + rule.repeats * std::max(seconds(job), rule.least_seconds);
+}
+
+std::optional<Row> Plan::run(const Job& job, const std::function<bool()>& stop) {
+  Prepared& prepared = prepared_[job.scenario];
+  if (!prepared.reference)
+    prepared.reference =
+        reference_for(scenario(job), prepared.course, prepared.finest / kFinerReference);
+  std::optional<Row> row = measure(scenario(job), prepared.course, contestant(job), job.step,
+                                   *prepared.reference, *prepared.invariants, timing(job), stop);
+  if (row && row->timing.repeats > 0)
+    per_step_[{job.scenario, job.contestant}] =
+        row->timing.median / static_cast<double>(prepared.course.steps(job.step));
+  return row;
+}
+
+}  // namespace lantern

@@ -1,0 +1,82 @@
+// Which runs make up a measurement, how long each will take, and the running of them.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/run.hpp"
+
+namespace lantern {
+
+enum class Effort {
+  quick,   // a minute: plain problems, few repeats, no long runs
+  normal,  // all problems, timed well, no long runs
+  full,    // all that there is
+};
+
+struct PlanOptions {
+  std::vector<Scenario> scenarios;
+  Effort effort = Effort::normal;
+  std::vector<std::string> methods;  // names; empty for those of each scenario
+  std::vector<double> steps;         // seconds; empty for those of each scenario
+  std::optional<double> longest;     // seconds of one run; longer ones are left out
+  bool peers = true;
+};
+
+struct Job {
+  std::size_t scenario = 0;  // of the plan's
+  std::size_t contestant = 0;
+  double step = 0;  // fitted
+};
+
+class Plan {
+ public:
+  // Estimates every run, for which each contestant runs for some milliseconds; `told` is called
+  // before each scenario. Throws Refused, naming the scenario, for one that cannot be measured and
+  // for a step that is not allowed.
+  Plan(PlanOptions options, const std::function<void(const Scenario&)>& told);
+
+  const std::vector<Job>& jobs() const { return jobs_; }
+  // One run of it, estimated: from its first milliseconds, and, once one was run, from the last
+  // run of the same contestant on the same scenario.
+  double seconds(const Job& job) const;
+  double seconds_with_repeats(const Job& job) const;
+  bool is_too_long(const Job& job) const { return seconds(job) > longest(); }
+  const std::vector<std::string>& missing_peers() const { return missing_peers_; }
+
+  const Scenario& scenario(const Job& job) const { return options_.scenarios[job.scenario]; }
+  const Contestant& contestant(const Job& job) const { return *contestants_[job.contestant]; }
+
+  // Nothing if `stop` said so.
+  std::optional<Row> run(const Job& job, const std::function<bool()>& stop);
+
+ private:
+  struct Prepared {
+    Course course;
+    std::unique_ptr<Invariants> invariants;
+    std::optional<Reference> reference;
+    double finest = 0;  // step that is run
+  };
+
+  void prepare(std::size_t scenario);
+  std::vector<std::size_t> contestants_for(const Scenario& scenario);
+  std::vector<double> steps_for(const Scenario& scenario, const Course& course) const;
+  double longest() const;
+  const TimingRule& timing(const Job& job) const;
+
+  PlanOptions options_;
+  std::vector<Prepared> prepared_;
+  std::vector<std::unique_ptr<Contestant>> contestants_;
+  std::map<std::string, std::size_t> by_name_;
+  std::size_t first_peer_ = 0, peers_ = 0;
+  std::vector<std::string> missing_peers_;
+  std::vector<Job> jobs_;
+  std::map<std::pair<std::size_t, std::size_t>, double>
+      per_step_;  // seconds, by scenario, contestant
+};
+
+}  // namespace lantern

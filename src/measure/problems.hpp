@@ -1,0 +1,18 @@
+// The problems that Lantern carries with it: scenarios whose answer is known.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenario/scenario.hpp"
+
+namespace lantern {
+
+// Names of the files of scenarios/problems/, in alphabetical order.
+std::vector<std::string_view> problem_names();
+
+// One of them; it must be there.
+Scenario known_problem(std::string_view name);
+
+}  // namespace lantern

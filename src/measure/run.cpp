@@ -1,0 +1,212 @@
+#include "measure/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/check.hpp"
+#include "base/clock.hpp"
+#include "base/error.hpp"
+#include "measure/lantern_contestant.hpp"
+#include "measure/own_run.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kBeyondSense = 100;  // times the scale: the run has diverged
+
+bool is_finite(const BodyState& s) {
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(s.position[i]) || !std::isfinite(s.velocity[i]) ||
+        !std::isfinite(s.angular_momentum[i]))
+      return false;
+  return std::isfinite(s.orientation.q.w) && std::isfinite(s.orientation.q.x) &&
+         std::isfinite(s.orientation.q.y) && std::isfinite(s.orientation.q.z);
+}
+
+struct NotANumber {};
+
+// One run. `look` sees each moment; only the steps between are timed.
+class Runner {
+ public:
+  Runner(const Scenario& scenario, const Course& course, const Contestant& contestant, double h)
+      : course_(course), h_(h), simulation_(contestant.start(scenario, h)) {}
+
+  template <class Look>
+  void run(Yardstick& yardstick, Look&& look) {
+    bool begun = false;
+    for (const Leg& leg : course_.legs) {
+      for (const Verb& verb : leg.before) simulation_->act(verb);
+      if (!begun) observe(yardstick, look);
+      begun = true;
+      const std::uint64_t steps = course_.steps_in_part(leg, h_);
+      for (std::uint32_t i = 0; i < leg.looks; ++i) {
+        const Stopwatch watch;
+        simulation_->advance(steps);
+        seconds_ += watch.seconds();
+        steps_ += steps;
+        observe(yardstick, look);
+      }
+    }
+  }
+
+  const Simulation& simulation() const { return *simulation_; }
+  double seconds() const { return seconds_; }
+
+ private:
+  template <class Look>
+  void observe(Yardstick& yardstick, Look&& look) {
+    now_.time = static_cast<double>(steps_) * h_;
+    simulation_->observe(now_.states);
+    now_.impacts = simulation_->impacts();
+    if (!std::ranges::all_of(now_.states, is_finite)) throw NotANumber();
+    look(now_);
+    yardstick.look(now_);
+    yardstick.interfere(now_, *simulation_);
+  }
+
+  const Course& course_;
+  double h_;
+  std::unique_ptr<Simulation> simulation_;
+  Observation now_;
+  double seconds_ = 0;
+  std::uint64_t steps_ = 0;
+};
+
+// The first run: what it did, and how well.
+void evaluate(const Scenario& scenario, const Course& course, const Contestant& contestant,
+              double h, const Reference& reference, const Invariants& invariants, Row& row) {
+  const std::unique_ptr<Yardstick> yardstick = reference.make();
+  DriftMeter meter(invariants);
+  std::optional<Runner> runner;
+  try {
+    runner.emplace(scenario, course, contestant, h);
+  } catch (const Refused& refused) {
+    row.status = Status::refused;
+    row.reason = refused.what();
+    return;
+  }
+  try {
+    runner->run(*yardstick, [&](const Observation& now) { meter.look(now.states); });
+    row.norms = yardstick->norms();
+  } catch (const Refused& refused) {
+    row.status = Status::diverged;
+    row.reason = refused.what();
+  } catch (const NotANumber&) {
+    row.status = Status::nan;
+    row.reason = "a state is not a number";
+  }
+  row.drift = meter.drift();
+  row.penetration = meter.penetration();
+  row.counted = runner->simulation().counted();
+  row.hash = runner->simulation().hash();
+}
+
+void judge(Row& row) {
+  if (row.status != Status::ok) return;
+  for (const Norm& norm : row.norms)
+    if (!std::isfinite(norm.value) || (norm.name == "traj" && norm.value > kBeyondSense)) {
+      row.status = Status::diverged;
+      row.reason = fmt::format("the error '{}' grew to {:.3g}", norm.name, norm.value);
+    }
+  if (row.status == Status::ok && row.drift.energy && !(*row.drift.energy < kBeyondSense)) {
+    row.status = Status::diverged;
+    row.reason = fmt::format("the energy changed by {:.3g} times its scale", *row.drift.energy);
+  }
+}
+
+// The value below which `share` of the sorted ones lie.
+double quantile(const std::vector<double>& sorted, double share) {
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto i = static_cast<std::size_t>(place);
+  const double next = sorted[std::min(i + 1, sorted.size() - 1)];
+  return sorted[i] + (place - static_cast<double>(i)) * (next - sorted[i]);
+}
+
+Timing timing_of(std::vector<double> seconds) {
+  std::ranges::sort(seconds);
+  return {static_cast<int>(seconds.size()), quantile(seconds, 0.5), seconds.front(),
+          quantile(seconds, 0.75) - quantile(seconds, 0.25)};
+}
+
+}  // namespace
+
+Reference reference_for(const Scenario& scenario, const Course& course, double step) {
+  if (scenario.problem) {
+    make_yardstick(scenario);  // tells at once if it is not that problem
+    return {"closed form", [&scenario] { return make_yardstick(scenario); }};
+  }
+  Method method;
+  method.name = "as written";
+  if (scenario.world.contacts == ContactMethod::none) method = *method_named("runge_kutta_4");
+  const double h = course.fitted_step(step);
+  auto record = std::make_shared<std::vector<Observation>>();
+  Recorder recorder(*record);
+  try {
+    Runner(scenario, course, LanternContestant(method), h).run(recorder, [](const Observation&) {});
+  } catch (const NotANumber&) {
+    throw Refused("its own run ends in states that are no numbers");
+  }
+  return {fmt::format("own run, {} at {:.3g} s", method.name, h),
+          [record] { return std::make_unique<OwnRun>(record); }};
+}
+
+std::optional<Row> measure(const Scenario& scenario, const Course& course,
+                           const Contestant& contestant, double h, const Reference& reference,
+                           const Invariants& invariants, const TimingRule& rule,
+                           const std::function<bool()>& stop) {
+  Row row;
+  row.problem = scenario.name;
+  row.file = scenario.file;
+  row.text_hash = scenario.text_hash;
+  row.family = scenario.problem ? to_string(scenario.problem->solution) : scenario.name;
+  row.variant = scenario.problem ? to_string(scenario.problem->variant) : "own";
+  row.method = contestant.name();
+  row.version = contestant.version();
+  row.step = h;
+  row.reference = reference.text;
+  evaluate(scenario, course, contestant, h, reference, invariants, row);
+  judge(row);
+  if (stop()) return std::nullopt;
+  if (row.status != Status::ok) return row;
+  std::vector<double> repeats;
+  for (int i = 0; i < rule.repeats; ++i) {
+    double spent = 0;
+    int runs = 0;
+    for (; runs == 0 || spent < rule.least_seconds; ++runs) {
+      Runner runner(scenario, course, contestant, h);
+      const std::unique_ptr<Yardstick> yardstick = reference.make();
+      runner.run(*yardstick, [](const Observation&) {});
+      if (!row.is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row.hash);
+      spent += runner.seconds();
+      if (stop()) return std::nullopt;
+    }
+    repeats.push_back(spent / runs);
+  }
+  if (!repeats.empty()) row.timing = timing_of(std::move(repeats));
+  return row;
+}
+
+double estimated_seconds(const Scenario& scenario, const Course& course,
+                         const Contestant& contestant, double h) {
+  constexpr double kLook = 0.004;  // seconds
+  const auto all = static_cast<double>(course.steps(h));
+  try {
+    const std::unique_ptr<Simulation> simulation = contestant.start(scenario, h);
+    for (const Verb& verb : course.legs.front().before) simulation->act(verb);
+    double spent = 0, steps = 0;
+    for (double batch = 1; spent < kLook && steps < all; batch *= 2) {
+      const double n = std::min(batch, all - steps);
+      const Stopwatch watch;
+      simulation->advance(static_cast<std::uint64_t>(n));
+      spent += watch.seconds();
+      steps += n;
+    }
+    return spent / steps * all;
+  } catch (const Refused&) {
+    return 0;
+  }
+}
+
+}  // namespace lantern

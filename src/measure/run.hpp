@@ -1,0 +1,43 @@
+// Runs a scenario by a contestant at a step, looks at it with a yardstick, times it, and makes a
+// row of it.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "measure/course.hpp"
+#include "measure/invariants.hpp"
+#include "measure/row.hpp"
+
+namespace lantern {
+
+// How a run is timed, after a warm-up. A repeat runs as often as it takes to fill `least_seconds`.
+struct TimingRule {
+  int repeats = 15;
+  double least_seconds = 0.05;
+};
+
+// What the runs of one scenario are held against.
+struct Reference {
+  std::string text;  // "closed form"
+  std::function<std::unique_ptr<Yardstick>()> make;
+};
+
+// A problem's own yardstick; otherwise the scenario's run at `step`, which should be much finer
+// than those to be measured: by RK4 where nothing collides, else as the file is written. Throws
+// Refused if the scenario is not the problem it claims to be, or if that run fails.
+Reference reference_for(const Scenario& scenario, const Course& course, double step);
+
+// `h` must be fitted to the course. Whatever goes wrong in the run is the row's status; nothing is
+// thrown but a broken invariant: two runs of Lantern that differ. `stop` is asked between repeats;
+// once it says so, nothing is given.
+std::optional<Row> measure(const Scenario& scenario, const Course& course,
+                           const Contestant& contestant, double h, const Reference& reference,
+                           const Invariants& invariants, const TimingRule& rule,
+                           const std::function<bool()>& stop);
+
+// Seconds that one run would take, from its first few milliseconds. 0 if it fails at once.
+double estimated_seconds(const Scenario& scenario, const Course& course,
+                         const Contestant& contestant, double h);
+
+}  // namespace lantern

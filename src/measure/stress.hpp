@@ -1,0 +1,59 @@
+// Stress: what must hold on extreme input, stiff springs and at the limits of stability, case by
+// case. Each case drives the real engine and gives one figure with a meaning, and the bound that it
+// must keep.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lantern {
+
+struct StressResult {
+  double figure = std::numeric_limits<double>::quiet_NaN();  // not a number: the case broke off
+  std::string unit;                                          // "m", "pairs", "relative", ...
+  double bound = 0;
+  bool at_least = false;  // the figure must be no less than the bound; else no more
+  bool good = false;
+  std::string detail;  // how much was tried, or what was worst
+};
+
+// The verdicts. A figure that is not a number keeps no bound.
+StressResult at_most(double bound, double figure, std::string unit, std::string detail = {});
+StressResult at_least(double bound, double figure, std::string unit, std::string detail = {});
+
+// The same input gives the same figure, bit for bit. `run` may throw: see run_case.
+struct StressCase {
+  std::string_view name;   // "coincident_bodies"
+  std::string_view group;  // "extreme input", "stiff", "stability", "bars"
+  std::string_view what;   // one plain sentence: what must happen
+  StressResult (*run)() = nullptr;
+  bool slow = false;  // takes more than a few seconds: only run when asked for
+};
+
+struct StressOutcome {
+  StressCase of;
+  StressResult result;
+};
+
+// All cases, group by group. Names differ.
+std::span<const StressCase> stress_cases();
+
+// Never throws: a case that does has failed, and the message is its detail.
+StressOutcome run_case(const StressCase& stress_case);
+
+// The tables of the topics, a file each (stress_<topic>.cpp), in the order of the whole table.
+void add_tree_cases(std::vector<StressCase>& cases);
+void add_input_cases(std::vector<StressCase>& cases);
+void add_shape_cases(std::vector<StressCase>& cases);
+void add_origin_cases(std::vector<StressCase>& cases);
+void add_step_cases(std::vector<StressCase>& cases);
+void add_stiff_cases(std::vector<StressCase>& cases);
+void add_stability_cases(std::vector<StressCase>& cases);
+void add_impact_cases(std::vector<StressCase>& cases);
+void add_friction_cases(std::vector<StressCase>& cases);
+void add_bar_cases(std::vector<StressCase>& cases);
+
+}  // namespace lantern

@@ -1,0 +1,249 @@
+// The bars: 1 m boxes, g = 10, h = 1/60 s, 10 s unless said.
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+#include "measure/stress.hpp"
+#include "measure/stress_scene.hpp"
+#include "physics/energy.hpp"
+
+namespace lantern {
+namespace {
+
+using namespace stress;
+
+// --- free motion at 1 ms, 10 s ---
+
+constexpr double kFine = 1e-3;
+
+// 500 m down: how far from the parabola, worst over the fall.
+template <int D>
+double misses_parabola() {
+  WorldConfig<D> config = with_gravity<D>();
+  config.integrator = Integrator::velocity_verlet;
+  World<D> world(config);
+  world.add(make_box<D>(Vec<D>(0.0)));
+  double worst = 0;
+  for (int i = 1; i <= 10000; ++i) {
+    world.step(kFine);
+    const double t = i * kFine;
+    worst = largest(worst, std::abs(world.bodies()[0].position.y + kGravity * t * t / 2));
+  }
+  return worst;
+}
+
+StressResult free_fall() {
+  return at_most(1e-10, largest(misses_parabola<2>(), misses_parabola<3>()), "m",
+                 "2D and 3D, 10 s at 1 ms");
+}
+
+struct Drift {
+  double energy = 0, momentum = 0;  // relative, the largest
+};
+
+Drift drift_of_top(const Vec<3>& half_size, const Vec<3>& spin) {
+  World<3> world((WorldConfig<3>()));
+  Body<3> box = make_box<3>(Vec<3>(0.0));
+  box.shape = OrientedBox<3>{half_size};
+  world.set_angular_velocity(world.add(box), spin);
+  const auto energy_now = [&] { return energy<3>(world.bodies(), {}).total(); };
+  const double energy_before = energy_now();
+  const Vec<3> before = world.bodies()[0].angular_momentum;
+  Drift drift;
+  for (int i = 0; i < 10000; ++i) {
+    world.step(kFine);
+    const Vec<3>& now = world.bodies()[0].angular_momentum;
+    drift.momentum = largest(drift.momentum, glm::length(now - before) / glm::length(before));
+    drift.energy = largest(drift.energy, std::abs(energy_now() / energy_before - 1));
+  }
+  return drift;
+}
+
+const Vec<3> kBrick{0.5, 2, 4.5};  // 1 x 4 x 9, thrown almost about its middle axis
+const Vec<3> kThrow{0.1, 5, 0.1};
+
+StressResult torque_free_momentum() {
+  return at_most(1e-12, drift_of_top(kBrick, kThrow).momentum, "relative",
+                 "the box of 1 x 4 x 9, 10 s at 1 ms");
+}
+StressResult torque_free_energy() {
+  return at_most(2e-6, drift_of_top(kBrick, kThrow).energy, "relative",
+                 "the box of 1 x 4 x 9, 10 s at 1 ms");
+}
+StressResult needle_energy() {
+  return at_most(2e-6, drift_of_top({1e-2, 1e-2, 1}, {0.3, 1, 20}).energy, "relative",
+                 "1 : 100, nearly no inertia about its axis, 10 s at 1 ms");
+}
+
+// --- stacks ---
+
+struct Pile {
+  double depth = 0;  // the deepest penetration over the run, m
+  double moved = 0;  // the farthest that a box is from its place at the end, m
+};
+
+template <int D>
+Pile pile_of(int count, int sub_steps, double seconds, double top_density = 1) {
+  WorldConfig<D> config = with_gravity<D>();
+  config.sub_steps = sub_steps;
+  config.may_sleep = false;
+  World<D> world(config);
+  world.add(make_floor<D>());
+  for (int i = 0; i < count; ++i) {
+    Body<D> box = make_box<D>(at<D>(0, 0.5 + i));
+    if (i + 1 == count) box.density = top_density;
+    world.add(box);
+  }
+  Pile pile;
+  for (int i = 0; i < seconds * 60; ++i) {
+    world.step(kStep);
+    pile.depth = largest(pile.depth, deepest(world));
+  }
+  for (int i = 0; i < count; ++i)
+    pile.moved = largest(
+        pile.moved,
+        glm::length(world.bodies()[static_cast<std::size_t>(i + 1)].position - at<D>(0, 0.5 + i)));
+  return pile;
+}
+
+std::string told(const Pile& pile) {
+  return fmt::format("deepest {:.1e} m, moved {:.1e} m", pile.depth, pile.moved);
+}
+
+StressResult stack_of_60() {
+  const Pile pile = pile_of<2>(60, 16, 10);
+  return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
+}
+StressResult stack_of_60_solid() {
+  const Pile pile = pile_of<3>(60, 16, 10);
+  return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
+}
+StressResult stack_of_100() {
+  const Pile pile = pile_of<2>(100, 16, 10);
+  return at_most(1e-3, pile.moved, "m", told(pile) + "; 16 sub-steps");
+}
+
+template <int D>
+StressResult heavy_on_light() {
+  const Pile pile = pile_of<D>(2, 16, 10, 1e4);
+  return at_most(5e-3, largest(pile.depth, pile.moved), "m", told(pile) + "; 1e4 : 1");
+}
+StressResult heaviest_on_light() {
+  const Pile pile = pile_of<2>(2, 16, 10, 1e6);
+  return at_most(5e-3, largest(pile.depth, pile.moved), "m", told(pile) + "; 1e6 : 1");
+}
+
+// --- chains ---
+
+// The widest that a joint of ten links with a heavy end opens, from the level fall on; 10 s.
+template <int D>
+double chain_stretch(JointKind kind, double ratio) {
+  WorldConfig<D> config = with_gravity<D>();
+  config.sub_steps = 16;
+  config.may_sleep = false;
+  World<D> world(config);
+  world.add(make_anchor<D>());
+  for (int i = 0; i < 10; ++i) {
+    Body<D> link = make_ball<D>(at<D>(i + 1), 0.2);
+    link.mass = i == 9 ? ratio : 1;
+    world.add(link);
+    Joint<D> joint;
+    joint.kind = kind;
+    joint.a = static_cast<BodyId>(i);
+    joint.b = static_cast<BodyId>(i + 1);
+    joint.length = 1;
+    if (kind == JointKind::pin) joint.at_b = at<D>(-1);
+    world.add_joint(joint);
+  }
+  double worst = 0;
+  for (int i = 0; i < 600; ++i) {
+    world.step(kStep);
+    for (const auto& [id, joint] : world.joints()) {
+      const Body<D>&a = *world.find(joint.a), &b = *world.find(joint.b);
+      const double gap = glm::length(b.position + matrix(b.orientation) * joint.at_b - a.position -
+                                     matrix(a.orientation) * joint.at_a);
+      worst = largest(worst, std::abs(gap - (joint.kind == JointKind::pin ? 0 : joint.length)));
+    }
+  }
+  return worst;
+}
+
+template <JointKind Kind>
+StressResult heavy_chain() {
+  const double flat = chain_stretch<2>(Kind, 1000), solid = chain_stretch<3>(Kind, 1000);
+  return at_most(10e-3, largest(flat, solid), "m",
+                 fmt::format("2D {:.1e} m, 3D {:.1e} m; ten links, 1000 : 1", flat, solid));
+}
+
+StressResult heaviest_chain() {
+  return at_most(10e-3, chain_stretch<2>(JointKind::distance, 1e6), "m",
+                 "widest gap of a rod; ten links, 1e6 : 1");
+}
+
+// --- determinism ---
+
+template <int D>
+std::uint64_t crowd_hash(BroadPhaseKind kind) {
+  WorldConfig<D> config = with_gravity<D>();
+  config.broad_phase.kind = kind;
+  World<D> world(config);
+  Random random(7);
+  world.add(make_floor<D>());
+  for (int i = 0; i < 24; ++i) {
+    const Vec<D> place = at<D>(i % 4 * 1.1 + random.between(0, 0.2), 1 + i / 4 * 1.2);
+    Body<D> body = i % 3 == 0 ? make_ball<D>(place) : make_box<D>(place);
+    body.material.restitution = i % 5 == 0 ? 0.4 : 0;
+    body.velocity.x = random.between(-2, 2);
+    world.add(body);
+  }
+  run(world, 1);
+  return world.hash();
+}
+
+template <int D>
+StressResult one_hash() {
+  std::set<std::uint64_t> hashes;
+  int kinds = 0;
+  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+    if (D == 2 && kind == BroadPhaseKind::octree) continue;
+    ++kinds;
+    hashes.insert(crowd_hash<D>(kind));
+  }
+  return at_most(1, static_cast<double>(hashes.size()), "hashes",
+                 fmt::format("over {} broad phases, 24 bodies thrown, 1 s", kinds));
+}
+
+}  // namespace
+
+void add_bar_cases(std::vector<StressCase>& cases) {
+  constexpr const char* kGroup = "bars";
+  constexpr const char* kOne = "A world's hash is the same over every broad phase.";
+  constexpr const char* kHeavy = "A box of ten thousand times the mass rests on a light one.";
+  cases.insert(
+      cases.end(),
+      {{"free_fall", kGroup, "A box in free fall stays on the parabola.", free_fall},
+       {"torque_free_momentum", kGroup, "A tumbling box keeps its angular momentum.",
+        torque_free_momentum},
+       {"torque_free_energy", kGroup, "A tumbling box keeps its energy.", torque_free_energy},
+       {"needle_energy", kGroup, "A spinning needle keeps its energy.", needle_energy},
+       {"stack_of_60", kGroup, "A stack of 60 boxes stands, in 2D.", stack_of_60},
+       {"stack_of_60_solid", kGroup, "A stack of 60 boxes stands, in 3D.", stack_of_60_solid, true},
+       {"stack_of_100", kGroup, "A stack of 100 boxes stands.", stack_of_100},
+       {"heavy_on_light", kGroup, kHeavy, heavy_on_light<2>},
+       {"heavy_on_light_solid", kGroup, kHeavy, heavy_on_light<3>},
+       {"heaviest_on_light", kGroup, "A box of a million times the mass rests on a light one.",
+        heaviest_on_light},
+       {"chain_of_rods", kGroup, "A chain of rods holds an end of a thousand times its mass.",
+        heavy_chain<JointKind::distance>},
+       {"chain_of_pins", kGroup, "A chain of hinges holds an end of a thousand times its mass.",
+        heavy_chain<JointKind::pin>},
+       {"heaviest_chain", kGroup, "A chain of rods holds an end of a million times its mass.",
+        heaviest_chain},
+       {"one_hash_2d", kGroup, kOne, one_hash<2>},
+       {"one_hash_3d", kGroup, kOne, one_hash<3>}});
+}
+
+}  // namespace lantern

@@ -1,0 +1,129 @@
+// Friction at its limits: how far a body slides, and whether it sticks.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "measure/stress.hpp"
+#include "measure/stress_scene.hpp"
+
+namespace lantern {
+namespace {
+
+using namespace stress;
+
+// How far from v^2/(2 mu g) a box stops that is thrown along the floor in direction `heading`.
+template <int D>
+double sliding_error(double mu, double speed, double heading) {
+  WorldConfig<D> config = with_gravity<D>();
+  World<D> world(config);
+  world.add(make_floor<D>(0, mu));
+  Body<D> box = make_box<D>(at<D>(0, 0.5));
+  box.material.friction = mu;
+  box.may_turn = false;
+  Vec<D> way = at<D>(1);
+  if constexpr (D == 3) way = {std::cos(heading), 0, std::sin(heading)};
+  box.velocity = way * speed;
+  world.add(box);
+  run(world, speed / (mu * kGravity) + 0.5);
+  const Vec<D> end = world.bodies()[1].position - at<D>(0, 0.5);
+  return glm::length(end - way * (speed * speed / (2 * mu * kGravity)));
+}
+
+StressResult sliding() {
+  double worst = 0;
+  for (const double mu : {0.1, 0.5, 1.0, 10.0})
+    worst = largest({worst, sliding_error<2>(mu, 5, 0), sliding_error<3>(mu, 5, 0)});
+  return at_most(1e-6, worst, "m", "5 m/s, friction 0.1, 0.5, 1, 10; 2D and 3D");
+}
+
+// The friction is a cone, not a pyramid: no heading is better than another.
+StressResult headings() {
+  double worst = 0;
+  for (int i = 0; i < 24; ++i)
+    worst = largest(worst, sliding_error<3>(0.5, 3, 2 * std::numbers::pi * i / 24));
+  return at_most(1e-6, worst, "m", "24 headings, 3 m/s, friction 0.5");
+}
+
+// On a slope a body sticks if and only if tan(alpha) <= mu; beyond, it slides at
+// g (sin(alpha) - mu cos(alpha)).
+template <int D>
+double incline_error(double mu, double off) {
+  const double alpha = std::atan(mu + off);
+  WorldConfig<D> config;
+  config.gravity = at<D>(kGravity * std::sin(alpha), -kGravity * std::cos(alpha));
+  config.may_sleep = false;  // it starts as slowly as what comes to rest
+  World<D> world(config);
+  world.add(make_floor<D>(0, mu));
+  Body<D> box = make_box<D>(at<D>(0, 0.5));
+  box.material.friction = mu;
+  box.may_turn = false;
+  world.add(box);
+  run(world, 2);
+  const double slides = largest(0.0, kGravity * (std::sin(alpha) - mu * std::cos(alpha)));
+  return std::abs(world.bodies()[1].velocity.x - 2 * slides);
+}
+
+StressResult incline() {
+  double worst = 0;
+  for (const double mu : {0.0, 0.5, 10.0})
+    for (const double off : {-1e-4, 1e-4}) {
+      if (mu + off < 0) continue;
+      worst = largest({worst, incline_error<2>(mu, off), incline_error<3>(mu, off)});
+    }
+  return at_most(5e-5, worst, "m/s", "after 2 s, tan = friction ± 1e-4; friction 0, 0.5, 10");
+}
+
+// A tower of w : h = 1 : 4 topples where the slope is steeper than 1/4.
+StressResult topple() {
+  int wrong = 0;
+  for (const double off : {-0.01, -0.001, 0.001, 0.01}) {
+    const double alpha = std::atan(0.25 * (1 + off));
+    WorldConfig<2> config;
+    config.gravity = {kGravity * std::sin(alpha), -kGravity * std::cos(alpha)};
+    config.may_sleep = false;  // at the edge it starts as slowly as what comes to rest
+    World<2> world(config);
+    world.add(make_floor<2>(0, 2));
+    Body<2> tower = make_body<2>(OrientedBox<2>{{0.5, 2}}, {0, 2}, "tower");
+    tower.material.friction = 2;
+    world.add(tower);
+    run(world, 20);
+    wrong += (std::abs(world.bodies()[1].orientation.angle) > 1) != (off > 0);
+  }
+  return at_most(0, wrong, "towers", "of 4, slopes within 1e-3 of the edge");
+}
+
+// A ball that does not slip rolls at 5/7 g sin(alpha).
+StressResult rolling() {
+  double worst = 0;
+  for (const double alpha : {0.01, 0.3, 1.0}) {
+    WorldConfig<3> config;
+    config.gravity = {kGravity * std::sin(alpha), -kGravity * std::cos(alpha), 0};
+    config.may_sleep = false;
+    World<3> world(config);
+    world.add(make_floor<3>(0, 2));
+    Body<3> ball = make_ball<3>({0, 0.5, 0});
+    ball.material.friction = 2;
+    world.add(ball);
+    run(world, 2);
+    const double expected = 5.0 / 7 * kGravity * std::sin(alpha) * 2;
+    worst = largest(worst, std::abs(world.bodies()[1].velocity.x / expected - 1));
+  }
+  return at_most(1e-6, worst, "relative", "speed after 2 s, slopes 0.01, 0.3, 1 rad");
+}
+
+}  // namespace
+
+void add_friction_cases(std::vector<StressCase>& cases) {
+  constexpr const char* kGroup = "extreme input";
+  cases.insert(
+      cases.end(),
+      {{"sliding", "bars", "A box thrown along the floor stops after v^2/(2 mu g).", sliding},
+       {"headings", "bars", "A box slides equally far in every direction.", headings},
+       {"incline", kGroup, "A box sticks on a slope exactly if tan(alpha) is at most its friction.",
+        incline},
+       {"topple", kGroup, "A tower topples exactly where its weight passes its edge.", topple},
+       {"rolling", kGroup, "A ball rolls down at 5/7 of what it would slide.", rolling}});
+}
+
+}  // namespace lantern

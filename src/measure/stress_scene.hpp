@@ -1,0 +1,124 @@
+// Worlds that the stress cases share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "physics/world.hpp"
+
+namespace lantern::stress {
+
+inline constexpr double kStep = 1.0 / 60;  // s
+inline constexpr double kGravity = 10;     // units / s^2
+
+inline constexpr Integrator kIntegrators[] = {
+    Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::velocity_verlet,
+    Integrator::runge_kutta_4,  Integrator::implicit_midpoint,   Integrator::implicit_euler};
+
+// The larger one; what is no number wins, and is never lost.
+inline double largest(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+inline double largest(std::initializer_list<double> values) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const double value : values) most = largest(most, value);
+  return most;
+}
+
+// (x, y) in either dimension.
+template <int D>
+Vec<D> at(double x, double y = 0) {
+  Vec<D> v{0.0};
+  v.x = x;
+  v.y = y;
+  return v;
+}
+
+template <int D>
+WorldConfig<D> with_gravity() {
+  WorldConfig<D> config;
+  config.gravity = at<D>(0, -kGravity);
+  return config;
+}
+
+template <int D>
+Body<D> make_body(const Shape<D>& shape, const Vec<D>& position, const char* name = "body") {
+  Body<D> body;
+  body.name = name;
+  body.shape = shape;
+  body.position = position;
+  return body;
+}
+
+template <int D>
+Body<D> make_ball(const Vec<D>& position, double radius = 0.5) {
+  return make_body<D>(Sphere{radius}, position, "ball");
+}
+
+template <int D>
+Body<D> make_box(const Vec<D>& position) {
+  return make_body<D>(OrientedBox<D>{Vec<D>(0.5)}, position, "box");  // 1 m wide
+}
+
+// A half-space below `height`.
+template <int D>
+Body<D> make_floor(double height = 0, double friction = 0.5) {
+  Body<D> body = make_body<D>(HalfSpace<D>{at<D>(0, 1)}, at<D>(0, height), "floor");
+  body.kind = BodyKind::static_body;
+  body.material.friction = friction;
+  return body;
+}
+
+// A point that holds springs and joints.
+template <int D>
+Body<D> make_anchor() {
+  Body<D> body = make_ball<D>(Vec<D>(0.0), 0.1);
+  body.name = "anchor";
+  body.kind = BodyKind::static_body;
+  return body;
+}
+
+template <int D>
+void run(World<D>& world, double seconds, double h = kStep) {
+  for (long i = 0, n = std::lround(seconds / h); i < n; ++i) world.step(h);
+}
+
+// Of the last step, units.
+template <int D>
+double deepest(const World<D>& world) {
+  double depth = 0;
+  for (const Contact<D>& contact : world.contacts())
+    for (const ManifoldPoint<D>& point : contact.manifold.points())
+      depth = largest(depth, -point.separation);
+  return depth;
+}
+
+template <int D>
+bool is_finite(const Vec<D>& v) {
+  for (int i = 0; i < D; ++i)
+    if (!std::isfinite(v[i])) return false;
+  return true;
+}
+
+template <int D>
+bool is_finite(const World<D>& world) {
+  return std::all_of(world.bodies().begin(), world.bodies().end(), [](const Body<D>& body) {
+    return is_finite<D>(body.position) && is_finite<D>(body.velocity);
+  });
+}
+
+// Why the action was refused; nothing if it was not.
+template <class Action>
+std::optional<std::string> refusal(Action&& action) {
+  try {
+    action();
+  } catch (const Refused& refused) {
+    return refused.what();
+  }
+  return std::nullopt;
+}
+
+}  // namespace lantern::stress

@@ -1,0 +1,233 @@
+// The methods' limits of stability from both sides, and their laws of energy, on the spring of
+// oscillator_world.hpp.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "measure/oscillator_world.hpp"
+#include "measure/stability_map.hpp"
+#include "measure/stress.hpp"
+#include "measure/stress_scene.hpp"
+
+namespace lantern {
+namespace {
+
+using namespace stress;
+
+constexpr double kRatios[] = {0, 0.01, 0.1, 0.5, 1, 2, 10, 1e3};  // damping ratios
+constexpr double kFar = 1e6;                                      // an excursion that says enough
+
+// The farthest that the mass, which starts at rest at 1, comes within the steps of 1 s.
+double farthest(Integrator method, double omega_h, double zeta, int steps) {
+  World<2> world = oscillator_world(method, omega_h, zeta, 1, 0);
+  double far = 0;
+  for (int i = 0; i < steps && far < kFar; ++i) {
+    world.step(1);
+    far = largest(far, std::abs(world.bodies()[1].position.x));
+  }
+  return far;
+}
+
+// Long enough for what grows at 1.01 times the limit to pass kFar, whatever the damping.
+int long_enough(Integrator method, double zeta) {
+  if (method == Integrator::velocity_verlet && zeta > 10) return 800000;
+  return method == Integrator::explicit_euler && zeta < 1 ? 80000 : 20000;
+}
+
+// Explicit Euler has no limit at zeta = 0, and at 0.01 one too slow to see in a short run.
+bool has_limit(Integrator method, double zeta) {
+  return method != Integrator::explicit_euler || zeta > 0.05;
+}
+
+template <Integrator Method>
+StressResult below_limit() {
+  double worst = 0, at = 0;
+  for (const double zeta : kRatios) {
+    if (!has_limit(Method, zeta)) continue;
+    const double far = farthest(Method, 0.99 * stability_limit(Method, zeta), zeta, 10000);
+    if (far > worst) at = zeta;
+    worst = largest(worst, far);
+  }
+  return at_most(100, worst, "x the start", fmt::format("worst at damping ratio {}", at));
+}
+
+template <Integrator Method>
+StressResult beyond_limit() {
+  double least = kFar, at = 0;
+  for (const double zeta : kRatios) {
+    if (!has_limit(Method, zeta)) continue;
+    const double far =
+        farthest(Method, 1.01 * stability_limit(Method, zeta), zeta, long_enough(Method, zeta));
+    if (far < least) at = zeta;
+    least = std::min(least, far);
+  }
+  return at_least(1e4, least, "x the start", fmt::format("least at damping ratio {}", at));
+}
+
+// omega h from 0.01 to 1e4, over 1000 steps each.
+template <Integrator Method>
+StressResult at_every_step() {
+  double worst = 0;
+  std::string where;
+  for (const double zeta : kRatios)
+    for (double omega_h = 0.01; omega_h < 2e4; omega_h *= 10) {
+      const double far = farthest(Method, omega_h, zeta, 1000);
+      if (far > worst)
+        where = fmt::format("worst at damping ratio {}, omega h {:g}", zeta, omega_h);
+      worst = largest(worst, far);
+    }
+  return at_most(1 + 1e-9, worst, "x the start", where);
+}
+
+// (v^2 + omega^2 x^2) / 2
+double energy_of(const World<2>& world, double omega) {
+  const Body<2>& body = world.bodies()[1];
+  return (body.velocity.x * body.velocity.x + omega * omega * body.position.x * body.position.x) /
+         2;
+}
+
+// How far the energy of the undamped spring after `steps` steps is from `law(omega h)` to the power
+// of `steps` times the first, worst over omega h; relative.
+template <class Law>
+double misses_law(Integrator method, std::initializer_list<double> omega_hs, int steps, Law&& law) {
+  double worst = 0;
+  for (const double w : omega_hs) {
+    World<2> world = oscillator_world(method, w, 0, 1, 0.3 * w);
+    const double before = energy_of(world, w);
+    double expected = before;
+    for (int i = 0; i < steps; ++i) {
+      world.step(1);
+      expected *= law(w * w);
+    }
+    worst = largest(worst, std::abs(energy_of(world, w) / expected - 1));
+  }
+  return worst;
+}
+
+StressResult explicit_euler_energy() {
+  return at_most(1e-10,
+                 misses_law(Integrator::explicit_euler, {0.01, 0.1, 1.0}, 500,
+                            [](double w2) { return 1 + w2; }),
+                 "relative", "500 steps, omega h from 0.01 to 1");
+}
+
+StressResult implicit_euler_energy() {
+  return at_most(1e-10,
+                 misses_law(Integrator::implicit_euler, {0.01, 0.1, 1.0}, 500,
+                            [](double w2) { return 1 / (1 + w2); }),
+                 "relative", "500 steps, omega h from 0.01 to 1");
+}
+
+StressResult midpoint_energy() {
+  return at_most(1e-11,
+                 misses_law(Integrator::implicit_midpoint, {0.01, 0.1, 1.0, 10.0, 100.0}, 1000,
+                            [](double) { return 1.0; }),
+                 "relative", "1000 steps, omega h from 0.01 to 100");
+}
+
+// |R(iw)|^2 = 1 - w^6/72 + w^8/576, exactly.
+StressResult runge_kutta_energy() {
+  return at_most(
+      1e-10,
+      misses_law(Integrator::runge_kutta_4, {0.01, 0.1, 1.0, 2.0}, 200,
+                 [](double w2) { return 1 - w2 * w2 * w2 / 72 + w2 * w2 * w2 * w2 / 576; }),
+      "relative", "200 steps, omega h from 0.01 to 2");
+}
+
+// The energy wavers by (omega h)^2/4 of itself at most, for ever.
+StressResult verlet_energy() {
+  double worst = 0;
+  for (const double w : {0.01, 0.1, 0.5}) {
+    World<2> world = oscillator_world(Integrator::velocity_verlet, w, 0, 1, 0);
+    const double before = energy_of(world, w);
+    for (int i = 0; i < 20000; ++i) {
+      world.step(1);
+      worst = largest(worst, std::abs(energy_of(world, w) / before - 1) / (w * w / 4));
+    }
+  }
+  return at_most(1.01, worst, "x (omega h)^2/4", "20000 steps, omega h 0.01, 0.1, 0.5");
+}
+
+// Half of omega h: the modified energy v^2 + w^2 x^2 - h w^2 x v is kept.
+StressResult semi_implicit_energy() {
+  double worst = 0;
+  for (const double w : {0.01, 0.1, 0.5}) {
+    World<2> world = oscillator_world(Integrator::semi_implicit_euler, w, 0, 1, 0);
+    const double before = energy_of(world, w);
+    for (int i = 0; i < 20000; ++i) {
+      world.step(1);
+      const double change = std::abs(energy_of(world, w) / before - 1);
+      worst = largest(worst, change / (w / (2 - w)));
+    }
+  }
+  return at_most(1.01, worst, "x bound", "20000 steps; the bound is omega h/(2 - omega h)");
+}
+
+// Without damping, a million periods: nothing that a symplectic method loses may add up.
+StressResult many_periods() {
+  const double w = 2 * std::numbers::pi / 20;  // 20 steps a period
+  World<2> world = oscillator_world(Integrator::velocity_verlet, w, 0, 1, 0);
+  const double before = energy_of(world, w);
+  double worst = 0;
+  for (int i = 0; i < 20'000'000; ++i) {
+    world.step(1);
+    worst = largest(worst, std::abs(energy_of(world, w) / before - 1));
+  }
+  return at_most(w * w / 4 * 1.01, worst, "relative", "1e6 periods of 20 steps");
+}
+
+StressResult map_agrees() {
+  int wrong = 0;
+  const StabilityMap map = make_stability_map([] { return true; });
+  for (const StabilityMap::Panel& panel : map.panels)
+    for (std::size_t row = 0; row < map.zeta.size(); ++row)
+      for (std::size_t column = 0; column < map.omega_h.size(); ++column)
+        wrong += grows(map.growth_at(panel, column, row)) !=
+                 (map.omega_h[column] > stability_limit(panel.method, map.zeta[row]));
+  return at_most(0, wrong, "cells",
+                 fmt::format("of {}", map.panels.size() * map.zeta.size() * map.omega_h.size()));
+}
+
+}  // namespace
+
+void add_stability_cases(std::vector<StressCase>& cases) {
+  using enum Integrator;
+  constexpr const char* kGroup = "stability";
+  constexpr const char* kBelow =
+      "At 0.99 times its limit the spring stays bounded, at any damping.";
+  constexpr const char* kBeyond = "At 1.01 times its limit the spring grows, at any damping.";
+  constexpr const char* kEvery = "The spring stays bounded at any step and damping.";
+  cases.insert(
+      cases.end(),
+      {{"explicit_euler_below_limit", kGroup, kBelow, below_limit<explicit_euler>},
+       {"explicit_euler_beyond_limit", kGroup, kBeyond, beyond_limit<explicit_euler>},
+       {"semi_implicit_euler_below_limit", kGroup, kBelow, below_limit<semi_implicit_euler>},
+       {"semi_implicit_euler_beyond_limit", kGroup, kBeyond, beyond_limit<semi_implicit_euler>},
+       {"velocity_verlet_below_limit", kGroup, kBelow, below_limit<velocity_verlet>},
+       {"velocity_verlet_beyond_limit", kGroup, kBeyond, beyond_limit<velocity_verlet>},
+       {"runge_kutta_4_below_limit", kGroup, kBelow, below_limit<runge_kutta_4>},
+       {"runge_kutta_4_beyond_limit", kGroup, kBeyond, beyond_limit<runge_kutta_4>},
+       {"implicit_midpoint_any_step", kGroup, kEvery, at_every_step<implicit_midpoint>},
+       {"implicit_euler_any_step", kGroup, kEvery, at_every_step<implicit_euler>},
+       {"stability_map_agrees", kGroup,
+        "Every cell of every method's map is on the side of its limit that theory says.",
+        map_agrees},
+       {"explicit_euler_energy", kGroup,
+        "Each step multiplies an undamped spring's energy by 1 + (omega h)^2.",
+        explicit_euler_energy},
+       {"semi_implicit_euler_energy", kGroup, "The energy of an undamped spring stays bounded.",
+        semi_implicit_energy},
+       {"velocity_verlet_energy", kGroup,
+        "The energy of an undamped spring wavers by (omega h)^2/4 at most.", verlet_energy},
+       {"runge_kutta_4_energy", kGroup,
+        "Each step loses (omega h)^6/72 of an undamped spring's energy.", runge_kutta_energy},
+       {"implicit_midpoint_energy", kGroup,
+        "The energy of an undamped spring is kept to rounding, at any step.", midpoint_energy},
+       {"implicit_euler_energy", kGroup,
+        "Each step divides an undamped spring's energy by 1 + (omega h)^2.", implicit_euler_energy},
+       {"million_periods", kGroup,
+        "Over a million periods Verlet's energy wavers, but does not drift.", many_periods, true}});
+}
+
+}  // namespace lantern

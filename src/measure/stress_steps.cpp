@@ -1,0 +1,236 @@
+// Steps of every length, numbers that overflow, and bodies that begin inside each other.
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "measure/stress.hpp"
+#include "measure/stress_scene.hpp"
+
+namespace lantern {
+namespace {
+
+using namespace stress;
+
+// Two boxes at rest on the floor.
+template <int D>
+World<D> resting(Integrator method = Integrator::semi_implicit_euler) {
+  WorldConfig<D> config = with_gravity<D>();
+  config.integrator = method;
+  World<D> world(config);
+  world.add(make_floor<D>());
+  world.add(make_box<D>(at<D>(0, 0.5)));
+  world.add(make_box<D>(at<D>(0, 1.5)));
+  run(world, 0.1);
+  return world;
+}
+
+template <int D>
+int changed_by_no_time() {
+  int changed = 0;
+  for (const Integrator method : kIntegrators) {
+    World<D> world = resting<D>(method);
+    const std::uint64_t before = world.hash();
+    world.step(0);
+    changed += world.hash() != before;
+  }
+  return changed;
+}
+
+StressResult step_zero() {
+  return at_most(0, changed_by_no_time<2>() + changed_by_no_time<3>(), "worlds",
+                 "changed, of 12: every method, 2D and 3D");
+}
+
+template <int D>
+int bad_steps_taken(int& tried) {
+  int taken = 0;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  World<D> world = resting<D>();
+  const std::uint64_t before = world.hash();
+  for (const double h : {-1e-300, -1e-12, -1.0 / 60, -1e3, kNan, kInfinity, -kInfinity}) {
+    const auto why = refusal([&] { world.step(h); });
+    ++tried;
+    taken += !why || why->find("time step") == std::string::npos || world.hash() != before;
+  }
+  return taken;
+}
+
+StressResult step_negative() {
+  int tried = 0;
+  const int taken = bad_steps_taken<2>(tried) + bad_steps_taken<3>(tried);
+  return at_most(0, taken, "steps",
+                 fmt::format("taken, of {} that are negative or no number", tried));
+}
+
+// How far what rests is from its place after steps of `h`; endless if anything is not finite. A
+// step that is refused must name body and step.
+template <int D>
+double rest_error(Integrator method, double h, int steps) {
+  World<D> world = resting<D>(method);
+  const auto why = refusal([&] {
+    for (int i = 0; i < steps; ++i) world.step(h);
+  });
+  const bool told =
+      !why || (why->find("'") != std::string::npos && why->find("step") != std::string::npos);
+  if (!told || !is_finite(world)) return std::numeric_limits<double>::infinity();
+  return largest(glm::length(world.bodies()[1].position - at<D>(0, 0.5)),
+                 glm::length(world.bodies()[2].position - at<D>(0, 1.5)));
+}
+
+double worst_rest_error(double h, int steps) {
+  double worst = 0;
+  for (const Integrator method : kIntegrators)
+    worst = largest({worst, rest_error<2>(method, h, steps), rest_error<3>(method, h, steps)});
+  return worst;
+}
+
+StressResult step_tiny() {
+  return at_most(1e-3, largest(worst_rest_error(1e-12, 100), worst_rest_error(1e-9, 100)), "m",
+                 "what rests has moved; h = 1e-12 and 1e-9, every method, 2D and 3D");
+}
+
+StressResult step_huge() {
+  return at_most(1e-3, largest(worst_rest_error(1, 10), worst_rest_error(1e3, 10)), "m",
+                 "what rests has moved; h = 1 and 1e3, every method, 2D and 3D");
+}
+
+// The world must say who overflows and in which step, and stay as it was.
+template <int D>
+bool tells(World<D>& world, const char* who, double h) {
+  const std::uint64_t before = world.hash();
+  const std::string step = fmt::format("in step {}", world.work().steps + 1);
+  const auto why = refusal([&] { world.step(h); });
+  return why && why->find(who) != std::string::npos && why->find(step) != std::string::npos &&
+         world.hash() == before && is_finite(world);
+}
+
+constexpr Integrator kExplicit[] = {Integrator::explicit_euler, Integrator::semi_implicit_euler,
+                                    Integrator::velocity_verlet, Integrator::runge_kutta_4};
+constexpr Integrator kImplicit[] = {Integrator::implicit_midpoint, Integrator::implicit_euler};
+
+// By speed, and by force.
+template <int D>
+int silent_overflows(std::span<const Integrator> methods) {
+  int silent = 0;
+  for (const Integrator method : methods) {
+    World<D> by_speed = resting<D>(method);
+    Body<D> fast = make_ball<D>(at<D>(9, 9));
+    fast.name = "fast";
+    fast.velocity = at<D>(1e300);
+    by_speed.add(fast);
+    silent += !tells(by_speed, "'fast'", 1e10);
+
+    World<D> by_force = resting<D>(method);
+    Body<D> light = make_ball<D>(at<D>(9, 9));
+    light.name = "light";
+    light.mass = 1e-300;
+    by_force.push(by_force.add(light), at<D>(1e9), at<D>(9, 9));
+    silent += !tells(by_force, "'light'", kStep);
+  }
+  return silent;
+}
+
+StressResult overflow_of(std::span<const Integrator> methods) {
+  const int silent = silent_overflows<2>(methods) + silent_overflows<3>(methods);
+  return at_most(
+      0, silent, "runs",
+      fmt::format("of {} that do not name body and step, or change the world", 4 * methods.size()));
+}
+StressResult overflow() { return overflow_of(kExplicit); }
+StressResult overflow_implicit() { return overflow_of(kImplicit); }
+
+// An explicit method far beyond its limit blows up: it ends with a refusal, never with a NaN.
+StressResult blow_up() {
+  int silent = 0;
+  for (const Integrator method : kExplicit) {
+    WorldConfig<2> config;
+    config.integrator = method;
+    World<2> world(config);
+    world.add(make_anchor<2>());
+    Body<2> bob = make_ball<2>({2, 0});
+    bob.name = "bob";
+    world.add(bob);
+    Spring<2> spring;
+    spring.b = 1;
+    spring.stiffness = 1e8;
+    world.add_spring(spring);
+    const auto why = refusal([&] {
+      for (int i = 0; i < 2000; ++i) world.step(kStep);
+    });
+    silent += !why || why->find("'bob'") == std::string::npos ||
+              why->find("in step") == std::string::npos || !is_finite(world);
+  }
+  return at_most(0, silent, "runs", "of 4 explicit methods that do not end naming body and step");
+}
+
+// The greatest speed of two equal bodies that begin `apart` along x, over 4 s; endless if they are
+// still in each other then.
+template <int D>
+double exit_speed(const Body<D>& body, double apart) {
+  World<D> world((WorldConfig<D>()));
+  Body<D> other = body;
+  other.position.x += apart;
+  world.add(body);
+  world.add(other);
+  double fastest = 0;
+  for (int i = 0; i < 240; ++i) {
+    world.step(kStep);
+    for (const Body<D>& b : world.bodies()) fastest = largest(fastest, glm::length(b.velocity));
+  }
+  return deepest(world) <= 1e-3 && is_finite(world) ? fastest
+                                                    : std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+double worst_exit_speed(std::initializer_list<double> aparts) {
+  double worst = 0;
+  const Vec<D> place = at<D>(3, 4);
+  for (const double apart : aparts)
+    for (const Body<D>& body : {make_ball<D>(place), make_box<D>(place),
+                                make_body<D>(Capsule{0.3, 0.5}, place, "capsule"),
+                                make_body<D>(AxisBox<D>{Vec<D>(0.5)}, place, "axis box")})
+      worst = largest(worst, exit_speed<D>(body, apart));
+  return worst;
+}
+
+StressResult deep_overlap() {
+  return at_most(
+      1e-6, largest(worst_exit_speed<2>({0.05, 0.1, 0.4}), worst_exit_speed<3>({0.05, 0.1, 0.4})),
+      "m/s", "while they part, 0.05, 0.1 and 0.4 m apart; 4 shapes, 2D and 3D");
+}
+
+StressResult coincident_centres() {
+  return at_most(
+      1e-6,
+      largest(worst_exit_speed<2>({0.0, 1e-300, 1e-9}), worst_exit_speed<3>({0.0, 1e-300, 1e-9})),
+      "m/s", "while they part, 0, 1e-300 and 1e-9 m apart; 4 shapes, 2D and 3D");
+}
+
+}  // namespace
+
+void add_step_cases(std::vector<StressCase>& cases) {
+  constexpr const char* kGroup = "extreme input";
+  cases.insert(
+      cases.end(),
+      {{"step_zero", kGroup, "A step of no time changes not a bit of the world.", step_zero},
+       {"step_negative", kGroup, "A negative step is refused, and the world stays as it was.",
+        step_negative},
+       {"step_tiny", kGroup, "What rests does so at steps of 1e-12 s.", step_tiny},
+       {"step_huge", kGroup,
+        "What rests does so at steps of 1000 s, or the world says who does not.", step_huge},
+       {"overflow", kGroup, "A number that overflows ends the run, naming body and step.",
+        overflow},
+       {"overflow_implicit", kGroup,
+        "An implicit method ends a run that overflows, naming body and step.", overflow_implicit},
+       {"blow_up", kGroup, "A spring beyond its method's limit ends the run, naming body and step.",
+        blow_up},
+       {"deep_overlap", kGroup, "Bodies deep in each other part, and do not fly off.",
+        deep_overlap},
+       {"coincident_centres", kGroup, "Bodies with a common centre part, and do not fly off.",
+        coincident_centres}});
+}
+
+}  // namespace lantern

@@ -1,0 +1,338 @@
+// Spatial structures at the ends of what boxes can be: every broad phase against brute force.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+#include "measure/stress.hpp"
+#include "measure/stress_scene.hpp"
+#include "spatial/pairs.hpp"
+
+namespace lantern {
+namespace {
+
+using namespace stress;
+
+constexpr std::size_t kMany = 100'000;
+constexpr double kSide = 64;  // of the world in which boxes lie, from the origin
+
+template <int D>
+Vec<D> random_point(Random& random, double lo, double hi) {
+  Vec<D> p;
+  for (int i = 0; i < D; ++i) p[i] = random.between(lo, hi);
+  return p;
+}
+
+// The world is cut in half on every axis, and its first quarter again.
+template <int D>
+BroadPhaseConfig<D> config_of(BroadPhaseKind kind) {
+  BroadPhaseConfig<D> config;
+  config.kind = kind;
+  config.bounds = {Vec<D>(0.0), Vec<D>(kSide)};
+  config.capacity = 2;
+  const auto plane = [&](int axis, double offset, std::uint32_t parent, bool front) {
+    Vec<D> normal(0.0);
+    normal[axis] = 1;
+    config.planes.push_back({{normal, offset}, parent, front});
+  };
+  plane(0, kSide / 2, kNone, false);
+  plane(1, kSide / 2, 0, false);
+  plane(1, kSide / 2, 0, true);
+  plane(0, kSide / 4, 1, false);
+  return config;
+}
+
+// n(n-1)/2 comparisons without any structure: the oracle.
+template <int D>
+std::vector<Pair> true_pairs(const std::vector<Proxy<D>>& proxies) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < proxies.size(); ++i)
+    for (std::size_t j = i + 1; j < proxies.size(); ++j)
+      if (overlap(proxies[i].box, proxies[j].box)) pairs.push_back({proxies[i].id, proxies[j].id});
+  return pairs;
+}
+
+// Pairs of any broad phase that are missed, invented, or told twice, over seeded worlds whose boxes
+// are made by `make(random)`.
+template <int D, class Make>
+std::size_t wrong_pairs(Make&& make, std::size_t& true_count) {
+  std::size_t wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random(seed);
+    std::vector<Proxy<D>> proxies;
+    for (BodyId id = 0; id < 150; ++id) proxies.push_back({id, make(random), id % 7 == 0, true});
+    for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+      if (D == 2 && kind == BroadPhaseKind::octree) continue;
+      BroadPhase<D> broad_phase(config_of<D>(kind));
+      broad_phase.update(proxies);
+      std::vector<Pair> expected = true_pairs(proxies);  // but of two static bodies
+      std::erase_if(expected, [](const Pair& p) { return p.a % 7 == 0 && p.b % 7 == 0; });
+      true_count += expected.size();
+      const std::set<Pair> right(expected.begin(), expected.end());
+      const std::vector<Pair>& found = broad_phase.pairs();
+      const std::set<Pair> once(found.begin(), found.end());
+      wrong += found.size() - once.size();
+      for (const Pair& pair : once) wrong += !right.contains(pair);
+      for (const Pair& pair : right) wrong += !once.contains(pair);
+    }
+  }
+  return wrong;
+}
+
+// `make` is a generic lambda: make(random, std::integral_constant<int, D>).
+template <class Make>
+StressResult pairs_case(Make&& make) {
+  std::size_t count = 0;
+  const std::size_t wrong =
+      wrong_pairs<2>([&](Random& r) { return make(r, std::integral_constant<int, 2>()); }, count) +
+      wrong_pairs<3>([&](Random& r) { return make(r, std::integral_constant<int, 3>()); }, count);
+  if (count == 0)
+    return at_most(0, std::numeric_limits<double>::quiet_NaN(), "pairs", "no overlap");
+  return at_most(0, static_cast<double>(wrong), "pairs",
+                 fmt::format("missed, invented or repeated, of {}; all broad phases", count));
+}
+
+StressResult outside_the_root() {
+  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
+    return Box<D>::around(random_point<D>(random, -2 * kSide, 3 * kSide),
+                          random_point<D>(random, 0, 25));
+  });
+}
+
+// Corners on multiples of 4: on the planes at which every tree splits.
+StressResult on_splitting_planes() {
+  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
+    Box<D> box;
+    for (int i = 0; i < D; ++i) {
+      box.lo[i] = 4.0 * static_cast<double>(random.whole(0, 15));
+      box.hi[i] = box.lo[i] + 4.0 * static_cast<double>(random.whole(0, 2));
+    }
+    return box;
+  });
+}
+
+StressResult size_ratio() {
+  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
+    const double size = std::pow(10.0, static_cast<double>(random.whole(-6, 6)));
+    return Box<D>::around(random_point<D>(random, 0, kSide),
+                          random_point<D>(random, 0.1 * size, size));
+  });
+}
+
+StressResult aspect_ratio() {
+  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
+    Vec<D> half(10.0);
+    half[static_cast<int>(random.whole(0, D - 1))] = 1e-3;
+    return Box<D>::around(random_point<D>(random, 0, kSide), half);
+  });
+}
+
+StressResult zero_size_boxes() {
+  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
+    Vec<D> p;  // few places, so that some coincide
+    for (int i = 0; i < D; ++i) p[i] = 8.0 * static_cast<double>(random.whole(0, 3));
+    return Box<D>{p, p};
+  });
+}
+
+// --- 1e5 objects at one point ---
+
+template <int D>
+std::vector<Item<D>> coincident(const Vec<D>& place) {
+  std::vector<Item<D>> items;
+  for (BodyId id = 0; id < kMany; ++id) items.push_back({id, Box<D>::around(place, Vec<D>(0.5))});
+  return items;
+}
+
+template <int D>
+Orthtree<D> deep_tree(bool no_progress_stop) {
+  typename Orthtree<D>::Config config;
+  config.bounds = {Vec<D>(0.0), Vec<D>(kSide)};
+  config.max_depth = no_progress_stop ? Orthtree<D>::kDeepest : 8;
+  config.no_progress_stop = no_progress_stop;
+  return Orthtree<D>(config);
+}
+
+// Somewhere, and on the first splitting plane of every axis.
+template <int D>
+std::array<Vec<D>, 2> places() {
+  return {Vec<D>(21.3), Vec<D>(kSide / 2)};
+}
+
+// The nodes that a tree makes although no split can part anything.
+template <int D>
+double futile_nodes() {
+  double most = 0;
+  for (const Vec<D>& place : places<D>()) {
+    Orthtree<D> tree = deep_tree<D>(true);
+    for (const Item<D>& item : coincident<D>(place)) tree.insert(item);
+    KdTree<D> fitted;
+    fitted.build(coincident<D>(place));
+    most = largest({most, static_cast<double>(tree.counters().nodes),
+                    static_cast<double>(fitted.counters().nodes)});
+  }
+  return most;
+}
+
+StressResult coincident_bodies() {
+  return at_most(1, largest(futile_nodes<2>(), futile_nodes<3>()), "nodes",
+                 "quadtree, octree and kD-trees of 100000 equal boxes, depth limit 32");
+}
+
+// Without the no-progress stop the depth limit alone ends the splits. A box of 1 on a corner of
+// cells of 1/4 reaches up to 6 of them on each axis, however many bodies there are: entries a body
+// over those of a single body.
+template <int D>
+double memory_growth() {
+  double most = 0;
+  for (const Vec<D>& place : places<D>()) {
+    const auto entries_of = [&](std::size_t n) {
+      Orthtree<D> tree = deep_tree<D>(false);
+      for (BodyId id = 0; id < n; ++id) tree.insert({id, Box<D>::around(place, Vec<D>(0.5))});
+      return static_cast<double>(tree.counters().entries) / static_cast<double>(n);
+    };
+    most = largest(most, entries_of(kMany / 10) / entries_of(100));
+  }
+  return most;
+}
+
+StressResult coincident_memory() {
+  return at_most(1, largest(memory_growth<2>(), memory_growth<3>()), "x",
+                 "entries a body, 10000 equal boxes over 100, stopped by the depth limit 8 only");
+}
+
+template <int D>
+double miscounted_pairs() {
+  Orthtree<D> tree = deep_tree<D>(true);
+  for (const Item<D>& item : coincident<D>(Vec<D>(21.3))) tree.insert(item);
+  return std::abs(static_cast<double>(count_pair_tests(tree)) -
+                  static_cast<double>(all_pairs(kMany)));
+}
+
+StressResult coincident_pairs_counted() {
+  return at_most(0, largest(miscounted_pairs<2>(), miscounted_pairs<3>()), "pairs",
+                 "off n(n-1)/2 = 4999950000, counted without being collected");
+}
+
+// The n(n-1)/2 pairs are refused by the stated budget, and the broad phase goes on.
+template <int D>
+int silent_kinds(int& tried) {
+  int silent = 0;
+  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+    if (D == 2 && kind == BroadPhaseKind::octree) continue;
+    BroadPhaseConfig<D> config = config_of<D>(kind);
+    config.most_pairs = 100'000;
+    BroadPhase<D> broad_phase(config);
+    std::vector<Proxy<D>> proxies;
+    for (const Item<D>& item : coincident<D>(Vec<D>(21.3))) proxies.push_back({item.id, item.box});
+    const auto why = refusal([&] { broad_phase.update(proxies); });
+    bool good = why && why->find("100000") != std::string::npos && broad_phase.pairs().empty();
+    proxies.resize(2);
+    broad_phase.update(proxies);
+    good = good && broad_phase.pairs() == std::vector<Pair>{{0, 1}};
+    ++tried;
+    silent += !good;
+  }
+  return silent;
+}
+
+StressResult coincident_pairs_refused() {
+  int tried = 0;
+  const int silent = silent_kinds<2>(tried) + silent_kinds<3>(tried);
+  return at_most(0, silent, "broad phases",
+                 fmt::format("of {} that do not refuse 5e9 pairs by a budget of 1e5", tried));
+}
+
+// --- roots without a middle ---
+
+// Bodies in a root that has no number between its bounds: nodes, or endless if pairs are missed.
+template <int D>
+double nodes_of_root(const Box<D>& bounds) {
+  typename Orthtree<D>::Config config;
+  config.bounds = bounds;
+  config.capacity = 1;
+  config.max_depth = Orthtree<D>::kDeepest;
+  Orthtree<D> tree(config);
+  for (BodyId id = 0; id < 3; ++id) tree.insert({id, bounds});
+  if (candidate_pairs(tree, 100).pairs.size() != 3) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(tree.counters().nodes);
+}
+
+template <int D>
+double worst_root(std::initializer_list<double> lows) {
+  double worst = 0;
+  for (const double low : lows) {
+    const double next = std::nextafter(low, std::numeric_limits<double>::infinity());
+    worst = largest(worst, nodes_of_root<D>({Vec<D>(low), Vec<D>(next)}));
+  }
+  return worst;
+}
+
+StressResult root_too_small() {
+  const auto lows = {0.0, 1.0, 1 + 0x1p-52, 2 * 0x1p-1074, -1.0};
+  return at_most(1, largest(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
+                 "roots from one number to the next, near 0 and 1");
+}
+
+StressResult root_too_far() {
+  const auto lows = {1e9, 1e16, 1e300, 1.7e308};
+  return at_most(1, largest(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
+                 "roots from one number to the next, at 1e9 ... 1.7e308");
+}
+
+// Two bodies at the ends of the largest world: its middle must not overflow.
+template <int D>
+int wrong_largest() {
+  constexpr double kHuge = std::numeric_limits<double>::max();
+  typename Orthtree<D>::Config config;
+  config.bounds = {Vec<D>(-kHuge), Vec<D>(kHuge)};
+  config.capacity = 1;
+  Orthtree<D> tree(config);
+  tree.insert({0, {Vec<D>(-kHuge), Vec<D>(-1e308)}});
+  tree.insert({1, {Vec<D>(1e308), Vec<D>(kHuge)}});
+  return static_cast<int>(candidate_pairs(tree, 100).pairs.size());
+}
+
+StressResult root_too_large() {
+  return at_most(0, wrong_largest<2>() + wrong_largest<3>(), "pairs",
+                 "invented, of bodies at both ends of all numbers");
+}
+
+}  // namespace
+
+void add_tree_cases(std::vector<StressCase>& cases) {
+  constexpr const char* kGroup = "extreme input";
+  cases.insert(
+      cases.end(),
+      {{"coincident_bodies", kGroup, "A tree does not split 1e5 objects at one point.",
+        coincident_bodies},
+       {"coincident_memory", kGroup, "Memory grows with n where only the depth limit stops a tree.",
+        coincident_memory},
+       {"coincident_pairs_counted", kGroup, "The n(n-1)/2 pairs at one point can be counted.",
+        coincident_pairs_counted},
+       {"coincident_pairs_refused", kGroup,
+        "More pairs than the budget are refused, and the broad phase goes on.",
+        coincident_pairs_refused},
+       {"root_too_small", kGroup, "A node whose middle equals a bound stops splitting.",
+        root_too_small},
+       {"root_too_far", kGroup, "A root too far away to have a middle stops splitting.",
+        root_too_far},
+       {"root_too_large", kGroup, "The middle of the largest possible root does not overflow.",
+        root_too_large},
+       {"outside_the_root", kGroup,
+        "Objects outside the root's box are kept, and their pairs found.", outside_the_root},
+       {"on_splitting_planes", kGroup,
+        "Objects on splitting planes, or touching exactly, give each pair once.",
+        on_splitting_planes},
+       {"zero_size_boxes", kGroup, "Boxes of no size give the pairs of brute force.",
+        zero_size_boxes},
+       {"size_ratio", kGroup, "Sizes from 1e-6 to 1e6 give the pairs of brute force.", size_ratio},
+       {"aspect_ratio", kGroup, "Aspects of 1 : 1e4 give the pairs of brute force.",
+        aspect_ratio}});
+}
+
+}  // namespace lantern

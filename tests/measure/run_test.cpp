@@ -1,0 +1,138 @@
+// Runs and what is told of them.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "measure/lantern_contestant.hpp"
+#include "measure/plan.hpp"
+#include "measure/scenes.hpp"
+
+namespace lantern {
+namespace {
+
+const auto kGoOn = [] { return false; };
+
+std::vector<Row> rows_of(Scenario scenario, std::vector<std::string> methods,
+                         std::vector<double> steps) {
+  PlanOptions options;
+  options.scenarios = {std::move(scenario)};
+  options.effort = Effort::quick;
+  options.methods = std::move(methods);
+  options.steps = std::move(steps);
+  options.longest = 1e9;
+  options.peers = false;
+  Plan plan(std::move(options), [](const Scenario&) {});
+  std::vector<Row> rows;
+  for (const Job& job : plan.jobs()) rows.push_back(*plan.run(job, kGoOn));
+  return rows;
+}
+
+TEST(Run, AScenarioIsHeldAgainstItsOwnFinerRun) {
+  // Semi-implicit Euler misses the parabola by g T h / 2.
+  const std::vector<Row> rows = rows_of(thrown(), {"semi_implicit_euler"}, {0.02, 0.01});
+  ASSERT_EQ(rows.size(), 2u);
+  for (const Row& row : rows) {
+    ASSERT_EQ(row.status, Status::ok) << row.reason;
+    EXPECT_NE(row.reference.find("own run"), std::string::npos) << row.reference;
+    const double way = std::hypot(3.0, 1.0);  // from start to end, larger than any between
+    EXPECT_NEAR(*row.error(), 10 * 1 * row.step / 2 / way, 1e-9);
+    EXPECT_EQ(row.counted.steps, static_cast<std::uint64_t>(std::lround(1 / row.step)));
+    EXPECT_EQ(row.timing.repeats, 3);
+  }
+  EXPECT_LT(rows_of(thrown(), {"velocity_verlet"}, {0.1})[0].error(), 1e-13);
+}
+
+TEST(Run, CountedWorkIsThatOfTheMethod) {
+  for (const auto& [method, evaluations] :
+       {std::pair("explicit_euler", 100), std::pair("velocity_verlet", 200),
+        std::pair("runge_kutta_4", 400)}) {
+    const Row row = rows_of(thrown(), {method}, {0.01})[0];
+    EXPECT_EQ(row.counted.force_evaluations, static_cast<std::uint64_t>(evaluations)) << method;
+  }
+}
+
+TEST(Run, ARunThatBlowsUpHasDiverged) {
+  Scenario spring = parse_scenario(R"(
+title = "A stiff spring"
+[world]
+min = [-5, -5]
+max = [5, 5]
+time_step = 0.1
+[[body]]
+name = "bob"
+radius = 0.5
+mass = 1
+position = [1, 0]
+[[spring]]
+a = "bob"
+to = [0, 0]
+rest_length = 0
+stiffness = 10000
+[[step]]
+do = "insert"
+bodies = ["bob"]
+[[step]]
+do = "run"
+seconds = 40
+)",
+                                   "stiff.toml");
+  const Row row = rows_of(spring, {"explicit_euler"}, {0.1})[0];
+  EXPECT_EQ(row.status, Status::diverged) << to_string(row.status);
+  EXPECT_FALSE(row.reason.empty());
+  EXPECT_FALSE(row.error().has_value());
+  EXPECT_EQ(row.timing.repeats, 0) << "what has diverged is not timed";
+}
+
+TEST(Run, OneThatIsStoppedGivesNothing) {
+  PlanOptions options;
+  options.scenarios = {thrown()};
+  options.peers = false;
+  Plan plan(std::move(options), [](const Scenario&) {});
+  EXPECT_FALSE(plan.run(plan.jobs()[0], [] { return true; }).has_value());
+}
+
+TEST(Run, LongOnesAreFoundOutBefore) {
+  PlanOptions options;
+  options.scenarios = {thrown()};
+  options.steps = {0.01, 1e-12};
+  options.peers = false;
+  Plan plan(std::move(options), [](const Scenario&) {});
+  for (const Job& job : plan.jobs()) {
+    EXPECT_EQ(plan.is_too_long(job), job.step < 1e-9) << job.step;
+    if (job.step < 1e-9) {
+      EXPECT_GT(plan.seconds(job), 3600) << "a million million steps";
+    }
+  }
+}
+
+TEST(Run, AWrongStepNamesTheScenario) {
+  PlanOptions options;
+  options.scenarios = {thrown()};
+  options.steps = {1e-300};
+  try {
+    Plan plan(std::move(options), [](const Scenario&) {});
+    FAIL() << "a step that moves no clock was accepted";
+  } catch (const Refused& refused) {
+    EXPECT_NE(std::string(refused.what()).find("throw.toml"), std::string::npos) << refused.what();
+  }
+}
+
+TEST(Run, MethodsAreThoseThatMakeADifference) {
+  EXPECT_EQ(methods_for(thrown()).size(), 6u);
+  EXPECT_EQ(methods_for(thrown("")).size(), 1u) << "free flight is the same by all";
+  for (const Method& method : methods_for(thrown("contacts = \"soft\"")))
+    EXPECT_TRUE(method.contacts.has_value()) << method.name;
+}
+
+TEST(Methods, NamesAreReadBack) {
+  EXPECT_EQ(method_named("soft:16")->effort, 16);
+  EXPECT_EQ(method_named("impulse:100")->contacts, ContactMethod::impulse);
+  EXPECT_EQ(method_named("splitting_4")->rotation, RotationMethod::splitting_4);
+  for (const char* bad : {"", "soft:", "soft:0", "soft:-1", "soft:1e9", "soft:16x", "rk4",
+                          "runge_kutta_4:2"})
+    EXPECT_FALSE(method_named(bad).has_value()) << bad;
+}
+
+}  // namespace
+}  // namespace lantern
