@@ -14,6 +14,7 @@ int chart_color(std::size_t i) {
 
 std::string chart_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
+  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
   return name;
 }
 

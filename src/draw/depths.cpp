@@ -66,13 +66,12 @@ void write_depths(const Frame& frame, const ToPage& to_page, const std::vector<B
   const Box<2> room{panel.lo + Vec<2>(4, 4), panel.hi - Vec<2>(4, 4)};
   for (const Depth& d : depths_of(frame, to_page)) {
     const std::string text = depth_text(d.depth);
+    // Above the line on which one lies on the other, or else below it, or across it.
+    const double above = d.points.center().y - 7, below = d.points.center().y + style.size;
     const double middle = d.points.center().y + 0.36 * style.size;
-    const Anchor anchors[] = {{{d.points.hi.x + kBeside, middle}, 0},
-                              {{d.points.lo.x - kBeside, middle}, 1},
-                              {{d.points.hi.x + kBeside, middle - style.size}, 0},
-                              {{d.points.lo.x - kBeside, middle - style.size}, 1},
-                              {{d.points.hi.x + kBeside, middle + style.size}, 0},
-                              {{d.points.lo.x - kBeside, middle + style.size}, 1}};
+    const double right = d.points.hi.x + kBeside, left = d.points.lo.x - kBeside;
+    const Anchor anchors[] = {{{right, above}, 0}, {{left, above}, 1},   {{right, below}, 0},
+                              {{left, below}, 1},  {{right, middle}, 0}, {{left, middle}, 1}};
     const auto place = [&](bool clear) {
       for (const Anchor& anchor : anchors) {
         const Box<2> extent = Labels::extent(text, anchor, style);
