@@ -113,7 +113,7 @@ class Lines {
     area_.hi.y = std::max(area_.hi.y, area_.lo.y + 10);
     const int x_ticks = std::clamp(int(area_.size().x / 96), 2, 10);
     if (chart_.over_time && chart_.seconds)
-      x_ = Axis::linear(0, *chart_.seconds, x_ticks).cut_to(0, *chart_.seconds);
+      x_ = Axis::linear(0, *chart_.seconds, std::max(4, x_ticks)).cut_to(0, *chart_.seconds);
     else
       x_ = axis_for(xs, chart_.logarithmic && !chart_.over_time, x_ticks);
     for (Line& line : lines_)
