@@ -61,6 +61,10 @@ Energy energy(std::span<const Body<D>> bodies, const Forces<D>& forces) {
   for (const Spring<D>& spring : forces.springs)
     sum.springs += energy_of_spring(spring, bodies[lookup.index_of(spring.a, "spring")],
                                     bodies[lookup.index_of(spring.b, "spring")]);
+  if (forces.gravitation > 0)
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < bodies.size(); ++j)
+        sum.attraction += energy_of_attraction(bodies[i], bodies[j], forces.gravitation);
   return sum;
 }
 
@@ -79,8 +83,8 @@ Energy energy_of(const Body<D>& body, std::span<const Body<D>> bodies, const For
   if (forces.gravitation > 0)
     for (const Body<D>& other : bodies)
       if (other.id != body.id)
-        sum.attraction += energy_of_attraction(body, other, forces.gravitation) *
-                          (counts(other) ? 0.5 : 1.0);
+        sum.attraction +=
+            energy_of_attraction(body, other, forces.gravitation) * (counts(other) ? 0.5 : 1.0);
   return sum;
 }
 
