@@ -40,7 +40,7 @@ std::vector<Depth> depths_of(const Frame& frame, const ToPage& to_page) {
 }  // namespace
 
 std::string depth_text(double depth) {
-  if (!(depth > 5e-10)) return "0";
+  if (!(depth >= 0.995e-9)) return "0";  // rounding of places, not depth
   static constexpr struct {
     double size;
     double from;  // depths, so that nothing is rounded up to the next unit

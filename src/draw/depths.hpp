@@ -11,8 +11,8 @@
 
 namespace lantern {
 
-// "12 mm", "0.34 mm", "1.5 m": two figures, and a unit that keeps them readable. "0" when nothing
-// overlaps. A unit of the world is taken for a metre.
+// "12 mm", "0.34 mm", "1.5 m": two figures, and a unit that keeps them readable. "0" below a
+// nanometre. A unit of the world is taken for a metre.
 std::string depth_text(double depth);
 
 // The deepest point of each contact, beside all of the contact's points: free of labels and, as far

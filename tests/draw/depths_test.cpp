@@ -11,7 +11,7 @@ namespace {
 TEST(Depths, HaveTwoFiguresAndAUnitThatFits) {
   const std::pair<double, const char*> kTexts[] = {{0, "0"},
                                                    {-1, "0"},
-                                                   {1e-12, "0"},
+                                                   {9e-10, "0"},
                                                    {2.5e-9, "2.5 nm"},
                                                    {3.44e-6, "3.4 µm"},
                                                    {3.4e-5, "34 µm"},
