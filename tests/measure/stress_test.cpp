@@ -54,7 +54,7 @@ std::vector<StressCase> quick_cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stress, EveryCase, testing::ValuesIn(quick_cases()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Stress, CasesHaveNamesGroupsAndSentences) {
   const std::set<std::string_view> groups{"extreme input", "stiff", "stability", "bars"};
