@@ -1,6 +1,7 @@
 // The subcommands: what each is told, and its exit code. Reading the command line is in main.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,22 @@ struct CompareOptions {
 };
 int compare_command(const CompareOptions& options);
 
+struct MeasureOptions {
+  std::vector<std::string> problems;  // names, families or files; empty for all
+  std::string output = "output/measure";
+  std::vector<std::string> methods;  // empty for those of each problem
+  std::vector<double> steps;         // seconds; empty for those of each problem
+  bool quick = false;
+  bool full = false;
+  std::optional<double> longest;  // seconds of one run; longer ones are left out
+  bool peers = true;
+  std::string theme = "light";
+  std::string backend = "auto";
+  bool list = false;
+  bool json = false;
+};
+int measure_command(const MeasureOptions& options);
+
 struct BenchOptions {
   std::string scenario = "scenarios/ghost_quadtree.toml";
   int rounds = 5;
@@ -84,5 +101,24 @@ struct StressOptions {
   bool json = false;
 };
 int stress_command(const StressOptions& options);
+// Error of antialiasing against milliseconds a frame.
+struct MeasurePicturesOptions {
+  std::vector<std::string> files;  // scenarios; empty for three of the lecture's
+  std::string output;              // folder of table, CSV, JSON and plots; empty: only the table
+  std::string theme = "light";     // of the plots
+  bool full = false;               // 1280 x 720 and 15 repeats instead of 640 x 360 and 5
+  bool json = false;
+};
+int measure_pictures_command(const MeasurePicturesOptions& options);
+
+// Pairs missed, work and time of the broad phases over capacity and depth limit.
+struct MeasureBroadPhaseOptions {
+  std::vector<std::string> files;  // scenarios, whose bodies are measured; empty for seeded scenes
+  std::string output;              // folder of table, CSV, JSON and plots; empty: only the table
+  std::string theme = "light";     // of the plots
+  bool full = false;               // 15 repeats of 50 ms instead of 5 of 2 ms
+  bool json = false;
+};
+int measure_broad_phase_command(const MeasureBroadPhaseOptions& options);
 
 }  // namespace lantern

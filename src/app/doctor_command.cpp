@@ -8,6 +8,7 @@
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
+#include "measure/peers.hpp"
 #include "render/context.hpp"
 
 namespace lantern {
@@ -25,7 +26,21 @@ std::string find_program(const std::string& name) {
   return {};
 }
 
-std::string as_text(const std::vector<BackendReport>& reports, const std::string& ffmpeg) {
+// The other physics engines that runs can be measured beside.
+struct PeerReport {
+  std::vector<std::string> found;  // "Box2D 2.4.1, single precision"
+  std::vector<std::string> missing;
+};
+
+PeerReport examine_peers() {
+  PeerReport report;
+  for (const auto& peer : peers(report.missing))
+    report.found.push_back(peer->name() + " " + peer->version());
+  return report;
+}
+
+std::string as_text(const std::vector<BackendReport>& reports, const std::string& ffmpeg,
+                    const PeerReport& peers) {
   std::string text = fmt::format("Lantern {} ({})\n", kVersion, kSourceHash);
   for (const BackendReport& r : reports) {
     text += fmt::format("{:<8} {}\n", r.name, r.works ? "works" : "does not work");
@@ -33,6 +48,9 @@ std::string as_text(const std::vector<BackendReport>& reports, const std::string
   }
   text += fmt::format("{:<8} {}\n", "ffmpeg",
                       ffmpeg.empty() ? "not found; only needed to make films of frames" : ffmpeg);
+  text += "peers    other engines, only needed to measure beside them\n";
+  for (const std::string& peer : peers.found) text += fmt::format("         {}\n", peer);
+  for (const std::string& peer : peers.missing) text += fmt::format("         {}\n", peer);
   return text;
 }
 
@@ -41,6 +59,7 @@ std::string as_text(const std::vector<BackendReport>& reports, const std::string
 int doctor_command(const DoctorOptions& options) {
   const std::vector<BackendReport> reports = examine_backends();
   const std::string ffmpeg = find_program("ffmpeg");
+  const PeerReport peers = examine_peers();
   bool any = false;
   JsonWriter json;
   json.begin_object().member("version", kVersion).key("backends").begin_array();
@@ -50,8 +69,12 @@ int doctor_command(const DoctorOptions& options) {
     json.member("library", r.library).member("renderer", r.renderer);
     json.member("problem", r.problem).end_object();
   }
-  json.line().end_array().member("ffmpeg", ffmpeg).end_object();
-  write_stdout(options.json ? json.text() + "\n" : as_text(reports, ffmpeg));
+  json.line().end_array().member("ffmpeg", ffmpeg).key("peers").begin_array();
+  for (const std::string& peer : peers.found) json.value(peer);
+  json.end_array().key("missing_peers").begin_array();
+  for (const std::string& peer : peers.missing) json.value(peer);
+  json.end_array().end_object();
+  write_stdout(options.json ? json.text() + "\n" : as_text(reports, ffmpeg, peers));
   return any ? kGood : kNoBackend;
 }
 

@@ -39,7 +39,8 @@ void complain(const ScenarioError& error) {
   }
 }
 
-Progress::Progress(std::string name, std::uint64_t total) : name_(std::move(name)), total_(total) {}
+Progress::Progress(std::string name, std::uint64_t total, std::string unit)
+    : name_(std::move(name)), total_(total), unit_(std::move(unit)) {}
 
 Progress::~Progress() {
   if (shown_ && animated()) fmt::print(stderr, "\r\033[K");
@@ -47,13 +48,17 @@ Progress::~Progress() {
 
 void Progress::done(std::uint64_t count) {
   count_ = count;
+  const double rate = static_cast<double>(count_) / watch_.seconds();
+  const double left = rate > 0 ? static_cast<double>(total_ - count_) / rate : 0;
+  tell(fmt::format("{} of {} {}, {:.0f} a second, {:.1f} s left", count_, total_, unit_, rate,
+                   left));
+}
+
+void Progress::tell(const std::string& words) {
   const double now = watch_.seconds();
   if (now - last_shown_ < (animated() ? kRedraw : kPlainLine)) return;
   last_shown_ = now;
-  const double rate = static_cast<double>(count_) / now;
-  const double left = rate > 0 ? static_cast<double>(total_ - count_) / rate : 0;
-  const std::string line = fmt::format("{}: {} of {} frames, {:.0f} a second, {:.1f} s left", name_,
-                                       count_, total_, rate, left);
+  const std::string line = fmt::format("{}: {}", name_, words);
   if (animated())
     fmt::print(stderr, "\r{}\033[K", line);
   else

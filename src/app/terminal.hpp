@@ -30,15 +30,18 @@ class UsageError : public std::runtime_error {
 // plain line every few seconds of long work.
 class Progress {
  public:
-  Progress(std::string name, std::uint64_t total);
+  Progress(std::string name, std::uint64_t total, std::string unit = "frames");
   ~Progress();
   void done(std::uint64_t count);
+  // The same in other words, for work whose parts are not equally long.
+  void tell(const std::string& line);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
  private:
   std::string name_;
   std::uint64_t total_;
+  std::string unit_;
   std::uint64_t count_ = 0;
   double last_shown_ = 0;
   bool shown_ = false;

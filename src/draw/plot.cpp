@@ -1,7 +1,381 @@
 #include "draw/plot.hpp"
 
-namespace lantern {
+#include <algorithm>
+#include <cmath>
 
-void draw_plot(const Plot&, const Box<2>&, DrawList&, Labels&) {}
+#include "draw/clip.hpp"
+#include "draw/font.hpp"
+#include "draw/plot_axes.hpp"
+#include "draw/plot_legend.hpp"
+#include "draw/plot_marks.hpp"
+#include "draw/plot_names.hpp"
+
+namespace lantern {
+namespace {
+
+struct Range {
+  double least = 1e300, most = -1e300;
+  void add(double value, bool logarithmic) {
+    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  bool empty() const { return least > most; }
+};
+
+// A series on the page.
+struct Placed {
+  const PlotSeries* series = nullptr;
+  std::vector<Vec<2>> points;  // that are joined
+  std::vector<Vec<2>> beyond;  // at the upper edge
+  std::vector<std::pair<Vec<2>, std::string>> notes;
+};
+
+class Drawing {
+ public:
+  Drawing(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels)
+      : plot_(plot), panel_(panel), type_(plot.size), list_(list), labels_(labels) {
+    type_.tick.halo = type_.name.halo = Role::panel;
+  }
+
+  void draw(bool with_legend) {
+    find_ranges();
+    lay_out(with_legend);
+    if (xs_.empty()) return say_nothing();
+    place_points();
+    draw_plot_axes(x_, y_, area_, strip_, panel_, PlotType(plot_.size), list_, labels_);
+    draw_front();
+    PlotNamer namer(area_, labels_);
+    draw_guides(namer);
+    for (const Placed& placed : placed_) draw_line(placed, namer);
+    for (const Placed& placed : placed_) draw_marks(placed, namer);
+    name_strip(namer);
+    for (std::size_t i = 0; i < guides_.size(); ++i) name_guide(i, namer);
+    name_front(namer);
+    draw_slopes(namer);
+    if (!with_legend && plot_.names == PlotNames::ends)
+      for (const Placed& placed : placed_) all_named_ &= name_end(placed, namer);
+    name_notes(namer);
+  }
+
+  bool all_named() const { return all_named_; }
+
+ private:
+  double radius() const { return plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size; }
+  double width() const { return 0.44 * radius(); }
+  double front_width() const { return 1.15 * radius(); }
+
+  bool is_drawn(const PlotPoint& p) const {
+    if (!std::isfinite(p.at.x) || (plot_.log_x && p.at.x <= 0)) return false;
+    return p.beyond || std::isfinite(p.at.y);
+  }
+
+  void find_ranges() {
+    for (const PlotSeries& series : plot_.series)
+      for (const PlotPoint& p : series.points) {
+        if (!is_drawn(p)) continue;
+        xs_.add(p.at.x, plot_.log_x);
+        if (p.beyond)
+          any_beyond_ = true;
+        else
+          ys_.add(p.at.y, plot_.log_y);
+      }
+    if (ys_.empty()) ys_ = {plot_.log_y ? 0.1 : 0.0, 1};
+  }
+
+  std::vector<LegendEntry> entries() const {
+    std::vector<LegendEntry> all;
+    for (const PlotSeries& s : plot_.series)
+      if (std::any_of(s.points.begin(), s.points.end(),
+                      [&](const PlotPoint& p) { return is_drawn(p); }))
+        all.push_back({s.name, s.look, s.is_peer});
+    return all;
+  }
+
+  void heading(const std::string& text, const TextStyle& style) {
+    if (text.empty()) return;
+    labels_.add(shortened(text, panel_.size().x, style),
+                {{panel_.lo.x, area_.lo.y + 0.78 * style.size}, 0}, style, panel_);
+    area_.lo.y += 1.42 * style.size;
+  }
+
+  void lay_out(bool with_legend) {
+    area_ = panel_;
+    heading(plot_.title, type_.title);
+    heading(plot_.y_name, PlotType(plot_.size).tick);
+    if (with_legend && !xs_.empty()) {
+      const double wanted = plot_legend_height(entries(), panel_.size().x, plot_.size);
+      const double height = std::min(wanted, 0.45 * area_.size().y);
+      area_.hi.y -= height;
+      draw_plot_legend(entries(), {{panel_.lo.x, area_.hi.y}, panel_.hi}, plot_.size, list_,
+                       labels_);
+      area_.hi.y -= 0.5 * plot_.size;
+    }
+    const double below = area_.hi.y;
+    area_.hi.y -= plot_ticks_height(type_) + (plot_.x_name.empty() ? 0 : 1.3 * plot_.size);
+    area_.lo.y += 6;
+    if (xs_.empty()) return;
+    strip_ = any_beyond_ ? beyond_rows() * 2.7 * radius() + 6 : 0;
+    const double height = area_.size().y - strip_;
+    y_ = {ys_.least, ys_.most, plot_.log_y, std::clamp(int(height / (2.1 * plot_.size)), 2, 9)};
+    area_.lo.x += plot_ticks_width(y_, type_);
+    area_.hi.x -= 0.9 * plot_.size;
+    x_ = {xs_.least, xs_.most, plot_.log_x,
+          std::clamp(int(area_.size().x / (3.6 * plot_.size)), 2, 10)};
+    const TextStyle style = PlotType(plot_.size).tick;
+    labels_.try_add(shortened(plot_.x_name, area_.size().x, style),
+                    {{{area_.center().x, below - 0.3 * style.size}, 0.5}}, style, panel_);
+  }
+
+  void say_nothing() {
+    list_.shapes.emplace_back(RectShape{area_, 0, Role::panel, {Role::rule, 1.2, 0}, true});
+    const TextStyle style = PlotType(plot_.size).tick;
+    const double room = area_.size().x - 2 * plot_.size;
+    labels_.try_add(shortened(plot_.empty, room, style), {{area_.center(), 0.5}}, style, panel_);
+  }
+
+  // Marks that would cover each other at the edge stand in rows.
+  static constexpr int kMostRows = 4;
+  int beyond_rows() const {
+    int series = 0;
+    for (const PlotSeries& s : plot_.series)
+      series += std::any_of(s.points.begin(), s.points.end(),
+                            [&](const PlotPoint& p) { return p.beyond && is_drawn(p); });
+    return std::clamp(series, 1, kMostRows);
+  }
+
+  Vec<2> at(const Vec<2>& value) const {
+    const double height = area_.size().y - strip_;
+    return {area_.lo.x + x_.share(value.x) * area_.size().x,
+            area_.hi.y - y_.share(value.y) * height};
+  }
+
+  void place_points() {
+    const double height = area_.size().y - strip_;
+    int row = 0;
+    for (const PlotSeries& series : plot_.series) {
+      Placed placed;
+      placed.series = &series;
+      for (const PlotPoint& p : series.points) {
+        if (!is_drawn(p)) continue;
+        const double x = area_.lo.x + x_.share_inside(p.at.x) * area_.size().x;
+        if (p.beyond) {
+          placed.beyond.push_back(
+              {x, area_.lo.y + 3 + (2.7 * (row % kMostRows) + 1.35) * radius()});
+        } else {
+          placed.points.push_back({x, area_.hi.y - y_.share_inside(p.at.y) * height});
+          if (!p.note.empty()) placed.notes.push_back({placed.points.back(), p.note});
+        }
+      }
+      row += placed.beyond.empty() ? 0 : 1;
+      placed_.push_back(std::move(placed));
+    }
+  }
+
+  void draw_front() {
+    std::vector<Vec<2>> steps;
+    for (const Vec<2>& corner : plot_.front) {
+      const Vec<2> p = at({corner.x, plot_.log_y && corner.y <= 0 ? ys_.least : corner.y});
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+      if (!steps.empty()) steps.push_back({p.x, steps.back().y});
+      steps.push_back(p);
+    }
+    if (steps.empty()) return;
+    steps.insert(steps.begin(), {steps.front().x, area_.lo.y + strip_});
+    steps.push_back({area_.hi.x, steps.back().y});
+    const Box<2> inside = shrunk(area_, front_width() / 2 + 1);
+    const double rim = 0.3 * radius();
+    for (const auto& [role, width] :
+         {std::pair(Role::lit, front_width()), std::pair(Role::lit_fill, front_width() - rim)})
+      for (std::size_t i = 1; i < steps.size(); ++i)
+        if (const auto part = cut_line(steps[i - 1], steps[i], inside))
+          list_.shapes.emplace_back(LineShape{part->first, part->second, {role, width, 0}, false});
+    front_ = std::move(steps);
+  }
+
+  // Along the last step, else along the others.
+  void name_front(PlotNamer& namer) {
+    std::vector<Anchor> anchors;
+    const double lift = front_width() / 2 + 0.35 * type_.tick.size;
+    for (std::size_t i = front_.size(); i-- > 1;) {
+      if (front_[i].y != front_[i - 1].y) continue;
+      const double right = std::min(front_[i].x, area_.hi.x) - 4;
+      anchors.push_back({{right, front_[i].y - lift}, 1});
+      anchors.push_back({{right, front_[i].y + lift + 0.7 * type_.tick.size}, 1});
+    }
+    TextStyle style = type_.tick;
+    style.role = Role::lit_ink;
+    namer.name(plot_.front_name, anchors, style, 0);
+  }
+
+  void draw_guides(PlotNamer& namer) {
+    const Box<2> inside{{area_.lo.x, area_.lo.y + strip_}, area_.hi};
+    for (const PlotGuide& guide : plot_.guides) {
+      std::vector<std::pair<Vec<2>, Vec<2>>> parts;
+      for (std::size_t i = 1; i < guide.points.size(); ++i)
+        if (const auto part = cut_line(at(guide.points[i - 1]), at(guide.points[i]), inside)) {
+          parts.push_back(*part);
+          namer.cross(part->first, part->second);
+          list_.shapes.emplace_back(
+              LineShape{part->first, part->second, {Role::quiet_ink, 1.5, 7}, false});
+        }
+      guides_.push_back(std::move(parts));
+    }
+  }
+
+  void name_guide(std::size_t i, PlotNamer& namer) {
+    if (guides_[i].empty()) return;
+    TextStyle style = type_.tick;
+    std::vector<Anchor> anchors;
+    for (const double t : {0.98, 0.02, 0.75, 0.25, 0.5})
+      for (const double lift : {-0.45, 1.05}) {
+        const auto& part = guides_[i][t > 0.5 ? guides_[i].size() - 1 : 0];
+        const Vec<2> p = part.first + t * (part.second - part.first);
+        anchors.push_back({p + Vec<2>{0, lift * style.size}, t});
+      }
+    namer.name(plot_.guides[i].name, anchors, style, 3);
+  }
+
+  void draw_line(const Placed& placed, PlotNamer& namer) {
+    if (!placed.series->joined) return;
+    for (std::size_t i = 1; i < placed.points.size(); ++i) {
+      const Vec<2>&a = placed.points[i - 1], &b = placed.points[i];
+      draw_plot_line(placed.series->look, placed.series->is_peer, a, b, width(), list_);
+      namer.cross(a, b);
+    }
+  }
+
+  void draw_marks(const Placed& placed, PlotNamer& namer) {
+    for (const bool open : {false, true})
+      for (const Vec<2>& p : open ? placed.beyond : placed.points) {
+        draw_plot_mark(placed.series->look, p, radius(), open, list_);
+        namer.mark(p, 1.2 * radius());
+      }
+  }
+
+  void name_strip(PlotNamer& namer) {
+    if (!any_beyond_) return;
+    const double y = area_.lo.y + 3 + 1.35 * radius() + 0.36 * type_.tick.size;
+    namer.name(plot_.beyond,
+               {{{area_.hi.x - 6, y}, 1}, {{area_.lo.x + 6, y}, 0}, {{area_.center().x, y}, 0.5}},
+               type_.tick, 3);
+  }
+
+  // The lines of a fan, `reach` long, and the least height between two of their ends.
+  std::vector<Vec<2>> fan(double reach, double& least_gap) const {
+    const double per_x = area_.size().x / x_.decades();
+    const double per_y = (area_.size().y - strip_) / y_.decades();
+    std::vector<Vec<2>> ends;
+    least_gap = 1e9;
+    for (const PlotSlope& s : plot_.slopes) {
+      const Vec<2> direction{per_x, -s.exponent * per_y};
+      ends.push_back(direction * (reach / std::hypot(direction.x, direction.y)));
+      for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        least_gap = std::min(least_gap, std::abs(ends.back().y - ends[i].y));
+      }
+    }
+    return ends;
+  }
+
+  // A fan of slopes: all lines begin at one point and fall (or rise) as an order would. The least
+  // one whose names can be told apart, in an empty corner.
+  void draw_slopes(PlotNamer& namer) {
+    if (plot_.slopes.empty() || !plot_.log_x || !plot_.log_y) return;
+    double text = 0;
+    for (const PlotSlope& s : plot_.slopes)
+      text = std::max(text, text_width(s.name, type_.tick.size, Weight::regular));
+    for (const double sizes : {3.5, 4.5, 6.0, 8.0}) {
+      double gap = 0;
+      const std::vector<Vec<2>> ends = fan(sizes * plot_.size, gap);
+      if (gap < 1.1 * type_.tick.size + 2) continue;  // two names would touch
+      Box<2> reach{{0, 0}, {0, 0}};
+      for (const Vec<2>& end : ends) reach = united(reach, Box<2>{end, end});
+      reach.lo.y -= 0.6 * type_.tick.size;
+      reach.hi += Vec<2>{text + 8, 0.6 * type_.tick.size};
+      place_fan(ends, reach, namer);
+      return;
+    }
+  }
+
+  void place_fan(const std::vector<Vec<2>>& ends, const Box<2>& reach, PlotNamer& namer) {
+    const Vec<2> size = reach.size();
+    const double top = area_.lo.y + strip_ + 6, left = area_.lo.x + 8;
+    const double bottom = area_.hi.y - size.y - 6, right = area_.hi.x - size.x - 8;
+    for (const Vec<2>& corner :
+         {Vec<2>{left, bottom}, Vec<2>{right, top}, Vec<2>{left, top}, Vec<2>{right, bottom}}) {
+      const Box<2> place{corner, corner + size};
+      if (namer.crowd(place) > 0 || !labels_.is_free(place, area_)) continue;
+      const Vec<2> from = corner - reach.lo;
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        const Vec<2> end = from + ends[i];
+        list_.shapes.emplace_back(LineShape{from, end, {Role::cell_line_2, 1.4, 0}, false});
+        labels_.try_add(plot_.slopes[i].name, {{end + Vec<2>{5, 0.36 * type_.tick.size}, 0}},
+                        type_.tick, area_);
+      }
+      return;
+    }
+  }
+
+  bool name_end(const Placed& placed, PlotNamer& namer) {
+    if (placed.points.empty() && placed.beyond.empty()) return true;
+    const double r = 1.4 * radius() + 4, drop = 0.36 * type_.name.size;
+    std::vector<Anchor> anchors;
+    const auto around = [&](const Vec<2>& p) {
+      anchors.push_back({p + Vec<2>{r, drop}, 0});
+      anchors.push_back({p + Vec<2>{0, r + 0.78 * type_.name.size}, 0.5});
+      anchors.push_back({p + Vec<2>{0, -r - 0.2 * type_.name.size}, 0.5});
+      anchors.push_back({p + Vec<2>{-r, drop}, 1});
+      anchors.push_back({p + Vec<2>{r, -r}, 0});
+      anchors.push_back({p + Vec<2>{-r, r + 0.5 * type_.name.size}, 1});
+    };
+    if (!placed.points.empty()) {
+      around(placed.points.back());
+      around(placed.points.front());
+    } else {
+      around(placed.beyond.front());
+    }
+    return namer.name(placed.series->name, anchors, type_.name, 1);
+  }
+
+  void name_notes(PlotNamer& namer) {
+    const double r = 1.4 * radius() + 3;
+    for (const Placed& placed : placed_)
+      for (const auto& [p, note] : placed.notes)
+        namer.name(note,
+                   {{p + Vec<2>{r, -0.4 * type_.tick.size}, 0},
+                    {p + Vec<2>{-r, 1.1 * type_.tick.size}, 1},
+                    {p + Vec<2>{r, 1.1 * type_.tick.size}, 0}},
+                   type_.tick, 0);
+  }
+
+  const Plot& plot_;
+  Box<2> panel_;
+  PlotType type_;
+  DrawList& list_;
+  Labels& labels_;
+  Range xs_, ys_;
+  PlotScale x_, y_;
+  Box<2> area_;
+  double strip_ = 0;
+  bool any_beyond_ = false, all_named_ = true;
+  std::vector<Placed> placed_;
+  std::vector<Vec<2>> front_;
+  std::vector<std::vector<std::pair<Vec<2>, Vec<2>>>> guides_;
+};
+
+}  // namespace
+
+void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels) {
+  bool with_legend = plot.names == PlotNames::legend;
+  if (plot.names == PlotNames::ends) {
+    DrawList trial;
+    trial.labels = list.labels;
+    Labels trial_labels(trial);
+    Drawing drawing(plot, panel, trial, trial_labels);
+    drawing.draw(false);
+    with_legend = !drawing.all_named();
+  }
+  Drawing(plot, panel, list, labels).draw(with_legend);
+}
 
 }  // namespace lantern

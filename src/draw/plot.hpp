@@ -14,7 +14,7 @@ struct PlotPoint {
   std::string note;     // written beside it if there is room; mostly empty
 };
 
-// Points of one contestant, joined in their order.
+// Points of one contestant, joined in their order; those beyond stand alone.
 struct PlotSeries {
   std::string name;
   std::vector<PlotPoint> points;
@@ -23,10 +23,24 @@ struct PlotSeries {
   bool joined = true;
 };
 
-// A line that is not measured: an order's slope, a rounding floor, a theoretical limit, a bar.
+// A line that is not measured: a rounding floor, a theoretical limit, a bar. It is cut to the plot
+// and does not widen its axes.
 struct PlotGuide {
   std::string name;
   std::vector<Vec<2>> points;
+};
+
+// An order: y goes as x^exponent. Shown as a fan of thin lines in an empty corner, on logarithmic
+// axes only.
+struct PlotSlope {
+  std::string name;
+  double exponent = 0;
+};
+
+enum class PlotNames {
+  ends,    // at the lines' ends where all have room, else in a legend below
+  legend,  // in a legend below
+  none,    // elsewhere: several plots share one legend
 };
 
 struct Plot {
@@ -36,7 +50,14 @@ struct Plot {
        log_y = true;  // on a logarithmic axis, what is not above 0 is at its lower end
   std::vector<PlotSeries> series;
   std::vector<PlotGuide> guides;
+  std::vector<PlotSlope> slopes;
   std::vector<Vec<2>> front;  // the Pareto front's corners, ascending in x; drawn as stairs
+  std::string front_name = "Pareto front";
+  PlotNames names = PlotNames::ends;
+  double size = kLabel;             // of the names; all else follows it
+  double mark = 0;                  // radius of the marks; 0 follows the size
+  std::string beyond = "diverged";  // the name of the strip at the upper edge
+  std::string empty = "no point";   // said when there is none
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that

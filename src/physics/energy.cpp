@@ -24,6 +24,19 @@ double product(const Spin<D>& a, const Spin<D>& b) {
   }
 }
 
+template <int D>
+double attraction(std::span<const Body<D>> bodies, double gravitation) {
+  double sum = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+      if (!counts(bodies[i]) && !counts(bodies[j])) continue;
+      const double length = glm::length(bodies[j].position - bodies[i].position);
+      if (length > 0)
+        sum -= gravitation * attracting_mass(bodies[i]) * attracting_mass(bodies[j]) / length;
+    }
+  return sum;
+}
+
 }  // namespace
 
 template <int D>
@@ -45,6 +58,7 @@ Energy energy(std::span<const Body<D>> bodies, const Forces<D>& forces) {
     const double stretch = length - spring.rest_length;
     sum.springs += spring.stiffness * stretch * stretch / 2;
   }
+  if (forces.gravitation > 0) sum.attraction = attraction<D>(bodies, forces.gravitation);
   return sum;
 }
 

@@ -14,8 +14,9 @@ struct Energy {
   double rotational = 0;  // L w / 2
   double gravity = 0;     // -m g x, zero at the origin
   double springs = 0;     // k (length - rest)^2 / 2
+  double attraction = 0;  // -gravitation m m / length; of centres that coincide 0
   double kinetic() const { return linear + rotational; }
-  double potential() const { return gravity + springs; }
+  double potential() const { return gravity + springs + attraction; }
   double total() const { return kinetic() + potential(); }
 };
 

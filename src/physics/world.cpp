@@ -31,6 +31,8 @@ void require_count(int value, int most, const char* field) {
 template <int D>
 void check_config(const WorldConfig<D>& config) {
   require_finite<D>(config.gravity, "world", "gravity");
+  if (!std::isfinite(config.gravitation) || config.gravitation < 0)
+    throw Refused("world: gravitation is negative or not finite");
   require_count(config.sub_steps, 1000, "sub_steps");
   require_count(config.iterations, 100000, "iterations");
   if (config.impact_budget < 0) throw Refused("world: impact_budget is negative");
@@ -95,6 +97,7 @@ template <int D>
 World<D>::World(const WorldConfig<D>& config) : config_(config) {
   check_config(config);
   forces_.gravity = config.gravity;
+  forces_.gravitation = config.gravitation;
   if (config.contacts != ContactMethod::none) BroadPhase<D>{config.broad_phase};  // refuses
 }
 
@@ -384,6 +387,7 @@ std::uint64_t World<D>::hash() const {
     hash.add(body.inverse_mass).add(rested_[i]);
   }
   add_to(hash, forces_.gravity);
+  if (forces_.gravitation > 0) hash.add(forces_.gravitation);
   for (const Spring<D>& spring : forces_.springs) {
     hash.add(std::uint64_t{spring.a}).add(std::uint64_t{spring.b});
     add_to(hash, spring.at_a);

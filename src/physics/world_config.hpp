@@ -12,6 +12,7 @@ namespace lantern {
 template <int D>
 struct WorldConfig {
   Vec<D> gravity{0.0};
+  double gravitation = 0;  // see Forces
   Integrator integrator = Integrator::semi_implicit_euler;
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase;

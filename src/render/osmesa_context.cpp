@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "render/backends.hpp"
-#include "render/library.hpp"
+#include "base/library.hpp"
 
 namespace lantern {
 namespace {

@@ -1,12 +1,14 @@
 #include "report/cairo_peer.hpp"
 
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "draw/font.hpp"
-#include "render/library.hpp"
+#include "base/library.hpp"
 
 namespace lantern {
 
@@ -16,11 +18,15 @@ namespace lantern {
   X(const char*, version_string, ())                                           \
   X(void*, image_surface_create, (int format, int width, int height))          \
   X(int, surface_status, (void*))                                              \
+  X(void, surface_flush, (void*))                                              \
+  X(unsigned char*, image_surface_get_data, (void*))                           \
+  X(int, image_surface_get_stride, (void*))                                    \
   X(int, surface_write_to_png, (void*, const char* path))                      \
   X(const char*, status_to_string, (int))                                      \
   X(void, surface_destroy, (void*))                                            \
   X(void*, create, (void* surface))                                            \
   X(void, destroy, (void*))                                                    \
+  X(void, set_antialias, (void*, int))                                         \
   X(void, set_source_rgb, (void*, double, double, double))                     \
   X(void, set_line_width, (void*, double))                                     \
   X(void, set_line_cap, (void*, int))                                          \
@@ -31,7 +37,6 @@ namespace lantern {
   X(void, line_to, (void*, double, double))                                    \
   X(void, curve_to, (void*, double, double, double, double, double, double))   \
   X(void, arc, (void*, double x, double y, double radius, double, double))     \
-  X(void, rectangle, (void*, double x, double y, double width, double height)) \
   X(void, close_path, (void*))                                                 \
   X(void, fill, (void*))                                                       \
   X(void, fill_preserve, (void*))                                              \
@@ -64,13 +69,15 @@ constexpr double kQuarter = 1.5707963267948966;
 
 }  // namespace
 
-CairoPeer::CairoPeer(int width, int height) : cairo_(std::make_unique<CairoFunctions>()) {
+CairoPeer::CairoPeer(int width, int height, CairoAntialias antialias)
+    : cairo_(std::make_unique<CairoFunctions>()) {
   canvas_.width = width;
   canvas_.height = height;
   surface_ = cairo_->image_surface_create(kRgb24, width, height);
   if (const int status = cairo_->surface_status(surface_); status != 0)
     throw BackendError(fmt::format("cairo: {}", cairo_->status_to_string(status)));
   context_ = cairo_->create(surface_);
+  cairo_->set_antialias(context_, static_cast<int>(antialias));
 }
 
 CairoPeer::~CairoPeer() {
@@ -85,6 +92,25 @@ void CairoPeer::write_png(const std::filesystem::path& path) {
   if (status != 0)
     throw IoError(
         fmt::format("cannot write '{}': {}", path.string(), cairo_->status_to_string(status)));
+}
+
+void CairoPeer::read(Image& image) {
+  cairo_->surface_flush(surface_);
+  image.width = canvas_.width;
+  image.height = canvas_.height;
+  image.rgba.resize(std::size_t{4} * image.width * image.height);
+  const unsigned char* row = cairo_->image_surface_get_data(surface_);
+  const int stride = cairo_->image_surface_get_stride(surface_);
+  std::uint8_t* to = image.rgba.data();
+  for (int y = 0; y < image.height; ++y, row += stride)
+    for (int x = 0; x < image.width; ++x, to += 4) {
+      std::uint32_t pixel = 0;  // 0x00rrggbb, in the machine's order of bytes
+      std::memcpy(&pixel, row + std::ptrdiff_t{4} * x, sizeof pixel);
+      to[0] = static_cast<std::uint8_t>(pixel >> 16);
+      to[1] = static_cast<std::uint8_t>(pixel >> 8);
+      to[2] = static_cast<std::uint8_t>(pixel);
+      to[3] = 255;
+    }
 }
 
 void CairoPeer::draw(const DrawList& list, const Theme& theme) {
@@ -117,8 +143,12 @@ void CairoPeer::paint(Role fill, const Stroke& stroke, double line_width) {
 }
 
 void CairoPeer::outline(const Box<2>& box, double radius) {
-  if (radius <= 0) {
-    cairo_->rectangle(context_, box.lo.x, box.lo.y, box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+  if (radius <= 0) {  // from the upper right corner, where Lantern's dashes begin, too
+    cairo_->move_to(context_, box.hi.x, box.lo.y);
+    cairo_->line_to(context_, box.hi.x, box.hi.y);
+    cairo_->line_to(context_, box.lo.x, box.hi.y);
+    cairo_->line_to(context_, box.lo.x, box.lo.y);
+    cairo_->close_path(context_);
     return;
   }
   const Vec<2> lo = box.lo + Vec<2>(radius), hi = box.hi - Vec<2>(radius);

@@ -16,6 +16,7 @@ WorldConfig<D> config_of(const Scenario& scenario) {
   const WorldSpec& spec = scenario.world;
   WorldConfig<D> config;
   config.gravity = in_dimension<D>(spec.gravity);
+  config.gravitation = spec.gravitation;
   config.integrator = spec.integrator;
   config.contacts = spec.contacts;
   config.sub_steps = spec.sub_steps;
@@ -205,7 +206,8 @@ class EngineOf : public Engine {
 
   // More than free flight.
   bool has_physics() const {
-    return has_contacts() || scenario_.world.gravity != Vec<3>(0.0) || !scenario_.links.empty();
+    return has_contacts() || scenario_.world.gravity != Vec<3>(0.0) ||
+           scenario_.world.gravitation > 0 || !scenario_.links.empty();
   }
 
   void count(Frame& frame) const {

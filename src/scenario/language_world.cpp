@@ -31,6 +31,11 @@ TableDoc world_table() {
               .range(-kFar, kFar)
               .in("units/s²")
               .or_else("none"),
+          Row(number, "gravitation",
+              "Bodies attract each other with this times both masses over the square of their "
+              "distance. A static body attracts if it has a `mass`.")
+              .range(0, kFar)
+              .by_default("0"),
           Row(choice, "contacts",
               "How bodies that touch are parted: by sequential `impulse`s, by `soft` contacts in "
               "small steps, or not at all.")

@@ -31,6 +31,7 @@ struct WorldSpec {
   double time_step = 1.0 / 60.0;  // seconds
   int frame_every = 1;            // world steps from frame to frame of a run
   Vec<3> gravity{0.0};
+  double gravitation = 0;  // Newton's constant between the bodies
   ContactMethod contacts = ContactMethod::none;
   Integrator integrator = Integrator::semi_implicit_euler;
   int sub_steps = 8;    // of the soft contacts

@@ -62,15 +62,19 @@ TEST(LeaveOut, SvgNeedsNoGraphicsContext) {
 }
 
 // The dynamic loader tells each library that it opens.
+bool loads_any(const std::string& words, std::initializer_list<const char*> libraries) {
+  const Outcome o = shell("LD_DEBUG=files " LANTERN_BINARY " " + words);
+  EXPECT_EQ(o.code, 0) << words;
+  EXPECT_NE(o.err.find("libstdc++"), std::string::npos) << "the loader tells nothing";
+  for (const char* library : libraries)
+    if (o.err.find(library) != std::string::npos) return true;
+  return false;
+}
+
 TEST(LeaveOut, CheckAndSvgLoadNoGraphicsLibrary) {
   const fs::path out = fresh_folder("leave-out-libraries");
   const auto loads_gl = [&](const std::string& words) {
-    const Outcome o = shell("LD_DEBUG=files " LANTERN_BINARY " " + words);
-    EXPECT_EQ(o.code, 0) << words;
-    EXPECT_NE(o.err.find("libstdc++"), std::string::npos) << "the loader tells nothing";
-    for (const char* library : {"libOSMesa", "libEGL", "libGL.", "libgallium", "swrast"})
-      if (o.err.find(library) != std::string::npos) return true;
-    return false;
+    return loads_any(words, {"libOSMesa", "libEGL", "libGL.", "libgallium", "swrast"});
   };
   EXPECT_FALSE(loads_gl("check " + scenario("ghost_quadtree")));
   EXPECT_FALSE(loads_gl("explain " + scenario("ghost_quadtree")));
@@ -78,6 +82,20 @@ TEST(LeaveOut, CheckAndSvgLoadNoGraphicsLibrary) {
       loads_gl("render --format svg -o " + out.string() + " " + scenario("ghost_quadtree")));
   EXPECT_TRUE(loads_gl("render --frames 0 -o " + out.string() + " " + scenario("ghost_quadtree")))
       << "PNG needs it: if this fails, the test above proves nothing";
+}
+
+TEST(LeaveOut, OtherEnginesAreLoadedOnlyToBeMeasured) {
+  const fs::path out = fresh_folder("leave-out-peers");
+  const auto loads_peers = [&](const std::string& words) {
+    return loads_any(words, {"lantern_peer", "libBullet", "libbox2d", "libode", "libmujoco"});
+  };
+  EXPECT_FALSE(loads_peers("check " + scenario("falling_boxes")));
+  EXPECT_FALSE(loads_peers("render --frames 0 -o " + out.string() + " " + scenario("sleeping")));
+  const fs::path modules = fs::path(LANTERN_BINARY).parent_path() / "peers";
+  std::error_code error;
+  if (fs::exists(modules, error) && !fs::is_empty(modules, error)) {
+    EXPECT_TRUE(loads_peers("doctor")) << "if this fails, the test above proves nothing";
+  }
 }
 
 }  // namespace

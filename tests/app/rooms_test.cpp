@@ -25,6 +25,7 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"draw", {"scenario"}},
     {"render", {"draw"}},
     {"measure", {"scenario"}},
+    {"peers", {"measure"}},
     {"report", {"measure", "draw", "render"}},
     {"app", {"report"}},
 };

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "render/library.hpp"
+#include "base/library.hpp"
 #include "render/support.hpp"
 
 namespace lantern::test {

@@ -1,4 +1,4 @@
-#include "render/library.hpp"
+#include "base/library.hpp"
 
 #include <dlfcn.h>
 

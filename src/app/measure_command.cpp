@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/report_folder.hpp"
+#include "app/table.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/suggest.hpp"
+#include "embedded/version.hpp"
+#include "measure/plan.hpp"
+#include "measure/problems.hpp"
+#include "report/bars.hpp"
+#include "report/measure_plots.hpp"
+#include "report/measure_tables.hpp"
+#include "report/sentences.hpp"
+#include "scenario/method.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kSaveEvery = 5;                            // seconds
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // of an earlier measure.json
+
+std::string duration_text(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+  if (seconds < 100 * 3600) return fmt::format("{:.0f} h", seconds / 3600);
+  return fmt::format("{:.0f} days", seconds / 86400);
+}
+
+bool is_file(const std::string& word) {
+  return word.ends_with(".toml") || word.find('/') != std::string::npos;
+}
+
+// A problem by name, all problems of a family, or a scenario file.
+void add_scenarios(const std::string& word, std::vector<Scenario>& scenarios) {
+  if (is_file(word)) {
+    scenarios.push_back(load_scenario(word));
+    return;
+  }
+  const std::vector<std::string_view> names = problem_names();
+  if (std::ranges::find(names, word) != names.end()) {
+    scenarios.push_back(known_problem(word));
+    return;
+  }
+  const std::size_t before = scenarios.size();
+  for (const std::string_view name : names)
+    if (Scenario s = known_problem(name); s.problem && to_string(s.problem->solution) == word)
+      scenarios.push_back(std::move(s));
+  if (scenarios.size() == before)
+    throw UsageError(fmt::format("there is no problem '{}'; {}", word,
+                                 suggestion(word, names, 0).empty()
+                                     ? "'lantern measure --list' names them all"
+                                     : suggestion(word, names, 0)));
+}
+
+std::vector<Scenario> scenarios_of(const MeasureOptions& options) {
+  std::vector<Scenario> scenarios;
+  for (const std::string& word : options.problems) add_scenarios(word, scenarios);
+  if (!options.problems.empty()) return scenarios;
+  for (const std::string_view name : problem_names()) {
+    Scenario scenario = known_problem(name);
+    const bool plain = scenario.problem && scenario.problem->variant == ProblemVariant::plain;
+    if (!options.quick || plain) scenarios.push_back(std::move(scenario));
+  }
+  return scenarios;
+}
+
+PlanOptions plan_options(const MeasureOptions& options) {
+  PlanOptions plan;
+  plan.scenarios = scenarios_of(options);
+  plan.effort = options.quick ? Effort::quick : options.full ? Effort::full : Effort::normal;
+  plan.peers = options.peers;
+  plan.longest = options.longest;
+  for (const std::string& name : options.methods) {
+    if (!method_named(name))
+      throw UsageError(
+          fmt::format("there is no method '{}'; {}", name, suggestion(name, method_names())));
+    plan.methods.push_back(name);
+  }
+  for (const double step : options.steps) {
+    if (!std::isfinite(step) || step <= 0)
+      throw UsageError(fmt::format("a time step of {} s is not allowed; it must be above 0", step));
+    plan.steps.push_back(step);
+  }
+  return plan;
+}
+
+int list_problems() {
+  std::vector<std::vector<std::string>> rows = {{"problem", "family", "variant", "title"}};
+  for (const std::string_view name : problem_names()) {
+    const Scenario s = known_problem(name);
+    rows.push_back({s.name, std::string(to_string(s.problem->solution)),
+                    std::string(to_string(s.problem->variant)), s.title});
+  }
+  write_stdout(table(rows));
+  return kGood;
+}
+
+bool same(const Circumstances& a, const Circumstances& b) {
+  return a.version == b.version && a.compiler == b.compiler && a.flags == b.flags &&
+         a.processor == b.processor && a.effort == b.effort;
+}
+
+// Rows of an earlier run under the same circumstances; none if there are none, or if its file is
+// damaged.
+std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
+  try {
+    auto earlier = read_measurement(read_file(folder.path() / "measure.json", kMostBytes));
+    if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
+  } catch (const IoError&) {
+    // there is none
+  }
+  return {};
+}
+
+// A measurement while it is made. What is finished is on the disk every few seconds.
+class Measuring {
+ public:
+  Measuring(Plan& plan, const ReportFolder& folder, const MeasureOptions& options)
+      : plan_(plan), folder_(folder), progress_("measure", plan.jobs().size(), "runs") {
+    measurement_.circumstances = here(kVersion);
+    measurement_.circumstances.effort = options.quick ? "quick" : options.full ? "full" : "normal";
+    known_ = finished_rows(folder_, measurement_.circumstances);
+  }
+
+  void run() {
+    double left = 0;
+    for (const Job& job : plan_.jobs()) left += expected(job);
+    announce(left);
+    Stopwatch since_saved;
+    std::size_t done = 0;
+    for (const Job& job : plan_.jobs()) {
+      if (interrupted()) break;
+      left -= expected(job);
+      progress_.tell(fmt::format("{} of {} runs, {}, about {} left", ++done, plan_.jobs().size(),
+                                 plan_.scenario(job).name, duration_text(left)));
+      if (!add_row(job)) continue;
+      if (since_saved.seconds() < kSaveEvery) continue;
+      save();
+      since_saved = {};
+    }
+    save();
+  }
+
+  const Measurement& measurement() const { return measurement_; }
+
+ private:
+  void save() const { folder_.write("measure.json", to_json(measurement_)); }
+
+  const Row* known(const Job& job) const {
+    const Scenario& scenario = plan_.scenario(job);
+    const Contestant& contestant = plan_.contestant(job);
+    const auto found = std::ranges::find_if(known_, [&](const Row& row) {
+      return row.problem == scenario.name && row.text_hash == scenario.text_hash &&
+             row.method == contestant.name() && row.version == contestant.version() &&
+             row.step == job.step;
+    });
+    return found == known_.end() ? nullptr : &*found;
+  }
+
+  double expected(const Job& job) const {
+    return known(job) || plan_.is_too_long(job) ? 0 : plan_.seconds_with_repeats(job);
+  }
+
+  bool add_row(const Job& job) {
+    if (const Row* old = known(job)) {
+      measurement_.rows.push_back(*old);
+    } else if (plan_.is_too_long(job)) {
+      return false;
+    } else if (std::optional<Row> row = plan_.run(job, interrupted)) {
+      measurement_.rows.push_back(std::move(*row));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // Before it starts: how much there is to do, how long it will take, and what is left out.
+  void announce(double seconds) const {
+    std::size_t kept = 0, long_ones = 0;
+    const Job* longest = nullptr;
+    for (const Job& job : plan_.jobs()) {
+      kept += known(job) != nullptr;
+      if (!plan_.is_too_long(job)) continue;
+      ++long_ones;
+      if (!longest || plan_.seconds(job) > plan_.seconds(*longest)) longest = &job;
+    }
+    say(fmt::format("{} runs, about {}{}", plan_.jobs().size() - kept - long_ones,
+                    duration_text(seconds),
+                    kept ? fmt::format("; {} are finished from before", kept) : ""));
+    for (const std::string& missing : plan_.missing_peers()) say(missing);
+    if (longest)
+      say(
+          fmt::format("{} runs are left out as too long; the longest ({}, {} at {:.3g} s) would "
+                      "take {}. --full runs them all",
+                      long_ones, plan_.scenario(*longest).name, plan_.contestant(*longest).name(),
+                      longest->step, duration_text(plan_.seconds(*longest))));
+  }
+
+  Plan& plan_;
+  const ReportFolder& folder_;
+  Measurement measurement_;
+  std::vector<Row> known_;
+  Progress progress_;
+};
+
+// The tables of all, a page of plots for each problem, and the overview.
+void save_pages(const ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
+  folder.write("measure.csv", to_csv(m));
+  folder.write("circumstances.csv", to_csv(m.circumstances));
+  std::vector<ReportPage> pages;
+  pages.push_back({"overview", draw_overview(m, measured_bars(interrupted))});
+  for (const ProblemRows& problem : by_problem(m.rows))
+    pages.push_back({problem.problem, draw_problem(problem, m)});
+  folder.draw(pages, options.theme, options.backend);
+}
+
+int measure_problems(const MeasureOptions& options) {
+  PlanOptions planned = plan_options(options);
+  const ReportFolder folder(options.output);
+  Plan plan(std::move(planned), [](const Scenario&) {});
+  Measuring measuring(plan, folder, options);
+  measuring.run();
+  const Measurement& m = measuring.measurement();
+  if (m.rows.empty() && !interrupted()) {
+    complain("nothing was measured: no method applies, or every run is too long (--full)");
+    return kFailed;
+  }
+  write_stdout(options.json ? to_json(m) : to_table(m));
+  if (!options.json)
+    for (const ProblemRows& problem : by_problem(m.rows))
+      write_stdout(fmt::format("{}: {}\n", problem.problem, sentence(problem)));
+  if (interrupted()) {
+    say("interrupted; the same command goes on from here");
+    return kInterrupted;
+  }
+  save_pages(folder, m, options);
+  say(fmt::format("the report is in {}", options.output));
+  return interrupted() ? kInterrupted : kGood;
+}
+
+}  // namespace
+
+int measure_command(const MeasureOptions& options) {
+  if (options.list) return list_problems();
+  std::vector<std::string> words = options.problems;
+  if (!words.empty() && (words[0] == "pictures" || words[0] == "broad_phase")) {
+    const bool pictures = words[0] == "pictures";
+    words.erase(words.begin());
+    if (pictures)
+      return measure_pictures_command(
+          {words, options.output, options.theme, options.full, options.json});
+    return measure_broad_phase_command(
+        {words, options.output, options.theme, options.full, options.json});
+  }
+  try {
+    return measure_problems(options);
+  } catch (const Refused& refused) {
+    complain(refused.what());
+    return kBadScenario;
+  }
+}
+
+}  // namespace lantern

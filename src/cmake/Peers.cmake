@@ -1,0 +1,40 @@
+# Other physics engines that Lantern is measured beside: each a module of its own in build/peers,
+# loaded only while it is measured. All are optional; what is not installed is left out.
+option(LANTERN_PEERS "Build the engines that Lantern is measured beside, where installed" ON)
+add_custom_target(lantern_peers)
+
+# lantern_peer(NAME VERSION FOUND INCLUDES ... LIBRARIES ... DEFINITIONS ...): the module of
+# src/peers/NAME_peer.cpp. The engines are not built for the sanitizers, so neither are the modules.
+function(lantern_peer name version)
+  cmake_parse_arguments(PEER "" "" "FOUND;INCLUDES;LIBRARIES;DEFINITIONS" ${ARGN})
+  set(file ${PROJECT_BINARY_DIR}/peers/lantern_peer_${name}.so)
+  if(NOT LANTERN_PEERS OR LANTERN_SANITIZE OR NOT PEER_FOUND)
+    file(REMOVE ${file})  # of an earlier build
+    return()
+  endif()
+  add_library(lantern_peer_${name} MODULE ${PROJECT_SOURCE_DIR}/src/peers/${name}_peer.cpp)
+  set_target_properties(lantern_peer_${name} PROPERTIES PREFIX "" SUFFIX ".so"
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/peers)
+  target_include_directories(lantern_peer_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(lantern_peer_${name} SYSTEM PRIVATE ${PEER_INCLUDES})
+  target_compile_definitions(lantern_peer_${name} PRIVATE ${PEER_DEFINITIONS}
+    LANTERN_PEER_VERSION="${version}")
+  target_link_libraries(lantern_peer_${name} PRIVATE glm::glm ${PEER_LIBRARIES})
+  add_dependencies(lantern_peers lantern_peer_${name})
+endfunction()
+
+lantern_peer(bullet "${bullet_VERSION}, double precision" FOUND ${bullet_FOUND}
+  INCLUDES ${bullet_INCLUDE_DIRS} LIBRARIES ${bullet_LINK_LIBRARIES}
+  DEFINITIONS BT_USE_DOUBLE_PRECISION)
+lantern_peer(box2d "${box2d_VERSION}, single precision" FOUND ${box2d_FOUND}
+  LIBRARIES ${box2d_LINK_LIBRARIES})
+lantern_peer(ode "${ode_VERSION}, double precision" FOUND ${ode_FOUND}
+  LIBRARIES ${ode_LINK_LIBRARIES} DEFINITIONS dIDEDOUBLE)
+if(LANTERN_MUJOCO AND LANTERN_MUJOCO_DIR)
+  file(STRINGS ${LANTERN_MUJOCO_DIR}/mujoco/mujoco.h mujoco_version REGEX "mjVERSION_HEADER [0-9]")
+  string(REGEX REPLACE ".* ([0-9])([0-9])([0-9])$" "\\1.\\2.\\3" mujoco_version
+    "${mujoco_version}")
+  set(mujoco_FOUND TRUE)
+endif()
+lantern_peer(mujoco "${mujoco_version}, double precision" FOUND ${mujoco_FOUND}
+  LIBRARIES ${LANTERN_MUJOCO})

@@ -1,0 +1,105 @@
+#include "draw/plot_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/font.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kTickLength = 6;
+constexpr double kLeastPower = -300, kMostPower = 300;
+
+double width_of(const std::string& text, const TextStyle& style) {
+  return text_width(text, style.size, style.weight);
+}
+
+double value_of(int power) {
+  double value = 1;
+  for (int i = 0; i < std::abs(power); ++i) value *= 10;
+  return power < 0 ? 1 / value : value;
+}
+
+}  // namespace
+
+std::string power_of_ten(int power) {
+  constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  if (power == 0) return "1";
+  if (power == 1) return "10";
+  std::string text = power < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(power))) text += kDigits[digit - '0'];
+  return text;
+}
+
+PlotScale::PlotScale(double least, double most, bool logarithmic, int most_ticks)
+    : logarithmic_(logarithmic) {
+  if (!logarithmic) {
+    ticks_ = Axis::linear(least, most, most_ticks).ticks();
+    low_ = ticks_.front().value;
+    high_ = ticks_.back().value;
+    return;
+  }
+  constexpr double kAir = 0.04;  // of the range, at both ends
+  const double a = std::clamp(std::log10(least), kLeastPower, kMostPower);
+  const double b = std::clamp(std::log10(most), a, kMostPower);
+  low_ = a - kAir * (b - a) - 0.05;
+  high_ = b + kAir * (b - a) + 0.05;
+  if (std::floor(high_) - std::ceil(low_) < 1) {  // fewer than two powers of ten on it
+    low_ = std::min(low_, std::floor(a));
+    high_ = std::max(high_, std::floor(low_ + 0.999) + 1);
+  }
+  const int first = static_cast<int>(std::ceil(low_)), last = static_cast<int>(std::floor(high_));
+  int every = 1;
+  while ((last - first) / every + 1 > std::max(2, most_ticks)) ++every;
+  // Multiples of the spacing, so that 1 is among them if the axis holds it.
+  for (int power = first; power <= last; ++power)
+    if (power % every == 0 || every > last - first)
+      ticks_.push_back({value_of(power), power_of_ten(power)});
+}
+
+double PlotScale::share(double value) const {
+  if (logarithmic_) return value > 0 ? (std::log10(value) - low_) / (high_ - low_) : 0;
+  return (value - low_) / (high_ - low_);
+}
+
+double PlotScale::share_inside(double value) const { return std::clamp(share(value), 0.0, 1.0); }
+
+double plot_ticks_width(const PlotScale& y, const PlotType& type) {
+  double widest = 0;
+  for (const Axis::Tick& tick : y.ticks())
+    widest = std::max(widest, width_of(tick.text, type.tick));
+  return widest + kTickLength + 5;
+}
+
+double plot_ticks_height(const PlotType& type) { return kTickLength + 4 + 1.1 * type.tick.size; }
+
+void draw_plot_axes(const PlotScale& x, const PlotScale& y, const Box<2>& area, double strip,
+                    const Box<2>& panel, const PlotType& type, DrawList& list, Labels& labels) {
+  list.shapes.emplace_back(RectShape{area, 0, Role::panel, {}, true});
+  const double top = area.lo.y + strip, height = area.hi.y - top;
+  for (const Axis::Tick& tick : y.ticks()) {
+    const double at = area.hi.y - y.share_inside(tick.value) * height;
+    list.shapes.emplace_back(
+        LineShape{{area.lo.x - kTickLength, at}, {area.hi.x, at}, {Role::rule, 1.2, 0}, true});
+    labels.try_add(tick.text, {{{area.lo.x - kTickLength - 4, at + 0.36 * type.tick.size}, 1}},
+                   type.tick, panel);
+  }
+  double last = -1e9;
+  for (const Axis::Tick& tick : x.ticks()) {
+    const double at = area.lo.x + x.share_inside(tick.value) * area.size().x;
+    list.shapes.emplace_back(
+        LineShape{{at, top}, {at, area.hi.y + kTickLength}, {Role::rule, 1.2, 0}, true});
+    const double half = width_of(tick.text, type.tick) / 2;
+    if (at - half < last + 8) continue;
+    const double baseline = area.hi.y + kTickLength + 3 + 0.8 * type.tick.size;
+    if (labels.try_add(tick.text, {{{at, baseline}, 0.5}}, type.tick, panel)) last = at + half;
+  }
+  for (const Vec<2>& end : {Vec<2>(area.lo.x, area.lo.y), Vec<2>(area.hi.x, area.hi.y)})
+    list.shapes.emplace_back(LineShape{{area.lo.x, area.hi.y}, end, {Role::ink, 1.6, 0}, true});
+  if (strip > 0)
+    list.shapes.emplace_back(
+        LineShape{{area.lo.x, top}, {area.hi.x, top}, {Role::cell_line_3, 1.2, 4}, true});
+}
+
+}  // namespace lantern

@@ -1,0 +1,164 @@
+#include "measure/box_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "scenario/director.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kHalf = 512;     // of the world
+constexpr int kMovingFrames = 8;  // updates of a moving scene
+constexpr double kFastest = 12;   // units from one update to the next, on each axis
+constexpr int kClusters = 20;
+
+enum class Sort { uniform, clustered, one_huge, in_line, moving };
+constexpr std::array kSorts = {Sort::uniform, Sort::clustered, Sort::one_huge, Sort::in_line,
+                               Sort::moving};
+
+std::string words_of(Sort sort, std::size_t bodies) {
+  switch (sort) {
+    case Sort::uniform:
+      return fmt::format("{} evenly spread boxes", bodies);
+    case Sort::clustered:
+      return fmt::format("{} clustered boxes", bodies);
+    case Sort::one_huge:
+      return fmt::format("one huge box among {} small ones", bodies - 1);
+    case Sort::in_line:
+      return fmt::format("{} boxes in a line", bodies);
+    case Sort::moving:
+      return fmt::format("{} moving boxes", bodies);
+  }
+  return {};
+}
+
+std::string name_of(Sort sort) {
+  constexpr std::array<const char*, kSorts.size()> kNames = {"uniform", "clustered", "one_huge",
+                                                             "in_line", "moving"};
+  return kNames[static_cast<std::size_t>(sort)];
+}
+
+template <int D>
+Vec<D> random_vec(Random& random, double lo, double hi) {
+  Vec<D> v;
+  for (int i = 0; i < D; ++i) v[i] = random.between(lo, hi);
+  return v;
+}
+
+// Sizes are such that a body meets about one other; in three dimensions there is more room.
+template <int D>
+class Maker {
+ public:
+  Maker(Sort sort, std::uint64_t seed) : sort_(sort), random_(seed) {
+    for (int i = 0; i < kClusters; ++i)
+      centers_.push_back(random_vec<D>(random_, -0.85 * kHalf, 0.85 * kHalf));
+  }
+
+  BoxUpdates<D> made(std::size_t bodies) {
+    BoxUpdates<D> scene{{Vec<D>(-kHalf), Vec<D>(kHalf)}, {{}}};
+    std::vector<Vec<D>> steps;
+    for (std::size_t i = 0; i < bodies; ++i) {
+      scene.frames[0].push_back({static_cast<BodyId>(i), box(i), false, true});
+      steps.push_back(random_vec<D>(random_, -kFastest, kFastest));
+    }
+    if (sort_ != Sort::moving) return scene;
+    for (int frame = 1; frame < kMovingFrames; ++frame) {
+      scene.frames.push_back(scene.frames.back());
+      for (std::size_t i = 0; i < bodies; ++i) {
+        Box<D>& moved = scene.frames.back()[i].box;
+        moved = {moved.lo + steps[i], moved.hi + steps[i]};
+      }
+    }
+    return scene;
+  }
+
+ private:
+  Box<D> box(std::size_t i) {
+    constexpr double kLeast = D == 2 ? 2 : 8, kMost = D == 2 ? 8 : 30;
+    const Vec<D> half = random_vec<D>(random_, kLeast, kMost);
+    const Vec<D> anywhere = random_vec<D>(random_, -kHalf + kMost, kHalf - kMost);
+    if (sort_ == Sort::one_huge && i == 0)
+      return Box<D>::around(Vec<D>(0.03 * kHalf), Vec<D>(0.8 * kHalf));
+    if (sort_ == Sort::clustered) {
+      // The sum of three even spreads is nearly a bell.
+      Vec<D> away(0.0);
+      for (int k = 0; k < 3; ++k) away += random_vec<D>(random_, -kMost, kMost);
+      return Box<D>::around(centers_[i % kClusters] + 1.5 * away, half);
+    }
+    if (sort_ == Sort::in_line) {  // beside the middle, where no tree cuts it lengthwise at once
+      Vec<D> at(0.137 * kHalf);
+      at.x = anywhere.x;
+      return Box<D>::around(at, half * (0.05 * 8 / kMost));
+    }
+    return Box<D>::around(anywhere, half);
+  }
+
+  Sort sort_;
+  Random random_;
+  std::vector<Vec<D>> centers_;
+};
+
+template <int D>
+BoxScene seeded(Sort sort, std::size_t bodies, std::uint64_t seed) {
+  const std::string place = D == 2 ? "" : " in space";
+  return {fmt::format("{}_{}d", name_of(sort), D), words_of(sort, bodies) + place,
+          Maker<D>(sort, seed).made(bodies)};
+}
+
+template <int D>
+Box<D> cut_to(const Box<3>& box) {
+  Box<D> b;
+  for (int i = 0; i < D; ++i) {
+    b.lo[i] = box.lo[i];
+    b.hi[i] = box.hi[i];
+  }
+  return b;
+}
+
+template <int D>
+BoxUpdates<D> updates_of(const Scenario& scenario, const Frame& frame) {
+  BoxUpdates<D> scene{cut_to<D>(scenario.world.bounds), {{}}};
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i)
+    scene.frames[0].push_back(
+        {static_cast<BodyId>(i), cut_to<D>(frame.bodies[i].box), frame.bodies[i].is_static, true});
+  return scene;
+}
+
+bool passes_time(const Verb& verb) {
+  return std::holds_alternative<Run>(verb) || std::holds_alternative<Wait>(verb) ||
+         std::holds_alternative<Phases>(verb);
+}
+
+}  // namespace
+
+std::vector<BoxScene> seeded_box_scenes(std::size_t bodies, std::uint64_t seed) {
+  std::vector<BoxScene> scenes;
+  for (const Sort sort : kSorts) scenes.push_back(seeded<2>(sort, bodies, seed));
+  for (const Sort sort : kSorts) scenes.push_back(seeded<3>(sort, bodies, seed));
+  return scenes;
+}
+
+BoxScene box_scene_of(const Scenario& scenario) {
+  Frame fullest;
+  Work work;
+  direct(scenario, Pace::step, work, [&](const Frame& frame) {
+    if (frame.bodies.size() > fullest.bodies.size() &&
+        (fullest.bodies.empty() || !passes_time(scenario.steps[frame.step].verb)))
+      fullest = frame;
+    return fullest.bodies.empty() || !passes_time(scenario.steps[frame.step].verb);
+  });
+  if (fullest.bodies.size() < 2)
+    throw Refused(fmt::format(
+        "scenario {}: fewer than two of its bodies enter, so there is no pair", scenario.name));
+  BoxScene scene{
+      scenario.name, fmt::format("the {} boxes of {}", fullest.bodies.size(), scenario.name), {}};
+  if (scenario.world.dimension == 2)
+    scene.boxes = updates_of<2>(scenario, fullest);
+  else
+    scene.boxes = updates_of<3>(scenario, fullest);
+  return scene;
+}
+
+}  // namespace lantern

@@ -1,0 +1,244 @@
+#include "measure/broad_phase_cost.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace lantern {
+namespace {
+
+// Pairs of n bodies, each a bit.
+class PairSet {
+ public:
+  explicit PairSet(std::size_t bodies) : bodies_(bodies), bits_(bodies * bodies) {}
+  void add(BodyId a, BodyId b) {
+    std::vector<bool>::reference bit = bits_[std::min(a, b) * bodies_ + std::max(a, b)];
+    size_ += bit ? 0 : 1;
+    bit = true;
+  }
+  std::uint64_t size() const { return size_; }
+
+ private:
+  std::size_t bodies_;
+  std::vector<bool> bits_;
+  std::uint64_t size_ = 0;
+};
+
+// Bodies that share a leaf, each pair once.
+template <int D>
+std::uint64_t count_candidates(const BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes) {
+  // The sweep compares each pair once, and knows no leaves.
+  if (broad_phase.config().kind == BroadPhaseKind::sort_and_sweep)
+    return broad_phase.counters().pair_tests;
+  PairSet met(boxes.size());
+  broad_phase.visit_dynamic([&](const NodeView<D>& node) {
+    for (std::size_t i = 0; i < node.bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
+        if (!boxes[node.bodies[i]].is_static || !boxes[node.bodies[j]].is_static)
+          met.add(node.bodies[i], node.bodies[j]);
+    return true;
+  });
+  return met.size();
+}
+
+// Halves the bodies at the median of their centres, across the axis of their widest spread.
+template <int D>
+class MedianPlanes {
+ public:
+  MedianPlanes(std::span<const Proxy<D>> boxes, std::uint32_t capacity, std::uint32_t most_depth)
+      : boxes_(boxes), capacity_(capacity), most_depth_(most_depth) {
+    std::vector<BodyId> all(boxes.size());
+    std::iota(all.begin(), all.end(), BodyId{0});
+    halve(all, kNone, false, 0);
+  }
+  const std::vector<BspPlane<D>>& planes() const { return planes_; }
+
+ private:
+  void halve(std::vector<BodyId> bodies, std::uint32_t parent, bool front, std::uint32_t depth) {
+    if (bodies.size() <= capacity_ || depth == most_depth_) return;
+    const int axis = widest_axis(bodies);
+    const auto at = [&](BodyId i) { return boxes_[i].box.center()[axis]; };
+    std::sort(bodies.begin(), bodies.end(),
+              [&](BodyId a, BodyId b) { return at(a) != at(b) ? at(a) < at(b) : a < b; });
+    const auto middle = bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size() / 2);
+    const double offset = 0.5 * (at(*(middle - 1)) + at(*middle));
+    if (at(bodies.front()) == at(bodies.back())) return;  // it would part nobody
+    Vec<D> normal(0.0);
+    normal[axis] = 1;
+    const auto own = static_cast<std::uint32_t>(planes_.size());
+    planes_.push_back({{normal, offset}, parent, front});
+    halve({bodies.begin(), middle}, own, false, depth + 1);
+    halve({middle, bodies.end()}, own, true, depth + 1);
+  }
+
+  // Along which the centres are spread most.
+  int widest_axis(const std::vector<BodyId>& bodies) const {
+    const Vec<D> first = boxes_[bodies[0]].box.center();
+    Box<D> around{first, first};
+    for (const BodyId i : bodies) {
+      const Vec<D> center = boxes_[i].box.center();
+      around = united(around, {center, center});
+    }
+    int widest = 0;
+    for (int i = 1; i < D; ++i)
+      if (around.size()[i] > around.size()[widest]) widest = i;
+    return widest;
+  }
+
+  std::span<const Proxy<D>> boxes_;
+  std::uint32_t capacity_, most_depth_;
+  std::vector<BspPlane<D>> planes_;
+};
+
+template <int D>
+void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
+                  std::span<const Pair> truth, BroadPhaseCost& cost) {
+  broad_phase.update(boxes);
+  BroadPhaseCounts& c = cost.counts;
+  c.true_pairs += truth.size();
+  c.missed += count_missing(truth, broad_phase.pairs());
+  c.invented += count_missing(broad_phase.pairs(), truth);
+  c.candidates += count_candidates(broad_phase, boxes);
+  c.pair_tests += broad_phase.counters().pair_tests;
+  const Counters tree =
+      broad_phase.with_dynamic([](const auto& structure) { return structure.counters(); });
+  c.entries += tree.entries;
+  // What the sweep calls its tests are those of pairs, which are counted above.
+  if (cost.kind != BroadPhaseKind::sort_and_sweep) c.box_tests += tree.box_tests;
+  c.nodes += tree.nodes;
+  cost.depth = std::max(cost.depth, tree.depth);
+}
+
+template <int D>
+BroadPhaseCost measure_one(const BoxUpdates<D>& scene, const std::vector<std::vector<Pair>>& truth,
+                           const BroadPhaseCost& what, const TimingRule& plan) {
+  BroadPhaseConfig<D> config;
+  config.kind = what.kind;
+  config.bounds = scene.bounds;
+  config.split_static = false;
+  if (what.has_settings()) {
+    config.capacity = what.capacity;
+    config.max_depth = what.depth_limit;
+  }
+  if (what.kind == BroadPhaseKind::bsp)
+    config.planes = MedianPlanes<D>(scene.frames[0], what.capacity, what.depth_limit).planes();
+  BroadPhase<D> broad_phase(config);
+  BroadPhaseCost cost = what;
+  for (std::size_t i = 0; i < scene.frames.size(); ++i)
+    count_update<D>(broad_phase, scene.frames[i], truth[i], cost);
+  std::size_t next = 0;
+  cost.timing = timed(plan, [&] {
+    broad_phase.update(scene.frames[next]);
+    next = (next + 1) % scene.frames.size();
+  });
+  return cost;
+}
+
+std::vector<BroadPhaseCost> planned(const BoxScene& scene, const BroadPhaseCostConfig& config) {
+  std::vector<BroadPhaseCost> rows;
+  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+    if (kind == BroadPhaseKind::octree && scene.dimension() == 2) continue;
+    BroadPhaseCost row;
+    row.scene = scene.name;
+    row.dimension = scene.dimension();
+    row.kind = kind;
+    std::visit(
+        [&](const auto& boxes) {
+          row.bodies = boxes.frames[0].size();
+          row.updates = boxes.frames.size();
+        },
+        scene.boxes);
+    if (kind == BroadPhaseKind::brute_force || kind == BroadPhaseKind::sort_and_sweep) {
+      rows.push_back(row);
+      continue;
+    }
+    for (const std::uint32_t capacity : config.capacities)
+      for (const std::uint32_t depth : config.depth_limits) {
+        row.capacity = capacity;
+        row.depth_limit = depth;
+        rows.push_back(row);
+      }
+  }
+  return rows;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Pair> pairs_by_force(std::span<const Proxy<D>> boxes) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size(); ++j)
+      if (!(boxes[i].is_static && boxes[j].is_static) && overlap(boxes[i].box, boxes[j].box))
+        pairs.push_back({std::min(boxes[i].id, boxes[j].id), std::max(boxes[i].id, boxes[j].id)});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+template std::vector<Pair> pairs_by_force<2>(std::span<const Proxy<2>>);
+template std::vector<Pair> pairs_by_force<3>(std::span<const Proxy<3>>);
+
+std::uint64_t count_missing(std::span<const Pair> truth, std::span<const Pair> found) {
+  std::uint64_t missing = 0;
+  auto at = found.begin();
+  for (const Pair& pair : truth) {
+    while (at != found.end() && *at < pair) ++at;
+    missing += at == found.end() || *at != pair ? 1 : 0;
+  }
+  return missing;
+}
+
+std::size_t broad_phase_rows(const BoxScene& scene, const BroadPhaseCostConfig& config) {
+  return planned(scene, config).size();
+}
+
+std::vector<BroadPhaseCost> measure_broad_phases(const BoxScene& scene,
+                                                 const BroadPhaseCostConfig& config,
+                                                 const std::function<bool()>& progress) {
+  std::vector<BroadPhaseCost> rows;
+  std::visit(
+      [&]<int D>(const BoxUpdates<D>& boxes) {
+        std::vector<std::vector<Pair>> truth;
+        for (const auto& frame : boxes.frames) truth.push_back(pairs_by_force<D>(frame));
+        for (const BroadPhaseCost& what : planned(scene, config)) {
+          rows.push_back(measure_one(boxes, truth, what, config.timing));
+          if (!progress()) return;
+        }
+      },
+      scene.boxes);
+  return rows;
+}
+
+const BroadPhaseCost* cheapest(std::span<const BroadPhaseCost> rows, const std::string& scene,
+                               BroadPhaseKind kind, CostBy by) {
+  const BroadPhaseCost* best = nullptr;
+  const auto cost = [&](const BroadPhaseCost& row) {
+    return by == CostBy::work ? static_cast<double>(row.counts.work()) : row.timing.least;
+  };
+  const auto before = [&](const BroadPhaseCost& a, const BroadPhaseCost& b) {
+    if (cost(a) != cost(b)) return cost(a) < cost(b);
+    if (a.depth_limit != b.depth_limit) return a.depth_limit < b.depth_limit;
+    return a.capacity > b.capacity;
+  };
+  for (const BroadPhaseCost& row : rows)
+    if (row.scene == scene && row.kind == kind && (best == nullptr || before(row, *best)))
+      best = &row;
+  return best;
+}
+
+bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& row) {
+  return std::any_of(rows.begin(), rows.end(), [&](const BroadPhaseCost& other) {
+    return other.scene == row.scene && other.kind == row.kind && other.capacity == row.capacity &&
+           other.depth_limit < row.depth_limit && other.depth > row.depth;
+  });
+}
+
+const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::string& scene,
+                             BroadPhaseKind kind, std::uint32_t capacity,
+                             std::uint32_t depth_limit) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const BroadPhaseCost& row) {
+    return row.scene == scene && row.kind == kind && row.capacity == capacity &&
+           row.depth_limit == depth_limit;
+  });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+}  // namespace lantern

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/json_writer.hpp"
+#include "measure/broad_phase_cost.hpp"
+
+namespace lantern {
+namespace {
+
+// 1234567 as "1 234 567".
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  if (text.size() < 5) return text;
+  for (std::size_t at = text.size() - 3; at > 0 && at<text.size(); at = at> 3 ? at - 3 : 0)
+    text.insert(at, " ");
+  return text;
+}
+
+// "quadtree, capacity 8, depth limit 7"
+std::string settings_of(const BroadPhaseCost& row) {
+  if (!row.has_settings()) return "";
+  return fmt::format("capacity {}, depth limit {}", row.capacity, row.depth_limit);
+}
+
+std::string table_row(const BroadPhaseCost& row) {
+  return fmt::format(
+      "  {:<15}{:<28}{:>12}{:>12}{:>9}{:>12.2f}{:>10.2f}{:>8}{:>7}{:>10.3f}{:>10.3f}{:>9.3f}\n",
+      name_of(row.kind), settings_of(row), row.counts.pair_tests, row.counts.box_tests,
+      row.counts.entries, row.false_per_true(), row.entries_per_body(), row.counts.nodes,
+      row.counts.missed + row.counts.invented, 1e3 * row.timing.median, 1e3 * row.timing.least,
+      1e3 * row.timing.spread);
+}
+
+// What smallest and largest leaves cost more, if it can be told.
+std::string neighbour_words(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& best) {
+  std::uint32_t most = 1;
+  for (const BroadPhaseCost& row : rows) most = std::max(most, row.capacity);
+  std::string text;
+  const auto beside = [&](std::uint32_t capacity, std::uint64_t BroadPhaseCounts::*count,
+                          const char* words) {
+    const BroadPhaseCost* row = row_of(rows, best.scene, best.kind, capacity, best.depth_limit);
+    if (row == nullptr || best.counts.*count == 0) return;
+    const double ratio =
+        static_cast<double>(row->counts.*count) / static_cast<double>(best.counts.*count);
+    if (ratio > 1.05)
+      text += fmt::format("; capacity {} needs {:.1f} times as many {}", capacity, ratio, words);
+  };
+  beside(1, &BroadPhaseCounts::entries, "entries");
+  beside(most, &BroadPhaseCounts::pair_tests, "pair tests");
+  return text;
+}
+
+}  // namespace
+
+std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
+                           BroadPhaseKind kind) {
+  const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
+  if (best == nullptr) return "";
+  const auto work = [](const BroadPhaseCost& row) {
+    return grouped((row.counts.work() + row.updates / 2) / row.updates);
+  };
+  std::string text = fmt::format("For {}: capacity {}, depth limit {}: {} comparisons", scene.words,
+                                 best->capacity, best->depth_limit, work(*best));
+  if (best->updates > 1) text += " an update";
+  text += neighbour_words(rows, *best);
+  for (const BroadPhaseKind other : {BroadPhaseKind::sort_and_sweep, BroadPhaseKind::brute_force})
+    if (const BroadPhaseCost* row = cheapest(rows, scene.name, other, CostBy::work))
+      text += fmt::format("; {} {}",
+                          other == BroadPhaseKind::brute_force ? "brute force" : "sort and sweep",
+                          work(*row));
+  return text + ".";
+}
+
+// Of the trees only the cheapest cells; all of them are in the files.
+std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes) {
+  std::string text =
+      fmt::format("  {:<15}{:<28}{:>12}{:>12}{:>9}{:>12}{:>10}{:>8}{:>7}{:>10}{:>10}{:>9}\n",
+                  "structure", "cheapest settings", "pair tests", "box tests", "entries",
+                  "false/true", "ent/body", "nodes", "wrong", "ms", "least", "iqr");
+  for (const BoxScene& scene : scenes) {
+    std::string lines;
+    for (const BroadPhaseKind kind : kBroadPhaseKinds)
+      if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work))
+        lines += table_row(*best);
+    if (lines.empty()) continue;
+    const BroadPhaseKind tree =
+        scene.dimension() == 2 ? BroadPhaseKind::quadtree : BroadPhaseKind::octree;
+    text += fmt::format("\n{}\n{}", scene.name, lines);
+    text += fmt::format("  {} {}\n", name_of(tree), sentence_about(rows, scene, tree));
+  }
+  return text;
+}
+
+std::string to_csv(std::span<const BroadPhaseCost> rows) {
+  std::string text =
+      "scene,dimension,structure,capacity,depth_limit,bodies,updates,true_pairs,missed,invented,"
+      "candidates,false_candidates,false_per_true,pair_tests,entries,entries_per_body,box_tests,"
+      "nodes,depth,repeats,seconds_median,seconds_least,seconds_iqr\n";
+  for (const BroadPhaseCost& row : rows) {
+    const BroadPhaseCounts& c = row.counts;
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{:.6g},{},{},{},{},{:.6g},"
+        "{:.6g},{:.6g}\n",
+        row.scene, row.dimension, name_of(row.kind), row.capacity, row.depth_limit, row.bodies,
+        row.updates, c.true_pairs, c.missed, c.invented, c.candidates, c.false_candidates(),
+        row.false_per_true(), c.pair_tests, c.entries, row.entries_per_body(), c.box_tests, c.nodes,
+        row.depth, row.timing.repeats, row.timing.median, row.timing.least, row.timing.spread);
+  }
+  return text;
+}
+
+std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes) {
+  JsonWriter json;
+  json.begin_object().line().member("format", "lantern.measure.broad_phase/1");
+  json.line().key("scenes").begin_array();
+  for (const BoxScene& scene : scenes) {
+    json.line().begin_object().member("name", scene.name).member("words", scene.words);
+    json.member("dimension", scene.dimension()).key("sentences").begin_array();
+    for (const BroadPhaseKind kind : kBroadPhaseKinds)
+      if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
+          best != nullptr && best->has_settings())
+        json.value(fmt::format("{}: {}", name_of(kind), sentence_about(rows, scene, kind)));
+    json.end_array().end_object();
+  }
+  json.line().end_array().line().key("rows").begin_array();
+  for (const BroadPhaseCost& row : rows) {
+    const BroadPhaseCounts& c = row.counts;
+    json.line().begin_object().member("scene", row.scene).member("structure", name_of(row.kind));
+    json.member("capacity", row.capacity).member("depth_limit", row.depth_limit);
+    json.member("bodies", row.bodies).member("updates", row.updates);
+    json.member("true_pairs", c.true_pairs).member("missed", c.missed);
+    json.member("invented", c.invented).member("candidates", c.candidates);
+    json.member("false_candidates", c.false_candidates()).member("pair_tests", c.pair_tests);
+    json.member("entries", c.entries).member("box_tests", c.box_tests).member("nodes", c.nodes);
+    json.member("depth", row.depth).key("seconds").begin_object();
+    json.member("repeats", row.timing.repeats).member("median", row.timing.median);
+    json.member("least", row.timing.least).member("iqr", row.timing.spread).end_object();
+    json.end_object();
+  }
+  json.line().end_array().line().end_object();
+  return json.text() + "\n";
+}
+
+}  // namespace lantern

@@ -1,0 +1,83 @@
+// What the yardsticks of contact problems share: the scene read as a problem of mechanics.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "measure/yardstick.hpp"
+
+namespace lantern {
+
+// Throws Refused: "'slide' is no problem of kind slide: <why>".
+[[noreturn]] void refuse_problem(const Scenario& scenario, std::string_view why);
+
+// The largest error met. Once it is no number it stays so.
+class Worst {
+ public:
+  void meet(double error) {
+    if (std::isnan(value_)) return;
+    if (!(std::abs(error) <= value_)) value_ = std::abs(error);
+  }
+  double value() const { return value_; }
+
+ private:
+  double value_ = 0;
+};
+
+// What does not move, and all others stand on or run into: a half-space, or the face of a box that
+// keeps to the axes which looks against gravity, or, without gravity, at the first moving body.
+struct Ground {
+  std::size_t body = 0;
+  Vec<3> normal{0.0};  // out of it, unit
+  double height = 0;   // of its face along `normal`
+};
+
+// All that moves, in order of the scenario. Refuses kinematic bodies, drag and brains: no contact
+// problem has them.
+std::vector<std::size_t> moving_bodies(const Scenario& scenario);
+// Refuses none or several static bodies, and shapes other than those above.
+Ground ground_of(const Scenario& scenario);
+// Refuses any spring or joint.
+void require_no_links(const Scenario& scenario);
+// Refuses a body that does not touch the ground within a billionth of its size.
+void require_on_ground(const Scenario& scenario, const Ground& ground, std::size_t body);
+// Units a second². Refuses gravity that is not straight into the ground.
+double pull_onto(const Scenario& scenario, const Ground& ground);
+
+double mass_of(const Scenario& scenario, std::size_t body);
+// Of two bodies that touch.
+double friction_between(const Scenario& scenario, std::size_t a, std::size_t b);
+double restitution_between(const Scenario& scenario, std::size_t a, std::size_t b);
+
+// From the centre to the farthest point along the unit vector `along`, as the body lies at first.
+double reach_along(const BodySpec& body, const Vec<3>& along);
+bool is_ball(const BodySpec& body);
+bool turns(const BodySpec& body);  // contacts may turn it
+// Inertia over m r²: 2/5 of a ball, 1/2 of a disc.
+double roundness(const Scenario& scenario);
+bool are_parallel(const Vec<3>& a, const Vec<3>& b);
+
+// Bodies that should hang or stand still, each carrying all later ones. Newton's second law gives
+// the mean force that held the bodies i, i+1, ... up between two looks:
+//
+//   F_i = sum over j >= i of m_j (g + dv_j / dt)        exact: sum of m_j g
+//
+// so that forces are measured whoever moves the bodies.
+class Burdens {
+ public:
+  Burdens(const Scenario& scenario, std::vector<std::size_t> bodies);
+  void look(const Observation& now);
+  double worst() const { return worst_.value(); }  // share of the exact force
+
+ private:
+  std::vector<std::size_t> bodies_;
+  std::vector<double> masses_;
+  Vec<3> up_{0.0};
+  double gravity_ = 0;
+  double time_ = 0;
+  std::vector<double> speeds_;  // upwards, at the look before
+  Worst worst_;
+};
+
+}  // namespace lantern

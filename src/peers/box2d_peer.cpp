@@ -1,0 +1,190 @@
+// Box2D: flat, in single precision; warm-started impulses, semi-implicit Euler.
+#include <cmath>
+
+#include <box2d/box2d.h>
+
+#include "peers/peer_run.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr int kVelocitySweeps = 8, kPositionSweeps = 3;  // as Box2D's manual advises
+
+float number(double value) { return static_cast<float>(value); }
+b2Vec2 to_box2d(const Vec<3>& v) { return {number(v.x), number(v.y)}; }
+Vec<3> from_box2d(const b2Vec2& v) { return {v.x, v.y, 0}; }
+
+class Box2dRun : public PeerRun {
+ public:
+  Box2dRun(const PeerScene& scene, double h) : PeerRun(scene, h), world_(to_box2d(scene.gravity)) {
+    world_.SetAllowSleeping(false);
+    const b2BodyDef fixed;
+    ground_ = world_.CreateBody(&fixed);
+    for (const PeerBody& body : scene.bodies) add(body);
+    for (const PeerLink& link : scene.links) add(link);
+  }
+
+ protected:
+  void step() override { world_.Step(number(h_), kVelocitySweeps, kPositionSweeps); }
+
+  bool is_finite() const override {
+    float sum = 0;
+    for (const b2Body* body : bodies_)
+      sum += 0 * (body->GetPosition().x + body->GetPosition().y + body->GetLinearVelocity().x +
+                  body->GetLinearVelocity().y + body->GetAngularVelocity());
+    return sum == 0;
+  }
+
+  PeerMotion motion(std::size_t i) const override {
+    const b2Body& body = *bodies_[i];
+    return {from_box2d(body.GetPosition()), from_box2d(body.GetLinearVelocity()),
+            turned(Rotation<3>(), Vec<3>(0, 0, body.GetAngle())),
+            Vec<3>(0, 0, body.GetAngularVelocity())};
+  }
+
+  std::pair<Vec<3>, Vec<3>> centre(std::size_t i) const override {
+    return {from_box2d(bodies_[i]->GetPosition()), from_box2d(bodies_[i]->GetLinearVelocity())};
+  }
+
+  void push(std::size_t i, const Vec<3>& force, const Vec<3>& arm) override {
+    const b2Vec2 f = to_box2d(force);
+    if (!f.IsValid()) throw Refused("a spring's force is too large for single precision");
+    bodies_[i]->ApplyForceToCenter(f, true);
+    bodies_[i]->ApplyTorque(number(cross(arm, force).z), true);
+  }
+
+  void set_velocity(std::size_t i, const Vec<3>& velocity) override {
+    bodies_[i]->SetLinearVelocity(to_box2d(velocity));
+  }
+
+  std::optional<double> whole_angle(std::size_t i) const override { return bodies_[i]->GetAngle(); }
+
+ private:
+  void add(const PeerBody& spec) {
+    b2BodyDef def;
+    def.type = spec.is_dynamic()                       ? b2_dynamicBody
+               : spec.kind == BodyKind::kinematic_body ? b2_kinematicBody
+                                                       : b2_staticBody;
+    def.position = to_box2d(spec.position);
+    def.angle = number(spec.angle);
+    def.linearVelocity = to_box2d(spec.velocity);
+    def.angularVelocity = number(spec.spin.z);
+    // It keeps 1 / (1 + h damping) of a velocity: the same drag, by implicit Euler.
+    def.linearDamping = number(spec.linear_drag * spec.inverse_mass());
+    def.angularDamping = spec.may_turn ? number(spec.angular_drag / spec.inertia.z) : 0;
+    def.fixedRotation = spec.is_dynamic() && !spec.may_turn;
+    def.bullet = true;  // meets what moves at the moment of impact, too
+    bodies_.push_back(world_.CreateBody(&def));
+    if (scene_.contacts) add_shape(spec, *bodies_.back());
+    if (spec.is_dynamic()) {
+      const b2MassData mass{number(spec.mass), b2Vec2(0, 0), number(spec.inertia.z)};
+      bodies_.back()->SetMassData(&mass);
+    }
+  }
+
+  void add_shape(const PeerBody& spec, b2Body& body) {
+    b2CircleShape disc;
+    b2PolygonShape box;
+    b2EdgeShape edge;
+    b2FixtureDef def;
+    if (const auto* ball = std::get_if<Sphere>(&spec.shape)) {
+      disc.m_radius = number(ball->radius);
+      def.shape = &disc;
+    } else if (const Vec<3>* half = half_size_of(spec.shape)) {
+      box.SetAsBox(number(half->x), number(half->y));
+      def.shape = &box;
+    } else {
+      // Its edge, as far as bodies are likely to go; the normal lies left of the way back.
+      const Vec<3> normal = std::get<HalfSpace<3>>(spec.shape).normal;
+      const Vec<3> along = Vec<3>(normal.y, -normal.x, 0) * (4 * glm::length(scene_.bounds.size()));
+      edge.SetTwoSided(to_box2d(-along), to_box2d(along));
+      def.shape = &edge;
+      body.SetTransform(body.GetPosition(), 0);
+    }
+    def.friction = number(spec.material.friction);
+    def.restitution = number(spec.material.restitution);
+    def.restitutionThreshold = 0;  // slow bounces bounce, too
+    body.CreateFixture(&def);
+  }
+
+  void add(const PeerLink& link) {
+    b2Body* a = bodies_[link.a];
+    b2Body* b = link.b ? bodies_[*link.b] : ground_;
+    if (link.kind == LinkSpec::Kind::pin) {
+      b2RevoluteJointDef def;
+      def.bodyA = a;
+      def.bodyB = b;
+      def.localAnchorA = to_box2d(link.at_a);
+      def.localAnchorB = to_box2d(link.at_b);
+      def.referenceAngle = b->GetAngle() - a->GetAngle();
+      world_.CreateJoint(&def);
+      return;
+    }
+    const bool is_spring = link.kind == LinkSpec::Kind::spring;
+    if (is_spring && (is_soft(link) || link.rest_length < b2_linearSlop))
+      return pull_by_force(link);
+    b2DistanceJointDef def;
+    def.bodyA = a;
+    def.bodyB = b;
+    def.localAnchorA = to_box2d(link.at_a);
+    def.localAnchorB = to_box2d(link.at_b);
+    def.length = number(link.rest_length);
+    def.collideConnected = is_spring;
+    if (is_spring) {
+      def.stiffness = number(link.stiffness);
+      def.damping = number(link.damping);
+    } else {
+      def.minLength = def.maxLength = def.length;
+    }
+    world_.CreateJoint(&def);
+  }
+
+  b2World world_;
+  b2Body* ground_ = nullptr;
+  std::vector<b2Body*> bodies_;
+};
+
+bool fits(double value) { return std::isfinite(number(value)); }
+
+class Box2dPeer : public Peer {
+ public:
+  std::string name() const override { return "Box2D"; }
+  std::string version() const override { return LANTERN_PEER_VERSION; }
+
+  std::optional<std::string> cannot(const PeerScene& scene) const override {
+    if (!scene.is_flat()) return "Box2D is flat";
+    for (const PeerBody& body : scene.bodies) {
+      if (scene.contacts && std::holds_alternative<Capsule>(body.shape))
+        return "body '" + body.name + "': Box2D 2.4 has no capsules";
+      if (body.is_dynamic() && (!fits(body.mass) || !(number(body.mass) > 0)))
+        return "body '" + body.name + "': its mass does not fit single precision";
+      if (!fits(body.position.x) || !fits(body.position.y))
+        return "body '" + body.name + "': its position does not fit single precision";
+    }
+    for (const PeerLink& link : scene.links) {
+      if (link.kind == LinkSpec::Kind::distance && link.rest_length < b2_linearSlop)
+        return "Box2D has no rod shorter than 0.005";
+      if (!fits(link.stiffness) || !fits(link.damping))
+        return "a spring does not fit single precision";
+    }
+    return solid_engine_cannot(scene);
+  }
+
+  std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const override {
+    if (!(number(h) > 0) || !fits(h)) throw Refused("the step does not fit single precision");
+    for (const PeerBody& body : scene.bodies) {
+      if (glm::length(body.velocity) * h > b2_maxTranslation)
+        throw Refused("body '" + body.name + "': Box2D moves a body by no more than 2 a step");
+      if (std::abs(body.spin.z) * h > b2_maxRotation)
+        throw Refused("body '" + body.name + "': Box2D turns a body by no more than pi/2 a step");
+    }
+    return std::make_unique<Box2dRun>(scene, h);
+  }
+};
+
+}  // namespace
+}  // namespace lantern
+
+extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
+  peers.push_back(std::make_unique<lantern::Box2dPeer>());
+}

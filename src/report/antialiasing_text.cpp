@@ -1,0 +1,157 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/json_writer.hpp"
+#include "draw/number_text.hpp"
+#include "report/antialiasing.hpp"
+#include "report/pareto.hpp"
+
+namespace lantern {
+namespace {
+
+double milliseconds(const PictureRow& row) { return 1e3 * row.timing.median; }
+bool is_timed(const PictureRow& row) { return row.timing.repeats > 0; }
+
+const PictureRow* row_of(const PictureReport& report, const std::string& scene,
+                         const std::string& family, const std::string& choice) {
+  for (const PictureRow& row : report.rows)
+    if (row.scene == scene && row.family == family && row.choice == choice && row.part.empty())
+      return &row;
+  return nullptr;
+}
+
+std::vector<Vec<2>> front_of(const std::vector<const PictureRow*>& rows) {
+  std::vector<Vec<2>> points, front;
+  for (const PictureRow* row : rows)
+    if (is_timed(*row)) points.push_back({milliseconds(*row), row->error.rms});
+  for (const std::size_t i : pareto_front(points)) front.push_back(points[i]);
+  return front;
+}
+
+}  // namespace
+
+Plot picture_plot(const PictureReport& report, const std::string& scene) {
+  std::vector<const PictureRow*> rows;
+  for (const PictureRow& row : report.rows)
+    if (row.scene == scene && row.part.empty()) rows.push_back(&row);
+  Plot plot;
+  plot.title = fmt::format("Antialiasing of {} at {} × {}", scene, report.width, report.height);
+  plot.x_name = "milliseconds a frame";
+  plot.y_name = "error at edges (root mean square, levels of 255)";
+  double least = 1e300, most = 0;
+  for (const PictureRow* row : rows) {
+    if (!is_timed(*row)) continue;
+    const bool fresh = plot.series.empty() || plot.series.back().name != row->family;
+    if (fresh) {
+      PlotSeries series;
+      series.name = row->family;
+      series.look = static_cast<int>(plot.series.size());
+      series.is_peer = !row->version.empty();
+      plot.series.push_back(series);
+    }
+    plot.series.back().points.push_back({{milliseconds(*row), row->error.rms}, false, row->choice});
+    least = std::min(least, milliseconds(*row));
+    most = std::max(most, milliseconds(*row));
+  }
+  for (const PictureRow* row : rows)
+    if (!is_timed(*row) && most > 0)
+      plot.guides.push_back(
+          {row->choice == "1" ? "1 sample a pixel" : row->choice + " samples a pixel",
+           {{least, row->error.rms}, {most, row->error.rms}}});
+  plot.front = front_of(rows);
+  return plot;
+}
+
+std::string picture_sentence(const PictureReport& report, const std::string& scene) {
+  const PictureRow* own = row_of(report, scene, "coverage", "1 x 1");
+  if (own == nullptr) return "";
+  std::string text =
+      fmt::format("{}: coverage is off by {} levels", scene, short_number(own->error.rms));
+  if (is_timed(*own)) text += fmt::format(" in {} ms", short_number(milliseconds(*own)));
+  const auto beside = [&](const char* family, const char* choice, const std::string& words) {
+    const PictureRow* row = row_of(report, scene, family, choice);
+    if (row == nullptr) return;
+    text += fmt::format("; {} by {}", words, short_number(row->error.rms));
+    if (is_timed(*row) && is_timed(*own))
+      text += fmt::format(" in {} times the time",
+                          short_number(row->timing.median / own->timing.median));
+  };
+  beside("coverage", "4 x 4", "drawn four times as large");
+  beside("cairo", "default", "cairo");
+  beside("samples", "4", "four samples a pixel");
+  beside("samples", "1", "one sample");
+  return text + ".";
+}
+
+std::string to_table(const PictureReport& report) {
+  std::string text = fmt::format(
+      "{} x {} pixels by {}, against 16 x 16 sub-pixels a pixel; cairo: {}\n"
+      "error in levels of 255 over the pixels that an edge touches; milliseconds a frame\n",
+      report.width, report.height, report.backend, report.cairo);
+  for (const std::string& scene : report.scenes) {
+    const PictureRow* first = row_of(report, scene, "coverage", "1 x 1");
+    if (first == nullptr) continue;
+    text += fmt::format("\n{}, {} pixels with edges\n", scene, first->error.edge_pixels);
+    text += fmt::format("  {:<20}{:>8}{:>8}{:>8}{:>8}{:>10}{:>10}{:>8}\n", "", "mean", "rms",
+                        "worst", "strays", "ms", "least", "iqr");
+    for (const PictureRow& row : report.rows) {
+      if (row.scene != scene) continue;
+      const std::string name =
+          row.part.empty() ? row.family + " " + row.choice : row.part + ", " + row.family;
+      text += fmt::format("  {:<20}{:>8.3f}{:>8.3f}{:>8.1f}{:>8}", name, row.error.mean,
+                          row.error.rms, row.error.worst, row.error.strays);
+      text += is_timed(row) ? fmt::format("{:>10.2f}{:>10.2f}{:>8.2f}\n", milliseconds(row),
+                                          1e3 * row.timing.least, 1e3 * row.timing.spread)
+                            : fmt::format("{:>10}\n", "not timed");
+    }
+    text += "  " + picture_sentence(report, scene) + "\n";
+  }
+  return text;
+}
+
+std::string to_csv(const PictureReport& report) {
+  std::string text =
+      "scene,part,family,choice,version,width,height,edge_pixels,error_mean,error_rms,error_worst,"
+      "strays,repeats,seconds_median,seconds_least,seconds_iqr\n";
+  for (const PictureRow& row : report.rows)
+    text += fmt::format("{},{},{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6g},{:.6g},{:.6g}\n",
+                        row.scene, row.part, row.family, row.choice, row.version, report.width,
+                        report.height, row.error.edge_pixels, row.error.mean, row.error.rms,
+                        row.error.worst, row.error.strays, row.timing.repeats, row.timing.median,
+                        row.timing.least, row.timing.spread);
+  return text;
+}
+
+std::string to_json(const PictureReport& report) {
+  JsonWriter json;
+  json.begin_object().line().member("format", "lantern.measure.pictures/1");
+  json.line().member("width", report.width).member("height", report.height);
+  json.line().member("sub_pixels", kReferenceTimes).member("backend", report.backend);
+  json.line().member("cairo", report.cairo).line().key("sentences").begin_array();
+  for (const std::string& scene : report.scenes) json.value(picture_sentence(report, scene));
+  json.end_array().line().key("rows").begin_array();
+  for (const PictureRow& row : report.rows) {
+    json.line().begin_object().member("scene", row.scene).member("part", row.part);
+    json.member("family", row.family);
+    json.member("choice", row.choice).member("version", row.version);
+    json.key("error").begin_object().member("edge_pixels", row.error.edge_pixels);
+    json.member("mean", row.error.mean).member("rms", row.error.rms);
+    json.member("worst", row.error.worst).member("strays", row.error.strays).end_object();
+    json.key("seconds");
+    if (is_timed(row))
+      json.begin_object()
+          .member("repeats", row.timing.repeats)
+          .member("median", row.timing.median)
+          .member("least", row.timing.least)
+          .member("iqr", row.timing.spread)
+          .end_object();
+    else
+      json.null();
+    json.end_object();
+  }
+  json.line().end_array().line().end_object();
+  return json.text() + "\n";
+}
+
+}  // namespace lantern

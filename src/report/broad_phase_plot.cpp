@@ -1,0 +1,256 @@
+#include "report/broad_phase_plot.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+#include "draw/labels.hpp"
+#include "draw/number_text.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kMargin = 60;
+
+// Five tones of blue, light where it is cheap, in every theme; `above` is the largest ratio to the
+// cheapest cell, `ink` what can be read on it.
+struct Tone {
+  double above;
+  Role fill, ink;
+};
+constexpr std::array<Tone, 5> kTones = {{{1.1, Role::body_lit_6, Role::pupil},
+                                         {1.5, Role::body_6, Role::pupil},
+                                         {2.5, Role::body_lit_4, Role::pupil},
+                                         {5, Role::body_4, Role::eye},
+                                         {1e300, Role::body_shade_4, Role::eye}}};
+
+const Tone& tone_of(double ratio) {
+  return *std::find_if(kTones.begin(), kTones.end(),
+                       [&](const Tone& tone) { return ratio <= tone.above; });
+}
+
+std::string words_of(BroadPhaseKind kind) {
+  switch (kind) {
+    case BroadPhaseKind::brute_force:
+      return "brute force";
+    case BroadPhaseKind::sort_and_sweep:
+      return "sort and sweep";
+    case BroadPhaseKind::quadtree:
+      return "quadtree";
+    case BroadPhaseKind::octree:
+      return "octree";
+    case BroadPhaseKind::bsp:
+      return "BSP of medians";
+    case BroadPhaseKind::kd_tree:
+      return "kD-tree";
+  }
+  return "";
+}
+
+std::string ratio_text(double ratio) {
+  return ratio < 9.95 ? fmt::format("{:.1f}×", ratio) : number_text(ratio) + "×";
+}
+
+double milliseconds(const BroadPhaseCost& row) { return 1e3 * row.timing.least; }
+
+std::string time_text(const BroadPhaseCost& row) { return short_number(milliseconds(row)) + " ms"; }
+
+double work_of(const BroadPhaseCost& row) {
+  return static_cast<double>(row.counts.work()) / static_cast<double>(row.updates);
+}
+
+class Page {
+ public:
+  Page(std::span<const BroadPhaseCost> rows, const BoxScene& scene, BroadPhaseKind kind)
+      : rows_(rows), scene_(scene), kind_(kind), labels_(list_) {
+    for (const BroadPhaseCost& row : rows) {
+      if (row.scene != scene.name || row.kind != kind || !row.has_settings()) continue;
+      capacities_.insert(row.capacity);
+      depths_.insert(row.depth_limit);
+    }
+  }
+
+  DrawList drawn() {
+    title();
+    if (capacities_.empty()) {
+      labels_.add("Nothing was measured.", {{0.5 * list_.page.x, 450}, 0.5},
+                  {30, Weight::regular, Role::quiet_ink, Role::none}, all());
+      return std::move(list_);
+    }
+    const BroadPhaseCost* best = cheapest(rows_, scene_.name, kind_, CostBy::work);
+    grid({{kMargin, 104}, {990, 726}}, CostBy::work, *best);
+    const bool with_time = best->timing.repeats > 0;
+    if (with_time)
+      grid({{1060, 104}, {list_.page.x - kMargin, 448}}, CostBy::time,
+           *cheapest(rows_, scene_.name, kind_, CostBy::time));
+    others({{1060, with_time ? 484.0 : 104.0}, {list_.page.x - kMargin, 726}}, with_time);
+    sentence();
+    return std::move(list_);
+  }
+
+ private:
+  Box<2> all() const { return {Vec<2>(0.0), list_.page}; }
+
+  void title() {
+    const Box<2> band{{kMargin, 20}, {list_.page.x - kMargin, 76}};
+    const TextStyle bold{28, Weight::semibold, Role::ink, Role::none};
+    const TextStyle quiet{26, Weight::regular, Role::quiet_ink, Role::none};
+    const std::string text =
+        fmt::format("Where to set capacity and depth limit of a {}", words_of(kind_));
+    labels_.add(text, {{kMargin, 58}, 0}, bold, band);
+    const double end = kMargin + text_width(text, bold.size, bold.weight) + 12;
+    labels_.add(shortened("·  " + scene_.words, band.hi.x - end, quiet), {{end, 58}, 0}, quiet,
+                band);
+    rule(78);
+  }
+
+  void rule(double y) {
+    list_.shapes.emplace_back(
+        LineShape{{kMargin, y}, {list_.page.x - kMargin, y}, {Role::rule, 1.6, 0}, true});
+  }
+
+  // Depth limits go down the page, as a tree does; capacities to the right.
+  //
+  //   counted work ...
+  //                     leaf capacity
+  //      depth limit    1    2    4
+  //                2   [ ]  [ ]  [ ]
+  void grid(const Box<2>& place, CostBy by, const BroadPhaseCost& best) {
+    const bool large = by == CostBy::work;
+    const TextStyle head{large ? 23.0 : 20.0, Weight::semibold, Role::ink, Role::none};
+    const TextStyle tick{large ? 22.0 : 18.0, Weight::regular, Role::quiet_ink, Role::none};
+    const std::string words =
+        large ? "Box comparisons an update, building and pairing"
+              : fmt::format("Milliseconds an update, least of {}", best.timing.repeats);
+    labels_.add(words, {{place.lo.x, place.lo.y + head.size}, 0}, head, place);
+    if (large)
+      labels_.add("times the cheapest", {{place.hi.x, place.lo.y + head.size}, 1}, tick, place);
+
+    const double left = place.lo.x + (large ? 128 : 62);
+    const double top = place.lo.y + (large ? 112 : 84);
+    const Vec<2> cell((place.hi.x - left) / static_cast<double>(capacities_.size()),
+                      (place.hi.y - top) / static_cast<double>(depths_.size()));
+    const double row_1 = top - 0.55 * tick.size, row_2 = row_1 - 1.35 * tick.size;
+    labels_.add("leaf capacity", {{left + 0.12 * cell.x, row_2}, 0}, tick, place);
+    labels_.add(large ? "depth limit" : "depth", {{place.lo.x, row_1}, 0}, tick, place);
+    double x = left;
+    for (const std::uint32_t capacity : capacities_) {
+      labels_.add(std::to_string(capacity), {{x + 0.5 * cell.x, row_1}, 0.5}, tick, place);
+      x += cell.x;
+    }
+    double y = top;
+    for (const std::uint32_t depth : depths_) {
+      labels_.add(std::to_string(depth), {{left - 14, y + 0.5 * cell.y + 0.36 * tick.size}, 1},
+                  tick, place);
+      x = left;
+      for (const std::uint32_t capacity : capacities_) {
+        if (const BroadPhaseCost* row = row_of(rows_, scene_.name, kind_, capacity, depth))
+          cell_at({{x, y}, {x + cell.x, y + cell.y}}, *row, by, best);
+        x += cell.x;
+      }
+      y += cell.y;
+    }
+    mark(best, {left, top}, cell, large);
+  }
+
+  void cell_at(const Box<2>& box, const BroadPhaseCost& row, CostBy by,
+               const BroadPhaseCost& best) {
+    const bool large = by == CostBy::work;
+    const double ratio =
+        large ? work_of(row) / work_of(best) : milliseconds(row) / milliseconds(best);
+    const Tone& tone = tone_of(ratio);
+    list_.shapes.emplace_back(
+        RectShape{box, 0, tone.fill, {Role::paper, large ? 3.0 : 2.0, 0}, true});
+    const bool cut_back = large && was_cut_back(rows_, row);
+    some_cut_back_ |= cut_back;
+    if (&row != &best)
+      return cell_text(ratio_text(ratio) + (cut_back ? " †" : ""), box, large ? 23 : 17.4, tone.ink,
+                       false);
+
+    if (!large) return cell_text(short_number(milliseconds(row)), box, 17.4, tone.ink, true);
+    cell_text(number_text(work_of(row)), box, 24, tone.ink, true);
+  }
+
+  void cell_text(const std::string& text, const Box<2>& box, double size, Role ink, bool bold) {
+    const TextStyle style{size, bold ? Weight::semibold : Weight::regular, ink, Role::none};
+    const Vec<2> middle = box.center();
+    labels_.add(shortened(text, box.size().x - 4, style), {{middle.x, middle.y + 0.36 * size}, 0.5},
+                style, box);
+  }
+
+  // The frame round the best cell, over its neighbours.
+  void mark(const BroadPhaseCost& best, const Vec<2>& corner, const Vec<2>& cell, bool large) {
+    const auto column = std::distance(capacities_.begin(), capacities_.find(best.capacity));
+    const auto row = std::distance(depths_.begin(), depths_.find(best.depth_limit));
+    const Vec<2> lo = corner + cell * Vec<2>(static_cast<double>(column), static_cast<double>(row));
+    const double width = large ? 6 : 4;
+    const Box<2> frame{lo, lo + cell};
+    list_.shapes.emplace_back(
+        RectShape{shrunk(frame, -0.5 * width), 2, Role::none, {Role::paper, width + 5, 0}, true});
+    list_.shapes.emplace_back(
+        RectShape{shrunk(frame, -0.5 * width), 2, Role::none, {Role::lit, width, 0}, true});
+  }
+
+  // What each structure needs at its best.
+  void others(const Box<2>& place, bool with_time) {
+    const TextStyle head{20, Weight::semibold, Role::ink, Role::none};
+    const TextStyle plain{20, Weight::regular, Role::ink, Role::none};
+    const TextStyle strong{20, Weight::semibold, Role::lit_ink, Role::none};
+    const double right = place.hi.x, middle = with_time ? right - 120 : right;
+    const double step = scene_.dimension() == 3 ? 36 : 42;
+    double y = place.lo.y + head.size;
+    labels_.add("Cheapest capacity / limit", {{place.lo.x, y}, 0}, head, place);
+    const TextStyle quiet{18, Weight::regular, Role::quiet_ink, Role::none};
+    labels_.add("tests", {{middle, y}, 1}, quiet, place);
+    if (with_time) labels_.add("time", {{right, y}, 1}, quiet, place);
+    y += 34;
+    for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+      const BroadPhaseCost* row = cheapest(rows_, scene_.name, kind, CostBy::work);
+      if (row == nullptr) continue;
+      const TextStyle& style = kind == kind_ ? strong : plain;
+      const std::string name = row->has_settings() ? fmt::format("{} {} / {}", words_of(kind),
+                                                                 row->capacity, row->depth_limit)
+                                                   : words_of(kind);
+      const std::string work = number_text(work_of(*row));
+      const double room = middle - text_width(work, style.size, style.weight) - 12 - place.lo.x;
+      labels_.add(shortened(name, room, style), {{place.lo.x, y}, 0}, style, place);
+      labels_.add(work, {{middle, y}, 1}, style, place);
+      if (with_time) labels_.add(time_text(*row), {{right, y}, 1}, style, place);
+      y += step;
+    }
+  }
+
+  void sentence() {
+    rule(752);
+    const TextStyle style{28, Weight::regular, Role::ink, Role::none};
+    const Box<2> place{{kMargin, 756}, {list_.page.x - kMargin, 890}};
+    double y = 798;
+    for (const std::string& line :
+         wrapped(sentence_about(rows_, scene_, kind_), place.size().x, style)) {
+      labels_.add(line, {{kMargin, y}, 0}, style, place);
+      y += 42;
+    }
+    if (some_cut_back_)
+      labels_.add("† out of proportion (over 64 entries a body): built with half the depth limit",
+                  {{kMargin, y - 4}, 0}, {20, Weight::regular, Role::quiet_ink, Role::none}, place);
+  }
+
+  std::span<const BroadPhaseCost> rows_;
+  const BoxScene& scene_;
+  BroadPhaseKind kind_;
+  std::set<std::uint32_t> capacities_, depths_;
+  bool some_cut_back_ = false;
+  DrawList list_;
+  Labels labels_;
+};
+
+}  // namespace
+
+DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
+                               BroadPhaseKind kind) {
+  return Page(rows, scene, kind).drawn();
+}
+
+}  // namespace lantern

@@ -1,0 +1,229 @@
+#include "report/measure_plots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+#include "draw/plot_legend.hpp"
+#include "report/sentences.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kMargin = 60;
+constexpr double kTitleLine = 58;
+constexpr double kCaption = 25;
+constexpr double kFarOff =
+    1e3;  // errors beyond this are at the edge, or the others would be a line
+
+PlotPoint point_of(const Row& row, double cost) {
+  const auto error = row.error();
+  PlotPoint point;
+  point.beyond = !error || !std::isfinite(*error);
+  point.at = {cost, point.beyond ? 0 : *error};
+  return point;
+}
+
+// What a step costs, the middle of all rows: turns a floor by steps into one by cost.
+std::optional<double> cost_of_step(const ProblemRows& problem, const Cost& cost) {
+  std::vector<double> ratios;
+  for (const Row& row : problem.rows)
+    if (const auto price = cost(row); price && !row.is_peer() && row.counted.steps > 0)
+      ratios.push_back(*price / static_cast<double>(row.counted.steps));
+  if (ratios.empty()) return std::nullopt;
+  std::sort(ratios.begin(), ratios.end());
+  return ratios[ratios.size() / 2];
+}
+
+void add_floor(const ProblemRows& problem, const Cost& cost, double least, double most,
+               Plot& plot) {
+  const auto per_step = cost_of_step(problem, cost);
+  if (!per_step || *per_step <= 0) return;
+  PlotGuide guide{"rounding floor (estimate)", {}};
+  for (const double x : {least, most}) guide.points.push_back({x, rounding_floor(x / *per_step)});
+  plot.guides.push_back(std::move(guide));
+}
+
+// A slope for each order that was seen: work goes as 1 / h.
+void add_slopes(const std::set<int>& orders, Plot& plot) {
+  for (const int order : orders)
+    plot.slopes.push_back({order == 1 ? "h"
+                                      : fmt::format("h{}", order == 2   ? "²"
+                                                           : order == 3 ? "³"
+                                                           : order == 4 ? "⁴"
+                                                           : order == 5 ? "⁵"
+                                                                        : "⁶"),
+                           -1.0 * order});
+}
+
+// Far-off errors go to the edge too, if there are others.
+void send_far_ones_off(Plot& plot) {
+  const auto far = [](const PlotPoint& p) { return p.at.y > kFarOff; };
+  bool any_near = false, any_far = false;
+  for (const PlotSeries& s : plot.series)
+    for (const PlotPoint& p : s.points)
+      if (!p.beyond) (far(p) ? any_far : any_near) = true;
+  if (!any_near || !any_far) return;
+  for (PlotSeries& s : plot.series)
+    for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
+  plot.beyond = "diverged, or beyond 1000";
+}
+
+void add_rule(DrawList& list, double y) {
+  list.shapes.emplace_back(
+      LineShape{{kMargin, y}, {list.page.x - kMargin, y}, {Role::rule, 1.6, 0}, true});
+}
+
+void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
+  const Box<2> band{{kMargin, 20}, {list.page.x - kMargin, 76}};
+  const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
+  const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
+  const std::string title = shortened(problem_words(problem), 0.6 * band.size().x, bold);
+  labels.add(title, {{kMargin, kTitleLine}, 0}, bold, band);
+  const double x = kMargin + text_width(title, bold.size, bold.weight) + 11;
+  const std::string rest = "·  error against cost  ·  " + file_name(problem);
+  labels.add(shortened(rest, band.hi.x - x, quiet), {{x, kTitleLine}, 0}, quiet, band);
+  add_rule(list, 78);
+}
+
+// The sentence and the circumstances; gives the y above them.
+double draw_foot(const ProblemRows& problem, const Circumstances& circumstances, DrawList& list,
+                 Labels& labels) {
+  TextStyle style{kCaption, Weight::regular, Role::ink, Role::none};
+  const TextStyle quiet{kLeastLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
+  const double width = list.page.x - 2 * kMargin, line = 36;
+  const std::string text = sentence(problem);
+  std::vector<std::string> lines = wrapped(text, width, style);
+  if (lines.size() > 2) {
+    style.size = kLeastCaption;
+    lines = wrapped(text, width, style);
+  }
+  if (lines.size() > 3) lines = {lines[0], lines[1], shortened(lines[2] + " …", width, style)};
+  const double top = list.page.y - 62 - line * static_cast<double>(lines.size());
+  const Box<2> band{{kMargin, top}, {list.page.x - kMargin, list.page.y - 14}};
+  double y = top + 36;
+  for (const std::string& words : lines) {
+    labels.add(words, {{kMargin, y}, 0}, style, band);
+    y += line;
+  }
+  labels.add(shortened(circumstances_text(circumstances), width, quiet),
+             {{kMargin, list.page.y - 26}, 0}, quiet, band);
+  add_rule(list, top);
+  return top;
+}
+
+std::string error_words(const ProblemRows& problem) {
+  const std::string norm = main_norm(problem);
+  std::string words =
+      norm.empty() ? "error" : fmt::format("error: {} (“{}”)", norm_words(norm), norm);
+  for (const Row& row : problem.rows)
+    if (!row.reference.empty()) return words + ", against: " + row.reference;
+  return words;
+}
+
+// Whether a peer that was run has no point, because it does not count its work.
+bool any_without(const Plot& plot) {
+  return std::any_of(plot.series.begin(), plot.series.end(),
+                     [](const PlotSeries& s) { return s.is_peer && s.points.empty(); });
+}
+
+std::vector<LegendEntry> legend_of(const Plot& plot) {
+  std::vector<LegendEntry> entries;
+  for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
+  return entries;
+}
+
+}  // namespace
+
+std::string problem_words(const ProblemRows& problem) {
+  std::string words = problem.family.empty() ? problem.problem : problem.family;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
+    words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  return problem.variant.empty() || problem.variant == "plain" ? words
+                                                               : words + ", " + problem.variant;
+}
+
+std::string file_name(const ProblemRows& problem) {
+  const std::string& path = problem.rows.empty() ? problem.problem : problem.rows.front().file;
+  const std::string name = path.substr(path.rfind('/') + 1);
+  return name.empty() ? problem.problem + ".toml" : name;
+}
+
+std::string circumstances_text(const Circumstances& c) {
+  std::string text = "Lantern " + c.version;
+  for (const std::string& part : {c.compiler, c.flags, c.processor})
+    if (!part.empty()) text += " · " + part;
+  return text +
+         fmt::format(" · seed {}{}", c.seed, c.effort.empty() ? "" : " · effort: " + c.effort);
+}
+
+Plot cost_plot(const ProblemRows& problem, const Cost& cost,
+               const std::map<std::string, int>& looks, bool with_orders) {
+  Plot plot;
+  std::set<int> orders;
+  double least = 1e300, most = 0;
+  for (const ContestantRows& c : by_contestant(problem)) {
+    PlotSeries series;
+    series.name = c.is_peer ? c.method + " " + c.version : method_words(c.method);
+    series.look = looks.at(c.method);
+    series.is_peer = c.is_peer;
+    for (const Row& row : c.rows)
+      if (const auto price = cost(row); price && row.status != Status::refused) {
+        series.points.push_back(point_of(row, *price));
+        least = std::min(least, *price);
+        most = std::max(most, *price);
+      }
+    if (const auto order = observed_order(c.rows)) {
+      if (with_orders) series.name += fmt::format(": order {:.2f}", *order);
+      const int whole = static_cast<int>(std::lround(*order));
+      if (!c.is_peer && whole >= 1 && whole <= 6 && !series.points.empty()) orders.insert(whole);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  send_far_ones_off(plot);
+  add_slopes(orders, plot);
+  if (most > 0) add_floor(problem, cost, least, most, plot);
+  for (const std::size_t i : pareto_front(problem.rows, cost))
+    plot.front.push_back({*cost(problem.rows[i]), *problem.rows[i].error()});
+  return plot;
+}
+
+DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement) {
+  const std::map<std::string, int> looks = looks_of(measurement.rows);
+  DrawList list;
+  Labels labels(list);
+  draw_title(problem, list, labels);
+  const double bottom = draw_foot(problem, measurement.circumstances, list, labels) - 18;
+  const WorkCount work = work_count(problem);
+  Plot timed = cost_plot(problem, seconds_of, looks, true);
+  timed.title = "Error against time";
+  timed.x_name = "seconds for the whole run, median";
+  timed.empty = "no run was timed";
+  Plot counted = cost_plot(
+      problem, [&](const Row& row) { return work.of(row); }, looks, true);
+  counted.title = "Error against " + work.name;
+  counted.x_name = work.name + " in the whole run";
+  counted.empty = "no work was counted";
+  timed.y_name = counted.y_name = error_words(problem);
+  if (any_without(counted)) counted.x_name += " (not told by peers)";
+  const std::vector<LegendEntry> legend = legend_of(timed);
+  const double width = list.page.x - 2 * kMargin, gap = 48;
+  const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
+  draw_plot_legend(legend, {{kMargin, bottom - height}, {kMargin + width, bottom}}, kLabel, list,
+                   labels);
+  const double middle = kMargin + width / 2, low = bottom - height - 12;
+  for (Plot* plot : {&timed, &counted}) {
+    plot->names = PlotNames::none;
+    const bool left = plot == &timed;
+    const Box<2> panel{{left ? kMargin : middle + gap / 2, 96},
+                       {left ? middle - gap / 2 : kMargin + width, low}};
+    draw_plot(*plot, panel, list, labels);
+  }
+  return list;
+}
+
+}  // namespace lantern

@@ -1,0 +1,33 @@
+// A problem's error against what it costs, as pictures.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "draw/draw_list.hpp"
+#include "draw/plot.hpp"
+#include "report/problem_rows.hpp"
+
+namespace lantern {
+
+// One plot of a problem: its contestants as series, the observed order behind each name if
+// `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
+// front. `looks` must hold every contestant (looks_of).
+Plot cost_plot(const ProblemRows& problem, const Cost& cost,
+               const std::map<std::string, int>& looks, bool with_orders);
+
+// A page of 1600 x 900: error against seconds at the left, against counted work at the right, one
+// legend, the sentence below. Where no row is timed, the left plot says so. Looks and circumstances
+// are those of the measurement, of which the problem is a part.
+DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement);
+
+// "Lantern 0.1.0 · gcc 13 · AMD ... · seed 1".
+std::string circumstances_text(const Circumstances& circumstances);
+
+// "oscillator, stiff" of oscillator_stiff; only the name where the variant is plain.
+std::string problem_words(const ProblemRows& problem);
+
+// The scenario's file, without its folder.
+std::string file_name(const ProblemRows& problem);
+
+}  // namespace lantern

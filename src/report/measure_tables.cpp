@@ -1,0 +1,99 @@
+#include "report/measure_tables.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "report/problem_rows.hpp"
+#include "report/sentences.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kColumns = 100;
+
+// Terminal cells of a text: characters, not bytes.
+std::size_t cells(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+std::string cell(std::string text, std::size_t width, bool right) {
+  while (cells(text) > width) {
+    while ((static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) text.pop_back();
+    text.pop_back();
+  }
+  const std::string gap(width - cells(text), ' ');
+  return right ? gap + text : text + gap;
+}
+
+std::string line(const std::vector<std::string>& fields) {
+  constexpr std::size_t kWidths[] = {27, 7, 6, 10, 9, 10, 12, 11};
+  std::string text;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    text += (i > 0 ? " " : "") + cell(fields[i], kWidths[i], i > 0 && i < 7);
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text + "\n";
+}
+
+std::string name_of(const ContestantRows& c) {
+  return c.is_peer ? c.method + " " + c.version : c.method;
+}
+
+std::string line_for(const ContestantRows& c, const WorkCount& work) {
+  const Row* best = nullptr;
+  std::size_t ok = 0, failed[4] = {};
+  for (const Row& row : c.rows) {
+    ok += row.status == Status::ok;
+    ++failed[static_cast<std::size_t>(row.status)];
+    const auto error = row.error();
+    if (error && (!best || *error < *best->error())) best = &row;
+  }
+  std::string status;
+  for (const Status s : {Status::nan, Status::refused, Status::diverged})
+    if (failed[static_cast<std::size_t>(s)] > 0) status = to_string(s);
+  const auto order = c.is_peer && c.rows.size() < 3 ? std::nullopt : observed_order(c.rows);
+  const auto seconds = best ? seconds_of(*best) : std::nullopt;
+  const auto count = best ? work.of(*best) : std::nullopt;
+  return line({name_of(c), fmt::format("{}/{}", ok, c.rows.size()),
+               order ? fmt::format("{:.2f}", *order) : "-", best ? figure(*best->error()) : "-",
+               best ? figure(best->step) : "-", seconds ? seconds_text(*seconds) : "-",
+               count ? fmt::format("{:.0f}", *count) : "-", status});
+}
+
+// Broken at spaces.
+std::string folded(const std::string& text) {
+  std::string out, row;
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const std::size_t to = std::min(text.find(' ', from), text.size());
+    const std::string word = text.substr(from, to - from);
+    if (!row.empty() && cells(row) + 1 + cells(word) > kColumns) {
+      out += row + "\n";
+      row.clear();
+    }
+    row += (row.empty() ? "" : " ") + word;
+    from = to + 1;
+  }
+  return out + row + "\n";
+}
+
+}  // namespace
+
+std::string to_table(const Measurement& measurement) {
+  std::string text;
+  for (const ProblemRows& problem : by_problem(measurement.rows)) {
+    const WorkCount work = work_count(problem);
+    const std::string norm = main_norm(problem);
+    text += fmt::format("{}{} ({}, {})\n", text.empty() ? "" : "\n", problem.problem,
+                        problem.family, problem.variant);
+    text += line({"method", "runs ok", "order", norm.empty() ? "error" : norm, "at h", "time",
+                  work.name == "force evaluations" ? "force evals" : work.name, "failures"});
+    for (const ContestantRows& c : by_contestant(problem)) text += line_for(c, work);
+    text += folded(sentence(problem));
+  }
+  return text;
+}
+
+}  // namespace lantern

@@ -1,0 +1,31 @@
+// A measurement as files for other programs, and as a table for a terminal.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "measure/row.hpp"
+
+namespace lantern {
+
+// RFC 4180: a header, one record a row, lines end with CR LF. As many pairs norm1_name, norm1, ...
+// as the longest list of norms needs. Numbers have 17 digits; what is not there, or not finite, is
+// an empty field.
+std::string to_csv(const Measurement& measurement);
+
+// The same for how and where it was made: records of a key and a value.
+std::string to_csv(const Circumstances& circumstances);
+
+// lantern.measure/1: circumstances and rows, one row a line. What is not finite becomes null; bytes
+// of texts that are no UTF-8 become question marks.
+std::string to_json(const Measurement& measurement);
+
+// What to_json wrote. Nothing for a text that is damaged or of another format; null is read as NaN.
+std::optional<Measurement> read_measurement(std::string_view json);
+
+// For each problem a line a method: its runs, order, least error and what that cost. At most 100
+// columns wide.
+std::string to_table(const Measurement& measurement);
+
+}  // namespace lantern

@@ -1,0 +1,218 @@
+#include "report/overview.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+#include "draw/plot_legend.hpp"
+#include "report/bars_table.hpp"
+#include "report/measure_plots.hpp"
+#include "report/sentences.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kLeastWidth = 1600;
+constexpr double kTall = 1.41421356;  // height over width of an A3 page
+constexpr double kCell = 320;         // least width of a small plot with its words
+constexpr double kMargin = 56;
+constexpr double kGap = 34;
+constexpr double kSmall = 16.5, kText = 17.5;  // on A3, a page 1600 wide has 0.53 points a unit
+constexpr double kLine = 22;
+constexpr std::size_t kMostLines = 5;  // of a sentence
+
+const TextStyle kQuiet{kSmall, Weight::regular, Role::quiet_ink, Role::none};
+const TextStyle kSaid{kSmall, Weight::regular, Role::ink, Role::none};
+const TextStyle kBold{kText, Weight::semibold, Role::ink, Role::none};
+
+class Page {
+ public:
+  Page(const Measurement& measurement, const std::vector<Bar>& bars)
+      : measurement_(measurement),
+        bars_(bars),
+        problems_(by_problem(measurement.rows)),
+        looks_(looks_of(measurement.rows)),
+        labels_(list_) {
+    for (const ProblemRows& problem : problems_)
+      plots_.push_back(cost_plot(problem, seconds_of, looks_, false));
+  }
+
+  DrawList draw() {
+    plan();
+    double y = draw_head();
+    y = draw_legend(y);
+    y = draw_grid(y);
+    draw_bars(y);
+    draw_foot();
+    return std::move(list_);
+  }
+
+ private:
+  double inner() const { return width_ - 2 * kMargin; }
+  Box<2> band(double top, double bottom) const {
+    return {{kMargin, top}, {width_ - kMargin, bottom}};
+  }
+  double cell_width() const {
+    return (inner() - kGap * static_cast<double>(columns_ - 1)) / static_cast<double>(columns_);
+  }
+
+  // As few columns as keep the page from being taller than A3, so that type is as large as can be.
+  void plan() {
+    legend_ = legend();
+    const std::size_t n = problems_.size();
+    columns_ = n <= 1 ? 1 : n <= 4 ? 2 : n <= 9 ? 3 : 4;
+    plan_rows();
+    while (list_.page.y > 1.02 * kTall * width_ && columns_ < 12) {
+      ++columns_;
+      plan_rows();
+    }
+  }
+
+  // The width, the sentences' lines, and the height of a row of cells: what is left of the page,
+  // but enough to be read and no more than is of use.
+  void plan_rows() {
+    const auto columns = static_cast<double>(columns_);
+    width_ = std::max(kLeastWidth, 2 * kMargin + columns * (kCell + kGap) - kGap);
+    said_.clear();
+    lines_ = 1;
+    for (const ProblemRows& problem : problems_) {
+      const std::string said = columns_ < 4 ? sentence(problem) : short_sentence(problem);
+      std::vector<std::string> lines = wrapped(said, cell_width(), kSaid);
+      if (lines.size() > kMostLines) {
+        lines.resize(kMostLines);
+        lines.back() = shortened(lines.back() + " …", cell_width(), kSaid);
+      }
+      lines_ = std::max(lines_, lines.size());
+      said_.push_back(std::move(lines));
+    }
+    const auto rows = static_cast<double>((problems_.size() + columns_ - 1) / columns_);
+    const double head = 140, foot = 84;
+    const double bars = bars_.empty() ? 0 : bars_table_height(bars_) + 24;
+    const double fixed = head + foot + bars + plot_legend_height(legend_, inner(), kSmall) + 48;
+    const double texts = 56 + kLine * static_cast<double>(lines_);
+    const double page = kTall * width_;
+    row_ = rows > 0 ? (page - fixed) / rows : 0;
+    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + 1.0 * cell_width());
+    list_.page = {width_, std::max(page, std::ceil(fixed + rows * row_))};
+  }
+
+  std::vector<LegendEntry> legend() const {
+    std::vector<LegendEntry> entries;
+    std::vector<std::pair<int, LegendEntry>> found;
+    for (const Row& row : measurement_.rows) {
+      const LegendEntry entry{
+          row.is_peer() ? row.method + " " + row.version : method_words(row.method),
+          looks_.at(row.method), row.is_peer()};
+      if (std::none_of(found.begin(), found.end(),
+                       [&](const auto& f) { return f.second.look == entry.look; }))
+        found.push_back({entry.is_peer, entry});
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [_, entry] : found) entries.push_back(std::move(entry));
+    return entries;
+  }
+
+  void rule(double y, double weight = 1.4) {
+    list_.shapes.emplace_back(
+        LineShape{{kMargin, y}, {width_ - kMargin, y}, {Role::ink, weight, 0}, true});
+  }
+
+  double draw_head() {
+    const Box<2> place = band(30, 132);
+    labels_.add("Error against run time", {{kMargin, 74}, 0},
+                {38, Weight::semibold, Role::ink, Role::none}, place);
+    const std::string how = fmt::format(
+        "{} problems, {} runs. Each plot: the error of a run (of what is named at its upper right) "
+        "upwards, its seconds to the right, both logarithmic; lower left is better.",
+        problems_.size(), measurement_.rows.size());
+    labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
+                {{kMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none}, place);
+    rule(126, 2);
+    return 140;
+  }
+
+  double draw_legend(double y) {
+    const double height = plot_legend_height(legend_, inner(), kSmall);
+    draw_plot_legend(legend_, band(y, y + height), kSmall, list_, labels_);
+    y += height + 4;
+    const std::string rest =
+        "Dashed: other engines. Open marks at the upper edge: runs that diverged. Stairs: no run "
+        "has both less error and less time. Dashed grey: rounding floor, an estimate.";
+    labels_.add(shortened(rest, inner(), kQuiet), {{kMargin, y + 17}, 0}, kQuiet, band(y, y + 26));
+    return y + 44;
+  }
+
+  double draw_grid(double y) {
+    for (std::size_t i = 0; i < problems_.size(); ++i) {
+      const auto column = static_cast<double>(i % columns_);
+      const auto row = static_cast<double>(i / columns_);
+      const Vec<2> corner{kMargin + column * (cell_width() + kGap), y + row * row_};
+      draw_cell(i, {corner, corner + Vec<2>{cell_width(), row_ - 26}});
+    }
+    const auto rows = static_cast<double>((problems_.size() + columns_ - 1) / columns_);
+    return y + rows * row_;
+  }
+
+  void draw_cell(std::size_t i, const Box<2>& cell) {
+    const std::string name = shortened(file_name(problems_[i]), cell.size().x, kBold);
+    labels_.add(name, {{cell.lo.x, cell.lo.y + 16}, 0}, kBold, cell);
+    const std::string norm = norm_words(main_norm(problems_[i]));
+    labels_.try_add(norm, {{{cell.hi.x, cell.lo.y + 16}, 1}}, kQuiet, cell);
+    const double said = cell.hi.y - kLine * static_cast<double>(lines_);
+    Plot& plot = plots_[i];
+    plot.names = PlotNames::none;
+    plot.size = kSmall;
+    plot.mark = columns_ < 4 ? 4.8 : 4.2;
+    plot.front_name.clear();
+    plot.empty = "no run was timed";
+    for (PlotGuide& guide : plot.guides) guide.name.clear();
+    draw_plot(plot, {{cell.lo.x, cell.lo.y + 22}, {cell.hi.x, said - 4}}, list_, labels_);
+    double y = said + 16;
+    for (const std::string& line : said_[i]) {
+      labels_.add(line, {{cell.lo.x, y}, 0}, kSaid, {cell.lo, cell.hi + Vec<2>{0, 8}});
+      y += kLine;
+    }
+  }
+
+  void draw_bars(double y) {
+    if (bars_.empty()) return;
+    const double height = bars_table_height(bars_);
+    draw_bars_table(bars_, band(y, y + height), list_, labels_);
+  }
+
+  void draw_foot() {
+    const double y = list_.page.y - 62;
+    rule(y, 2);
+    const Box<2> place = band(y, list_.page.y - 16);
+    labels_.add(shortened(circumstances_text(measurement_.circumstances), inner(), kQuiet),
+                {{kMargin, y + 30}, 0}, kQuiet, place);
+  }
+
+  const Measurement& measurement_;
+  const std::vector<Bar>& bars_;
+  std::vector<ProblemRows> problems_;
+  std::map<std::string, int> looks_;
+  std::vector<Plot> plots_;
+  std::vector<LegendEntry> legend_;
+  std::vector<std::vector<std::string>> said_;
+  std::size_t columns_ = 4, lines_ = 1;
+  double width_ = kLeastWidth, row_ = 0;
+  DrawList list_;
+  Labels labels_;
+};
+
+}  // namespace
+
+std::optional<bool> Bar::met() const {
+  if (!value) return std::nullopt;
+  return at_least ? *value >= bound : *value <= bound;  // false for NaN
+}
+
+DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars) {
+  return Page(measurement, bars).draw();
+}
+
+}  // namespace lantern

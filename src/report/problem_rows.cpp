@@ -1,0 +1,209 @@
+#include "report/problem_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "draw/plot_marks.hpp"
+
+namespace lantern {
+namespace {
+
+struct KnownMethod {
+  std::string_view name, words;
+  int look;
+};
+
+// The first ones are those that meet most often in one plot.
+constexpr std::array<KnownMethod, 10> kKnown{{
+    {"velocity_verlet", "velocity Verlet", 0},
+    {"explicit_euler", "explicit Euler", 1},
+    {"runge_kutta_4", "Runge–Kutta 4", 2},
+    {"implicit_midpoint", "implicit midpoint", 3},
+    {"semi_implicit_euler", "semi-implicit Euler", 4},
+    {"implicit_euler", "implicit Euler", 5},
+    {"dormand_prince", "Dormand–Prince", 6},
+    {"splitting_2", "splitting, order 2", 14},
+    {"splitting_4", "splitting, order 4", 16},
+    {"explicit_gyroscopic", "explicit gyroscopic", 15},
+}};
+
+const KnownMethod* known(std::string_view name) {
+  for (const KnownMethod& k : kKnown)
+    if (k.name == name) return &k;
+  return nullptr;
+}
+
+struct Sample {
+  double step = 0, error = 0;
+};
+
+double slope(const Sample& a, const Sample& b) {
+  return std::log(a.error / b.error) / std::log(a.step / b.step);
+}
+
+double fitted(std::span<const Sample> samples) {
+  const auto n = static_cast<double>(samples.size());
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (const Sample& s : samples) {
+    x += std::log(s.step) / n;
+    y += std::log(s.error) / n;
+  }
+  for (const Sample& s : samples) {
+    const double dx = std::log(s.step) - x;
+    xx += dx * dx;
+    xy += dx * (std::log(s.error) - y);
+  }
+  return xy / xx;
+}
+
+}  // namespace
+
+std::vector<ProblemRows> by_problem(std::span<const Row> rows) {
+  std::vector<ProblemRows> problems;
+  for (const Row& row : rows) {
+    auto found = std::find_if(problems.begin(), problems.end(),
+                              [&](const ProblemRows& p) { return p.problem == row.problem; });
+    if (found == problems.end()) {
+      problems.push_back({row.problem, row.family, row.variant, {}});
+      found = problems.end() - 1;
+    }
+    found->rows.push_back(row);
+  }
+  return problems;
+}
+
+std::vector<ContestantRows> by_contestant(const ProblemRows& problem) {
+  std::vector<ContestantRows> all;
+  for (const Row& row : problem.rows) {
+    auto found = std::find_if(all.begin(), all.end(),
+                              [&](const ContestantRows& c) { return c.method == row.method; });
+    if (found == all.end()) {
+      all.push_back({row.method, row.is_peer(), row.version, {}});
+      found = all.end() - 1;
+    }
+    found->rows.push_back(row);
+  }
+  for (ContestantRows& c : all)
+    std::stable_sort(c.rows.begin(), c.rows.end(),
+                     [](const Row& a, const Row& b) { return a.step > b.step; });
+  return all;
+}
+
+std::string method_words(std::string_view method) {
+  if (const KnownMethod* k = known(method)) return std::string(k->words);
+  const std::size_t colon = method.find(':');
+  const std::string_view kind = method.substr(0, colon);
+  const std::string_view effort =
+      colon == std::string_view::npos ? std::string_view() : method.substr(colon + 1);
+  const bool one = effort == "1";
+  if (kind == "soft")
+    return effort.empty() ? "soft contacts"
+                          : fmt::format("soft contacts, {} sub-step{}", effort, one ? "" : "s");
+  if (kind == "impulse")
+    return effort.empty() ? "impulses"
+                          : fmt::format("impulses, {} sweep{}", effort, one ? "" : "s");
+  std::string words(method);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string norm_words(std::string_view norm) {
+  constexpr std::array<std::array<std::string_view, 2>, 10> kWords{{
+      {"traj", "state"},
+      {"att", "attitude"},
+      {"inv", "drift"},
+      {"a", "acceleration"},
+      {"v", "speed"},
+      {"E", "energy"},
+      {"p", "momentum"},
+      {"L", "angular momentum"},
+      {"times", "impact times"},
+      {"class", "wrong outcome"},
+  }};
+  for (const auto& [name, words] : kWords)
+    if (name == norm) return std::string(words);
+  return std::string(norm);
+}
+
+std::string main_norm(const ProblemRows& problem) {
+  for (const Row& row : problem.rows)
+    if (!row.norms.empty()) return row.norms.front().name;
+  return "";
+}
+
+std::map<std::string, int> looks_of(std::span<const Row> rows) {
+  std::map<std::string, int> looks;
+  std::set<int> taken;
+  for (const KnownMethod& k : kKnown) taken.insert(k.look);
+  for (const Row& row : rows) {
+    if (looks.contains(row.method)) continue;
+    int look = row.is_peer() ? kFirstPeerLook : 0;
+    if (const KnownMethod* k = row.is_peer() ? nullptr : known(row.method)) {
+      look = k->look;
+    } else {
+      const auto of_other_kind = [&](int l) {  // crosses and stars are for peers
+        return !row.is_peer() && l % kPlotMarks >= kFirstPeerLook;
+      };
+      while (taken.contains(look) || of_other_kind(look)) ++look;
+    }
+    taken.insert(look);
+    looks[row.method] = look;
+  }
+  return looks;
+}
+
+std::optional<double> observed_order(std::span<const Row> rows) {
+  constexpr double kBegun = 0.5;      // an error larger than this says nothing of the order
+  constexpr double kOverFloor = 100;  // times the estimate
+  constexpr double kEven = 0.35;      // how far a local slope may be from the middle one
+  std::vector<Sample> samples;
+  for (const Row& row : rows) {
+    const auto error = row.error();
+    if (row.method.starts_with("dormand") || !error || !std::isfinite(*error)) continue;
+    const double floor = kOverFloor * rounding_floor(static_cast<double>(row.counted.steps));
+    if (!(row.step > 0) || *error > kBegun || *error <= floor) continue;
+    if (samples.empty() || row.step < samples.back().step) samples.push_back({row.step, *error});
+  }
+  if (samples.size() < 3) return std::nullopt;
+  std::vector<double> slopes;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    slopes.push_back(slope(samples[i - 1], samples[i]));
+  std::vector<double> sorted = slopes;
+  std::sort(sorted.begin(), sorted.end());
+  const double middle = sorted[sorted.size() / 2];
+  // The longest even piece.
+  std::size_t from = 0, length = 0;
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    std::size_t n = 0;
+    while (i + n < slopes.size() && std::abs(slopes[i + n] - middle) <= kEven) ++n;
+    if (n <= length) continue;
+    from = i;
+    length = n;
+  }
+  if (length < 2) return std::nullopt;
+  return fitted(std::span(samples).subspan(from, length + 1));
+}
+
+double rounding_floor(double steps) { return 0x1p-52 * std::sqrt(std::max(1.0, steps)); }
+
+std::optional<double> WorkCount::of(const Row& row) const {
+  const std::uint64_t n = row.counted.*count;
+  if (n == 0) return std::nullopt;
+  return static_cast<double>(n);
+}
+
+WorkCount work_count(const ProblemRows& problem) {
+  const WorkCount counts[] = {{"constraint rows", &Counted::constraint_rows},
+                              {"force evaluations", &Counted::force_evaluations},
+                              {"steps", &Counted::steps}};
+  for (const WorkCount& count : counts)
+    for (const Row& row : problem.rows)
+      if (row.counted.*count.count > 0) return count;
+  return counts[2];
+}
+
+}  // namespace lantern

@@ -1,0 +1,65 @@
+// The rows of one problem, and what is read from them: who took part, how errors shrink with steps,
+// which work is counted.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/row.hpp"
+#include "report/pareto.hpp"
+
+namespace lantern {
+
+// Rows that stand together in a measurement and are of one problem.
+struct ProblemRows {
+  std::string problem, family, variant;
+  std::vector<Row> rows;
+};
+std::vector<ProblemRows> by_problem(std::span<const Row> rows);
+
+// The same of one contestant, the largest step first.
+struct ContestantRows {
+  std::string method;
+  bool is_peer = false;
+  std::string version;
+  std::vector<Row> rows;
+};
+std::vector<ContestantRows> by_contestant(const ProblemRows& problem);
+
+// "explicit Euler" of "explicit_euler", "soft contacts, 16 sub-steps" of "soft:16"; a peer's name
+// stays as it is.
+std::string method_words(std::string_view method);
+
+// What a norm measures: "state" of "traj". Others stay as they are.
+std::string norm_words(std::string_view norm);
+
+// The name of the problem's main norm; empty if no row has one.
+std::string main_norm(const ProblemRows& problem);
+
+// A look for each contestant: the known methods have always the same, others in order of their
+// first row, peers from kFirstPeerLook on.
+std::map<std::string, int> looks_of(std::span<const Row> rows);
+
+// p in error ~ step^p: least squares through the logarithms of the rows above the rounding floor,
+// where the error has begun to shrink evenly. Nothing for fewer than three such rows, or if no even
+// piece is there. An adaptive method has none: its steps are tolerances.
+std::optional<double> observed_order(std::span<const Row> rows);
+
+// An estimate of what rounding alone leaves after so many steps: 2^-52 times their square root, as
+// of a random walk (Henrici, "Discrete Variable Methods", 1962). Relative.
+double rounding_floor(double steps);
+
+// The count that says best how much work a problem's runs are: constraint rows if there are any,
+// else force evaluations, else steps.
+struct WorkCount {
+  std::string name;  // "force evaluations"
+  std::uint64_t Counted::*count = nullptr;
+  std::optional<double> of(const Row& row) const;  // nothing for 0
+};
+WorkCount work_count(const ProblemRows& problem);
+
+}  // namespace lantern

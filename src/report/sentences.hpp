@@ -1,0 +1,30 @@
+// What a problem's rows say, in one sentence.
+#pragma once
+
+#include <string>
+
+#include "report/problem_rows.hpp"
+
+namespace lantern {
+
+// The error that a method should stay under: 1e-6 if somebody does, else the least power of ten
+// that somebody does. Nothing if no row has an error.
+std::optional<double> error_bound(const ProblemRows& problem);
+
+// "The cheapest method under 1e-6 is velocity Verlet: 0.8 ms at h = 0.005 s, 2060 force
+// evaluations; explicit Euler never gets there." Cheapest in seconds where rows are timed, else in
+// counted work. A peer that is cheaper than all methods is named first.
+std::string sentence(const ProblemRows& problem);
+
+// The same without counted work and without those that never get there.
+std::string short_sentence(const ProblemRows& problem);
+
+// The sentence of each problem, in order.
+std::vector<std::string> sentences(const Measurement& measurement);
+
+// "12 s", "0.8 ms", "41 µs".
+std::string seconds_text(double seconds);
+// "1e-6", "3.2e-9", "0.012": three figures, as one types them.
+std::string figure(double number);
+
+}  // namespace lantern

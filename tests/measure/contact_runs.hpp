@@ -1,0 +1,43 @@
+// Problems of scenarios/problems, changed for a test, and runs of them: by the engine, or by hand.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "measure/yardsticks_contact.hpp"
+
+namespace lantern::test {
+
+using Changes = std::vector<std::pair<std::string, std::string>>;
+using Norms = std::map<std::string, double>;
+
+// The file `name`, with each first text replaced, everywhere, by the second. The first must be
+// there.
+Scenario problem(const std::string& name, const Changes& changes = {});
+
+// As the bodies begin.
+Observation at_start(const Scenario& scenario);
+
+Norms norms_of(const Yardstick& yardstick);
+
+// By the engine: by `method`, in steps that meet each sample and are no longer than `step`.
+Norms run(const Scenario& scenario, const std::string& method, double step);
+
+// Looks at the start, and at what `moved` makes of it at each sample.
+template <class F>
+Norms looked_at(const Scenario& scenario, F&& moved) {
+  const auto yardstick = contact_yardstick(scenario);
+  yardstick->look(at_start(scenario));
+  const ProblemSpec& spec = *scenario.problem;
+  for (std::uint32_t i = 1; i <= spec.samples; ++i) {
+    Observation now = at_start(scenario);
+    now.time = spec.seconds * i / spec.samples;
+    moved(now);
+    yardstick->look(now);
+  }
+  return norms_of(*yardstick);
+}
+
+}  // namespace lantern::test

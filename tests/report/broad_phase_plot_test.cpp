@@ -1,0 +1,75 @@
+// The page of capacity and depth limit: everything is on it, and nothing covers anything.
+#include "report/broad_phase_plot.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "draw/metrics.hpp"
+
+namespace lantern {
+namespace {
+
+BroadPhaseCostConfig config_of(int repeats) {
+  BroadPhaseCostConfig config;
+  config.timing = {repeats, 0};
+  return config;
+}
+
+bool says(const DrawList& list, const std::string& text) {
+  return std::ranges::any_of(
+      list.labels, [&](const LabelBox& l) { return l.text.find(text) != std::string::npos; });
+}
+
+void expect_readable(const DrawList& list, const std::string& what) {
+  for (std::size_t i = 0; i < list.labels.size(); ++i) {
+    const LabelBox& a = list.labels[i];
+    EXPECT_TRUE(holds(a.panel, a.box)) << what << ": '" << a.text << "' leaves its panel";
+    EXPECT_TRUE(holds({Vec<2>(0.0), list.page}, a.box)) << what << ": '" << a.text << "'";
+    for (std::size_t j = i + 1; j < list.labels.size(); ++j) {
+      const LabelBox& b = list.labels[j];
+      const Vec<2> lo = glm::max(a.box.lo, b.box.lo), hi = glm::min(a.box.hi, b.box.hi);
+      EXPECT_FALSE(lo.x < hi.x && lo.y < hi.y)
+          << what << ": '" << a.text << "' lies on '" << b.text << "'";
+    }
+  }
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* text = std::get_if<TextShape>(&shape)) {
+      EXPECT_GE(text->size, kLeastLabel) << text->text << " is too small for a lecture";
+    }
+}
+
+TEST(BroadPhasePage, NothingCoversAnything) {
+  for (const BoxScene& scene : seeded_box_scenes(120, 1))
+    for (const int repeats : {0, 1}) {
+      const auto rows = measure_broad_phases(scene, config_of(repeats), [] { return true; });
+      for (const BroadPhaseKind kind :
+           {BroadPhaseKind::quadtree, BroadPhaseKind::octree, BroadPhaseKind::kd_tree})
+        expect_readable(draw_broad_phase_page(rows, scene, kind), scene.name);
+    }
+}
+
+TEST(BroadPhasePage, TheCheapestCellIsNamed) {
+  const BoxScene scene = seeded_box_scenes(120, 2)[1];
+  const auto rows = measure_broad_phases(scene, config_of(0), [] { return true; });
+  const BroadPhaseCost* best = cheapest(rows, scene.name, BroadPhaseKind::quadtree, CostBy::work);
+  const DrawList list = draw_broad_phase_page(rows, scene, BroadPhaseKind::quadtree);
+  EXPECT_TRUE(says(list, std::to_string(best->counts.work()))) << "its cell has no number";
+  EXPECT_TRUE(says(list, "For 120 clustered boxes")) << "the sentence is missing";
+  EXPECT_TRUE(says(list, "brute force")) << "nothing to hold it against";
+  const auto frames = std::ranges::count_if(list.shapes, [](const DrawShape& shape) {
+    const auto* rect = std::get_if<RectShape>(&shape);
+    return rect != nullptr && rect->stroke.role == Role::lit;
+  });
+  EXPECT_EQ(frames, 1) << "one cell is marked";
+}
+
+TEST(BroadPhasePage, WithoutRowsItSaysSo) {
+  const BoxScene scene = seeded_box_scenes(2, 3)[0];
+  const DrawList list = draw_broad_phase_page({}, scene, BroadPhaseKind::quadtree);
+  EXPECT_TRUE(says(list, "Nothing was measured."));
+  expect_readable(list, "empty");
+}
+
+}  // namespace
+}  // namespace lantern
