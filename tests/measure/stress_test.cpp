@@ -3,12 +3,17 @@
 
 #include <bit>
 #include <cmath>
+#include <ostream>
 #include <set>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 namespace lantern {
+
+// Else a case is shown as bytes, among them addresses.
+void PrintTo(const StressCase& one, std::ostream* out) { *out << one.name; }
+
 namespace {
 
 // Not yet good. To be taken off the list when the engine can do them; until then they must at least
