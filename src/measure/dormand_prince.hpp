@@ -20,7 +20,8 @@ class DormandPrince {
   DormandPrince(Real tolerance, State scale) : tolerance_(tolerance), scale_(std::move(scale)) {}
 
   // From `time` to `end` >= time. `slope(t, y, dy)` gives the rates of change dy, of the same size.
-  // Throws Refused if the step vanishes.
+  // Throws Refused if the step vanishes: below a billionth of the time to go, as where bodies fall
+  // into each other.
   template <class Slope>
   void run(const Slope& slope, Real time, Real end, State& y) {
     if (!(end > time)) return;
@@ -28,10 +29,12 @@ class DormandPrince {
     slope(time, y, k_[0]);
     ++evaluations_;
     if (!(step_ > 0)) step_ = first_step(y, end - time);
+    const Real least = (end - time) * Real(1e-9);
     while (time < end) {
       const bool last = step_ >= end - time;
       const Real h = last ? end - time : step_;
-      if (!(time + h > time)) throw Refused("dormand_prince: its step vanishes");
+      if (!(time + h > time) || (step_ < least && !last))
+        throw Refused("dormand_prince: its step vanishes");
       const Real error = attempt(slope, time, h, y);
       if (error <= 1) {
         time = last ? end : time + h;
@@ -87,7 +90,8 @@ class DormandPrince {
       Real sum = 0;
       for (int j = 0; j < 7; ++j) sum += kE[j] * k_[j][i];
       const Real error = std::abs(h * sum) / (tolerance_ * scale_[i]);
-      if (!(error <= worst)) worst = error;
+      if (!std::isfinite(error)) return error;
+      worst = std::max(worst, error);
     }
     return worst;
   }

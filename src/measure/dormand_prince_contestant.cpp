@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "base/error.hpp"
 #include "measure/dormand_prince.hpp"

@@ -140,15 +140,17 @@ std::unique_ptr<Yardstick> chain_yardstick(const Scenario& scenario) {
   read_motion(scenario, row);
   require_no_passing(row);
   ChainMotion motion(row.masses, row.stiffnesses, row.displacements, row.velocities);
-  const auto fastest = std::max_element(motion.frequencies().begin(), motion.frequencies().end());
   long double length = 0, speed = 0;
-  for (std::size_t i = 0; i < row.bodies.size(); ++i) {
-    length = std::max(length, std::abs(row.displacements[i]));
-    speed = std::max(speed, std::abs(row.velocities[i]));
+  const int samples = static_cast<int>(std::min(scenario.problem->samples, 20u));
+  std::vector<long double> x, v;
+  for (int n = 0; n <= samples; ++n) {
+    motion.at(static_cast<long double>(scenario.problem->seconds) * n / samples, x, v);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      length = std::max(length, std::abs(x[i]));
+      speed = std::max(speed, std::abs(v[i]));
+    }
   }
-  if (!(length > 0 || speed > 0)) throw Refused("chain: nothing moves");
-  length = std::max(length, speed / *fastest);
-  speed = std::max(speed, length * *fastest);
+  if (!(length > 0 && speed > 0)) throw Refused("chain: nothing moves");
   return std::make_unique<ChainYardstick>(row, std::move(motion), static_cast<double>(length),
                                           static_cast<double>(speed));
 }

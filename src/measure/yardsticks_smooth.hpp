@@ -19,8 +19,8 @@ std::unique_ptr<Yardstick> projectile_yardstick(const Scenario& scenario);
 std::unique_ptr<Yardstick> oscillator_yardstick(const Scenario& scenario);
 
 // Bodies in a row between one or two fixed points, tied each to the next by springs without
-// damping, moving along the row. "traj" is relative to the greatest way and speed at the start; of
-// either alone, by the fastest frequency.
+// damping, moving along the row. "traj" is relative to the greatest way from rest and the greatest
+// speed of any of them, at about 20 moments.
 std::unique_ptr<Yardstick> chain_yardstick(const Scenario& scenario);
 
 // Two bodies that attract each other, one of which may be static. "traj" is relative to half the

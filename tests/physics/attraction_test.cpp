@@ -11,6 +11,13 @@
 namespace lantern {
 namespace {
 
+WorldConfig<2> attracting(double gravitation, ContactMethod contacts) {
+  WorldConfig<2> config;
+  config.gravitation = gravitation;
+  config.contacts = contacts;
+  return config;
+}
+
 // Two on a circle about their centre, of masses 3 and 1 and a way of 1 between them.
 SmoothScene<2> couple() {
   SmoothScene<2> scene;
@@ -35,7 +42,7 @@ TEST(Attraction, PullsBothByBothMassesOverTheSquareOfTheWay) {
 
 TEST(Attraction, AStaticBodyAttractsOnlyWithAMass) {
   for (const double mass : {0.0, 3.0}) {
-    World<2> world(WorldConfig<2>{.gravitation = 1, .contacts = ContactMethod::none});
+    World<2> world(attracting(1, ContactMethod::none));
     Body<2> sun;
     sun.name = "sun";
     sun.shape = Sphere{0.1};
@@ -67,7 +74,7 @@ TEST(Attraction, CentresThatCoincideDoNotPull) {
 
 TEST(Attraction, EveryMethodHasItsOrderOnACircle) {
   const double orders[] = {1, 1, 2, 4, 2, 1};
-  const double time = 3.3;
+  const double time = 4.4;  // no half turn, where first order looks like second
   for (std::size_t m = 0; m < std::size(kAllIntegrators); ++m) {
     const auto error = [&](int steps) {
       SmoothScene<2> scene = couple();
@@ -92,7 +99,7 @@ TEST(Attraction, MomentumAndEnergyAreKept) {
 
 TEST(Attraction, ActsAcrossIslandsThatTouch) {
   // Two that touch are moved as an island; the third, far away, still pulls them, and is pulled.
-  World<2> world(WorldConfig<2>{.gravitation = 1});
+  World<2> world(attracting(1, ContactMethod::soft));
   Body<2> body;
   body.shape = Sphere{0.5};
   body.mass = 1;
@@ -108,7 +115,7 @@ TEST(Attraction, ActsAcrossIslandsThatTouch) {
 
 TEST(Attraction, RefusesAConstantThatIsNone) {
   for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
-    EXPECT_THROW(World<2>(WorldConfig<2>{.gravitation = bad}), Refused) << bad;
+    EXPECT_THROW(World<2>(attracting(bad, ContactMethod::none)), Refused) << bad;
     SmoothScene<2> scene = couple();
     scene.forces.gravitation = bad;
     EXPECT_THROW(check_forces<2>(scene.forces, scene.bodies), Refused) << bad;
