@@ -25,6 +25,12 @@ struct Energy {
 template <int D>
 Energy energy(std::span<const Body<D>> bodies, const Forces<D>& forces);
 
+// Of one body: its motion, its height, and the springs that it is tied by; of a spring between two
+// dynamic bodies each has half. So the shares of all dynamic bodies add up to the energy of all.
+// Zero for a body that is not dynamic.
+template <int D>
+Energy energy_of(const Body<D>& body, std::span<const Body<D>> bodies, const Forces<D>& forces);
+
 // Of the same bodies: the sum of m v, in N s.
 template <int D>
 Vec<D> momentum(std::span<const Body<D>> bodies);
@@ -35,6 +41,8 @@ Spin<D> angular_momentum(std::span<const Body<D>> bodies);
 
 extern template Energy energy(std::span<const Body<2>>, const Forces<2>&);
 extern template Energy energy(std::span<const Body<3>>, const Forces<3>&);
+extern template Energy energy_of(const Body<2>&, std::span<const Body<2>>, const Forces<2>&);
+extern template Energy energy_of(const Body<3>&, std::span<const Body<3>>, const Forces<3>&);
 extern template Vec<2> momentum(std::span<const Body<2>>);
 extern template Vec<3> momentum(std::span<const Body<3>>);
 extern template Spin<2> angular_momentum<2>(std::span<const Body<2>>);

@@ -37,7 +37,8 @@ void World<D>::Step::move() {
     advance_island(island, world.config_, h, budget, world.work_);
     bring_back(island);
   }
-  for (const std::size_t i : flying) fly(moved[i], increments[i], h, world.work_);
+  for (const std::size_t i : flying)
+    fly(moved[i], increments[i], h, world.config_.rotation, world.work_);
 }
 
 template <int D>

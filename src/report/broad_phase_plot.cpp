@@ -132,19 +132,14 @@ class Page {
     const double top = place.lo.y + (large ? 112 : 84);
     const Vec<2> cell((place.hi.x - left) / static_cast<double>(capacities_.size()),
                       (place.hi.y - top) / static_cast<double>(depths_.size()));
-    const double row_1 = top - 0.55 * tick.size, row_2 = row_1 - 1.35 * tick.size;
-    labels_.add("leaf capacity", {{left + 0.12 * cell.x, row_2}, 0}, tick, place);
-    labels_.add(large ? "depth limit" : "depth", {{place.lo.x, row_1}, 0}, tick, place);
-    double x = left;
-    for (const std::uint32_t capacity : capacities_) {
-      labels_.add(std::to_string(capacity), {{x + 0.5 * cell.x, row_1}, 0.5}, tick, place);
-      x += cell.x;
-    }
+    capacity_ticks({left, top}, cell.x, tick, place);
+    labels_.add(large ? "depth limit" : "depth", {{place.lo.x, top - 0.55 * tick.size}, 0}, tick,
+                place);
     double y = top;
     for (const std::uint32_t depth : depths_) {
       labels_.add(std::to_string(depth), {{left - 14, y + 0.5 * cell.y + 0.36 * tick.size}, 1},
                   tick, place);
-      x = left;
+      double x = left;
       for (const std::uint32_t capacity : capacities_) {
         if (const BroadPhaseCost* row = row_of(rows_, scene_.name, kind_, capacity, depth))
           cell_at({{x, y}, {x + cell.x, y + cell.y}}, *row, by, best);
@@ -155,11 +150,22 @@ class Page {
     mark(best, {left, top}, cell, large);
   }
 
+  void capacity_ticks(const Vec<2>& corner, double width, const TextStyle& style,
+                      const Box<2>& place) {
+    const double lower = corner.y - 0.55 * style.size, upper = lower - 1.35 * style.size;
+    labels_.add("leaf capacity", {{corner.x + 0.12 * width, upper}, 0}, style, place);
+    double x = corner.x + 0.5 * width;
+    for (const std::uint32_t capacity : capacities_) {
+      labels_.add(std::to_string(capacity), {{x, lower}, 0.5}, style, place);
+      x += width;
+    }
+  }
+
   void cell_at(const Box<2>& box, const BroadPhaseCost& row, CostBy by,
                const BroadPhaseCost& best) {
     const bool large = by == CostBy::work;
-    const double ratio =
-        large ? work_of(row) / work_of(best) : milliseconds(row) / milliseconds(best);
+    const double least = large ? work_of(best) : milliseconds(best);
+    const double ratio = least > 0 ? (large ? work_of(row) : milliseconds(row)) / least : 1;
     const Tone& tone = tone_of(ratio);
     list_.shapes.emplace_back(
         RectShape{box, 0, tone.fill, {Role::paper, large ? 3.0 : 2.0, 0}, true});

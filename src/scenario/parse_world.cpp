@@ -75,9 +75,15 @@ void read_rules(const TableReader& world, Draft& draft) {
     w.contacts = static_cast<ContactMethod>(*choice);
   if (const auto choice = world.choice("integrator"))
     w.integrator = static_cast<Integrator>(*choice);
+  if (const auto choice = world.choice("rotation"))
+    w.rotation = static_cast<RotationMethod>(*choice);
   w.may_sleep = world.truth("may_sleep");
   w.show_boxes = world.truth("show_boxes");
   w.show_velocities = world.truth("show_velocities");
+  w.show_depths = world.truth("show_depths");
+  if (w.show_depths && w.contacts == ContactMethod::none)
+    draft.problems.add(world.key_place("show_depths"), "in this world nothing touches",
+                       "give [world] contacts = \"impulse\" or \"soft\"");
 }
 
 }  // namespace
