@@ -117,6 +117,10 @@ StressResult stack_of_60() {
   const Pile pile = pile_of<2>(60, 16, 10);
   return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
 }
+StressResult stack_of_10_solid() {
+  const Pile pile = pile_of<3>(10, 16, 10);
+  return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
+}
 StressResult stack_of_60_solid() {
   const Pile pile = pile_of<3>(60, 16, 10);
   return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
@@ -230,6 +234,7 @@ void add_bar_cases(std::vector<StressCase>& cases) {
        {"torque_free_energy", kGroup, "A tumbling box keeps its energy.", torque_free_energy},
        {"needle_energy", kGroup, "A spinning needle keeps its energy.", needle_energy},
        {"stack_of_60", kGroup, "A stack of 60 boxes stands, in 2D.", stack_of_60},
+       {"stack_of_10_solid", kGroup, "A stack of 10 boxes stands, in 3D.", stack_of_10_solid},
        {"stack_of_60_solid", kGroup, "A stack of 60 boxes stands, in 3D.", stack_of_60_solid, true},
        {"stack_of_100", kGroup, "A stack of 100 boxes stands.", stack_of_100},
        {"heavy_on_light", kGroup, kHeavy, heavy_on_light<2>},

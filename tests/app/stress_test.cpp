@@ -82,8 +82,8 @@ TEST(StressCommand, AFolderThatCannotBeWrittenIsFoundOutBeforeTheWork) {
 
 TEST(StressCommand, CtrlCKeepsWhatIsFinished) {
   const fs::path out = fresh_folder("stress_cut");
-  const Outcome o = shell("lantern stress --full -o " + out.string() +
-                          " & PID=$!\nsleep 1\nkill -INT $PID\nwait $PID");
+  const Outcome o = shell(
+      "timeout --preserve-status -s INT 0.7 " LANTERN_BINARY " stress --full -o " + out.string());
   EXPECT_EQ(o.code, 130) << o.err;
   const json report = json::parse(read_text(out / "stress.json"));
   EXPECT_FALSE(report["finished"]);
