@@ -111,6 +111,36 @@ void add_compare(CLI::App& app, CompareOptions& o, Run& run) {
   c->callback([&] { run = [&] { return compare_command(o); }; });
 }
 
+void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
+  CLI::App* c = app.add_subcommand(
+      "measure", "Error against run time: problems with known answers, method by method");
+  c->add_option("PROBLEM", o.problems,
+                "problems or families by name, or scenario files; the default is all problems; "
+                "'pictures' measures antialiasing, 'broad_phase' the trees' settings");
+  c->add_option("-o,--output", o.output, "folder for tables, plots and the overview page")
+      ->check(kNotEmpty)
+      ->type_name("DIR")
+      ->capture_default_str();
+  c->add_option("--method", o.methods, "only these: velocity_verlet, soft:16, impulse:100, ...")
+      ->type_name("NAME");
+  c->add_option("--step", o.steps, "only these time steps, seconds")->type_name("H");
+  CLI::Option* quick = c->add_flag("--quick", o.quick, "a minute: plain problems, few repeats");
+  c->add_flag("--full", o.full, "all runs, however long")->excludes(quick);
+  c->add_option("--longest", o.longest, "leave out runs that would take more seconds than this")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  c->add_flag("!--no-peers", o.peers, "without other engines beside");
+  c->add_option("--theme", o.theme, "colours of the plots")
+      ->check(CLI::IsMember({"light", "dark", "print"}))
+      ->capture_default_str();
+  c->add_option("--backend", o.backend, "off-screen OpenGL, for the PNG files")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
+      ->capture_default_str();
+  c->add_flag("--list", o.list, "name the problems, measure nothing");
+  add_json(*c, o.json);
+  c->callback([&] { run = [&] { return measure_command(o); }; });
+}
+
 void add_bench(CLI::App& app, BenchOptions& o, Run& run) {
   CLI::App* c = app.add_subcommand("bench", "Measure speed against named peers");
   c->require_subcommand(1);
@@ -158,8 +188,9 @@ void add_texts(CLI::App& app, Run& run) {
 
 // A misspelt subcommand gets the nearest one.
 std::string usage_hint(int argc, char** argv) {
-  static constexpr std::string_view kCommands[] = {
-      "render", "check", "list", "explain", "doctor", "compare", "bench", "stress", "reference", "schema"};
+  static constexpr std::string_view kCommands[] = {"render", "check",     "list",    "explain",
+                                                   "doctor", "compare",   "measure", "stress",
+                                                   "bench",  "reference", "schema"};
   if (argc < 2 || argv[1][0] == '-') return "see 'lantern --help'";
   const std::string_view word = argv[1];
   for (const std::string_view command : kCommands)
@@ -202,6 +233,7 @@ int lantern_main(int argc, char** argv) {
   ExplainOptions explain;
   DoctorOptions doctor;
   CompareOptions compare;
+  MeasureOptions measure;
   BenchOptions bench;
   StressOptions stress;
   Run run;
@@ -211,6 +243,7 @@ int lantern_main(int argc, char** argv) {
   add_explain(app, explain, run);
   add_doctor(app, doctor, run);
   add_compare(app, compare, run);
+  add_measure(app, measure, run);
   add_bench(app, bench, run);
   add_stress(app, stress, run);
   add_texts(app, run);

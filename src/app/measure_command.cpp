@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "app/measure_files.hpp"
+#include "app/report_folder.hpp"
 #include "app/table.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
@@ -13,13 +13,17 @@
 #include "embedded/version.hpp"
 #include "measure/plan.hpp"
 #include "measure/problems.hpp"
+#include "report/bars.hpp"
+#include "report/measure_plots.hpp"
 #include "report/measure_tables.hpp"
 #include "report/sentences.hpp"
+#include "scenario/method.hpp"
 
 namespace lantern {
 namespace {
 
-constexpr double kSaveEvery = 5;  // seconds
+constexpr double kSaveEvery = 5;                            // seconds
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // of an earlier measure.json
 
 std::string duration_text(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", std::max(1.0, seconds));
@@ -97,42 +101,57 @@ int list_problems() {
   return kGood;
 }
 
+bool same(const Circumstances& a, const Circumstances& b) {
+  return a.version == b.version && a.compiler == b.compiler && a.flags == b.flags &&
+         a.processor == b.processor && a.effort == b.effort;
+}
+
+// Rows of an earlier run under the same circumstances; none if there are none, or if its file is
+// damaged.
+std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
+  try {
+    auto earlier = read_measurement(read_file(folder.path() / "measure.json", kMostBytes));
+    if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
+  } catch (const IoError&) {
+    // there is none
+  }
+  return {};
+}
+
 // A measurement while it is made. What is finished is on the disk every few seconds.
 class Measuring {
  public:
-  Measuring(Plan& plan, const MeasureOptions& options) : plan_(plan), files_(options.output) {
+  Measuring(Plan& plan, const ReportFolder& folder, const MeasureOptions& options)
+      : plan_(plan), folder_(folder), progress_("measure", plan.jobs().size(), "runs") {
     measurement_.circumstances = here(kVersion);
     measurement_.circumstances.effort = options.quick ? "quick" : options.full ? "full" : "normal";
-    known_ = files_.finished_rows(measurement_.circumstances);
+    known_ = finished_rows(folder_, measurement_.circumstances);
   }
 
   void run() {
     double left = 0;
-    for (const Job& job : plan_.jobs())
-      if (!known(job)) left += plan_.seconds(job);
+    for (const Job& job : plan_.jobs()) left += expected(job);
     announce(left);
     Stopwatch since_saved;
     std::size_t done = 0;
     for (const Job& job : plan_.jobs()) {
       if (interrupted()) break;
-      const Row* old = known(job);
-      if (!old) left -= plan_.seconds(job);
-      std::optional<Row> row = old ? std::optional(*old) : plan_.run(job, interrupted);
-      if (!row) break;
-      measurement_.rows.push_back(std::move(*row));
+      left -= expected(job);
       progress_.tell(fmt::format("{} of {} runs, {}, about {} left", ++done, plan_.jobs().size(),
                                  plan_.scenario(job).name, duration_text(left)));
+      if (!add_row(job)) continue;
       if (since_saved.seconds() < kSaveEvery) continue;
-      files_.save_rows(measurement_);
+      save();
       since_saved = {};
     }
-    files_.save_rows(measurement_);
+    save();
   }
 
   const Measurement& measurement() const { return measurement_; }
-  MeasureFiles& files() { return files_; }
 
  private:
+  void save() const { folder_.write("measure.json", to_json(measurement_)); }
+
   const Row* known(const Job& job) const {
     const Scenario& scenario = plan_.scenario(job);
     const Contestant& contestant = plan_.contestant(job);
@@ -144,57 +163,103 @@ class Measuring {
     return found == known_.end() ? nullptr : &*found;
   }
 
+  double expected(const Job& job) const {
+    return known(job) || plan_.is_too_long(job) ? 0 : plan_.seconds_with_repeats(job);
+  }
+
+  bool add_row(const Job& job) {
+    if (const Row* old = known(job)) {
+      measurement_.rows.push_back(*old);
+    } else if (plan_.is_too_long(job)) {
+      return false;
+    } else if (std::optional<Row> row = plan_.run(job, interrupted)) {
+      measurement_.rows.push_back(std::move(*row));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  // Before it starts: how much there is to do, how long it will take, and what is left out.
   void announce(double seconds) const {
-    std::size_t kept = 0;
-    for (const Job& job : plan_.jobs()) kept += known(job) != nullptr;
-    say(fmt::format("{} runs, about {}{}", plan_.jobs().size() - kept, duration_text(seconds),
+    std::size_t kept = 0, long_ones = 0;
+    const Job* longest = nullptr;
+    for (const Job& job : plan_.jobs()) {
+      kept += known(job) != nullptr;
+      if (!plan_.is_too_long(job)) continue;
+      ++long_ones;
+      if (!longest || plan_.seconds(job) > plan_.seconds(*longest)) longest = &job;
+    }
+    say(fmt::format("{} runs, about {}{}", plan_.jobs().size() - kept - long_ones,
+                    duration_text(seconds),
                     kept ? fmt::format("; {} are finished from before", kept) : ""));
     for (const std::string& missing : plan_.missing_peers()) say(missing);
-    if (plan_.left_out().empty()) return;
-    const auto longest =
-        std::ranges::max_element(plan_.left_out(), {}, [](const Job& job) { return job.seconds; });
-    say(fmt::format(
-        "{} runs are left out as too long, the longest ({}, {} at {:.3g} s) would take "
-        "{}; --full runs all",
-        plan_.left_out().size(), plan_.scenario(*longest).name, plan_.contestant(*longest).name(),
-        longest->step, duration_text(longest->seconds)));
+    if (longest)
+      say(
+          fmt::format("{} runs are left out as too long; the longest ({}, {} at {:.3g} s) would "
+                      "take {}. --full runs them all",
+                      long_ones, plan_.scenario(*longest).name, plan_.contestant(*longest).name(),
+                      longest->step, duration_text(plan_.seconds(*longest))));
   }
 
   Plan& plan_;
-  MeasureFiles files_;
+  const ReportFolder& folder_;
   Measurement measurement_;
   std::vector<Row> known_;
-  Progress progress_{"measure", "runs"};
+  Progress progress_;
 };
+
+// The tables of all, a page of plots for each problem, and the overview.
+void save_pages(const ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
+  folder.write("measure.csv", to_csv(m));
+  folder.write("circumstances.csv", to_csv(m.circumstances));
+  std::vector<ReportPage> pages;
+  pages.push_back({"overview", draw_overview(m, measured_bars(interrupted))});
+  for (const ProblemRows& problem : by_problem(m.rows))
+    pages.push_back({problem.problem, draw_problem(problem, m)});
+  folder.draw(pages, options.theme, options.backend);
+}
+
+int measure_problems(const MeasureOptions& options) {
+  PlanOptions planned = plan_options(options);
+  const ReportFolder folder(options.output);
+  Plan plan(std::move(planned), [](const Scenario&) {});
+  Measuring measuring(plan, folder, options);
+  measuring.run();
+  const Measurement& m = measuring.measurement();
+  if (m.rows.empty() && !interrupted()) {
+    complain("nothing was measured: no method applies, or every run is too long (--full)");
+    return kFailed;
+  }
+  write_stdout(options.json ? to_json(m) : to_table(m));
+  if (!options.json)
+    for (const ProblemRows& problem : by_problem(m.rows))
+      write_stdout(fmt::format("{}: {}\n", problem.problem, sentence(problem)));
+  if (interrupted()) {
+    say("interrupted; the same command goes on from here");
+    return kInterrupted;
+  }
+  save_pages(folder, m, options);
+  say(fmt::format("the report is in {}", options.output));
+  return interrupted() ? kInterrupted : kGood;
+}
 
 }  // namespace
 
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems();
-  PlanOptions planned = plan_options(options);
-  MeasureFiles::require_writable(options.output);
+  std::vector<std::string> words = options.problems;
+  if (!words.empty() && (words[0] == "pictures" || words[0] == "broad_phase")) {
+    const bool pictures = words[0] == "pictures";
+    words.erase(words.begin());
+    if (pictures)
+      return measure_pictures_command(
+          {words, options.output, options.theme, options.full, options.json});
+    return measure_broad_phase_command(
+        {words, options.output, options.theme, options.full, options.json});
+  }
   try {
-    Plan plan(std::move(planned), [](const Scenario&) {});
-    if (plan.jobs().empty()) {
-      complain(plan.left_out().empty() ? "no method applies to these scenarios"
-                                       : fmt::format("every run is too long, the shortest would "
-                                                     "take {}; --full runs them all the same",
-                                                     duration_text(plan.left_out()[0].seconds)));
-      return kFailed;
-    }
-    Measuring measuring(plan, options);
-    measuring.run();
-    const Measurement& m = measuring.measurement();
-    write_stdout(options.json ? to_json(m) : to_table(m));
-    if (!options.json)
-      for (const std::string& sentence : sentences(m)) write_stdout(sentence + "\n");
-    if (interrupted()) {
-      say("interrupted; the same command goes on from here");
-      return kInterrupted;
-    }
-    measuring.files().save_pages(m, options.backend);
-    say(fmt::format("the report is in {}", options.output));
-    return kGood;
+    return measure_problems(options);
   } catch (const Refused& refused) {
     complain(refused.what());
     return kBadScenario;

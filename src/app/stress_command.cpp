@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/report_folder.hpp"
 #include "app/table.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
@@ -11,14 +11,11 @@
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
 #include "measure/stability_map.hpp"
-#include "report/pictures.hpp"
 #include "report/stability_picture.hpp"
 #include "report/stress_tables.hpp"
 
 namespace lantern {
 namespace {
-
-namespace fs = std::filesystem;
 
 // The cases named, in the order of the table; without names all that are not slow, with --full all.
 std::vector<StressCase> chosen_cases(const StressOptions& options) {
@@ -53,64 +50,22 @@ std::string list_text(bool as_json) {
   return as_json ? json.text() + "\n" : table(rows);
 }
 
-// Made, and found out to be writable, before the long work. Throws IoError.
-void require_writable(const fs::path& folder) {
-  make_folder(folder);
-  remove_leftovers(folder);
-  const fs::path probe = folder / "stress.json";
-  std::error_code error;
-  const bool was_there = fs::exists(probe, error);
-  write_file(was_there ? folder / ".lantern-stress" : probe, "");
-  fs::remove(was_there ? folder / ".lantern-stress" : probe, error);
-}
-
-// One line on a terminal, rewritten; elsewhere a line for each case that takes long.
-class CaseProgress {
- public:
-  explicit CaseProgress(std::size_t total) : total_(total) {}
-  ~CaseProgress() {
-    if (animated()) fmt::print(stderr, "\r\033[K");
-  }
-  CaseProgress(const CaseProgress&) = delete;
-  CaseProgress& operator=(const CaseProgress&) = delete;
-
-  void begin(std::string_view name) {
-    ++begun_;
-    const std::string line = fmt::format("stress: {} of {}, {}", begun_, total_, name);
-    if (animated())
-      fmt::print(stderr, "\r{}\033[K", line);
-    else if (watch_.seconds() - last_ > kPlainLine)
-      say(line);
-    else
-      return;
-    last_ = watch_.seconds();
-    std::fflush(stderr);
-  }
-
- private:
-  static constexpr double kPlainLine = 5;  // seconds between two plain lines
-  std::size_t total_, begun_ = 0;
-  double last_ = 0;
-  Stopwatch watch_;
-};
-
 StressReport run_all(const std::vector<StressCase>& cases) {
-  StressReport report{kVersion, {}, true};
-  CaseProgress progress(cases.size());
+  StressReport report{std::string(kVersion), {}, true};
+  Progress progress("stress", cases.size(), "cases");
   for (const StressCase& one : cases) {
     if (interrupted()) break;
-    progress.begin(one.name);
+    progress.tell(fmt::format("{} of {}, {}", report.outcomes.size() + 1, cases.size(), one.name));
     report.outcomes.push_back(run_case(one));
   }
   report.finished = report.outcomes.size() == cases.size();
   return report;
 }
 
-void write_map(const fs::path& folder, const Theme& theme, Backend backend) {
+void draw_map(const ReportFolder& folder, const StressOptions& options) {
   const StabilityMap map = make_stability_map([] { return !interrupted(); });
   if (interrupted()) return;
-  const ReportPage page{"stability_map", draw_stability_map(map)};
-  save_pictures(folder, {&page, 1}, theme, backend);
+  folder.draw({{"stability_map", draw_stability_map(map)}}, options.theme, options.backend);
 }
 
 }  // namespace
@@ -121,16 +76,12 @@ int stress_command(const StressOptions& options) {
     return kGood;
   }
   const std::vector<StressCase> cases = chosen_cases(options);
-  const fs::path folder = options.output;
-  if (!folder.empty()) require_writable(folder);
+  const ReportFolder folder(options.output);
   const StressReport report = run_all(cases);
-  if (!folder.empty()) {
-    write_file(folder / "stress.csv", to_csv(report));
-    write_file(folder / "stress.json", to_json(report));
-  }
+  folder.write("stress.csv", to_csv(report));
+  folder.write("stress.json", to_json(report));
   write_stdout(options.json ? to_json(report) : to_table(report));
-  if (!folder.empty() && report.finished)
-    write_map(folder, *theme_named(options.theme), *backend_named(options.backend));
+  if (folder.wanted() && report.finished) draw_map(folder, options);
   if (interrupted()) {
     say("interrupted; what is finished has been reported");
     return kInterrupted;

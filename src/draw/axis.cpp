@@ -90,10 +90,26 @@ Axis Axis::logarithmic(double least_above_zero, double most, int most_ticks) {
 }
 
 double Axis::share(double value) const {
+  const double at = place(value);
+  return at > 0 ? std::min(at, 1.0) : 0;
+}
+
+double Axis::place(double value) const {
   double at = value;
   if (logarithmic_) at = value > 0 ? std::log10(value) : low_;
-  const double share = (at - low_) / (high_ - low_);
-  return share > 0 ? std::min(share, 1.0) : 0;  // 0 for NaN too
+  const double place = (at - low_) / (high_ - low_);
+  return std::isnan(place) ? 0 : place;
+}
+
+Axis Axis::cut_to(std::optional<double> low, std::optional<double> high) const {
+  Axis axis = *this;
+  if (low) axis.low_ = logarithmic_ ? std::log10(*low) : *low;
+  if (high) axis.high_ = logarithmic_ ? std::log10(*high) : *high;
+  std::erase_if(axis.ticks_, [&](const Tick& tick) {
+    const double at = axis.place(tick.value);
+    return at < -1e-9 || at > 1 + 1e-9;
+  });
+  return axis;
 }
 
 }  // namespace lantern

@@ -1,6 +1,7 @@
 // A chart's axis: its range, where its ticks stand, and what is written at them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,11 @@ class Axis {
 
   // 0 at the lower end, 1 at the upper one; never outside.
   double share(double value) const;
+  // The same, and below 0 or above 1 for what lies outside; 0 for what has no place.
+  double place(double value) const;
   const std::vector<Tick>& ticks() const { return ticks_; }
+  // With these ends, wherever the ticks are; an end that is not given stays.
+  Axis cut_to(std::optional<double> low, std::optional<double> high) const;
   double low() const { return low_; }
   int decimals() const { return decimals_; }  // that its ticks have after the point
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "draw/chart_parts.hpp"
+#include "draw/clip.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
 
@@ -40,6 +41,7 @@ Axis axis_for(const Range& range, bool logarithmic, int ticks) {
 // A line on the page, with what stands at its end.
 struct Line {
   std::size_t look = 0;
+  int color = 1;
   std::string name, number;
   std::vector<Vec<2>> values, points;
   double label = 0;  // y of its name's middle
@@ -52,6 +54,7 @@ class Lines {
     for (const FrameSeries& series : chart.series) {
       Line line;
       line.look = lines_.size();
+      line.color = series.color > 0 ? series.color : chart_color(line.look);
       line.name = chart_words(series.name);
       for (const Vec<2>& p : series.points)
         if (std::isfinite(p.x) && std::isfinite(p.y)) line.values.push_back(p);
@@ -87,13 +90,14 @@ class Lines {
         xs.add(p.x);
         ys.add(p.y);
       }
-    const std::string y_name = chart_words(
-        alone() && !chart_.series.empty() && chart_.y_name.empty() ? chart_.series[0].name
-                                                                   : chart_.y_name);
+    std::string y_name = chart_words(alone() && !chart_.series.empty() && chart_.y_name.empty()
+                                         ? chart_.series[0].name
+                                         : chart_.y_name);
+    if (chart_.over_time && chart_.logarithmic && !y_name.empty()) y_name += "  (logarithmic)";
     area_ = panel_;
     area_.lo.y += std::max(10.0, draw_chart_heading(y_name, panel_, labels_));
     area_.hi.y -= under_ticks() + 8 + (chart_.x_name.empty() ? 0 : 1.5 * type_.name.size);
-    y_ = axis_for(ys, chart_.logarithmic, std::clamp(int(area_.size().y / 50), 2, 9));
+    y_ = y_axis(ys, std::clamp(int(area_.size().y / 50), 2, 9));
     double names = 0;
     for (Line& line : lines_) {
       line.number = newest(line);
@@ -107,15 +111,35 @@ class Lines {
     area_.lo.x += std::min(numbers + 1, 0.3 * panel_.size().x) + kTickLength + 8;
     area_.hi.x = std::max(area_.hi.x, area_.lo.x + 10);
     area_.hi.y = std::max(area_.hi.y, area_.lo.y + 10);
-    x_ = axis_for(xs, chart_.logarithmic, std::clamp(int(area_.size().x / 96), 2, 10));
+    const int x_ticks = std::clamp(int(area_.size().x / 96), 2, 10);
+    if (chart_.over_time && chart_.seconds)
+      x_ = Axis::linear(0, *chart_.seconds, std::max(4, x_ticks)).cut_to(0, *chart_.seconds);
+    else
+      x_ = axis_for(xs, chart_.logarithmic && !chart_.over_time, x_ticks);
     for (Line& line : lines_)
       for (const Vec<2>& p : line.values) line.points.push_back(at(p));
   }
 
-  Vec<2> at(const Vec<2>& value) const {
-    return {area_.lo.x + x_.share(value.x) * area_.size().x,
-            area_.hi.y - y_.share(value.y) * area_.size().y};
+  bool cuts() const { return chart_.least || chart_.most; }
+
+  // Up to the ends that the scenario asks for; lines go on beyond them and are cut.
+  Axis y_axis(Range range, int ticks) const {
+    if (!cuts()) return axis_for(range, chart_.logarithmic, ticks);
+    if (range.least > range.most) range.add(chart_.least.value_or(chart_.most.value_or(1)));
+    const double low = chart_.least.value_or(
+        std::min(chart_.logarithmic ? range.above_zero : range.least, *chart_.most));
+    const double high = chart_.most.value_or(std::max(range.most, low));
+    return axis_for({low, high, low}, chart_.logarithmic, ticks).cut_to(chart_.least, chart_.most);
   }
+
+  // Not farther out than a few panels: beyond, only the direction matters.
+  Vec<2> at(const Vec<2>& value) const {
+    const double x = cuts() ? std::clamp(x_.place(value.x), -4.0, 5.0) : x_.share(value.x);
+    const double y = cuts() ? std::clamp(y_.place(value.y), -4.0, 5.0) : y_.share(value.y);
+    return {area_.lo.x + x * area_.size().x, area_.hi.y - y * area_.size().y};
+  }
+  Box<2> picture() const { return shrunk(area_, -2); }
+  bool is_in_picture(const Vec<2>& p) const { return holds(picture(), Box<2>{p, p}); }
 
   void draw_axes() {
     list_.shapes.emplace_back(RectShape{area_, 0, Role::panel, {}, true});
@@ -148,9 +172,10 @@ class Lines {
   }
 
   void name_x() {
-    const std::string plain = chart_words(chart_.x_name);
+    const std::string plain = chart_.over_time ? "time in s" : chart_words(chart_.x_name);
     std::string name = plain;
-    if (chart_.logarithmic) name += name.empty() ? "both logarithmic" : "  (both logarithmic)";
+    if (chart_.logarithmic && !chart_.over_time)
+      name += name.empty() ? "both logarithmic" : "  (both logarithmic)";
     const double left = area_.lo.x, right = panel_.hi.x;
     std::string fitting = shortened(name, right - left, type_.name);
     if (fitting != name) fitting = shortened(plain, right - left, type_.name);
@@ -181,22 +206,26 @@ class Lines {
   }
 
   void draw_line(const Line& line) {
-    const Role role = body_role(chart_color(line.look));
+    const Role role = body_role(line.color);
     const std::vector<Vec<2>> points = thinned(line.points);
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (points[i].x != points[i - 1].x)  // the same x again begins a line anew
-        list_.shapes.emplace_back(LineShape{points[i - 1], points[i], {role, 3, 0}, false});
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (points[i].x == points[i - 1].x) continue;  // the same x again begins a line anew
+      const auto seen = cut_line(points[i - 1], points[i], picture());
+      if (seen)
+        list_.shapes.emplace_back(LineShape{seen->first, seen->second, {role, 3, 0}, false});
+    }
     const Vec<2>* last = nullptr;  // marks that are not too close
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      if (!is_in_picture(points[i])) continue;
       if (last && std::hypot(points[i].x - last->x, points[i].y - last->y) < kMarkEvery) continue;
       last = &points[i];
-      draw_chart_mark(line.look, points[i], 5, list_);
+      draw_chart_mark(line.look, line.color, points[i], 5, list_);
     }
   }
 
   void draw_end(const Line& line) {
-    if (line.points.empty()) return;
-    draw_chart_mark(line.look, line.points.back(), 8.5, list_);
+    if (line.points.empty() || !is_in_picture(line.points.back())) return;
+    draw_chart_mark(line.look, line.color, line.points.back(), 8.5, list_);
   }
 
   // Names beside the ends, moved apart where they would cover each other, the highest end first.
@@ -207,12 +236,15 @@ class Lines {
     std::stable_sort(order.begin(), order.end(), [](const Line* a, const Line* b) {
       return a->points.back().y < b->points.back().y;
     });
+    const auto height_of = [&](const Line& line) {
+      return std::clamp(line.points.back().y, area_.lo.y, area_.hi.y);
+    };
     const double top = panel_.lo.y + 14, bottom = area_.hi.y - 8;
     const auto most = static_cast<std::size_t>(std::max(1.0, (bottom - top) / line_height()));
     if (order.size() > most) order.resize(most);
     double least = top;
     for (Line* line : order) {
-      line->label = std::max(least, line->points.back().y);
+      line->label = std::max(least, height_of(*line));
       least = line->label + line_height();
     }
     double limit = bottom;
@@ -228,7 +260,8 @@ class Lines {
   }
 
   void name_line(const Line& line) {
-    const Vec<2> end = line.points.back();
+    Vec<2> end = line.points.back();
+    end.y = std::clamp(end.y, area_.lo.y, area_.hi.y);
     const bool newest_at_edge = end.x > area_.hi.x - 40;
     const double x = area_.hi.x + kBeside;
     const double y = line.label + 0.36 * type_.name.size;

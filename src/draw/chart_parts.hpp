@@ -23,10 +23,11 @@ struct ChartType {
   TextStyle tick, name, number;
 };
 
-// The mark of the i-th series, `radius` large, with the panel's tone around it.
-void draw_chart_mark(std::size_t i, const Vec<2>& at, double radius, DrawList& list);
+// The mark of the i-th series in a body's colour, `radius` large, with the panel's tone around it.
+void draw_chart_mark(std::size_t i, int color, const Vec<2>& at, double radius, DrawList& list);
 
-// A count's name as words: "pair tests" of "pair_tests".
+// A count's or measure's name as words: "pair tests" of "pair_tests", "energy: bob" of
+// "energy.bob".
 std::string chart_words(std::string name);
 
 // A heading at the panel's upper left; gives the height it takes, 0 for an empty text.

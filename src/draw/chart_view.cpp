@@ -14,11 +14,12 @@ int chart_color(std::size_t i) {
 
 std::string chart_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
+  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
   return name;
 }
 
-void draw_chart_mark(std::size_t i, const Vec<2>& at, double radius, DrawList& list) {
-  const Role role = body_role(chart_color(i));
+void draw_chart_mark(std::size_t i, int color, const Vec<2>& at, double radius, DrawList& list) {
+  const Role role = body_role(color);
   const Stroke rim{Role::body_line, 0.16 * radius + 0.4, 0};
   const auto shape = [&](int corners, double size, double turn) {
     list.shapes.emplace_back(PolygonShape{ring_of(at, size * radius, corners, turn), role, rim});

@@ -134,6 +134,25 @@ Box<2> cut_strip(const Frame& frame, Box<2>& area) {
   return box;
 }
 
+// A wide world and what happens in it over time: one above the other, both get larger.
+bool wants_stack(const Frame& frame) {
+  constexpr double kWide = 1.9;  // aspect of a world
+  if (!frame.chart.over_time || frame.panels.size() != 2) return false;
+  const auto has = [&](Panel panel) {
+    return std::find(frame.panels.begin(), frame.panels.end(), panel) != frame.panels.end();
+  };
+  const Vec<3> size = frame.bounds.size();
+  return has(Panel::world) && has(Panel::chart) && size.x > kWide * std::max(size.y, size.z);
+}
+
+std::vector<Box<2>> over_its_chart(const Frame& frame, const Box<2>& area) {
+  constexpr double kShare = 0.56;  // of the height, for the world
+  const double middle = area.lo.y + kShare * area.size().y;
+  const Box<2> world{area.lo, {area.hi.x, middle - kPanelGap / 4}};
+  const Box<2> chart{{area.lo.x, middle + kPanelGap / 4}, area.hi};
+  return frame.panels[0] == Panel::world ? std::vector{world, chart} : std::vector{chart, world};
+}
+
 // On a wide page. What takes the rest of the width stands in one column beside the world, so that
 // nothing gets narrow.
 std::vector<Box<2>> arranged(const Frame& frame, Box<2> area) {
@@ -180,7 +199,9 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
                  Work& work) {
   if (frame.panels.empty()) return;
   const bool tall = list.page.x / list.page.y < kStackBelow;
-  const std::vector<Box<2>> boxes = tall ? stacked(frame.panels, area) : arranged(frame, area);
+  const std::vector<Box<2>> boxes = tall                 ? stacked(frame.panels, area)
+                                    : wants_stack(frame) ? over_its_chart(frame, area)
+                                                         : arranged(frame, area);
   for (std::size_t i = 0; i < boxes.size(); ++i) switch (frame.panels[i]) {
       case Panel::world:
         ++work.world_layouts;

@@ -261,7 +261,7 @@ class Drawing {
                type_.tick, 3);
   }
 
-  // The lines of a fan, `reach` long, and the least distance between two of their ends.
+  // The lines of a fan, `reach` long, and the least height between two of their ends.
   std::vector<Vec<2>> fan(double reach, double& least_gap) const {
     const double per_x = area_.size().x / x_.decades();
     const double per_y = (area_.size().y - strip_) / y_.decades();
@@ -271,8 +271,7 @@ class Drawing {
       const Vec<2> direction{per_x, -s.exponent * per_y};
       ends.push_back(direction * (reach / std::hypot(direction.x, direction.y)));
       for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const Vec<2> between = ends.back() - ends[i];
-        least_gap = std::min(least_gap, std::hypot(between.x, between.y));
+        least_gap = std::min(least_gap, std::abs(ends.back().y - ends[i].y));
       }
     }
     return ends;
@@ -288,7 +287,7 @@ class Drawing {
     for (const double sizes : {3.5, 4.5, 6.0, 8.0}) {
       double gap = 0;
       const std::vector<Vec<2>> ends = fan(sizes * plot_.size, gap);
-      if (gap < 1.02 * type_.tick.size) continue;
+      if (gap < 1.1 * type_.tick.size + 2) continue;  // two names would touch
       Box<2> reach{{0, 0}, {0, 0}};
       for (const Vec<2>& end : ends) reach = united(reach, Box<2>{end, end});
       reach.lo.y -= 0.6 * type_.tick.size;
@@ -309,7 +308,7 @@ class Drawing {
       const Vec<2> from = corner - reach.lo;
       for (std::size_t i = 0; i < ends.size(); ++i) {
         const Vec<2> end = from + ends[i];
-        list_.shapes.emplace_back(LineShape{from, end, {Role::quiet_ink, 1.4, 0}, false});
+        list_.shapes.emplace_back(LineShape{from, end, {Role::cell_line_2, 1.4, 0}, false});
         labels_.try_add(plot_.slopes[i].name, {{end + Vec<2>{5, 0.36 * type_.tick.size}, 0}},
                         type_.tick, area_);
       }

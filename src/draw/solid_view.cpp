@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "draw/depths.hpp"
 #include "draw/solid_parts.hpp"
 
 namespace lantern {
@@ -33,6 +34,13 @@ void draw_solid_world(const Frame& frame, const Box<2>& panel, DrawList& list, L
   if (!draw_marks_over(frame, bodies, view, list)) leave_out("not all contacts are drawn");
   draw_sight_over(frame, view, list, labels);
   if (!note.empty()) labels.add_note(note, panel);
+  std::vector<Box<2>> covered;
+  for (const SolidBody& body : bodies) covered.push_back(body.box);
+  const auto seen = [&](const Vec<3>& p) -> std::optional<Vec<2>> {
+    if (view.lost(p)) return std::nullopt;
+    return view.to_page(p);
+  };
+  write_depths(frame, seen, covered, panel, labels);
   name_solids(frame, bodies, view, list, labels);
 }
 

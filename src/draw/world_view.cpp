@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "draw/depths.hpp"
 #include "draw/solid_view.hpp"
 #include "draw/world_bodies.hpp"
 #include "draw/world_marks.hpp"
@@ -65,6 +66,9 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   if (!note.empty()) labels.add_note(note, map.rect);
   std::vector<Box<2>> covered;
   for (const Stand& stand : stands) covered.push_back(stand.box);
+  write_depths(
+      frame, [&](const Vec<3>& p) { return std::optional(map.to_page(p)); }, covered, map.panel,
+      labels);
   number_sectors(frame, map, grounds, labels);
   label_cells(frame, map, covered, grounds, list, labels);
   name_half_spaces(ground, map, grounds, labels);

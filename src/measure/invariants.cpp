@@ -50,6 +50,7 @@ class ModelOf : public Invariants::Model {
   static WorldConfig<D> config_of(const Scenario& scenario) {
     WorldConfig<D> config;
     config.gravity = in_dimension<D>(scenario.world.gravity);
+    config.gravitation = scenario.world.gravitation;
     return config;
   }
 
@@ -149,9 +150,18 @@ Invariants::Invariants(const Scenario& scenario) : model_(make_model(scenario)) 
     pushed = pushed || inserts > 1;
   }
   keeps_energy_ = !pushed && !drags && !damps && (!collides || !rough);
+  // What attracts without moving itself holds the others; at the origin it does not turn them.
+  bool held = false, held_aside = false;
+  for (const BodySpec& body : scenario.bodies) {
+    const bool holds =
+        world.gravitation > 0 && body.kind != BodyKind::dynamic_body && body.mass > 0;
+    held = held || holds;
+    held_aside = held_aside || (holds && body.position != Vec<3>(0.0));
+  }
   const bool alone = !pushed && !drags && !tied && world.gravity == Vec<3>(0.0);
-  keeps_momentum_ = alone && (!collides || !walls);
-  keeps_angular_momentum_ = keeps_momentum_;
+  const bool meets = collides && walls;
+  keeps_momentum_ = alone && !meets && !held;
+  keeps_angular_momentum_ = alone && !meets && !held_aside;
 }
 
 Invariants::~Invariants() = default;

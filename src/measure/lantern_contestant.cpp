@@ -54,7 +54,8 @@ class WorldSimulation : public Simulation {
 };
 
 bool has_forces(const Scenario& scenario) {
-  if (scenario.world.gravity != Vec<3>(0.0) || !scenario.links.empty()) return true;
+  const WorldSpec& world = scenario.world;
+  if (world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !scenario.links.empty()) return true;
   for (const BodySpec& body : scenario.bodies)
     if (body.linear_drag > 0 || body.angular_drag > 0) return true;
   for (const Step& step : scenario.steps)

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "measure/lantern_contestant.hpp"
+#include "measure/peers.hpp"
 
 namespace lantern {
 namespace {
@@ -23,6 +24,8 @@ constexpr TimingRule kOnce{1, 0};
 
 Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
     : options_(std::move(options)), prepared_(options_.scenarios.size()) {
+  if (options_.peers) contestants_ = peers(missing_peers_);
+  peers_ = contestants_.size();
   for (std::size_t i = 0; i < options_.scenarios.size(); ++i) {
     told(options_.scenarios[i]);
     try {
@@ -66,6 +69,8 @@ std::vector<std::size_t> Plan::contestants_for(const Scenario& scenario) {
     const std::size_t contestant = by_name_[method.name];
     if (!contestants_[contestant]->cannot(scenario)) chosen.push_back(contestant);
   }
+  for (std::size_t peer = 0; peer < peers_; ++peer)
+    if (scenario.problem && !contestants_[peer]->cannot(scenario)) chosen.push_back(peer);
   return chosen;
 }
 

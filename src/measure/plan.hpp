@@ -72,7 +72,7 @@ class Plan {
   std::vector<Prepared> prepared_;
   std::vector<std::unique_ptr<Contestant>> contestants_;
   std::map<std::string, std::size_t> by_name_;
-  std::size_t first_peer_ = 0, peers_ = 0;
+  std::size_t peers_ = 0;  // the first contestants
   std::vector<std::string> missing_peers_;
   std::vector<Job> jobs_;
   std::map<std::pair<std::size_t, std::size_t>, double>

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "measure/lantern_contestant.hpp"
 #include "measure/own_run.hpp"
+#include "measure/timed.hpp"
 
 namespace lantern {
 namespace {
@@ -116,20 +117,6 @@ void judge(Row& row) {
   }
 }
 
-// The value below which `share` of the sorted ones lie.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto i = static_cast<std::size_t>(place);
-  const double next = sorted[std::min(i + 1, sorted.size() - 1)];
-  return sorted[i] + (place - static_cast<double>(i)) * (next - sorted[i]);
-}
-
-Timing timing_of(std::vector<double> seconds) {
-  std::ranges::sort(seconds);
-  return {static_cast<int>(seconds.size()), quantile(seconds, 0.5), seconds.front(),
-          quantile(seconds, 0.75) - quantile(seconds, 0.25)};
-}
-
 }  // namespace
 
 Reference reference_for(const Scenario& scenario, const Course& course, double step) {
@@ -184,7 +171,7 @@ std::optional<Row> measure(const Scenario& scenario, const Course& course,
     }
     repeats.push_back(spent / runs);
   }
-  if (!repeats.empty()) row.timing = timing_of(std::move(repeats));
+  row.timing = timing_of(repeats);
   return row;
 }
 

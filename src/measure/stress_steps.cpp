@@ -148,6 +148,7 @@ StressResult blow_up() {
   for (const Integrator method : kExplicit) {
     WorldConfig<2> config;
     config.integrator = method;
+    config.contacts = ContactMethod::none;  // or it may end at rest on its anchor
     World<2> world(config);
     world.add(make_anchor<2>());
     Body<2> bob = make_ball<2>({2, 0});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdarg>
 #include <set>
 
 #include <ode/ode.h>
@@ -230,5 +231,9 @@ class OdePeer : public Peer {
 
 extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
   [[maybe_unused]] static const int started = dInitODE2(0);
+  // Else it writes to the terminal, and ends the program.
+  dSetMessageHandler([](int, const char*, va_list) {});
+  dSetErrorHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
+  dSetDebugHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
   for (const bool exact : {false, true}) peers.push_back(std::make_unique<lantern::OdePeer>(exact));
 }

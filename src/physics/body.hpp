@@ -1,9 +1,11 @@
 // A rigid body and its state.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "geometry/shape.hpp"
+#include "physics/motion_method.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern {
@@ -38,6 +40,8 @@ struct Body {
   double angular_drag = 0;        // torque = -angular_drag * angular velocity
   bool may_turn = true;           // false: contacts and forces never turn it
   bool asleep = false;
+  std::optional<Integrator> integrator;    // of this body; none: the world's
+  std::optional<RotationMethod> rotation;  // the same
 
   // Derived by the world when the body is added. Zero for what cannot be moved or turned. Inertia
   // is about the body's own axes, which are principal for every shape.

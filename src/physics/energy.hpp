@@ -14,8 +14,9 @@ struct Energy {
   double rotational = 0;  // L w / 2
   double gravity = 0;     // -m g x, zero at the origin
   double springs = 0;     // k (length - rest)^2 / 2
+  double attraction = 0;  // -gravitation m m / length; of centres that coincide 0
   double kinetic() const { return linear + rotational; }
-  double potential() const { return gravity + springs; }
+  double potential() const { return gravity + springs + attraction; }
   double total() const { return kinetic() + potential(); }
 };
 
@@ -23,6 +24,12 @@ struct Energy {
 // bodies may lie in any order. Throws Refused for a spring on a body that is not there.
 template <int D>
 Energy energy(std::span<const Body<D>> bodies, const Forces<D>& forces);
+
+// Of one body: its motion, its height, and the springs that it is tied by; of a spring between two
+// dynamic bodies each has half. So the shares of all dynamic bodies add up to the energy of all.
+// Zero for a body that is not dynamic.
+template <int D>
+Energy energy_of(const Body<D>& body, std::span<const Body<D>> bodies, const Forces<D>& forces);
 
 // Of the same bodies: the sum of m v, in N s.
 template <int D>
@@ -34,6 +41,8 @@ Spin<D> angular_momentum(std::span<const Body<D>> bodies);
 
 extern template Energy energy(std::span<const Body<2>>, const Forces<2>&);
 extern template Energy energy(std::span<const Body<3>>, const Forces<3>&);
+extern template Energy energy_of(const Body<2>&, std::span<const Body<2>>, const Forces<2>&);
+extern template Energy energy_of(const Body<3>&, std::span<const Body<3>>, const Forces<3>&);
 extern template Vec<2> momentum(std::span<const Body<2>>);
 extern template Vec<3> momentum(std::span<const Body<3>>);
 extern template Spin<2> angular_momentum<2>(std::span<const Body<2>>);

@@ -31,14 +31,19 @@ struct Push {
   Vec<D> force{0.0};
 };
 
+// Newton's law, too: every two bodies of which one is dynamic attract each other with gravitation
+// times both masses over the square of their distance, along the line between their centres. A
+// static or kinematic body attracts if a mass was given to it. Two whose centres coincide have no
+// direction and do not pull.
 template <int D>
 struct Forces {
-  Vec<D> gravity{0.0};  // acceleration
+  Vec<D> gravity{0.0};     // acceleration
+  double gravitation = 0;  // of 0, bodies do not attract each other
   std::vector<Spring<D>> springs;
   std::vector<Push<D>> pushes;
 };
 
-// A spring at one moment.
+// A spring, or two bodies that attract each other, at one moment.
 //
 //        a's centre --arm_a--> o/\/\/\/\o <--arm_b-- b's centre
 //                                direction ->
@@ -48,8 +53,10 @@ struct Stretch {
   Vec<D> arm_b{0.0};
   Vec<D> direction{0.0};  // from a's point to b's, of unit length; zero if they coincide
   double length = 0;
-  double rate = 0;     // of the length, units a second
-  double tension = 0;  // N; a is pulled along the direction, b against it
+  double rate = 0;       // of the length, units a second
+  double tension = 0;    // N; a is pulled along the direction, b against it
+  double stiffness = 0;  // by how much the tension grows with the length; below 0 of attraction
+  double damping = 0;    // and with the rate
 };
 
 // How a body lies and moves, as far as a spring's end is concerned.
@@ -65,6 +72,15 @@ template <int D>
 Stretch<D> stretched(const Spring<D>& spring, const Vec<D>& between, const EndMotion<D>& a,
                      const EndMotion<D>& b);
 
+// The mass by which a body attracts others; 0 if it does not.
+template <int D>
+double attracting_mass(const Body<D>& body);
+
+// Bodies that attract each other by `strength`, gravitation times both masses; `between` leads from
+// a to b.
+template <int D>
+Stretch<D> attracted(double strength, const Vec<D>& between);
+
 // Throws Refused, naming the field, if the forces cannot be applied to the bodies (in any order):
 // a number that is not finite, a negative rest length, stiffness, damping or drag, a body that is
 // not there, a spring from a body to itself.
@@ -75,6 +91,10 @@ extern template Stretch<2> stretched(const Spring<2>&, const Vec<2>&, const EndM
                                      const EndMotion<2>&);
 extern template Stretch<3> stretched(const Spring<3>&, const Vec<3>&, const EndMotion<3>&,
                                      const EndMotion<3>&);
+extern template double attracting_mass(const Body<2>&);
+extern template double attracting_mass(const Body<3>&);
+extern template Stretch<2> attracted(double, const Vec<2>&);
+extern template Stretch<3> attracted(double, const Vec<3>&);
 extern template void check_forces(const Forces<2>&, std::span<const Body<2>>);
 extern template void check_forces(const Forces<3>&, std::span<const Body<3>>);
 

@@ -119,9 +119,22 @@ void turn_freely(Body<D>& body, double h, RotationMethod method) {
   }
 }
 
+template <int D>
+void turn_freely(Body<D>& body, const Spin<D>& lag, double h, RotationMethod method) {
+  if (method != RotationMethod::explicit_gyroscopic) {
+    body.orientation = freely_turned(body, body.angular_momentum + lag, h, method);
+    return;
+  }
+  body.angular_momentum += lag;
+  turn_freely(body, h, method);
+  body.angular_momentum -= lag;
+}
+
 template Rotation<2> freely_turned(const Body<2>&, const Spin<2>&, double, RotationMethod);
 template Rotation<3> freely_turned(const Body<3>&, const Spin<3>&, double, RotationMethod);
 template void turn_freely(Body<2>&, double, RotationMethod);
 template void turn_freely(Body<3>&, double, RotationMethod);
+template void turn_freely(Body<2>&, const Spin<2>&, double, RotationMethod);
+template void turn_freely(Body<3>&, const Spin<3>&, double, RotationMethod);
 
 }  // namespace lantern

@@ -9,13 +9,6 @@
 
 namespace lantern {
 
-enum class RotationMethod {
-  splitting_2,          // exact turns about fixed axes, one after the other; second order
-  splitting_4,          // five such steps composed so that their errors cancel; fourth order
-  explicit_gyroscopic,  // a warning: the textbook update of the angular velocity; L and energy
-                        // drift
-};
-
 // The orientation `h` seconds later (h may be negative: back in time), of a body whose angular
 // momentum in the world is L. Both dimensions: exact if the inertia about two axes is equal, as in
 // 2D and for spheres and square boxes. A static or sleeping body does not turn, a kinematic one
@@ -35,9 +28,15 @@ Rotation<D> freely_turned(const Body<D>& body, double h) {
 template <int D>
 void turn_freely(Body<D>& body, double h, RotationMethod method);
 
+// The same, as if the angular momentum were more by `lag` while it turns (see integrator.hpp).
+template <int D>
+void turn_freely(Body<D>& body, const Spin<D>& lag, double h, RotationMethod method);
+
 extern template Rotation<2> freely_turned(const Body<2>&, const Spin<2>&, double, RotationMethod);
 extern template Rotation<3> freely_turned(const Body<3>&, const Spin<3>&, double, RotationMethod);
 extern template void turn_freely(Body<2>&, double, RotationMethod);
 extern template void turn_freely(Body<3>&, double, RotationMethod);
+extern template void turn_freely(Body<2>&, const Spin<2>&, double, RotationMethod);
+extern template void turn_freely(Body<3>&, const Spin<3>&, double, RotationMethod);
 
 }  // namespace lantern

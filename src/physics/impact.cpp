@@ -173,12 +173,14 @@ namespace {
 
 // Bodies that rest on others do not fall while something comes: only the free ones are accelerated.
 template <int D>
-std::vector<Course<D>> courses(const Island<D>& island, double within) {
+std::vector<Course<D>> courses(const Island<D>& island, const WorldConfig<D>& config,
+                               double within) {
   std::vector<Course<D>> all;
   for (std::size_t i = 0; i < island.bodies.size(); ++i) {
     const Body<D>& body = island.bodies[i];
     const Increment<D>& free = island.increments[i];
     Course<D> course{&body, body.moves() ? body.velocity : Vec<D>(0.0), Vec<D>(0.0)};
+    course.rotation = body.rotation.value_or(config.rotation);
     if (body.asleep) course.velocity = Vec<D>(0.0);
     course.bend = free.kick / within + free.drift / (within * within);
     all.push_back(course);
@@ -200,9 +202,9 @@ struct Impact {
 
 // The next impact. Pairs that meet too slowly become contacts on the way.
 template <int D>
-std::optional<Impact<D>> next_impact(Island<D>& island, double within, double step,
-                                     WorldWork& work) {
-  const std::vector<Course<D>> flying = courses(island, within);
+std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& config, double within,
+                                     double step, WorldWork& work) {
+  const std::vector<Course<D>> flying = courses(island, config, within);
   std::optional<Impact<D>> first;
   for (IslandPair<D>& pair : island.pairs) {
     const Course<D>& a = flying[pair.rows.a];
@@ -229,7 +231,7 @@ void advance_island(Island<D>& island, const WorldConfig<D>& config, double h, i
                                        [](const auto& pair) { return pair.located; });
   while (any_located) {
     find_increments_if_any<D>(config, island.bodies, island.forces, left, island.increments, work);
-    const auto next = next_impact(island, left, h, work);
+    const auto next = next_impact(island, config, left, h, work);
     if (!next) break;
     if (budget <= 0) {  // the rest of the step is soft for all
       for (IslandPair<D>& pair : island.pairs) pair.pressed = true;

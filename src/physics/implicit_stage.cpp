@@ -204,14 +204,14 @@ class Newton {
     };
     for (std::size_t k = 0; k < system_.ends().size(); ++k) {
       const auto [a, b] = system_.ends()[k];
-      const Spring<D>& spring = forces.springs[k];
+      const double rest = k < forces.springs.size() ? forces.springs[k].rest_length : 0;
       const Stretch<D> s = system_.stretch(state, k);
       const double arm_a = size_of<D>(s.arm_a), arm_b = size_of<D>(s.arm_b);
-      const double lengths = s.length + spring.rest_length + arm_a + arm_b +
-                             size_of<D>(state.shift[a]) + size_of<D>(state.shift[b]);
+      const double lengths =
+          s.length + rest + arm_a + arm_b + size_of<D>(state.shift[a]) + size_of<D>(state.shift[b]);
       const double speeds =
           size_of<D>(system_.velocity(state, a)) + size_of<D>(system_.velocity(state, b));
-      const double momentum = time_ * (spring.stiffness * lengths + spring.damping * speeds);
+      const double momentum = time_ * (std::abs(s.stiffness) * lengths + s.damping * speeds);
       add(a, arm_a, momentum);
       add(b, arm_b, momentum);
     }

@@ -1,8 +1,6 @@
 #include "physics/integrator.hpp"
 
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,30 +8,6 @@
 #include "physics/smooth_system.hpp"
 
 namespace lantern {
-namespace {
-
-constexpr std::array<std::pair<Integrator, std::string_view>, 6> kNames{{
-    {Integrator::explicit_euler, "explicit_euler"},
-    {Integrator::semi_implicit_euler, "semi_implicit_euler"},
-    {Integrator::velocity_verlet, "velocity_verlet"},
-    {Integrator::runge_kutta_4, "runge_kutta_4"},
-    {Integrator::implicit_midpoint, "implicit_midpoint"},
-    {Integrator::implicit_euler, "implicit_euler"},
-}};
-
-}  // namespace
-
-std::string_view to_string(Integrator integrator) {
-  for (const auto& [value, name] : kNames)
-    if (value == integrator) return name;
-  return "?";
-}
-
-std::optional<Integrator> integrator_named(std::string_view name) {
-  for (const auto& [value, known] : kNames)
-    if (known == name) return value;
-  return std::nullopt;
-}
 
 template <int D>
 void find_increments(Integrator integrator, std::span<const Body<D>> bodies,

@@ -9,28 +9,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "physics/body.hpp"
 #include "physics/forces.hpp"
+#include "physics/motion_method.hpp"
 
 namespace lantern {
-
-enum class Integrator {
-  explicit_euler,
-  semi_implicit_euler,
-  velocity_verlet,
-  runge_kutta_4,
-  implicit_midpoint,
-  implicit_euler,
-};
-
-// "semi_implicit_euler"; nothing for a name that is none of them.
-std::string_view to_string(Integrator integrator);
-std::optional<Integrator> integrator_named(std::string_view name);
 
 template <int D>
 struct Increment {

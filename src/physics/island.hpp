@@ -5,6 +5,7 @@
 
 #include "physics/contact_rows.hpp"
 #include "physics/forces.hpp"
+#include "physics/integrator.hpp"
 #include "physics/joint_rows.hpp"
 #include "physics/world_config.hpp"
 
@@ -45,15 +46,16 @@ template <int D>
 Mover<D> mover_of(const Body<D>& body);
 
 // What the bodies' free motion would be: x += h (v + kick) + drift, and so on. Static and kinematic
-// bodies, too.
+// bodies, too. Turned by the body's own method, or by the world's.
 template <int D>
-void fly(Body<D>& body, const Increment<D>& increment, double h, WorldWork& work);
+void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod worlds,
+         WorldWork& work);
 
 // Whether forces change anything at all; if not, there are no increments to find.
 template <int D>
 bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces);
 
-// Increments, all zero if there is no force.
+// Increments, all zero if there is no force. Each body's by its own method, or by the world's.
 template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,

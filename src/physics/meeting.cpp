@@ -77,7 +77,7 @@ class Approach {
     Body<D> body = *course.body;
     body.position += t * (course.velocity + t * course.bend);
     body.velocity = course.velocity + 2 * t * course.bend;
-    body.orientation = freely_turned(body, t);
+    turn_freely(body, t, course.rotation);
     return body;
   }
 

@@ -2,8 +2,8 @@
 //
 //     A = M + time^2 K + time C
 //
-// with masses and inertias M, the stiffness K of the springs, and the damping C of springs and
-// drag.
+// with masses and inertias M, the stiffness K of springs and of bodies that attract each other, and
+// the damping C of springs and drag.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +48,7 @@ class MotionMatrix {
     for (std::size_t k = 0; k < system_.ends().size(); ++k) {
       const auto [a, b] = system_.ends()[k];
       const Stretch<D> s = system_.stretch(state, k);
-      const Sides sides = sides_of(s, k, time * time, 0);
+      const Sides sides = sides_of(s, time * time, 0);
       const Vec<D> motion = (system_.velocity(state, b) - system_.velocity(state, a)) +
                             cross(system_.angular_velocity(state, b), s.arm_b) -
                             cross(system_.angular_velocity(state, a), s.arm_a);
@@ -99,27 +99,24 @@ class MotionMatrix {
 
   // What a spring gives for a motion of its ends along its line and across it. Along it pushes back
   // by k and c; across, a tense spring pulls straight, by tension / length, which is negative when
-  // it is compressed.
+  // it is compressed. Of bodies that attract each other, k is negative.
   struct Sides {
     double along;
     double across;
   };
-  Sides sides_of(const Stretch<D>& s, std::size_t k, double time_squared, double time) const {
-    const Spring<D>& spring = system_.forces().springs[k];
-    const double along = time_squared * spring.stiffness;
-    if (!(s.length > 0)) {  // no direction: the spring pulls only if it has no rest length
-      const double any = spring.rest_length > 0 ? 0 : along;
-      return {any, any};
-    }
+  Sides sides_of(const Stretch<D>& s, double time_squared, double time) const {
+    const double stiff = time_squared * s.stiffness;
+    const double along = buckling_ ? stiff : std::max(stiff, 0.0);
+    if (!(s.length > 0)) return {along, along};  // no direction: alike in all
     const double across = time_squared * s.tension / s.length;
-    return {along + time * spring.damping, buckling_ ? across : std::max(across, 0.0)};
+    return {along + time * s.damping, buckling_ ? across : std::max(across, 0.0)};
   }
 
   void add_spring(const SmoothState<D>& state, double time_squared, double time, std::size_t k) {
     const auto [a, b] = system_.ends()[k];
     if (a == b) return;
     const Stretch<D> s = system_.stretch(state, k);
-    const Sides sides = sides_of(s, k, time_squared, time);
+    const Sides sides = sides_of(s, time_squared, time);
     const auto columns_a = columns(a, s.arm_a), columns_b = columns(b, s.arm_b);
     const auto product = [&](const Vec<D>& u, const Vec<D>& v) {
       const double un = glm::dot(u, s.direction), vn = glm::dot(v, s.direction);

@@ -54,7 +54,20 @@ SmoothSystem<D>::SmoothSystem(std::span<const Body<D>> bodies, const Forces<D>& 
     }
     for (const Push<D>& push : forces.pushes) pushed_.push_back(lookup.index_of(push.body, "push"));
   }
+  if (forces.gravitation > 0) find_what_attracts();
   find_what_turns();
+}
+
+template <int D>
+void SmoothSystem<D>::find_what_attracts() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
+      const double strength =
+          forces_.gravitation * attracting_mass(bodies_[i]) * attracting_mass(bodies_[j]);
+      if (!(strength > 0) || !(moves(i) || moves(j))) continue;
+      ends_.push_back({i, j});
+      strengths_.push_back(strength);
+    }
 }
 
 template <int D>
@@ -65,7 +78,7 @@ void SmoothSystem<D>::find_what_turns() {
     turns_[i] = 1;
     any_damping_ = true;
   }
-  for (std::size_t k = 0; k < ends_.size(); ++k) {
+  for (std::size_t k = 0; k < forces_.springs.size(); ++k) {
     if (forces_.springs[k].at_a != centre) turns_[ends_[k].a] = 1;
     if (forces_.springs[k].at_b != centre) turns_[ends_[k].b] = 1;
   }
@@ -136,16 +149,18 @@ Spin<D> SmoothSystem<D>::inertia_times(const SmoothState<D>& state, std::size_t 
 }
 
 template <int D>
-Stretch<D> SmoothSystem<D>::stretch(const SmoothState<D>& state, std::size_t spring) const {
-  const auto [a, b] = ends_[spring];
-  const Spring<D>& s = forces_.springs[spring];
+Stretch<D> SmoothSystem<D>::stretch(const SmoothState<D>& state, std::size_t end) const {
+  const auto [a, b] = ends_[end];
+  // The difference of the places at the start first: far from the origin it is the exact part.
+  const Vec<D> between =
+      (bodies_[b].position - bodies_[a].position) + (state.shift[b] - state.shift[a]);
+  if (end >= forces_.springs.size())
+    return attracted<D>(strengths_[end - forces_.springs.size()], between);
+  const Spring<D>& s = forces_.springs[end];
   const auto motion = [&](std::size_t i, bool off_centre) -> EndMotion<D> {
     const Spin<D> spin = off_centre ? angular_velocity(state, i) : Spin<D>(0.0);
     return {state.orientation[i], velocity(state, i), spin};
   };
-  // The difference of the places at the start first: far from the origin it is the exact part.
-  const Vec<D> between =
-      (bodies_[b].position - bodies_[a].position) + (state.shift[b] - state.shift[a]);
   return stretched<D>(s, between, motion(a, s.at_a != Vec<D>(0.0)),
                       motion(b, s.at_b != Vec<D>(0.0)));
 }

@@ -30,7 +30,7 @@ struct Pull {
   std::vector<Spin<D>> torque;
 };
 
-// Where a spring's ends are in the span of bodies.
+// Where the ends of a spring, or two that attract each other, are in the span of bodies.
 struct Ends {
   std::size_t a = 0;
   std::size_t b = 0;
@@ -55,7 +55,8 @@ class SmoothSystem {
 
   std::span<const Body<D>> bodies() const { return bodies_; }
   const Forces<D>& forces() const { return forces_; }
-  const std::vector<Ends>& ends() const { return ends_; }             // one a spring
+  // One a spring, then one for every two bodies that attract each other.
+  const std::vector<Ends>& ends() const { return ends_; }
   const std::vector<std::size_t>& pushed() const { return pushed_; }  // bodies, one a push
 
   SmoothState<D> start() const;
@@ -70,12 +71,13 @@ class SmoothSystem {
 
   Vec<D> velocity(const SmoothState<D>& state, std::size_t i) const;
   Spin<D> angular_velocity(const SmoothState<D>& state, std::size_t i) const;
-  // As it is in the state.
-  Stretch<D> stretch(const SmoothState<D>& state, std::size_t spring) const;
+  // Of one of the ends, as it is in the state.
+  Stretch<D> stretch(const SmoothState<D>& state, std::size_t end) const;
   // Inertia of a body that turns, in the world's axes: angular velocity to angular momentum.
   Spin<D> inertia_times(const SmoothState<D>& state, std::size_t i, const Spin<D>& spin) const;
 
  private:
+  void find_what_attracts();
   void find_what_turns();
 
   std::span<const Body<D>> bodies_;
@@ -85,6 +87,7 @@ class SmoothSystem {
   std::vector<char> moves_;
   std::vector<char> turns_;
   std::vector<Ends> ends_;
+  std::vector<double> strengths_;    // of attraction, after the springs
   std::vector<std::size_t> pushed_;  // one a push
   bool any_turns_ = false;
   bool any_damping_ = false;

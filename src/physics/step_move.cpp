@@ -37,7 +37,8 @@ void World<D>::Step::move() {
     advance_island(island, world.config_, h, budget, world.work_);
     bring_back(island);
   }
-  for (const std::size_t i : flying) fly(moved[i], increments[i], h, world.work_);
+  for (const std::size_t i : flying)
+    fly(moved[i], increments[i], h, world.config_.rotation, world.work_);
 }
 
 template <int D>
@@ -60,6 +61,9 @@ Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
     add(world.joints_[i].second.b);
   }
   island.forces.gravity = forces.gravity;
+  island.forces.gravitation = forces.gravitation;
+  if (forces.gravitation > 0)
+    for (const Body<D>& body : moved) add(body.id);
   for (const Spring<D>& spring : forces.springs) {
     if (!belongs(spring.a) && !belongs(spring.b)) continue;
     island.forces.springs.push_back(spring);
@@ -172,11 +176,12 @@ bool World<D>::Step::is_slow(std::size_t place) const {
 }
 
 // An island sleeps when all of it has been slow for a while and something holds it, or drag brakes
-// it; a body that flies freely sleeps only if it does not move at all.
+// it; a body that flies freely sleeps only if it does not move at all. What attracts each other
+// never rests: something far away may come nearer.
 template <int D>
 void World<D>::Step::fall_asleep() {
   world.work_.asleep = 0;
-  if (world.config_.may_sleep) {
+  if (world.config_.may_sleep && !(forces.gravitation > 0)) {
     std::vector<std::uint8_t> restless(moved.size()), held(moved.size());
     for (const Touch& touch : touching)
       for (const BodyId id : {touch.record.a, touch.record.b}) {

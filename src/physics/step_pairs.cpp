@@ -1,6 +1,7 @@
 // The first half of a step: what may touch, what wakes, what hangs together.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -201,6 +202,13 @@ void World<D>::Step::make_islands() {
   for (const IslandPair<D>& pair : near) unite(pair.rows.a, pair.rows.b);
   for (const auto& entry : world.joints_) unite(place_of(entry.second.a), place_of(entry.second.b));
   for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
+  // What attracts hangs together over any distance.
+  std::optional<std::uint32_t> first;
+  for (std::uint32_t i = 0; forces.gravitation > 0 && i < moved.size(); ++i) {
+    if (moved[i].kind != BodyKind::dynamic_body) continue;
+    if (!first) first = i;
+    unite(*first, i);
+  }
   root.clear();
   for (std::size_t i = 0; i < moved.size(); ++i)
     root.push_back(sets.root(static_cast<std::uint32_t>(i)));

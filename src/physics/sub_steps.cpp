@@ -201,7 +201,7 @@ struct SubStep {
       const Mover<D>& mover = island.movers[i];
       const Increment<D>& increment = island.increments[i];
       if (body.kind != BodyKind::dynamic_body) {
-        fly(body, increment, h, work);
+        fly(body, increment, h, config.rotation, work);
         continue;
       }
       body.velocity = mover.velocity;
@@ -211,7 +211,7 @@ struct SubStep {
       const Spin<D> turning = body.angular_momentum + increment.lag;
       const Spin<D> pushed = mover.mean_spin - mover.spin;
       if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
-      body.orientation = freely_turned(body, turning, h);
+      turn_freely(body, increment.lag, h, body.rotation.value_or(config.rotation));
       if (pushed != Spin<D>(0.0)) body.orientation = turned(body.orientation, pushed * h);
       ++work.rotations_integrated;
     }
@@ -271,7 +271,8 @@ Mover<D> mover_of(const Body<D>& body) {
 }
 
 template <int D>
-void fly(Body<D>& body, const Increment<D>& increment, double h, WorldWork& work) {
+void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod worlds,
+         WorldWork& work) {
   if (!body.moves() || body.asleep) return;
   if (increment.kick != Vec<D>(0.0)) body.velocity += increment.kick;
   body.position += body.velocity * h;
@@ -282,27 +283,61 @@ void fly(Body<D>& body, const Increment<D>& increment, double h, WorldWork& work
                               : body.angular_momentum + increment.lag;
   if (turning == Spin<D>(0.0)) return;
   if (body.kind == BodyKind::dynamic_body && body.inverse_inertia == Spin<D>(0.0)) return;
-  body.orientation = freely_turned(body, turning, h);
+  turn_freely(body, increment.lag, h, body.rotation.value_or(worlds));
   ++work.rotations_integrated;
 }
 
 template <int D>
 bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
-  if (forces.gravity != Vec<D>(0.0) || !forces.springs.empty() || !forces.pushes.empty())
+  if (forces.gravity != Vec<D>(0.0) || forces.gravitation > 0 || !forces.springs.empty() ||
+      !forces.pushes.empty())
     return true;
   return std::any_of(bodies.begin(), bodies.end(), [](const Body<D>& body) {
     return body.linear_drag != 0 || body.angular_drag != 0;
   });
 }
 
+// Those of the dynamic bodies, each once; the world's own if there are none.
+template <int D>
+std::vector<Integrator> integrators_of(const WorldConfig<D>& config,
+                                       std::span<const Body<D>> bodies) {
+  std::vector<Integrator> used;
+  for (const Body<D>& body : bodies) {
+    if (body.kind != BodyKind::dynamic_body) continue;
+    const Integrator its = body.integrator.value_or(config.integrator);
+    if (std::find(used.begin(), used.end(), its) == used.end()) used.push_back(its);
+  }
+  if (used.empty()) used.push_back(config.integrator);
+  return used;
+}
+
 template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                             WorldWork& work) {
-  if (any_force(bodies, forces))
-    find_increments(config.integrator, bodies, forces, h, out, work.force_evaluations);
-  else
+  if (!any_force(bodies, forces)) {
     out.assign(bodies.size(), {});
+    return;
+  }
+  const std::vector<Integrator> used = integrators_of(config, bodies);
+  if (used.size() == 1) {
+    find_increments(used[0], bodies, forces, h, out, work.force_evaluations);
+    return;
+  }
+  // No spring ties bodies of different methods (World::add_spring), so those of one method are all
+  // that it needs to know: the others stand still meanwhile, as if they slept.
+  out.assign(bodies.size(), {});
+  std::vector<Increment<D>> some;
+  for (const Integrator integrator : used) {
+    std::vector<Body<D>> its(bodies.begin(), bodies.end());
+    for (Body<D>& body : its)
+      if (body.kind == BodyKind::dynamic_body &&
+          body.integrator.value_or(config.integrator) != integrator)
+        body.asleep = true;
+    find_increments<D>(integrator, its, forces, h, some, work.force_evaluations);
+    for (std::size_t i = 0; i < its.size(); ++i)
+      if (its[i].kind == BodyKind::dynamic_body && !its[i].asleep) out[i] = some[i];
+  }
 }
 
 template <int D>
@@ -319,7 +354,7 @@ void move_island(Island<D>& island, const WorldConfig<D>& config, double h, doub
   if (!bound) {
     find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
-      fly(island.bodies[i], island.increments[i], h, work);
+      fly(island.bodies[i], island.increments[i], h, config.rotation, work);
     remember(island, h);
     return;
   }
@@ -349,7 +384,7 @@ void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
 
 #define LANTERN_INSTANTIATE(D)                                                               \
   template Mover<D> mover_of(const Body<D>&);                                                \
-  template void fly(Body<D>&, const Increment<D>&, double, WorldWork&);                      \
+  template void fly(Body<D>&, const Increment<D>&, double, RotationMethod, WorldWork&);      \
   template bool any_force(std::span<const Body<D>>, const Forces<D>&);                       \
   template void find_increments_if_any(const WorldConfig<D>&, std::span<const Body<D>>,      \
                                        const Forces<D>&, double, std::vector<Increment<D>>&, \

@@ -31,6 +31,8 @@ void require_count(int value, int most, const char* field) {
 template <int D>
 void check_config(const WorldConfig<D>& config) {
   require_finite<D>(config.gravity, "world", "gravity");
+  if (!std::isfinite(config.gravitation) || config.gravitation < 0)
+    throw Refused("world: gravitation is negative or not finite");
   require_count(config.sub_steps, 1000, "sub_steps");
   require_count(config.iterations, 100000, "iterations");
   if (config.impact_budget < 0) throw Refused("world: impact_budget is negative");
@@ -74,6 +76,16 @@ void check_spring(const Spring<D>& spring, const std::vector<Body<D>>& bodies) {
   check_forces<D>(alone, bodies);
 }
 
+template <int D>
+void check_same_integrator(const Body<D>& a, const Body<D>& b, const WorldConfig<D>& config) {
+  const auto dynamic = BodyKind::dynamic_body;
+  const Integrator of_a = a.integrator.value_or(config.integrator);
+  const Integrator of_b = b.integrator.value_or(config.integrator);
+  if (a.kind != dynamic || b.kind != dynamic || of_a == of_b) return;
+  throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
+                            a.name, b.name, to_string(of_a), to_string(of_b)));
+}
+
 }  // namespace
 
 std::string_view to_string(ContactMethod method) {
@@ -95,6 +107,7 @@ template <int D>
 World<D>::World(const WorldConfig<D>& config) : config_(config) {
   check_config(config);
   forces_.gravity = config.gravity;
+  forces_.gravitation = config.gravitation;
   if (config.contacts != ContactMethod::none) BroadPhase<D>{config.broad_phase};  // refuses
 }
 
@@ -259,6 +272,7 @@ void World<D>::set_gravity(const Vec<D>& gravity) {
 template <int D>
 SpringId World<D>::add_spring(const Spring<D>& spring) {
   check_spring<D>(spring, bodies_);
+  check_same_integrator(*find(spring.a), *find(spring.b), config_);
   rouse({spring.a, spring.b});
   forces_.springs.push_back(spring);
   spring_ids_.push_back(next_spring_);
@@ -370,6 +384,18 @@ void World<D>::switch_broad_phase(const BroadPhaseConfig<D>& config) {
 }
 
 template <int D>
+void World<D>::switch_contacts(ContactMethod method, int sub_steps, int iterations) {
+  if (config_.contacts == ContactMethod::none || method == ContactMethod::none)
+    throw Refused("world: contacts cannot be switched on or off, only be solved another way");
+  WorldConfig<D> config = config_;
+  config.contacts = method;
+  config.sub_steps = sub_steps;
+  config.iterations = iterations;
+  check_config(config);
+  config_ = config;
+}
+
+template <int D>
 std::uint64_t World<D>::hash() const {
   Hash hash;
   hash.add(time_);
@@ -384,6 +410,7 @@ std::uint64_t World<D>::hash() const {
     hash.add(body.inverse_mass).add(rested_[i]);
   }
   add_to(hash, forces_.gravity);
+  if (forces_.gravitation > 0) hash.add(forces_.gravitation);
   for (const Spring<D>& spring : forces_.springs) {
     hash.add(std::uint64_t{spring.a}).add(std::uint64_t{spring.b});
     add_to(hash, spring.at_a);

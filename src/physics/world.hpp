@@ -59,7 +59,8 @@ class World {
   void set_gravity(const Vec<D>& gravity);  // wakes all
 
   // Springs and joints. Both bodies must be there and differ. Ids are never used again. Removing
-  // what is not there does nothing.
+  // what is not there does nothing. A spring between two dynamic bodies of different integrators is
+  // refused: each method would need the other's state within the step.
   SpringId add_spring(const Spring<D>& spring);
   JointId add_joint(const Joint<D>& joint);
   void remove_spring(SpringId id);
@@ -74,6 +75,10 @@ class World {
 
   // Goes on with another broad phase; the trajectory is the same, bit for bit.
   void switch_broad_phase(const BroadPhaseConfig<D>& config);
+  // Goes on with another way to part bodies. Whether they touch at all is settled when the world is
+  // made: throws Refused if either method, the old or the new, is `none`, and for a number that is
+  // out of its range. What presses goes on pressing: the next step begins with the old impulses.
+  void switch_contacts(ContactMethod method, int sub_steps, int iterations);
 
   // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when
   // a position or velocity would overflow, and for a step that is negative or not finite; the world

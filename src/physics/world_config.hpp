@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "physics/contact_method.hpp"
-#include "physics/integrator.hpp"
+#include "physics/motion_method.hpp"
 #include "spatial/broad_phase.hpp"
 
 namespace lantern {
@@ -12,7 +12,9 @@ namespace lantern {
 template <int D>
 struct WorldConfig {
   Vec<D> gravity{0.0};
+  double gravitation = 0;  // see Forces
   Integrator integrator = Integrator::semi_implicit_euler;
+  RotationMethod rotation = RotationMethod::splitting_2;  // where nothing holds a body
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase;
   int sub_steps = 8;          // of soft contacts and of joints, 1 ... 1000

@@ -84,7 +84,7 @@ void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
   const std::string title = shortened(problem_words(problem), 0.6 * band.size().x, bold);
   labels.add(title, {{kMargin, kTitleLine}, 0}, bold, band);
   const double x = kMargin + text_width(title, bold.size, bold.weight) + 11;
-  const std::string rest = fmt::format("·  error against cost  ·  {}.toml", problem.problem);
+  const std::string rest = "·  error against cost  ·  " + file_name(problem);
   labels.add(shortened(rest, band.hi.x - x, quiet), {{x, kTitleLine}, 0}, quiet, band);
   add_rule(list, 78);
 }
@@ -117,7 +117,11 @@ double draw_foot(const ProblemRows& problem, const Circumstances& circumstances,
 
 std::string error_words(const ProblemRows& problem) {
   const std::string norm = main_norm(problem);
-  return norm.empty() ? "error" : fmt::format("error: {} (“{}”)", norm_words(norm), norm);
+  std::string words =
+      norm.empty() ? "error" : fmt::format("error: {} (“{}”)", norm_words(norm), norm);
+  for (const Row& row : problem.rows)
+    if (!row.reference.empty()) return words + ", against: " + row.reference;
+  return words;
 }
 
 // Whether a peer that was run has no point, because it does not count its work.
@@ -141,6 +145,12 @@ std::string problem_words(const ProblemRows& problem) {
     words[0] = static_cast<char>(words[0] - 'a' + 'A');
   return problem.variant.empty() || problem.variant == "plain" ? words
                                                                : words + ", " + problem.variant;
+}
+
+std::string file_name(const ProblemRows& problem) {
+  const std::string& path = problem.rows.empty() ? problem.problem : problem.rows.front().file;
+  const std::string name = path.substr(path.rfind('/') + 1);
+  return name.empty() ? problem.problem + ".toml" : name;
 }
 
 std::string circumstances_text(const Circumstances& c) {

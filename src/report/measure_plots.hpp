@@ -27,4 +27,7 @@ std::string circumstances_text(const Circumstances& circumstances);
 // "oscillator, stiff" of oscillator_stiff; only the name where the variant is plain.
 std::string problem_words(const ProblemRows& problem);
 
+// The scenario's file, without its folder.
+std::string file_name(const ProblemRows& problem);
+
 }  // namespace lantern

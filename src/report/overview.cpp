@@ -157,7 +157,7 @@ class Page {
   }
 
   void draw_cell(std::size_t i, const Box<2>& cell) {
-    const std::string name = shortened(problems_[i].problem + ".toml", cell.size().x, kBold);
+    const std::string name = shortened(file_name(problems_[i]), cell.size().x, kBold);
     labels_.add(name, {{cell.lo.x, cell.lo.y + 16}, 0}, kBold, cell);
     const std::string norm = norm_words(main_norm(problems_[i]));
     labels_.try_add(norm, {{{cell.hi.x, cell.lo.y + 16}, 1}}, kQuiet, cell);

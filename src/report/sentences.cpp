@@ -197,8 +197,8 @@ std::string seconds_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";
   const double size = std::abs(seconds);
   if (size >= 1 || size == 0) return fmt::format("{:.3g} s", seconds);
-  if (size >= 0.9995e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
-  if (size >= 0.9995e-6) return fmt::format("{:.3g} µs", seconds * 1e6);
+  if (size >= 0.9995e-4) return fmt::format("{:.3g} ms", seconds * 1e3);
+  if (size >= 0.9995e-7) return fmt::format("{:.3g} µs", seconds * 1e6);
   return fmt::format("{:.3g} ns", seconds * 1e9);
 }
 

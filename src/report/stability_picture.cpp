@@ -18,6 +18,7 @@ constexpr double kTitleLine = 58;  // baseline
 constexpr double kLegendLine = 118;
 constexpr double kHeading = 34;  // of a panel, over its plot
 constexpr int kColumns = 3;
+constexpr double kRowsGap = 34;
 constexpr double kNoDamping = 14;  // height of the row of zeta = 0
 constexpr double kRowGap = 6;      // and between it and the others
 
@@ -56,13 +57,13 @@ struct Words {
 Words words_for(Integrator method) {
   switch (method) {
     case Integrator::explicit_euler:
-      return {"explicit Euler", "ωh = 2ζ up to ζ = 1"};
+      return {"explicit Euler", "ωh = 2ζ, then 2(ζ − √(ζ² − 1))"};
     case Integrator::semi_implicit_euler:
       return {"semi-implicit Euler", "ωh = 2(√(1 + ζ²) − ζ)"};
     case Integrator::velocity_verlet:
       return {"velocity Verlet", "ωh = 2"};
     case Integrator::runge_kutta_4:
-      return {"Runge–Kutta 4", "ωh = 2√2 at ζ = 0"};
+      return {"Runge–Kutta 4", "ωh = 2.83 at ζ = 0, 2.79 at 1"};
     case Integrator::implicit_midpoint:
       return {"implicit midpoint", "no limit"};
     case Integrator::implicit_euler:
@@ -79,13 +80,13 @@ class Picture {
     draw_title();
     draw_legend();
     const Box<2> area{{kMargin + 92, 150}, {list_.page.x - kMargin, list_.page.y - 84}};
-    const double gap = 34, rows = 2;
+    const double gap = 46;
     const Vec<2> size{(area.size().x - gap * (kColumns - 1)) / kColumns,
-                      (area.size().y - 30) / rows};
+                      row_height(area) - kRowsGap};
     for (std::size_t i = 0; i < map_.panels.size(); ++i) {
       const auto column = static_cast<double>(i % kColumns),
                  row = static_cast<double>(i / kColumns);
-      const Vec<2> corner = area.lo + Vec<2>(column * (size.x + gap), row * (size.y + 30));
+      const Vec<2> corner = area.lo + Vec<2>(column * (size.x + gap), row * row_height(area));
       Box<2> plot{corner, corner + size};
       plot.lo.y += kHeading;
       draw_panel(map_.panels[i], plot, i % kColumns == 0, i + kColumns >= map_.panels.size());
@@ -95,6 +96,7 @@ class Picture {
   }
 
  private:
+  static double row_height(const Box<2>& area) { return (area.size().y + kRowsGap) / 2; }
   Box<2> page() const { return {Vec<2>(0.0), list_.page}; }
 
   void draw_title() {
@@ -102,7 +104,7 @@ class Picture {
     const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
     const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
     labels_.add(title, {{kMargin, kTitleLine}, 0}, bold, page());
-    labels_.add("growth a step, measured with the engine; the line is where theory ends it",
+    labels_.add("measured with the engine, step by damping, and the limit by theory",
                 {{list_.page.x - kMargin, kTitleLine}, 1}, quiet, page());
     list_.shapes.emplace_back(
         LineShape{{kMargin, 78}, {list_.page.x - kMargin, 78}, {Role::rule, 1.6, 0}, true});
@@ -135,8 +137,8 @@ class Picture {
     list_.shapes.emplace_back(RectShape{box, 0, kBands[band].role, {}, true});
     if (band < kFirstGrowing) return;
     Pen(list_, box)
-        .hatch({box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}}, 14, 1,
-               {Role::panel, 1.4, 0});
+        .hatch({box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}}, 16, 1,
+               {Role::panel, 1.2, 0});
   }
 
   void draw_limit(const std::vector<Vec<2>>& points, const Box<2>& place) {
@@ -252,10 +254,15 @@ class Picture {
     row(plot.hi.y - kNoDamping / 2, "0");
   }
 
+  // Beside the first panel of each row, and below all.
   void name_axes(const Box<2>& area) {
-    labels_.try_add("damping ratio ζ", {{{kMargin, area.lo.y + 22}, 0}}, kName, page());
-    labels_.try_add("step ωh: radians of the undamped swing in a step",
-                    {{{area.center().x, list_.page.y - 22}, 0.5}}, kName, page());
+    for (std::size_t row = 0; row * kColumns < map_.panels.size(); ++row) {
+      const double y = area.lo.y + kHeading - 12 + static_cast<double>(row) * row_height(area);
+      labels_.add("damping", {{kMargin, y - 24}, 0}, kName, page());
+      labels_.add("ratio ζ", {{kMargin, y}, 0}, kName, page());
+    }
+    labels_.add("step ωh: radians of the undamped swing in a step",
+                {{area.center().x, list_.page.y - 22}, 0.5}, kName, page());
   }
 
   const StabilityMap& map_;

@@ -23,6 +23,7 @@ std::string figure_text(double figure) {
 }
 
 std::string bound_text(const StressResult& result) {
+  if (std::isnan(result.figure)) return "-";  // broke off before it knew
   return fmt::format("{} {}", result.at_least ? ">=" : "<=", figure_text(result.bound));
 }
 
@@ -52,7 +53,9 @@ std::string row_text(const StressOutcome& outcome, std::size_t name_width) {
   std::string text =
       fmt::format("  {:<6}  {:<{}}  {:>9}  {:<10}  {}\n", verdict(result), outcome.of.name,
                   name_width, figure_text(result.figure), bound_text(result), result.unit);
-  if (!result.good) text += fmt::format("          {} {}\n", outcome.of.what, result.detail);
+  if (result.good) return text;
+  text += fmt::format("          {}\n", outcome.of.what);
+  if (!result.detail.empty()) text += fmt::format("          {}\n", result.detail);
   return text;
 }
 

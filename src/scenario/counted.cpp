@@ -128,10 +128,13 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
   const std::string caption = step.text("caption").value_or("");
   const auto kind_of = [](std::string_view name) {
     if (find_in(known_counts(), name)) return Placeholder::count;
+    if (is_of_body(name)) return Placeholder::text;
     const bool is_text = find_in(known_texts(), name) || find_in(known_measures(), name);
     return is_text ? Placeholder::text : Placeholder::unknown;
   };
   const auto can_be_quoted = [&](std::string_view name) {
+    if (is_of_body(name))
+      return note_body_measure({std::string(name), step.place("caption")}, draft);
     return kind_of(name) != Placeholder::unknown && why_not_counted(name, draft, state).empty();
   };
   const auto known_here = [&](std::string_view name) {
@@ -142,6 +145,8 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
     if (!p.message.empty())
       draft.problems.add(where, "in the caption: " + p.message,
                          "write {{ and }} for the braces themselves");
+    else if (is_of_body(p.unknown))
+      continue;  // told already
     else if (kind_of(p.unknown) == Placeholder::unknown)
       draft.problems.add(
           where, fmt::format("a caption cannot quote {}", in_quotes(p.unknown)),
@@ -161,10 +166,15 @@ std::optional<std::string> read_plot(const TableReader& step, Draft& draft, Scri
                        "add [chart] with bars = \"pairs\"");
     return step.text("plot");
   }
+  if (chart->over_time()) {
+    draft.problems.add(step.key_place("plot"), "over time every frame is plotted by itself",
+                       "leave out 'plot'");
+    return step.text("plot");
+  }
   std::vector<std::string> counts = chart->y;
   if (!chart->x.empty()) counts.push_back(chart->x);
   for (const std::string& count : counts) {
-    if (!find_in(known_counts(), count)) continue;  // told already
+    if (!find_in(known_counts(), count) && !find_in(known_measures(), count)) continue;
     const std::string why = why_not_counted(count, draft, state);
     if (!why.empty())
       draft.problems.add(step.key_place("plot"),

@@ -84,6 +84,11 @@ class Director {
     frames_.settle("wake");
   }
 
+  void act(const SolveBy& method) {
+    stage_.engine->solve_by(method);
+    frames_.settle("solve_by");
+  }
+
   void act(const Run& run) {
     if (stage_.engine) watch_movers();
     const std::uint32_t ticks = ticks_in(run.seconds);

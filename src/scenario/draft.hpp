@@ -88,6 +88,14 @@ void unroll_pattern(const BodySpec& like, std::size_t count, const TableReader& 
 // Exactly one body of that name. Adds a problem and gives nothing for an unknown name or a pattern.
 std::optional<std::size_t> one_body(const Named& name, Draft& draft);
 
+// Does the name look like the measure of one body, as "energy.bob"?
+inline bool is_of_body(std::string_view name) { return name.find('.') != std::string_view::npos; }
+
+// Notes that the scenario asks for it, so that every frame measures it. Adds a problem, and gives
+// false, if there is no such measure or body, if this world cannot have it, or if there are too
+// many.
+bool note_body_measure(const Named& name, Draft& draft);
+
 // Shared by bodies and textures: which colour the `index`-th has, when 0 cycles through all.
 int cycled_color(std::int64_t color, std::size_t index);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/check.hpp"
+#include "scenario/body_measure.hpp"
 #include "scenario/brains.hpp"
 #include "scenario/questions.hpp"
 #include "scenario/world_picture.hpp"
@@ -16,7 +17,9 @@ WorldConfig<D> config_of(const Scenario& scenario) {
   const WorldSpec& spec = scenario.world;
   WorldConfig<D> config;
   config.gravity = in_dimension<D>(spec.gravity);
+  config.gravitation = spec.gravitation;
   config.integrator = spec.integrator;
+  config.rotation = spec.rotation;
   config.contacts = spec.contacts;
   config.sub_steps = spec.sub_steps;
   config.iterations = spec.iterations;
@@ -109,6 +112,13 @@ class EngineOf : public Engine {
   void sleep(std::size_t body) override { world().sleep(*players_.id_of(body)); }
   void wake(std::size_t body) override { world().wake(*players_.id_of(body)); }
 
+  void solve_by(const SolveBy& method) override {
+    const WorldConfig<D>& now = world().config();
+    world().switch_contacts(method.contacts,
+                            method.sub_steps > 0 ? method.sub_steps : now.sub_steps,
+                            method.iterations > 0 ? method.iterations : now.iterations);
+  }
+
   void step() override {
     const double h = scenario_.world.time_step;
     brains_.steer(world(), h, [&](std::size_t i) { return players_.id_of(i); });
@@ -181,6 +191,7 @@ class EngineOf : public Engine {
                                 static_cast<std::int64_t>(all_pairs(frame.bodies.size())));
     count(frame);
     if (has_physics()) measure_world(players_, has_contacts(), frame);
+    measure_bodies(players_, scenario_, frame);
   }
 
  private:
@@ -205,7 +216,8 @@ class EngineOf : public Engine {
 
   // More than free flight.
   bool has_physics() const {
-    return has_contacts() || scenario_.world.gravity != Vec<3>(0.0) || !scenario_.links.empty();
+    return has_contacts() || scenario_.world.gravity != Vec<3>(0.0) ||
+           scenario_.world.gravitation > 0 || !scenario_.links.empty();
   }
 
   void count(Frame& frame) const {

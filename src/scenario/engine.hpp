@@ -41,6 +41,7 @@ class Engine {
   virtual void apply(const ApplyImpulse& impulse) = 0;
   virtual void sleep(std::size_t body) = 0;
   virtual void wake(std::size_t body) = 0;
+  virtual void solve_by(const SolveBy& method) = 0;
   virtual void step() = 0;     // one world step
   virtual void rebuild() = 0;  // the structure anew, its memory reused
   // Another structure, all bodies anew; the world's broad phase becomes the same kind.

@@ -46,14 +46,8 @@ std::string point_text(const Vec<3>& p, int dimension) {
                         : fmt::format("[{}, {}, {}]", p.x, p.y, p.z);
 }
 
-// A count, or else a measure.
-std::optional<double> number_named(const Frame& frame, const std::string& name) {
-  if (const auto count = frame.count(name)) return static_cast<double>(*count);
-  return frame.measure(name);
-}
-
 Unmet unmet_number(const Expectation& e, const Frame& frame) {
-  const std::optional<double> found = number_named(frame, e.name);
+  const std::optional<double> found = frame.number(e.name);
   const char* sign = "=";
   bool holds = found == e.number;
   if (e.kind == Expectation::Kind::at_most) {

@@ -58,4 +58,9 @@ std::optional<double> Frame::measure(std::string_view name) const {
   return found->second;
 }
 
+std::optional<double> Frame::number(std::string_view name) const {
+  if (const auto counted = count(name)) return static_cast<double>(*counted);
+  return measure(name);
+}
+
 }  // namespace lantern

@@ -134,8 +134,9 @@ struct FrameWall {
 
 // A line of a chart: what one count was against another, step by step.
 struct FrameSeries {
-  std::string name;             // of the count
+  std::string name;             // of the count or measure, or of the body it is of
   std::vector<Vec<2>> points;   // in the order of the steps
+  int color = 0;                // of the body; 0: whichever is next
 };
 
 // How often each structure, or each step, counted something, as bars.
@@ -148,7 +149,11 @@ struct FrameBar {
 struct FrameChart {
   std::string x_name;           // of the count along x; empty for bars
   std::string y_name;
-  bool logarithmic = false;     // both axes
+  bool logarithmic = false;     // both axes, but for time
+  bool over_time = false;       // x is seconds
+  std::optional<double> seconds;  // over time: how far the x axis goes; none: as far as the lines
+  std::optional<double> least;  // of the y axis; lines leave the picture beyond it
+  std::optional<double> most;
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;
 };
@@ -179,6 +184,7 @@ struct Frame {
   Box<3> bounds;
   bool show_boxes = false;       // the bodies' broad-phase boxes
   bool show_velocities = false;
+  bool show_depths = false;      // beside contacts
   std::vector<FrameBody> bodies;
   std::vector<FrameNode> nodes;  // parents before children
   std::vector<FramePair> pairs;  // in order of ids
@@ -201,6 +207,7 @@ struct Frame {
   // Nothing if the scene does not count or measure this.
   std::optional<std::int64_t> count(std::string_view name) const;
   std::optional<double> measure(std::string_view name) const;
+  std::optional<double> number(std::string_view name) const;  // a count, or else a measure
 };
 
 // Of time, bodies, nodes, pairs and textures; not of the counts of work.

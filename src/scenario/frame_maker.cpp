@@ -18,13 +18,14 @@ constexpr std::uint32_t kMostFrames = 100'000;
 FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
                        const std::function<bool(const Frame&)>& sink)
     : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink) {
-  if (scenario.chart) plotter_.emplace(*scenario.chart);
+  if (scenario.chart) plotter_.emplace(scenario);
 }
 
 void FrameMaker::begin(const Step& step, std::uint32_t index) {
   step_ = &step;
   step_index_ = index;
   if (!step.part.empty()) part_ = step.part;
+  if (plotter_) plotter_->begin_part(part_, stage_.time);
   touched = {};
   focus.clear();
   texture.clear();
@@ -63,6 +64,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   frame.bounds = world.bounds;
   frame.show_boxes = world.show_boxes;
   frame.show_velocities = world.show_velocities;
+  frame.show_depths = world.show_depths;
   if (world.has_camera) frame.camera = Camera{world.camera_eye, world.camera_target};
   if (stage_.engine) stage_.engine->picture(now, frame);
   if (stage_.level) stage_.level->picture(frame);
@@ -76,8 +78,11 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
 
 void FrameMaker::settle(std::string_view verb, bool last, const std::string& caption) {
   Frame frame = picture(touched, step_->name.empty() ? verb : step_->name);
-  if (plotter_ && last && step_->plot) {
-    plotter_->add(*step_->plot, part_, frame);
+  if (plotter_ && (plotter_->over_time() || (last && step_->plot))) {
+    if (plotter_->over_time())
+      plotter_->add_moment(frame);
+    else
+      plotter_->add(*step_->plot, part_, frame);
     frame.chart = plotter_->chart();
   }
   frame.caption = caption.empty() ? fill(step_->caption, frame) : caption;

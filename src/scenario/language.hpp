@@ -124,6 +124,9 @@ std::string_view when_counted(CountNeed need);
 // What is measured rather than counted, with a fraction: energies and the like.
 std::span<const CountDoc> known_measures();
 
+// The same of one body, written as `energy.bob`; in the order of BodyMeasure.
+std::span<const CountDoc> known_body_measures();
+
 // What a caption may quote and an expectation may promise, in the order of a frame's counts.
 std::span<const CountDoc> known_counts();
 

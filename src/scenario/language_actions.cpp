@@ -75,6 +75,27 @@ caption = "Of {pairs:candidate pair}, {contacts} in contact."
 )"};
 }
 
+TableDoc solve_by_verb() {
+  return {"solve_by",
+          "do = \"solve_by\"",
+          "From now on, contacts are solved another way; the world must have some.",
+          {Row(choice, "contacts", "Sequential `impulse`s, or `soft` contacts in small steps.")
+               .must()
+               .one_of({"impulse", "soft"}),
+           Row(whole, "sub_steps", "Into which soft contacts divide a world step.")
+               .range(1, 64)
+               .or_else("as it was"),
+           Row(whole, "iterations", "Of the impulses, in a world step.")
+               .range(1, 1000)
+               .or_else("as it was")},
+          {},
+          R"([[step]]
+do = "solve_by"
+contacts = "impulse"
+iterations = 20
+)"};
+}
+
 TableDoc rebuild_verb() {
   TableDoc verb = {"rebuild",
                    "do = \"rebuild\"",
@@ -211,7 +232,9 @@ eye = [2, 2]
 
 }  // namespace
 
-std::vector<TableDoc> time_verbs() { return {run_verb(), wait_verb(), phases_verb()}; }
+std::vector<TableDoc> time_verbs() {
+  return {run_verb(), wait_verb(), phases_verb(), solve_by_verb()};
+}
 std::vector<TableDoc> structure_verbs() { return {rebuild_verb()}; }
 std::vector<TableDoc> query_verbs() { return {ray_verb(), cull_verb(), query_verb()}; }
 std::vector<TableDoc> level_verbs() { return {compile_verb(), locate_verb(), order_verb()}; }

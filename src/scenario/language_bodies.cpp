@@ -72,6 +72,12 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first, std::string_view color_
           .in("N s")
           .by_default("0"),
       Row(truth, "may_turn", "Contacts and forces may turn it.").by_default("true"),
+      Row(choice, "integrator", "How forces move this body.")
+          .one_of(integrator_names())
+          .or_else("as the world's"),
+      Row(choice, "rotation", "How it turns when nothing holds it.")
+          .one_of(rotation_names())
+          .or_else("as the world's"),
       Row(truth, "asleep", "When it enters; the world must have `may_sleep`.").by_default("false"),
       Row(text, "follow",
           "A kinematic body goes to where the body of this name is, at most at `speed`.")

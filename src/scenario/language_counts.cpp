@@ -86,8 +86,28 @@ constexpr CountDoc kMeasures[] = {
     {"penetration", "How deep the two bodies that overlap most do.", true, false, contacts},
 };
 
+constexpr CountDoc kBodyMeasures[] = {
+    {"energy", "Kinetic and potential energy; of a spring between two dynamic bodies, half.", true,
+     false, bodies},
+    {"kinetic_energy", "Energy of its motion and rotation.", true, false, bodies},
+    {"potential_energy", "Energy of its height and springs.", true, false, bodies},
+    {"speed", "Of its centre, in units a second.", true, false, bodies},
+    {"spin", "Its angular velocity in rad/s, counter-clockwise; its length in a solid world.", true,
+     false, bodies},
+    {"angular_momentum", "About its own centre; its length in a solid world.", true, false, bodies},
+    {"own_spin_x", "Its angular velocity in rad/s about its own x axis, in a solid world.", true,
+     false, bodies},
+    {"own_spin_y", "About its own y axis.", true, false, bodies},
+    {"own_spin_z", "About its own z axis.", true, false, bodies},
+    {"x", "Where its centre is.", true, false, bodies},
+    {"y", "The same along y.", true, false, bodies},
+    {"z", "The same along z, in a solid world.", true, false, bodies},
+    {"penetration", "How deep it overlaps what it touches, at the deepest.", true, false, contacts},
+};
+
 }  // namespace
 
+std::span<const CountDoc> known_body_measures() { return kBodyMeasures; }
 std::span<const CountDoc> known_counts() { return kCounts; }
 std::span<const CountDoc> known_texts() { return kTexts; }
 std::span<const CountDoc> known_measures() { return kMeasures; }

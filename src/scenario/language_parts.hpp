@@ -22,6 +22,10 @@ TableDoc texture_table();
 TableDoc texture_pattern_table();
 TableDoc expect_table();
 
+// In the order of the enums.
+std::vector<std::string_view> integrator_names();
+std::vector<std::string_view> rotation_names();
+
 // Verbs, each with its own keys only.
 std::vector<TableDoc> body_verbs();
 std::vector<TableDoc> time_verbs();

@@ -6,6 +6,15 @@ namespace lantern {
 
 using enum KeyType;
 
+std::vector<std::string_view> integrator_names() {
+  return {"explicit_euler", "semi_implicit_euler", "velocity_verlet",
+          "runge_kutta_4",  "implicit_midpoint",   "implicit_euler"};
+}
+
+std::vector<std::string_view> rotation_names() {
+  return {"splitting_2", "splitting_4", "explicit_gyroscopic"};
+}
+
 TableDoc world_table() {
   return {
       "world",
@@ -31,15 +40,24 @@ TableDoc world_table() {
               .range(-kFar, kFar)
               .in("units/s²")
               .or_else("none"),
+          Row(number, "gravitation",
+              "Bodies attract each other with this times both masses over the square of their "
+              "distance. A static body attracts if it has a `mass`.")
+              .range(0, kFar)
+              .by_default("0"),
           Row(choice, "contacts",
               "How bodies that touch are parted: by sequential `impulse`s, by `soft` contacts in "
               "small steps, or not at all.")
               .one_of({"none", "impulse", "soft"})
               .by_default("\"none\""),
           Row(choice, "integrator", "How forces become motion.")
-              .one_of({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
-                       "implicit_midpoint", "implicit_euler"})
+              .one_of(integrator_names())
               .by_default("\"semi_implicit_euler\""),
+          Row(choice, "rotation",
+              "How bodies turn that nothing holds. `explicit_gyroscopic` is there to be seen "
+              "failing.")
+              .one_of(rotation_names())
+              .by_default("\"splitting_2\""),
           Row(whole, "sub_steps", "Into which soft contacts divide a world step.")
               .range(1, 64)
               .by_default("8"),
@@ -50,6 +68,9 @@ TableDoc world_table() {
               .by_default("false"),
           Row(truth, "show_boxes", "The boxes of the broad phase are drawn.").by_default("false"),
           Row(truth, "show_velocities", "Velocities are drawn as arrows.").by_default("false"),
+          Row(truth, "show_depths",
+              "How deep bodies overlap stands beside their contacts; a unit is taken for a metre.")
+              .by_default("false"),
           Row(point, "camera_eye", "From where a solid world is seen; with `camera_target`.")
               .range(-kFar, kFar)
               .or_else("so that all is seen"),
@@ -143,16 +164,28 @@ TableDoc level_table() {
 }
 
 TableDoc chart_table() {
-  return {"chart",
-          "[chart]",
-          "Counts as a picture. Each step with `plot` adds a point to the lines, or a bar.",
-          {
-              Row(text, "x", "The count along the x axis of lines.").range(1, 64),
-              Row(text, "bars", "The count that bars show, instead of lines.").range(1, 64),
-              Row(texts, "y", "Counts, each a line.").or_else("none"),
-              Row(truth, "logarithmic", "Axes on which equal steps multiply.").by_default("false"),
-          },
-          {.groups = {{"x", "y"}, {"bars"}}}};
+  return {
+      "chart",
+      "[chart]",
+      "Counts and measures as a picture. Each step with `plot` adds a point to the lines, or a "
+      "bar; over `time`, every frame adds a point by itself.",
+      {
+          Row(text, "x", "The count or measure along the x axis of lines, or `time`.").range(1, 64),
+          Row(text, "bars", "The count that bars show, instead of lines.").range(1, 64),
+          Row(texts, "y", "Counts and measures, each a line; of one body as `energy.bob`.")
+              .or_else("none"),
+          Row(truth, "logarithmic", "Axes on which equal steps multiply; time has none.")
+              .by_default("false"),
+          Row(number, "least", "Where the y axis begins; lines leave the picture below it.")
+              .range(-1e12, 1e12)
+              .or_else("where the lines do"),
+          Row(number, "most", "Where the y axis ends.")
+              .range(-1e12, 1e12)
+              .or_else("where the lines do"),
+          Row(truth, "each_part", "Over time: lines begin anew with each part of the script.")
+              .by_default("false"),
+      },
+      {.groups = {{"x", "y"}, {"bars"}}}};
 }
 
 }  // namespace lantern

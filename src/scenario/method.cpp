@@ -19,10 +19,9 @@ const std::array<Known, 11>& known() {
       t[n].method.integrator = static_cast<Integrator>(i);
       t[n].name = to_string(static_cast<Integrator>(i));
     }
-    constexpr std::string_view kRotations[] = {"splitting_2", "splitting_4", "explicit_gyroscopic"};
     for (int i = 0; i < 3; ++i, ++n) {
       t[n].method.rotation = static_cast<RotationMethod>(i);
-      t[n].name = kRotations[i];
+      t[n].name = to_string(static_cast<RotationMethod>(i));
     }
     t[n].method.contacts = ContactMethod::impulse;
     t[n++].name = "impulse";
@@ -68,7 +67,15 @@ Scenario moved_by(Scenario scenario, const Method& method, double h) {
   WorldSpec& world = scenario.world;
   world.time_step = h;
   if (method.integrator) world.integrator = *method.integrator;
+  if (method.rotation) world.rotation = *method.rotation;
   if (method.contacts) world.contacts = *method.contacts;
+  for (BodySpec& body : scenario.bodies) {
+    if (method.integrator) body.integrator.reset();
+    if (method.rotation) body.rotation.reset();
+  }
+  if (method.contacts)
+    for (Step& step : scenario.steps)
+      if (std::holds_alternative<SolveBy>(step.verb)) step.verb = Show{};
   if (method.effort)
     (world.contacts == ContactMethod::soft ? world.sub_steps : world.iterations) = *method.effort;
   return scenario;

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "physics/contact_method.hpp"
-#include "physics/free_rotation.hpp"
-#include "physics/integrator.hpp"
+#include "physics/motion_method.hpp"
 #include "scenario/scenario.hpp"
 
 namespace lantern {
@@ -28,7 +27,8 @@ std::optional<Method> method_named(std::string_view name);
 // All names but for their numbers, for help and suggestions.
 std::vector<std::string_view> method_names();
 
-// The scenario, moved by `method` in steps of `h` seconds; what the method leaves open stays.
+// The scenario, moved by `method` in steps of `h` seconds; what the method leaves open stays. What
+// it names holds for every body and throughout the script.
 Scenario moved_by(Scenario scenario, const Method& method, double h);
 
 }  // namespace lantern

@@ -110,7 +110,10 @@ std::string solver_reason(const Scenario& scenario, const ScriptWalk& walk) {
     return "no contact is resolved, and there is no joint";
   if (walk.seconds == 0) return kNoTime;
   if (scenario.world.contacts == ContactMethod::none) return "for the joints";
-  return contact_name(scenario.world.contacts);
+  std::string text;
+  for (const ContactMethod method : walk.methods)
+    text += (text.empty() ? "" : ", then ") + contact_name(method);
+  return text;
 }
 
 void list_motion(const Scenario& scenario, const ScriptWalk& walk, Needs& needs) {
@@ -179,8 +182,9 @@ void list_pictures(const Scenario& scenario, const ScriptWalk& walk, Needs& need
        needs.atlas ? counted(scenario.textures.size(), "texture", "textures") : "nothing to pack"},
       {"counters", true, counters_reason(walk)},
       {"chart", needs.chart,
-       needs.chart ? counted(walk.plots, "step adds to it", "steps add to it")
-                   : "the scenario has none"},
+       !needs.chart                  ? "the scenario has none"
+       : scenario.chart->over_time() ? "every frame adds to it"
+                                     : counted(walk.plots, "step adds to it", "steps add to it")},
       {"world panel", needs.world_panel,
        panel_reason(needs.world_panel, has_world, "shows the bodies", "there is no body")},
       {"tree panel", needs.tree_panel,

@@ -114,6 +114,17 @@ void read_matter(const TableReader& table, BodySpec& body, Draft& draft) {
                        "leave out 'asleep'");
 }
 
+void read_methods(const TableReader& table, BodySpec& body, Draft& draft) {
+  if (const auto choice = table.choice("integrator"))
+    body.integrator = static_cast<Integrator>(*choice);
+  if (const auto choice = table.choice("rotation"))
+    body.rotation = static_cast<RotationMethod>(*choice);
+  for (const char* key : {"integrator", "rotation"})
+    if (table.is_good(key) && body.kind != BodyKind::dynamic_body)
+      draft.problems.add(table.key_place(key), "no force moves or turns this body",
+                         fmt::format("only a dynamic body has an '{}' of its own", key));
+}
+
 void read_follow(const TableReader& table, BodySpec& body, Draft& draft) {
   if (table.is_good("follow_axes") && !table.has("follow"))
     draft.problems.add(table.key_place("follow_axes"), "'follow_axes' without 'follow'",
@@ -170,6 +181,7 @@ BodySpec read_body_keys(const TableReader& table, Draft& draft) {
   body.kind = read_kind(table, draft);
   read_turn(table, body, draft);
   read_matter(table, body, draft);
+  read_methods(table, body, draft);
   read_brain(table, body, draft);
   return body;
 }

@@ -43,6 +43,20 @@ bool is_dynamic(std::size_t body, const Draft& draft) {
   return draft.scenario.bodies[body].kind == BodyKind::dynamic_body;
 }
 
+// Each method would need the other's state within the step.
+void check_integrators(std::size_t a, std::size_t b, const TableReader& table, Draft& draft) {
+  const Scenario& s = draft.scenario;
+  const auto of = [&](std::size_t i) {
+    return s.bodies[i].integrator.value_or(s.world.integrator);
+  };
+  if (is_dynamic(a, draft) && is_dynamic(b, draft) && of(a) != of(b))
+    draft.problems.add(
+        table.place("b"),
+        fmt::format("a spring between '{}', moved by {}, and '{}', moved by {}", s.bodies[a].name,
+                    to_string(of(a)), s.bodies[b].name, to_string(of(b))),
+        "give both the same integrator");
+}
+
 // Between `a` and `b`, or `a` and a point of the world.
 void read_pair(const TableReader& table, LinkSpec link, Draft& draft) {
   const bool has_b = table.has("b"), has_to = table.has("to");
@@ -64,6 +78,8 @@ void read_pair(const TableReader& table, LinkSpec link, Draft& draft) {
   else if (!is_dynamic(*a, draft) && !(b && is_dynamic(*b, draft)))
     draft.problems.add(table.place("a"), "it ties nothing that it could move",
                        "one of the ends must be a dynamic body");
+  else if (b && link.kind == LinkSpec::Kind::spring)
+    check_integrators(*a, *b, table, draft);
   if (has_room_for(1, table.where(), draft)) draft.scenario.links.push_back(std::move(link));
 }
 

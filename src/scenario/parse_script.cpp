@@ -143,7 +143,7 @@ class ScriptReader {
               has_atlas ? "an atlas knows pack and ask_room" : "add [world] with size = [64, 64]"};
     if (is({"compile", "locate", "order"}))
       return draft_.scenario.level ? Lack{} : Lack{"a [level]", "add [level] with its loops"};
-    if (is({"rebuild", "phases", "ray", "cull", "query"}) && draft_.bodies.empty())
+    if (is({"rebuild", "phases", "solve_by", "ray", "cull", "query"}) && draft_.bodies.empty())
       return {"bodies", "add a [[body]] or a [[pattern]]"};
     return {};
   }
@@ -191,7 +191,8 @@ void read_script(const TableReader& file, Draft& draft) {
                        "add [[step]] with do = \"show\"");
   ScriptReader reader(draft);
   for (const TomlValue* value : file.tables("step")) reader.read(*value);
-  if (draft.scenario.chart && !reader.has_plot() && !draft.problems.any())
+  if (draft.scenario.chart && !draft.scenario.chart->over_time() && !reader.has_plot() &&
+      !draft.problems.any())
     draft.problems.add(file.place("chart"), "no step adds anything to the chart",
                        "give steps a label in 'plot'");
 }

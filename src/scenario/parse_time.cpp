@@ -92,6 +92,17 @@ Wait read_wait(const TableReader& table, Scope& scope) {
   return wait;
 }
 
+SolveBy read_solve_by(const TableReader& table, Scope& scope) {
+  SolveBy method;
+  if (table.text("contacts") == "impulse") method.contacts = ContactMethod::impulse;
+  method.sub_steps = static_cast<int>(table.whole("sub_steps").value_or(0));
+  method.iterations = static_cast<int>(table.whole("iterations").value_or(0));
+  if (scope.draft.dimension != 0 && scope.draft.scenario.world.contacts == ContactMethod::none)
+    scope.draft.problems.add(table.place("do"), "in this world nothing touches",
+                             "give [world] contacts = \"impulse\" or \"soft\"");
+  return method;
+}
+
 }  // namespace
 
 std::optional<Verb> read_time_verb(const TableReader& table, std::string_view verb, Scope& scope) {
@@ -102,6 +113,7 @@ std::optional<Verb> read_time_verb(const TableReader& table, std::string_view ve
     return run;
   }
   if (verb == "wait") return read_wait(table, scope);
+  if (verb == "solve_by") return read_solve_by(table, scope);
   if (verb != "phases") return std::nullopt;
   ++scope.state.ticks;
   return Phases{};

@@ -70,13 +70,20 @@ void read_rules(const TableReader& world, Draft& draft) {
   if (const auto n = world.whole("sub_steps")) w.sub_steps = static_cast<int>(*n);
   if (const auto n = world.whole("iterations")) w.iterations = static_cast<int>(*n);
   w.gravity = world.point("gravity").value_or(Vec<3>(0.0));
+  w.gravitation = world.number("gravitation").value_or(0);
   if (const auto choice = world.choice("contacts"))
     w.contacts = static_cast<ContactMethod>(*choice);
   if (const auto choice = world.choice("integrator"))
     w.integrator = static_cast<Integrator>(*choice);
+  if (const auto choice = world.choice("rotation"))
+    w.rotation = static_cast<RotationMethod>(*choice);
   w.may_sleep = world.truth("may_sleep");
   w.show_boxes = world.truth("show_boxes");
   w.show_velocities = world.truth("show_velocities");
+  w.show_depths = world.truth("show_depths");
+  if (w.show_depths && w.contacts == ContactMethod::none)
+    draft.problems.add(world.key_place("show_depths"), "in this world nothing touches",
+                       "give [world] contacts = \"impulse\" or \"soft\"");
 }
 
 }  // namespace

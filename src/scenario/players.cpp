@@ -18,6 +18,8 @@ Body<D> body_of(const BodySpec& spec) {
   body.linear_drag = spec.linear_drag;
   body.angular_drag = spec.angular_drag;
   body.may_turn = spec.may_turn;
+  body.integrator = spec.integrator;
+  body.rotation = spec.rotation;
   return body;
 }
 

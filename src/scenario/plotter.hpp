@@ -1,7 +1,8 @@
-// The chart of a scenario: what steps with a `plot` counted.
+// The chart of a scenario: what steps with a `plot` counted, or what was measured as time went on.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scenario/frame.hpp"
 
@@ -9,41 +10,31 @@ namespace lantern {
 
 class Plotter {
  public:
-  explicit Plotter(const ChartSpec& spec) : is_bars_(spec.x.empty()) {
-    chart_.x_name = spec.x;
-    chart_.y_name = spec.y.size() == 1 ? spec.y[0] : "";
-    chart_.logarithmic = spec.logarithmic;
-    for (const std::string& name : spec.y) chart_.series.push_back({name, {}});
-  }
+  explicit Plotter(const Scenario& scenario);
+
+  bool over_time() const { return spec_.over_time(); }
+
+  // What follows belongs to this part of the scenario, at this time.
+  void begin_part(const std::string& part, double time);
 
   // A point on each line, or a bar of this label. A new part begins a new group of bars. What the
   // frame does not count is left out.
-  void add(const std::string& label, const std::string& part, const Frame& frame) {
-    if (!chart_.bars.empty() && part != part_) ++group_;
-    part_ = part;
-    const auto x = is_bars_ ? std::optional<std::int64_t>(0) : frame.count(chart_.x_name);
-    for (FrameSeries& series : chart_.series) {
-      const auto y = frame.count(series.name);
-      if (!x || !y) continue;
-      if (is_bars_)
-        chart_.bars.push_back({label, static_cast<double>(*y), group_});
-      else
-        series.points.push_back({static_cast<double>(*x), static_cast<double>(*y)});
-    }
-  }
+  void add(const std::string& label, const std::string& part, const Frame& frame);
 
-  // Bars have no lines.
-  FrameChart chart() const {
-    FrameChart chart = chart_;
-    if (is_bars_) chart.series.clear();
-    return chart;
-  }
+  // A point on each line at the frame's time. Nothing where the same is said already.
+  void add_moment(const Frame& frame);
+
+  FrameChart chart() const { return chart_; }
 
  private:
-  bool is_bars_;
+  void name_series(const Scenario& scenario);
+
+  const Scenario& scenario_;
+  const ChartSpec& spec_;
   FrameChart chart_;
   int group_ = 0;
-  std::string part_;  // of the last bar
+  std::string part_;  // of the last bar, or that is going on
+  double begun_ = 0;  // when the part's time began
 };
 
 }  // namespace lantern

@@ -83,7 +83,9 @@ class Promises {
 
   void read_bounds(std::string_view key, Kind kind) {
     for (const auto& [name, number] : table_.name_numbers(key)) {
-      if (is_counted_or_measured(name.name))
+      if (is_of_body(name.name))
+        note_body_measure(name, draft_);
+      else if (is_counted_or_measured(name.name))
         require(name.name, name.name, name.where);
       else
         draft_.problems.add(name.where,

@@ -234,6 +234,13 @@ std::string world_count_rows() {
   return text;
 }
 
+std::string body_measure_rows() {
+  std::string text = "| measure | meaning |\n|---|---|\n";
+  for (const CountDoc& doc : known_body_measures())
+    text += fmt::format("| `{}` | {} |\n", doc.name, doc.doc);
+  return text;
+}
+
 std::string atlas_count_rows() {
   std::string text = "| count | meaning |\n|---|---|\n";
   for (const CountDoc& count : known_counts())
@@ -303,6 +310,10 @@ std::string reference_page() {
       "the engine found.\n\n{}",
       kMostCaption, text_rows());
   page += "\n### Counts of a world\n\n" + world_count_rows();
+  page +=
+      "\n### Measures of one body\n\nWritten with the body's name, as `energy.bob`: in the "
+      "chart, in `at_most` and `at_least`, and in captions.\n\n" +
+      body_measure_rows();
   page += "\n### Counts of an atlas\n\n" + atlas_count_rows();
   return page;
 }

@@ -12,8 +12,9 @@
 
 #include "base/error.hpp"
 #include "geometry/flat.hpp"
+#include "physics/body.hpp"
 #include "physics/contact_method.hpp"
-#include "physics/integrator.hpp"
+#include "physics/motion_method.hpp"
 
 namespace lantern {
 
@@ -31,13 +32,16 @@ struct WorldSpec {
   double time_step = 1.0 / 60.0;  // seconds
   int frame_every = 1;            // world steps from frame to frame of a run
   Vec<3> gravity{0.0};
+  double gravitation = 0;  // Newton's constant between the bodies
   ContactMethod contacts = ContactMethod::none;
   Integrator integrator = Integrator::semi_implicit_euler;
+  RotationMethod rotation = RotationMethod::splitting_2;
   int sub_steps = 8;    // of the soft contacts
   int iterations = 10;  // of the impulse contacts
   bool may_sleep = false;
   bool show_boxes = false;  // broad-phase boxes are drawn
   bool show_velocities = false;
+  bool show_depths = false;  // how deep bodies overlap stands beside their contacts
   Vec<3> camera_eye{0.0};  // of a solid world
   Vec<3> camera_target{0.0};
   bool has_camera = false;
@@ -80,6 +84,8 @@ struct BodySpec {
   double angular_drag = 0;
   bool may_turn = true;
   bool asleep = false;  // when it enters
+  std::optional<Integrator> integrator;    // none: the world's
+  std::optional<RotationMethod> rotation;  // none: the world's
   Brain brain = Brain::none;
   std::size_t follows = 0;  // the body that it follows
   Vec<3> brain_axes{1.0};   // 0 where it does not follow
@@ -110,11 +116,40 @@ struct LevelSpec {
   SourcePosition where;
 };
 
+inline constexpr std::string_view kTimeAxis = "time";
+
 struct ChartSpec {
-  std::string x;               // a count; empty for bars
-  std::vector<std::string> y;  // counts; of bars one
-  bool logarithmic = false;
+  std::string x;                // a count or measure, or "time"; empty for bars
+  std::vector<std::string> y;   // counts and measures; of bars one
+  bool logarithmic = false;     // but for time
+  bool each_part = false;       // over time: lines begin anew with each part
+  std::optional<double> least;  // of the y axis; none: what is there
+  std::optional<double> most;
+  bool over_time() const { return x == kTimeAxis; }
   SourcePosition where;
+};
+
+// What is measured of one body, in the order of the language's list.
+enum class BodyMeasure {
+  energy,
+  kinetic_energy,
+  potential_energy,
+  speed,
+  spin,
+  angular_momentum,
+  own_spin_x,
+  own_spin_y,
+  own_spin_z,
+  x,
+  y,
+  z,
+  penetration,
+};
+
+struct BodyMeasureSpec {
+  std::string name;  // as it is written: "energy.bob"
+  BodyMeasure measure = BodyMeasure::energy;
+  std::size_t body = 0;
 };
 
 // Whose answer is known in closed form.
@@ -230,6 +265,11 @@ struct Wait {                                // as Run, until something happens
   int every = 0;
 };
 struct Phases {};  // one world step, phase by phase
+struct SolveBy {   // contacts, from now on
+  ContactMethod contacts = ContactMethod::soft;
+  int sub_steps = 0;   // 0: as it was
+  int iterations = 0;  // the same
+};
 struct Rebuild {
   StructureSpec structure;
 };  // all bodies anew, with these settings
@@ -284,7 +324,7 @@ struct AskRoom {
 
 using Verb =
     std::variant<Show, Insert, Remove, Move, Run, Wait, Phases, Rebuild, ApplyForce, ApplyImpulse,
-                 Sleep, Wake, CastRay, Cull, Query, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
+                 Sleep, Wake, SolveBy, CastRay, Cull, Query, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
 
 struct Step {
   Verb verb;
@@ -315,6 +355,7 @@ struct Scenario {
   std::optional<ProblemSpec> problem;
   std::vector<BodySpec> bodies;  // patterns unrolled
   std::vector<LinkSpec> links;
+  std::vector<BodyMeasureSpec> body_measures;  // that chart, promises and captions ask for
   std::vector<TextureSpec> textures;
   std::vector<Step> steps;
   std::uint64_t text_hash = 0;  // of the file's bytes

@@ -26,6 +26,7 @@ ScriptWalk::ScriptWalk(const Scenario& scenario)
     if (link.b) linked_[*link.b] = true;
   }
   add_structure(scenario.structure);
+  add_method(scenario.world.contacts);
   for (const Step& step : scenario.steps) {
     std::visit([&](const auto& verb) { see(verb); }, step.verb);
     promises += step.expect.size() + step.always.size();
@@ -38,6 +39,11 @@ void ScriptWalk::add_structure(const StructureSpec& structure) {
   if (std::find(kinds.begin(), kinds.end(), structure.kind) == kinds.end())
     kinds.push_back(structure.kind);
   split_static = split_static || structure.split_static;
+}
+
+void ScriptWalk::add_method(ContactMethod method) {
+  if (method == ContactMethod::none) return;
+  if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
 }
 
 // A body enters as the scenario says, whatever it was told when it was there before.

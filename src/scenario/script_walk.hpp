@@ -22,6 +22,7 @@ class ScriptWalk {
   double moving_seconds = 0;         // of these, with something moving
   std::string mover;                 // one that moves
   std::string turner;                // one that turns, or may
+  std::vector<ContactMethod> methods;  // that part bodies, other than none, in order of use
   std::size_t promises = 0;
   std::size_t questions = 0;  // rays, culls, queries
   std::size_t plots = 0;
@@ -38,6 +39,7 @@ class ScriptWalk {
   void see(const lantern::Run& run) { pass(run.seconds); }
   void see(const Wait& wait) { pass(wait.at_most); }
   void see(const Phases&);
+  void see(const SolveBy& method) { add_method(method.contacts); }
   void see(const ApplyForce& force);
   void see(const ApplyImpulse& impulse);
   void see(const Sleep&) { sleeps = true; }
@@ -47,6 +49,7 @@ class ScriptWalk {
   void see(const CompileLevel&) { compiles = true; }
 
   void add_structure(const StructureSpec& structure);
+  void add_method(ContactMethod method);
   void pass(double seconds);
   void push(std::size_t body, const Vec<3>& at);
 

@@ -110,6 +110,62 @@ TEST(Chart, ASmallDriftIsNotRoundedAway) {
   EXPECT_TRUE(says(page_of(charted(chart)), "40.0035"));
 }
 
+// A line that grows tenfold with each second, and one that shrinks.
+FrameChart diverging() {
+  FrameChart chart;
+  chart.x_name = "time";
+  chart.y_name = "energy";
+  chart.over_time = true;
+  chart.logarithmic = true;
+  chart.seconds = 30;
+  chart.least = 0.01;
+  chart.most = 1000;
+  chart.series = {{"grows", {}, 1}, {"shrinks", {}, 4}, {"stays", {}, 5}};
+  double grown = 1, shrunk = 1;
+  for (int i = 0; i < 20; ++i, grown *= 10, shrunk /= 10) {
+    chart.series[0].points.push_back({double(i), grown});
+    chart.series[1].points.push_back({double(i), shrunk});
+    chart.series[2].points.push_back({double(i), 1.0});
+  }
+  return chart;
+}
+
+TEST(Chart, LinesThatDivergeLeaveThePictureAtItsEdge) {
+  const DrawList list = page_of(charted(diverging()));
+  const RectShape* ground = nullptr;
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* rect = std::get_if<RectShape>(&shape); rect && rect->fill == Role::panel)
+      ground = rect;
+  ASSERT_TRUE(ground) << "a chart has a ground";
+  const Box<2> room{ground->box.lo - Vec<2>(3, 3), ground->box.hi + Vec<2>(3, 3)};
+  double highest = 1e9, lowest = 0, longest = 0;
+  for (const DrawShape& shape : list.shapes) {
+    const auto* line = std::get_if<LineShape>(&shape);
+    if (!line || line->stroke.role < Role::body_1 || line->stroke.role > Role::body_8) continue;
+    for (const Vec<2>& end : {line->from, line->to})
+      EXPECT_TRUE(overlap(room, Box<2>{end, end})) << end.x << ", " << end.y;
+    if (line->stroke.role == body_role(1)) highest = std::min(highest, line->to.y);
+    if (line->stroke.role == body_role(4)) lowest = std::max(lowest, line->to.y);
+    if (line->stroke.role == body_role(5)) longest = std::max(longest, line->to.x);
+  }
+  EXPECT_NEAR(highest, ground->box.lo.y, 3) << "it leaves at the top";
+  EXPECT_NEAR(lowest, ground->box.hi.y, 3) << "and at the bottom";
+  const double share = (longest - ground->box.lo.x) / ground->box.size().x;
+  EXPECT_NEAR(share, 19.0 / 30, 0.01) << "time is linear, and its axis is as long as the run";
+  for (const char* text : {"0.01", "1000", "time in s", "energy  (logarithmic)", "grows", "30"})
+    EXPECT_TRUE(says(list, text)) << text << " is missing";
+}
+
+TEST(Axis, CutEndsKeepOnlyTheTicksBetween) {
+  const Axis axis = Axis::linear(0, 4.6, 6).cut_to(0, 4.6);
+  EXPECT_EQ(axis.ticks().back().text, "4");
+  EXPECT_EQ(axis.place(4.6), 1);
+  EXPECT_EQ(axis.place(9.2), 2) << "beyond its end";
+  EXPECT_EQ(axis.share(9.2), 1);
+  const Axis logarithmic = Axis::logarithmic(1e-9, 1e9, 6).cut_to(0.1, 100);
+  EXPECT_NEAR(logarithmic.place(1), 1.0 / 3, 1e-12);
+}
+
 TEST(Chart, NamesOfLinesThatEndTogetherAreMovedApart) {
   FrameChart chart;
   for (int i = 0; i < 9; ++i)

@@ -18,7 +18,7 @@ constexpr Integrator kAll[] = {Integrator::explicit_euler,    Integrator::semi_i
 TEST(StabilityMap, UndampedGrowthIsThatOfTheFormulas) {
   for (const double w : {0.01, 0.3, 1.0, 3.0, 100.0}) {
     EXPECT_NEAR(measured_growth(Integrator::explicit_euler, w, 0) / std::sqrt(1 + w * w), 1, 1e-13);
-    EXPECT_NEAR(measured_growth(Integrator::implicit_euler, w, 0) * std::sqrt(1 + w * w), 1, 1e-13);
+    EXPECT_NEAR(measured_growth(Integrator::implicit_euler, w, 0) * std::sqrt(1 + w * w), 1, 1e-11);
     EXPECT_NEAR(measured_growth(Integrator::implicit_midpoint, w, 0), 1, 1e-12) << w;
     const double w2 = w * w;
     const double squared = 1 - w2 * w2 * w2 / 72 + w2 * w2 * w2 * w2 / 576;

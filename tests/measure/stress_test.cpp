@@ -3,19 +3,23 @@
 
 #include <bit>
 #include <cmath>
+#include <ostream>
 #include <set>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 namespace lantern {
+
+// Else a case is shown as bytes, among them addresses.
+void PrintTo(const StressCase& one, std::ostream* out) { *out << one.name; }
+
 namespace {
 
 // Not yet good. To be taken off the list when the engine can do them; until then they must at least
 // give a verdict.
 constexpr std::string_view kKnownWeak[] = {
     "overflow_implicit",            // says neither body nor step
-    "blow_up",                      // a spring longer than 1e154 has no direction any more
     "stiff_spring_implicit_euler",  // lengths below 1e-154 are lost, and it does not converge
     "stiff_drag_implicit_midpoint",
     "stiff_drag_implicit_euler",
@@ -54,7 +58,7 @@ std::vector<StressCase> quick_cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stress, EveryCase, testing::ValuesIn(quick_cases()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Stress, CasesHaveNamesGroupsAndSentences) {
   const std::set<std::string_view> groups{"extreme input", "stiff", "stability", "bars"};

@@ -234,12 +234,23 @@ TEST_P(EveryFrame, IsTheSameOnASecondRun) {
 }
 
 // Crowds are not inserted event by event: each of the many frames would list all of their pairs.
-std::vector<std::tuple<std::string, Pace>> all_runs() {
+// Named here, for ctest starts this program once for each test: loading every scenario first to
+// count its bodies was most of the time of most tests.
+const std::set<std::string> kCrowds = {"choose_a_structure", "n_squared"};
+
+TEST(Crowds, AreThoseNamed) {
   constexpr std::size_t kCrowd = 150;
+  std::set<std::string> found;
+  for (const std::string& name : all_scenarios())
+    if (shipped(name).bodies.size() >= kCrowd) found.insert(name);
+  EXPECT_EQ(found, kCrowds) << "name them in kCrowds: the others also run event by event";
+}
+
+std::vector<std::tuple<std::string, Pace>> all_runs() {
   std::vector<std::tuple<std::string, Pace>> runs;
   for (const std::string& name : all_scenarios()) {
     runs.emplace_back(name, Pace::step);
-    if (shipped(name).bodies.size() < kCrowd) runs.emplace_back(name, Pace::event);
+    if (!kCrowds.contains(name)) runs.emplace_back(name, Pace::event);
   }
   return runs;
 }

@@ -1,0 +1,115 @@
+// Dormand and Prince's pair of fifth and fourth order ("A family of embedded Runge-Kutta formulae",
+// Journal of Computational and Applied Mathematics 6, 1980), with the step chosen by the error.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace lantern {
+
+template <class Real>
+class DormandPrince {
+ public:
+  using State = std::vector<Real>;
+
+  // Each step's error is kept below `tolerance` > 0 times `scale` of each component (all above 0).
+  DormandPrince(Real tolerance, State scale) : tolerance_(tolerance), scale_(std::move(scale)) {}
+
+  // From `time` to `end` >= time. `slope(t, y, dy)` gives the rates of change dy, of the same size.
+  // Throws Refused if the step vanishes.
+  template <class Slope>
+  void run(const Slope& slope, Real time, Real end, State& y) {
+    if (!(end > time)) return;
+    for (State& k : k_) k.resize(y.size());
+    slope(time, y, k_[0]);
+    ++evaluations_;
+    if (!(step_ > 0)) step_ = first_step(y, end - time);
+    while (time < end) {
+      const bool last = step_ >= end - time;
+      const Real h = last ? end - time : step_;
+      if (!(time + h > time)) throw Refused("dormand_prince: its step vanishes");
+      const Real error = attempt(slope, time, h, y);
+      if (error <= 1) {
+        time = last ? end : time + h;
+        y.swap(next_);
+        k_[0].swap(k_[6]);  // the last slope is the next step's first
+        ++steps_;
+      }
+      const Real factor = growth(error);
+      if (!last || factor < 1) step_ = h * factor;
+    }
+  }
+
+  std::uint64_t evaluations() const { return evaluations_; }  // so far
+  std::uint64_t steps() const { return steps_; }              // taken so far
+
+ private:
+  // A step that changes nothing by more than a hundredth of its scale.
+  Real first_step(const State& y, Real most) const {
+    Real h = most;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (k_[0][i] != 0) h = std::min(h, scale_[i] / std::abs(k_[0][i]) / 100);
+    return h;
+  }
+
+  // Leaves the end of the step in next_ and its slope in k_[6]; gives the error, where 1 is
+  // allowed.
+  template <class Slope>
+  Real attempt(const Slope& slope, Real time, Real h, const State& y) {
+    // Exact fractions; the last row is also the solution of fifth order.
+    static constexpr int kA[6][7] = {{1, 0, 0, 0, 0, 0, 5},
+                                     {3, 9, 0, 0, 0, 0, 40},
+                                     {44, -168, 160, 0, 0, 0, 45},
+                                     {19372, -76080, 64448, -1908, 0, 0, 6561},
+                                     {477901, -1806240, 1495424, 46746, -45927, 0, 167904},
+                                     {12985, 0, 64000, 92750, -45927, 18656, 142464}};
+    static constexpr Real kC[6] = {Real(1) / 5, Real(3) / 10, Real(4) / 5, Real(8) / 9, 1, 1};
+    static constexpr Real kE[7] = {Real(71) / 57600,      0,
+                                   Real(-71) / 16695,     Real(71) / 1920,
+                                   Real(-17253) / 339200, Real(22) / 525,
+                                   Real(-1) / 40};
+    next_.resize(y.size());
+    for (int stage = 0; stage < 6; ++stage) {
+      for (std::size_t i = 0; i < y.size(); ++i) {
+        Real sum = 0;
+        for (int j = 0; j <= stage; ++j) sum += kA[stage][j] * k_[j][i];
+        next_[i] = y[i] + h * sum / kA[stage][6];
+      }
+      slope(time + kC[stage] * h, next_, k_[stage + 1]);
+      ++evaluations_;
+    }
+    Real worst = 0;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      Real sum = 0;
+      for (int j = 0; j < 7; ++j) sum += kE[j] * k_[j][i];
+      const Real error = std::abs(h * sum) / (tolerance_ * scale_[i]);
+      if (!(error <= worst)) worst = error;
+    }
+    return worst;
+  }
+
+  // Proportional and integral control (Hairer and Wanner, "Solving ordinary differential equations
+  // II", 1996, section IV.2).
+  Real growth(Real error) {
+    if (!std::isfinite(error)) return Real(0.1);
+    const Real e = std::max(error, Real(1e-10));
+    const Real factor = Real(0.9) * std::pow(e, Real(-0.17)) * std::pow(before_, Real(0.04));
+    if (error > 1) return std::max(Real(0.2), std::min(factor, Real(0.9)));
+    before_ = e;
+    return std::clamp(factor, Real(0.2), Real(5));
+  }
+
+  Real tolerance_;
+  State scale_;
+  State k_[7] = {};
+  State next_;
+  Real step_ = 0;
+  Real before_ = Real(1e-4);
+  std::uint64_t evaluations_ = 0, steps_ = 0;
+};
+
+}  // namespace lantern

@@ -1,0 +1,90 @@
+#include "scenario/plotter.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace lantern {
+namespace {
+
+// How long the script runs, or only this part of it. Nothing if that depends on what happens.
+std::optional<double> seconds_of(const Scenario& scenario, const std::string* only) {
+  double seconds = 0;
+  std::string part;
+  for (const Step& step : scenario.steps) {
+    if (!step.part.empty()) part = step.part;
+    if (only && part != *only) continue;
+    if (const auto* run = std::get_if<Run>(&step.verb)) seconds += run->seconds;
+    if (std::holds_alternative<Wait>(step.verb)) return std::nullopt;
+  }
+  return seconds > 0 ? std::optional(seconds) : std::nullopt;
+}
+
+std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
+
+}  // namespace
+
+Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenario.chart) {
+  chart_.x_name = spec_.x;
+  chart_.over_time = spec_.over_time();
+  chart_.logarithmic = spec_.logarithmic;
+  chart_.least = spec_.least;
+  chart_.most = spec_.most;
+  if (over_time()) chart_.seconds = seconds_of(scenario, spec_.each_part ? &part_ : nullptr);
+  if (!spec_.x.empty()) name_series(scenario);
+}
+
+// Where all lines tell the same of different bodies, each has its body's name and colour.
+void Plotter::name_series(const Scenario& scenario) {
+  const auto of_body = [&](const std::string& name) -> const BodySpec* {
+    for (const BodyMeasureSpec& asked : scenario.body_measures)
+      if (asked.name == name) return &scenario.bodies[asked.body];
+    return nullptr;
+  };
+  std::set<int> colors;
+  bool same = !spec_.y.empty();
+  for (const std::string& name : spec_.y) {
+    const BodySpec* body = of_body(name);
+    same = same && body && before_dot(name) == before_dot(spec_.y[0]);
+    if (body) colors.insert(body->color);
+  }
+  for (const std::string& name : spec_.y) {
+    FrameSeries series;
+    series.name = same ? of_body(name)->name : name;
+    if (same && colors.size() == spec_.y.size()) series.color = of_body(name)->color;
+    chart_.series.push_back(std::move(series));
+  }
+  chart_.y_name = same ? before_dot(spec_.y[0]) : spec_.y.size() == 1 ? spec_.y[0] : "";
+}
+
+void Plotter::begin_part(const std::string& part, double time) {
+  if (!over_time() || !spec_.each_part || part == part_) return;
+  part_ = part;
+  begun_ = time;
+  chart_.seconds = seconds_of(scenario_, &part_);
+  for (FrameSeries& series : chart_.series) series.points.clear();
+}
+
+void Plotter::add(const std::string& label, const std::string& part, const Frame& frame) {
+  if (!chart_.bars.empty() && part != part_) ++group_;
+  part_ = part;
+  if (spec_.x.empty()) {
+    if (const auto y = frame.number(spec_.y[0])) chart_.bars.push_back({label, *y, group_});
+    return;
+  }
+  const auto x = frame.number(spec_.x);
+  for (std::size_t i = 0; i < chart_.series.size(); ++i)
+    if (const auto y = frame.number(spec_.y[i]); x && y)
+      chart_.series[i].points.push_back({*x, *y});
+}
+
+void Plotter::add_moment(const Frame& frame) {
+  for (std::size_t i = 0; i < chart_.series.size(); ++i) {
+    std::vector<Vec<2>>& points = chart_.series[i].points;
+    const auto y = frame.number(spec_.y[i]);
+    if (!y) continue;
+    const Vec<2> point{frame.time - begun_, *y};
+    if (points.empty() || points.back() != point) points.push_back(point);
+  }
+}
+
+}  // namespace lantern

@@ -1,0 +1,116 @@
+// The order of each method on each smooth problem: how its error shrinks with the step, over four
+// halvings, above the rounding floor and below where the step is too long to tell.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "measure/dormand_prince_contestant.hpp"
+#include "measure/lantern_contestant.hpp"
+#include "measure/problems.hpp"
+#include "measure/run.hpp"
+
+namespace lantern {
+namespace {
+
+Row run(const Scenario& scenario, const Contestant& contestant, double step) {
+  const Course course = Course::of(scenario);
+  const Reference reference = reference_for(scenario, course, step);
+  return *measure(scenario, course, contestant, course.fitted_step(step), reference,
+                  Invariants(scenario), {0, 0}, [] { return false; });
+}
+
+double error_of(const Scenario& scenario, const std::string& method, double step) {
+  const Row row = run(scenario, LanternContestant(*method_named(method)), step);
+  EXPECT_EQ(row.status, Status::ok) << scenario.name << " by " << method << ": " << row.reason;
+  return row.error().value_or(HUGE_VAL);
+}
+
+// Of each of four halvings from `step` on.
+void expect_order(const Scenario& scenario, const std::string& method, double order, double step) {
+  double before = error_of(scenario, method, step);
+  for (int i = 0; i < 4; ++i) {
+    step /= 2;
+    const double error = error_of(scenario, method, step);
+    EXPECT_NEAR(std::log2(before / error), order, 0.1)
+        << scenario.name << " by " << method << ", error " << error << " at step " << step;
+    before = error;
+  }
+}
+
+Scenario shortened(std::string_view name, double seconds) {
+  Scenario scenario = known_problem(name);
+  scenario.problem->seconds = seconds;
+  return scenario;
+}
+
+// What each problem needs to show the orders of all integrators.
+struct Steps {
+  const char* problem;
+  double seconds;
+  double first_order, second_order, fourth_order;
+};
+constexpr Steps kSteps[] = {
+    {"projectile", 2, 0.02, 0.1, 0.1},
+    {"oscillator", 1.03, 0.0005, 0.01, 0.04},
+    {"oscillator_damped", 1.03, 0.0005, 0.01, 0.04},
+    {"chain", 1.3, 0.0005, 0.005, 0.01},
+    {"kepler", 2.3, 0.0005, 0.01, 0.02},
+    {"kepler_pair", 2.3, 0.0005, 0.01, 0.04},
+};
+
+TEST(SmoothOrders, ExplicitAndImplicitEulerAreOfFirstOrder) {
+  for (const Steps& s : kSteps)
+    for (const char* method : {"explicit_euler", "semi_implicit_euler", "implicit_euler"})
+      expect_order(shortened(s.problem, s.seconds), method, 1, s.first_order);
+}
+
+TEST(SmoothOrders, VerletAndImplicitMidpointAreOfSecondOrder) {
+  for (const Steps& s : kSteps)
+    for (const char* method : {"velocity_verlet", "implicit_midpoint"})
+      expect_order(shortened(s.problem, s.seconds), method, 2, s.second_order);
+}
+
+TEST(SmoothOrders, RungeKuttaIsOfFourthOrder) {
+  for (const Steps& s : kSteps)
+    expect_order(shortened(s.problem, s.seconds), "runge_kutta_4", 4, s.fourth_order);
+}
+
+TEST(SmoothOrders, ATopIsTurnedToSecondAndFourthOrder) {
+  for (const char* name : {"free_top", "free_top_extreme"}) {
+    const Scenario top = shortened(name, 3.3);
+    expect_order(top, "splitting_2", 2, 0.01);
+    expect_order(top, "splitting_4", 4, 0.02);
+    expect_order(top, "explicit_gyroscopic", 1, 0.0005);
+  }
+}
+
+// Drag of 10^4 times the mass: what is stable gets there, what is not says so.
+TEST(SmoothOrders, StiffDragIsRefusedOrRightNeverNonsense) {
+  const Scenario feather = known_problem("projectile_stiff");
+  for (const char* method : {"implicit_euler", "implicit_midpoint"})
+    EXPECT_LT(error_of(feather, method, 1e-5), 0.1) << method;
+  const Row row = run(feather, LanternContestant(*method_named("explicit_euler")), 0.01);
+  EXPECT_EQ(row.status, Status::diverged);
+}
+
+TEST(SmoothOrders, DormandPrinceIsAsExactAsItIsAsked) {
+  for (const char* name : {"oscillator", "oscillator_damped", "chain", "kepler", "kepler_pair",
+                           "kepler_stiff", "projectile"}) {
+    const Scenario scenario = known_problem(name);
+    const DormandPrinceContestant contestant;
+    const double step = scenario.problem->step;
+    const Row coarse = run(scenario, contestant, step), fine = run(scenario, contestant, step / 64);
+    ASSERT_EQ(coarse.status, Status::ok) << name << ": " << coarse.reason;
+    ASSERT_EQ(fine.status, Status::ok) << name << ": " << fine.reason;
+    EXPECT_LT(*fine.error(), 1e-9) << name;
+    EXPECT_LE(*fine.error(), *coarse.error()) << name;
+    EXPECT_GE(fine.counted.force_evaluations, coarse.counted.force_evaluations) << name;
+  }
+  EXPECT_TRUE(DormandPrinceContestant().cannot(known_problem("pendulum"))) << "it has a rod";
+  EXPECT_TRUE(DormandPrinceContestant().cannot(known_problem("free_top"))) << "it turns";
+}
+
+}  // namespace
+}  // namespace lantern

@@ -1,0 +1,98 @@
+#include "report/problem_rows.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "draw/plot_marks.hpp"
+#include "report/sample_rows.hpp"
+
+namespace lantern {
+namespace {
+
+std::vector<Row> power(double order, double factor, double floor, int halvings, double h = 0.1) {
+  std::vector<Row> rows;
+  for (int i = 0; i < halvings; ++i, h /= 2)
+    rows.push_back(samples::row("m", h, std::max(floor, factor * std::pow(h, order)), 1,
+                                static_cast<std::uint64_t>(10 / h)));
+  return rows;
+}
+
+TEST(Order, IsFoundAboveTheFloor) {
+  for (const double order : {1.0, 2.0, 4.0}) {
+    const auto found = observed_order(power(order, 1, 1e-13, 9));
+    ASSERT_TRUE(found) << order;
+    EXPECT_NEAR(*found, order, 0.02) << "rows at the floor were fitted too";
+  }
+}
+
+TEST(Order, OfCoarseStepsThatDoNotShrinkYetIsNotMixedIn) {
+  std::vector<Row> rows = power(2, 1, 0, 9);
+  rows[0].norms[0].value = 0.4;
+  rows[1].norms[0].value = 0.3;
+  const auto found = observed_order(rows);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(*found, 2, 0.02);
+}
+
+TEST(Order, IsNotClaimedFromTooLittle) {
+  EXPECT_FALSE(observed_order(power(2, 1, 0, 2))) << "two points fit any order";
+  EXPECT_FALSE(observed_order(power(2, 1e-14, 0, 8))) << "only rounding";
+  EXPECT_FALSE(observed_order(power(1, 1e6, 0, 8))) << "errors beyond all sense";
+  std::vector<Row> adaptive = power(1, 1, 0, 8);
+  for (Row& row : adaptive) row.method = "dormand_prince";
+  EXPECT_FALSE(observed_order(adaptive)) << "its steps are tolerances";
+  std::vector<Row> failed = power(1, 1, 0, 8);
+  for (Row& row : failed) row.status = Status::diverged;
+  EXPECT_FALSE(observed_order(failed));
+}
+
+TEST(Looks, AreTheSameForAMethodInWhateverOrderRowsCome) {
+  std::vector<Row> rows = samples::measurement().rows;
+  const auto looks = looks_of(rows);
+  std::vector<Row> turned(rows.rbegin(), rows.rend());
+  const auto others = looks_of(turned);
+  for (const char* name : {"velocity_verlet", "runge_kutta_4", "explicit_euler", "splitting_4"})
+    EXPECT_EQ(looks.at(name), others.at(name)) << name;
+  std::set<int> unlike;
+  for (const auto& [name, look] : looks) unlike.insert(look);
+  EXPECT_EQ(unlike.size(), looks.size()) << "two contestants share a look";
+}
+
+TEST(Looks, OfPeersAreCrossesAndStars) {
+  const std::vector<Row> rows = samples::measurement().rows;
+  const auto looks = looks_of(rows);
+  for (const Row& row : rows)
+    EXPECT_EQ(looks.at(row.method) % kPlotMarks >= kFirstPeerLook, row.is_peer()) << row.method;
+}
+
+TEST(WorkCount, IsOfConstraintRowsWhereThereAreSome) {
+  for (const ProblemRows& problem : by_problem(samples::measurement().rows))
+    EXPECT_EQ(work_count(problem).name,
+              problem.family == "stack" ? "constraint rows" : "force evaluations")
+        << problem.problem;
+}
+
+TEST(ByContestant, SortsTheLargestStepFirst) {
+  for (const ProblemRows& problem : by_problem(samples::measurement().rows)) {
+    std::size_t rows = 0;
+    for (const ContestantRows& c : by_contestant(problem)) {
+      rows += c.rows.size();
+      for (std::size_t i = 1; i < c.rows.size(); ++i) EXPECT_GE(c.rows[i - 1].step, c.rows[i].step);
+    }
+    EXPECT_EQ(rows, problem.rows.size()) << "rows were lost";
+  }
+}
+
+TEST(MethodWords, ReadAsWords) {
+  EXPECT_EQ(method_words("explicit_euler"), "explicit Euler");
+  EXPECT_EQ(method_words("soft:16"), "soft contacts, 16 sub-steps");
+  EXPECT_EQ(method_words("soft:1"), "soft contacts, 1 sub-step");
+  EXPECT_EQ(method_words("impulse:100"), "impulses, 100 sweeps");
+  EXPECT_EQ(method_words("impulse"), "impulses");
+  EXPECT_EQ(method_words("Bullet"), "Bullet");
+}
+
+}  // namespace
+}  // namespace lantern

@@ -1,0 +1,224 @@
+// What is measured of single bodies, charts over time, methods of single bodies, and contacts that
+// are solved another way from some step on.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "scenario/directing.hpp"
+#include "scenario/method.hpp"
+#include "scenario/parsing.hpp"
+
+namespace lantern::test {
+namespace {
+
+// Two bobs, each on a spring from a point of the world: without gravity all is known.
+const std::string kBobs = R"([[body]]
+name = "bob"
+radius = 0.25
+mass = 2
+position = [3, 5]
+color = 3
+[[body]]
+name = "ann"
+radius = 0.25
+mass = 2
+position = [3, 2]
+integrator = "implicit_midpoint"
+color = 6
+[[spring]]
+a = "bob"
+to = [1, 5]
+rest_length = 1
+stiffness = 50
+[[spring]]
+a = "ann"
+to = [1, 2]
+rest_length = 1
+stiffness = 50
+)";
+const std::string kInsert = "[[step]]\ndo = \"insert\"\nbodies = [\"bob\", \"ann\"]\n";
+const std::string kRun = "[[step]]\ndo = \"run\"\nseconds = 0.5\n";
+const std::string kWorld = "size = [8, 8]\ntime_step = 0.05\n";
+
+TEST(BodyMeasures, AreThoseOfTheBodyAndStandOnEveryFrame) {
+  const auto frames = frames_of(good(world_text(
+      kWorld, kBobs + kInsert + kRun +
+                  "caption = \"{energy.bob} J\"\n"
+                  "expect = { at_least = { \"energy.ann\" = 24.999, \"x.bob\" = -9 }, at_most = { "
+                  "\"energy.ann\" = 25.001, \"speed.bob\" = 99, \"spin.bob\" = 0 } }\n")));
+  ASSERT_EQ(frames.size(), 11u);
+  for (const Frame& frame : frames) {
+    const FrameBody& bob = body(frame, "bob");
+    const double stretch = bob.position.x - 1 - 1;
+    const double energy = 25 * stretch * stretch + glm::dot(bob.velocity, bob.velocity);
+    EXPECT_NEAR(*frame.measure("energy.bob"), energy, 1e-12) << "half a spring, half a motion?";
+    EXPECT_EQ(frame.measure("x.bob"), bob.position.x);
+    EXPECT_EQ(frame.measure("speed.bob"), glm::length(bob.velocity));
+    EXPECT_EQ(frame.measure("energy.bob").value() + frame.measure("energy.ann").value(),
+              frame.measure("energy"));
+  }
+  EXPECT_EQ(frames[0].caption, "");
+  EXPECT_NE(frames.back().caption.find(" J"), std::string::npos);
+}
+
+TEST(BodyMeasures, PenetrationIsOfTheBodysOwnContacts) {
+  const auto frames =
+      frames_of(good(world_text("size = [8, 8]\ncontacts = \"soft\"\ngravity = [0, -10]\n",
+                                R"([[body]]
+name = "floor"
+ground = [0, 1]
+position = [4, 1]
+[[body]]
+name = "low"
+half_size = [0.5, 0.5]
+position = [2, 1.45]
+[[body]]
+name = "high"
+half_size = [0.5, 0.5]
+position = [6, 3]
+[[step]]
+do = "insert"
+bodies = ["floor", "low", "high"]
+[[step]]
+do = "phases"
+expect = { at_least = { "penetration.low" = 0.001 }, at_most = { "penetration.high" = 0 } }
+)")));
+  EXPECT_EQ(frames.back().measure("penetration.low"), frames.back().measure("penetration"));
+  EXPECT_EQ(frames.back().measure("penetration.high"), 0);
+}
+
+TEST(BodyMeasures, MistakesAreToldByName) {
+  const auto with = [](const std::string& promise) {
+    return world_text(kWorld,
+                      kBobs + kInsert + kRun + "expect = { at_most = { " + promise + " } }");
+  };
+  expect_mistakes(with("@\"enrgy.bob\" = 1"), {"there is no measure 'enrgy' of a body"});
+  expect_mistakes(with("@\"energy.bib\" = 1"), {"there is no body 'bib'"});
+  expect_mistakes(with("@\"penetration.bob\" = 1"), {"this world has no contacts"});
+  expect_mistakes(with("@\"own_spin_y.bob\" = 1"), {"this world is flat"});
+  expect_mistakes(world_text(kWorld, kBobs + kInsert + kRun + "caption = @\"{energy.bib}\"\n"),
+                  {"there is no body 'bib'"});
+}
+
+TEST(ChartOverTime, AddsAPointOnEveryFrameByItself) {
+  const auto frames = frames_of(
+      good(world_text(kWorld, "[chart]\nx = \"time\"\ny = [\"energy.bob\", \"energy.ann\"]\n" +
+                                  kBobs + kInsert + kRun)));
+  const FrameChart& chart = frames.back().chart;
+  EXPECT_TRUE(chart.over_time);
+  EXPECT_EQ(chart.y_name, "energy") << "the same measure of different bodies";
+  EXPECT_EQ(chart.seconds, 0.5) << "the axis must not grow while the lines do";
+  ASSERT_EQ(chart.series.size(), 2u);
+  EXPECT_EQ(chart.series[0].name, "bob");
+  EXPECT_EQ(chart.series[0].color, 3);
+  EXPECT_EQ(chart.series[1].color, 6);
+  for (const FrameSeries& series : chart.series) {
+    ASSERT_EQ(series.points.size(), 11u) << "one a frame, and one at the start";
+    for (std::size_t i = 0; i < series.points.size(); ++i)
+      EXPECT_NEAR(series.points[i].x, 0.05 * double(i), 1e-12);
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    EXPECT_EQ(frames[i].chart.series[0].points.size(), i + 1) << "frame " << i;
+}
+
+TEST(ChartOverTime, EachPartMayBeginAnew) {
+  const std::string chart = "[chart]\nx = \"time\"\ny = [\"energy\"]\neach_part = true\n";
+  const std::string longer =
+      "[[step]]\ndo = \"run\"\nseconds = 0.75\npart = \"two\"\n[[step]]\ndo = \"show\"\n";
+  const auto frames = frames_of(good(world_text(kWorld, chart + kBobs + kInsert + kRun + longer)));
+  const FrameChart& last = frames.back().chart;
+  EXPECT_EQ(last.seconds, 0.75);
+  EXPECT_EQ(last.series[0].points.size(), 15u) << "what stands still is said once";
+  EXPECT_NEAR(last.series[0].points.front().x, 0.05, 1e-12) << "time is the part's own";
+}
+
+TEST(ChartOverTime, NeedsNoPlotAndTakesNone) {
+  const std::string chart = "[chart]\nx = \"time\"\ny = [\"energy\"]\n";
+  expect_mistakes(world_text(kWorld, chart + kBobs + kInsert + kRun + "@plot = \"here\"\n"),
+                  {"over time every frame is plotted by itself"});
+  expect_mistakes(world_text(kWorld, "[chart]\nbars = \"bodies\"\n@each_part = true\n" + kBobs +
+                                         kInsert + "plot = \"a\"\n"),
+                  {"'each_part' is of a chart over time"});
+  expect_mistakes(world_text(kWorld, chart + "least = 3\nmost = @3\n" + kBobs + kInsert + kRun),
+                  {"'most' must be above 'least'"});
+  expect_mistakes(
+      world_text(kWorld, chart + "logarithmic = true\nleast = @0\n" + kBobs + kInsert + kRun),
+      {"a logarithmic axis begins above 0"});
+  expect_mistakes(
+      world_text(kWorld, "[chart]\nx = \"time\"\ny = [@\"enrgy\"]\n" + kBobs + kInsert + kRun),
+      {"there is no count 'enrgy'"});
+}
+
+TEST(BodyMethods, AreReadAndHoldForTheBodyAlone) {
+  const Scenario s = good(world_text(
+      kWorld + "integrator = \"runge_kutta_4\"\nrotation = \"splitting_4\"\n", kBobs + kInsert));
+  EXPECT_EQ(s.world.rotation, RotationMethod::splitting_4);
+  EXPECT_EQ(s.bodies[0].integrator, std::nullopt);
+  EXPECT_EQ(s.bodies[1].integrator, Integrator::implicit_midpoint);
+}
+
+TEST(BodyMethods, OfWhatNoForceMovesAreMistakes) {
+  expect_mistakes(world_text(kWorld,
+                             "[[body]]\nname = \"a\"\nradius = 1\nposition = [1, 1]\nstatic = "
+                             "true\n@rotation = \"splitting_4\"\n[[step]]\ndo = \"show\"\n"),
+                  {"no force moves or turns this body"});
+}
+
+TEST(BodyMethods, OneSpringTakesOneMethod) {
+  expect_mistakes(
+      world_text(kWorld,
+                 kBobs + "[[spring]]\na = \"bob\"\nb = @\"ann\"\nstiffness = 1\n" + kInsert),
+      {"'bob', moved by semi_implicit_euler, and 'ann', moved by implicit_midpoint"});
+}
+
+TEST(BodyMethods, AMethodThatIsMeasuredHoldsForAllBodies) {
+  Scenario s = good(world_text(kWorld, kBobs + kInsert));
+  s = moved_by(s, *method_named("velocity_verlet"), 0.01);
+  EXPECT_EQ(s.world.integrator, Integrator::velocity_verlet);
+  EXPECT_EQ(s.bodies[1].integrator, std::nullopt) << "it would be moved by its own";
+  s = moved_by(s, *method_named("explicit_gyroscopic"), 0.01);
+  EXPECT_EQ(s.world.rotation, RotationMethod::explicit_gyroscopic);
+}
+
+const std::string kPile = R"([[body]]
+name = "floor"
+ground = [0, 1]
+position = [4, 1]
+[[pattern]]
+name = "box"
+count = 3
+arrange = "stack"
+half_size = [0.5, 0.5]
+oriented = true
+min = [4, 1.5]
+max = [4, 6]
+[[step]]
+do = "insert"
+bodies = ["floor", "box"]
+[[step]]
+do = "run"
+seconds = 0.5
+)";
+
+TEST(SolveBy, TheWorldGoesOnWithTheOtherMethod) {
+  const std::string world = "size = [8, 8]\ncontacts = \"impulse\"\ngravity = [0, -10]\n";
+  const std::string soft =
+      "[[step]]\ndo = \"solve_by\"\ncontacts = \"soft\"\nsub_steps = 4\n" + kRun;
+  const auto frames = frames_of(good(world_text(world, kPile + soft)));
+  const auto without = frames_of(good(world_text(world, kPile + kRun)));
+  EXPECT_NE(motion_hash(frames.back()), motion_hash(without.back())) << "nothing was switched";
+  EXPECT_NEAR(body(frames.back(), "box3").position.y, 3.5, 0.01);
+  const Scenario measured =
+      moved_by(good(world_text(world, kPile + soft)), *method_named("impulse:10"), 1.0 / 60);
+  EXPECT_TRUE(std::holds_alternative<Show>(measured.steps[2].verb))
+      << "a method that is measured holds throughout";
+}
+
+TEST(SolveBy, NeedsAWorldWithContacts) {
+  expect_mistakes(
+      world_text(kWorld, kBobs + kInsert + "[[step]]\ndo = @\"solve_by\"\ncontacts = \"soft\"\n"),
+      {"in this world nothing touches"});
+}
+
+}  // namespace
+}  // namespace lantern::test

@@ -1,0 +1,107 @@
+// What the sequences about methods of motion show, against closed forms.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "scenario/directing.hpp"
+
+namespace lantern::test {
+namespace {
+
+std::vector<const Frame*> of_step(const std::vector<Frame>& frames, const std::string& event) {
+  std::vector<const Frame*> found;
+  for (const Frame& frame : frames)
+    if (frame.event == event) found.push_back(&frame);
+  EXPECT_FALSE(found.empty()) << event;
+  return found;
+}
+
+double measure(const Frame& frame, const std::string& name) {
+  const auto found = frame.measure(name);
+  EXPECT_TRUE(found) << name;
+  return found.value_or(0);
+}
+
+void expect_as_long_as_a_lecture_wants(const std::vector<Frame>& frames) {
+  EXPECT_GE(frames.size(), 40u);
+  EXPECT_LE(frames.size(), 120u);
+}
+
+TEST(MotionFacts, EnergyOfASpringGoesAsItsMethodSays) {
+  const auto frames = frames_of("stiff_spring");
+  expect_as_long_as_a_lecture_wants(frames);
+  double explicit_energy = 0.78125, implicit_energy = 0.78125, rk4_energy = 0.78125;
+  for (const Frame* frame : of_step(frames, "swing")) {
+    explicit_energy *= 1.25;  // 1 + (omega h)^2
+    implicit_energy /= 1.25;
+    rk4_energy *= 1 - 1.0 / 64 / 72 + 1.0 / 256 / 576;
+    EXPECT_NEAR(measure(*frame, "energy.explicit Euler"), explicit_energy, 1e-9 * explicit_energy);
+    EXPECT_NEAR(measure(*frame, "energy.implicit Euler"), implicit_energy, 1e-9);
+    EXPECT_NEAR(measure(*frame, "energy.Runge-Kutta 4"), rk4_energy, 1e-9);
+    // v^2 + k x^2 + h k x v is kept exactly by kick, then drift.
+    const FrameBody& bob = body(*frame, "semi-implicit Euler");
+    const double x = bob.position.x - 4.5, v = bob.velocity.x;
+    EXPECT_NEAR((v * v + 25 * x * x - 2.5 * x * v) / 2, 0.78125, 1e-9);
+  }
+  for (const char* event : {"beyond_two", "beyond_all"})
+    for (const Frame* frame : of_step(frames, event))
+      EXPECT_NEAR(measure(*frame, "energy.implicit midpoint"),
+                  std::string(event) == "beyond_two" ? 12.625 : 28.125, 1e-8)
+          << "it has no limit";
+  EXPECT_GT(measure(*of_step(frames, "beyond_two").back(), "energy.semi-implicit Euler"), 1000)
+      << "omega h is beyond 2";
+  const auto beyond = of_step(frames, "beyond_all");
+  for (std::size_t i = 1; i < beyond.size(); ++i)
+    EXPECT_NEAR(measure(*beyond[i], "energy.Runge-Kutta 4") /
+                    measure(*beyond[i - 1], "energy.Runge-Kutta 4"),
+                2.265625, 1e-9);
+}
+
+TEST(MotionFacts, ChartOfTheStiffSpringBeginsAnewWithEachPart) {
+  const auto frames = frames_of("stiff_spring");
+  for (const char* event : {"start", "stiffer", "stiffest"})
+    for (const FrameSeries& series : at(frames, event).chart.series)
+      EXPECT_LE(series.points.size(), 1u) << event << ": " << series.name;
+  const FrameChart& recap = at(frames, "recap").chart;
+  EXPECT_EQ(recap.series[0].points.size(), 27u) << "explicit Euler, until it was taken out";
+  EXPECT_EQ(recap.series[1].points.size(), 41u);
+}
+
+TEST(MotionFacts, TheBoxTurnsOverAndOnlyTheTextbookWinsEnergy) {
+  const auto frames = frames_of("tumbling_box");
+  expect_as_long_as_a_lecture_wants(frames);
+  int turns = 0;
+  double last = 5;
+  for (const Frame& frame : frames) {
+    const double spin = measure(frame, "own_spin_y.in exact turns");
+    turns += spin * last < 0 ? 1 : 0;
+    last = spin;
+    EXPECT_NEAR(measure(frame, "angular_momentum.in exact turns"), 1230.3547537, 1e-6);
+    EXPECT_NEAR(measure(frame, "energy.in exact turns"), 3076.71, 6);
+  }
+  EXPECT_EQ(turns, 3) << "by Euler's equations at 1.17 s, 4.19 s and 7.22 s";
+  EXPECT_NEAR(measure(at(frames, "upside_down"), "own_spin_y.in exact turns"), -4.985, 0.02);
+  EXPECT_GT(measure(frames.back(), "energy.by the textbook"), 1.5 * 3076.71);
+}
+
+TEST(MotionFacts, OnlyWithImpulsesDepthGrowsWithTheMassRatio) {
+  const auto frames = frames_of("heavy_on_light");
+  expect_as_long_as_a_lecture_wants(frames);
+  const char* kUnder[] = {"penetration.under x1", "penetration.under x10", "penetration.under x100",
+                          "penetration.under x10000"};
+  const Frame& pressed = *of_step(frames, "impulses").back();
+  for (int i = 1; i < 4; ++i)
+    EXPECT_GT(measure(pressed, kUnder[i]), 5 * measure(pressed, kUnder[i - 1])) << kUnder[i];
+  for (const Frame* frame : of_step(frames, "soft"))
+    for (const char* name : kUnder) EXPECT_LT(measure(*frame, name), 1e-6) << name;
+  // As if nothing were below it: g t (t + h) / 2, but for what the last sweeps stop.
+  const double t = 0.2;
+  for (const Frame* frame : of_step(frames, "impulses")) {
+    if (std::abs(frame->time - t) > 1e-9) continue;
+    EXPECT_NEAR(1.95 - body(*frame, "x10000").position.y, 5 * t * (t + 1.0 / 60), 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace lantern::test
