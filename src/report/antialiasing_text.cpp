@@ -13,6 +13,13 @@ namespace {
 double milliseconds(const PictureRow& row) { return 1e3 * row.timing.median; }
 bool is_timed(const PictureRow& row) { return row.timing.repeats > 0; }
 
+// "2 x 2" as a book prints it.
+std::string printed(std::string choice) {
+  if (const std::size_t at = choice.find(" x "); at != std::string::npos)
+    choice.replace(at, 3, " × ");
+  return choice;
+}
+
 const PictureRow* row_of(const PictureReport& report, const std::string& scene,
                          const std::string& family, const std::string& choice) {
   for (const PictureRow& row : report.rows)
@@ -37,6 +44,7 @@ Plot picture_plot(const PictureReport& report, const std::string& scene) {
     if (row.scene == scene && row.part.empty()) rows.push_back(&row);
   Plot plot;
   plot.title = fmt::format("Antialiasing of {} at {} × {}", scene, report.width, report.height);
+  plot.size = 23;
   plot.x_name = "milliseconds a frame";
   plot.y_name = "error at edges (root mean square, levels of 255)";
   double least = 1e300, most = 0;
@@ -50,7 +58,8 @@ Plot picture_plot(const PictureReport& report, const std::string& scene) {
       series.is_peer = !row->version.empty();
       plot.series.push_back(series);
     }
-    plot.series.back().points.push_back({{milliseconds(*row), row->error.rms}, false, row->choice});
+    plot.series.back().points.push_back(
+        {{milliseconds(*row), row->error.rms}, false, printed(row->choice)});
     least = std::min(least, milliseconds(*row));
     most = std::max(most, milliseconds(*row));
   }
