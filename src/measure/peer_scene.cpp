@@ -84,7 +84,6 @@ bool only_watches(const std::vector<Step>& steps) {
 std::optional<std::string> only_lantern_can(const Scenario& scenario) {
   if (scenario.level) return "it has a level";
   if (scenario.bodies.empty()) return "it has no bodies";
-  if (scenario.world.gravitation > 0) return "its bodies attract each other";
   for (const BodySpec& body : scenario.bodies) {
     if (body.brain != Brain::none) return "body '" + body.name + "' is steered";
     if (body.asleep) return "body '" + body.name + "' begins asleep";

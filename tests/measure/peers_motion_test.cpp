@@ -137,7 +137,9 @@ TEST_F(Peers, BodiesAttractEachOther) {
     sun.mass = 8;
     Scenario s = scene(dimension, {sun, ball({2, 0, 0}, {0, 2, 0})});
     s.world.gravitation = 1;
-    if (peer.cannot(s)) return;
+    const bool lacks_it = peer.name().starts_with("MuJoCo");
+    ASSERT_EQ(peer.cannot(s).has_value(), lacks_it);
+    if (lacks_it) return;
     const BodyState quarter = after(peer, s, kPi / 2 / 1024, 1024)[1];  // the angle is t v / r
     EXPECT_NEAR(quarter.position.x, 0, 0.02);
     EXPECT_NEAR(quarter.position.y, 2, 0.02);
