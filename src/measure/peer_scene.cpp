@@ -79,20 +79,11 @@ bool only_watches(const std::vector<Step>& steps) {
   return true;
 }
 
-// Of worlds that have it.
-double gravitation_of(const auto& world) {
-  if constexpr (requires { world.gravitation; })
-    return world.gravitation;
-  else
-    return 0;
-}
-
 }  // namespace
 
 std::optional<std::string> only_lantern_can(const Scenario& scenario) {
   if (scenario.level) return "it has a level";
   if (scenario.bodies.empty()) return "it has no bodies";
-  if (scenario.world.gravitation > 0) return "its bodies attract each other";
   for (const BodySpec& body : scenario.bodies) {
     if (body.brain != Brain::none) return "body '" + body.name + "' is steered";
     if (body.asleep) return "body '" + body.name + "' begins asleep";
@@ -107,7 +98,7 @@ PeerScene peer_scene(const Scenario& scenario) {
   scene.dimension = scenario.world.dimension;
   scene.bounds = scenario.world.bounds;
   scene.gravity = scenario.world.gravity;
-  scene.gravitation = gravitation_of(scenario.world);
+  scene.gravitation = scenario.world.gravitation;
   scene.contacts = scenario.world.contacts != ContactMethod::none;
   for (const BodySpec& spec : scenario.bodies)
     scene.bodies.push_back(body_of(spec, scene.is_flat()));

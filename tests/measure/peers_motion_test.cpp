@@ -129,6 +129,23 @@ TEST_F(Peers, SpringsPullAtTheirPoints) {
   });
 }
 
+// A circle of radius 2 about a static body at (0, 0): v^2 / r = gravitation M / r^2.
+TEST_F(Peers, BodiesAttractEachOther) {
+  each([](const Contestant& peer, int dimension) {
+    BodySpec sun = ball({0, 0, 0});
+    sun.kind = BodyKind::static_body;
+    sun.mass = 8;
+    Scenario s = scene(dimension, {sun, ball({2, 0, 0}, {0, 2, 0})});
+    s.world.gravitation = 1;
+    const bool lacks_it = peer.name().starts_with("MuJoCo");
+    ASSERT_EQ(peer.cannot(s).has_value(), lacks_it);
+    if (lacks_it) return;
+    const BodyState quarter = after(peer, s, kPi / 2 / 1024, 1024)[1];  // the angle is t v / r
+    EXPECT_NEAR(quarter.position.x, 0, 0.02);
+    EXPECT_NEAR(quarter.position.y, 2, 0.02);
+  });
+}
+
 // Soft by a force, stiff by the engine's own joint where it has one: the swing stays bounded.
 TEST_F(Peers, AnOscillatorKeepsItsPeriod) {
   each([](const Contestant& peer, int dimension) {
