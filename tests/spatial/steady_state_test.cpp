@@ -13,6 +13,11 @@ namespace {
 std::atomic<std::uint64_t> calls{0};
 }
 
+// Where one of the pair is inlined and the other is not, GCC takes them for strangers (bug 103993).
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
+
 void* operator new(std::size_t size) {
   ++calls;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
