@@ -97,7 +97,8 @@ class Lines {
     area_ = panel_;
     area_.lo.y += std::max(10.0, draw_chart_heading(y_name, panel_, labels_));
     area_.hi.y -= under_ticks() + 8 + (chart_.x_name.empty() ? 0 : 1.5 * type_.name.size);
-    y_ = y_axis(ys, std::clamp(int(area_.size().y / 50), 2, 9));
+    const double apart = chart_.over_time ? 34 : 50;  // such charts may be low
+    y_ = y_axis(ys, std::clamp(int(area_.size().y / apart), 2, 9));
     double names = 0;
     for (Line& line : lines_) {
       line.number = newest(line);

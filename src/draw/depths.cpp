@@ -70,8 +70,15 @@ void write_depths(const Frame& frame, const ToPage& to_page, const std::vector<B
     const double above = d.points.center().y - 7, below = d.points.center().y + style.size;
     const double middle = d.points.center().y + 0.36 * style.size;
     const double right = d.points.hi.x + kBeside, left = d.points.lo.x - kBeside;
-    const Anchor anchors[] = {{{right, above}, 0}, {{left, above}, 1},   {{right, below}, 0},
-                              {{left, below}, 1},  {{right, middle}, 0}, {{left, middle}, 1}};
+    double far_right = right, far_left = left;  // beside the bodies that touch there
+    for (const Box<2>& body : bodies) {
+      if (!overlap(body, d.points)) continue;
+      far_right = std::max(far_right, body.hi.x + kBeside);
+      far_left = std::min(far_left, body.lo.x - kBeside);
+    }
+    const Anchor anchors[] = {{{right, above}, 0},      {{left, above}, 1},     {{right, below}, 0},
+                              {{left, below}, 1},       {{right, middle}, 0},   {{left, middle}, 1},
+                              {{far_right, middle}, 0}, {{far_left, middle}, 1}};
     const auto place = [&](bool clear) {
       for (const Anchor& anchor : anchors) {
         const Box<2> extent = Labels::extent(text, anchor, style);

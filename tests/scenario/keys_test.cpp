@@ -73,6 +73,10 @@ std::map<std::string, Surroundings> surroundings() {
         kShow}},
       {"level", {world + "[level]\n", {{"loops", "[[[0, 0], [8, 0], [8, 6]]]"}}, kShow}},
       {"chart", {scene + "[chart]\n", {{"x", "\"bodies\""}, {"y", "[\"pairs\"]"}}, kShow + kPlot}},
+      {"problem",
+       {world + "[problem]\n",
+        {{"solution", "\"projectile\""}, {"seconds", "1"}, {"step", "0.1"}},
+        kRed + kShow}},
       {"show", {scene + step, {{"do", "\"show\""}}, ""}},
       {"insert", {scene + step, {{"do", "\"insert\""}, {"bodies", "[\"red\"]"}}, ""}},
       {"remove", {scene + kInsert + step, {{"do", "\"remove\""}, {"bodies", "[\"red\"]"}}, ""}},
@@ -87,6 +91,7 @@ std::map<std::string, Surroundings> surroundings() {
          {"at_most", "1"}},
         ""}},
       {"phases", {scene + step, {{"do", "\"phases\""}}, ""}},
+      {"solve_by", {touching + step, {{"do", "\"solve_by\""}, {"contacts", "\"soft\""}}, ""}},
       {"force",
        {scene + kInsert + step,
         {{"do", "\"force\""}, {"body", "\"red\""}, {"force", "[1, 0]"}},
@@ -258,6 +263,10 @@ void add_body_cases(std::vector<KeyCase>& cases) {
     add("drag", {"0", "3"}, bad_number("-0.1", "1.1e12"));
     add("angular_drag", {"0", "3"}, bad_number("-0.1", "1.1e12"));
     add("may_turn", {"true", "false"}, bad_truth());
+    add("integrator", {"\"explicit_euler\"", "\"implicit_midpoint\""},
+        bad_choice("explicit_eulr", "explicit_euler"));
+    add("rotation", {"\"splitting_4\"", "\"explicit_gyroscopic\""},
+        bad_choice("splitting_5", "splitting_2"));
     add("asleep", {"false"}, bad_truth());
     add("asleep", {}, {});
     add("follow", {}, {});
@@ -320,6 +329,29 @@ void add_link_cases(std::vector<KeyCase>& cases) {
                    {{"@1", "must be a text"}, {"@\"pairss\"", "did you mean 'pairs'?"}},
                    {"x", "y"}});
   cases.push_back({"chart", "logarithmic", {"true", "false"}, bad_truth()});
+  cases.push_back({"chart", "least", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
+  cases.push_back({"chart", "most", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
+  cases.push_back({"chart", "each_part", {"false"}, bad_truth()});
+}
+
+void add_problem_cases(std::vector<KeyCase>& cases) {
+  cases.insert(cases.end(),
+               {{"problem",
+                 "solution",
+                 {"\"oscillator\"", "\"hanging_chain\""},
+                 bad_choice("oscilator", "oscillator")},
+                {"problem", "variant", {"\"plain\"", "\"extreme\""}, bad_choice("stif", "stiff")},
+                {"problem", "seconds", {"0.5", "1e9"}, bad_number("0", "1.1e9")},
+                {"problem", "samples", {"1", "100000"}, bad_whole("0", "100001", "1 to 100000")},
+                {"problem", "step", {"0.5", "1e9"}, bad_number("0", "1.1e9")},
+                {"problem", "halvings", {"0", "24"}, bad_whole("-1", "25", "0 to 24")},
+                {"problem",
+                 "methods",
+                 {"[\"velocity_verlet\", \"soft:16\"]"},
+                 {{"@\"soft\"", "must be a list"},
+                  {"@[]", "must not be empty"},
+                  {"[@\"sofd:16\"]", "there is no method 'sofd:16'"},
+                  {"[@\"soft:0\"]", "there is no method 'soft:0'"}}}});
 }
 
 void add_verb_cases(std::vector<KeyCase>& cases) {
@@ -342,6 +374,9 @@ void add_verb_cases(std::vector<KeyCase>& cases) {
         {{"@[\"red\"]", "it takes two"}, {"[\"red\", @\"red\"]", "is named twice"}}},
        {"wait", "at_most", {"1", "0.5"}, bad_number("0", "1e10")},
        {"wait", "every", {"1", "1000"}, every},
+       {"solve_by", "contacts", {"\"impulse\"", "\"soft\""}, bad_choice("impulses", "impulse")},
+       {"solve_by", "sub_steps", {"1", "64"}, bad_whole("0", "65", "1 to 64")},
+       {"solve_by", "iterations", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
        {"phases", "pace", {"\"step\""}, pace},
        {"phases", "events", {"[\"solve\"]"}, {{"[@\"sovle\"]", "did you mean 'solve'?"}}},
        {"force", "body", {"\"red\""}, body},
@@ -486,11 +521,16 @@ std::vector<KeyCase> key_cases() {
        {"\"explicit_euler\"", "\"semi_implicit_euler\"", "\"velocity_verlet\"", "\"runge_kutta_4\"",
         "\"implicit_midpoint\"", "\"implicit_euler\""},
        bad_choice("runge_kuta_4", "runge_kutta_4")},
+      {"world",
+       "rotation",
+       {"\"splitting_2\"", "\"splitting_4\"", "\"explicit_gyroscopic\""},
+       bad_choice("splitting_3", "splitting_2")},
       {"world", "sub_steps", {"1", "64"}, bad_whole("0", "65", "1 to 64")},
       {"world", "iterations", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
       {"world", "may_sleep", {"true", "false"}, bad_truth()},
       {"world", "show_boxes", {"true", "false"}, bad_truth()},
       {"world", "show_velocities", {"true", "false"}, bad_truth()},
+      {"world", "show_depths", {"false"}, bad_truth()},
       {"world", "camera_eye", {}, {{"@1", "two numbers"}}},
       {"world", "camera_target", {}, {{"@1", "two numbers"}}},
       {"structure",
@@ -597,6 +637,7 @@ std::vector<KeyCase> key_cases() {
   };
   add_body_cases(cases);
   add_link_cases(cases);
+  add_problem_cases(cases);
   add_verb_cases(cases);
   add_promise_cases(cases);
   for (const char* verb : {"insert", "pack"}) {
