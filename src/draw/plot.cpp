@@ -121,7 +121,7 @@ class Drawing {
     area_.lo.y += 6;
     if (xs_.empty()) return;
     strip_ = any_beyond_ ? beyond_rows() * 2.7 * radius() + 6 : 0;
-    ground_ = any_zero_ ? 2.7 * radius() + 6 : 0;
+    ground_ = any_zero_ ? 2.7 * radius() + 10 : 0;
     const double height = scale_height();
     y_ = {ys_.least, ys_.most, plot_.log_y, std::clamp(int(height / (2.1 * plot_.size)), 2, 9)};
     area_.lo.x += plot_ticks_width(y_, type_);

@@ -47,8 +47,9 @@ PlotScale::PlotScale(double least, double most, bool logarithmic, int most_ticks
   low_ = a - kAir * (b - a) - 0.05;
   high_ = b + kAir * (b - a) + 0.05;
   if (std::floor(high_) - std::ceil(low_) < 1) {  // fewer than two powers of ten on it
-    low_ = std::min(low_, std::floor(a));
-    high_ = std::max(high_, std::floor(low_ + 0.999) + 1);
+    const double low = std::min(low_, std::floor(a));
+    high_ = std::max(high_, std::floor(low + 0.999) + 1) + 0.06;
+    low_ = low - 0.06;
   }
   const int first = static_cast<int>(std::ceil(low_)), last = static_cast<int>(std::floor(high_));
   int every = 1;

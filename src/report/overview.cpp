@@ -94,7 +94,7 @@ class Page {
     const double texts = 56 + kLine * static_cast<double>(lines_);
     const double page = kTall * width_;
     row_ = rows > 0 ? (page - fixed) / rows : 0;
-    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + 1.0 * cell_width());
+    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + 1.2 * cell_width());
     list_.page = {width_, std::max(page, std::ceil(fixed + rows * row_))};
   }
 
