@@ -4,14 +4,16 @@
 #include <cmath>
 
 #include "draw/clip.hpp"
-#include "draw/font.hpp"
 #include "draw/plot_axes.hpp"
+#include "draw/plot_fan.hpp"
 #include "draw/plot_legend.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_names.hpp"
 
 namespace lantern {
 namespace {
+
+constexpr double kLeastArea = 24;  // page units: what is smaller shows nothing
 
 struct Range {
   double least = 1e300, most = -1e300;
@@ -42,8 +44,9 @@ class Drawing {
     find_ranges();
     lay_out(with_legend);
     if (xs_.empty()) return say_nothing();
+    if (scale_height() < kLeastArea || area_.size().x < kLeastArea) return;
     place_points();
-    draw_plot_axes(x_, y_, area_, strip_, panel_, PlotType(plot_.size), list_, labels_);
+    draw_plot_axes(x_, y_, {area_, strip_, ground_}, panel_, PlotType(plot_.size), list_, labels_);
     draw_front();
     PlotNamer namer(area_, labels_);
     draw_guides(namer);
@@ -77,6 +80,8 @@ class Drawing {
         xs_.add(p.at.x, plot_.log_x);
         if (p.beyond)
           any_beyond_ = true;
+        else if (plot_.log_y && p.at.y <= 0)
+          any_zero_ = true;
         else
           ys_.add(p.at.y, plot_.log_y);
       }
@@ -116,7 +121,8 @@ class Drawing {
     area_.lo.y += 6;
     if (xs_.empty()) return;
     strip_ = any_beyond_ ? beyond_rows() * 2.7 * radius() + 6 : 0;
-    const double height = area_.size().y - strip_;
+    ground_ = any_zero_ ? 2.7 * radius() + 10 : 0;
+    const double height = scale_height();
     y_ = {ys_.least, ys_.most, plot_.log_y, std::clamp(int(height / (2.1 * plot_.size)), 2, 9)};
     area_.lo.x += plot_ticks_width(y_, type_);
     area_.hi.x -= 0.9 * plot_.size;
@@ -144,26 +150,26 @@ class Drawing {
     return std::clamp(series, 1, kMostRows);
   }
 
+  double scale_height() const { return area_.size().y - strip_ - ground_; }
+
   Vec<2> at(const Vec<2>& value) const {
-    const double height = area_.size().y - strip_;
-    return {area_.lo.x + x_.share(value.x) * area_.size().x,
-            area_.hi.y - y_.share(value.y) * height};
+    const double x = area_.lo.x + x_.share(value.x) * area_.size().x;
+    if (plot_.log_y && value.y <= 0) return {x, area_.hi.y - ground_ / 2};
+    return {x, area_.hi.y - ground_ - y_.share(value.y) * scale_height()};
   }
 
   void place_points() {
-    const double height = area_.size().y - strip_;
     int row = 0;
     for (const PlotSeries& series : plot_.series) {
       Placed placed;
       placed.series = &series;
       for (const PlotPoint& p : series.points) {
         if (!is_drawn(p)) continue;
-        const double x = area_.lo.x + x_.share_inside(p.at.x) * area_.size().x;
         if (p.beyond) {
           placed.beyond.push_back(
-              {x, area_.lo.y + 3 + (2.7 * (row % kMostRows) + 1.35) * radius()});
+              {at(p.at).x, area_.lo.y + 3 + (2.7 * (row % kMostRows) + 1.35) * radius()});
         } else {
-          placed.points.push_back({x, area_.hi.y - y_.share_inside(p.at.y) * height});
+          placed.points.push_back(at(p.at));
           if (!p.note.empty()) placed.notes.push_back({placed.points.back(), p.note});
         }
       }
@@ -175,7 +181,7 @@ class Drawing {
   void draw_front() {
     std::vector<Vec<2>> steps;
     for (const Vec<2>& corner : plot_.front) {
-      const Vec<2> p = at({corner.x, plot_.log_y && corner.y <= 0 ? ys_.least : corner.y});
+      const Vec<2> p = at(corner);
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
       if (!steps.empty()) steps.push_back({p.x, steps.back().y});
       steps.push_back(p);
@@ -209,7 +215,7 @@ class Drawing {
   }
 
   void draw_guides(PlotNamer& namer) {
-    const Box<2> inside{{area_.lo.x, area_.lo.y + strip_}, area_.hi};
+    const Box<2> inside{{area_.lo.x, area_.lo.y + strip_}, {area_.hi.x, area_.hi.y - ground_}};
     for (const PlotGuide& guide : plot_.guides) {
       std::vector<std::pair<Vec<2>, Vec<2>>> parts;
       for (std::size_t i = 1; i < guide.points.size(); ++i)
@@ -261,59 +267,11 @@ class Drawing {
                type_.tick, 3);
   }
 
-  // The lines of a fan, `reach` long, and the least height between two of their ends.
-  std::vector<Vec<2>> fan(double reach, double& least_gap) const {
-    const double per_x = area_.size().x / x_.decades();
-    const double per_y = (area_.size().y - strip_) / y_.decades();
-    std::vector<Vec<2>> ends;
-    least_gap = 1e9;
-    for (const PlotSlope& s : plot_.slopes) {
-      const Vec<2> direction{per_x, -s.exponent * per_y};
-      ends.push_back(direction * (reach / std::hypot(direction.x, direction.y)));
-      for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        least_gap = std::min(least_gap, std::abs(ends.back().y - ends[i].y));
-      }
-    }
-    return ends;
-  }
-
-  // A fan of slopes: all lines begin at one point and fall (or rise) as an order would. The least
-  // one whose names can be told apart, in an empty corner.
-  void draw_slopes(PlotNamer& namer) {
+  void draw_slopes(const PlotNamer& namer) {
     if (plot_.slopes.empty() || !plot_.log_x || !plot_.log_y) return;
-    double text = 0;
-    for (const PlotSlope& s : plot_.slopes)
-      text = std::max(text, text_width(s.name, type_.tick.size, Weight::regular));
-    for (const double sizes : {3.5, 4.5, 6.0, 8.0}) {
-      double gap = 0;
-      const std::vector<Vec<2>> ends = fan(sizes * plot_.size, gap);
-      if (gap < 1.1 * type_.tick.size + 2) continue;  // two names would touch
-      Box<2> reach{{0, 0}, {0, 0}};
-      for (const Vec<2>& end : ends) reach = united(reach, Box<2>{end, end});
-      reach.lo.y -= 0.6 * type_.tick.size;
-      reach.hi += Vec<2>{text + 8, 0.6 * type_.tick.size};
-      place_fan(ends, reach, namer);
-      return;
-    }
-  }
-
-  void place_fan(const std::vector<Vec<2>>& ends, const Box<2>& reach, PlotNamer& namer) {
-    const Vec<2> size = reach.size();
-    const double top = area_.lo.y + strip_ + 6, left = area_.lo.x + 8;
-    const double bottom = area_.hi.y - size.y - 6, right = area_.hi.x - size.x - 8;
-    for (const Vec<2>& corner :
-         {Vec<2>{left, bottom}, Vec<2>{right, top}, Vec<2>{left, top}, Vec<2>{right, bottom}}) {
-      const Box<2> place{corner, corner + size};
-      if (namer.crowd(place) > 0 || !labels_.is_free(place, area_)) continue;
-      const Vec<2> from = corner - reach.lo;
-      for (std::size_t i = 0; i < ends.size(); ++i) {
-        const Vec<2> end = from + ends[i];
-        list_.shapes.emplace_back(LineShape{from, end, {Role::cell_line_2, 1.4, 0}, false});
-        labels_.try_add(plot_.slopes[i].name, {{end + Vec<2>{5, 0.36 * type_.tick.size}, 0}},
-                        type_.tick, area_);
-      }
-      return;
-    }
+    const Vec<2> decade{area_.size().x / x_.decades(), scale_height() / y_.decades()};
+    const Box<2> scaled{{area_.lo.x, area_.lo.y + strip_}, {area_.hi.x, area_.hi.y - ground_}};
+    draw_slope_fan(plot_.slopes, decade, scaled, type_, namer, list_, labels_);
   }
 
   bool name_end(const Placed& placed, PlotNamer& namer) {
@@ -356,8 +314,8 @@ class Drawing {
   Range xs_, ys_;
   PlotScale x_, y_;
   Box<2> area_;
-  double strip_ = 0;
-  bool any_beyond_ = false, all_named_ = true;
+  double strip_ = 0, ground_ = 0;  // heights of what lies above the scale of y, and below it
+  bool any_beyond_ = false, any_zero_ = false, all_named_ = true;
   std::vector<Placed> placed_;
   std::vector<Vec<2>> front_;
   std::vector<std::vector<std::pair<Vec<2>, Vec<2>>>> guides_;

@@ -47,7 +47,7 @@ struct Plot {
   std::string title;
   std::string x_name, y_name;  // with their units: "seconds", "error (relative)"
   bool log_x = true,
-       log_y = true;  // on a logarithmic axis, what is not above 0 is at its lower end
+       log_y = true;  // a logarithmic y has a place for 0 below its scale, x has none
   std::vector<PlotSeries> series;
   std::vector<PlotGuide> guides;
   std::vector<PlotSlope> slopes;

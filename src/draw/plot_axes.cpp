@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "draw/font.hpp"
 
@@ -46,16 +47,17 @@ PlotScale::PlotScale(double least, double most, bool logarithmic, int most_ticks
   low_ = a - kAir * (b - a) - 0.05;
   high_ = b + kAir * (b - a) + 0.05;
   if (std::floor(high_) - std::ceil(low_) < 1) {  // fewer than two powers of ten on it
-    low_ = std::min(low_, std::floor(a));
-    high_ = std::max(high_, std::floor(low_ + 0.999) + 1);
+    const double low = std::min(low_, std::floor(a));
+    high_ = std::max(high_, std::floor(low + 0.999) + 1) + 0.06;
+    low_ = low - 0.06;
   }
   const int first = static_cast<int>(std::ceil(low_)), last = static_cast<int>(std::floor(high_));
   int every = 1;
   while ((last - first) / every + 1 > std::max(2, most_ticks)) ++every;
-  // Multiples of the spacing, so that 1 is among them if the axis holds it.
-  for (int power = first; power <= last; ++power)
-    if (power % every == 0 || every > last - first)
-      ticks_.push_back({value_of(power), power_of_ten(power)});
+  // Multiples of the spacing, so that 1 is among them if the axis holds it, where there are two.
+  const int begin = every * static_cast<int>(std::ceil(static_cast<double>(first) / every));
+  for (int power = begin + every > last ? first : begin; power <= last; power += every)
+    ticks_.push_back({value_of(power), power_of_ten(power)});
 }
 
 double PlotScale::share(double value) const {
@@ -74,16 +76,21 @@ double plot_ticks_width(const PlotScale& y, const PlotType& type) {
 
 double plot_ticks_height(const PlotType& type) { return kTickLength + 4 + 1.1 * type.tick.size; }
 
-void draw_plot_axes(const PlotScale& x, const PlotScale& y, const Box<2>& area, double strip,
+void draw_plot_axes(const PlotScale& x, const PlotScale& y, const PlotArea& place,
                     const Box<2>& panel, const PlotType& type, DrawList& list, Labels& labels) {
+  const Box<2>& area = place.box;
   list.shapes.emplace_back(RectShape{area, 0, Role::panel, {}, true});
-  const double top = area.lo.y + strip, height = area.hi.y - top;
+  const double top = area.lo.y + place.strip, bottom = area.hi.y - place.ground;
+  const auto write = [&](const std::string& text, double at) {
+    const Vec<2> end{area.lo.x - kTickLength - 4, at + 0.36 * type.tick.size};
+    labels.try_add(text, {{end, 1}}, type.tick, panel);
+  };
+  if (place.ground > 0) write("0", area.hi.y - place.ground / 2);
   for (const Axis::Tick& tick : y.ticks()) {
-    const double at = area.hi.y - y.share_inside(tick.value) * height;
+    const double at = bottom - y.share_inside(tick.value) * (bottom - top);
     list.shapes.emplace_back(
         LineShape{{area.lo.x - kTickLength, at}, {area.hi.x, at}, {Role::rule, 1.2, 0}, true});
-    labels.try_add(tick.text, {{{area.lo.x - kTickLength - 4, at + 0.36 * type.tick.size}, 1}},
-                   type.tick, panel);
+    write(tick.text, at);
   }
   double last = -1e9;
   for (const Axis::Tick& tick : x.ticks()) {
@@ -97,9 +104,10 @@ void draw_plot_axes(const PlotScale& x, const PlotScale& y, const Box<2>& area, 
   }
   for (const Vec<2>& end : {Vec<2>(area.lo.x, area.lo.y), Vec<2>(area.hi.x, area.hi.y)})
     list.shapes.emplace_back(LineShape{{area.lo.x, area.hi.y}, end, {Role::ink, 1.6, 0}, true});
-  if (strip > 0)
-    list.shapes.emplace_back(
-        LineShape{{area.lo.x, top}, {area.hi.x, top}, {Role::cell_line_3, 1.2, 4}, true});
+  for (const auto& [height, at] : {std::pair(place.strip, top), std::pair(place.ground, bottom)})
+    if (height > 0)
+      list.shapes.emplace_back(
+          LineShape{{area.lo.x, at}, {area.hi.x, at}, {Role::cell_line_3, 1.2, 4}, true});
 }
 
 }  // namespace lantern

@@ -42,9 +42,15 @@ struct PlotType {
   TextStyle tick, name, title;
 };
 
-// The ground, a line and a text for each tick, and the axes themselves. `strip` is the height of
-// the part of `area` at its upper edge that has no scale.
-void draw_plot_axes(const PlotScale& x, const PlotScale& y, const Box<2>& area, double strip,
+// Where points lie. `strip` is the height of the part at the upper edge that has no scale, `ground`
+// that of the part at the lower edge where 0 is, on a logarithmic axis.
+struct PlotArea {
+  Box<2> box;
+  double strip = 0, ground = 0;
+};
+
+// The ground, a line and a text for each tick, and the axes themselves.
+void draw_plot_axes(const PlotScale& x, const PlotScale& y, const PlotArea& place,
                     const Box<2>& panel, const PlotType& type, DrawList& list, Labels& labels);
 
 // How much room the ticks' texts take to the left of the area, and below it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -28,9 +29,9 @@ PlotPoint point_of(const Row& row, double cost) {
 }
 
 // What a step costs, the middle of all rows: turns a floor by steps into one by cost.
-std::optional<double> cost_of_step(const ProblemRows& problem, const Cost& cost) {
+std::optional<double> cost_of_step(std::span<const Row> rows, const Cost& cost) {
   std::vector<double> ratios;
-  for (const Row& row : problem.rows)
+  for (const Row& row : rows)
     if (const auto price = cost(row); price && !row.is_peer() && row.counted.steps > 0)
       ratios.push_back(*price / static_cast<double>(row.counted.steps));
   if (ratios.empty()) return std::nullopt;
@@ -38,9 +39,17 @@ std::optional<double> cost_of_step(const ProblemRows& problem, const Cost& cost)
   return ratios[ratios.size() / 2];
 }
 
+// Of a run that failed, and so was not timed, what its steps would have cost.
+std::optional<double> cost_or_estimate(const Row& row, const std::optional<double>& of_step,
+                                       const Cost& cost) {
+  const auto price = cost(row);
+  if (price || row.status == Status::ok || !of_step || row.counted.steps == 0) return price;
+  return *of_step * static_cast<double>(row.counted.steps);
+}
+
 void add_floor(const ProblemRows& problem, const Cost& cost, double least, double most,
                Plot& plot) {
-  const auto per_step = cost_of_step(problem, cost);
+  const auto per_step = cost_of_step(problem.rows, cost);
   if (!per_step || *per_step <= 0) return;
   PlotGuide guide{"rounding floor (estimate)", {}};
   for (const double x : {least, most}) guide.points.push_back({x, rounding_floor(x / *per_step)});
@@ -117,8 +126,8 @@ double draw_foot(const ProblemRows& problem, const Circumstances& circumstances,
 
 std::string error_words(const ProblemRows& problem) {
   const std::string norm = main_norm(problem);
-  std::string words =
-      norm.empty() ? "error" : fmt::format("error: {} (“{}”)", norm_words(norm), norm);
+  std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
+  if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
   for (const Row& row : problem.rows)
     if (!row.reference.empty()) return words + ", against: " + row.reference;
   return words;
@@ -171,8 +180,10 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
     series.name = c.is_peer ? c.method + " " + c.version : method_words(c.method);
     series.look = looks.at(c.method);
     series.is_peer = c.is_peer;
+    const auto of_step = cost_of_step(c.rows, cost);
     for (const Row& row : c.rows)
-      if (const auto price = cost(row); price && row.status != Status::refused) {
+      if (const auto price = cost_or_estimate(row, of_step, cost);
+          price && row.status != Status::refused) {
         series.points.push_back(point_of(row, *price));
         least = std::min(least, *price);
         most = std::max(most, *price);

@@ -94,7 +94,7 @@ class Page {
     const double texts = 56 + kLine * static_cast<double>(lines_);
     const double page = kTall * width_;
     row_ = rows > 0 ? (page - fixed) / rows : 0;
-    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + 1.0 * cell_width());
+    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + 1.2 * cell_width());
     list_.page = {width_, std::max(page, std::ceil(fixed + rows * row_))};
   }
 
@@ -139,7 +139,8 @@ class Page {
     draw_plot_legend(legend_, band(y, y + height), kSmall, list_, labels_);
     y += height + 4;
     const std::string rest =
-        "Dashed: other engines. Open marks at the upper edge: runs that diverged. Stairs: no run "
+        "Dashed: other engines. Open marks at the upper edge: runs that diverged (placed by their "
+        "steps if not timed). Stairs: no run "
         "has both less error and less time. Dashed grey: rounding floor, an estimate.";
     labels_.add(shortened(rest, inner(), kQuiet), {{kMargin, y + 17}, 0}, kQuiet, band(y, y + 26));
     return y + 44;

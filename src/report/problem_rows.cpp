@@ -18,7 +18,7 @@ struct KnownMethod {
 };
 
 // The first ones are those that meet most often in one plot.
-constexpr std::array<KnownMethod, 10> kKnown{{
+constexpr std::array<KnownMethod, 14> kKnown{{
     {"velocity_verlet", "velocity Verlet", 0},
     {"explicit_euler", "explicit Euler", 1},
     {"runge_kutta_4", "Runge–Kutta 4", 2},
@@ -29,6 +29,10 @@ constexpr std::array<KnownMethod, 10> kKnown{{
     {"splitting_2", "splitting, order 2", 14},
     {"splitting_4", "splitting, order 4", 16},
     {"explicit_gyroscopic", "explicit gyroscopic", 15},
+    {"impulse", "impulses", 17},
+    {"impulse:100", "impulses (100 sweeps)", 28},
+    {"soft", "soft contacts", 18},
+    {"soft:16", "soft contacts (16 sub-steps)", 48},
 }};
 
 const KnownMethod* known(std::string_view name) {
@@ -102,10 +106,10 @@ std::string method_words(std::string_view method) {
   const bool one = effort == "1";
   if (kind == "soft")
     return effort.empty() ? "soft contacts"
-                          : fmt::format("soft contacts, {} sub-step{}", effort, one ? "" : "s");
+                          : fmt::format("soft contacts ({} sub-step{})", effort, one ? "" : "s");
   if (kind == "impulse")
     return effort.empty() ? "impulses"
-                          : fmt::format("impulses, {} sweep{}", effort, one ? "" : "s");
+                          : fmt::format("impulses ({} sweep{})", effort, one ? "" : "s");
   std::string words(method);
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;

@@ -30,7 +30,7 @@ struct ContestantRows {
 };
 std::vector<ContestantRows> by_contestant(const ProblemRows& problem);
 
-// "explicit Euler" of "explicit_euler", "soft contacts, 16 sub-steps" of "soft:16"; a peer's name
+// "explicit Euler" of "explicit_euler", "soft contacts (16 sub-steps)" of "soft:16"; a peer's name
 // stays as it is.
 std::string method_words(std::string_view method);
 

@@ -47,7 +47,8 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 std::string count_text(double n, const std::string& name) {
-  if (n < 1e7) return fmt::format("{:.0f} {}", n, name);
+  if (n == 1) return "1 " + name.substr(0, name.size() - 1);  // all names end with an s
+  if (n < 1e6) return fmt::format("{:.0f} {}", n, name);
   return figure(n) + " " + name;
 }
 

@@ -86,7 +86,7 @@ TEST(Plot, EveryNameIsThere) {
     Plot plot = random_plot(random);
     plot.names = i % 2 ? PlotNames::ends : PlotNames::legend;
     for (PlotSeries& s : plot.series) s.points = {{{1.0, 1.0}, false, ""}, {{2, 0.5}, false, ""}};
-    const DrawList list = drawn(plot);
+    const DrawList list = drawn(plot, {{0, 0}, {1200, 600}});
     for (const PlotSeries& s : plot.series)
       EXPECT_TRUE(says(list, s.name)) << s.name << " has no name in plot " << i;
   }
@@ -141,6 +141,23 @@ TEST(Plot, DivergedRunsAreOpenMarksAtTheUpperEdge) {
   EXPECT_FALSE(says(drawn(plot), "diverged")) << "a strip for nothing";
 }
 
+TEST(Plot, AnErrorOfZeroHasItsOwnPlaceBelowTheScale) {
+  Plot plot;
+  plot.names = PlotNames::none;
+  plot.series = {{"a", {{{1, 1e-3}, false, ""}, {{2, 1e-15}, false, ""}, {{4, 0}, false, ""}}, 0}};
+  plot.front = {{1, 1e-3}, {2, 1e-15}, {4, 0}};
+  const DrawList list = drawn(plot);
+  std::vector<double> heights;
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* rect = std::get_if<RectShape>(&shape); rect && rect->fill == plot_role(0))
+      heights.push_back(rect->box.center().y);
+  ASSERT_EQ(heights.size(), 3u);
+  EXPECT_GT(heights[2], heights[1] + 10) << "0 cannot be told from 1e-15";
+  EXPECT_TRUE(says(list, "0"));
+  plot.series[0].points.pop_back();
+  EXPECT_FALSE(says(drawn(plot), "0"));
+}
+
 TEST(Plot, AnEmptyOneSaysSo) {
   Plot plot;
   plot.empty = "no run was timed";
@@ -177,7 +194,7 @@ TEST(PlotScale, LogarithmicTicksArePowersOfTenWithinTheAxis) {
     const double most = least * std::pow(10, random.between(0, 18));
     const int ticks = static_cast<int>(random.whole(2, 10));
     const PlotScale scale(least, most, true, ticks);
-    ASSERT_GE(scale.ticks().size(), 1u) << least << " to " << most;
+    ASSERT_GE(scale.ticks().size(), 2u) << least << " to " << most;
     EXPECT_LE(scale.ticks().size(), static_cast<std::size_t>(std::max(2, ticks)));
     EXPECT_GE(scale.share(least), 0);
     EXPECT_LE(scale.share(most), 1);

@@ -99,6 +99,18 @@ TEST(CostPlot, HasEveryRunThatCostSomething) {
   }
 }
 
+TEST(CostPlot, ShowsARunThatDivergedAndSoWasNotTimed) {
+  ProblemRows problem{"oscillator", "oscillator", "plain", {}};
+  problem.rows = {samples::row("a", 0.1, 1, 0, 100), samples::row("a", 0.05, 1e-3, 0.02, 200),
+                  samples::row("a", 0.025, 1e-4, 0.04, 400)};
+  problem.rows[0].status = Status::diverged;
+  const auto series = cost_plot(problem, seconds_of, looks_of(problem.rows), false).series;
+  ASSERT_EQ(series.size(), 1u);
+  ASSERT_EQ(series[0].points.size(), 3u) << "the run that diverged is not shown";
+  EXPECT_TRUE(series[0].points[0].beyond);
+  EXPECT_NEAR(series[0].points[0].at.x, 0.01, 1e-12) << "100 steps at 0.1 ms";
+}
+
 TEST(Overview, IsLaidOut) {
   for (const auto& [name, m] : measurements())
     for (const auto& bars : {std::vector<Bar>{}, samples::bars()}) {

@@ -87,9 +87,9 @@ TEST(ByContestant, SortsTheLargestStepFirst) {
 
 TEST(MethodWords, ReadAsWords) {
   EXPECT_EQ(method_words("explicit_euler"), "explicit Euler");
-  EXPECT_EQ(method_words("soft:16"), "soft contacts, 16 sub-steps");
-  EXPECT_EQ(method_words("soft:1"), "soft contacts, 1 sub-step");
-  EXPECT_EQ(method_words("impulse:100"), "impulses, 100 sweeps");
+  EXPECT_EQ(method_words("soft:16"), "soft contacts (16 sub-steps)");
+  EXPECT_EQ(method_words("soft:1"), "soft contacts (1 sub-step)");
+  EXPECT_EQ(method_words("impulse:100"), "impulses (100 sweeps)");
   EXPECT_EQ(method_words("impulse"), "impulses");
   EXPECT_EQ(method_words("Bullet"), "Bullet");
 }
