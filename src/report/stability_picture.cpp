@@ -79,7 +79,7 @@ class Picture {
   DrawList draw() {
     draw_title();
     draw_legend();
-    const Box<2> area{{kMargin + 92, 150}, {list_.page.x - kMargin, list_.page.y - 84}};
+    const Box<2> area{{kMargin + 92, 158}, {list_.page.x - kMargin, list_.page.y - 84}};
     const double gap = 46;
     const Vec<2> size{(area.size().x - gap * (kColumns - 1)) / kColumns,
                       row_height(area) - kRowsGap};
@@ -178,9 +178,6 @@ class Picture {
     const auto [name, limit] = words_for(method);
     labels_.add(name, {{plot.lo.x, plot.lo.y - 12}, 0}, kBold, page());
     labels_.add(limit, {{plot.hi.x, plot.lo.y - 12}, 1}, kName, page());
-    if (std::isinf(stability_limit(method, 1))) return;
-    const double x = plot.hi.x - text_width(limit, kName.size, kName.weight) - 12;
-    draw_limit({{x - 30, plot.lo.y - 19}, {x, plot.lo.y - 19}}, page());
   }
 
   // Neighbours in a row that look the same are one rectangle, and so are equal rows.
