@@ -163,8 +163,9 @@ class Picture {
     if (row == 0) return {{plot.lo.x, plot.hi.y - kNoDamping}, plot.hi};
     const double bottom = plot.hi.y - kNoDamping - kRowGap;
     const double height = (bottom - plot.lo.y) / static_cast<double>(map_.zeta.size() - 1);
-    const double y = bottom - static_cast<double>(row) * height;
-    return {{plot.lo.x, y}, {plot.hi.x, y + height}};
+    // The same sum for both rows at an edge, or a hair would show between them.
+    const auto edge = [&](std::size_t rows) { return bottom - static_cast<double>(rows) * height; };
+    return {{plot.lo.x, edge(row)}, {plot.hi.x, edge(row - 1)}};
   }
 
   void draw_panel(const StabilityMap::Panel& panel, const Box<2>& plot, bool first, bool last) {
