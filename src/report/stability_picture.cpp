@@ -79,7 +79,7 @@ class Picture {
   DrawList draw() {
     draw_title();
     draw_legend();
-    const Box<2> area{{kMargin + 92, 150}, {list_.page.x - kMargin, list_.page.y - 84}};
+    const Box<2> area{{kMargin + 92, 158}, {list_.page.x - kMargin, list_.page.y - 84}};
     const double gap = 46;
     const Vec<2> size{(area.size().x - gap * (kColumns - 1)) / kColumns,
                       row_height(area) - kRowsGap};
@@ -163,8 +163,9 @@ class Picture {
     if (row == 0) return {{plot.lo.x, plot.hi.y - kNoDamping}, plot.hi};
     const double bottom = plot.hi.y - kNoDamping - kRowGap;
     const double height = (bottom - plot.lo.y) / static_cast<double>(map_.zeta.size() - 1);
-    const double y = bottom - static_cast<double>(row) * height;
-    return {{plot.lo.x, y}, {plot.hi.x, y + height}};
+    // The same sum for both rows at an edge, or a hair would show between them.
+    const auto edge = [&](std::size_t rows) { return bottom - static_cast<double>(rows) * height; };
+    return {{plot.lo.x, edge(row)}, {plot.hi.x, edge(row - 1)}};
   }
 
   void draw_panel(const StabilityMap::Panel& panel, const Box<2>& plot, bool first, bool last) {
@@ -178,9 +179,6 @@ class Picture {
     const auto [name, limit] = words_for(method);
     labels_.add(name, {{plot.lo.x, plot.lo.y - 12}, 0}, kBold, page());
     labels_.add(limit, {{plot.hi.x, plot.lo.y - 12}, 1}, kName, page());
-    if (std::isinf(stability_limit(method, 1))) return;
-    const double x = plot.hi.x - text_width(limit, kName.size, kName.weight) - 12;
-    draw_limit({{x - 30, plot.lo.y - 19}, {x, plot.lo.y - 19}}, page());
   }
 
   // Neighbours in a row that look the same are one rectangle, and so are equal rows.
