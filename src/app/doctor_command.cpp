@@ -28,7 +28,7 @@ std::string find_program(const std::string& name) {
 
 // The other physics engines that runs can be measured beside.
 struct PeerReport {
-  std::vector<std::string> found;  // "Box2D 2.4.1, single precision"
+  std::vector<std::string> found;  // "Box2D 2.4.1 (single)"
   std::vector<std::string> missing;
 };
 

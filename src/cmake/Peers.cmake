@@ -23,12 +23,12 @@ function(lantern_peer name version)
   add_dependencies(lantern_peers lantern_peer_${name})
 endfunction()
 
-lantern_peer(bullet "${bullet_VERSION}, double precision" FOUND ${bullet_FOUND}
+lantern_peer(bullet "${bullet_VERSION} (double)" FOUND ${bullet_FOUND}
   INCLUDES ${bullet_INCLUDE_DIRS} LIBRARIES ${bullet_LINK_LIBRARIES}
   DEFINITIONS BT_USE_DOUBLE_PRECISION)
-lantern_peer(box2d "${box2d_VERSION}, single precision" FOUND ${box2d_FOUND}
+lantern_peer(box2d "${box2d_VERSION} (single)" FOUND ${box2d_FOUND}
   LIBRARIES ${box2d_LINK_LIBRARIES})
-lantern_peer(ode "${ode_VERSION}, double precision" FOUND ${ode_FOUND}
+lantern_peer(ode "${ode_VERSION} (double)" FOUND ${ode_FOUND}
   LIBRARIES ${ode_LINK_LIBRARIES} DEFINITIONS dIDEDOUBLE)
 if(LANTERN_MUJOCO AND LANTERN_MUJOCO_DIR)
   file(STRINGS ${LANTERN_MUJOCO_DIR}/mujoco/mujoco.h mujoco_version REGEX "mjVERSION_HEADER [0-9]")
@@ -36,5 +36,5 @@ if(LANTERN_MUJOCO AND LANTERN_MUJOCO_DIR)
     "${mujoco_version}")
   set(mujoco_FOUND TRUE)
 endif()
-lantern_peer(mujoco "${mujoco_version}, double precision" FOUND ${mujoco_FOUND}
+lantern_peer(mujoco "${mujoco_version} (double)" FOUND ${mujoco_FOUND}
   LIBRARIES ${LANTERN_MUJOCO})
