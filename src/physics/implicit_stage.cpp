@@ -19,6 +19,7 @@ namespace lantern {
 namespace {
 
 constexpr double kEpsilon = 0x1p-52;
+constexpr double kNothing = 0x1p-430;  // N s; of less, squares are beyond numbers
 constexpr int kMostSteps = 200;
 constexpr int kWholeSteps = 10;  // tried before as many searches
 
@@ -175,17 +176,24 @@ class Newton {
   // What is missing is no more than rounding makes, or, after many steps, little.
   bool done(const SmoothState<D>& state, int steps) const {
     const double allowed = steps < 20 ? 8 * kEpsilon : steps < 60 ? 1e-13 : 1e-10;
-    const auto [linear, angular] = sizes(state);
+    const auto [linear, angular] = sizes(state, steps >= 20);
     for (std::size_t n = 0; n < missing_.size(); ++n) {
       const std::size_t i = system_.movers()[n];
       for (int c = 0; c < B; ++c)
-        if (!(std::abs(missing_[n][c]) <= allowed * (c < D ? linear[i] : angular[i]))) return false;
+        if (!(std::abs(missing_[n][c]) <= kNothing + allowed * (c < D ? linear[i] : angular[i])))
+          return false;
     }
     return true;
   }
 
   // Of the momenta and angular momenta that cancel when nothing is missing, a sum of sizes a body.
-  std::pair<std::vector<double>, std::vector<double>> sizes(const SmoothState<D>& state) const {
+  // `rounded`: a velocity near 0 counts as much as the two parts of which it is the sum, for it has
+  // their rounding.
+  std::pair<std::vector<double>, std::vector<double>> sizes(const SmoothState<D>& state,
+                                                            bool rounded) const {
+    const auto speed = [&](std::size_t i) {
+      return size_of<D>(system_.velocity(state, i)) + (rounded ? size_of<D>(state.kick[i]) : 0);
+    };
     const std::span<const Body<D>> bodies = system_.bodies();
     const Forces<D>& forces = system_.forces();
     std::vector<double> linear(bodies.size(), 0.0), angular = linear;
@@ -193,7 +201,7 @@ class Newton {
       const Body<D>& body = bodies[i];
       linear[i] =
           (size_of<D>(state.kick[i]) + time_ * size_of<D>(forces.gravity)) / body.inverse_mass +
-          time_ * body.linear_drag * size_of<D>(system_.velocity(state, i));
+          time_ * body.linear_drag * speed(i);
       if (system_.turns(i))
         angular[i] = size_of(state.twist[i]) + time_ * size_of(pull_.torque[i]) +
                      time_ * body.angular_drag * size_of(system_.angular_velocity(state, i));
@@ -207,10 +215,9 @@ class Newton {
       const double rest = k < forces.springs.size() ? forces.springs[k].rest_length : 0;
       const Stretch<D> s = system_.stretch(state, k);
       const double arm_a = size_of<D>(s.arm_a), arm_b = size_of<D>(s.arm_b);
-      const double lengths =
-          s.length + rest + arm_a + arm_b + size_of<D>(state.shift[a]) + size_of<D>(state.shift[b]);
-      const double speeds =
-          size_of<D>(system_.velocity(state, a)) + size_of<D>(system_.velocity(state, b));
+      const double speeds = speed(a) + speed(b);
+      const double lengths = s.length + rest + arm_a + arm_b + size_of<D>(state.shift[a]) +
+                             size_of<D>(state.shift[b]) + (rounded ? time_ * speeds : 0);
       const double momentum = time_ * (std::abs(s.stiffness) * lengths + s.damping * speeds);
       add(a, arm_a, momentum);
       add(b, arm_b, momentum);
