@@ -148,8 +148,25 @@ void sweep_velocities(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, 
   }
 }
 
+namespace {
+
+// Part of the sub-step for which a point that sticks in the end slides on: until full friction
+// would have stopped it, t / h = |slip_0| / |change of slip under full friction|.
+template <int D>
+double sliding_share(const ContactPoint<D>& p, double friction) {
+  const double used = glm::length(p.pt) / (friction * p.pn);
+  const double slip = glm::length(p.slip);
+  const double change = glm::length((p.kicked_slip - p.slip) * used - p.kicked_slip);
+  return change > 0 ? std::min(slip * used / change, 1.0) : 0;
+}
+
+}  // namespace
+
 template <int D>
 void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a, double lag_b) {
+  const ContactPoint<D>* firmest = nullptr;
+  for (const ContactPoint<D>& p : rows.points())
+    if (firmest == nullptr || p.pn > firmest->pn) firmest = &p;
   for (ContactPoint<D>& p : rows.points()) {
     p.carried = 0;
     if (rows.friction == 0 || p.pn == 0) continue;
@@ -159,12 +176,9 @@ void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a
       b.carry(p.pt * (lag_b - 0.5), p.arm_b);
       continue;
     }
-    // It slides on until full friction would have stopped it:
-    //   slip_0 t / (2 h), where t / h = |slip_0| / |change of slip under full friction|.
-    const double used = glm::length(p.pt) / (rows.friction * p.pn);
-    const double slip = glm::length(p.slip);
-    const double change = glm::length((p.kicked_slip - p.slip) * used - p.kicked_slip);
-    const double time = change > 0 ? std::min(slip * used / change, 1.0) : 0;
+    // A point that presses by rounding only stops when the firmest does.
+    const bool hardly = p.pn <= 1e-9 * firmest->pn && firmest->sticks;
+    const double time = sliding_share(hardly ? *firmest : p, rows.friction);
     p.wanted_slip =
         p.slip * (time / 2) + across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
   }

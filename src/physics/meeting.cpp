@@ -42,7 +42,8 @@ class Approach {
       if (seen->gap <= size_ * 1e-15) {
         if (seen->closing > slow_) return Meeting<D>{t, false};
         if (seen->closing > -slow_) {
-          if (bend_ == 0) return std::nullopt;  // they glide along each other
+          // They glide along each other, unless something presses them.
+          if (bend_ == 0 && a_.held + b_.held == 0) return std::nullopt;
           return Meeting<D>{t, true};
         }
         // They part, and cannot be back before this.

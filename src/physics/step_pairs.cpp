@@ -117,10 +117,8 @@ std::optional<IslandPair<D>> World<D>::Step::nearing(const Pair& pair) const {
   if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
   if (world.joined(a.id, b.id)) return std::nullopt;
   const double way = glm::length(velocity_of(b) - velocity_of(a)) * h;
-  // What an earlier try has looked for beyond the bodies' own ways is looked for here, too.
-  const double own_a = glm::length(velocity_of(a)) * h, own_b = glm::length(velocity_of(b)) * h;
-  found.reach =
-      way + std::max(0.0, reach[found.rows.a] - own_a) + std::max(0.0, reach[found.rows.b] - own_b);
+  // An impact with a third body may turn either of them towards the other.
+  found.reach = reach[found.rows.a] + reach[found.rows.b];
   ++world.work_.narrow_tests;
   const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
                                 Placed<D>{b.shape, b.position, b.orientation}, found.reach);
