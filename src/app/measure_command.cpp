@@ -77,7 +77,7 @@ PlanOptions plan_options(const MeasureOptions& options) {
   plan.peers = options.peers;
   plan.longest = options.longest;
   for (const std::string& name : options.methods) {
-    if (!method_named(name))
+    if (!can_be_measured_by(name))
       throw UsageError(
           fmt::format("there is no method '{}'; {}", name, suggestion(name, method_names())));
     plan.methods.push_back(name);

@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "measure/dormand_prince_contestant.hpp"
 #include "measure/lantern_contestant.hpp"
 #include "measure/peers.hpp"
 
 namespace lantern {
 namespace {
 
+constexpr std::string_view kAdaptive = "dormand_prince";
 constexpr int kOwnHalvings = 6;          // of a scenario's own step
 constexpr double kFinerReference = 16;   // times finer than the finest measured step
 constexpr double kTooLongToRepeat = 10;  // seconds
@@ -22,10 +24,16 @@ constexpr TimingRule kOnce{1, 0};
 
 }  // namespace
 
+bool can_be_measured_by(std::string_view name) {
+  return name == kAdaptive || method_named(name).has_value();
+}
+
 Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
     : options_(std::move(options)), prepared_(options_.scenarios.size()) {
   if (options_.peers) contestants_ = peers(missing_peers_);
   peers_ = contestants_.size();
+  adaptive_ = contestants_.size();
+  contestants_.push_back(std::make_unique<DormandPrinceContestant>());
   for (std::size_t i = 0; i < options_.scenarios.size(); ++i) {
     told(options_.scenarios[i]);
     try {
@@ -58,8 +66,12 @@ void Plan::prepare(std::size_t index) {
 
 std::vector<std::size_t> Plan::contestants_for(const Scenario& scenario) {
   std::vector<Method> methods;
-  for (const std::string& name : options_.methods) methods.push_back(*method_named(name));
-  if (methods.empty()) methods = methods_for(scenario);
+  bool adaptive = options_.methods.empty();
+  for (const std::string& name : options_.methods) {
+    adaptive = adaptive || name == kAdaptive;
+    if (const auto method = method_named(name)) methods.push_back(*method);
+  }
+  if (options_.methods.empty()) methods = methods_for(scenario);
   std::vector<std::size_t> chosen;
   for (const Method& method : methods) {
     if (!by_name_.contains(method.name)) {
@@ -69,6 +81,8 @@ std::vector<std::size_t> Plan::contestants_for(const Scenario& scenario) {
     const std::size_t contestant = by_name_[method.name];
     if (!contestants_[contestant]->cannot(scenario)) chosen.push_back(contestant);
   }
+  if (adaptive && scenario.problem && !contestants_[adaptive_]->cannot(scenario))
+    chosen.push_back(adaptive_);
   for (std::size_t peer = 0; peer < peers_; ++peer)
     if (scenario.problem && !contestants_[peer]->cannot(scenario)) chosen.push_back(peer);
   return chosen;

@@ -18,6 +18,9 @@ enum class Effort {
   full,    // all that there is
 };
 
+// A method of Lantern's, or "dormand_prince", the adaptive reference of smooth problems.
+bool can_be_measured_by(std::string_view name);
+
 struct PlanOptions {
   std::vector<Scenario> scenarios;
   Effort effort = Effort::normal;
@@ -73,6 +76,7 @@ class Plan {
   std::vector<std::unique_ptr<Contestant>> contestants_;
   std::map<std::string, std::size_t> by_name_;
   std::size_t peers_ = 0;  // the first contestants
+  std::size_t adaptive_ = 0;
   std::vector<std::string> missing_peers_;
   std::vector<Job> jobs_;
   std::map<std::pair<std::size_t, std::size_t>, double>

@@ -239,6 +239,25 @@ class Newton {
 template <int D>
 constexpr int kTurning = D == 2 ? 3 : 6;  // unknowns of a body that turns
 
+// The body that goes farthest astray: the first whose speed is no number, else the fastest.
+template <int D>
+const std::string& culprit(const SmoothSystem<D>& system, const SmoothState<D>& state) {
+  std::size_t worst = system.movers().front();
+  double most = -1;
+  for (const std::size_t i : system.movers()) {
+    const Vec<D> velocity = system.velocity(state, i);
+    double speed = 0;  // the largest component: its square may be beyond all numbers
+    for (int axis = 0; axis < D; ++axis) speed = std::max(speed, std::abs(velocity[axis]));
+    for (int axis = 0; axis < D; ++axis)
+      if (!std::isfinite(velocity[axis])) return system.bodies()[i].name;
+    if (speed > most) {
+      most = speed;
+      worst = i;
+    }
+  }
+  return system.bodies()[worst].name;
+}
+
 }  // namespace
 
 template <int D>
@@ -247,7 +266,9 @@ SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_
   SmoothState<D> state = system.start();
   const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time).run(state)
                                         : Newton<D, D>(system, time).run(state);
-  if (!found) throw Refused(fmt::format("{} does not converge at a step of {} s", method, h));
+  if (!found)
+    throw Refused(fmt::format("body '{}': {} does not converge at a step of {} s",
+                              culprit(system, state), method, h));
   return state;
 }
 
@@ -255,7 +276,9 @@ template <int D>
 void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time) {
   const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time).kick(state)
                                         : Newton<D, D>(system, time).kick(state);
-  if (!found) throw Refused(fmt::format("damping has no solution over {} s", time));
+  if (!found)
+    throw Refused(
+        fmt::format("body '{}': damping has no solution over {} s", culprit(system, state), time));
 }
 
 template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double);

@@ -16,6 +16,9 @@
 #include <bit>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "physics/direct_solve.hpp"
 #include "physics/free_rotation.hpp"
 #include "physics/island.hpp"
@@ -312,6 +315,17 @@ std::vector<Integrator> integrators_of(const WorldConfig<D>& config,
 }
 
 template <int D>
+void find_increments_in_step(Integrator integrator, std::span<const Body<D>> bodies,
+                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                             WorldWork& work) {
+  try {
+    find_increments(integrator, bodies, forces, h, out, work.force_evaluations);
+  } catch (const Refused& refused) {
+    throw Refused(fmt::format("{} in step {}", refused.what(), work.steps + 1));
+  }
+}
+
+template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                             WorldWork& work) {
@@ -321,7 +335,7 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
   }
   const std::vector<Integrator> used = integrators_of(config, bodies);
   if (used.size() == 1) {
-    find_increments(used[0], bodies, forces, h, out, work.force_evaluations);
+    find_increments_in_step<D>(used[0], bodies, forces, h, out, work);
     return;
   }
   // No spring ties bodies of different methods (World::add_spring), so those of one method are all
@@ -334,7 +348,7 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
       if (body.kind == BodyKind::dynamic_body &&
           body.integrator.value_or(config.integrator) != integrator)
         body.asleep = true;
-    find_increments<D>(integrator, its, forces, h, some, work.force_evaluations);
+    find_increments_in_step<D>(integrator, its, forces, h, some, work);
     for (std::size_t i = 0; i < its.size(); ++i)
       if (its[i].kind == BodyKind::dynamic_body && !its[i].asleep) out[i] = some[i];
   }

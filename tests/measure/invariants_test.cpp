@@ -1,9 +1,10 @@
 // What a scene should keep, worked out from states.
+#include "measure/invariants.hpp"
+
 #include <gtest/gtest.h>
 
-#include "measure/invariants.hpp"
-#include "scenario/engine.hpp"
 #include "measure/scenes.hpp"
+#include "scenario/engine.hpp"
 
 namespace lantern {
 namespace {

@@ -129,8 +129,8 @@ TEST(Methods, NamesAreReadBack) {
   EXPECT_EQ(method_named("soft:16")->effort, 16);
   EXPECT_EQ(method_named("impulse:100")->contacts, ContactMethod::impulse);
   EXPECT_EQ(method_named("splitting_4")->rotation, RotationMethod::splitting_4);
-  for (const char* bad : {"", "soft:", "soft:0", "soft:-1", "soft:1e9", "soft:16x", "rk4",
-                          "runge_kutta_4:2"})
+  for (const char* bad :
+       {"", "soft:", "soft:0", "soft:-1", "soft:1e9", "soft:16x", "rk4", "runge_kutta_4:2"})
     EXPECT_FALSE(method_named(bad).has_value()) << bad;
 }
 

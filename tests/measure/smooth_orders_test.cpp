@@ -11,6 +11,7 @@
 #include "measure/lantern_contestant.hpp"
 #include "measure/problems.hpp"
 #include "measure/run.hpp"
+#include "physics/free_rotation.hpp"
 
 namespace lantern {
 namespace {

@@ -19,7 +19,6 @@ namespace {
 // Not yet good. To be taken off the list when the engine can do them; until then they must at least
 // give a verdict.
 constexpr std::string_view kKnownWeak[] = {
-    "overflow_implicit",     // says neither body nor step
     "stack_of_60_solid",     // neither does a stack of 30 stand in 3D
     "heavy_on_light_solid",  // falls over in 3D when it may not fall asleep
     "heaviest_chain",

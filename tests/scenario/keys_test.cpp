@@ -512,6 +512,7 @@ std::vector<KeyCase> key_cases() {
       {"world", "time_step", {"1", "0.0166", "1000"}, bad_number("0", "1000.1")},
       {"world", "frame_every", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
       {"world", "gravity", points, bad_point()},
+      {"world", "gravitation", {"0", "1"}, bad_number("-1", "1.1e9")},
       {"world",
        "contacts",
        {"\"none\"", "\"impulse\"", "\"soft\""},
