@@ -43,7 +43,7 @@ struct Row {
   std::uint64_t text_hash = 0;
   std::string method;   // the contestant's name
   std::string version;  // of a peer; empty for Lantern
-  double step = 0;      // seconds; of an adaptive method its tolerance
+  double step = 0;      // seconds; of an adaptive method, what its tolerance follows from
   Status status = Status::ok;
   std::string reference;    // what the error is held against: "closed form", "own run at 1e-4 s"
   std::string reason;       // of any other status

@@ -30,6 +30,7 @@ namespace {
 constexpr int kFewestSweeps = 24, kMostSweeps = 256;
 constexpr int kMostSolved = 2048;           // pairs times sweeps
 constexpr double kGoodGuess = 0.05;         // the same, to be left alone
+constexpr double kPresses = 0.01;           // of the largest impulse
 constexpr double kCarriedTolerance = 1e-3;  // of the largest push out of penetration
 constexpr double kSettledTolerance = 1e-7;  // the same, once all rows were solved at once
 constexpr double kSweepTolerance = 1e-9;    // of the largest impulse
@@ -138,14 +139,15 @@ struct SubStep {
   }
 
   // All at once after 2, 4, 8 ... sweeps, never last. Where something slips, a guess that is good
-  // already is left alone: friction that lags behind would only spoil it.
+  // already is left alone: friction that lags behind would only spoil it. Of four corners of a face
+  // three are enough, so that one may press next to nothing and slip: that does not count.
   bool wants_direct(int done, const Sweep& sweep) {
     if (impulse_method() || done == 0 || done + 1 >= most_sweeps()) return false;
     if (!std::has_single_bit(static_cast<unsigned>(done + 1))) return false;
     bool slips = false;
     each_pair([&](const ContactRows<D>& rows, auto&, auto&) {
       for (const ContactPoint<D>& p : rows.points())
-        slips |= rows.friction > 0 && p.pn > 0 && !p.sticks;
+        slips |= rows.friction > 0 && p.pn > kPresses * sweep.largest && !p.sticks;
     });
     return !slips || sweep.change > kGoodGuess * sweep.largest;
   }
