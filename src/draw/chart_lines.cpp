@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kMostSeries = 12;
 constexpr std::size_t kMostPieces = 2400;  // of all lines together
 constexpr double kBeside = 16;             // between a line's end and its name
+constexpr double kNamesEvery = 80;         // the room for names grows by so much
 constexpr double kTickLength = 7;
 constexpr double kMarkEvery = 24;  // page units between two marks of a line
 
@@ -105,6 +106,9 @@ class Lines {
       const double name = alone() ? 0 : width_of(line.name, type_.name) + 10;
       names = std::max(names, name + width_of(line.number, type_.number));
     }
+    // Over time the numbers change from frame to frame: the area must not.
+    if (chart_.over_time)
+      names = std::ceil((names + width_of("0.000", type_.number)) / kNamesEvery) * kNamesEvery;
     area_.hi.x -= std::min(names + 1, 0.42 * panel_.size().x) + kBeside + 4;
     double numbers = 0;
     for (const Axis::Tick& tick : y_.ticks())

@@ -114,21 +114,33 @@ void draw_half_space(const FrameBody& body, const SolidView& view, DrawList& lis
   }
 }
 
-// Straight below a body, round, and cut off where the floor ends.
-void draw_shadow(const SolidBody& b, const SolidView& view, DrawList& list) {
-  const Box<3>& box = b.body->box;
-  const Box<3>& bounds = view.bounds();
-  if (box.center().y < bounds.lo.y || view.eye().y <= bounds.lo.y) return;
-  const Vec<3> c = box.center(), half = box.size() * 0.5;
-  const bool round = b.space.radius > 0;
-  Corners rim;
-  const int corners = round ? 32 : 4;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * (i + 0.5) / corners;
-    Vec<2> at{std::cos(angle), std::sin(angle)};
-    if (!round) at = {at.x < 0 ? -1 : 1, at.y < 0 ? -1 : 1};
-    rim.push_back({c.x + at.x * half.x, bounds.lo.y, c.z + at.y * half.z});
+// What a body covers of the floor, seen from straight above: x and z.
+Outline seen_from_above(const SolidBody& b) {
+  Outline points;
+  if (b.space.radius > 0) {
+    const Vec<3> c = b.body->box.center(), half = b.body->box.size() * 0.5;
+    constexpr int kCorners = 32;
+    for (int i = 0; i < kCorners; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + 0.5) / kCorners;
+      points.push_back({c.x + std::cos(angle) * half.x, c.z + std::sin(angle) * half.z});
+    }
+    return points;
   }
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec<3> at = b.space.center;
+    for (int axis = 0; axis < 3; ++axis)
+      at += b.space.axes[axis] * (corner >> axis & 1 ? b.space.half[axis] : -b.space.half[axis]);
+    points.push_back({at.x, at.z});
+  }
+  return hull_of(std::move(points));
+}
+
+// Straight below a body, and cut off where the floor ends.
+void draw_shadow(const SolidBody& b, const SolidView& view, DrawList& list) {
+  const Box<3>& bounds = view.bounds();
+  if (b.body->box.center().y < bounds.lo.y || view.eye().y <= bounds.lo.y) return;
+  Corners rim;
+  for (const Vec<2>& p : seen_from_above(b)) rim.push_back({p.x, bounds.lo.y, p.y});
   fill(cut_by(rim, bounds), Role::rule, {}, view, list);
 }
 

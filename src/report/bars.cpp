@@ -1,5 +1,6 @@
 #include "report/bars.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ std::vector<Bar> measured_bars(const std::function<bool()>& stop) {
     if (stop()) break;
     const StressResult result = run_case(one).result;
     Bar bar;
-    bar.name = one.what;
+    bar.name = one.name;
+    std::ranges::replace(bar.name, '_', ' ');
     if (std::isfinite(result.figure)) bar.value = result.figure;
     bar.bound = result.bound;
     bar.unit = result.unit;

@@ -97,8 +97,8 @@ class Page {
     const Box<2> band{{kMargin, 20}, {list_.page.x - kMargin, 76}};
     const TextStyle bold{28, Weight::semibold, Role::ink, Role::none};
     const TextStyle quiet{26, Weight::regular, Role::quiet_ink, Role::none};
-    const std::string text =
-        fmt::format("Where to set capacity and depth limit of a {}", words_of(kind_));
+    const std::string text = fmt::format("Where to set capacity and depth limit of {} {}",
+                                         words_of(kind_)[0] == 'o' ? "an" : "a", words_of(kind_));
     labels_.add(text, {{kMargin, 58}, 0}, bold, band);
     const double end = kMargin + text_width(text, bold.size, bold.weight) + 12;
     labels_.add(shortened("·  " + scene_.words, band.hi.x - end, quiet), {{end, 58}, 0}, quiet,

@@ -7,41 +7,41 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "draw/font.hpp"
 #include "base/library.hpp"
+#include "draw/font.hpp"
 
 namespace lantern {
 
 // Result, name without "cairo_", parameters: the part of <cairo.h> that is used. Surfaces and
 // contexts are opaque, statuses are 0 when good.
-#define LANTERN_CAIRO_FUNCTIONS(X)                                             \
-  X(const char*, version_string, ())                                           \
-  X(void*, image_surface_create, (int format, int width, int height))          \
-  X(int, surface_status, (void*))                                              \
-  X(void, surface_flush, (void*))                                              \
-  X(unsigned char*, image_surface_get_data, (void*))                           \
-  X(int, image_surface_get_stride, (void*))                                    \
-  X(int, surface_write_to_png, (void*, const char* path))                      \
-  X(const char*, status_to_string, (int))                                      \
-  X(void, surface_destroy, (void*))                                            \
-  X(void*, create, (void* surface))                                            \
-  X(void, destroy, (void*))                                                    \
-  X(void, set_antialias, (void*, int))                                         \
-  X(void, set_source_rgb, (void*, double, double, double))                     \
-  X(void, set_line_width, (void*, double))                                     \
-  X(void, set_line_cap, (void*, int))                                          \
-  X(void, set_line_join, (void*, int))                                         \
-  X(void, set_dash, (void*, const double*, int, double))                       \
-  X(void, new_path, (void*))                                                   \
-  X(void, move_to, (void*, double, double))                                    \
-  X(void, line_to, (void*, double, double))                                    \
-  X(void, curve_to, (void*, double, double, double, double, double, double))   \
-  X(void, arc, (void*, double x, double y, double radius, double, double))     \
-  X(void, close_path, (void*))                                                 \
-  X(void, fill, (void*))                                                       \
-  X(void, fill_preserve, (void*))                                              \
-  X(void, stroke, (void*))                                                     \
-  X(void, stroke_preserve, (void*))                                            \
+#define LANTERN_CAIRO_FUNCTIONS(X)                                           \
+  X(const char*, version_string, ())                                         \
+  X(void*, image_surface_create, (int format, int width, int height))        \
+  X(int, surface_status, (void*))                                            \
+  X(void, surface_flush, (void*))                                            \
+  X(unsigned char*, image_surface_get_data, (void*))                         \
+  X(int, image_surface_get_stride, (void*))                                  \
+  X(int, surface_write_to_png, (void*, const char* path))                    \
+  X(const char*, status_to_string, (int))                                    \
+  X(void, surface_destroy, (void*))                                          \
+  X(void*, create, (void* surface))                                          \
+  X(void, destroy, (void*))                                                  \
+  X(void, set_antialias, (void*, int))                                       \
+  X(void, set_source_rgb, (void*, double, double, double))                   \
+  X(void, set_line_width, (void*, double))                                   \
+  X(void, set_line_cap, (void*, int))                                        \
+  X(void, set_line_join, (void*, int))                                       \
+  X(void, set_dash, (void*, const double*, int, double))                     \
+  X(void, new_path, (void*))                                                 \
+  X(void, move_to, (void*, double, double))                                  \
+  X(void, line_to, (void*, double, double))                                  \
+  X(void, curve_to, (void*, double, double, double, double, double, double)) \
+  X(void, arc, (void*, double x, double y, double radius, double, double))   \
+  X(void, close_path, (void*))                                               \
+  X(void, fill, (void*))                                                     \
+  X(void, fill_preserve, (void*))                                            \
+  X(void, stroke, (void*))                                                   \
+  X(void, stroke_preserve, (void*))                                          \
   X(void, paint, (void*))
 
 struct CairoFunctions {

@@ -54,9 +54,9 @@ std::string count_text(double n, const std::string& name) {
 
 // "0.8 ms at h = 0.005 s, 2060 force evaluations".
 std::string price(const Row& row, const WorkCount& work, bool brief) {
-  const bool by_tolerance = row.method.starts_with("dormand");
-  const std::string at = by_tolerance ? fmt::format("at a tolerance of {}", figure(row.step))
-                                      : fmt::format("at h = {} s", figure(row.step));
+  const bool adaptive = row.method.starts_with("dormand");
+  const std::string at =
+      adaptive ? "in steps of its own" : fmt::format("at h = {} s", figure(row.step));
   const auto seconds = seconds_of(row);
   const auto count = brief && seconds ? std::nullopt : work.of(row);
   std::string text = seconds ? seconds_text(*seconds) + " " + at : at;
@@ -132,7 +132,8 @@ class Teller {
 
   std::string never() const {
     if (never_.empty() || brief_) return "";
-    if (never_.size() > 3) return fmt::format("; {} methods never get there", never_.size());
+    if (never_.size() > 3)
+      return fmt::format("; {} of Lantern's methods never get there", never_.size());
     return fmt::format("; {} never {} there", listed(never_), never_.size() == 1 ? "gets" : "get");
   }
 

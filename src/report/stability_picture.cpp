@@ -37,7 +37,7 @@ const std::array kBands = {
     Band{0, "below 0.5", in_tone(body_role(6), Tone::shade)},
     Band{0.5, "below 0.9", body_role(6)},
     Band{0.9, "below 1", in_tone(body_role(6), Tone::lit)},
-    Band{1 - kHair, "exactly 1", Role::panel},
+    Band{1 - kHair, "1, within 1e-9", Role::panel},
     Band{1 + kHair, "above 1", in_tone(body_role(1), Tone::lit)},
     Band{1.1, "above 1.1", body_role(1)},
     Band{2, "above 2", in_tone(body_role(1), Tone::shade)},

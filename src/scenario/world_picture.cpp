@@ -57,7 +57,8 @@ void picture_world(const Players<D>& players, Frame& frame) {
     if (const BodySpec* spec = players.spec_of(body.id))
       frame.bodies.push_back(frame_body(body, *spec));
   for (const Contact<D>& contact : world.contacts())
-    if (players.spec_of(contact.a) && players.spec_of(contact.b))
+    if (players.spec_of(contact.a) && players.spec_of(contact.b) && world.find(contact.a) &&
+        world.find(contact.b))  // one may have left since the step
       frame.contacts.push_back(frame_contact(contact, world.events()));
   players.for_each_link(
       [&](const LinkSpec& spec, const Vec<D>& from, const Vec<D>& to, double rest) {
