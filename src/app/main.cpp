@@ -122,8 +122,11 @@ void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
       ->type_name("DIR")
       ->capture_default_str();
   c->add_option("--method", o.methods, "only these: velocity_verlet, soft:16, impulse:100, ...")
+      ->allow_extra_args(false)
       ->type_name("NAME");
-  c->add_option("--step", o.steps, "only these time steps, seconds")->type_name("H");
+  c->add_option("--step", o.steps, "only these time steps, seconds")
+      ->allow_extra_args(false)
+      ->type_name("H");
   CLI::Option* quick = c->add_flag("--quick", o.quick, "a minute: plain problems, few repeats");
   c->add_flag("--full", o.full, "all runs, however long")->excludes(quick);
   c->add_option("--longest", o.longest, "leave out runs that would take more seconds than this")

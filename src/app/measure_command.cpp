@@ -16,7 +16,6 @@
 #include "report/bars.hpp"
 #include "report/measure_plots.hpp"
 #include "report/measure_tables.hpp"
-#include "report/sentences.hpp"
 #include "scenario/method.hpp"
 
 namespace lantern {
@@ -214,7 +213,9 @@ void save_pages(const ReportFolder& folder, const Measurement& m, const MeasureO
   folder.write("measure.csv", to_csv(m));
   folder.write("circumstances.csv", to_csv(m.circumstances));
   std::vector<ReportPage> pages;
-  pages.push_back({"overview", draw_overview(m, measured_bars(interrupted))});
+  const bool all = options.problems.empty();  // the bars belong to the whole
+  pages.push_back(
+      {"overview", draw_overview(m, all ? measured_bars(interrupted) : std::vector<Bar>())});
   for (const ProblemRows& problem : by_problem(m.rows))
     pages.push_back({problem.problem, draw_problem(problem, m)});
   folder.draw(pages, options.theme, options.backend);
@@ -232,9 +233,6 @@ int measure_problems(const MeasureOptions& options) {
     return kFailed;
   }
   write_stdout(options.json ? to_json(m) : to_table(m));
-  if (!options.json)
-    for (const ProblemRows& problem : by_problem(m.rows))
-      write_stdout(fmt::format("{}: {}\n", problem.problem, sentence(problem)));
   if (interrupted()) {
     say("interrupted; the same command goes on from here");
     return kInterrupted;

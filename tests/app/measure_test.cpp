@@ -1,0 +1,130 @@
+// `lantern measure` as a user meets it: exit codes, streams, files, interruption.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Few short runs of the orbit, at steps that take no time.
+const std::string kShort =
+    "lantern measure kepler --quick --no-peers --method velocity_verlet "
+    "--step 0.1 --step 0.05 -o ";
+
+json rows_of(const fs::path& folder) {
+  return json::parse(read_text(folder / "measure.json"))["rows"];
+}
+
+// What does not depend on the clock.
+json counted(json row) {
+  for (const char* key : {"timing", "median", "least", "spread", "repeats"}) row.erase(key);
+  return row;
+}
+
+TEST(MeasureCommand, WritesRowsTablesAndPages) {
+  const fs::path out = fresh_folder("measure") / "deeper";
+  const Outcome o = shell(kShort + out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("velocity_verlet"), std::string::npos) << o.out;
+  EXPECT_NE(o.err.find("2 runs, about"), std::string::npos) << "no estimate before: " << o.err;
+  for (const char* file : {"measure.json", "measure.csv", "circumstances.csv", "overview.svg",
+                           "overview.png", "kepler.svg", "kepler.png"})
+    EXPECT_TRUE(fs::exists(out / file)) << file;
+  EXPECT_EQ(rows_of(out).size(), 2u);
+}
+
+TEST(MeasureCommand, CountedWorkIsTheSameInEveryRun) {
+  const fs::path folder = fresh_folder("measure_twice");
+  json rows[2];
+  for (int i = 0; i < 2; ++i) {
+    const fs::path out = folder / std::to_string(i);
+    ASSERT_EQ(shell(kShort + out.string()).code, 0);
+    for (const json& row : rows_of(out)) rows[i].push_back(counted(row));
+  }
+  EXPECT_EQ(rows[0], rows[1]);
+}
+
+TEST(MeasureCommand, GoesOnWithWhatIsFinished) {
+  const fs::path out = fresh_folder("measure_again");
+  ASSERT_EQ(shell(kShort + out.string()).code, 0);
+  const json before = rows_of(out);
+  const Outcome again = shell(kShort + out.string() + " --step 0.025");
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.err.find("2 are finished from before"), std::string::npos) << again.err;
+  const json after = rows_of(out);
+  ASSERT_EQ(after.size(), 3u);
+  EXPECT_EQ(after[0], before[0]) << "a finished row was measured anew";
+  write_text(out / "measure.json", "{ \"damaged");
+  EXPECT_EQ(shell(kShort + out.string()).code, 0) << "a damaged file is as if there were none";
+}
+
+TEST(MeasureCommand, MistakesAreToldBeforeAnythingIsRun) {
+  const fs::path out = fresh_folder("measure_mistakes") / "none";
+  const std::string to = " -o " + out.string() + " ";
+  for (const auto& [words, says] :
+       {std::pair<std::string, std::string>{"keplr", "did you mean 'kepler'"},
+        {"kepler --method velocity_verle", "did you mean 'velocity_verlet'"},
+        {"kepler --step 0", "must be above 0"},
+        {"kepler --step=-1", "must be above 0"},
+        {"kepler --step nan", "must be above 0"},
+        {"kepler --quick --full", "excludes"},
+        {"kepler --longest 0", "longest"}}) {
+    const Outcome o = shell("lantern measure" + to + words);
+    EXPECT_EQ(o.code, 2) << words << ": " << o.err;
+    EXPECT_NE(o.err.find(says), std::string::npos) << words << ": " << o.err;
+    EXPECT_FALSE(fs::exists(out)) << words;
+  }
+  const Outcome tiny = shell("lantern measure" + to + "kepler --step 1e-300");
+  EXPECT_EQ(tiny.code, 3);
+  EXPECT_NE(tiny.err.find("too small to move a clock"), std::string::npos) << tiny.err;
+}
+
+TEST(MeasureCommand, ALongRunIsLeftOutAndSaidSo) {
+  const fs::path out = fresh_folder("measure_long");
+  const Outcome o = shell(
+      "lantern measure kepler --no-peers --quick --method runge_kutta_4 "
+      "--step 0.1 --step 1e-10 -o " +
+      out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.err.find("left out as too long"), std::string::npos) << o.err;
+  EXPECT_EQ(rows_of(out).size(), 1u);
+}
+
+TEST(MeasureCommand, AFolderThatCannotBeWrittenIsFoundOutFirst) {
+  const Outcome o = shell("lantern measure kepler -o /proc/lantern");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("/proc/lantern"), std::string::npos) << o.err;
+}
+
+TEST(MeasureCommand, AnyScenarioWithBodiesCanBeMeasured) {
+  const fs::path out = fresh_folder("measure_own");
+  const Outcome o = shell(
+      "lantern measure --quick --method runge_kutta_4 --step 0.02 --step 0.01 " +
+      repository("scenarios/spring_rope.toml").string() + " --longest 100 -o " + out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  ASSERT_EQ(rows_of(out).size(), 2u);
+  EXPECT_NE(std::string(rows_of(out)[0]["reference"]).find("own run"), std::string::npos);
+  const Outcome atlas =
+      shell("lantern measure " + repository("scenarios/kdtree_atlas.toml").string() + " -o " +
+            out.string());
+  EXPECT_EQ(atlas.code, 3);
+  EXPECT_NE(atlas.err.find("has no bodies"), std::string::npos) << atlas.err;
+}
+
+TEST(MeasureCommand, ListsEveryProblemFile) {
+  const Outcome o = shell("lantern measure --list");
+  EXPECT_EQ(o.code, 0);
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(repository("scenarios/problems"))) {
+    ++files;
+    EXPECT_NE(o.out.find(entry.path().stem().string() + " "), std::string::npos) << entry.path();
+  }
+  EXPECT_GT(files, 40u);
+}
+
+}  // namespace
+}  // namespace lantern::test
