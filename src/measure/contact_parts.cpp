@@ -84,6 +84,18 @@ void require_on_ground(const Scenario& scenario, const Ground& ground, std::size
     refuse_problem(scenario, fmt::format("'{}' does not lie on the ground", body.name));
 }
 
+Slope slope_of(const Scenario& scenario, const Ground& ground) {
+  const Vec<3>& g = scenario.world.gravity;
+  Slope slope;
+  slope.pull = -glm::dot(g, ground.normal);
+  const Vec<3> along = g + ground.normal * slope.pull;
+  slope.push = glm::length(along);
+  if (!(slope.pull > 0) || !(slope.push > 1e-12 * slope.pull))
+    refuse_problem(scenario, "gravity does not pull slantwise onto the ground");
+  slope.downhill = along / slope.push;
+  return slope;
+}
+
 double pull_onto(const Scenario& scenario, const Ground& ground) {
   const Vec<3>& gravity = scenario.world.gravity;
   const double pull = -glm::dot(gravity, ground.normal);

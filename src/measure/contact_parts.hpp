@@ -42,6 +42,14 @@ Ground ground_of(const Scenario& scenario);
 void require_no_links(const Scenario& scenario);
 // Refuses a body that does not touch the ground within a billionth of its size.
 void require_on_ground(const Scenario& scenario, const Ground& ground, std::size_t body);
+// Gravity, seen from a ground that leans. Units a second².
+struct Slope {
+  double pull = 0;       // onto the ground
+  double push = 0;       // along it
+  Vec<3> downhill{0.0};  // unit
+};
+// Refuses gravity that is not slantwise into the ground.
+Slope slope_of(const Scenario& scenario, const Ground& ground);
 // Units a second². Refuses gravity that is not straight into the ground.
 double pull_onto(const Scenario& scenario, const Ground& ground);
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "scenario/engine.hpp"
+#include "scenario/obey.hpp"
 
 namespace lantern {
 namespace {
@@ -26,9 +26,7 @@ class FileRun {
   explicit FileRun(const Scenario& scenario)
       : h_(scenario.world.time_step), engine_(make_engine(scenario, work_)) {}
 
-  void obey(const Verb& verb) {
-    std::visit([&](const auto& v) { act(v); }, verb);
-  }
+  void act(const Verb& verb) { obey(*engine_, verb, h_); }
 
   std::uint64_t steps_in(double seconds) const {
     return static_cast<std::uint64_t>(std::llround(seconds / h_));
@@ -43,26 +41,6 @@ class FileRun {
   }
 
  private:
-  void act(const auto&) {}
-  void act(const Insert& insert) {
-    for (const std::size_t i : insert.bodies) engine_->enter(i);
-  }
-  void act(const Remove& remove) {
-    for (const std::size_t i : remove.bodies) engine_->leave(i);
-  }
-  void act(const Move& move) { engine_->move(move); }
-  void act(const ApplyForce& force) { engine_->apply(force); }
-  void act(const ApplyImpulse& impulse) { engine_->apply(impulse); }
-  void act(const Sleep& sleep) {
-    for (const std::size_t i : sleep.bodies) engine_->sleep(i);
-  }
-  void act(const Wake& wake) {
-    for (const std::size_t i : wake.bodies) engine_->wake(i);
-  }
-  void act(const Run& run) {
-    for (std::uint64_t i = 0; i < steps_in(run.seconds); ++i) engine_->step();
-  }
-
   double h_;
   Work work_;
   std::unique_ptr<Engine> engine_;
@@ -86,15 +64,15 @@ Course script_of(const Scenario& scenario) {
   };
   for (const Step& step : scenario.steps) {
     if (const auto* run = std::get_if<Run>(&step.verb)) {
-      if (own) own->obey(step.verb);
+      if (own) own->act(step.verb);
       pass(static_cast<std::uint64_t>(std::llround(run->seconds / h)));
     } else if (const auto* wait = std::get_if<Wait>(&step.verb)) {
       pass(own->wait(*wait));
     } else if (std::holds_alternative<Phases>(step.verb)) {
-      if (own) own->obey(Run{h, 0});
+      if (own) own->act(step.verb);
       pass(1);
     } else {
-      if (own) own->obey(step.verb);
+      if (own) own->act(step.verb);
       leg.before.push_back(step.verb);
     }
   }

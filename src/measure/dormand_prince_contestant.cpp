@@ -28,7 +28,7 @@ class PointSimulation : public Simulation {
   PointSimulation(const Scenario& scenario, double h)
       : count_(scenario.bodies.size()),
         h_(h),
-        players_(scenario, config_of(scenario)),
+        players_(scenario),
         system_(entered(scenario), players_.world().forces(), evaluations_),
         state_(system_.start()),
         y_(2 * D * system_.movers().size(), 0.0),
@@ -60,13 +60,6 @@ class PointSimulation : public Simulation {
   Counted counted() const override { return {method_.steps(), evaluations_, 0, 0}; }
 
  private:
-  static WorldConfig<D> config_of(const Scenario& scenario) {
-    WorldConfig<D> config;
-    config.gravity = in_dimension<D>(scenario.world.gravity);
-    config.gravitation = scenario.world.gravitation;
-    return config;
-  }
-
   std::span<const Body<D>> entered(const Scenario& scenario) {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
     return players_.world().bodies();

@@ -12,15 +12,8 @@ namespace {
 class Incline : public Yardstick {
  public:
   explicit Incline(const Scenario& scenario)
-      : ground_(ground_of(scenario)), k_(roundness(scenario)) {
+      : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)), k_(roundness(scenario)) {
     require_no_links(scenario);
-    const Vec<3>& g = scenario.world.gravity;
-    pull_ = -glm::dot(g, ground_.normal);
-    const Vec<3> along = g + ground_.normal * pull_;
-    push_ = glm::length(along);
-    if (!(pull_ > 0) || !(push_ > 1e-12 * pull_))
-      refuse_problem(scenario, "gravity does not pull slantwise onto the ground");
-    downhill_ = along / push_;
     for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
   }
 
@@ -30,9 +23,9 @@ class Incline : public Yardstick {
     double wrong = 0;
     for (const Slider& s : sliders_) {
       const BodyState& state = now.states[s.body];
-      const double way = glm::dot(state.position - s.start, downhill_);
+      const double way = glm::dot(state.position - s.start, slope_.downhill);
       const double found = 2 * way / (now.time * now.time);
-      error.meet((found - s.acceleration) / std::hypot(pull_, push_));
+      error.meet((found - s.acceleration) / std::hypot(slope_.pull, slope_.push));
       wrong += is_wrong(s, state, found, now.time);
     }
     acceleration_ = error.value();
@@ -59,14 +52,14 @@ class Incline : public Yardstick {
     require_on_ground(scenario, ground_, index);
     if (body.velocity != Vec<3>(0.0) || body.spin != 0)
       refuse_problem(scenario, fmt::format("'{}' does not begin at rest", body.name));
-    const double grip = friction_between(scenario, index, ground_.body) * pull_;
-    Slider s{index, body.position, std::max(push_ - grip, 0.0), 0, push_ - grip};
+    const double grip = friction_between(scenario, index, ground_.body) * slope_.pull;
+    Slider s{index, body.position, std::max(slope_.push - grip, 0.0), 0, slope_.push - grip};
     if (is_ball(body) && turns(body)) {
       s.radius = reach_along(body, ground_.normal);
-      s.excess = push_ - grip * (1 + 1 / k_);
-      if (s.excess <= 0) s.acceleration = push_ / (1 + k_);
-    } else if (turns(body) && std::min(grip, push_) * reach_along(body, ground_.normal) >
-                                  pull_ * reach_along(body, downhill_)) {
+      s.excess = slope_.push - grip * (1 + 1 / k_);
+      if (s.excess <= 0) s.acceleration = slope_.push / (1 + k_);
+    } else if (turns(body) && std::min(grip, slope_.push) * reach_along(body, ground_.normal) >
+                                  slope_.pull * reach_along(body, slope_.downhill)) {
       refuse_problem(scenario, fmt::format("'{}' would topple", body.name));
     }
     sliders_.push_back(s);
@@ -78,16 +71,15 @@ class Incline : public Yardstick {
     if (s.radius > 0) {
       const Vec<3> touching =
           state.velocity + glm::cross(state.angular_velocity, -s.radius * ground_.normal);
-      gains = glm::dot(touching, downhill_) / time;
+      gains = glm::dot(touching, slope_.downhill) / time;
     }
     const bool goes = !(gains <= std::abs(s.excess) / 2);
     return goes != (s.excess > 0);
   }
 
   Ground ground_;
+  Slope slope_;
   double k_;
-  double pull_ = 0, push_ = 0;  // gravity into the ground and down along it
-  Vec<3> downhill_{0.0};
   std::vector<Slider> sliders_;
   double acceleration_ = 0, wrong_ = 0;
 };

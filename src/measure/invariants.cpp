@@ -21,8 +21,7 @@ template <int D>
 class ModelOf : public Invariants::Model {
  public:
   explicit ModelOf(const Scenario& scenario)
-      : collides_(scenario.world.contacts != ContactMethod::none),
-        players_(scenario, config_of(scenario)) {
+      : collides_(scenario.world.contacts != ContactMethod::none), players_(scenario) {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
   }
 
@@ -47,13 +46,6 @@ class ModelOf : public Invariants::Model {
   }
 
  private:
-  static WorldConfig<D> config_of(const Scenario& scenario) {
-    WorldConfig<D> config;
-    config.gravity = in_dimension<D>(scenario.world.gravity);
-    config.gravitation = scenario.world.gravitation;
-    return config;
-  }
-
   static void put(Body<D>& body, const BodyState& state) {
     if (!state.there) return make_absent(body);
     body.position = in_dimension<D>(state.position);

@@ -1,6 +1,6 @@
 #include "measure/lantern_contestant.hpp"
 
-#include "scenario/engine.hpp"
+#include "scenario/obey.hpp"
 #include "scenario/script_walk.hpp"
 
 namespace lantern {
@@ -18,9 +18,7 @@ class WorldSimulation : public Simulation {
     for (std::uint64_t i = 0; i < steps; ++i) engine_->step();
   }
 
-  void act(const Verb& verb) override {
-    std::visit([&](const auto& v) { obey(v); }, verb);
-  }
+  void act(const Verb& verb) override { obey(*engine_, verb, scenario_.world.time_step); }
 
   void observe(std::vector<BodyState>& states) const override { engine_->observe(states); }
   std::uint64_t impacts() const override { return engine_->world_work().impacts_located; }
@@ -31,23 +29,6 @@ class WorldSimulation : public Simulation {
   }
 
  private:
-  void obey(const auto&) {}  // most verbs move nothing
-  void obey(const Insert& insert) {
-    for (const std::size_t i : insert.bodies) engine_->enter(i);
-  }
-  void obey(const Remove& remove) {
-    for (const std::size_t i : remove.bodies) engine_->leave(i);
-  }
-  void obey(const Move& move) { engine_->move(move); }
-  void obey(const ApplyForce& force) { engine_->apply(force); }
-  void obey(const ApplyImpulse& impulse) { engine_->apply(impulse); }
-  void obey(const Sleep& sleep) {
-    for (const std::size_t i : sleep.bodies) engine_->sleep(i);
-  }
-  void obey(const Wake& wake) {
-    for (const std::size_t i : wake.bodies) engine_->wake(i);
-  }
-
   Scenario scenario_;
   Work work_;
   std::unique_ptr<Engine> engine_;

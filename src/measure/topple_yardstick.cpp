@@ -13,15 +13,9 @@ constexpr double kIsTold = 0.2;   // radians that it must have turned by the end
 
 class Topple : public Yardstick {
  public:
-  explicit Topple(const Scenario& scenario) : ground_(ground_of(scenario)) {
+  explicit Topple(const Scenario& scenario)
+      : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)) {
     require_no_links(scenario);
-    const Vec<3>& g = scenario.world.gravity;
-    pull_ = -glm::dot(g, ground_.normal);
-    const Vec<3> along = g + ground_.normal * pull_;
-    push_ = glm::length(along);
-    if (!(pull_ > 0) || !(push_ > 1e-12 * pull_))
-      refuse_problem(scenario, "gravity does not pull slantwise onto the ground");
-    downhill_ = along / push_;
     for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
   }
 
@@ -61,17 +55,17 @@ class Topple : public Yardstick {
     if (!shape || !turns(body)) refuse("is no box that turns");
     if (body.velocity != Vec<3>(0.0) || body.spin != 0) refuse("does not begin at rest");
     const double mu = friction_between(scenario, index, ground_.body);
-    if (!(mu * pull_ > push_)) refuse("would slide");
+    if (!(mu * slope_.pull > slope_.push)) refuse("would slide");
     Box box;
     box.body = index;
     const Mat<3> axes = matrix(turned(Rotation<3>(), body.axis * body.angle));
     box.up = glm::transpose(axes) * ground_.normal;
-    const double w = reach_along(body, downhill_), h = reach_along(body, ground_.normal);
+    const double w = reach_along(body, slope_.downhill), h = reach_along(body, ground_.normal);
     double flattest = 1;
     for (int i = 0; i < 3; ++i)
       flattest = std::min(flattest, 1 - std::abs(glm::dot(axes[i], ground_.normal)));
     if (flattest > 1e-9) refuse("does not stand flat on the ground");
-    box.should = push_ * h > pull_ * w;
+    box.should = slope_.push * h > slope_.pull * w;
     if (box.should && tilt_after(scenario.problem->seconds, w, h) < kIsTold)
       refuse("needs more seconds to topple");
     boxes_.push_back(box);
@@ -81,14 +75,13 @@ class Topple : public Yardstick {
   // is 4/3 (w^2 + h^2), and what turns it grows with the angle.
   double tilt_after(double seconds, double w, double h) const {
     const double inertia = 4.0 / 3 * (w * w + h * h);
-    const double at_first = (push_ * h - pull_ * w) / inertia;
-    const double growth = (pull_ * h + push_ * w) / inertia;
+    const double at_first = (slope_.push * h - slope_.pull * w) / inertia;
+    const double growth = (slope_.pull * h + slope_.push * w) / inertia;
     return at_first / growth * (std::cosh(std::sqrt(growth) * seconds) - 1);
   }
 
   Ground ground_;
-  double pull_ = 0, push_ = 0;  // gravity into the ground and down along it
-  Vec<3> downhill_{0.0};
+  Slope slope_;
   std::vector<Box> boxes_;
   double wrong_ = 0;
   Worst tilt_;

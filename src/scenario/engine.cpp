@@ -12,22 +12,6 @@
 namespace lantern {
 namespace {
 
-template <int D>
-WorldConfig<D> config_of(const Scenario& scenario) {
-  const WorldSpec& spec = scenario.world;
-  WorldConfig<D> config;
-  config.gravity = in_dimension<D>(spec.gravity);
-  config.gravitation = spec.gravitation;
-  config.integrator = spec.integrator;
-  config.rotation = spec.rotation;
-  config.contacts = spec.contacts;
-  config.sub_steps = spec.sub_steps;
-  config.iterations = spec.iterations;
-  config.may_sleep = spec.may_sleep;
-  config.broad_phase = broad_phase_of<D>(scenario.structure, in_dimension<D>(spec.bounds));
-  return config;
-}
-
 // What one world step did.
 struct StepWork {
   std::uint64_t narrow_tests = 0;
@@ -69,7 +53,7 @@ class EngineOf : public Engine {
   EngineOf(const Scenario& scenario, Work& work)
       : scenario_(scenario),
         work_(work),
-        players_(scenario, config_of<D>(scenario)),
+        players_(scenario),
         structures_(made(scenario.structure)),
         brains_(scenario) {
     ++work_.worlds_created;

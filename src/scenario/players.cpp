@@ -4,6 +4,22 @@ namespace lantern {
 namespace {
 
 template <int D>
+WorldConfig<D> config_of(const Scenario& scenario) {
+  const WorldSpec& spec = scenario.world;
+  WorldConfig<D> config;
+  config.gravity = in_dimension<D>(spec.gravity);
+  config.gravitation = spec.gravitation;
+  config.integrator = spec.integrator;
+  config.rotation = spec.rotation;
+  config.contacts = spec.contacts;
+  config.sub_steps = spec.sub_steps;
+  config.iterations = spec.iterations;
+  config.may_sleep = spec.may_sleep;
+  config.broad_phase = broad_phase_of<D>(scenario.structure, in_dimension<D>(spec.bounds));
+  return config;
+}
+
+template <int D>
 Body<D> body_of(const BodySpec& spec) {
   Body<D> body;
   body.name = spec.name;
@@ -24,6 +40,13 @@ Body<D> body_of(const BodySpec& spec) {
 }
 
 }  // namespace
+
+template <int D>
+Players<D>::Players(const Scenario& scenario)
+    : scenario_(scenario),
+      world_(config_of<D>(scenario)),
+      ids_(scenario.bodies.size()),
+      links_(scenario.links.size()) {}
 
 template <int D>
 void Players<D>::enter(std::size_t index) {

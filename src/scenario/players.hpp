@@ -17,11 +17,8 @@ namespace lantern {
 template <int D>
 class Players {
  public:
-  Players(const Scenario& scenario, const WorldConfig<D>& config)
-      : scenario_(scenario),
-        world_(config),
-        ids_(scenario.bodies.size()),
-        links_(scenario.links.size()) {}
+  // A world by the scenario's rules, empty as yet.
+  explicit Players(const Scenario& scenario);
 
   World<D>& world() { return world_; }
   const World<D>& world() const { return world_; }
