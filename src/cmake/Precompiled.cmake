@@ -1,7 +1,7 @@
 # With LANTERN_PCH, the headers that most sources read are parsed once, not 300 times: headers of
 # the language and of packages only, never our own. The compiler then does not notice where an
-# #include of one of these is missing. So a plain build has none, and `./run test` gives the rooms
-# none in its release build: that is the check that each file of a room includes what it uses.
+# #include of one of these is missing. So a plain build, such as that of `./run build`, has none:
+# that is the check that each file includes what it uses.
 
 # lantern_headers(TARGET LINKS ... OPTIONS ... HEADERS ...): TARGET is nothing but these headers,
 # precompiled with these compile options.

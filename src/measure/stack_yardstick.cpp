@@ -49,16 +49,15 @@ class Stack : public Yardstick {
     double face = ground_.height;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const double at = glm::dot(now.states[bodies_[i]].position, ground_.normal);
-      const double depth = face - (at - reaches_[i]);
-      if (!(depth <= 0)) depth_.meet(depth);
+      depth_.meet(face - (at - reaches_[i]));
       face = at + reaches_[i];
     }
     burdens_.look(now);
   }
 
-  // Both largest over all contacts and the run. "depth": how deep one is in the one below, in
-  // units, by the heights of their centres. "impulse": of the mean over the time between two looks,
-  // relative.
+  // Both largest over all contacts and the run. "depth": how deep one is in the one below, or
+  // how far above it, in units, by the heights of their centres: at rest they touch, no more, no
+  // less. "impulse": of the mean over the time between two looks, relative.
   std::vector<Norm> norms() const override {
     return {{"depth", depth_.value()}, {"impulse", burdens_.worst()}};
   }
