@@ -113,7 +113,7 @@ class BlocksAndWall : public Yardstick {
     speed_error_ = static_cast<double>(std::sqrt(dot(off, off)) / size);
   }
 
-  Ground wall_;
+  Footing wall_;
   std::size_t inner_ = 0, outer_ = 0;
   Real root_inner_ = 0, root_outer_ = 0, theta_ = 0;
   Point start_, speed_;

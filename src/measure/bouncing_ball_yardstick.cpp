@@ -116,7 +116,7 @@ class BouncingBall : public Yardstick {
     return errors;
   }
 
-  Ground ground_;
+  Footing ground_;
   std::size_t ball_ = 0;
   Real gravity_ = 0, restitution_ = 0, reach_ = 0;
   Flight first_, before_, flight_;

@@ -47,8 +47,8 @@ std::vector<std::size_t> moving_bodies(const Scenario& scenario) {
   return bodies;
 }
 
-Ground ground_of(const Scenario& scenario) {
-  Ground ground;
+Footing ground_of(const Scenario& scenario) {
+  Footing ground;
   int count = 0;
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
     if (scenario.bodies[i].kind == BodyKind::static_body) {
@@ -75,7 +75,7 @@ void require_no_links(const Scenario& scenario) {
   if (!scenario.links.empty()) refuse_problem(scenario, "it has springs or joints");
 }
 
-void require_on_ground(const Scenario& scenario, const Ground& ground, std::size_t index) {
+void require_on_ground(const Scenario& scenario, const Footing& ground, std::size_t index) {
   const BodySpec& body = scenario.bodies[index];
   const double reach = reach_along(body, ground.normal);
   const double above = glm::dot(body.position, ground.normal) - reach - ground.height;
@@ -84,7 +84,7 @@ void require_on_ground(const Scenario& scenario, const Ground& ground, std::size
     refuse_problem(scenario, fmt::format("'{}' does not lie on the ground", body.name));
 }
 
-Slope slope_of(const Scenario& scenario, const Ground& ground) {
+Slope slope_of(const Scenario& scenario, const Footing& ground) {
   const Vec<3>& g = scenario.world.gravity;
   Slope slope;
   slope.pull = -glm::dot(g, ground.normal);
@@ -96,7 +96,7 @@ Slope slope_of(const Scenario& scenario, const Ground& ground) {
   return slope;
 }
 
-double pull_onto(const Scenario& scenario, const Ground& ground) {
+double pull_onto(const Scenario& scenario, const Footing& ground) {
   const Vec<3>& gravity = scenario.world.gravity;
   const double pull = -glm::dot(gravity, ground.normal);
   if (!(pull > 0) || !are_parallel(gravity, ground.normal))

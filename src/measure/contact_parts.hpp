@@ -27,7 +27,7 @@ class Worst {
 
 // What does not move, and all others stand on or run into: a half-space, or the face of a box that
 // keeps to the axes which looks against gravity, or, without gravity, at the first moving body.
-struct Ground {
+struct Footing {
   std::size_t body = 0;
   Vec<3> normal{0.0};  // out of it, unit
   double height = 0;   // of its face along `normal`
@@ -37,11 +37,11 @@ struct Ground {
 // problem has them.
 std::vector<std::size_t> moving_bodies(const Scenario& scenario);
 // Refuses none or several static bodies, and shapes other than those above.
-Ground ground_of(const Scenario& scenario);
+Footing ground_of(const Scenario& scenario);
 // Refuses any spring or joint.
 void require_no_links(const Scenario& scenario);
 // Refuses a body that does not touch the ground within a billionth of its size.
-void require_on_ground(const Scenario& scenario, const Ground& ground, std::size_t body);
+void require_on_ground(const Scenario& scenario, const Footing& ground, std::size_t body);
 // Gravity, seen from a ground that leans. Units a second².
 struct Slope {
   double pull = 0;       // onto the ground
@@ -49,9 +49,9 @@ struct Slope {
   Vec<3> downhill{0.0};  // unit
 };
 // Refuses gravity that is not slantwise into the ground.
-Slope slope_of(const Scenario& scenario, const Ground& ground);
+Slope slope_of(const Scenario& scenario, const Footing& ground);
 // Units a second². Refuses gravity that is not straight into the ground.
-double pull_onto(const Scenario& scenario, const Ground& ground);
+double pull_onto(const Scenario& scenario, const Footing& ground);
 
 double mass_of(const Scenario& scenario, std::size_t body);
 // Of two bodies that touch.

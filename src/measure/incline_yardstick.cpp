@@ -77,7 +77,7 @@ class Incline : public Yardstick {
     return goes != (s.excess > 0);
   }
 
-  Ground ground_;
+  Footing ground_;
   Slope slope_;
   double k_;
   std::vector<Slider> sliders_;

@@ -74,7 +74,7 @@ class Slide : public Yardstick {
     double distance() const { return speed * speed / (2 * braking); }
   };
 
-  Ground ground_;
+  Footing ground_;
   std::vector<Slider> sliders_;
   Worst distance_, time_, apart_;
 };

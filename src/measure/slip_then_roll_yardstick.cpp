@@ -74,7 +74,7 @@ class SlipThenRoll : public Yardstick {
 
   double rolls_after(const Ball& ball) const { return k_ / (1 + k_) * ball.speed / ball.braking; }
 
-  Ground ground_;
+  Footing ground_;
   double k_;
   std::vector<Ball> balls_;
   Worst distance_, time_, speed_;

@@ -63,7 +63,7 @@ class Stack : public Yardstick {
   }
 
  private:
-  Ground ground_;
+  Footing ground_;
   std::vector<std::size_t> bodies_;  // from below
   std::vector<double> reaches_;      // half heights
   Burdens burdens_;

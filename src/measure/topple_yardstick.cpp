@@ -80,7 +80,7 @@ class Topple : public Yardstick {
     return at_first / growth * (std::cosh(std::sqrt(growth) * seconds) - 1);
   }
 
-  Ground ground_;
+  Footing ground_;
   Slope slope_;
   std::vector<Box> boxes_;
   double wrong_ = 0;

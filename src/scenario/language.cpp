@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/check.hpp"
+#include "scenario/language_key.hpp"
 #include "scenario/language_parts.hpp"
-#include "scenario/language_row.hpp"
 
 namespace lantern {
 namespace {
@@ -17,38 +17,38 @@ TableDoc file_table() {
       "The file's own keys",
       "A scenario of Lantern. These keys stand at the top, before the first [table].",
       {
-          Row(text, "title", "The thin line above every frame.").must().range(1, 80),
-          Row(text, "source", "The section of the lecture that the scenario shows.")
+          Key(text, "title", "The thin line above every frame.").must().range(1, 80),
+          Key(text, "source", "The section of the lecture that the scenario shows.")
               .range(0, 80)
               .by_default("\"\""),
-          Row(text, "name", "Names the output folder and its files.")
+          Key(text, "name", "Names the output folder and its files.")
               .like(kFilePattern)
               .or_else("the file's name"),
-          Row(whole, "seed",
+          Key(whole, "seed",
               "Where random patterns begin; the same seed gives the same frames everywhere.")
               .range(0, kMostWhole)
               .by_default("1"),
-          Row(choice, "pace", "One frame a step, or one for each thing that the algorithm does.")
+          Key(choice, "pace", "One frame a step, or one for each thing that the algorithm does.")
               .one_of({"step", "event"})
               .by_default("\"step\""),
-          Row(choices_list, "panels", "What is drawn, from left to right.")
+          Key(choices_list, "panels", "What is drawn, from left to right.")
               .one_of({"world", "tree", "atlas", "chart", "memory"})
               .or_else("what the scenario uses"),
-          Row(table, "world", "Where bodies are.").holds("world"),
-          Row(table, "structure", "How the world is partitioned.").holds("structure"),
-          Row(tables, "body", "One body each.").at_most(kMostBodies).holds("body"),
-          Row(tables, "pattern", "Many bodies each.").at_most(kMostBodies).holds("pattern"),
-          Row(tables, "spring", "One spring each.").at_most(kMostLinks).holds("spring"),
-          Row(tables, "joint", "One joint each.").at_most(kMostLinks).holds("joint"),
-          Row(table, "level", "Walls, to be made a BSP of.").holds("level"),
-          Row(table, "chart", "Counts of steps as lines or bars.").holds("chart"),
-          Row(table, "problem", "The known answer that it is measured against.").holds("problem"),
-          Row(table, "atlas", "The image that textures are packed into.").holds("atlas"),
-          Row(tables, "texture", "One texture each.").at_most(kMostTextures).holds("texture"),
-          Row(tables, "texture_pattern", "Many textures each.")
+          Key(table, "world", "Where bodies are.").holds("world"),
+          Key(table, "structure", "How the world is partitioned.").holds("structure"),
+          Key(tables, "body", "One body each.").at_most(kMostBodies).holds("body"),
+          Key(tables, "pattern", "Many bodies each.").at_most(kMostBodies).holds("pattern"),
+          Key(tables, "spring", "One spring each.").at_most(kMostLinks).holds("spring"),
+          Key(tables, "joint", "One joint each.").at_most(kMostLinks).holds("joint"),
+          Key(table, "level", "Walls, to be made a BSP of.").holds("level"),
+          Key(table, "chart", "Counts of steps as lines or bars.").holds("chart"),
+          Key(table, "problem", "The known answer that it is measured against.").holds("problem"),
+          Key(table, "atlas", "The image that textures are packed into.").holds("atlas"),
+          Key(tables, "texture", "One texture each.").at_most(kMostTextures).holds("texture"),
+          Key(tables, "texture_pattern", "Many textures each.")
               .at_most(kMostTextures)
               .holds("texture_pattern"),
-          Row(tables, "step", "The script.").must().at_most(kMostSteps).holds("step"),
+          Key(tables, "step", "The script.").must().at_most(kMostSteps).holds("step"),
       }};
 }
 
@@ -57,21 +57,21 @@ TableDoc step_table() {
           "[[step]]",
           "One step of the script. Each has a verb in `do`, the verb's own keys, and any of these.",
           {
-              Row(text, "do", "The verb, one of those below.").must(),
-              Row(text, "name", "To ask for this step's frames with `--at`.")
+              Key(text, "do", "The verb, one of those below.").must(),
+              Key(text, "name", "To ask for this step's frames with `--at`.")
                   .like(kEventPattern)
                   .or_else("the verb"),
-              Row(text, "part", "Stands behind the title from here on.")
+              Key(text, "part", "Stands behind the title from here on.")
                   .range(1, 60)
                   .or_else("as before"),
-              Row(text, "caption", "Explains the frame. It may quote counts.")
+              Key(text, "caption", "Explains the frame. It may quote counts.")
                   .range(0, kMostCaption)
                   .by_default("\"\""),
-              Row(text, "plot", "Adds a point to the [chart], or a bar with this label.")
+              Key(text, "plot", "Adds a point to the [chart], or a bar with this label.")
                   .range(1, 40)
                   .or_else("adds none"),
-              Row(table, "expect", "What must hold when the step is done.").holds("expect"),
-              Row(table, "always", "What must hold on every frame of the step.").holds("expect"),
+              Key(table, "expect", "What must hold when the step is done.").holds("expect"),
+              Key(table, "always", "What must hold on every frame of the step.").holds("expect"),
           }};
 }
 

@@ -1,6 +1,6 @@
 // The verbs that let time pass, rebuild, and ask.
+#include "scenario/language_key.hpp"
 #include "scenario/language_parts.hpp"
-#include "scenario/language_row.hpp"
 
 namespace lantern {
 namespace {
@@ -8,7 +8,7 @@ namespace {
 using enum KeyType;
 
 KeyDoc every_key() {
-  return Row(whole, "every", "World steps from frame to frame.")
+  return Key(whole, "every", "World steps from frame to frame.")
       .range(1, kMostEvery)
       .in("steps")
       .or_else("the world's `frame_every`");
@@ -18,7 +18,7 @@ TableDoc run_verb() {
   return {"run",
           "do = \"run\"",
           "Time passes.",
-          {Row(number, "seconds",
+          {Key(number, "seconds",
                "A whole number of time steps; the frames of all steps are at most 100000, and the "
                "time steps 1000000.")
                .must()
@@ -41,11 +41,11 @@ TableDoc wait_verb() {
           "do = \"wait\"",
           "Time passes until something happens. If it has not happened in time, the scenario "
           "fails.",
-          {Row(choice, "event", "Two bodies `touch` or `part`; or all of some bodies are `asleep`.")
+          {Key(choice, "event", "Two bodies `touch` or `part`; or all of some bodies are `asleep`.")
                .must()
                .one_of({"touch", "part", "asleep"}),
-           Row(texts, "bodies", "Two names of bodies; of what falls asleep any number.").must(),
-           Row(number, "at_most", "A whole number of time steps.")
+           Key(texts, "bodies", "Two names of bodies; of what falls asleep any number.").must(),
+           Key(number, "at_most", "A whole number of time steps.")
                .must()
                .above(0, kHundredYears)
                .in("s"),
@@ -79,13 +79,13 @@ TableDoc solve_by_verb() {
   return {"solve_by",
           "do = \"solve_by\"",
           "From now on, contacts are solved another way; the world must have some.",
-          {Row(choice, "contacts", "Sequential `impulse`s, or `soft` contacts in small steps.")
+          {Key(choice, "contacts", "Sequential `impulse`s, or `soft` contacts in small steps.")
                .must()
                .one_of({"impulse", "soft"}),
-           Row(whole, "sub_steps", "Into which soft contacts divide a world step.")
+           Key(whole, "sub_steps", "Into which soft contacts divide a world step.")
                .range(1, 64)
                .or_else("as it was"),
-           Row(whole, "iterations", "Of the impulses, in a world step.")
+           Key(whole, "iterations", "Of the impulses, in a world step.")
                .range(1, 1000)
                .or_else("as it was")},
           {},
@@ -128,9 +128,9 @@ TableDoc ray_verb() {
   return {"ray",
           "do = \"ray\"",
           "Which bodies does a ray meet? The structure leaves out what it cannot meet.",
-          {Row(point, "from", "Where it begins.").must().range(-kFar, kFar),
-           Row(point, "to", "Where it ends, unless something stops it.").must().range(-kFar, kFar),
-           Row(choice, "hits", "It stops at the `nearest` body, or goes through `all`.")
+          {Key(point, "from", "Where it begins.").must().range(-kFar, kFar),
+           Key(point, "to", "Where it ends, unless something stops it.").must().range(-kFar, kFar),
+           Key(choice, "hits", "It stops at the `nearest` body, or goes through `all`.")
                .one_of({"nearest", "all"})
                .by_default("\"nearest\""),
            pace_key(), query_events()},
@@ -148,14 +148,14 @@ TableDoc cull_verb() {
   return {"cull",
           "do = \"cull\"",
           "Which bodies can a camera see? Whole nodes outside its view are left out.",
-          {Row(point, "eye", "Where the camera is.").must().range(-kFar, kFar),
-           Row(point, "target", "Where it looks.").must().range(-kFar, kFar),
-           Row(number, "angle", "How wide its view opens; in a solid world from bottom to top.")
+          {Key(point, "eye", "Where the camera is.").must().range(-kFar, kFar),
+           Key(point, "target", "Where it looks.").must().range(-kFar, kFar),
+           Key(number, "angle", "How wide its view opens; in a solid world from bottom to top.")
                .above(0, 170)
                .in("°")
                .by_default("60"),
-           Row(number, "near", "It sees nothing nearer.").above(0, kFar).by_default("0.1"),
-           Row(number, "far", "It sees nothing farther.").above(0, kFar).by_default("10"),
+           Key(number, "near", "It sees nothing nearer.").above(0, kFar).by_default("0.1"),
+           Key(number, "far", "It sees nothing farther.").above(0, kFar).by_default("10"),
            pace_key(), query_events()},
           {},
           R"([[step]]
@@ -173,10 +173,10 @@ TableDoc query_verb() {
       "query",
       "do = \"query\"",
       "Which bodies overlap a box, or a disc or ball?",
-      {Row(point, "min", "Lowest corner of the box.").range(-kFar, kFar),
-       Row(point, "max", "Highest corner of the box.").range(-kFar, kFar),
-       Row(point, "center", "Of the disc or ball, instead.").range(-kFar, kFar),
-       Row(number, "radius", "Of the disc or ball.").above(0, kFar), pace_key(), query_events()},
+      {Key(point, "min", "Lowest corner of the box.").range(-kFar, kFar),
+       Key(point, "max", "Highest corner of the box.").range(-kFar, kFar),
+       Key(point, "center", "Of the disc or ball, instead.").range(-kFar, kFar),
+       Key(number, "radius", "Of the disc or ball.").above(0, kFar), pace_key(), query_events()},
       {.groups = {{"min", "max"}, {"center", "radius"}}},
       R"([[step]]
 do = "query"
@@ -186,8 +186,8 @@ expect = { hits_are = ["red"] }
 )"};
 }
 
-Row flat_point(std::string_view key, std::string_view meaning) {
-  return Row(two_numbers, key, meaning).range(-kFar, kFar).written("[x, y]").must();
+Key flat_point(std::string_view key, std::string_view meaning) {
+  return Key(two_numbers, key, meaning).range(-kFar, kFar).written("[x, y]").must();
 }
 
 TableDoc compile_verb() {

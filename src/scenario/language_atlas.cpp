@@ -1,6 +1,6 @@
 // Tables of the atlas, and its verbs.
+#include "scenario/language_key.hpp"
 #include "scenario/language_parts.hpp"
-#include "scenario/language_row.hpp"
 
 namespace lantern {
 
@@ -11,7 +11,7 @@ TableDoc atlas_table() {
           "[atlas]",
           "One large image that textures are packed into, by a kD-tree. Its origin is the upper "
           "left corner.",
-          {Row(size, "size", "Its width and height; it is also written as an image.")
+          {Key(size, "size", "Its width and height; it is also written as an image.")
                .must()
                .range(1, kMostAtlas)
                .in("px")}};
@@ -23,9 +23,9 @@ TableDoc texture_table() {
       "[[texture]]",
       "A texture. It enters the atlas when a step packs it.",
       {
-          Row(text, "name", "Unique over textures and their patterns.").must().like(kNamePattern),
-          Row(size, "size", "Its width and height.").must().range(1, kMostPixels).in("px"),
-          Row(whole, "color", "As a body's.").range(1, 8).by_default("1"),
+          Key(text, "name", "Unique over textures and their patterns.").must().like(kNamePattern),
+          Key(size, "size", "Its width and height.").must().range(1, kMostPixels).in("px"),
+          Key(whole, "color", "As a body's.").range(1, 8).by_default("1"),
       }};
 }
 
@@ -35,22 +35,22 @@ TableDoc texture_pattern_table() {
       "[[texture_pattern]]",
       "Many textures at once, of random sizes. Those of pattern `t` are called `t1`, `t2`, …",
       {
-          Row(text, "name", "Unique over textures and their patterns.").must().like(kNamePattern),
-          Row(whole, "count", "How many; 20000 textures in all are allowed.")
+          Key(text, "name", "Unique over textures and their patterns.").must().like(kNamePattern),
+          Key(whole, "count", "How many; 20000 textures in all are allowed.")
               .must()
               .range(1, kMostTextures)
               .in("textures"),
-          Row(size, "min", "The least width and height.").must().range(1, kMostPixels).in("px"),
-          Row(size, "max", "The largest width and height.").must().range(1, kMostPixels).in("px"),
-          Row(whole, "multiple", "Widths and heights are multiples of it.")
+          Key(size, "min", "The least width and height.").must().range(1, kMostPixels).in("px"),
+          Key(size, "max", "The largest width and height.").must().range(1, kMostPixels).in("px"),
+          Key(whole, "multiple", "Widths and heights are multiples of it.")
               .range(1, kMostPixels)
               .in("px")
               .by_default("1"),
-          Row(choice, "order", "In which they are named and packed.")
+          Key(choice, "order", "In which they are named and packed.")
               .one_of({"as_made", "tallest_first"})
               .by_default("\"as_made\""),
-          Row(whole, "color", "As a body's; 0 cycles through 1 to 8.").range(0, 8).by_default("0"),
-          Row(whole, "seed", "Of this pattern alone.")
+          Key(whole, "color", "As a body's; 0 cycles through 1 to 8.").range(0, 8).by_default("0"),
+          Key(whole, "seed", "Of this pattern alone.")
               .range(0, kMostWhole)
               .or_else("from the scenario's seed and the name"),
       }};
@@ -63,9 +63,9 @@ TableDoc pack_verb() {
       "pack",
       "do = \"pack\"",
       "Textures enter the atlas, one after another. One that fits nowhere is refused.",
-      {Row(texts, "textures", "Names of textures, or of their patterns for all of theirs.").must(),
-       Row(truth, "each", "One frame a texture, or one for all.").by_default("true"),
-       Row(text, "free_name", "Labels the largest free leaf that the last one leaves.")
+      {Key(texts, "textures", "Names of textures, or of their patterns for all of theirs.").must(),
+       Key(truth, "each", "One frame a texture, or one for all.").by_default("true"),
+       Key(text, "free_name", "Labels the largest free leaf that the last one leaves.")
            .range(1, 24)
            .or_else("none"),
        pace_key(), events_key({"too_small", "used", "cut", "store", "refuse"})},
@@ -85,7 +85,7 @@ TableDoc ask_room_verb() {
       "ask_room",
       "do = \"ask_room\"",
       "The kD-tree's own question: has any free leaf room for this size?",
-      {Row(size, "size", "The width and height asked for.").must().range(1, kMostPixels).in("px")},
+      {Key(size, "size", "The width and height asked for.").must().range(1, kMostPixels).in("px")},
       {},
       R"([[step]]
 do = "ask_room"

@@ -1,6 +1,6 @@
 // Tables of bodies, one by one and many at once, and of what ties them together.
+#include "scenario/language_key.hpp"
 #include "scenario/language_parts.hpp"
-#include "scenario/language_row.hpp"
 
 namespace lantern {
 namespace {
@@ -12,81 +12,81 @@ constexpr double kHeavy = 1e12;  // masses, densities, stiffness and drag at mos
 const std::vector<std::string_view> kLooks = {"ghost", "player", "ball", "bat", "disc", "box"};
 
 KeyDoc name_key() {
-  return Row(text, "name", "Unique over bodies and patterns.").must().like(kNamePattern);
+  return Key(text, "name", "Unique over bodies and patterns.").must().like(kNamePattern);
 }
 
 // What [[body]] and [[pattern]] share.
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first, std::string_view color_doc,
                               std::string_view color_fallback, double least_color) {
   const std::vector<KeyDoc> shared = {
-      Row(choice, "look", "The character that is drawn.")
+      Key(choice, "look", "The character that is drawn.")
           .one_of(kLooks)
           .or_else("`disc` with a radius or a capsule, `box` otherwise"),
-      Row(whole, "color", color_doc).range(least_color, 8).by_default(color_fallback),
-      Row(number, "radius", "Of a disc, or a ball in a solid world.").range(0, kFar),
-      Row(point, "half_size", "Of a box.").range(0, kFar),
-      Row(two_numbers, "capsule",
+      Key(whole, "color", color_doc).range(least_color, 8).by_default(color_fallback),
+      Key(number, "radius", "Of a disc, or a ball in a solid world.").range(0, kFar),
+      Key(point, "half_size", "Of a box.").range(0, kFar),
+      Key(two_numbers, "capsule",
           "All that lies within `radius` of a segment along the body's own y axis, which reaches "
           "`half_length` to either side.")
           .range(0, kFar)
           .written("[radius, half_length]"),
-      Row(truth, "oriented", "A box that turns. One that is not oriented keeps to the axes.")
+      Key(truth, "oriented", "A box that turns. One that is not oriented keeps to the axes.")
           .or_else("whether `turned` or `spin` is given"),
-      Row(number, "turned", "How far it is turned, counter-clockwise or about `axis`.")
+      Key(number, "turned", "How far it is turned, counter-clockwise or about `axis`.")
           .range(-kMostTurn, kMostTurn)
           .in("°")
           .by_default("0"),
-      Row(number, "spin", "How fast it turns, the same way.")
+      Key(number, "spin", "How fast it turns, the same way.")
           .range(-kMostTurn, kMostTurn)
           .in("°/s")
           .by_default("0"),
-      Row(point, "axis", "Of a solid world: what `turned` and `spin` go about; not zero.")
+      Key(point, "axis", "Of a solid world: what `turned` and `spin` go about; not zero.")
           .range(-kFar, kFar)
           .or_else("[0, 1, 0]"),
-      Row(choice, "kind",
+      Key(choice, "kind",
           "`dynamic` is moved by forces and contacts, `kinematic` keeps its velocity whatever it "
           "meets, `static` never moves.")
           .one_of({"dynamic", "kinematic", "static"})
           .by_default("\"dynamic\""),
-      Row(truth, "static", "The same as kind = \"static\".").by_default("false"),
-      Row(number, "density", "Mass of a unit of area, or of volume.")
+      Key(truth, "static", "The same as kind = \"static\".").by_default("false"),
+      Key(number, "density", "Mass of a unit of area, or of volume.")
           .above(0, kHeavy)
           .in("kg")
           .by_default("1"),
-      Row(number, "mass", "Instead of the density.")
+      Key(number, "mass", "Instead of the density.")
           .above(0, kHeavy)
           .in("kg")
           .or_else("from shape and density"),
-      Row(number, "restitution", "How much of its speed a bounce keeps; of two bodies the larger.")
+      Key(number, "restitution", "How much of its speed a bounce keeps; of two bodies the larger.")
           .range(0, 1)
           .by_default("0"),
-      Row(number, "friction", "Of two bodies, the square root of their product counts.")
+      Key(number, "friction", "Of two bodies, the square root of their product counts.")
           .range(0, 1000)
           .by_default("0.5"),
-      Row(number, "drag", "Force against its motion, for each unit a second.")
+      Key(number, "drag", "Force against its motion, for each unit a second.")
           .range(0, kHeavy)
           .in("N s")
           .by_default("0"),
-      Row(number, "angular_drag", "Torque against its turning, for each radian a second.")
+      Key(number, "angular_drag", "Torque against its turning, for each radian a second.")
           .range(0, kHeavy)
           .in("N s")
           .by_default("0"),
-      Row(truth, "may_turn", "Contacts and forces may turn it.").by_default("true"),
-      Row(choice, "integrator", "How forces move this body.")
+      Key(truth, "may_turn", "Contacts and forces may turn it.").by_default("true"),
+      Key(choice, "integrator", "How forces move this body.")
           .one_of(integrator_names())
           .or_else("as the world's"),
-      Row(choice, "rotation", "How it turns when nothing holds it.")
+      Key(choice, "rotation", "How it turns when nothing holds it.")
           .one_of(rotation_names())
           .or_else("as the world's"),
-      Row(truth, "asleep", "When it enters; the world must have `may_sleep`.").by_default("false"),
-      Row(text, "follow",
+      Key(truth, "asleep", "When it enters; the world must have `may_sleep`.").by_default("false"),
+      Key(text, "follow",
           "A kinematic body goes to where the body of this name is, at most at `speed`.")
           .range(1, 64)
           .or_else("none"),
-      Row(point, "follow_axes", "1 on axes on which it follows, 0 on the others.")
+      Key(point, "follow_axes", "1 on axes on which it follows, 0 on the others.")
           .range(0, 1)
           .or_else("all"),
-      Row(truth, "wander", "It keeps its `speed` and turns at random after it touches something.")
+      Key(truth, "wander", "It keeps its `speed` and turns at random after it touches something.")
           .by_default("false"),
   };
   first.insert(first.end(), shared.begin(), shared.end());
@@ -96,17 +96,17 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first, std::string_view color_
 // What springs and joints share.
 std::vector<KeyDoc> link_keys(std::vector<KeyDoc> first) {
   const std::vector<KeyDoc> shared = {
-      Row(text, "a", "A body.").range(1, 64),
-      Row(text, "b", "The other body.").range(1, 64).or_else("none: give `to`"),
-      Row(point, "to", "A point of the world, instead of `b`.")
+      Key(text, "a", "A body.").range(1, 64),
+      Key(text, "b", "The other body.").range(1, 64).or_else("none: give `to`"),
+      Key(point, "to", "A point of the world, instead of `b`.")
           .range(-kFar, kFar)
           .or_else("none: give `b`"),
-      Row(text, "along", "A pattern, instead of `a`: each member is tied to the next.")
+      Key(text, "along", "A pattern, instead of `a`: each member is tied to the next.")
           .range(1, 64),
-      Row(point, "at_a", "Where it is fixed, from the centre of `a`, in the body's own axes.")
+      Key(point, "at_a", "Where it is fixed, from the centre of `a`, in the body's own axes.")
           .range(-kFar, kFar)
           .or_else("the centre"),
-      Row(point, "at_b", "The same for `b`.").range(-kFar, kFar).or_else("the centre"),
+      Key(point, "at_b", "The same for `b`.").range(-kFar, kFar).or_else("the centre"),
   };
   first.insert(first.begin(), shared.begin(), shared.end());
   return first;
@@ -121,18 +121,18 @@ TableDoc body_table() {
           body_keys(
               {
                   name_key(),
-                  Row(point, "position", "Of its centre, or a point of the ground's face.")
+                  Key(point, "position", "Of its centre, or a point of the ground's face.")
                       .must()
                       .range(-kFar, kFar),
-                  Row(point, "velocity", "Where it goes while time passes.")
+                  Key(point, "velocity", "Where it goes while time passes.")
                       .range(-kFar, kFar)
                       .in("units/s")
                       .or_else("at rest"),
-                  Row(point, "ground",
+                  Key(point, "ground",
                       "Everything behind a face through `position` is solid: where the face looks, "
                       "as [0, 1]. It never moves.")
                       .range(-kFar, kFar),
-                  Row(number, "speed", "Of a body that follows or wanders.")
+                  Key(number, "speed", "Of a body that follows or wanders.")
                       .above(0, kFar)
                       .in("units/s")
                       .or_else("none"),
@@ -150,27 +150,27 @@ TableDoc pattern_table() {
           body_keys(
               {
                   name_key(),
-                  Row(whole, "count", "How many; 20000 bodies in all are allowed.")
+                  Key(whole, "count", "How many; 20000 bodies in all are allowed.")
                       .must()
                       .range(1, kMostBodies)
                       .in("bodies"),
-                  Row(choice, "arrange",
+                  Key(choice, "arrange",
                       "At random places; in rows from the lowest corner; on a line from `min` to "
                       "`max`; or as a stack, each on the one before, the lowest at `min`.")
                       .one_of({"random", "grid", "line", "stack"})
                       .by_default("\"random\""),
-                  Row(point, "min", "Lowest corner of where centres may be.")
+                  Key(point, "min", "Lowest corner of where centres may be.")
                       .range(-kFar, kFar)
                       .or_else("so that all lie in the world"),
-                  Row(point, "max", "Highest corner of where centres may be.")
+                  Key(point, "max", "Highest corner of where centres may be.")
                       .range(-kFar, kFar)
                       .or_else("so that all lie in the world"),
-                  Row(number, "speed",
+                  Key(number, "speed",
                       "Each in a random direction. Of bodies that follow, the most they go at.")
                       .range(0, kFar)
                       .in("units/s")
                       .by_default("0"),
-                  Row(whole, "seed", "Of this pattern alone.")
+                  Key(whole, "seed", "Of this pattern alone.")
                       .range(0, kMostWhole)
                       .or_else("from the scenario's seed and the name"),
               },
@@ -184,14 +184,14 @@ TableDoc spring_table() {
           "A damped spring between two bodies, or a body and a point of the world. It is there "
           "while its bodies are.",
           link_keys({
-              Row(number, "rest_length", "Where it neither pulls nor pushes.")
+              Key(number, "rest_length", "Where it neither pulls nor pushes.")
                   .range(0, kFar)
                   .or_else("as long as it is at first"),
-              Row(number, "stiffness", "Force for each unit that it is longer.")
+              Key(number, "stiffness", "Force for each unit that it is longer.")
                   .must()
                   .above(0, kHeavy)
                   .in("N/unit"),
-              Row(number, "damping", "Force against each unit a second that it grows.")
+              Key(number, "damping", "Force against each unit a second that it grows.")
                   .range(0, kHeavy)
                   .in("N s/unit")
                   .by_default("0"),
@@ -205,10 +205,10 @@ TableDoc joint_table() {
           "Keeps two points at one distance, or pins them together. It is there while its bodies "
           "are.",
           link_keys({
-              Row(choice, "kind", "A rod of fixed length, or a hinge.")
+              Key(choice, "kind", "A rod of fixed length, or a hinge.")
                   .must()
                   .one_of({"distance", "pin"}),
-              Row(number, "length", "Of kind `distance`.")
+              Key(number, "length", "Of kind `distance`.")
                   .above(0, kFar)
                   .or_else("as long as it is at first"),
           }),

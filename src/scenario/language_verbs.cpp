@@ -1,6 +1,6 @@
 // The verbs of the script: those that change who is where, and the list of all.
+#include "scenario/language_key.hpp"
 #include "scenario/language_parts.hpp"
-#include "scenario/language_row.hpp"
 
 namespace lantern {
 namespace {
@@ -8,7 +8,7 @@ namespace {
 using enum KeyType;
 
 KeyDoc bodies() {
-  return Row(texts, "bodies", "Names of bodies, or of patterns for all of theirs.").must();
+  return Key(texts, "bodies", "Names of bodies, or of patterns for all of theirs.").must();
 }
 
 TableDoc show_verb() {
@@ -52,21 +52,21 @@ TableDoc move_verb() {
       "do = \"move\"",
       "A body is put elsewhere, turned, or goes another way from now on.",
       {
-          Row(text, "body", "Its name.").must().range(1, 64),
-          Row(point, "to", "Its new position.").range(-kFar, kFar).or_else("where it is"),
-          Row(point, "velocity", "Its new velocity.")
+          Key(text, "body", "Its name.").must().range(1, 64),
+          Key(point, "to", "Its new position.").range(-kFar, kFar).or_else("where it is"),
+          Key(point, "velocity", "Its new velocity.")
               .range(-kFar, kFar)
               .in("units/s")
               .or_else("as it is"),
-          Row(number, "turned", "How far it is turned from now on.")
+          Key(number, "turned", "How far it is turned from now on.")
               .range(-kMostTurn, kMostTurn)
               .in("°")
               .or_else("as it is"),
-          Row(number, "spin", "How fast it turns from now on.")
+          Key(number, "spin", "How fast it turns from now on.")
               .range(-kMostTurn, kMostTurn)
               .in("°/s")
               .or_else("as it does"),
-          Row(truth, "rebuild", "The structure is rebuilt, or left as it was.").by_default("true"),
+          Key(truth, "rebuild", "The structure is rebuilt, or left as it was.").by_default("true"),
       },
       {.groups = {{"to"}, {"velocity"}, {"turned"}, {"spin"}}, .exactly_one = false},
       R"([[step]]
@@ -107,9 +107,9 @@ TableDoc force_verb() {
           "A force acts on a body from now on, until another takes its place; one of zero ends "
           "it.",
           {
-              Row(text, "body", "Its name.").must().range(1, 64),
-              Row(point, "force", "In the world's axes.").must().range(-kFar, kFar).in("N"),
-              Row(point, "at", "Where, from the body's centre, in the world's axes.")
+              Key(text, "body", "Its name.").must().range(1, 64),
+              Key(point, "force", "In the world's axes.").must().range(-kFar, kFar).in("N"),
+              Key(point, "at", "Where, from the body's centre, in the world's axes.")
                   .range(-kFar, kFar)
                   .or_else("the centre"),
           },
@@ -126,9 +126,9 @@ TableDoc impulse_verb() {
           "do = \"impulse\"",
           "A body is struck once.",
           {
-              Row(text, "body", "Its name.").must().range(1, 64),
-              Row(point, "impulse", "In the world's axes.").must().range(-kFar, kFar).in("N s"),
-              Row(point, "at", "Where, from the body's centre, in the world's axes.")
+              Key(text, "body", "Its name.").must().range(1, 64),
+              Key(point, "impulse", "In the world's axes.").must().range(-kFar, kFar).in("N s"),
+              Key(point, "at", "Where, from the body's centre, in the world's axes.")
                   .range(-kFar, kFar)
                   .or_else("the centre"),
           },
@@ -154,13 +154,13 @@ std::vector<TableDoc> all_verbs() {
 }  // namespace
 
 KeyDoc pace_key() {
-  return Row(choice, "pace", "Of this step alone.")
+  return Key(choice, "pace", "Of this step alone.")
       .one_of({"step", "event"})
       .or_else("the scenario's");
 }
 
 KeyDoc events_key(std::vector<std::string_view> names) {
-  return Row(choices_list, "events", "When the pace is `event`, only these give frames.")
+  return Key(choices_list, "events", "When the pace is `event`, only these give frames.")
       .one_of(std::move(names))
       .or_else("all");
 }

@@ -1,6 +1,6 @@
 // Tables of the world: its extent and rules, its structure, its level and its chart.
+#include "scenario/language_key.hpp"
 #include "scenario/language_parts.hpp"
-#include "scenario/language_row.hpp"
 
 namespace lantern {
 
@@ -24,57 +24,57 @@ TableDoc world_table() {
       "makes a flat world, with three a solid one; every point of the file then has as many. A "
       "scenario has either a world or an atlas.",
       {
-          Row(point, "size", "Its extent, from the origin; at least 0.000001 on each axis.")
+          Key(point, "size", "Its extent, from the origin; at least 0.000001 on each axis.")
               .above(0, kFar),
-          Row(point, "min", "Its lowest corner, instead of `size`.").range(-kFar, kFar),
-          Row(point, "max", "Its highest corner, instead of `size`.").range(-kFar, kFar),
-          Row(number, "time_step", "How much time passes in one world step.")
+          Key(point, "min", "Its lowest corner, instead of `size`.").range(-kFar, kFar),
+          Key(point, "max", "Its highest corner, instead of `size`.").range(-kFar, kFar),
+          Key(number, "time_step", "How much time passes in one world step.")
               .above(0, 1e3)
               .in("s")
               .or_else("1/60"),
-          Row(whole, "frame_every", "World steps from frame to frame, while time passes.")
+          Key(whole, "frame_every", "World steps from frame to frame, while time passes.")
               .range(1, kMostEvery)
               .in("steps")
               .by_default("1"),
-          Row(point, "gravity", "Pulls at every body that forces move.")
+          Key(point, "gravity", "Pulls at every body that forces move.")
               .range(-kFar, kFar)
               .in("units/s²")
               .or_else("none"),
-          Row(number, "gravitation",
+          Key(number, "gravitation",
               "Bodies attract each other with this times both masses over the square of their "
               "distance. A static body attracts if it has a `mass`.")
               .range(0, kFar)
               .by_default("0"),
-          Row(choice, "contacts",
+          Key(choice, "contacts",
               "How bodies that touch are parted: by sequential `impulse`s, by `soft` contacts in "
               "small steps, or not at all.")
               .one_of({"none", "impulse", "soft"})
               .by_default("\"none\""),
-          Row(choice, "integrator", "How forces become motion.")
+          Key(choice, "integrator", "How forces become motion.")
               .one_of(integrator_names())
               .by_default("\"semi_implicit_euler\""),
-          Row(choice, "rotation",
+          Key(choice, "rotation",
               "How bodies turn that nothing holds. `explicit_gyroscopic` is there to be seen "
               "failing.")
               .one_of(rotation_names())
               .by_default("\"splitting_2\""),
-          Row(whole, "sub_steps", "Into which soft contacts divide a world step.")
+          Key(whole, "sub_steps", "Into which soft contacts divide a world step.")
               .range(1, 64)
               .by_default("8"),
-          Row(whole, "iterations", "Of the impulses, in a world step.")
+          Key(whole, "iterations", "Of the impulses, in a world step.")
               .range(1, 1000)
               .by_default("10"),
-          Row(truth, "may_sleep", "Bodies that have been at rest for a while fall asleep.")
+          Key(truth, "may_sleep", "Bodies that have been at rest for a while fall asleep.")
               .by_default("false"),
-          Row(truth, "show_boxes", "The boxes of the broad phase are drawn.").by_default("false"),
-          Row(truth, "show_velocities", "Velocities are drawn as arrows.").by_default("false"),
-          Row(truth, "show_depths",
+          Key(truth, "show_boxes", "The boxes of the broad phase are drawn.").by_default("false"),
+          Key(truth, "show_velocities", "Velocities are drawn as arrows.").by_default("false"),
+          Key(truth, "show_depths",
               "How deep bodies overlap stands beside their contacts; a unit is taken for a metre.")
               .by_default("false"),
-          Row(point, "camera_eye", "From where a solid world is seen; with `camera_target`.")
+          Key(point, "camera_eye", "From where a solid world is seen; with `camera_target`.")
               .range(-kFar, kFar)
               .or_else("so that all is seen"),
-          Row(point, "camera_target", "What is in the middle of the picture.")
+          Key(point, "camera_target", "What is in the middle of the picture.")
               .range(-kFar, kFar)
               .or_else("so that all is seen"),
       },
@@ -88,33 +88,33 @@ TableDoc structure_table() {
       "The spatial structure that finds the candidate pairs. It may be rebuilt later as another "
       "one.",
       {
-          Row(choice, "kind",
+          Key(choice, "kind",
               "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a "
               "`quadtree` cuts a solid world along x and z, an `octree` along all three. On one "
               "frame, 2000000 pairs may meet.")
               .must()
               .one_of({"none", "brute_force", "quadtree", "bsp", "octree", "kd_tree",
                        "sort_and_sweep"}),
-          Row(whole, "capacity", "A leaf that holds more splits, if depth is left.")
+          Key(whole, "capacity", "A leaf that holds more splits, if depth is left.")
               .range(1, 1000)
               .in("bodies")
               .by_default("2"),
-          Row(whole, "max_depth",
+          Key(whole, "max_depth",
               "A leaf at this depth never splits; the root has depth 0. A tree may have 2000000 "
               "nodes and as many entries.")
               .range(0, 32)
               .by_default("6"),
-          Row(choice, "children",
+          Key(choice, "children",
               "Made when something enters them (`lazy`), or all at a split (`eager`).")
               .one_of({"lazy", "eager"})
               .by_default("\"lazy\""),
-          Row(truth, "no_progress_stop",
+          Key(truth, "no_progress_stop",
               "Bodies that all share one point are not split: that would part none.")
               .by_default("false"),
-          Row(truth, "split_static",
+          Key(truth, "split_static",
               "One structure for what never moves, built once, and one for what does.")
               .by_default("false"),
-          Row(tables, "planes", "A BSP's dividing lines or planes.")
+          Key(tables, "planes", "A BSP's dividing lines or planes.")
               .at_most(255)
               .holds("structure.planes"),
       }};
@@ -126,12 +126,12 @@ TableDoc planes_table() {
           "A line, or a plane of a solid world, that divides a region of a BSP into what lies "
           "behind it and what lies in front.",
           {
-              Row(text, "name", "Its label.").range(0, 24).by_default("\"\""),
-              Row(point, "point", "A point on the line.").must().range(-kFar, kFar),
-              Row(point, "normal", "At a right angle to the line, towards its front; not zero.")
+              Key(text, "name", "Its label.").range(0, 24).by_default("\"\""),
+              Key(point, "point", "A point on the line.").must().range(-kFar, kFar),
+              Key(point, "normal", "At a right angle to the line, towards its front; not zero.")
                   .must()
                   .range(-kFar, kFar),
-              Row(text, "at",
+              Key(text, "at",
                   "The region it divides: `root`, or the way down, as `back` or `front.back`. The "
                   "lines on the way stand earlier.")
                   .range(1, 2000)
@@ -145,19 +145,19 @@ TableDoc level_table() {
       "[level]",
       "Walls of a flat world that `do = \"compile\"` makes a BSP of, as for a first-person game.",
       {
-          Row(loops, "loops",
+          Key(loops, "loops",
               "Closed polygons, as `[[[0, 0], [8, 0], [8, 6]]]`: the solid lies to the right of "
               "the way round. 2000 walls in all are allowed.")
               .must()
               .range(-kFar, kFar),
-          Row(number, "balance",
+          Key(number, "balance",
               "What a line's score counts for each wall that one side has more than the other.")
               .range(0, 1e6)
               .by_default("1"),
-          Row(number, "cuts", "What it counts for each wall that the line cuts in two.")
+          Key(number, "cuts", "What it counts for each wall that the line cuts in two.")
               .range(0, 1e6)
               .by_default("8"),
-          Row(choice, "choose", "The line with the lowest score, or the first wall's.")
+          Key(choice, "choose", "The line with the lowest score, or the first wall's.")
               .one_of({"score", "first_wall"})
               .by_default("\"score\""),
       }};
@@ -170,19 +170,19 @@ TableDoc chart_table() {
       "Counts and measures as a picture. Each step with `plot` adds a point to the lines, or a "
       "bar; over `time`, every frame adds a point by itself.",
       {
-          Row(text, "x", "The count or measure along the x axis of lines, or `time`.").range(1, 64),
-          Row(text, "bars", "The count that bars show, instead of lines.").range(1, 64),
-          Row(texts, "y", "Counts and measures, each a line; of one body as `energy.bob`.")
+          Key(text, "x", "The count or measure along the x axis of lines, or `time`.").range(1, 64),
+          Key(text, "bars", "The count that bars show, instead of lines.").range(1, 64),
+          Key(texts, "y", "Counts and measures, each a line; of one body as `energy.bob`.")
               .or_else("none"),
-          Row(truth, "logarithmic", "Axes on which equal steps multiply; time has none.")
+          Key(truth, "logarithmic", "Axes on which equal steps multiply; time has none.")
               .by_default("false"),
-          Row(number, "least", "Where the y axis begins; lines leave the picture below it.")
+          Key(number, "least", "Where the y axis begins; lines leave the picture below it.")
               .range(-1e12, 1e12)
               .or_else("where the lines do"),
-          Row(number, "most", "Where the y axis ends.")
+          Key(number, "most", "Where the y axis ends.")
               .range(-1e12, 1e12)
               .or_else("where the lines do"),
-          Row(truth, "each_part", "Over time: lines begin anew with each part of the script.")
+          Key(truth, "each_part", "Over time: lines begin anew with each part of the script.")
               .by_default("false"),
       },
       {.groups = {{"x", "y"}, {"bars"}}}};

@@ -100,7 +100,7 @@ TEST(Sentence, SaysHowRunsFailedIfAllDid) {
 TEST(Sentence, CountsThoseThatNeverGetThereIfTheyAreMany) {
   std::vector<Row> rows = {row("velocity_verlet", 0.005, 4e-7, 0.002, 2060)};
   for (const char* name : {"a", "b", "c", "d"}) rows.push_back(row(name, 0.1, 1, 1, 1));
-  EXPECT_TRUE(sentence(problem(rows)).ends_with("; 4 methods never get there."));
+  EXPECT_TRUE(sentence(problem(rows)).ends_with("; 4 of Lantern's methods never get there."));
   EXPECT_EQ(short_sentence(problem(rows)),
             "The cheapest method under 1e-6 is velocity Verlet: 2 ms at h = 0.005 s.");
 }

@@ -23,26 +23,26 @@ inline constexpr double kMostEvery = 1000;    // world steps from frame to frame
 inline constexpr double kMostTurn = 1e6;      // degrees, and degrees a second
 inline constexpr double kHundredYears = 4e9;  // seconds
 
-class Row {
+class Key {
  public:
-  Row(KeyType type, std::string_view key, std::string_view meaning) {
+  Key(KeyType type, std::string_view key, std::string_view meaning) {
     doc_.key = key;
     doc_.type = type;
     doc_.doc = meaning;
   }
   operator KeyDoc() const { return doc_; }
 
-  Row& must() { return doc_.required = true, *this; }
-  Row& range(double least, double most) { return doc_.least = least, doc_.most = most, *this; }
-  Row& above(double least, double most) { return doc_.above_least = true, range(least, most); }
-  Row& at_most(double most) { return doc_.most = most, *this; }
-  Row& in(std::string_view unit) { return doc_.unit = unit, *this; }
-  Row& like(const NamePattern& pattern) { return doc_.pattern = pattern, *this; }
-  Row& holds(std::string_view table) { return doc_.of = table, *this; }
-  Row& written(std::string_view form) { return doc_.form = form, *this; }
-  Row& by_default(std::string_view literal) { return doc_.fallback = literal, *this; }
-  Row& or_else(std::string_view words) { return doc_.otherwise = words, *this; }
-  Row& one_of(std::vector<std::string_view> choices) {
+  Key& must() { return doc_.required = true, *this; }
+  Key& range(double least, double most) { return doc_.least = least, doc_.most = most, *this; }
+  Key& above(double least, double most) { return doc_.above_least = true, range(least, most); }
+  Key& at_most(double most) { return doc_.most = most, *this; }
+  Key& in(std::string_view unit) { return doc_.unit = unit, *this; }
+  Key& like(const NamePattern& pattern) { return doc_.pattern = pattern, *this; }
+  Key& holds(std::string_view table) { return doc_.of = table, *this; }
+  Key& written(std::string_view form) { return doc_.form = form, *this; }
+  Key& by_default(std::string_view literal) { return doc_.fallback = literal, *this; }
+  Key& or_else(std::string_view words) { return doc_.otherwise = words, *this; }
+  Key& one_of(std::vector<std::string_view> choices) {
     return doc_.choices = std::move(choices), *this;
   }
 
