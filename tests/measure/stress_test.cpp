@@ -31,10 +31,17 @@ TEST_P(EveryCase, KeepsItsBound) {
   EXPECT_EQ(first.result.detail, again.result.detail);
 }
 
+// Under sanitizers what counts is extreme input; how exact long runs are, the release build tells.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kRunsAll = false;
+#else
+constexpr bool kRunsAll = true;
+#endif
+
 std::vector<StressCase> quick_cases() {
   std::vector<StressCase> quick;
   for (const StressCase& one : stress_cases())
-    if (!one.slow) quick.push_back(one);
+    if (!one.slow && (kRunsAll || one.group == "extreme input")) quick.push_back(one);
   return quick;
 }
 
