@@ -25,7 +25,7 @@ class Billiards : public Yardstick {
         refuse_problem(scenario, fmt::format("'{}' is not elastic (restitution = 1)", body.name));
       if (body.spin != 0 || (turns(body) && (!is_ball(body) || body.material.friction != 0)))
         refuse_problem(scenario, fmt::format("'{}' turns, or may be turned", body.name));
-      masses_.push_back(mass_of(scenario, i));
+      masses_.push_back(mass_of_body(scenario, i));
       starts_.push_back({body.position, body.velocity});
       const double speed = glm::length(body.velocity);
       speed_ = std::max(speed_, speed);

@@ -47,8 +47,8 @@ class BlocksAndWall : public Yardstick {
     if (restitution_between(scenario, inner_, outer_) != 1 ||
         restitution_between(scenario, inner_, wall_.body) != 1)
       refuse_problem(scenario, "a bounce is not elastic (restitution = 1)");
-    root_inner_ = std::sqrt(static_cast<Real>(mass_of(scenario, inner_)));
-    root_outer_ = std::sqrt(static_cast<Real>(mass_of(scenario, outer_)));
+    root_inner_ = std::sqrt(static_cast<Real>(mass_of_body(scenario, inner_)));
+    root_outer_ = std::sqrt(static_cast<Real>(mass_of_body(scenario, outer_)));
     const Real half = reach_along(inner, wall_.normal);
     start_.y = root_inner_ * (height(inner_) - half);
     start_.x = root_outer_ * (height(outer_) - 2 * half - reach_along(outer, wall_.normal));

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "geometry/random_vec.hpp"
 #include "scenario/director.hpp"
 
 namespace lantern {
@@ -40,20 +41,13 @@ std::string name_of(Sort sort) {
   return kNames[static_cast<std::size_t>(sort)];
 }
 
-template <int D>
-Vec<D> random_vec(Random& random, double lo, double hi) {
-  Vec<D> v;
-  for (int i = 0; i < D; ++i) v[i] = random.between(lo, hi);
-  return v;
-}
-
 // Sizes are such that a body meets about one other; in three dimensions there is more room.
 template <int D>
 class Maker {
  public:
   Maker(Sort sort, std::uint64_t seed) : sort_(sort), random_(seed) {
     for (int i = 0; i < kClusters; ++i)
-      centers_.push_back(random_vec<D>(random_, -0.85 * kHalf, 0.85 * kHalf));
+      centers_.push_back(random_point<D>(random_, -0.85 * kHalf, 0.85 * kHalf));
   }
 
   BoxUpdates<D> made(std::size_t bodies) {
@@ -61,7 +55,7 @@ class Maker {
     std::vector<Vec<D>> steps;
     for (std::size_t i = 0; i < bodies; ++i) {
       scene.frames[0].push_back({static_cast<BodyId>(i), box(i), false, true});
-      steps.push_back(random_vec<D>(random_, -kFastest, kFastest));
+      steps.push_back(random_point<D>(random_, -kFastest, kFastest));
     }
     if (sort_ != Sort::moving) return scene;
     for (int frame = 1; frame < kMovingFrames; ++frame) {
@@ -77,14 +71,14 @@ class Maker {
  private:
   Box<D> box(std::size_t i) {
     constexpr double kLeast = D == 2 ? 2 : 8, kMost = D == 2 ? 8 : 30;
-    const Vec<D> half = random_vec<D>(random_, kLeast, kMost);
-    const Vec<D> anywhere = random_vec<D>(random_, -kHalf + kMost, kHalf - kMost);
+    const Vec<D> half = random_point<D>(random_, kLeast, kMost);
+    const Vec<D> anywhere = random_point<D>(random_, -kHalf + kMost, kHalf - kMost);
     if (sort_ == Sort::one_huge && i == 0)
       return Box<D>::around(Vec<D>(0.03 * kHalf), Vec<D>(0.8 * kHalf));
     if (sort_ == Sort::clustered) {
       // The sum of three even spreads is nearly a bell.
       Vec<D> away(0.0);
-      for (int k = 0; k < 3; ++k) away += random_vec<D>(random_, -kMost, kMost);
+      for (int k = 0; k < 3; ++k) away += random_point<D>(random_, -kMost, kMost);
       return Box<D>::around(centers_[i % kClusters] + 1.5 * away, half);
     }
     if (sort_ == Sort::in_line) {  // beside the middle, where no tree cuts it lengthwise at once

@@ -36,7 +36,7 @@ class Collisions : public Yardstick {
       const Vec<3> away = body.position - scenario.bodies[moving[0]].position;
       if (!are_parallel(away, along_) || !are_parallel(body.velocity, along_))
         refuse_problem(scenario, fmt::format("'{}' leaves the line of the others", body.name));
-      balls_.push_back({i, mass_of(scenario, i), glm::dot(away, along_),
+      balls_.push_back({i, mass_of_body(scenario, i), glm::dot(away, along_),
                         glm::dot(body.velocity, along_), reach_along(body, along_)});
     }
     std::sort(balls_.begin(), balls_.end(),

@@ -104,13 +104,6 @@ double pull_onto(const Scenario& scenario, const Footing& ground) {
   return pull;
 }
 
-double mass_of(const Scenario& scenario, std::size_t index) {
-  const BodySpec& body = scenario.bodies[index];
-  if (body.mass > 0) return body.mass;
-  if (scenario.world.dimension == 3) return mass_of<3>(body.shape, body.density).mass;
-  return mass_of<2>(in_dimension<2>(body.shape), body.density).mass;
-}
-
 double friction_between(const Scenario& scenario, std::size_t a, std::size_t b) {
   return std::sqrt(scenario.bodies[a].material.friction * scenario.bodies[b].material.friction);
 }
@@ -147,7 +140,7 @@ Burdens::Burdens(const Scenario& scenario, std::vector<std::size_t> bodies)
     : bodies_(std::move(bodies)), gravity_(glm::length(scenario.world.gravity)) {
   up_ = -scenario.world.gravity / gravity_;
   for (const std::size_t i : bodies_) {
-    masses_.push_back(mass_of(scenario, i));
+    masses_.push_back(mass_of_body(scenario, i));
     speeds_.push_back(glm::dot(scenario.bodies[i].velocity, up_));
   }
 }

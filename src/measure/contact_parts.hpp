@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/yardstick.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 
@@ -53,7 +53,6 @@ Slope slope_of(const Scenario& scenario, const Footing& ground);
 // Units a second². Refuses gravity that is not straight into the ground.
 double pull_onto(const Scenario& scenario, const Footing& ground);
 
-double mass_of(const Scenario& scenario, std::size_t body);
 // Of two bodies that touch.
 double friction_between(const Scenario& scenario, std::size_t a, std::size_t b);
 double restitution_between(const Scenario& scenario, std::size_t a, std::size_t b);

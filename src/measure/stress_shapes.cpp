@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
-#include "geometry/random_direction.hpp"
+#include "geometry/random_vec.hpp"
 #include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 #include "physics/manifold.hpp"

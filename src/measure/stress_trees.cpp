@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "geometry/random_vec.hpp"
 #include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 #include "spatial/pairs.hpp"
@@ -19,13 +20,6 @@ using namespace stress;
 
 constexpr std::size_t kMany = 100'000;
 constexpr double kSide = 64;  // of the world in which boxes lie, from the origin
-
-template <int D>
-Vec<D> random_point(Random& random, double lo, double hi) {
-  Vec<D> p;
-  for (int i = 0; i < D; ++i) p[i] = random.between(lo, hi);
-  return p;
-}
 
 // The world is cut in half on every axis, and its first quarter again.
 template <int D>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/hash.hpp"
-#include "geometry/random_direction.hpp"
+#include "geometry/random_vec.hpp"
 #include "physics/world.hpp"
 #include "scenario/scenario.hpp"
 

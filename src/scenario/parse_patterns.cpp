@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
-#include "geometry/random_direction.hpp"
+#include "geometry/random_vec.hpp"
 #include "scenario/draft.hpp"
 
 namespace lantern {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "draw/layout_check.hpp"
 #include "draw/metrics.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
@@ -26,29 +27,10 @@ void for_each_page(
     }
 }
 
-Box<2> reach_of(const DrawShape& shape) {
-  Box<2> box;
-  double width = 0;
-  if (const auto* rect = std::get_if<RectShape>(&shape)) {
-    box = rect->box;
-    width = rect->stroke.role == Role::none ? 0 : rect->stroke.width;
-  } else if (const auto* line = std::get_if<LineShape>(&shape)) {
-    box = united(Box<2>{line->from, line->from}, Box<2>{line->to, line->to});
-    width = line->stroke.width;
-  } else if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-    box = {polygon->points[0], polygon->points[0]};
-    for (const Vec<2>& p : polygon->points) box = united(box, Box<2>{p, p});
-    width = polygon->stroke.role == Role::none ? 0 : polygon->stroke.width;
-  } else {
-    box = {std::get<TextShape>(shape).at, std::get<TextShape>(shape).at};
-  }
-  return shrunk(box, -width / 2);
-}
-
 std::string written(const DrawList& list) {
   std::string text = fmt::format("{} {}\n", list.page.x, list.page.y);
   for (const DrawShape& shape : list.shapes) {
-    const Box<2> r = reach_of(shape);
+    const Box<2> r = test::reach_of(shape);
     text += fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g}", shape.index(), r.lo.x, r.lo.y, r.hi.x,
                         r.hi.y);
     if (const auto* t = std::get_if<TextShape>(&shape)) text += t->text;
@@ -83,7 +65,7 @@ TEST(Layout, EveryShapeLiesOnThePage) {
   for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
     const Box<2> page{Vec<2>(0.0), list.page};
     for (const DrawShape& shape : list.shapes) {
-      const Box<2> r = reach_of(shape);
+      const Box<2> r = test::reach_of(shape);
       EXPECT_TRUE(is_valid(r) && holds(page, r))
           << where << ": a shape of kind " << shape.index() << " reaches from (" << r.lo.x << ", "
           << r.lo.y << ") to (" << r.hi.x << ", " << r.hi.y << ")";

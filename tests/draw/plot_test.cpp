@@ -11,7 +11,7 @@
 #include "draw/plot_axes.hpp"
 #include "draw/plot_legend.hpp"
 #include "draw/plot_marks.hpp"
-#include "report/layout_check.hpp"
+#include "draw/layout_check.hpp"
 
 namespace lantern {
 namespace {

@@ -7,23 +7,17 @@
 
 #include "base/random.hpp"
 #include "geometry/closest.hpp"
+#include "geometry/random_vec.hpp"
 
 namespace lantern {
 namespace {
-
-template <int D>
-Vec<D> random_vec(Random& random, double lo, double hi) {
-  Vec<D> v;
-  for (int i = 0; i < D; ++i) v[i] = random.between(lo, hi);
-  return v;
-}
 
 template <int D>
 Rotation<D> random_rotation(Random& random) {
   if constexpr (D == 2)
     return {random.between(-4, 4)};
   else
-    return turned(Rotation<3>{}, random_vec<3>(random, -2, 2));
+    return turned(Rotation<3>{}, random_point<3>(random, -2, 2));
 }
 
 // Every corner lies within the box, and each of the box's faces is touched by one: no box is
@@ -32,7 +26,7 @@ template <int D>
 void expect_tight_box() {
   Random random(D);
   for (int round = 0; round < 2000; ++round) {
-    const Vec<D> half = random_vec<D>(random, 0, 3), position = random_vec<D>(random, -5, 5);
+    const Vec<D> half = random_point<D>(random, 0, 3), position = random_point<D>(random, -5, 5);
     const Rotation<D> turn = random_rotation<D>(random);
     const Box<D> box = bounding_box<D>(OrientedBox<D>{half}, position, turn);
     Vec<D> most(0.0);  // of |R| * half
@@ -70,7 +64,7 @@ void expect_box_of_end_balls() {
   for (int round = 0; round < 2000; ++round) {
     const Capsule capsule{random.between(0, 2), random.between(0, 3)};
     const Rotation<D> turn = random_rotation<D>(random);
-    const Vec<D> position = random_vec<D>(random, -5, 5);
+    const Vec<D> position = random_point<D>(random, -5, 5);
     const Vec<D> end = matrix(turn)[1] * capsule.half_length;
     const Box<D> expected = united(Box<D>::around(position + end, Vec<D>(capsule.radius)),
                                    Box<D>::around(position - end, Vec<D>(capsule.radius)));
@@ -127,11 +121,11 @@ template <int D>
 void expect_closest_of_random_segments() {
   Random random(20 + D);
   for (int round = 0; round < 2000; ++round) {
-    Segment<D> a{random_vec<D>(random, -3, 3), random_vec<D>(random, -3, 3)};
-    Segment<D> b{random_vec<D>(random, -3, 3), random_vec<D>(random, -3, 3)};
+    Segment<D> a{random_point<D>(random, -3, 3), random_point<D>(random, -3, 3)};
+    Segment<D> b{random_point<D>(random, -3, 3), random_point<D>(random, -3, 3)};
     const double tilt = std::ldexp(1, -static_cast<int>(random.whole(10, 60)));
     if (round % 4 == 1) b.b = b.a;  // a point
-    if (round % 4 == 2) b.b = b.a + (a.b - a.a) * 0.7 + random_vec<D>(random, -tilt, tilt);
+    if (round % 4 == 2) b.b = b.a + (a.b - a.a) * 0.7 + random_point<D>(random, -tilt, tilt);
     if (round % 8 == 3) a.b = a.a;
     expect_closest<D>(a, b);
   }

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/check_list.hpp"
-#include "report/layout_check.hpp"
+#include "draw/layout_check.hpp"
 #include "report/measure_plots.hpp"
 #include "report/overview.hpp"
 #include "report/sample_rows.hpp"

@@ -311,7 +311,7 @@ TEST(BroadPhase, ManyBodiesLargerThanAllCellsMakeTheTreeShallowerAndNothingWorse
   config.no_progress_stop = false;
   std::vector<Proxy<2>> proxies;
   for (BodyId id = 0; id < 300; ++id)
-    proxies.push_back({id, Box<2>::around(testing::random_point<2>(random, 0, 64), Vec<2>(60.0))});
+    proxies.push_back({id, Box<2>::around(random_point<2>(random, 0, 64), Vec<2>(60.0))});
   BroadPhase<2> phase(config);
   phase.update(proxies);
   EXPECT_EQ(phase.pairs(), true_pairs(proxies));

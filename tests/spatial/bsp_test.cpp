@@ -24,7 +24,7 @@ std::vector<BspPlane<D>> random_planes(std::size_t count, const Box<D>& bounds, 
         static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(places.size()) - 1));
     const auto [parent, front] = places[pick];
     places.erase(places.begin() + static_cast<std::ptrdiff_t>(pick));
-    Vec<D> normal = testing::random_point<D>(random, -3, 3);
+    Vec<D> normal = random_point<D>(random, -3, 3);
     if (random.bits() % 3 == 0) {
       normal = Vec<D>(0.0);
       normal[static_cast<int>(random.whole(0, D - 1))] = random.bits() % 2 == 0 ? 1.0 : -2.0;

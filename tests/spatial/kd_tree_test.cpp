@@ -146,7 +146,7 @@ TEST(KdTree, AslongAsEachObjectFitsNoPairIsLost) {
     KdTree<2> tree({3, 12});
     tree.build(items);
     for (Item<2>& moved : items) {
-      const Vec<2> by = testing::random_point<2>(random, -1, 1);
+      const Vec<2> by = random_point<2>(random, -1, 1);
       const Item<2> tried{moved.id, {moved.box.lo + by, moved.box.hi + by}};
       if (!tree.fits(tried)) continue;
       moved = tried;

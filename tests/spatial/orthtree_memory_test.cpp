@@ -113,7 +113,7 @@ TEST(OrthtreeMemory, BlocksOfSplitLeavesGoToNewOnes) {
   config.max_depth = 32;
   Quadtree tree(config);
   for (BodyId pair = 0; pair < 64; ++pair) {
-    const Vec<2> p = testing::random_point<2>(random, 0, 64);
+    const Vec<2> p = random_point<2>(random, 0, 64);
     for (BodyId i = 0; i < 2; ++i) tree.insert({2 * pair + i, {p, p}});
   }
   const Counters c = tree.counters();

@@ -64,7 +64,7 @@ class Scene {
 
   Vec<D> point() {
     const Box<D> b = testing::bounds_of<D>(sort_);
-    Vec<D> p = b.lo + testing::random_point<D>(random_, -20, 84);
+    Vec<D> p = b.lo + random_point<D>(random_, -20, 84);
     if (sort_ == Sort::aligned)
       for (int i = 0; i < D; ++i) p[i] = 4.0 * static_cast<double>(random_.whole(-2, 18));
     return p;
@@ -72,7 +72,7 @@ class Scene {
 
   // Some along an axis, some from a corner to a corner, some endless.
   Ray<D> ray() {
-    Ray<D> ray{point(), testing::random_point<D>(random_, -1, 1)};
+    Ray<D> ray{point(), random_point<D>(random_, -1, 1)};
     if (random_.bits() % 2 == 0) ray.direction = point() - ray.origin;
     if (random_.whole(0, 2) == 0) ray.direction[0] = 0;
     if (random_.whole(0, 2) == 0) ray.direction[1] = -0.0;
@@ -85,7 +85,7 @@ class Scene {
     const double near = random_.between(0, 5), far = near + random_.between(1, 60);
     const double angle = random_.between(0.05, 2.8);
     if constexpr (D == 2)
-      return view_wedge(point(), testing::random_point<2>(random_, -1, 1), angle, near, far);
+      return view_wedge(point(), random_point<2>(random_, -1, 1), angle, near, far);
     else
       return view_frustum(point(), point() + Vec<3>(0.1, 0.2, 0.3), {0, 1, 0}, angle,
                           random_.between(0.3, 3), near, far);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "geometry/random_vec.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::testing {
@@ -34,13 +35,6 @@ template <int D>
 Box<D> bounds_of(Sort sort) {
   const Vec<D> corner(sort == Sort::far ? 1e9 : 0.0);
   return {corner, corner + 64.0};
-}
-
-template <int D>
-Vec<D> random_point(Random& random, double lo, double hi) {
-  Vec<D> p;
-  for (int i = 0; i < D; ++i) p[i] = random.between(lo, hi);
-  return p;
 }
 
 template <int D>

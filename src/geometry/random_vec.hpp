@@ -1,4 +1,4 @@
-// Directions of a seeded random generator.
+// Points and directions of a seeded random generator.
 #pragma once
 
 #include <cmath>
@@ -7,6 +7,14 @@
 #include "geometry/vec.hpp"
 
 namespace lantern {
+
+// Each coordinate between `lo` and `hi`, in order of the axes.
+template <int D>
+Vec<D> random_point(Random& random, double lo, double hi) {
+  Vec<D> p;
+  for (int i = 0; i < D; ++i) p[i] = random.between(lo, hi);
+  return p;
+}
 
 // Of unit length, from points of the unit disc or ball, but not of its middle, where they would be
 // coarse. No sine, so it is the same on every machine.
