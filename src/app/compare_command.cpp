@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = 1u << 30;
+constexpr std::size_t kMostPixelBytes = 1u << 30;
 
 Image load(const fs::path& path) {
-  const auto image = decode_png(read_file(path, kMostBytes));
+  const auto image = decode_png(read_file(path, kMostPixelBytes));
   if (!image) throw IoError(fmt::format("'{}' is no PNG image, or it is damaged", path.string()));
   return *image;
 }

@@ -22,7 +22,7 @@ namespace lantern {
 namespace {
 
 constexpr double kSaveEvery = 5;                            // seconds
-constexpr std::size_t kMostBytes = std::size_t{256} << 20;  // of an earlier measure.json
+constexpr std::size_t kMostMeasureBytes = std::size_t{256} << 20;  // of an earlier measure.json
 
 std::string duration_text(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", std::max(1.0, seconds));
@@ -109,7 +109,7 @@ bool same(const Circumstances& a, const Circumstances& b) {
 // damaged.
 std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
   try {
-    auto earlier = read_measurement(read_file(folder.path() / "measure.json", kMostBytes));
+    auto earlier = read_measurement(read_file(folder.path() / "measure.json", kMostMeasureBytes));
     if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
   } catch (const IoError&) {
     // there is none

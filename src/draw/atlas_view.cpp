@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kStrip = 190;  // width of the strip of textures beside the atlas
 constexpr double kStripGap = 26;
-constexpr int kMostShapes = 2200;  // of all packed textures together
+constexpr int kMostPanelShapes = 2200;  // of all packed textures together
 constexpr int kMostTextures = 3000;
 constexpr std::size_t kMostFree = 400;
-constexpr double kHeading = 30;
+constexpr double kAtlasHeading = 30;
 constexpr double kSpace = 8;  // between textures in the strip
 
 Vec<2> atlas_size(const Frame& frame) {
@@ -46,7 +46,7 @@ class AtlasView {
     for (const FrameNode* node : free_leaves()) draw_free(*node);
     const std::vector<const FrameTexture*> packed = packed_textures();
     const auto count = std::max(1, static_cast<int>(packed.size()));
-    parts_ = std::clamp(kMostShapes / count - 2, 0, kMostPatternParts);
+    parts_ = std::clamp(kMostPanelShapes / count - 2, 0, kMostPatternParts);
     for (const FrameTexture* texture : packed) draw_textured(*texture, place_of(*texture));
     list_.shapes.emplace_back(RectShape{image_, 0, Role::none, {Role::cell_line_0, 3.4, 0}, true});
     for (const FrameNode& node : frame_.nodes)
@@ -108,7 +108,7 @@ class AtlasView {
   // The name on a plate of its own, so that it can be read on any pattern.
   bool draw_plate(const std::string& name, const Box<2>& box) {
     const TextStyle style{kLabel - 1, Weight::semibold, Role::ink, Role::none};
-    const double width = text_width(name, style.size, style.weight);
+    const double width = text_width(name, style);
     const double cap = cap_height(style.weight) * style.size;
     const Box<2> plate = Box<2>::around(box.center(), Vec<2>(width / 2 + 6, cap / 2 + 5));
     const Anchor anchor{{box.center().x, box.center().y + cap / 2}, 0.5};
@@ -158,7 +158,7 @@ class AtlasView {
   void choose_strip_scale() {
     double widest = 1;
     for (const FrameTexture& t : frame_.textures) widest = std::max(widest, double(t.width));
-    const Vec<2> room = strip_.size() - Vec<2>(0, kHeading);
+    const Vec<2> room = strip_.size() - Vec<2>(0, kAtlasHeading);
     const auto has_room = [&](double scale) {
       double x = 0, y = 0, row = 0;
       for (const FrameTexture& t : frame_.textures) {
@@ -182,17 +182,17 @@ class AtlasView {
     labels_.add_number(static_cast<std::int64_t>(queue.size()),
                        {area.lo.x + number, area.lo.y + 18}, style, panel_);
     labels_.add(heading, {{area.lo.x + number + 7, area.lo.y + 18}, 0}, style, panel_);
-    const double end = area.lo.x + number + 7 + text_width(heading, style.size, style.weight);
+    const double end = area.lo.x + number + 7 + text_width(heading, style);
     const TextStyle note{kLabel - 1, Weight::regular, Role::quiet_ink, Role::none};
     const double name_line = crossed ? 24 : 0;
     if (strip_scale_ < scale_ && !queue.empty())
       labels_.try_add(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)",
                       {{{end + 10, area.lo.y + 18}, 0}}, note, panel_);
-    Vec<2> at{area.lo.x, area.lo.y + kHeading};
+    Vec<2> at{area.lo.x, area.lo.y + kAtlasHeading};
     double row = 0;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const Vec<2> size = Vec<2>(queue[i]->width, queue[i]->height) * strip_scale_;
-      const double name = crossed ? text_width(queue[i]->name, note.size, note.weight) : 0;
+      const double name = crossed ? text_width(queue[i]->name, note) : 0;
       if (at.x > area.lo.x && at.x + std::max(size.x, name) > area.hi.x)
         at = {area.lo.x, at.y + row}, row = 0;
       const double last = area.hi.y - (i + 1 < queue.size() ? 26 : 4);

@@ -19,7 +19,7 @@ void label_planes(const Frame& frame, const WorldMap& map, const std::vector<Box
     if (!line) continue;
     Vec<2> a = map.to_page(line->first), b = map.to_page(line->second);
     if (b.y < a.y) std::swap(a, b);
-    const double half = text_width(node.plane_name, style.size, style.weight) / 2;
+    const double half = text_width(node.plane_name, style) / 2;
     // Near the end of the first line; the others end on a line, where it would not be clear whose
     // name it is.
     for (const double t : {node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4}) {
@@ -43,7 +43,7 @@ void label_cell(const FrameNode& node, const WorldMap& map, const std::vector<Bo
   const Box<2> cell = map.to_page(node.box);
   TextStyle style{node.depth <= 1 ? 20.0 : 18.0, Weight::semibold, Role::quiet_ink, Role::none};
   if (node.mark == Mark::lit) style.role = Role::lit_ink;
-  const double width = text_width(node.label, style.size, style.weight);
+  const double width = text_width(node.label, style);
   constexpr double kInset = 9;
   if (cell.size().x < width + 2 * kInset || cell.size().y < style.size + 2 * kInset) return;
   const double cap = cap_height(style.weight) * style.size;

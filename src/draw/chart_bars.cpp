@@ -17,10 +17,6 @@ constexpr double kGroupGap = 0.55;  // between groups, in rows
 constexpr double kAfter = 10;       // between a bar and its number, or its name
 constexpr double kTickLine = 34;
 
-double width_of(const std::string& text, const TextStyle& style) {
-  return text_width(text, style.size, style.weight);
-}
-
 std::string value_text(double value) {
   return value == std::floor(value) ? number_text(value) : short_number(value);
 }
@@ -95,8 +91,8 @@ class Bars {
       least = std::min(least, bar.value);
       most = std::max(most, bar.value);
       if (bar.value > 0) above_zero = std::min(above_zero, bar.value);
-      names = std::max(names, width_of(bar.label, type_.name));
-      values = std::max(values, width_of(value_text(bar.value), type_.number));
+      names = std::max(names, text_width(bar.label, type_.name));
+      values = std::max(values, text_width(value_text(bar.value), type_.number));
     }
     names += 1;  // sums of widths lose a hair
     values += 1;
@@ -124,7 +120,7 @@ class Bars {
     const double end = area_.hi.y + 6;
     double last = -1e9;
     for (const Axis::Tick& tick : axis_.ticks()) {
-      const double x = x_of(tick.value), half = width_of(tick.text, type_.tick) / 2;
+      const double x = x_of(tick.value), half = text_width(tick.text, type_.tick) / 2;
       list_.shapes.emplace_back(LineShape{{x, area_.lo.y}, {x, end}, {Role::rule, 1.6, 0}, true});
       if (x - half < last + 14 || x - half < panel_.lo.x || x + half > panel_.hi.x) continue;
       labels_.add(tick.text, {{x, end + 4 + 0.78 * type_.tick.size}, 0.5}, type_.tick, panel_);

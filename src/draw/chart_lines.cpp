@@ -14,14 +14,10 @@ namespace {
 
 constexpr std::size_t kMostSeries = 12;
 constexpr std::size_t kMostPieces = 2400;  // of all lines together
-constexpr double kBeside = 16;             // between a line's end and its name
+constexpr double kNameBeside = 16;             // between a line's end and its name
 constexpr double kNamesEvery = 80;         // the room for names grows by so much
 constexpr double kTickLength = 7;
 constexpr double kMarkEvery = 24;  // page units between two marks of a line
-
-double width_of(const std::string& text, const TextStyle& style) {
-  return text_width(text, style.size, style.weight);
-}
 
 struct Range {
   double least = 1e300, most = -1e300, above_zero = 1e300;
@@ -103,16 +99,16 @@ class Lines {
     double names = 0;
     for (Line& line : lines_) {
       line.number = newest(line);
-      const double name = alone() ? 0 : width_of(line.name, type_.name) + 10;
-      names = std::max(names, name + width_of(line.number, type_.number));
+      const double name = alone() ? 0 : text_width(line.name, type_.name) + 10;
+      names = std::max(names, name + text_width(line.number, type_.number));
     }
     // Over time the numbers change from frame to frame: the area must not.
     if (chart_.over_time)
-      names = std::ceil((names + width_of("0.000", type_.number)) / kNamesEvery) * kNamesEvery;
-    area_.hi.x -= std::min(names + 1, 0.42 * panel_.size().x) + kBeside + 4;
+      names = std::ceil((names + text_width("0.000", type_.number)) / kNamesEvery) * kNamesEvery;
+    area_.hi.x -= std::min(names + 1, 0.42 * panel_.size().x) + kNameBeside + 4;
     double numbers = 0;
     for (const Axis::Tick& tick : y_.ticks())
-      numbers = std::max(numbers, width_of(tick.text, type_.tick));
+      numbers = std::max(numbers, text_width(tick.text, type_.tick));
     area_.lo.x += std::min(numbers + 1, 0.3 * panel_.size().x) + kTickLength + 8;
     area_.hi.x = std::max(area_.hi.x, area_.lo.x + 10);
     area_.hi.y = std::max(area_.hi.y, area_.lo.y + 10);
@@ -163,7 +159,7 @@ class Lines {
     last = -1e9;
     for (const Axis::Tick& tick : x_.ticks()) {
       const double x = area_.lo.x + x_.share(tick.value) * area_.size().x;
-      const double half = width_of(tick.text, type_.tick) / 2;
+      const double half = text_width(tick.text, type_.tick) / 2;
       list_.shapes.emplace_back(
           LineShape{{x, area_.hi.y}, {x, area_.hi.y + kTickLength}, {Role::ink, 1.8, 0}, true});
       if (x - half < last + 12) continue;
@@ -184,7 +180,7 @@ class Lines {
     const double left = area_.lo.x, right = panel_.hi.x;
     std::string fitting = shortened(name, right - left, type_.name);
     if (fitting != name) fitting = shortened(plain, right - left, type_.name);
-    const double half = width_of(fitting, type_.name) / 2;
+    const double half = text_width(fitting, type_.name) / 2;
     const double x = std::clamp(area_.center().x, left + half, std::max(left + half, right - half));
     labels_.try_add(fitting, {{{x, panel_.hi.y - 7}, 0.5}}, type_.name, panel_);
   }
@@ -268,7 +264,7 @@ class Lines {
     Vec<2> end = line.points.back();
     end.y = std::clamp(end.y, area_.lo.y, area_.hi.y);
     const bool newest_at_edge = end.x > area_.hi.x - 40;
-    const double x = area_.hi.x + kBeside;
+    const double x = area_.hi.x + kNameBeside;
     const double y = line.label + 0.36 * type_.name.size;
     if (std::abs(line.label - end.y) > 4 || !newest_at_edge)
       list_.shapes.emplace_back(LineShape{{std::min(end.x + 12, x - 5), end.y},
@@ -277,7 +273,7 @@ class Lines {
                                           false});
     const double room = panel_.hi.x - x;
     const std::string number = shortened(line.number, room, type_.number);
-    const double number_width = width_of(number, type_.number);
+    const double number_width = text_width(number, type_.number);
     labels_.try_add(number, {{{x, y}, 0}}, type_.number, panel_);
     if (alone()) return;
     const std::string name = shortened(line.name, room - number_width - 8, type_.name);

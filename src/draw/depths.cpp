@@ -9,7 +9,7 @@ namespace lantern {
 namespace {
 
 constexpr std::size_t kMostDepths = 60;
-constexpr double kBeside = 16;  // between a contact's outermost point and its number
+constexpr double kNumberBeside = 16;  // between a contact's outermost point and its number
 
 struct Depth {
   double depth = 0;
@@ -69,12 +69,12 @@ void write_depths(const Frame& frame, const ToPage& to_page, const std::vector<B
     // Above the line on which one lies on the other, or else below it, or across it.
     const double above = d.points.center().y - 7, below = d.points.center().y + style.size;
     const double middle = d.points.center().y + 0.36 * style.size;
-    const double right = d.points.hi.x + kBeside, left = d.points.lo.x - kBeside;
+    const double right = d.points.hi.x + kNumberBeside, left = d.points.lo.x - kNumberBeside;
     double far_right = right, far_left = left;  // beside the bodies that touch there
     for (const Box<2>& body : bodies) {
       if (!overlap(body, d.points)) continue;
-      far_right = std::max(far_right, body.hi.x + kBeside);
-      far_left = std::min(far_left, body.lo.x - kBeside);
+      far_right = std::max(far_right, body.hi.x + kNumberBeside);
+      far_left = std::min(far_left, body.lo.x - kNumberBeside);
     }
     const Anchor anchors[] = {{{right, above}, 0},      {{left, above}, 1},     {{right, below}, 0},
                               {{left, below}, 1},       {{right, middle}, 0},   {{left, middle}, 1},

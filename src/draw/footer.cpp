@@ -15,7 +15,7 @@ constexpr double kCaption = 30;
 constexpr double kLine = 46;        // from baseline to baseline
 constexpr double kBelowLast = 54;   // from the last baseline to the page's edge
 constexpr double kAboveFirst = 52;  // from the hairline to the first baseline
-constexpr double kWide = 1400;      // a narrower page has its counters under the caption
+constexpr double kWidePage = 1400;      // a narrower page has its counters under the caption
 
 // A number and what it counts; `widest` is the longest that `noun` can get.
 struct Counter {
@@ -30,7 +30,7 @@ struct Counter {
   }
   double noun_width() const {
     const TextStyle s = style();
-    return std::max(text_width(noun, s.size, s.weight), text_width(widest, s.size, s.weight));
+    return std::max(text_width(noun, s), text_width(widest, s));
   }
   // Room for four digits at least, so that the number may grow without moving anything.
   double number_room() const {
@@ -120,8 +120,8 @@ std::optional<std::vector<std::string>> by_sentence(const std::string& text, dou
   double evenness = 1e300;
   for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1)) {
     const std::string first = text.substr(0, at + 1), second = text.substr(at + 2);
-    const double longer = std::max(text_width(first, style.size, style.weight),
-                                   text_width(second, style.size, style.weight));
+    const double longer = std::max(text_width(first, style),
+                                   text_width(second, style));
     if (longer > width || longer >= evenness) continue;
     evenness = longer;
     best = {first, second};
@@ -148,7 +148,7 @@ std::vector<std::string> caption_lines(const std::string& caption, double width,
 }  // namespace
 
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels) {
-  const bool wide = list.page.x >= kWide;
+  const bool wide = list.page.x >= kWidePage;
   const std::vector<Counter> counters = counters_of(frame);
   const double row = wide ? 0 : kLine + 4;
   const double second = list.page.y - kBelowLast - row, first = second - kLine;

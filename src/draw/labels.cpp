@@ -17,10 +17,6 @@ bool cover(const Box<2>& a, const Box<2>& b, double gap) {
          b.lo.y < a.hi.y + gap;
 }
 
-double width_of(std::string_view text, const TextStyle& style) {
-  return text_width(text, style.size, style.weight);
-}
-
 // The start of the last UTF-8 character before `end`.
 std::size_t before(std::string_view text, std::size_t end) {
   do --end;
@@ -41,15 +37,19 @@ std::size_t prefix(std::string_view text, double width, const TextStyle& style) 
         ++middle;
       if (middle >= too_long) break;
     }
-    (width_of(text.substr(0, middle), style) <= width ? fits : too_long) = middle;
+    (text_width(text.substr(0, middle), style) <= width ? fits : too_long) = middle;
   }
   return fits;
 }
 
 }  // namespace
 
+double text_width(std::string_view text, const TextStyle& style) {
+  return text_width(text, style.size, style.weight);
+}
+
 Box<2> Labels::extent(std::string_view text, const Anchor& anchor, const TextStyle& style) {
-  const double width = width_of(text, style);
+  const double width = text_width(text, style);
   const double left = anchor.at.x - anchor.align * width;
   return {{left, anchor.at.y - kAscent * style.size},
           {left + width, anchor.at.y + kDescent * style.size}};
@@ -87,7 +87,7 @@ bool Labels::try_add(std::string_view text, std::initializer_list<Anchor> anchor
 double Labels::width_to(std::int64_t place, std::int64_t digits, const TextStyle& style) {
   constexpr double kGap = 0.3;  // of a digit
   const auto gaps = static_cast<double>(digits > 4 ? (place - 1) / 3 : 0);
-  return (static_cast<double>(place) + kGap * gaps) * width_of("0", style);
+  return (static_cast<double>(place) + kGap * gaps) * text_width("0", style);
 }
 
 double Labels::number_width(std::int64_t digits, const TextStyle& style) {
@@ -98,7 +98,7 @@ void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyl
                         const Box<2>& panel) {
   const std::string digits = fmt::format("{}", number);
   const auto count = static_cast<std::int64_t>(digits.size());
-  const double half_cell = width_of("0", style) / 2;
+  const double half_cell = text_width("0", style) / 2;
   Box<2> box = extent("0", {right, 1}, style);
   box.lo.x = right.x - number_width(count, style);
   list_.labels.push_back({box, panel, digits});
@@ -121,8 +121,8 @@ void Labels::add_note(std::string_view note, const Box<2>& picture) {
 }
 
 std::string shortened(std::string_view text, double width, const TextStyle& style) {
-  if (width_of(text, style) <= width) return std::string(text);
-  std::size_t end = prefix(text, width - width_of("…", style), style);
+  if (text_width(text, style) <= width) return std::string(text);
+  std::size_t end = prefix(text, width - text_width("…", style), style);
   while (end > 0 && text[end - 1] == ' ') --end;
   return end == 0 ? std::string() : std::string(text.substr(0, end)) + "…";
 }

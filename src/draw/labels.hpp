@@ -19,6 +19,9 @@ struct TextStyle {
   Role halo = Role::none;
 };
 
+// In page units, as text_width of its size and weight.
+double text_width(std::string_view text, const TextStyle& style);
+
 // A place for a text: on the baseline, at its left end, centre or right end by `align`.
 struct Anchor {
   Vec<2> at{0.0};

@@ -13,14 +13,14 @@
 namespace lantern {
 namespace {
 
-constexpr double kHeading = 38;
+constexpr double kMemoryHeading = 38;
 constexpr double kBracket = 30;    // under a row, for brackets and names
 constexpr double kRowGap = 12;     // between rows
 constexpr double kNamedSlot = 46;  // from here on a body's name has room under it
 constexpr double kChipSlot = 13;   // from here on each slot in use is drawn
 constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
 constexpr double kSlots[] = {100, 84, 72, 62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
-constexpr std::size_t kMostShapes = 2600;  // that slots may take
+constexpr std::size_t kMostSlotShapes = 2600;  // that slots may take
 
 const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
 
@@ -43,7 +43,7 @@ Strip strip_for(std::uint32_t slots, double slot, double width) {
   s.height = s.named() ? slot + 16 : slot;
   s.pitch = s.height + (s.drawn() ? kBracket + kRowGap : 10);
   const std::string last = number_text(slots);
-  s.gutter = text_width(last, kIndex.size, kIndex.weight) + 12;
+  s.gutter = text_width(last, kIndex) + 12;
   s.columns = static_cast<std::uint32_t>(std::max(1.0, (width - s.gutter) / slot));
   // Whole eights are easier to count.
   if (s.columns > 16 && s.columns < slots) s.columns -= s.columns % 8;
@@ -67,7 +67,7 @@ class MemoryView {
   MemoryView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
       : frame_(frame), panel_(panel), list_(list), labels_(labels) {
     for (const FrameBody& body : frame.bodies) bodies_[body.id] = &body;
-    const Box<2> area{panel.lo + Vec<2>(0, kHeading), panel.hi};
+    const Box<2> area{panel.lo + Vec<2>(0, kMemoryHeading), panel.hi};
     strip_ = best_strip(frame.array_size, area.size());
     const double rows = std::max(1.0, std::floor((area.size().y + 4) / strip_.pitch));
     shown_ = static_cast<std::uint32_t>(
@@ -87,7 +87,7 @@ class MemoryView {
     number_rows();
     std::size_t drawn = 0;
     for (const FrameNode* leaf : leaves) {
-      if (list_.shapes.size() > kMostShapes) break;
+      if (list_.shapes.size() > kMostSlotShapes) break;
       draw_leaf(*leaf);
       ++drawn;
     }
@@ -119,7 +119,7 @@ class MemoryView {
       const Box<2> row = place(first, count);
       list_.shapes.emplace_back(
           RectShape{row, 0, Role::free_space, {Role::cell_line_3, 1.2, 4}, true});
-      if (!strip_.drawn() || list_.shapes.size() > kMostShapes / 2) return;
+      if (!strip_.drawn() || list_.shapes.size() > kMostSlotShapes / 2) return;
       for (std::uint32_t i = 1; i < count; ++i) {
         const double x = row.lo.x + i * strip_.slot;
         list_.shapes.emplace_back(
@@ -181,7 +181,7 @@ class MemoryView {
   void draw_slot(BodyId id, const Box<2>& box, Role ground) {
     const auto found = bodies_.find(id);
     const double inset = std::max(1.0, 0.13 * strip_.slot);
-    if (list_.shapes.size() > kMostShapes) return;
+    if (list_.shapes.size() > kMostSlotShapes) return;
     if (found == bodies_.end() || strip_.slot < kDrawnSlot) {
       const Role role = found == bodies_.end() ? Role::quiet_ink : body_role(found->second->color);
       list_.shapes.emplace_back(filled(shrunk(box, inset), role));
@@ -195,8 +195,8 @@ class MemoryView {
       TextStyle style = kIndex;
       style.role = ground == Role::lit_fill ? Role::ink : Role::quiet_ink;
       std::string name = body.name;
-      if (text_width(name, style.size, style.weight) > box.size().x - 7) name = initial(name);
-      if (text_width(name, style.size, style.weight) <= box.size().x - 4)
+      if (text_width(name, style) > box.size().x - 7) name = initial(name);
+      if (text_width(name, style) <= box.size().x - 4)
         labels_.try_add(name, {{{box.center().x, box.hi.y - 7}, 0.5}}, style, panel_);
     }
     draw_character(body, chip, false, list_);
@@ -223,7 +223,7 @@ class MemoryView {
     const std::size_t dot = leaf.label.rfind('.');
     const std::string brief = dot == std::string::npos ? "" : "…" + leaf.label.substr(dot + 1);
     for (const std::string& text : {leaf.label, brief}) {
-      if (text.empty() || text_width(text, style.size, style.weight) > run.size().x - 2) continue;
+      if (text.empty() || text_width(text, style) > run.size().x - 2) continue;
       if (labels_.try_add(text, {{{run.center().x, y + 19}, 0.5}}, style, panel_)) return;
     }
   }
@@ -261,7 +261,7 @@ class MemoryView {
 
 void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
-  if (place.size().x < 60 || place.size().y < kHeading + 12) return;
+  if (place.size().x < 60 || place.size().y < kMemoryHeading + 12) return;
   MemoryView(frame, place, list, labels).draw();
 }
 
@@ -269,10 +269,10 @@ double memory_height(const Frame& frame, double width) {
   constexpr double kMostRows = 3;
   for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {
     const Strip s = strip_for(frame.array_size, slot, width - 6);
-    if (s.rows <= kMostRows - (s.named() ? 1 : 0)) return kHeading + 8 + s.rows * s.pitch;
+    if (s.rows <= kMostRows - (s.named() ? 1 : 0)) return kMemoryHeading + 8 + s.rows * s.pitch;
   }
   const Strip s = strip_for(frame.array_size, 28, width - 6);
-  return kHeading + 8 + kMostRows * s.pitch;
+  return kMemoryHeading + 8 + kMostRows * s.pitch;
 }
 
 }  // namespace lantern

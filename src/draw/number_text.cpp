@@ -5,11 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "base/grouped.hpp"
+
 namespace lantern {
 namespace {
 
 constexpr double kLongest = 1e12;  // from here on as a power of ten
-constexpr const char* kThinSpace = "\u2009";
 
 std::string raised(int power) {
   constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -41,12 +42,7 @@ std::string number_text(double number, int decimals) {
   if (std::abs(number) >= kLongest) return as_power(number);
   const std::string plain = without_end_zeros(fmt::format("{:.{}f}", std::abs(number), decimals));
   const std::size_t whole = std::min(plain.find('.'), plain.size());
-  std::string text;
-  for (std::size_t i = 0; i < plain.size(); ++i) {
-    // A number of four figures is read in one glance.
-    if (i > 0 && i < whole && (whole - i) % 3 == 0 && whole > 4) text += kThinSpace;
-    text += plain[i];
-  }
+  const std::string text = grouped(std::stoll(plain.substr(0, whole))) + plain.substr(whole);
   return number < 0 && text != "0" ? "−" + text : text;
 }
 

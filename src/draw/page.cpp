@@ -38,16 +38,16 @@ double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
   const TextStyle style{21, Weight::regular, Role::quiet_ink, Role::none};
   const auto digits = static_cast<std::int64_t>(std::to_string(frame.steps).size());
   const double number = Labels::number_width(digits, style);
-  const double space = text_width(" ", style.size, style.weight);
+  const double space = text_width(" ", style);
   double x = band.hi.x;
   labels.add_number(frame.steps, {x, kTitleLine}, style, band);
   x -= number + space;
   labels.add("of", {{x, kTitleLine}, 1}, style, band);
-  x -= text_width("of", style.size, style.weight) + space;
+  x -= text_width("of", style) + space;
   labels.add_number(std::int64_t{frame.step} + 1, {x, kTitleLine}, style, band);
   x -= number + space;
   labels.add("step", {{x, kTitleLine}, 1}, style, band);
-  return x - text_width("step", style.size, style.weight);
+  return x - text_width("step", style);
 }
 
 void draw_title(const Frame& frame, double margin, DrawList& list, Labels& labels) {
@@ -57,7 +57,7 @@ void draw_title(const Frame& frame, double margin, DrawList& list, Labels& label
   const TextStyle quiet{24, Weight::regular, Role::quiet_ink, Role::none};
   const std::string title = shortened(frame.title, right - margin, bold);
   labels.add(title, {{margin, kTitleLine}, 0}, bold, band);
-  const double end = margin + text_width(title, bold.size, bold.weight) + 11;
+  const double end = margin + text_width(title, bold) + 11;
   if (!frame.part.empty())
     labels.add(shortened("·  " + frame.part, right - end, quiet), {{end, kTitleLine}, 0}, quiet,
                band);
@@ -136,13 +136,13 @@ Box<2> cut_strip(const Frame& frame, Box<2>& area) {
 
 // A wide world and what happens in it over time: one above the other, both get larger.
 bool wants_stack(const Frame& frame) {
-  constexpr double kWide = 1.9;  // aspect of a world
+  constexpr double kWideWorld = 1.9;  // aspect of a world
   if (!frame.chart.over_time || frame.panels.size() != 2) return false;
   const auto has = [&](Panel panel) {
     return std::find(frame.panels.begin(), frame.panels.end(), panel) != frame.panels.end();
   };
   const Vec<3> size = frame.bounds.size();
-  return has(Panel::world) && has(Panel::chart) && size.x > kWide * std::max(size.y, size.z);
+  return has(Panel::world) && has(Panel::chart) && size.x > kWideWorld * std::max(size.y, size.z);
 }
 
 std::vector<Box<2>> over_its_chart(const Frame& frame, const Box<2>& area) {

@@ -12,10 +12,6 @@ namespace {
 constexpr double kTickLength = 6;
 constexpr double kLeastPower = -300, kMostPower = 300;
 
-double width_of(const std::string& text, const TextStyle& style) {
-  return text_width(text, style.size, style.weight);
-}
-
 double value_of(int power) {
   double value = 1;
   for (int i = 0; i < std::abs(power); ++i) value *= 10;
@@ -70,7 +66,7 @@ double PlotScale::share_inside(double value) const { return std::clamp(share(val
 double plot_ticks_width(const PlotScale& y, const PlotType& type) {
   double widest = 0;
   for (const Axis::Tick& tick : y.ticks())
-    widest = std::max(widest, width_of(tick.text, type.tick));
+    widest = std::max(widest, text_width(tick.text, type.tick));
   return widest + kTickLength + 5;
 }
 
@@ -97,7 +93,7 @@ void draw_plot_axes(const PlotScale& x, const PlotScale& y, const PlotArea& plac
     const double at = area.lo.x + x.share_inside(tick.value) * area.size().x;
     list.shapes.emplace_back(
         LineShape{{at, top}, {at, area.hi.y + kTickLength}, {Role::rule, 1.2, 0}, true});
-    const double half = width_of(tick.text, type.tick) / 2;
+    const double half = text_width(tick.text, type.tick) / 2;
     if (at - half < last + 8) continue;
     const double baseline = area.hi.y + kTickLength + 3 + 0.8 * type.tick.size;
     if (labels.try_add(tick.text, {{{at, baseline}, 0.5}}, type.tick, panel)) last = at + half;

@@ -55,7 +55,7 @@ void name_cell(const FrameNode& node, const std::vector<SolidBody>& bodies, cons
     return glm::length(a - middle) > glm::length(b - middle);
   });
   const double cap = cap_height(style.weight) * style.size;
-  const double half = text_width(node.label, style.size, style.weight) / 2;
+  const double half = text_width(node.label, style) / 2;
   for (const Vec<2>& corner : corners) {
     const Vec<2> inwards = own - corner;
     const double length = glm::length(inwards);

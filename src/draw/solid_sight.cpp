@@ -69,7 +69,7 @@ void draw_hits(const FrameRay& ray, const SolidView& view, DrawList& list, Label
     if (view.lost(hit) || !view.in_front(hit)) continue;
     const Vec<2> at = view.to_page(hit);
     const std::string number = fmt::format("{}", i + 1);
-    const double radius = std::max(kHit, text_width(number, style.size, style.weight) / 2 + 4);
+    const double radius = std::max(kHit, text_width(number, style) / 2 + 4);
     const Box<2> box = Box<2>::around(at, Vec<2>(radius));
     const bool numbered = ray.hits.size() > 1 && labels.is_free(box, shrunk(view.panel(), 2));
     if (!holds(view.panel(), Box<2>::around(at, Vec<2>(8)))) continue;

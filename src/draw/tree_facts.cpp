@@ -53,7 +53,7 @@ int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, const Spa
     }
     const std::string words = shortened(fact.words, panel.size().x, style);
     const double width =
-        number + text_width(fact.widest.empty() ? words : fact.widest, style.size, style.weight);
+        number + text_width(fact.widest.empty() ? words : fact.widest, style);
     const bool counts_begin = spacing.counts_apart && fact.first_count;
     if (x > panel.lo.x && (counts_begin || x + width > panel.hi.x)) {
       x = panel.lo.x;

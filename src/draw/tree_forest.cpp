@@ -8,7 +8,7 @@
 namespace lantern {
 namespace {
 
-constexpr double kHeading = 30;
+constexpr double kTreeHeading = 30;
 constexpr double kBetween = 24;      // between two trees side by side
 constexpr double kWideEnough = 1.5;  // aspect from which trees stand side by side
 
@@ -90,7 +90,7 @@ void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
       const double y = box.lo.y - kBetween / 2;
       list.shapes.emplace_back(LineShape{{box.lo.x, y}, {box.hi.x, y}, {Role::rule, 1.6, 0}, true});
     }
-    draw_one_tree(trees[i], {box.lo + Vec<2>(0, kHeading), box.hi}, list, labels);
+    draw_one_tree(trees[i], {box.lo + Vec<2>(0, kTreeHeading), box.hi}, list, labels);
   }
 }
 

@@ -220,7 +220,7 @@ BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& sc
     const std::string brief = short_label(node.label);
     const bool use_brief =
         !named && !brief.empty() &&
-        (is_long_way(node.label) || text_width(text, style.size, style.weight) > width);
+        (is_long_way(node.label) || text_width(text, style) > width);
     return {shortened(use_brief ? brief : text, width, style), 0};
   }
   if (!frame.textures.empty() && node.bodies.empty() && node.label.empty()) {

@@ -115,7 +115,7 @@ class TreeView {
     const BranchText content = text_of(branch, frame_, layout_.scale, layout_.words);
     const TextStyle style = text_style(branch);
     const double icon = layout_.scale.icon;
-    const double text = text_width(content.text, style.size, style.weight);
+    const double text = text_width(content.text, style);
     const auto icons = static_cast<double>(content.icons);
     double width = icons > 0 ? icons * (icon + 5) - 5 : 0;
     if (!content.text.empty()) width += text + (icons > 0 ? 6 : 0);
@@ -205,7 +205,7 @@ class TreeView {
     const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
     const double room = layout_.label_room(i, frame_, panel_);
     for (const std::string& text : label_choices(branch))
-      if (text_width(text, style.size, style.weight) <= room &&
+      if (text_width(text, style) <= room &&
           labels_.try_add(text, {under}, style, panel_))
         return;
     if (branch.copies == 1 && short_label(node.label).empty())

@@ -30,7 +30,7 @@ void draw_hits(const FrameRay& ray, const WorldMap& map, Pen& pen, Labels& label
   for (std::size_t i = 0; i < std::min(ray.hits.size(), kMostHits); ++i) {
     const Vec<2> at = map.to_page(ray.hits[i].position);
     const std::string number = fmt::format("{}", i + 1);
-    const double radius = std::max(kHit, text_width(number, style.size, style.weight) / 2 + 4);
+    const double radius = std::max(kHit, text_width(number, style) / 2 + 4);
     const Box<2> box = Box<2>::around(at, Vec<2>(radius));
     const bool numbered = ray.hits.size() > 1 && labels.is_free(box, map.rect);
     if (!numbered) {

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where, on the whole line, |m + t * d| <= r: between the roots of a t^2 + 2 b t + c, of which the
 // one that would cancel is found from the other. The discriminant is measured from the line's

@@ -3,20 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "base/grouped.hpp"
 #include "base/json_writer.hpp"
 #include "measure/broad_phase_cost.hpp"
 
 namespace lantern {
 namespace {
-
-// 1234567 as "1 234 567".
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  if (text.size() < 5) return text;
-  for (std::size_t at = text.size() - 3; at > 0 && at<text.size(); at = at> 3 ? at - 3 : 0)
-    text.insert(at, " ");
-  return text;
-}
 
 // "quadtree, capacity 8, depth limit 7"
 std::string settings_of(const BroadPhaseCost& row) {
@@ -59,7 +51,7 @@ std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene&
   const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
   if (best == nullptr) return "";
   const auto work = [](const BroadPhaseCost& row) {
-    return grouped((row.counts.work() + row.updates / 2) / row.updates);
+    return grouped(static_cast<std::int64_t>((row.counts.work() + row.updates / 2) / row.updates), " ");
   };
   std::string text = fmt::format("For {}: capacity {}, depth limit {}: {} comparisons", scene.words,
                                  best->capacity, best->depth_limit, work(*best));

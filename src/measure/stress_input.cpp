@@ -1,8 +1,8 @@
 // Bad values, field by field: each is refused where it enters, by name, and changes nothing.
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "geometry/not_finite.hpp"
 #include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 
@@ -11,8 +11,6 @@ namespace {
 
 using namespace stress;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A world with a pile, and what it did with the bad values that it was given.
 template <int D>

@@ -1,10 +1,10 @@
 // The narrow phase at the limits of size, shape and angle.
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "geometry/not_finite.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
@@ -15,7 +15,6 @@ namespace {
 
 using namespace stress;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <int D>
 bool is_sane(const Manifold<D>& manifold) {

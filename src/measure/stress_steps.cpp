@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/not_finite.hpp"
 #include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 
@@ -46,8 +47,6 @@ StressResult step_zero() {
 template <int D>
 int bad_steps_taken(int& tried) {
   int taken = 0;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   World<D> world = resting<D>();
   const std::uint64_t before = world.hash();
   for (const double h : {-1e-300, -1e-12, -1.0 / 60, -1e3, kNan, kInfinity, -kInfinity}) {

@@ -7,7 +7,7 @@
 namespace lantern {
 namespace {
 
-constexpr int kMostRounds = 6;
+constexpr int kMostGuesses = 6;
 constexpr double kMostWork = 4e6;  // products, for one factor
 // Four corners of a face say more than a box needs: without a little compliance there would be no
 // factor. What it leaves undone is so small a part of the impulses.
@@ -188,7 +188,7 @@ template <int D>
 bool DirectSolve<D>::settle_velocities(Island<D>& island, double h, Sweep& sweep) {
   const std::vector<Mover<D>> movers = island.movers;
   const std::vector<IslandPair<D>> pairs = island.pairs;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostGuesses; ++round) {
     list_rows(island);
     if (rows_.empty() || !factor(island)) break;
     sweep.rows += rows_.size();

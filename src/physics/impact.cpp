@@ -7,7 +7,7 @@ namespace lantern {
 namespace {
 
 constexpr int kBouncingRounds = 64;    // through all touching pairs, in one impact
-constexpr int kMostRounds = 96;        // the last ones without restitution
+constexpr int kMostImpactRounds = 96;        // the last ones without restitution
 constexpr int kMostPointSweeps = 200;  // over the points of one pair
 constexpr double kTouching = 1e-9;     // of the sizes: so near is touching
 constexpr double kGainByRounding = 1e-12;
@@ -142,7 +142,7 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
   const std::vector<std::size_t> touching = touching_pairs(island, work);
   int impacts = 0;
   bool any = true;
-  for (int round = 0; any && round < kMostRounds; ++round) {
+  for (int round = 0; any && round < kMostImpactRounds; ++round) {
     any = false;
     // A blow that does not come to its end is ended without restitution.
     const bool tired = round >= kBouncingRounds;

@@ -5,17 +5,15 @@
 namespace lantern {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 MassProperties<2> of_sphere(const Sphere& disc, Vec<2>, double density) {
   const double square = disc.radius * disc.radius;
-  const double mass = density * kPi * square;
+  const double mass = density * std::numbers::pi * square;
   return {mass, mass * square / 2};
 }
 
 MassProperties<3> of_sphere(const Sphere& ball, Vec<3>, double density) {
   const double square = ball.radius * ball.radius;
-  const double mass = density * (4.0 / 3) * kPi * square * ball.radius;
+  const double mass = density * (4.0 / 3) * std::numbers::pi * square * ball.radius;
   return {mass, Vec<3>(mass * square * 2 / 5)};
 }
 
@@ -37,7 +35,7 @@ MassProperties<2> of_capsule(const Capsule& capsule, Vec<2>, double density) {
   const double r = capsule.radius, l = capsule.half_length;
   const MassProperties<2> middle = of_box({r, l}, density),
                           caps = of_sphere({r}, Vec<2>(), density);
-  const double c = 4 * r / (3 * kPi);
+  const double c = 4 * r / (3 * std::numbers::pi);
   return {middle.mass + caps.mass, middle.inertia + caps.inertia + caps.mass * l * (l + 2 * c)};
 }
 
@@ -46,7 +44,7 @@ MassProperties<2> of_capsule(const Capsule& capsule, Vec<2>, double density) {
 MassProperties<3> of_capsule(const Capsule& capsule, Vec<3>, double density) {
   const double r = capsule.radius, l = capsule.half_length;
   const MassProperties<3> caps = of_sphere({r}, Vec<3>(), density);
-  const double middle = density * kPi * r * r * 2 * l;
+  const double middle = density * std::numbers::pi * r * r * 2 * l;
   const double along = middle * r * r / 2 + caps.inertia.y;
   const double across =
       middle * (r * r / 4 + l * l / 3) + caps.inertia.x + caps.mass * l * (l + 2 * (3 * r / 8));

@@ -1,6 +1,7 @@
 // The first half of a step: what may touch, what wakes, what hangs together.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kSlack = 1e-3;  // of a body's thickness: nearer is looked at, too
 constexpr double kFast = 0.5;    // of the thinner body's thickness in a step: may pass through
-constexpr double kPi = 3.141592653589793;
 
 template <int D>
 double slack(const Body<D>& body) {
@@ -26,7 +26,7 @@ double turning_way(const Body<D>& body, double h) {
   const double radius = turning_reach<D>(body.shape);
   if (radius == 0 || !body.moves() || body.asleep) return 0;
   const Spin<D> spin = angular_velocity(body);
-  return radius * std::min(std::sqrt(dot(spin, spin)) * h, kPi);
+  return radius * std::min(std::sqrt(dot(spin, spin)) * h, std::numbers::pi);
 }
 
 template <int D>

@@ -51,7 +51,7 @@ unsigned char* deflate(unsigned char* data, int size, int* out_size, int) {
 namespace lantern {
 namespace {
 
-constexpr std::size_t kSignature = 8, kHeaderChunk = 12 + 13, kEndChunk = 12;
+constexpr std::size_t kSignatureBytes = 8, kHeaderChunk = 12 + 13, kEndChunk = 12;
 
 // Set once, before any thread encodes. Up turns a row equal to the one above into zeros.
 [[maybe_unused]] const int filter_is_up = stbi_write_force_png_filter = 2;
@@ -106,7 +106,7 @@ PngBody compress_small(const Image& image) {
   const std::string_view bytes(reinterpret_cast<const char*>(png.get()),
                                static_cast<std::size_t>(size));
   PngBody body;
-  body.header = bytes.substr(0, kSignature + kHeaderChunk);
+  body.header = bytes.substr(0, kSignatureBytes + kHeaderChunk);
   body.pixels = bytes.substr(body.header.size(), bytes.size() - body.header.size() - kEndChunk);
   return body;
 }

@@ -16,7 +16,7 @@ constexpr double kDecades = 4;  // that the strip shows to each side of the bar
 
 const TextStyle kQuiet{16, Weight::regular, Role::quiet_ink, Role::none};
 const TextStyle kText{16.5, Weight::regular, Role::ink, Role::none};
-const TextStyle kBold{16.5, Weight::semibold, Role::ink, Role::none};
+const TextStyle kMissed{16.5, Weight::semibold, Role::ink, Role::none};
 
 std::string with_unit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
@@ -51,7 +51,7 @@ class Table {
     put(bar, (b.at_least ? "≥ " : "≤ ") + with_unit(figure(b.bound), b.unit), kText, y);
     put(measured, told(b), kText, y);
     const auto met = b.met();
-    put(verdict, !met ? "not run" : *met ? "met" : "missed", met == false ? kBold : kText, y);
+    put(verdict, !met ? "not run" : *met ? "met" : "missed", met == false ? kMissed : kText, y);
     put(elsewhere, b.elsewhere.empty() ? "–" : b.elsewhere, kText, y);
     put(reference, b.reference, kQuiet, y);
     draw_strip(b, top);

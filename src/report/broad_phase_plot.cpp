@@ -12,7 +12,7 @@
 namespace lantern {
 namespace {
 
-constexpr double kMargin = 60;
+constexpr double kGridMargin = 60;
 
 // Five tones of blue, light where it is cheap, in every theme; `above` is the largest ratio to the
 // cheapest cell, `ink` what can be read on it.
@@ -80,12 +80,12 @@ class Page {
       return std::move(list_);
     }
     const BroadPhaseCost* best = cheapest(rows_, scene_.name, kind_, CostBy::work);
-    grid({{kMargin, 104}, {990, 726}}, CostBy::work, *best);
+    grid({{kGridMargin, 104}, {990, 726}}, CostBy::work, *best);
     const bool with_time = best->timing.repeats > 0;
     if (with_time)
-      grid({{1060, 104}, {list_.page.x - kMargin, 448}}, CostBy::time,
+      grid({{1060, 104}, {list_.page.x - kGridMargin, 448}}, CostBy::time,
            *cheapest(rows_, scene_.name, kind_, CostBy::time));
-    others({{1060, with_time ? 484.0 : 104.0}, {list_.page.x - kMargin, 726}}, with_time);
+    others({{1060, with_time ? 484.0 : 104.0}, {list_.page.x - kGridMargin, 726}}, with_time);
     sentence();
     return std::move(list_);
   }
@@ -94,13 +94,13 @@ class Page {
   Box<2> all() const { return {Vec<2>(0.0), list_.page}; }
 
   void title() {
-    const Box<2> band{{kMargin, 20}, {list_.page.x - kMargin, 76}};
+    const Box<2> band{{kGridMargin, 20}, {list_.page.x - kGridMargin, 76}};
     const TextStyle bold{28, Weight::semibold, Role::ink, Role::none};
     const TextStyle quiet{26, Weight::regular, Role::quiet_ink, Role::none};
     const std::string text = fmt::format("Where to set capacity and depth limit of {} {}",
                                          words_of(kind_)[0] == 'o' ? "an" : "a", words_of(kind_));
-    labels_.add(text, {{kMargin, 58}, 0}, bold, band);
-    const double end = kMargin + text_width(text, bold.size, bold.weight) + 12;
+    labels_.add(text, {{kGridMargin, 58}, 0}, bold, band);
+    const double end = kGridMargin + text_width(text, bold) + 12;
     labels_.add(shortened("·  " + scene_.words, band.hi.x - end, quiet), {{end, 58}, 0}, quiet,
                 band);
     rule(78);
@@ -108,7 +108,7 @@ class Page {
 
   void rule(double y) {
     list_.shapes.emplace_back(
-        LineShape{{kMargin, y}, {list_.page.x - kMargin, y}, {Role::rule, 1.6, 0}, true});
+        LineShape{{kGridMargin, y}, {list_.page.x - kGridMargin, y}, {Role::rule, 1.6, 0}, true});
   }
 
   // Depth limits go down the page, as a tree does; capacities to the right.
@@ -220,7 +220,7 @@ class Page {
                                                                  row->capacity, row->depth_limit)
                                                    : words_of(kind);
       const std::string work = number_text(work_of(*row));
-      const double room = middle - text_width(work, style.size, style.weight) - 12 - place.lo.x;
+      const double room = middle - text_width(work, style) - 12 - place.lo.x;
       labels_.add(shortened(name, room, style), {{place.lo.x, y}, 0}, style, place);
       labels_.add(work, {{middle, y}, 1}, style, place);
       if (with_time) labels_.add(time_text(*row), {{right, y}, 1}, style, place);
@@ -231,16 +231,16 @@ class Page {
   void sentence() {
     rule(752);
     const TextStyle style{28, Weight::regular, Role::ink, Role::none};
-    const Box<2> place{{kMargin, 756}, {list_.page.x - kMargin, 890}};
+    const Box<2> place{{kGridMargin, 756}, {list_.page.x - kGridMargin, 890}};
     double y = 798;
     for (const std::string& line :
          wrapped(sentence_about(rows_, scene_, kind_), place.size().x, style)) {
-      labels_.add(line, {{kMargin, y}, 0}, style, place);
+      labels_.add(line, {{kGridMargin, y}, 0}, style, place);
       y += 42;
     }
     if (some_cut_back_)
       labels_.add("† out of proportion (over 64 entries a body): built with half the depth limit",
-                  {{kMargin, y - 4}, 0}, {20, Weight::regular, Role::quiet_ink, Role::none}, place);
+                  {{kGridMargin, y - 4}, 0}, {20, Weight::regular, Role::quiet_ink, Role::none}, place);
   }
 
   std::span<const BroadPhaseCost> rows_;

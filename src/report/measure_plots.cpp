@@ -14,7 +14,7 @@
 namespace lantern {
 namespace {
 
-constexpr double kMargin = 60;
+constexpr double kPlotMargin = 60;
 constexpr double kTitleLine = 58;
 constexpr double kCaption = 25;
 constexpr double kFarOff =
@@ -83,16 +83,16 @@ void send_far_ones_off(Plot& plot) {
 
 void add_rule(DrawList& list, double y) {
   list.shapes.emplace_back(
-      LineShape{{kMargin, y}, {list.page.x - kMargin, y}, {Role::rule, 1.6, 0}, true});
+      LineShape{{kPlotMargin, y}, {list.page.x - kPlotMargin, y}, {Role::rule, 1.6, 0}, true});
 }
 
 void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
-  const Box<2> band{{kMargin, 20}, {list.page.x - kMargin, 76}};
+  const Box<2> band{{kPlotMargin, 20}, {list.page.x - kPlotMargin, 76}};
   const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
   const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
   const std::string title = shortened(problem_words(problem), 0.6 * band.size().x, bold);
-  labels.add(title, {{kMargin, kTitleLine}, 0}, bold, band);
-  const double x = kMargin + text_width(title, bold.size, bold.weight) + 11;
+  labels.add(title, {{kPlotMargin, kTitleLine}, 0}, bold, band);
+  const double x = kPlotMargin + text_width(title, bold) + 11;
   const std::string rest = "·  error against cost  ·  " + file_name(problem);
   labels.add(shortened(rest, band.hi.x - x, quiet), {{x, kTitleLine}, 0}, quiet, band);
   add_rule(list, 78);
@@ -103,7 +103,7 @@ double draw_foot(const ProblemRows& problem, const Circumstances& circumstances,
                  Labels& labels) {
   TextStyle style{kCaption, Weight::regular, Role::ink, Role::none};
   const TextStyle quiet{kLeastLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
-  const double width = list.page.x - 2 * kMargin, line = 36;
+  const double width = list.page.x - 2 * kPlotMargin, line = 36;
   const std::string text = sentence(problem);
   std::vector<std::string> lines = wrapped(text, width, style);
   if (lines.size() > 2) {
@@ -112,14 +112,14 @@ double draw_foot(const ProblemRows& problem, const Circumstances& circumstances,
   }
   if (lines.size() > 3) lines = {lines[0], lines[1], shortened(lines[2] + " …", width, style)};
   const double top = list.page.y - 62 - line * static_cast<double>(lines.size());
-  const Box<2> band{{kMargin, top}, {list.page.x - kMargin, list.page.y - 14}};
+  const Box<2> band{{kPlotMargin, top}, {list.page.x - kPlotMargin, list.page.y - 14}};
   double y = top + 36;
   for (const std::string& words : lines) {
-    labels.add(words, {{kMargin, y}, 0}, style, band);
+    labels.add(words, {{kPlotMargin, y}, 0}, style, band);
     y += line;
   }
   labels.add(shortened(circumstances_text(circumstances), width, quiet),
-             {{kMargin, list.page.y - 26}, 0}, quiet, band);
+             {{kPlotMargin, list.page.y - 26}, 0}, quiet, band);
   add_rule(list, top);
   return top;
 }
@@ -222,16 +222,16 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
   timed.y_name = counted.y_name = error_words(problem);
   if (any_without(counted)) counted.x_name += " (not told by peers)";
   const std::vector<LegendEntry> legend = legend_of(timed);
-  const double width = list.page.x - 2 * kMargin, gap = 48;
+  const double width = list.page.x - 2 * kPlotMargin, gap = 48;
   const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
-  draw_plot_legend(legend, {{kMargin, bottom - height}, {kMargin + width, bottom}}, kLabel, list,
+  draw_plot_legend(legend, {{kPlotMargin, bottom - height}, {kPlotMargin + width, bottom}}, kLabel, list,
                    labels);
-  const double middle = kMargin + width / 2, low = bottom - height - 12;
+  const double middle = kPlotMargin + width / 2, low = bottom - height - 12;
   for (Plot* plot : {&timed, &counted}) {
     plot->names = PlotNames::none;
     const bool left = plot == &timed;
-    const Box<2> panel{{left ? kMargin : middle + gap / 2, 96},
-                       {left ? middle - gap / 2 : kMargin + width, low}};
+    const Box<2> panel{{left ? kPlotMargin : middle + gap / 2, 96},
+                       {left ? middle - gap / 2 : kPlotMargin + width, low}};
     draw_plot(*plot, panel, list, labels);
   }
   return list;

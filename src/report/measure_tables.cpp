@@ -10,7 +10,7 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kLineWidth = 100;
 
 // Terminal cells of a text: characters, not bytes.
 std::size_t cells(const std::string& text) {
@@ -69,7 +69,7 @@ std::string folded(const std::string& text) {
   while (from < text.size()) {
     const std::size_t to = std::min(text.find(' ', from), text.size());
     const std::string word = text.substr(from, to - from);
-    if (!row.empty() && cells(row) + 1 + cells(word) > kColumns) {
+    if (!row.empty() && cells(row) + 1 + cells(word) > kLineWidth) {
       out += row + "\n";
       row.clear();
     }

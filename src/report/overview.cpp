@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeastWidth = 1600;
 constexpr double kTall = 1.41421356;  // height over width of an A3 page
 constexpr double kCell = 320;         // least width of a small plot with its words
-constexpr double kMargin = 56;
+constexpr double kOverviewMargin = 56;
 constexpr double kGap = 34;
 constexpr double kSmall = 16.5, kText = 17.5;  // on A3, a page 1600 wide has 0.53 points a unit
 constexpr double kLine = 22;
@@ -25,7 +25,7 @@ constexpr std::size_t kMostLines = 5;  // of a sentence
 
 const TextStyle kQuiet{kSmall, Weight::regular, Role::quiet_ink, Role::none};
 const TextStyle kSaid{kSmall, Weight::regular, Role::ink, Role::none};
-const TextStyle kBold{kText, Weight::semibold, Role::ink, Role::none};
+const TextStyle kCellName{kText, Weight::semibold, Role::ink, Role::none};
 
 class Page {
  public:
@@ -50,9 +50,9 @@ class Page {
   }
 
  private:
-  double inner() const { return width_ - 2 * kMargin; }
+  double inner() const { return width_ - 2 * kOverviewMargin; }
   Box<2> band(double top, double bottom) const {
-    return {{kMargin, top}, {width_ - kMargin, bottom}};
+    return {{kOverviewMargin, top}, {width_ - kOverviewMargin, bottom}};
   }
   double cell_width() const {
     return (inner() - kGap * static_cast<double>(columns_ - 1)) / static_cast<double>(columns_);
@@ -74,7 +74,7 @@ class Page {
   // but enough to be read and no more than is of use.
   void plan_rows() {
     const auto columns = static_cast<double>(columns_);
-    width_ = std::max(kLeastWidth, 2 * kMargin + columns * (kCell + kGap) - kGap);
+    width_ = std::max(kLeastWidth, 2 * kOverviewMargin + columns * (kCell + kGap) - kGap);
     said_.clear();
     lines_ = 1;
     for (const ProblemRows& problem : problems_) {
@@ -117,19 +117,19 @@ class Page {
 
   void rule(double y, double weight = 1.4) {
     list_.shapes.emplace_back(
-        LineShape{{kMargin, y}, {width_ - kMargin, y}, {Role::ink, weight, 0}, true});
+        LineShape{{kOverviewMargin, y}, {width_ - kOverviewMargin, y}, {Role::ink, weight, 0}, true});
   }
 
   double draw_head() {
     const Box<2> place = band(30, 132);
-    labels_.add("Error against run time", {{kMargin, 74}, 0},
+    labels_.add("Error against run time", {{kOverviewMargin, 74}, 0},
                 {38, Weight::semibold, Role::ink, Role::none}, place);
     const std::string how = fmt::format(
         "{} problems, {} runs. Each plot: the error of a run (of what is named at its upper right) "
         "upwards, its seconds to the right, both logarithmic; lower left is better.",
         problems_.size(), measurement_.rows.size());
     labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
-                {{kMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none}, place);
+                {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none}, place);
     rule(126, 2);
     return 140;
   }
@@ -142,7 +142,7 @@ class Page {
         "Dashed: other engines. Open marks at the upper edge: runs that diverged (placed by their "
         "steps if not timed). Stairs: no run "
         "has both less error and less time. Dashed grey: rounding floor, an estimate.";
-    labels_.add(shortened(rest, inner(), kQuiet), {{kMargin, y + 17}, 0}, kQuiet, band(y, y + 26));
+    labels_.add(shortened(rest, inner(), kQuiet), {{kOverviewMargin, y + 17}, 0}, kQuiet, band(y, y + 26));
     return y + 44;
   }
 
@@ -150,7 +150,7 @@ class Page {
     for (std::size_t i = 0; i < problems_.size(); ++i) {
       const auto column = static_cast<double>(i % columns_);
       const auto row = static_cast<double>(i / columns_);
-      const Vec<2> corner{kMargin + column * (cell_width() + kGap), y + row * row_};
+      const Vec<2> corner{kOverviewMargin + column * (cell_width() + kGap), y + row * row_};
       draw_cell(i, {corner, corner + Vec<2>{cell_width(), row_ - 26}});
     }
     const auto rows = static_cast<double>((problems_.size() + columns_ - 1) / columns_);
@@ -158,8 +158,8 @@ class Page {
   }
 
   void draw_cell(std::size_t i, const Box<2>& cell) {
-    const std::string name = shortened(file_name(problems_[i]), cell.size().x, kBold);
-    labels_.add(name, {{cell.lo.x, cell.lo.y + 16}, 0}, kBold, cell);
+    const std::string name = shortened(file_name(problems_[i]), cell.size().x, kCellName);
+    labels_.add(name, {{cell.lo.x, cell.lo.y + 16}, 0}, kCellName, cell);
     const std::string norm = norm_words(main_norm(problems_[i]));
     labels_.try_add(norm, {{{cell.hi.x, cell.lo.y + 16}, 1}}, kQuiet, cell);
     const double said = cell.hi.y - kLine * static_cast<double>(lines_);
@@ -189,7 +189,7 @@ class Page {
     rule(y, 2);
     const Box<2> place = band(y, list_.page.y - 16);
     labels_.add(shortened(circumstances_text(measurement_.circumstances), inner(), kQuiet),
-                {{kMargin, y + 30}, 0}, kQuiet, place);
+                {{kOverviewMargin, y + 30}, 0}, kQuiet, place);
   }
 
   const Measurement& measurement_;

@@ -13,18 +13,18 @@
 namespace lantern {
 namespace {
 
-constexpr double kMargin = 48;
+constexpr double kMapMargin = 48;
 constexpr double kTitleLine = 58;  // baseline
 constexpr double kLegendLine = 118;
-constexpr double kHeading = 34;  // of a panel, over its plot
-constexpr int kColumns = 3;
+constexpr double kPanelHeading = 34;  // of a panel, over its plot
+constexpr int kPanelsInRow = 3;
 constexpr double kRowsGap = 34;
 constexpr double kNoDamping = 14;  // height of the row of zeta = 0
 constexpr double kRowGap = 6;      // and between it and the others
 
 const TextStyle kTick{18, Weight::regular, Role::quiet_ink, Role::none};
 const TextStyle kName{20, Weight::regular, Role::ink, Role::none};
-const TextStyle kBold{21, Weight::semibold, Role::ink, Role::none};
+const TextStyle kPanelName{21, Weight::semibold, Role::ink, Role::none};
 
 // What a growth means, and how it is painted.
 struct Band {
@@ -79,17 +79,17 @@ class Picture {
   DrawList draw() {
     draw_title();
     draw_legend();
-    const Box<2> area{{kMargin + 92, 158}, {list_.page.x - kMargin, list_.page.y - 84}};
+    const Box<2> area{{kMapMargin + 92, 158}, {list_.page.x - kMapMargin, list_.page.y - 84}};
     const double gap = 46;
-    const Vec<2> size{(area.size().x - gap * (kColumns - 1)) / kColumns,
+    const Vec<2> size{(area.size().x - gap * (kPanelsInRow - 1)) / kPanelsInRow,
                       row_height(area) - kRowsGap};
     for (std::size_t i = 0; i < map_.panels.size(); ++i) {
-      const auto column = static_cast<double>(i % kColumns),
-                 row = static_cast<double>(i / kColumns);
+      const auto column = static_cast<double>(i % kPanelsInRow),
+                 row = static_cast<double>(i / kPanelsInRow);
       const Vec<2> corner = area.lo + Vec<2>(column * (size.x + gap), row * row_height(area));
       Box<2> plot{corner, corner + size};
-      plot.lo.y += kHeading;
-      draw_panel(map_.panels[i], plot, i % kColumns == 0, i + kColumns >= map_.panels.size());
+      plot.lo.y += kPanelHeading;
+      draw_panel(map_.panels[i], plot, i % kPanelsInRow == 0, i + kPanelsInRow >= map_.panels.size());
     }
     name_axes(area);
     return std::move(list_);
@@ -103,18 +103,18 @@ class Picture {
     const std::string_view title = "How one step multiplies the motion of a damped spring";
     const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
     const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
-    labels_.add(title, {{kMargin, kTitleLine}, 0}, bold, page());
+    labels_.add(title, {{kMapMargin, kTitleLine}, 0}, bold, page());
     labels_.add("measured with the engine, step by damping, and the limit by theory",
-                {{list_.page.x - kMargin, kTitleLine}, 1}, quiet, page());
+                {{list_.page.x - kMapMargin, kTitleLine}, 1}, quiet, page());
     list_.shapes.emplace_back(
-        LineShape{{kMargin, 78}, {list_.page.x - kMargin, 78}, {Role::rule, 1.6, 0}, true});
+        LineShape{{kMapMargin, 78}, {list_.page.x - kMapMargin, 78}, {Role::rule, 1.6, 0}, true});
   }
 
   void draw_legend() {
-    double x = kMargin;
+    double x = kMapMargin;
     const auto word = [&](std::string_view text, const TextStyle& style) {
       labels_.add(text, {{x, kLegendLine}, 0}, style, page());
-      x += text_width(text, style.size, style.weight);
+      x += text_width(text, style);
     };
     word("growth a step:", kName);
     x += 22;
@@ -177,7 +177,7 @@ class Picture {
 
   void draw_heading(Integrator method, const Box<2>& plot) {
     const auto [name, limit] = words_for(method);
-    labels_.add(name, {{plot.lo.x, plot.lo.y - 12}, 0}, kBold, page());
+    labels_.add(name, {{plot.lo.x, plot.lo.y - 12}, 0}, kPanelName, page());
     labels_.add(limit, {{plot.hi.x, plot.lo.y - 12}, 1}, kName, page());
   }
 
@@ -254,10 +254,10 @@ class Picture {
 
   // Beside the first panel of each row, and below all.
   void name_axes(const Box<2>& area) {
-    for (std::size_t row = 0; row * kColumns < map_.panels.size(); ++row) {
-      const double y = area.lo.y + kHeading - 12 + static_cast<double>(row) * row_height(area);
-      labels_.add("damping", {{kMargin, y - 24}, 0}, kName, page());
-      labels_.add("ratio ζ", {{kMargin, y}, 0}, kName, page());
+    for (std::size_t row = 0; row * kPanelsInRow < map_.panels.size(); ++row) {
+      const double y = area.lo.y + kPanelHeading - 12 + static_cast<double>(row) * row_height(area);
+      labels_.add("damping", {{kMapMargin, y - 24}, 0}, kName, page());
+      labels_.add("ratio ζ", {{kMapMargin, y}, 0}, kName, page());
     }
     labels_.add("step ωh: radians of the undamped swing in a step",
                 {{area.center().x, list_.page.y - 22}, 0.5}, kName, page());

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/grouped.hpp"
+
 namespace lantern {
 namespace {
 
@@ -48,16 +50,6 @@ Parts parts_of(std::string_view inside) {
   parts.one = nouns.substr(0, slash);
   if (slash != std::string_view::npos) parts.many = nouns.substr(slash + 1);
   return parts;
-}
-
-// Long numbers with their thousands apart by a thin space, as a book prints them.
-std::string grouped(std::int64_t n) {
-  std::string digits = fmt::format("{}", n);
-  constexpr std::int64_t kShort = 10'000;
-  if (n < kShort && n > -kShort) return digits;
-  for (std::size_t i = digits.size() - 3; i > (n < 0 ? 1u : 0u) && i < digits.size(); i -= 3)
-    digits.insert(i, "\u2009");
-  return digits;
 }
 
 std::string with_noun(std::int64_t n, const Parts& parts) {

@@ -53,6 +53,9 @@ struct Draft {
   std::vector<Follower> followers;
 
   SourcePosition position(Place where) const { return {scenario.file, where.line, where.column}; }
+
+  // Are `all` things, called `nouns`, no more than `most`? Else says so at `where`.
+  bool has_room_for(std::size_t all, std::size_t most, const char* nouns, Place where);
 };
 
 // A table within the file, whose points have as many numbers as the world has dimensions.

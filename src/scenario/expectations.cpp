@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
+
+#include "geometry/angle.hpp"
 
 namespace lantern {
 namespace {
@@ -134,11 +135,10 @@ Unmet unmet_vector(const Expectation& e, const Frame& frame) {
 }
 
 Unmet unmet_turn(const Expectation& e, const Frame& frame) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const FrameBody* body = body_named(frame, e.name);
   if (body && std::abs(body->angle - e.number) <= e.tolerance) return std::nullopt;
-  return fmt::format("expected '{}' turned by {} degrees, found {}", e.name, e.number * kDegrees,
-                     body ? fmt::format("{}", body->angle * kDegrees) : "none");
+  return fmt::format("expected '{}' turned by {} degrees, found {}", e.name, e.number / kDegree,
+                     body ? fmt::format("{}", body->angle / kDegree) : "none");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 using enum KeyType;
 
-KeyDoc bodies() {
+KeyDoc bodies_key() {
   return Key(texts, "bodies", "Names of bodies, or of patterns for all of theirs.").must();
 }
 
@@ -22,7 +22,7 @@ TableDoc insert_verb() {
   return {"insert",
           "do = \"insert\"",
           "Bodies enter the world and the structure, one after another.",
-          {bodies(), pace_key(),
+          {bodies_key(), pace_key(),
            events_key({"test", "miss", "make_child", "store", "split", "hand_down", "depth_limit",
                        "no_progress"})},
           {},
@@ -37,7 +37,7 @@ expect = { bodies = 4 }
 }
 
 TableDoc remove_verb() {
-  return {"remove",   "do = \"remove\"", "Bodies leave the world and the structure.", {bodies()},
+  return {"remove",   "do = \"remove\"", "Bodies leave the world and the structure.", {bodies_key()},
           {},
           R"([[step]]
 do = "remove"
@@ -83,7 +83,7 @@ TableDoc sleep_verb() {
           "do = \"sleep\"",
           "Bodies fall asleep: nothing moves them until something "
           "wakes them.",
-          {bodies()},
+          {bodies_key()},
           {},
           R"([[step]]
 do = "sleep"
@@ -93,7 +93,7 @@ expect = { asleep = ["red"] }
 }
 
 TableDoc wake_verb() {
-  return {"wake",     "do = \"wake\"", "Bodies wake up.", {bodies()}, {},
+  return {"wake",     "do = \"wake\"", "Bodies wake up.", {bodies_key()}, {},
           R"([[step]]
 do = "wake"
 bodies = ["red"]

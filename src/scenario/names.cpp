@@ -22,6 +22,12 @@ const NamedRange* Names::find(const std::string& name) const {
   return found == ranges_.end() ? nullptr : &found->second;
 }
 
+bool Draft::has_room_for(std::size_t all, std::size_t most, const char* nouns, Place where) {
+  if (all <= most) return true;
+  problems.add(where, fmt::format("{} {} in all, the limit is {}", all, nouns, most));
+  return false;
+}
+
 int cycled_color(std::int64_t color, std::size_t index) {
   return color == 0 ? static_cast<int>(1 + index % 8) : static_cast<int>(color);
 }

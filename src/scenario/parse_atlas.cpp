@@ -9,11 +9,9 @@
 namespace lantern {
 namespace {
 
-bool has_room_for(std::size_t count, Place where, Draft& draft) {
-  const std::size_t all = draft.scenario.textures.size() + count;
-  if (all <= kMostTextures) return true;
-  draft.problems.add(where, fmt::format("{} textures in all, the limit is {}", all, kMostTextures));
-  return false;
+bool has_room_for_textures(std::size_t count, Place where, Draft& draft) {
+  return draft.has_room_for(draft.scenario.textures.size() + count, kMostTextures, "textures",
+                            where);
 }
 
 void read_texture(const TomlValue& value, Draft& draft) {
@@ -22,7 +20,7 @@ void read_texture(const TomlValue& value, Draft& draft) {
   const TextureSpec texture{
       table.text("name").value_or(""), static_cast<int>(size.x), static_cast<int>(size.y),
       static_cast<int>(table.whole("color").value_or(1)), draft.position(value.where)};
-  if (!has_room_for(1, value.where, draft)) return;
+  if (!has_room_for_textures(1, value.where, draft)) return;
   if (!texture.name.empty())
     draft.textures.add(texture.name, {draft.scenario.textures.size(), 1, table.place("name")}, true,
                        draft.problems);
@@ -47,13 +45,13 @@ Lengths read_lengths(const TableReader& table, int axis, Draft& draft) {
   return {};
 }
 
-void read_pattern(const TomlValue& value, Draft& draft) {
+void read_texture_pattern(const TomlValue& value, Draft& draft) {
   const TableReader table = open(value, language_table("texture_pattern"), draft);
   const std::string name = table.text("name").value_or("");
   const auto count = static_cast<std::size_t>(table.whole("count").value_or(1));
   const Lengths widths = read_lengths(table, 0, draft);
   const Lengths heights = read_lengths(table, 1, draft);
-  if (!has_room_for(count, table.place("count"), draft) || name.empty()) return;
+  if (!has_room_for_textures(count, table.place("count"), draft) || name.empty()) return;
 
   Random random(derived_seed(table, name, draft));
   const auto multiple = static_cast<int>(table.whole("multiple").value_or(1));
@@ -99,7 +97,7 @@ void read_atlas(const TableReader& file, Draft& draft) {
     draft.problems.add((textures.empty() ? patterns : textures)[0]->where,
                        "textures need an [atlas]", "add [atlas] with size = [512, 512]");
   for (const TomlValue* value : textures) read_texture(*value, draft);
-  for (const TomlValue* value : patterns) read_pattern(*value, draft);
+  for (const TomlValue* value : patterns) read_texture_pattern(*value, draft);
 }
 
 }  // namespace lantern

@@ -31,12 +31,9 @@ void check_motion(const BodySpec& body, bool moves, const TableReader& table, co
                        fmt::format("or leave out {}", key));
 }
 
-// Are there few enough? Says so once, where they become too many.
-bool has_room_for(std::size_t count, Place where, Draft& draft) {
-  const std::size_t all = draft.scenario.bodies.size() + count;
-  if (all <= kMostBodies) return true;
-  draft.problems.add(where, fmt::format("{} bodies in all, the limit is {}", all, kMostBodies));
-  return false;
+// Says so once, where they become too many.
+bool has_room_for_bodies(std::size_t count, Place where, Draft& draft) {
+  return draft.has_room_for(draft.scenario.bodies.size() + count, kMostBodies, "bodies", where);
 }
 
 // Whom it follows may be declared later.
@@ -56,7 +53,7 @@ void read_body(const TomlValue& value, Draft& draft) {
   if (table.is_good("speed") && body.brain == Brain::none)
     draft.problems.add(table.key_place("speed"), "'speed' is of a body that follows or wanders",
                        "say where it goes: velocity");
-  if (!has_room_for(1, value.where, draft)) return;
+  if (!has_room_for_bodies(1, value.where, draft)) return;
   if (!body.name.empty())
     draft.bodies.add(body.name, {draft.scenario.bodies.size(), 1, table.place("name")}, true,
                      draft.problems);
@@ -70,7 +67,7 @@ void read_pattern(const TomlValue& value, Draft& draft) {
   check_motion(like, table.number("speed").value_or(0) > 0, table, "speed", draft);
   check_motion(like, like.spin != 0, table, "spin", draft);
   const auto count = static_cast<std::size_t>(table.whole("count").value_or(1));
-  if (!has_room_for(count, table.place("count"), draft) || like.name.empty()) return;
+  if (!has_room_for_bodies(count, table.place("count"), draft) || like.name.empty()) return;
   const NamedRange range{draft.scenario.bodies.size(), count, table.place("name")};
   if (!draft.bodies.add(like.name, range, true, draft.problems)) return;
   note_follower(table, count, draft);

@@ -1,15 +1,13 @@
 // What a [[body]] and a [[pattern]] share: shape, matter, and who steers.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/angle.hpp"
 #include "scenario/draft.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;  // in a degree
 
 // Keys that make a box one that turns.
 bool turns(const TableReader& table) { return table.has("turned") || table.has("spin"); }
@@ -81,8 +79,8 @@ BodyKind read_kind(const TableReader& table, Draft& draft) {
 }
 
 void read_turn(const TableReader& table, BodySpec& body, Draft& draft) {
-  body.angle = table.number("turned").value_or(0) * kRadians;
-  body.spin = table.number("spin").value_or(0) * kRadians;
+  body.angle = table.number("turned").value_or(0) * kDegree;
+  body.spin = table.number("spin").value_or(0) * kDegree;
   body.axis = draft.dimension == 3 ? Vec<3>(0, 1, 0) : Vec<3>(0, 0, 1);
   if (table.is_good("turned") && table.has("ground"))
     draft.problems.add(table.key_place("turned"), "the ground is not turned",

@@ -1,14 +1,12 @@
 // Verbs that ask: rays, views and regions; and those of a level.
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/angle.hpp"
 #include "scenario/script.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;  // in a degree
 
 // A ray and a view need a direction.
 void check_apart(const TableReader& table, const char* from, const char* to, Draft& draft) {
@@ -29,7 +27,7 @@ Cull read_cull(const TableReader& table, Draft& draft) {
   Cull cull;
   cull.eye = table.point("eye").value_or(Vec<3>(0.0));
   cull.target = table.point("target").value_or(Vec<3>(1, 0, 0));
-  cull.angle = table.number("angle").value_or(60) * kRadians;
+  cull.angle = table.number("angle").value_or(60) * kDegree;
   cull.near = table.number("near").value_or(cull.near);
   cull.far = table.number("far").value_or(cull.far);
   const bool good =

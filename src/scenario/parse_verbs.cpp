@@ -1,8 +1,8 @@
 // Verbs that change who is where, and those of the atlas.
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/angle.hpp"
 #include "scenario/script.hpp"
 
 namespace lantern {
@@ -20,8 +20,6 @@ std::optional<std::size_t> read_present_body(const TableReader& table, const cha
 }
 
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;  // in a degree
 
 bool never_turns(const BodySpec& body) {
   return std::holds_alternative<AxisBox<3>>(body.shape) ||
@@ -55,8 +53,8 @@ Move read_move(const TableReader& table, Scope& scope) {
     if (table.has(key) && never_turns(body))
       scope.draft.problems.add(table.key_place(key), fmt::format("'{}' never turns", body.name),
                                "a box turns if it has oriented = true");
-  if (move.turned) *move.turned *= kRadians;
-  if (move.spin) *move.spin *= kRadians;
+  if (move.turned) *move.turned *= kDegree;
+  if (move.spin) *move.spin *= kDegree;
   return move;
 }
 

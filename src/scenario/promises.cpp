@@ -1,17 +1,15 @@
 // What a step promises.
 #include <algorithm>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "geometry/angle.hpp"
 #include "scenario/script.hpp"
 
 namespace lantern {
 namespace {
 
 using Kind = Expectation::Kind;
-
-constexpr double kRadians = std::numbers::pi / 180;  // in a degree
 
 bool is_counted_or_measured(std::string_view name) {
   for (const auto docs : {known_counts(), known_measures()})
@@ -171,8 +169,8 @@ class Promises {
     for (const auto& [body, degrees] : table_.name_numbers("turned")) {
       one_body(body, draft_);
       Expectation& e = add(Kind::turned, body.name, body.where);
-      e.number = degrees * kRadians;
-      e.tolerance = tolerance() * kRadians;
+      e.number = degrees * kDegree;
+      e.tolerance = tolerance() * kDegree;
     }
   }
 

@@ -70,11 +70,11 @@ struct BroadPhaseCounters {
 
 // A structure whose bodies are numbered from 0 in the order of their ids, seen with the ids.
 template <int D, class Structure>
-class Named {
+class WithIds {
  public:
   static constexpr Zones kZones = Structure::kZones;
 
-  Named(const Structure& structure, std::span<const BodyId> names)
+  WithIds(const Structure& structure, std::span<const BodyId> names)
       : structure_(structure), names_(names) {}
 
   template <class F>
@@ -181,7 +181,7 @@ class BroadPhase {
   static decltype(auto) with(const Store& store, F& f) {
     return std::visit(
         [&](const auto& structure) -> decltype(auto) {
-          return f(Named<D, std::remove_cvref_t<decltype(structure)>>(structure, store.names));
+          return f(WithIds<D, std::remove_cvref_t<decltype(structure)>>(structure, store.names));
         },
         store.structure);
   }

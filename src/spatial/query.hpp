@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "geometry/not_finite.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern {
@@ -86,7 +87,6 @@ class IdSet {
 // The node's box, without end on the sides where it ends with the root.
 template <int D>
 Box<D> endless_at_rim(Box<D> box, const Box<D>& root) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (int i = 0; i < D; ++i) {
     if (box.lo[i] == root.lo[i]) box.lo[i] = -kInfinity;
     if (box.hi[i] == root.hi[i]) box.hi[i] = kInfinity;

@@ -10,8 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kGhosts = repository("scenarios/ghost_quadtree.toml").string();
-
 // Checks and renders `text` as a scenario: both must end with `code` and say `words`.
 void expect_refused(const std::string& text, int code, const std::string& words) {
   const fs::path folder = fresh_folder("bad-input");

@@ -10,11 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string scenario(const std::string& name) {
-  return repository("scenarios/" + name + ".toml").string();
-}
 const std::string kPong = scenario("pong_bsp");
-const std::string kGhosts = scenario("ghost_quadtree");
 const std::string kAtlas = scenario("kdtree_atlas");
 const std::string kSmall = " --size 320x180 ";
 

@@ -66,7 +66,7 @@ TEST_P(Golden, FramesAreAsExpected) {
   const std::string name = GetParam();
   const fs::path expected = kGolden / name;
   const fs::path out = fresh_folder("golden-" + name);
-  const Outcome o = shell("lantern render " + repository("scenarios/" + name + ".toml").string() +
+  const Outcome o = shell("lantern render " + scenario(name) +
                           " --size 480x270 --png small --pace step -o " + out.string());
   ASSERT_EQ(o.code, 0) << o.err;
   Hashes found;

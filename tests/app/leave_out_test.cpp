@@ -10,10 +10,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string scenario(const std::string& name) {
-  return repository("scenarios/" + name + ".toml").string();
-}
-
 json work_of(const std::string& words) {
   const Outcome o = shell("lantern " + words + " --json");
   EXPECT_EQ(o.code, 0) << o.err;

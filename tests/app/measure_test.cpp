@@ -104,12 +104,12 @@ TEST(MeasureCommand, AnyScenarioWithBodiesCanBeMeasured) {
   const fs::path out = fresh_folder("measure_own");
   const Outcome o = shell(
       "lantern measure --quick --method runge_kutta_4 --step 0.02 --step 0.01 " +
-      repository("scenarios/spring_rope.toml").string() + " --longest 100 -o " + out.string());
+      scenario("spring_rope") + " --longest 100 -o " + out.string());
   ASSERT_EQ(o.code, 0) << o.err;
   ASSERT_EQ(rows_of(out).size(), 2u);
   EXPECT_NE(std::string(rows_of(out)[0]["reference"]).find("own run"), std::string::npos);
   const Outcome atlas =
-      shell("lantern measure " + repository("scenarios/kdtree_atlas.toml").string() + " -o " +
+      shell("lantern measure " + scenario("kdtree_atlas") + " -o " +
             out.string());
   EXPECT_EQ(atlas.code, 3);
   EXPECT_NE(atlas.err.find("has no bodies"), std::string::npos) << atlas.err;

@@ -25,6 +25,10 @@ void write_text(const fs::path& path, const std::string& text) {
 
 fs::path repository(const std::string& path) { return fs::path(LANTERN_ROOT) / path; }
 
+std::string scenario(const std::string& name) {
+  return repository("scenarios/" + name + ".toml").string();
+}
+
 Outcome shell(const std::string& command) {
   char base[] = "/tmp/lantern-test-XXXXXX";
   if (::mkdtemp(base) == nullptr) return {};

@@ -23,4 +23,8 @@ std::string read_text(const std::filesystem::path& path);
 // The path of a file of the repository.
 std::filesystem::path repository(const std::string& path);
 
+// The file of a scenario that comes with Lantern.
+std::string scenario(const std::string& name);
+inline const std::string kGhosts = LANTERN_ROOT "/scenarios/ghost_quadtree.toml";
+
 }  // namespace lantern::test

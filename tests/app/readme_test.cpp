@@ -74,7 +74,7 @@ TEST(Readme, CommandsWork) {
 
 TEST(Readme, ThePictureIsLanternsOwn) {
   const Outcome o = shell("lantern render -o - --at four --size 1600x900 --png small " +
-                          repository("scenarios/ghost_quadtree.toml").string());
+                          scenario("ghost_quadtree"));
   const auto shown = decode_png(read_text(repository("scenarios/ghost_quadtree.png")));
   const auto drawn = decode_png(o.out);
   ASSERT_TRUE(shown && drawn);

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kScenario = repository("scenarios/coincident_max_depth.toml").string();
+const std::string kScenario = scenario("coincident_max_depth");
 const std::string kName = "coincident_max_depth";
 
 using Files = std::map<std::string, std::string>;
@@ -106,7 +106,7 @@ TEST_F(SameBytes, OfSolidAndMovingWorlds) {
                            const std::string& words) {
       const fs::path out = fresh_folder(folder + "-" + name);
       const Outcome o =
-          shell(before + " lantern render " + repository("scenarios/" + name + ".toml").string() +
+          shell(before + " lantern render " + scenario(name) +
                 " --size 480x270 --frames 10-24 " + words + " -o " + out.string());
       EXPECT_EQ(o.code, 0) << o.err;
       Files found;

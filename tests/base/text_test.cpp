@@ -1,4 +1,4 @@
-// Suggestions, JSON, hash, random numbers.
+// Suggestions, JSON, long numbers, hash, random numbers.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/grouped.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
 #include "base/random.hpp"
@@ -38,6 +39,16 @@ TEST(Suggest, ListsWhatThereIsWhenNothingIsNear) {
   EXPECT_EQ(suggestion("gravity_of_all", kKeys), "known here: capacity, max_depth, kind, at");
   EXPECT_EQ(suggestion("gravity_of_all", kKeys, 3), "") << "a long list is no help";
   EXPECT_EQ(suggestion("x", {}), "");
+}
+
+TEST(Grouped, PutsThousandsApart) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(9999, " "), "9999") << "four digits are read at a glance";
+  EXPECT_EQ(grouped(-9999, " "), "-9999");
+  EXPECT_EQ(grouped(12345, " "), "12 345");
+  EXPECT_EQ(grouped(-123456, " "), "-123 456") << "no gap after the sign";
+  EXPECT_EQ(grouped(1234567), "1\u2009234\u2009567");
+  EXPECT_EQ(grouped(std::numeric_limits<std::int64_t>::min(), " "), "-9 223 372 036 854 775 808");
 }
 
 TEST(Json, NumbersComeBackBitForBit) {

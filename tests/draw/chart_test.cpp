@@ -4,6 +4,7 @@
 
 #include "base/random.hpp"
 #include "draw/axis.hpp"
+#include "draw/layout_check.hpp"
 #include "draw/number_text.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
@@ -11,15 +12,8 @@
 namespace lantern {
 namespace {
 
-DrawList page_of(const Frame& frame) {
-  Work work;
-  return draw_frame(frame, page_for(1600, 900), work);
-}
-
-bool says(const DrawList& list, const std::string& text) {
-  return std::any_of(list.labels.begin(), list.labels.end(),
-                     [&](const LabelBox& label) { return label.text == text; });
-}
+using samples::page_of;
+using test::says;
 
 Frame charted(FrameChart chart) {
   Frame frame;

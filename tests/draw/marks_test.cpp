@@ -14,16 +14,13 @@
 namespace lantern {
 namespace {
 
+using samples::page_of;
+
 Frame sample(const std::string& name) {
   for (auto& [known, frame] : samples::worlds())
     if (known == name) return frame;
   ADD_FAILURE() << "no sample " << name;
   return {};
-}
-
-DrawList page_of(const Frame& frame) {
-  Work work;
-  return draw_frame(frame, page_for(1600, 900), work);
 }
 
 template <class Shape, class F>

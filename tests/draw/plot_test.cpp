@@ -1,7 +1,6 @@
 #include "draw/plot.hpp"
 
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "draw/plot_legend.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/layout_check.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
@@ -19,8 +19,6 @@ namespace {
 using test::expect_laid_out;
 using test::says;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 DrawList drawn(const Plot& plot, const Box<2>& panel = {{0, 0}, {800, 500}}) {
   DrawList list;
@@ -52,7 +50,7 @@ Plot random_plot(Random& random) {
       p.beyond = i < 3 && random.unit() < 0.3;
       if (random.unit() < 0.03) p.at[static_cast<int>(random.whole(0, 1))] = kNan;
       if (random.unit() < 0.03) p.at.y = 0;
-      if (random.unit() < 0.02) p.at.y = kInf;
+      if (random.unit() < 0.02) p.at.y = kInfinity;
       if (random.unit() < 0.1) p.note = "note";
       line.points.push_back(p);
     }
@@ -113,7 +111,7 @@ TEST(Plot, WhatIsNotFiniteIsLeftOut) {
   plot.series = {{"a",
                   {{{1, 1}, false, ""},
                    {{kNan, 1}, false, ""},
-                   {{2, kInf}, false, ""},
+                   {{2, kInfinity}, false, ""},
                    {{-1, 1}, false, ""},
                    {{10, 0.1}, false, ""}},
                   0}};

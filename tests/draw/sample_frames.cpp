@@ -6,35 +6,12 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "draw/page.hpp"
 #include "draw/solid_samples.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::samples {
 namespace {
-
-FrameBody body(BodyId id, std::string name, Look look, int color, Vec<2> position,
-               Shape<2> shape = Sphere{0.55}) {
-  FrameBody b;
-  b.id = id;
-  b.name = std::move(name);
-  b.look = look;
-  b.color = color;
-  b.shape = in_dimension<3>(shape);
-  b.position = solid(position);
-  b.box = solid(bounding_box(shape, position));
-  return b;
-}
-
-Frame base(std::string title, Box<2> bounds) {
-  Frame frame;
-  frame.scenario = "sample";
-  frame.title = std::move(title);
-  frame.step = 3;
-  frame.steps = 9;
-  frame.bounds = solid(bounds);
-  frame.panels = {Panel::world, Panel::tree};
-  return frame;
-}
 
 Vec<2> corner_of(std::uint32_t slot) { return {slot % 2 == 0 ? 0.0 : 0.5, slot < 2 ? 0.5 : 0.0}; }
 
@@ -192,8 +169,38 @@ struct Packer {
 
 }  // namespace
 
+FrameBody body(BodyId id, std::string name, Look look, int color, const Vec<2>& at,
+               const Shape<2>& shape, double angle) {
+  FrameBody b;
+  b.id = id;
+  b.name = std::move(name);
+  b.look = look;
+  b.color = color;
+  b.shape = in_dimension<3>(shape);
+  b.position = solid(at);
+  b.angle = angle;
+  b.box = solid(bounding_box(shape, at, Rotation<2>{angle}));
+  return b;
+}
+
+Frame base(std::string title, const Box<2>& bounds, std::vector<Panel> panels) {
+  Frame frame;
+  frame.scenario = "sample";
+  frame.title = std::move(title);
+  frame.step = 3;
+  frame.steps = 9;
+  frame.bounds = solid(bounds);
+  frame.panels = std::move(panels);
+  return frame;
+}
+
+DrawList page_of(const Frame& frame) {
+  Work work;
+  return draw_frame(frame, page_for(1600, 900), work);
+}
+
 Frame ghosts(std::size_t objects) {
-  Frame frame = base("Ghosts in a quadtree", {{0, 0}, {8, 8}});
+  Frame frame = base("Ghosts in a quadtree", {{0, 0}, {8, 8}}, {Panel::world, Panel::tree});
   frame.part = "children on demand";
   frame.bodies = {
       body(0, "red", Look::ghost, 1, {3.05, 6.85}), body(1, "pink", Look::ghost, 2, {2.0, 4.85}),
@@ -217,7 +224,7 @@ Frame ghosts(std::size_t objects) {
 }
 
 Frame pong(double ball_x) {
-  Frame frame = base("Pong and its BSP", {{0, 0}, {32, 18}});
+  Frame frame = base("Pong and its BSP", {{0, 0}, {32, 18}}, {Panel::world, Panel::tree});
   frame.structure = StructureKind::bsp;
   frame.settings = "1 dividing line";
   const AxisBox<2> bat{{0.5, 2.2}};
@@ -240,7 +247,7 @@ Frame pong(double ball_x) {
 }
 
 Frame doom() {
-  Frame frame = base("A level cut into convex sectors", {{0, 0}, {20, 14}});
+  Frame frame = base("A level cut into convex sectors", {{0, 0}, {20, 14}}, {Panel::world, Panel::tree});
   frame.structure = StructureKind::bsp;
   frame.settings = "3 dividing lines";
   frame.bodies = {body(0, "imp", Look::ghost, 7, {4, 10}),
@@ -263,7 +270,7 @@ Frame doom() {
 }
 
 Frame coincident(std::uint32_t depth) {
-  Frame frame = base("Three bodies at one place", {{0, 0}, {16, 16}});
+  Frame frame = base("Three bodies at one place", {{0, 0}, {16, 16}}, {Panel::world, Panel::tree});
   const Vec<2> place{6.3, 9.4};
   frame.bodies = {body(0, "pink", Look::ghost, 2, place, Sphere{1.1}),
                   body(1, "red", Look::ghost, 1, place, Sphere{1.1}),
@@ -281,7 +288,7 @@ Frame coincident(std::uint32_t depth) {
 }
 
 Frame crowd(std::size_t bodies, double size) {
-  Frame frame = base("Many bodies", {{0, 0}, {100, 70}});
+  Frame frame = base("Many bodies", {{0, 0}, {100, 70}}, {Panel::world, Panel::tree});
   Random random(7);
   for (std::size_t i = 0; i < bodies; ++i) {
     const auto look = static_cast<Look>(i % 6);
@@ -303,7 +310,7 @@ Frame crowd(std::size_t bodies, double size) {
 }
 
 Frame outside() {
-  Frame frame = base("Nothing is dropped", {{0, 0}, {10, 10}});
+  Frame frame = base("Nothing is dropped", {{0, 0}, {10, 10}}, {Panel::world, Panel::tree});
   frame.bodies = {
       body(0, "inside", Look::ghost, 5, {4, 4}),       body(1, "left", Look::ghost, 1, {-3, 5}),
       body(2, "far", Look::player, 3, {900, 700}),     body(3, "below", Look::ball, 6, {7, -5}),
@@ -335,7 +342,7 @@ Frame long_texts() {
 }
 
 Frame atlas(std::size_t textures, std::size_t packed) {
-  Frame frame = base("A texture atlas on a kD-tree", {{0, 0}, {1, 1}});
+  Frame frame = base("A texture atlas on a kD-tree", {{0, 0}, {1, 1}}, {Panel::world, Panel::tree});
   frame.panels = {Panel::atlas, Panel::tree};
   FrameNode root;
   root.label = "root";

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/draw_list.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern::samples {
@@ -30,5 +31,13 @@ Named worlds();    // turned bodies, contacts, links, rays, views, levels, sleep
 
 // Name and frame of all of the above, in several sizes; made once.
 const Named& all();
+
+// Parts of which samples are made: a body of a flat world, a frame without bodies.
+FrameBody body(BodyId id, std::string name, Look look, int color, const Vec<2>& at,
+               const Shape<2>& shape = Sphere{0.55}, double angle = 0);
+Frame base(std::string title, const Box<2>& bounds, std::vector<Panel> panels);
+
+// The whole page of 1600 x 900 pixels.
+DrawList page_of(const Frame& frame);
 
 }  // namespace lantern::samples

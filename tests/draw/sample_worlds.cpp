@@ -9,20 +9,6 @@
 namespace lantern::samples {
 namespace {
 
-FrameBody body(BodyId id, std::string name, Look look, int color, Vec<2> at, Shape<2> shape,
-               double angle = 0) {
-  FrameBody b;
-  b.id = id;
-  b.name = std::move(name);
-  b.look = look;
-  b.color = color;
-  b.shape = in_dimension<3>(shape);
-  b.position = solid(at);
-  b.angle = angle;
-  b.box = solid(bounding_box(shape, at, Rotation<2>{angle}));
-  return b;
-}
-
 FrameBody wall(BodyId id, std::string name, Vec<2> at, Vec<2> half) {
   FrameBody b = body(id, std::move(name), Look::box, 1, at, AxisBox<2>{half});
   b.is_static = true;
@@ -35,19 +21,8 @@ FrameBody ground(BodyId id, Vec<2> at, Vec<2> normal) {
   return b;
 }
 
-Frame base(std::string title, Box<2> bounds) {
-  Frame frame;
-  frame.scenario = "sample";
-  frame.title = std::move(title);
-  frame.step = 3;
-  frame.steps = 9;
-  frame.bounds = solid(bounds);
-  frame.panels = {Panel::world};
-  return frame;
-}
-
 Frame shapes() {
-  Frame frame = base("Five shapes", {{0, 0}, {16, 9}});
+  Frame frame = base("Five shapes", {{0, 0}, {16, 9}}, {Panel::world});
   frame.bodies = {ground(0, {0, 1}, {0, 1}),
                   body(1, "crate", Look::box, 4, {3, 3.2}, OrientedBox<2>{{1.2, 0.7}}, 0.5),
                   body(2, "pill", Look::box, 5, {7, 3}, Capsule{0.6, 0.9}, -0.7),
@@ -69,7 +44,7 @@ Frame shapes() {
 }
 
 Frame slope() {
-  Frame frame = base("On a slope", {{-8, 0}, {8, 9}});
+  Frame frame = base("On a slope", {{-8, 0}, {8, 9}}, {Panel::world});
   const Vec<2> n{std::sin(0.3), std::cos(0.3)};
   frame.bodies = {ground(0, {0, 3}, n)};
   const double angle = -0.3;
@@ -93,7 +68,7 @@ Frame slope() {
 }
 
 Frame stack(int height) {
-  Frame frame = base("A stack", {{-6, 0}, {6, 9}});
+  Frame frame = base("A stack", {{-6, 0}, {6, 9}}, {Panel::world});
   frame.bodies = {ground(0, {0, 0}, {0, 1})};
   const double size = 7.0 / height;
   for (int i = 0; i < height; ++i) {
@@ -113,7 +88,7 @@ Frame stack(int height) {
 }
 
 Frame linked() {
-  Frame frame = base("Springs, rods and pins", {{0, 0}, {16, 9}});
+  Frame frame = base("Springs, rods and pins", {{0, 0}, {16, 9}}, {Panel::world});
   frame.bodies = {wall(0, "beam", {8, 8.4}, {7.5, 0.3})};
   for (BodyId i = 1; i <= 5; ++i)
     frame.bodies.push_back(body(i, fmt::format("weight {}", i), Look::disc, int(i),

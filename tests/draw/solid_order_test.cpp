@@ -10,7 +10,7 @@ namespace lantern {
 namespace {
 
 const Box<3> kWorld{{-5, -5, -5}, {5, 5, 5}};
-const Box<2> kPanel{{0, 0}, {800, 600}};
+const Box<2> kOrderPanel{{0, 0}, {800, 600}};
 
 Vec<3> random_point(Random& random, double reach) {
   Vec<3> p;
@@ -153,7 +153,7 @@ TEST(SolidOrder, TheNearestIsPaintedLastOnEverySightLine) {
         solids.push_back(c);
     }
     const Vec<3> eye = glm::normalize(random_point(random, 1)) * 25.0;
-    const SolidView view(kWorld, Camera{eye, {0, 0, 0}, 0.7}, kPanel);
+    const SolidView view(kWorld, Camera{eye, {0, 0, 0}, 0.7}, kOrderPanel);
     std::vector<Piece> pieces;
     for (std::size_t i = 0; i < solids.size(); ++i) pieces.push_back(numbered(solids[i], i, view));
     const std::vector<std::size_t> order = painted_order(std::move(pieces), view);
@@ -176,7 +176,7 @@ TEST(SolidOrder, TheNearestIsPaintedLastOnEverySightLine) {
 
 // Three bars that cover each other in turn have no order; each must still be painted, once.
 TEST(SolidOrder, ARingIsBroken) {
-  const SolidView view(kWorld, Camera{{0, 0, 30}, {0, 0, 0}, 0.7}, kPanel);
+  const SolidView view(kWorld, Camera{{0, 0, 30}, {0, 0, 0}, 0.7}, kOrderPanel);
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i < 3; ++i) {
     const double turn = 2.0943951023931953 * static_cast<double>(i);
@@ -193,7 +193,7 @@ TEST(SolidOrder, ARingIsBroken) {
 }
 
 TEST(SolidOrder, ALineIsThinnerBeforeABody) {
-  const SolidView view(kWorld, Camera{{0, 0, 30}, {0, 0, 0}, 0.7}, kPanel);
+  const SolidView view(kWorld, Camera{{0, 0, 30}, {0, 0, 0}, 0.7}, kOrderPanel);
   Convex body;
   body.half = {1, 1, 1};
   Piece edge;

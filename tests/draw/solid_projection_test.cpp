@@ -10,11 +10,11 @@
 namespace lantern {
 namespace {
 
-const Box<2> kPanel{{100, 50}, {700, 450}};
+const Box<2> kProjectionPanel{{100, 50}, {700, 450}};
 const Box<3> kCube{{-1, -1, -1}, {1, 1, 1}};
 
 SolidView seen_from(const Vec<3>& eye, const Vec<3>& target, double angle = 0.7) {
-  return SolidView(kCube, Camera{eye, target, angle}, kPanel);
+  return SolidView(kCube, Camera{eye, target, angle}, kProjectionPanel);
 }
 
 bool finite(const Outline& points) {
@@ -46,8 +46,8 @@ TEST(SolidProjection, FitsTheWorldIntoItsPanel) {
     Outline corners;
     for (const Vec<3>& corner : corners_of(kCube)) corners.push_back(view.to_page(corner));
     const Box<2> box = box_of(corners);
-    EXPECT_TRUE(holds(kPanel, box)) << "a corner of the world is out of its panel, eye " << i;
-    const Vec<2> room = kPanel.size() - box.size();
+    EXPECT_TRUE(holds(kProjectionPanel, box)) << "a corner of the world is out of its panel, eye " << i;
+    const Vec<2> room = kProjectionPanel.size() - box.size();
     EXPECT_LT(std::min(room.x, room.y), 13) << "the world leaves room unused on both axes";
   }
 }
@@ -59,18 +59,18 @@ TEST(SolidProjection, KeepsTheAngleFromWithinAndWhenItShowsAPart) {
     const Vec<3> target = eye - Vec<3>(0, 0, 1);
     const SolidView view = seen_from(eye, target, eye.z < 1 ? angle : angle / 2);
     const double half = eye.z < 1 ? 0.5 : std::tan(angle / 4);
-    EXPECT_NEAR(view.to_page(target + Vec<3>(0, half, 0)).y, kPanel.lo.y + 6, 1e-6)
+    EXPECT_NEAR(view.to_page(target + Vec<3>(0, half, 0)).y, kProjectionPanel.lo.y + 6, 1e-6)
         << "the camera's angle is from bottom to top";
   }
 }
 
 TEST(SolidProjection, AFoolishCameraIsReplaced) {
-  const SolidView own(kCube, std::nullopt, kPanel);
+  const SolidView own(kCube, std::nullopt, kProjectionPanel);
   const double nan = std::nan("");
   for (const Camera& camera :
        {Camera{{nan, 0, 0}, {0, 0, 0}, 0.7}, Camera{{1, 2, 3}, {1, 2, 3}, 0.7},
         Camera{{1e308 * 10, 0, 0}, {0, 0, 0}, 0.7}})
-    EXPECT_EQ(SolidView(kCube, camera, kPanel).to_page({0, 0, 0}), own.to_page({0, 0, 0}));
+    EXPECT_EQ(SolidView(kCube, camera, kProjectionPanel).to_page({0, 0, 0}), own.to_page({0, 0, 0}));
   EXPECT_GT(own.eye().y, 0) << "the default looks from above";
   EXPECT_GT(own.eye().x, 0) << "from the right";
   EXPECT_GT(own.eye().z, 0) << "from the front";
@@ -108,8 +108,8 @@ TEST(SolidProjection, NothingBehindTheEyeIsShown) {
   EXPECT_TRUE(view.polygon({{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}).empty()) << "a face behind the eye";
   const auto line = view.segment({0, -0.2, -1}, {0, -0.2, 5});
   ASSERT_TRUE(line) << "half of it is in front";
-  EXPECT_TRUE(contains(shrunk(kPanel, -1e-6), line->first));
-  EXPECT_TRUE(contains(shrunk(kPanel, -1e-6), line->second)) << "cut at the panel, not wrapped";
+  EXPECT_TRUE(contains(shrunk(kProjectionPanel, -1e-6), line->first));
+  EXPECT_TRUE(contains(shrunk(kProjectionPanel, -1e-6), line->second)) << "cut at the panel, not wrapped";
   EXPECT_GT(line->second.y, line->first.y) << "it runs towards the viewer's feet";
   const Outline face = view.polygon({{-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9}});
   ASSERT_GE(face.size(), 3u);

@@ -1,17 +1,14 @@
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "geometry/not_finite.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/shape.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <int D>
 Box<D> random_box(Random& random) {

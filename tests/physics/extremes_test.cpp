@@ -1,20 +1,17 @@
 // Extreme worlds: sizes, places, steps and speeds at which a step may fail, but never silently.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "geometry/not_finite.hpp"
 #include "physics/energy.hpp"
 #include "world_scene.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <int D>
 bool all_finite(const World<D>& world) {

@@ -1,15 +1,12 @@
 // Bad values are refused where they enter, by name, and change nothing.
-#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "geometry/not_finite.hpp"
 #include "world_scene.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Action>
 void expect_refused(World<2>& world, const std::string& part, Action&& action) {

@@ -1,3 +1,4 @@
+#include "geometry/not_finite.hpp"
 #include "physics/world.hpp"
 
 #include <limits>
@@ -9,8 +10,6 @@
 namespace lantern {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kHuge = std::numeric_limits<double>::max();
 
 Body<2> ball(const std::string& name, const Vec<2>& position, const Vec<2>& velocity) {

@@ -1,4 +1,5 @@
 // The page of capacity and depth limit: everything is on it, and nothing covers anything.
+#include "draw/layout_check.hpp"
 #include "report/broad_phase_plot.hpp"
 
 #include <algorithm>
@@ -10,15 +11,12 @@
 namespace lantern {
 namespace {
 
+using test::says_part;
+
 BroadPhaseCostConfig config_of(int repeats) {
   BroadPhaseCostConfig config;
   config.timing = {repeats, 0};
   return config;
-}
-
-bool says(const DrawList& list, const std::string& text) {
-  return std::ranges::any_of(
-      list.labels, [&](const LabelBox& l) { return l.text.find(text) != std::string::npos; });
 }
 
 void expect_readable(const DrawList& list, const std::string& what) {
@@ -57,8 +55,8 @@ TEST(BroadPhasePage, TheCheapestCellIsNamed) {
   const auto numbers =
       std::ranges::count(list.labels, std::to_string(best->counts.work()), &LabelBox::text);
   EXPECT_EQ(numbers, 2) << "its cell and its line of the list have its number";
-  EXPECT_TRUE(says(list, "For 120 clustered boxes")) << "the sentence is missing";
-  EXPECT_TRUE(says(list, "brute force")) << "nothing to hold it against";
+  EXPECT_TRUE(says_part(list, "For 120 clustered boxes")) << "the sentence is missing";
+  EXPECT_TRUE(says_part(list, "brute force")) << "nothing to hold it against";
   const auto frames = std::ranges::count_if(list.shapes, [](const DrawShape& shape) {
     const auto* rect = std::get_if<RectShape>(&shape);
     return rect != nullptr && rect->stroke.role == Role::lit;
@@ -69,7 +67,7 @@ TEST(BroadPhasePage, TheCheapestCellIsNamed) {
 TEST(BroadPhasePage, WithoutRowsItSaysSo) {
   const BoxScene scene = seeded_box_scenes(2, 3)[0];
   const DrawList list = draw_broad_phase_page({}, scene, BroadPhaseKind::quadtree);
-  EXPECT_TRUE(says(list, "Nothing was measured."));
+  EXPECT_TRUE(says_part(list, "Nothing was measured."));
   expect_readable(list, "empty");
 }
 

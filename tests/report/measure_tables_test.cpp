@@ -220,7 +220,7 @@ TEST(MeasureTable, FitsOnAHundredColumnsAndNamesAll) {
     EXPECT_NE(table.find(row.problem), std::string::npos) << row.problem;
     EXPECT_NE(table.find(row.method), std::string::npos) << row.method;
   }
-  EXPECT_EQ(to_table({}), "");
+  EXPECT_EQ(to_table(Measurement{}), "");
 }
 
 }  // namespace

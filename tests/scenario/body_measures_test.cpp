@@ -36,13 +36,13 @@ to = [1, 2]
 rest_length = 1
 stiffness = 50
 )";
-const std::string kInsert = "[[step]]\ndo = \"insert\"\nbodies = [\"bob\", \"ann\"]\n";
-const std::string kRun = "[[step]]\ndo = \"run\"\nseconds = 0.5\n";
-const std::string kWorld = "size = [8, 8]\ntime_step = 0.05\n";
+const std::string kInsertBobs = "[[step]]\ndo = \"insert\"\nbodies = [\"bob\", \"ann\"]\n";
+const std::string kHalfSecond = "[[step]]\ndo = \"run\"\nseconds = 0.5\n";
+const std::string kBobWorld = "size = [8, 8]\ntime_step = 0.05\n";
 
 TEST(BodyMeasures, AreThoseOfTheBodyAndStandOnEveryFrame) {
   const auto frames = frames_of(good(world_text(
-      kWorld, kBobs + kInsert + kRun +
+      kBobWorld, kBobs + kInsertBobs + kHalfSecond +
                   "caption = \"{energy.bob} J\"\n"
                   "expect = { at_least = { \"energy.ann\" = 24.999, \"x.bob\" = -9 }, at_most = { "
                   "\"energy.ann\" = 25.001, \"speed.bob\" = 99, \"spin.bob\" = 0 } }\n")));
@@ -89,21 +89,21 @@ expect = { at_least = { "penetration.low" = 0.001 }, at_most = { "penetration.hi
 
 TEST(BodyMeasures, MistakesAreToldByName) {
   const auto with = [](const std::string& promise) {
-    return world_text(kWorld,
-                      kBobs + kInsert + kRun + "expect = { at_most = { " + promise + " } }");
+    return world_text(kBobWorld,
+                      kBobs + kInsertBobs + kHalfSecond + "expect = { at_most = { " + promise + " } }");
   };
   expect_mistakes(with("@\"enrgy.bob\" = 1"), {"there is no measure 'enrgy' of a body"});
   expect_mistakes(with("@\"energy.bib\" = 1"), {"there is no body 'bib'"});
   expect_mistakes(with("@\"penetration.bob\" = 1"), {"this world has no contacts"});
   expect_mistakes(with("@\"own_spin_y.bob\" = 1"), {"this world is flat"});
-  expect_mistakes(world_text(kWorld, kBobs + kInsert + kRun + "caption = @\"{energy.bib}\"\n"),
+  expect_mistakes(world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "caption = @\"{energy.bib}\"\n"),
                   {"there is no body 'bib'"});
 }
 
 TEST(ChartOverTime, AddsAPointOnEveryFrameByItself) {
   const auto frames = frames_of(
-      good(world_text(kWorld, "[chart]\nx = \"time\"\ny = [\"energy.bob\", \"energy.ann\"]\n" +
-                                  kBobs + kInsert + kRun)));
+      good(world_text(kBobWorld, "[chart]\nx = \"time\"\ny = [\"energy.bob\", \"energy.ann\"]\n" +
+                                  kBobs + kInsertBobs + kHalfSecond)));
   const FrameChart& chart = frames.back().chart;
   EXPECT_TRUE(chart.over_time);
   EXPECT_EQ(chart.y_name, "energy") << "the same measure of different bodies";
@@ -125,7 +125,7 @@ TEST(ChartOverTime, EachPartMayBeginAnew) {
   const std::string chart = "[chart]\nx = \"time\"\ny = [\"energy\"]\neach_part = true\n";
   const std::string longer =
       "[[step]]\ndo = \"run\"\nseconds = 0.75\npart = \"two\"\n[[step]]\ndo = \"show\"\n";
-  const auto frames = frames_of(good(world_text(kWorld, chart + kBobs + kInsert + kRun + longer)));
+  const auto frames = frames_of(good(world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + longer)));
   const FrameChart& last = frames.back().chart;
   EXPECT_EQ(last.seconds, 0.75);
   EXPECT_EQ(last.series[0].points.size(), 15u) << "what stands still is said once";
@@ -134,31 +134,31 @@ TEST(ChartOverTime, EachPartMayBeginAnew) {
 
 TEST(ChartOverTime, NeedsNoPlotAndTakesNone) {
   const std::string chart = "[chart]\nx = \"time\"\ny = [\"energy\"]\n";
-  expect_mistakes(world_text(kWorld, chart + kBobs + kInsert + kRun + "@plot = \"here\"\n"),
+  expect_mistakes(world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + "@plot = \"here\"\n"),
                   {"over time every frame is plotted by itself"});
-  expect_mistakes(world_text(kWorld, "[chart]\nbars = \"bodies\"\n@each_part = true\n" + kBobs +
-                                         kInsert + "plot = \"a\"\n"),
+  expect_mistakes(world_text(kBobWorld, "[chart]\nbars = \"bodies\"\n@each_part = true\n" + kBobs +
+                                         kInsertBobs + "plot = \"a\"\n"),
                   {"'each_part' is of a chart over time"});
-  expect_mistakes(world_text(kWorld, chart + "least = 3\nmost = @3\n" + kBobs + kInsert + kRun),
+  expect_mistakes(world_text(kBobWorld, chart + "least = 3\nmost = @3\n" + kBobs + kInsertBobs + kHalfSecond),
                   {"'most' must be above 'least'"});
   expect_mistakes(
-      world_text(kWorld, chart + "logarithmic = true\nleast = @0\n" + kBobs + kInsert + kRun),
+      world_text(kBobWorld, chart + "logarithmic = true\nleast = @0\n" + kBobs + kInsertBobs + kHalfSecond),
       {"a logarithmic axis begins above 0"});
   expect_mistakes(
-      world_text(kWorld, "[chart]\nx = \"time\"\ny = [@\"enrgy\"]\n" + kBobs + kInsert + kRun),
+      world_text(kBobWorld, "[chart]\nx = \"time\"\ny = [@\"enrgy\"]\n" + kBobs + kInsertBobs + kHalfSecond),
       {"there is no count 'enrgy'"});
 }
 
 TEST(BodyMethods, AreReadAndHoldForTheBodyAlone) {
   const Scenario s = good(world_text(
-      kWorld + "integrator = \"runge_kutta_4\"\nrotation = \"splitting_4\"\n", kBobs + kInsert));
+      kBobWorld + "integrator = \"runge_kutta_4\"\nrotation = \"splitting_4\"\n", kBobs + kInsertBobs));
   EXPECT_EQ(s.world.rotation, RotationMethod::splitting_4);
   EXPECT_EQ(s.bodies[0].integrator, std::nullopt);
   EXPECT_EQ(s.bodies[1].integrator, Integrator::implicit_midpoint);
 }
 
 TEST(BodyMethods, OfWhatNoForceMovesAreMistakes) {
-  expect_mistakes(world_text(kWorld,
+  expect_mistakes(world_text(kBobWorld,
                              "[[body]]\nname = \"a\"\nradius = 1\nposition = [1, 1]\nstatic = "
                              "true\n@rotation = \"splitting_4\"\n[[step]]\ndo = \"show\"\n"),
                   {"no force moves or turns this body"});
@@ -166,13 +166,13 @@ TEST(BodyMethods, OfWhatNoForceMovesAreMistakes) {
 
 TEST(BodyMethods, OneSpringTakesOneMethod) {
   expect_mistakes(
-      world_text(kWorld,
-                 kBobs + "[[spring]]\na = \"bob\"\nb = @\"ann\"\nstiffness = 1\n" + kInsert),
+      world_text(kBobWorld,
+                 kBobs + "[[spring]]\na = \"bob\"\nb = @\"ann\"\nstiffness = 1\n" + kInsertBobs),
       {"'bob', moved by semi_implicit_euler, and 'ann', moved by implicit_midpoint"});
 }
 
 TEST(BodyMethods, AMethodThatIsMeasuredHoldsForAllBodies) {
-  Scenario s = good(world_text(kWorld, kBobs + kInsert));
+  Scenario s = good(world_text(kBobWorld, kBobs + kInsertBobs));
   s = moved_by(s, *method_named("velocity_verlet"), 0.01);
   EXPECT_EQ(s.world.integrator, Integrator::velocity_verlet);
   EXPECT_EQ(s.bodies[1].integrator, std::nullopt) << "it would be moved by its own";
@@ -202,9 +202,9 @@ seconds = 0.5
 TEST(SolveBy, TheWorldGoesOnWithTheOtherMethod) {
   const std::string world = "size = [8, 8]\ncontacts = \"impulse\"\ngravity = [0, -10]\n";
   const std::string soft =
-      "[[step]]\ndo = \"solve_by\"\ncontacts = \"soft\"\nsub_steps = 4\n" + kRun;
+      "[[step]]\ndo = \"solve_by\"\ncontacts = \"soft\"\nsub_steps = 4\n" + kHalfSecond;
   const auto frames = frames_of(good(world_text(world, kPile + soft)));
-  const auto without = frames_of(good(world_text(world, kPile + kRun)));
+  const auto without = frames_of(good(world_text(world, kPile + kHalfSecond)));
   EXPECT_NE(motion_hash(frames.back()), motion_hash(without.back())) << "nothing was switched";
   EXPECT_NEAR(body(frames.back(), "box3").position.y, 3.5, 0.01);
   const Scenario measured =
@@ -215,7 +215,7 @@ TEST(SolveBy, TheWorldGoesOnWithTheOtherMethod) {
 
 TEST(SolveBy, NeedsAWorldWithContacts) {
   expect_mistakes(
-      world_text(kWorld, kBobs + kInsert + "[[step]]\ndo = @\"solve_by\"\ncontacts = \"soft\"\n"),
+      world_text(kBobWorld, kBobs + kInsertBobs + "[[step]]\ndo = @\"solve_by\"\ncontacts = \"soft\"\n"),
       {"in this world nothing touches"});
 }
 

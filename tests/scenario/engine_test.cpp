@@ -30,7 +30,7 @@ std::string heap(bool solid, const std::string& contacts, const std::string& bod
 }
 
 const std::string kInsertHeap = "do = \"insert\"\nbodies = [\"floor\", \"ball\", \"box\"]";
-const std::string kRun = "do = \"run\"\nseconds = 0.25\nevery = 4";
+const std::string kQuarterSecond = "do = \"run\"\nseconds = 0.25\nevery = 4";
 
 std::vector<std::uint64_t> motions(const std::string& text) {
   std::vector<std::uint64_t> hashes;
@@ -44,7 +44,7 @@ std::string changing(const std::string& scene, const std::vector<std::string>& r
   std::vector<std::string> script{kInsertHeap};
   for (const std::string& keys : rebuilds) {
     script.push_back(keys.empty() ? "do = \"show\"" : "do = \"rebuild\"\n" + keys);
-    script.push_back(kRun);
+    script.push_back(kQuarterSecond);
   }
   return scene + steps(script);
 }
@@ -77,7 +77,7 @@ std::string rain(const std::string& world_keys, const std::string& body_keys) {
                     "arrange = \"grid\"\ncount = 12\nradius = 0.5\ndrag = 0.1\n"
                     "min = [2, 40]\nmax = [30, 60]\n" +
                         body_keys) +
-         steps({"do = \"insert\"\nbodies = [\"drop\"]", kRun, kRun});
+         steps({"do = \"insert\"\nbodies = [\"drop\"]", kQuarterSecond, kQuarterSecond});
 }
 
 // What a scene does not need may be there or not: no bit of the motion tells.
@@ -104,7 +104,7 @@ TEST(Engine, TheSameScenarioRunsTheSame) {
 // --- what a scene does not need is not there ---
 
 TEST(EngineLeavesOut, RotationsWhereNothingMayTurn) {
-  const std::string script = steps({kInsertHeap, kRun});
+  const std::string script = steps({kInsertHeap, kQuarterSecond});
   bool turned = false;
   for (const Frame& frame : frames_of(good(heap(false, "impulse") + script)))
     turned = turned || frame.count("rotations").value_or(0) > 0;
@@ -117,7 +117,7 @@ TEST(EngineLeavesOut, RotationsWhereNothingMayTurn) {
 }
 
 TEST(EngineLeavesOut, FrictionWhereNothingIsRough) {
-  const std::string script = steps({kInsertHeap, kRun, kRun, kRun, kRun});
+  const std::string script = steps({kInsertHeap, kQuarterSecond, kQuarterSecond, kQuarterSecond, kQuarterSecond});
   for (const std::string contacts : {"impulse", "soft"}) {
     std::int64_t rough = 0, rows = 0;
     for (const Frame& frame : frames_of(good(heap(false, contacts) + script)))
@@ -132,7 +132,7 @@ TEST(EngineLeavesOut, FrictionWhereNothingIsRough) {
 }
 
 TEST(EngineLeavesOut, ContactsWhereBodiesPassThroughEachOther) {
-  for (const Frame& frame : frames_of(good(heap(false, "none") + steps({kInsertHeap, kRun})))) {
+  for (const Frame& frame : frames_of(good(heap(false, "none") + steps({kInsertHeap, kQuarterSecond})))) {
     EXPECT_TRUE(frame.contacts.empty());
     EXPECT_FALSE(frame.count("narrow_tests").has_value());
     EXPECT_FALSE(frame.count("constraint_rows").has_value());
@@ -145,7 +145,7 @@ TEST(EngineLeavesOut, PhysicsInFreeFlight) {
       frames_of(good(world_text("size = [16, 16]",
                                 "[[body]]\nname = \"a\"\nradius = 1\nposition = [2, 2]\n"
                                 "velocity = [1, 0]\n" +
-                                    steps({"do = \"insert\"\nbodies = [\"a\"]", kRun}))));
+                                    steps({"do = \"insert\"\nbodies = [\"a\"]", kQuarterSecond}))));
   for (const Frame& frame : frames) {
     EXPECT_TRUE(frame.measures.empty());
     EXPECT_FALSE(frame.count("force_evaluations").has_value());

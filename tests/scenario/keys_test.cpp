@@ -25,7 +25,6 @@ struct Surroundings {
 };
 
 const std::string kWorld = "[world]\nsize = [64, 64]\n";
-const std::string kTree = "[structure]\nkind = \"quadtree\"\n";
 const std::string kRed = "[[body]]\nname = \"red\"\nradius = 1\nposition = [1, 1]\n";
 const std::string kInsert = "[[step]]\ndo = \"insert\"\nbodies = [\"red\"]\n";
 const std::string kAtlas = "[atlas]\nsize = [64, 64]\n[[texture]]\nname = \"A\"\nsize = [8, 8]\n";
@@ -33,7 +32,6 @@ const std::string kRules = "[world]\nsize = [64, 64]\ncontacts = \"impulse\"\nma
 const std::string kLevel = "[level]\nloops = [[[0, 0], [8, 0], [8, 6]]]\n";
 const std::string kCompile = "[[step]]\ndo = \"compile\"\n";
 const std::string kPlot = "plot = \"a\"\n";
-const std::string kShow = "[[step]]\ndo = \"show\"\n";
 const std::string kTitle = "title = \"x\"\n";
 
 std::map<std::string, Surroundings> surroundings() {

@@ -7,7 +7,7 @@
 namespace lantern::test {
 namespace {
 
-const std::string kTwo = R"([structure]
+const std::string kTiedTwo = R"([structure]
 kind = "quadtree"
 [[body]]
 name = "a"
@@ -31,7 +31,7 @@ to = [4, 8]
 TEST(Links, ComeAndGoWithTheirBodies) {
   const auto frames = frames_of(good(
       world_text("size = [16, 16]\ncontacts = \"impulse\"\ntime_step = 0.0625",
-                 kTwo + steps({"do = \"insert\"\nbodies = [\"a\"]",
+                 kTiedTwo + steps({"do = \"insert\"\nbodies = [\"a\"]",
                                "do = \"insert\"\nbodies = [\"b\"]", "do = \"run\"\nseconds = 0.5",
                                "do = \"remove\"\nbodies = [\"b\"]\nname = \"without_b\"",
                                "do = \"remove\"\nbodies = [\"a\"]\nname = \"empty\"",
@@ -96,7 +96,7 @@ TEST(Links, ASpringToItsOwnPlaceIsAtRest) {
 TEST(Links, KeepTheirEnergyInMind) {
   const auto frames = frames_of(good(world_text(
       "size = [16, 16]\ntime_step = 0.0625",
-      kTwo + steps({"do = \"insert\"\nbodies = [\"a\", \"b\"]\n"
+      kTiedTwo + steps({"do = \"insert\"\nbodies = [\"a\", \"b\"]\n"
                     "caption = \"{potential_energy} J in the spring, {bodies:body/bodies}.\""}))));
   EXPECT_DOUBLE_EQ(*frames[0].measure("potential_energy"), 5) << "10 / 2 · 1²";
   EXPECT_EQ(frames[0].caption, "5 J in the spring, 2 bodies.");

@@ -33,7 +33,7 @@ count = 3
 radius = 1
 )";
 
-const std::string kAtlas = R"(title = "x"
+const std::string kAtlasScene = R"(title = "x"
 [atlas]
 size = [64, 64]
 [[texture]]
@@ -288,7 +288,7 @@ TEST(Mistakes, OfWhatIsMissingAround) {
   expect_mistakes("title = \"x\"\n[[step]]\ndo = @\"run\"\nseconds = 1\n", {"needs a [world]"});
   expect_mistakes("title = \"x\"\n[[step]]\ndo = @\"pack\"\ntextures = [\"A\"]\n",
                   {"add [atlas] with size"});
-  expect_mistakes(kAtlas + "[[step]]\ndo = @\"insert\"\nbodies = [\"A\"]\n",
+  expect_mistakes(kAtlasScene + "[[step]]\ndo = @\"insert\"\nbodies = [\"A\"]\n",
                   {"an atlas knows pack and ask_room"});
   expect_mistakes("title = \"x\"\n@[[step]]\nname = \"a\"\n[[step]]\ndo = \"show\"\n",
                   {"a step has no 'do'"});
@@ -319,7 +319,7 @@ TEST(Mistakes, BringAboutNoOthers) {
 TEST(Mistakes, OfPanelsThatCannotBe) {
   expect_mistakes("panels = [\"world\", @\"atlas\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
                   {"needs an [atlas]"});
-  expect_mistakes("panels = [@\"world\"]\n" + kAtlas + "[[step]]\ndo = \"show\"\n",
+  expect_mistakes("panels = [@\"world\"]\n" + kAtlasScene + "[[step]]\ndo = \"show\"\n",
                   {"needs a [world]"});
   expect_mistakes("title = \"x\"\npanels = [@\"tree\"]\n[[step]]\ndo = \"show\"\n",
                   {"needs a [structure], a [level] or an [atlas]"});
@@ -334,7 +334,7 @@ TEST(Mistakes, OfNamesThatAreTaken) {
                       step,
                   {"line 7 has it", "line 11 has it", "line 15 has it"});
   expect_mistakes(
-      kAtlas +
+      kAtlasScene +
           "[[texture]]\nname = @\"A\"\nsize = [1, 1]\n"
           "[[texture_pattern]]\nname = @\"t\"\ncount = 9\nmin = [1, 1]\nmax = [1, 1]\n" +
           step,

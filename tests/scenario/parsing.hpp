@@ -34,4 +34,8 @@ std::vector<std::string> good_texts();
 
 std::string read_text(const std::string& path);
 
+// Parts of many a test's scenario.
+inline const std::string kTree = "[structure]\nkind = \"quadtree\"\n";
+inline const std::string kShow = "[[step]]\ndo = \"show\"\n";
+
 }  // namespace lantern::test

@@ -11,8 +11,6 @@
 namespace lantern::test {
 namespace {
 
-const std::string kShow = "[[step]]\ndo = \"show\"\n";
-
 std::vector<BodySpec> bodies(const std::string& keys, const std::string& top = "") {
   return good(top +
               "title = \"x\"\n[world]\nmin = [10, 20]\nmax = [50, 40]\n[[pattern]]\nname = "

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/angle.hpp"
 #include "scenario/language.hpp"
 #include "scenario/parsing.hpp"
 
@@ -13,8 +14,6 @@ namespace {
 
 const std::string kFlat = "title = \"x\"\n[world]\nsize = [64, 64]\n";
 const std::string kDeep = "title = \"x\"\n[world]\nsize = [64, 32, 16]\n";
-const std::string kShow = "[[step]]\ndo = \"show\"\n";
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::string body(const std::string& keys, bool deep = false) {
   return "[[body]]\nname = \"a\"\nposition = " + std::string(deep ? "[1, 2, 3]" : "[1, 2]") + "\n" +

@@ -5,15 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/angle.hpp"
 #include "scenario/language.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
-const std::string kRules = R"(title = "x"
+const std::string kPhysicsRules = R"(title = "x"
 [world]
 size = [64, 64]
 time_step = 0.25
@@ -21,7 +20,6 @@ frame_every = 2
 contacts = "impulse"
 may_sleep = true
 )";
-const std::string kTree = "[structure]\nkind = \"quadtree\"\n";
 const std::string kBodies = R"([[body]]
 name = "red"
 radius = 1
@@ -41,18 +39,18 @@ count = 3
 radius = 1
 )";
 const std::string kFree = "title = \"x\"\n[world]\nsize = [64, 64]\ntime_step = 0.25\n";
-const std::string kScene = kRules + kTree + kBodies;
-const std::string kInsert = "do = \"insert\"\nbodies = [\"red\", \"pink\", \"wall\", \"dot\"]";
+const std::string kPhysicsScene = kPhysicsRules + kTree + kBodies;
+const std::string kInsertAll = "do = \"insert\"\nbodies = [\"red\", \"pink\", \"wall\", \"dot\"]";
 
 template <class Verb>
 Verb verb(const std::string& step) {
-  const Scenario s = good(kScene + steps({kInsert, step}));
+  const Scenario s = good(kPhysicsScene + steps({kInsertAll, step}));
   return std::get<Verb>(s.steps.at(1).verb);
 }
 
 // The mistake of a step that follows the insertion of all bodies.
 void expect_mistake(const std::string& step, const std::string& words) {
-  expect_mistakes(kScene + steps({kInsert, step}), {words});
+  expect_mistakes(kPhysicsScene + steps({kInsertAll, step}), {words});
 }
 
 TEST(PhysicsVerbs, MoveTurnsAndSpins) {
@@ -85,9 +83,9 @@ TEST(PhysicsVerbs, WaitsForWhatCanHappen) {
   expect_mistake(touch + "[\"red\", @\"dot\"]", "'dot1' to 'dot3'");
   expect_mistake(touch + "@[\"red\", \"pink\", \"wall\"]", "it takes two");
   expect_mistakes(
-      kScene + steps({"do = \"insert\"\nbodies = [\"red\"]", touch + "[\"red\", @\"pink\"]"}),
+      kPhysicsScene + steps({"do = \"insert\"\nbodies = [\"red\"]", touch + "[\"red\", @\"pink\"]"}),
       {"is not in the world at this step"});
-  const std::string free = kFree + kTree + kBodies + steps({kInsert});
+  const std::string free = kFree + kTree + kBodies + steps({kInsertAll});
   expect_mistakes(
       free +
           steps({"do = \"wait\"\nevent = @\"touch\"\nbodies = [\"red\", \"pink\"]\nat_most = 1"}),
@@ -101,18 +99,18 @@ TEST(PhysicsVerbs, WaitsForWhatCanHappen) {
 
 TEST(PhysicsVerbs, FramesAndTimeStepsOfAllStepsAreBounded) {
   // Two time steps a frame: 50000 s are 200000 time steps and 100000 frames.
-  good(kScene + steps({"do = \"run\"\nseconds = 50000"}));
-  expect_mistakes(kScene + steps({"do = \"run\"\nseconds = @50000.5"}), {"100001 frames"});
-  expect_mistakes(kScene + steps({kInsert,
+  good(kPhysicsScene + steps({"do = \"run\"\nseconds = 50000"}));
+  expect_mistakes(kPhysicsScene + steps({"do = \"run\"\nseconds = @50000.5"}), {"100001 frames"});
+  expect_mistakes(kPhysicsScene + steps({kInsertAll,
                                   "do = \"wait\"\nevent = \"asleep\"\nbodies = [\"dot\"]\n"
                                   "at_most = @50000.5"}),
                   {"100002 frames"});
   // 1000 a frame: the time steps are the limit.
   const std::string run = "do = \"run\"\nevery = 1000\nseconds = ";
-  good(kScene + steps({run + "125000", run + "125000"}));
-  expect_mistakes(kScene + steps({run + "125000", run + "@125000.25"}),
+  good(kPhysicsScene + steps({run + "125000", run + "125000"}));
+  expect_mistakes(kPhysicsScene + steps({run + "125000", run + "@125000.25"}),
                   {"1000001 time steps in all, the limit is 1000000"});
-  expect_mistakes(kScene + steps({run + "@250000.25"}), {"the limit is 1000000"});
+  expect_mistakes(kPhysicsScene + steps({run + "@250000.25"}), {"the limit is 1000000"});
 }
 
 TEST(PhysicsVerbs, ForcesAndImpulsesAreOfDynamicBodies) {
@@ -129,7 +127,7 @@ TEST(PhysicsVerbs, ForcesAndImpulsesAreOfDynamicBodies) {
     const std::string keys = "do = \"" + name + "\"\n" + name + " = [1, 0]\nbody = ";
     expect_mistake(keys + "@\"wall\"", "'wall' is static: no " + name + " moves it");
     expect_mistake(keys + "@\"dot\"", "is a pattern");
-    expect_mistakes(kScene + steps({keys + "@\"red\""}), {"insert it first"});
+    expect_mistakes(kPhysicsScene + steps({keys + "@\"red\""}), {"insert it first"});
   }
 }
 
@@ -138,8 +136,8 @@ TEST(PhysicsVerbs, SleepAndWakeAreOfDynamicBodiesThatMay) {
             (std::vector<std::size_t>{3, 4, 5, 0}));
   EXPECT_EQ(verb<Wake>("do = \"wake\"\nbodies = [\"red\"]").bodies, (std::vector<std::size_t>{0}));
   expect_mistake("do = \"sleep\"\nbodies = [@\"wall\"]", "'wall' is not dynamic");
-  expect_mistakes(kScene + steps({"do = \"wake\"\nbodies = [@\"red\"]"}), {"not in the world"});
-  expect_mistakes(kFree + kTree + kBodies + steps({kInsert, "do = @\"sleep\"\nbodies = [\"red\"]"}),
+  expect_mistakes(kPhysicsScene + steps({"do = \"wake\"\nbodies = [@\"red\"]"}), {"not in the world"});
+  expect_mistakes(kFree + kTree + kBodies + steps({kInsertAll, "do = @\"sleep\"\nbodies = [\"red\"]"}),
                   {"may_sleep = true"});
 }
 
@@ -170,13 +168,13 @@ TEST(PhysicsVerbs, QuestionsNeedAStructureAndASense) {
   expect_mistake("do = \"query\"\n@min = [0, 1]", "no 'max'");
   expect_mistake("do = \"query\"\nmin = [0, 1]\nmax = [1, 2]\n@center = [0, 0]\nradius = 1",
                  "one of them is enough");
-  expect_mistakes(kRules + kBodies + steps({"do = @\"ray\"\nfrom = [0, 1]\nto = [5, 6]"}),
+  expect_mistakes(kPhysicsRules + kBodies + steps({"do = @\"ray\"\nfrom = [0, 1]\nto = [5, 6]"}),
                   {"no structure at this step"});
 }
 
 TEST(PhysicsVerbs, AreWatchedByTheirEvents) {
   const Scenario s =
-      good(kScene + steps({"do = \"phases\"\npace = \"event\"\nevents = [\"solve\"]"}));
+      good(kPhysicsScene + steps({"do = \"phases\"\npace = \"event\"\nevents = [\"solve\"]"}));
   EXPECT_EQ(s.steps[0].pace, Pace::event);
   EXPECT_EQ(s.steps[0].events, std::vector<std::string>{"solve"});
   expect_mistake("do = \"run\"\nseconds = 1\n@events = [\"solve\"]", "'events' belongs to");
@@ -185,7 +183,7 @@ TEST(PhysicsVerbs, AreWatchedByTheirEvents) {
 // --- promises ---
 
 std::vector<Expectation> promises(const std::string& expect) {
-  return good(kScene + steps({kInsert, "do = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\nexpect = { " +
+  return good(kPhysicsScene + steps({kInsertAll, "do = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\nexpect = { " +
                                            expect + " }"}))
       .steps.at(1)
       .expect;
@@ -227,35 +225,35 @@ TEST(PhysicsPromises, HaveTheirForms) {
 TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
   const std::string show = "do = \"show\"\nexpect = { ";
   for (const std::string count : {"hits", "nodes_visited", "nodes_skipped", "objects_tested"})
-    expect_mistakes(kScene + steps({show + "@" + count + " = 1 }"}), {"no step has sent a ray"});
-  expect_mistakes(kScene + steps({show + "@hits_are = [] }"}), {"no step has sent a ray"});
+    expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}), {"no step has sent a ray"});
+  expect_mistakes(kPhysicsScene + steps({show + "@hits_are = [] }"}), {"no step has sent a ray"});
   const std::string free = kFree + kTree + kBodies;
   for (const std::string count : {"contacts", "contact_points", "begins", "ends", "narrow_tests",
                                   "friction_rows", "penetration"})
     expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"this world has no contacts"});
   expect_mistakes(free + steps({show + "@contacts_are = [] }"}), {"this world has no contacts"});
   expect_mistakes(free + steps({show + "at_most = { @contacts = 1 } }"}), {"no contacts"});
-  expect_mistakes(kScene + steps({show + "@stale = 1 }"}), {"no kd_tree at this step"});
-  good(kScene + steps({"do = \"rebuild\"\nkind = \"kd_tree\"\nexpect = { stale = 0 }"}));
+  expect_mistakes(kPhysicsScene + steps({show + "@stale = 1 }"}), {"no kd_tree at this step"});
+  good(kPhysicsScene + steps({"do = \"rebuild\"\nkind = \"kd_tree\"\nexpect = { stale = 0 }"}));
   for (const std::string count : {"slots", "node_bytes", "node_bytes_with_bounds", "nodes_asleep",
                                   "static_builds", "dynamic_builds"})
-    expect_mistakes(kRules + kBodies + steps({show + "@" + count + " = 1 }"}), {"no structure"});
+    expect_mistakes(kPhysicsRules + kBodies + steps({show + "@" + count + " = 1 }"}), {"no structure"});
   for (const std::string count : {"walls", "sectors"})
-    expect_mistakes(kScene + steps({show + "@" + count + " = 1 }"}), {"no [level]"});
+    expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}), {"no [level]"});
   for (const std::string count : {"static_builds", "dynamic_builds"})
-    expect_mistakes(kScene + steps({show + "@" + count + " = 1 }"}), {"no split_static"});
+    expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}), {"no split_static"});
   for (const std::string count : {"asleep", "awake", "nodes_asleep"})
     expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"nothing sleeps"});
   for (const std::string count : {"rotations", "force_evaluations", "energy", "momentum"})
     expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"no contacts, gravity"});
   expect_mistakes(std::string(kSolid) + steps({show + "@turned = { ball = 1 } }"}), {"flat world"});
-  expect_mistakes(kScene + steps({show + "@tolerance = 1 }"}), {"without a 'position'"});
+  expect_mistakes(kPhysicsScene + steps({show + "@tolerance = 1 }"}), {"without a 'position'"});
   expect_mistakes("title = \"x\"\n[atlas]\nsize = [8, 8]\n" + steps({show + "@energy = 1 }"}),
                   {"an atlas has none"});
 }
 
 TEST(PhysicsPromises, OfNamesAreBounded) {
-  std::string text = kRules + "[[pattern]]\nname = \"p\"\ncount = 20000\nradius = 1\n" +
+  std::string text = kPhysicsRules + "[[pattern]]\nname = \"p\"\ncount = 20000\nradius = 1\n" +
                      steps({"do = \"insert\"\nbodies = [\"p\"]"});
   for (int i = 0; i < 60; ++i) text += steps({"do = \"show\"\nexpect = { asleep = [\"p\"] }"});
   const auto found = mistakes(text);

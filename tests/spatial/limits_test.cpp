@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/not_finite.hpp"
 #include "spatial/brute_force.hpp"
 #include "spatial/bsp.hpp"
 #include "spatial/orthtree.hpp"
@@ -15,8 +16,6 @@ namespace {
 
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
 constexpr double kHuge = std::numeric_limits<double>::max();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Quadtree::Config config_for(const Box<2>& bounds) {
   Quadtree::Config config;

@@ -1,4 +1,5 @@
 // Rays against shapes: closed forms, and points walked along the ray.
+#include "geometry/not_finite.hpp"
 #include "geometry/ray.hpp"
 
 #include <cmath>
@@ -13,7 +14,6 @@ namespace lantern {
 namespace {
 
 using std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(Ray, SlabsAreClosedAndMindStandingStill) {
   const Box<2> box{{1, 1}, {3, 2}};
