@@ -64,6 +64,11 @@ TableDoc world_table() {
           Key(whole, "iterations", "Of the impulses, in a world step.")
               .range(1, 1000)
               .by_default("10"),
+          Key(whole, "impact_budget",
+              "How many impacts are located in one world step; those that come later are soft. "
+              "Bodies that bounce are met at the very moment, however often they do.")
+              .range(0, 10'000'000)
+              .by_default("10000"),
           Key(truth, "may_sleep", "Bodies that have been at rest for a while fall asleep.")
               .by_default("false"),
           Key(truth, "show_boxes", "The boxes of the broad phase are drawn.").by_default("false"),

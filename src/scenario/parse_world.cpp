@@ -69,6 +69,7 @@ void read_rules(const TableReader& world, Draft& draft) {
   if (const auto n = world.whole("frame_every")) w.frame_every = static_cast<int>(*n);
   if (const auto n = world.whole("sub_steps")) w.sub_steps = static_cast<int>(*n);
   if (const auto n = world.whole("iterations")) w.iterations = static_cast<int>(*n);
+  if (const auto n = world.whole("impact_budget")) w.impact_budget = static_cast<int>(*n);
   w.gravity = world.point("gravity").value_or(Vec<3>(0.0));
   w.gravitation = world.number("gravitation").value_or(0);
   if (const auto choice = world.choice("contacts"))

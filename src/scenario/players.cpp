@@ -14,6 +14,7 @@ WorldConfig<D> config_of(const Scenario& scenario) {
   config.contacts = spec.contacts;
   config.sub_steps = spec.sub_steps;
   config.iterations = spec.iterations;
+  config.impact_budget = spec.impact_budget;
   config.may_sleep = spec.may_sleep;
   config.broad_phase = broad_phase_of<D>(scenario.structure, in_dimension<D>(spec.bounds));
   return config;

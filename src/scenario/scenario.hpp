@@ -36,13 +36,14 @@ struct WorldSpec {
   ContactMethod contacts = ContactMethod::none;
   Integrator integrator = Integrator::semi_implicit_euler;
   RotationMethod rotation = RotationMethod::splitting_2;
-  int sub_steps = 8;    // of the soft contacts
-  int iterations = 10;  // of the impulse contacts
+  int sub_steps = 8;           // of the soft contacts
+  int iterations = 10;         // of the impulse contacts
+  int impact_budget = 10'000;  // impacts located in one step of the world
   bool may_sleep = false;
   bool show_boxes = false;  // broad-phase boxes are drawn
   bool show_velocities = false;
   bool show_depths = false;  // how deep bodies overlap stands beside their contacts
-  Vec<3> camera_eye{0.0};  // of a solid world
+  Vec<3> camera_eye{0.0};    // of a solid world
   Vec<3> camera_target{0.0};
   bool has_camera = false;
 };
@@ -83,7 +84,7 @@ struct BodySpec {
   double linear_drag = 0;
   double angular_drag = 0;
   bool may_turn = true;
-  bool asleep = false;  // when it enters
+  bool asleep = false;                     // when it enters
   std::optional<Integrator> integrator;    // none: the world's
   std::optional<RotationMethod> rotation;  // none: the world's
   Brain brain = Brain::none;
@@ -178,10 +179,10 @@ struct ProblemSpec {
   Solution solution = Solution::projectile;
   ProblemVariant variant = ProblemVariant::plain;
   double seconds = 1;
-  std::uint32_t samples = 20;         // moments that are looked at, equally far apart
-  double step = 1;                    // the largest, seconds
-  int halvings = 7;                   // of the step, a run each
-  std::vector<std::string> methods;   // names; empty for all that make a difference
+  std::uint32_t samples = 20;        // moments that are looked at, equally far apart
+  double step = 1;                   // the largest, seconds
+  int halvings = 7;                  // of the step, a run each
+  std::vector<std::string> methods;  // names; empty for all that make a difference
   SourcePosition where;
 };
 
@@ -322,9 +323,9 @@ struct AskRoom {
   int height = 0;
 };  // does any free leaf have room?
 
-using Verb =
-    std::variant<Show, Insert, Remove, Move, Run, Wait, Phases, Rebuild, ApplyForce, ApplyImpulse,
-                 Sleep, Wake, SolveBy, CastRay, Cull, Query, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
+using Verb = std::variant<Show, Insert, Remove, Move, Run, Wait, Phases, Rebuild, ApplyForce,
+                          ApplyImpulse, Sleep, Wake, SolveBy, CastRay, Cull, Query, CompileLevel,
+                          Locate, OrderFrom, Pack, AskRoom>;
 
 struct Step {
   Verb verb;

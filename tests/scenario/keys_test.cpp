@@ -526,6 +526,7 @@ std::vector<KeyCase> key_cases() {
        bad_choice("splitting_3", "splitting_2")},
       {"world", "sub_steps", {"1", "64"}, bad_whole("0", "65", "1 to 64")},
       {"world", "iterations", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
+      {"world", "impact_budget", {"0", "10000000"}, bad_whole("-1", "10000001", "0 to 10000000")},
       {"world", "may_sleep", {"true", "false"}, bad_truth()},
       {"world", "show_boxes", {"true", "false"}, bad_truth()},
       {"world", "show_velocities", {"true", "false"}, bad_truth()},
