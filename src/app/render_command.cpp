@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr int kPixelsPerMetre = 6299;
 
 // What the command line asks for, read once.
-struct Job {
+struct RenderJob {
   const RenderOptions& options;
   int width = 0;
   int height = 0;
@@ -41,8 +41,9 @@ struct Job {
   bool to_stdout() const { return options.output == "-"; }
 };
 
-Job job_of(const RenderOptions& o) {
-  Job job{o, 0, 0, *theme_named(o.theme), PngEffort::fast, *backend_named(o.backend), o.threads};
+RenderJob job_of(const RenderOptions& o) {
+  RenderJob job{o,        0, 0, *theme_named(o.theme), PngEffort::fast, *backend_named(o.backend),
+                o.threads};
   std::tie(job.width, job.height) = parse_size(o.size, Renderer::kMostPixels);
   if (o.png == "small") job.effort = PngEffort::small;
   if (job.threads == 0)
@@ -50,7 +51,7 @@ Job job_of(const RenderOptions& o) {
   return job;
 }
 
-Pace pace_of(const Job& job, const Scenario& scenario) {
+Pace pace_of(const RenderJob& job, const Scenario& scenario) {
   if (job.options.pace.empty()) return scenario.pace;
   return job.options.pace == "event" ? Pace::event : Pace::step;
 }
@@ -81,7 +82,7 @@ std::vector<PngText> texts_of(const Frame& frame) {
 
 // --- one frame to standard output ---
 
-void draw_to_stdout(const Job& job, const Scenario& scenario, Pace pace, std::uint32_t index,
+void draw_to_stdout(const RenderJob& job, const Scenario& scenario, Pace pace, std::uint32_t index,
                     Work& work) {
   std::string bytes;
   direct(scenario, pace, work, [&](const Frame& frame) {
@@ -106,7 +107,7 @@ void draw_to_stdout(const Job& job, const Scenario& scenario, Pace pace, std::ui
 // --- a folder of frames ---
 
 // The finished atlas as an image of its own, and where each texture lies in it.
-void write_atlas(const Job& job, const Frame& frame, const fs::path& folder, Work& work) {
+void write_atlas(const RenderJob& job, const Frame& frame, const fs::path& folder, Work& work) {
   const fs::path stem = folder / (frame.scenario + "_atlas");
   const DrawList list = draw_atlas_image(frame);
   const int width = static_cast<int>(list.page.x);
@@ -140,7 +141,7 @@ void write_atlas(const Job& job, const Frame& frame, const fs::path& folder, Wor
 // Renders the chosen frames of one scenario into DIR/<scenario>/.
 class FolderRun {
  public:
-  FolderRun(const Job& job, const Scenario& scenario, const Rehearsal& rehearsal, Work& work)
+  FolderRun(const RenderJob& job, const Scenario& scenario, const Rehearsal& rehearsal, Work& work)
       : job_(job),
         scenario_(scenario),
         pace_(pace_of(job, scenario)),
@@ -257,7 +258,7 @@ class FolderRun {
     }
   }
 
-  const Job& job_;
+  const RenderJob& job_;
   const Scenario& scenario_;
   Pace pace_;
   const std::vector<PlannedFrame>& plan_;
@@ -298,7 +299,7 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 }
 
 // Draws one scenario; the exit code that it deserves.
-int render_one(const Job& job, const Scenario& scenario, Work& work, JsonWriter& json) {
+int render_one(const RenderJob& job, const Scenario& scenario, Work& work, JsonWriter& json) {
   const Pace pace = pace_of(job, scenario);
   const Rehearsal rehearsal = rehearse(scenario, pace);
   if (interrupted()) return kInterrupted;
@@ -329,7 +330,7 @@ int render_one(const Job& job, const Scenario& scenario, Work& work, JsonWriter&
 }  // namespace
 
 int render_command(const RenderOptions& options) {
-  const Job job = job_of(options);
+  const RenderJob job = job_of(options);
   if (job.to_stdout() && options.files.size() != 1)
     throw UsageError("-o - writes one frame of one scenario");
   int code = kGood;

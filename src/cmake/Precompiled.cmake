@@ -1,7 +1,7 @@
-# With LANTERN_PCH, the headers that most sources read are parsed once, not 300 times: headers of
-# the language and of packages only, never our own. The compiler then does not notice where an
-# #include of one of these is missing. So a plain build, such as that of `./run build`, has none:
-# that is the check that each file includes what it uses.
+# With CMAKE_UNITY_BUILD, as in the builds of the script `run`, several sources are compiled at once,
+# and the headers that most of them read are parsed once, not 300 times: headers of the language and
+# of packages only, never our own. The compiler then does not notice where an #include is missing. A
+# plain build (cmake -S . -B ...) does neither: who changes code builds so, and sees.
 
 # lantern_headers(TARGET LINKS ... OPTIONS ... HEADERS ...): TARGET is nothing but these headers,
 # precompiled with these compile options.
@@ -14,12 +14,10 @@ function(lantern_headers target)
   target_precompile_headers(${target} PRIVATE ${ARG_HEADERS})
 endfunction()
 
-# lantern_precompile(TARGET FOR WHICH FROM HEADERS): the sources of TARGET start from HEADERS where
-# LANTERN_PCH names one of WHICH.
-function(lantern_precompile target)
-  cmake_parse_arguments(ARG "" "FROM" "FOR" ${ARGN})
-  if(LANTERN_PCH IN_LIST ARG_FOR)
-    target_precompile_headers(${target} REUSE_FROM ${ARG_FROM})
+# lantern_precompile(TARGET FROM HEADERS): in a unity build the sources of TARGET start from HEADERS.
+function(lantern_precompile target from headers)
+  if(CMAKE_UNITY_BUILD)
+    target_precompile_headers(${target} REUSE_FROM ${headers})
   endif()
 endfunction()
 

@@ -13,12 +13,12 @@ namespace lantern {
 namespace {
 
 constexpr double kStrip = 190;  // width of the strip of textures beside the atlas
-constexpr double kStripGap = 26;
+constexpr double kQueueGap = 26;
 constexpr int kMostPanelShapes = 2200;  // of all packed textures together
 constexpr int kMostTextures = 3000;
 constexpr std::size_t kMostFree = 400;
 constexpr double kAtlasHeading = 30;
-constexpr double kSpace = 8;  // between textures in the strip
+constexpr double kTextureGap = 8;  // between textures in the strip
 
 Vec<2> atlas_size(const Frame& frame) {
   if (frame.nodes.empty()) return Vec<2>(1.0);
@@ -31,13 +31,13 @@ class AtlasView {
   AtlasView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
       : frame_(frame), panel_(panel), list_(list), labels_(labels) {
     const Vec<2> size = atlas_size(frame);
-    const double strip = frame.textures.empty() ? 0 : kStrip + kStripGap;
+    const double strip = frame.textures.empty() ? 0 : kStrip + kQueueGap;
     const Vec<2> room = shrunk(panel, 3).size() - Vec<2>(strip, 0);
     scale_ = std::min(room.x / size.x, room.y / size.y);
     const Vec<2> used = size * scale_ + Vec<2>(strip, 0);
     const Vec<2> corner = panel.lo + (panel.size() - used) * 0.5;
     image_ = {corner, corner + size * scale_};
-    strip_ = {{image_.hi.x + kStripGap, panel.lo.y}, {panel.hi.x, panel.hi.y}};
+    strip_ = {{image_.hi.x + kQueueGap, panel.lo.y}, {panel.hi.x, panel.hi.y}};
     strip_.hi.x = std::min(strip_.hi.x, strip_.lo.x + kStrip + 40);
   }
 
@@ -164,8 +164,8 @@ class AtlasView {
       for (const FrameTexture& t : frame_.textures) {
         const Vec<2> size = Vec<2>(t.width, t.height) * scale;
         if (x > 0 && x + size.x > room.x) x = 0, y += row, row = 0;
-        x += size.x + kSpace;
-        row = std::max(row, size.y + kSpace);
+        x += size.x + kTextureGap;
+        row = std::max(row, size.y + kTextureGap);
       }
       return widest * scale <= room.x && y + row <= room.y;
     };
@@ -208,8 +208,8 @@ class AtlasView {
         cross_out(*queue[i], box);
       else
         draw_plate(queue[i]->name, box);
-      row = std::max(row, size.y + kSpace + name_line);
-      at.x += std::max(size.x, name) + kSpace;
+      row = std::max(row, size.y + kTextureGap + name_line);
+      at.x += std::max(size.x, name) + kTextureGap;
     }
   }
 
@@ -243,7 +243,7 @@ void draw_atlas(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
 
 double atlas_width(const Frame& frame, double height) {
   const Vec<2> size = atlas_size(frame);
-  return height * size.x / size.y + (frame.textures.empty() ? 0 : kStrip + kStripGap);
+  return height * size.x / size.y + (frame.textures.empty() ? 0 : kStrip + kQueueGap);
 }
 
 DrawList draw_atlas_image(const Frame& frame) {

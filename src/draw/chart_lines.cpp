@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::size_t kMostSeries = 12;
 constexpr std::size_t kMostPieces = 2400;  // of all lines together
-constexpr double kNameBeside = 16;             // between a line's end and its name
+constexpr double kNameBeside = 16;         // between a line's end and its name
 constexpr double kNamesEvery = 80;         // the room for names grows by so much
-constexpr double kTickLength = 7;
+constexpr double kLineTick = 7;
 constexpr double kMarkEvery = 24;  // page units between two marks of a line
 
-struct Range {
+struct ValueRange {
   double least = 1e300, most = -1e300, above_zero = 1e300;
   void add(double value) {
     least = std::min(least, value);
@@ -28,7 +28,7 @@ struct Range {
   }
 };
 
-Axis axis_for(const Range& range, bool logarithmic, int ticks) {
+Axis axis_for(const ValueRange& range, bool logarithmic, int ticks) {
   if (range.least > range.most) return Axis::linear(0, 1, 2);
   if (!logarithmic) return Axis::linear(range.least, range.most, ticks);
   const double low = range.above_zero < 1e300 ? range.above_zero : 1;
@@ -69,7 +69,7 @@ class Lines {
 
  private:
   double line_height() const { return 1.35 * type_.name.size; }  // from one name to the next
-  double under_ticks() const { return kTickLength + 8 + 0.78 * type_.tick.size; }
+  double under_ticks() const { return kLineTick + 8 + 0.78 * type_.tick.size; }
   bool alone() const { return chart_.series.size() <= 1; }
 
   // Finer than the ticks are, or what has changed would not be seen.
@@ -81,7 +81,7 @@ class Lines {
   }
 
   void measure() {
-    Range xs, ys;
+    ValueRange xs, ys;
     for (const Line& line : lines_)
       for (const Vec<2>& p : line.values) {
         xs.add(p.x);
@@ -109,7 +109,7 @@ class Lines {
     double numbers = 0;
     for (const Axis::Tick& tick : y_.ticks())
       numbers = std::max(numbers, text_width(tick.text, type_.tick));
-    area_.lo.x += std::min(numbers + 1, 0.3 * panel_.size().x) + kTickLength + 8;
+    area_.lo.x += std::min(numbers + 1, 0.3 * panel_.size().x) + kLineTick + 8;
     area_.hi.x = std::max(area_.hi.x, area_.lo.x + 10);
     area_.hi.y = std::max(area_.hi.y, area_.lo.y + 10);
     const int x_ticks = std::clamp(int(area_.size().x / 96), 2, 10);
@@ -124,7 +124,7 @@ class Lines {
   bool cuts() const { return chart_.least || chart_.most; }
 
   // Up to the ends that the scenario asks for; lines go on beyond them and are cut.
-  Axis y_axis(Range range, int ticks) const {
+  Axis y_axis(ValueRange range, int ticks) const {
     if (!cuts()) return axis_for(range, chart_.logarithmic, ticks);
     if (range.least > range.most) range.add(chart_.least.value_or(chart_.most.value_or(1)));
     const double low = chart_.least.value_or(
@@ -148,11 +148,11 @@ class Lines {
     for (const Axis::Tick& tick : y_.ticks()) {
       const double y = area_.hi.y - y_.share(tick.value) * area_.size().y;
       list_.shapes.emplace_back(
-          LineShape{{area_.lo.x - kTickLength, y}, {area_.hi.x, y}, {Role::rule, 1.5, 0}, true});
+          LineShape{{area_.lo.x - kLineTick, y}, {area_.hi.x, y}, {Role::rule, 1.5, 0}, true});
       if (y > last - 22) continue;
-      const double room = area_.lo.x - kTickLength - 6 - panel_.lo.x;
+      const double room = area_.lo.x - kLineTick - 6 - panel_.lo.x;
       labels_.try_add(shortened(tick.text, room, type_.tick),
-                      {{{area_.lo.x - kTickLength - 6, y + 0.36 * type_.tick.size}, 1}}, type_.tick,
+                      {{{area_.lo.x - kLineTick - 6, y + 0.36 * type_.tick.size}, 1}}, type_.tick,
                       panel_);
       last = y;
     }
@@ -161,7 +161,7 @@ class Lines {
       const double x = area_.lo.x + x_.share(tick.value) * area_.size().x;
       const double half = text_width(tick.text, type_.tick) / 2;
       list_.shapes.emplace_back(
-          LineShape{{x, area_.hi.y}, {x, area_.hi.y + kTickLength}, {Role::ink, 1.8, 0}, true});
+          LineShape{{x, area_.hi.y}, {x, area_.hi.y + kLineTick}, {Role::ink, 1.8, 0}, true});
       if (x - half < last + 12) continue;
       if (labels_.try_add(tick.text, {{{x, area_.hi.y + under_ticks()}, 0.5}}, type_.tick, panel_))
         last = x + half;

@@ -18,9 +18,9 @@ namespace {
 constexpr int kReplacement = 0xfffd;
 
 // One weight. Immutable once made, so every thread may use it.
-class Face {
+class FontFace {
  public:
-  explicit Face(std::string_view bytes) {
+  explicit FontFace(std::string_view bytes) {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     LANTERN_CHECK(stbtt_InitFont(&info_, data, 0), !=, 0);
     em_per_unit_ = static_cast<double>(stbtt_ScaleForMappingEmToPixels(&info_, 1.0f));
@@ -60,9 +60,9 @@ class Face {
   std::vector<int> advances_;                // of glyphs, font units
 };
 
-const Face& face(Weight weight) {
-  static const Face regular(font::inter_regular_otf);
-  static const Face semibold(font::inter_semibold_otf);
+const FontFace& face(Weight weight) {
+  static const FontFace regular(font::inter_regular_otf);
+  static const FontFace semibold(font::inter_semibold_otf);
   return weight == Weight::regular ? regular : semibold;
 }
 
@@ -88,7 +88,7 @@ int next_codepoint(std::string_view text, std::size_t& at) {
 // Calls place(glyph, x in ems) for each glyph; gives the width of the line in ems.
 template <class Place>
 double walk(std::string_view text, Weight weight, const Place& place) {
-  const Face& f = face(weight);
+  const FontFace& f = face(weight);
   double x = 0;
   int last = -1, last_glyph = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -131,7 +131,7 @@ GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shif
 }
 
 std::string glyph_path(int glyph, Weight weight) {
-  const Face& f = face(weight);
+  const FontFace& f = face(weight);
   stbtt_vertex* vertices = nullptr;
   const int count = stbtt_GetGlyphShape(f.info(), glyph, &vertices);
   std::string path;

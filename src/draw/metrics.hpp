@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "draw/draw_list.hpp"
 
@@ -27,6 +28,15 @@ inline bool holds(const Box<2>& outer, const Box<2>& inner) {
 inline double arrow_share(double speed, double extent) {
   const double half = 0.12 * extent;  // this far in a second: half the length
   return speed > 0 && half > 0 ? speed / (speed + half) : 0;
+}
+
+// Of a spring or joint that is stretched, pressed together, or neither: by colour, and the more the
+// heavier. `strain` is the change of length, as a part of the length at rest.
+inline Stroke strain_stroke(double strain) {
+  constexpr double kRest = 0.005;
+  const double size = std::min(std::abs(strain), 1.0);
+  if (!(size > kRest)) return {Role::quiet_ink, 2.2, 0};
+  return {strain > 0 ? Role::warning : Role::ray, 2.4 + 3.2 * size, 0};
 }
 
 inline RectShape filled(const Box<2>& box, Role fill, double radius = 0) {

@@ -6,14 +6,9 @@
 
 #include "draw/clip.hpp"
 #include "draw/metrics.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
-namespace {
-
-bool is_finite(const Vec<2>& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
-}  // namespace
-
 void Pen::line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double casing) {
   const auto part = cut_line(from, to, place_);
   if (!part) return;
@@ -48,7 +43,7 @@ void Pen::dot(const Vec<2>& center, double radius, Role fill, const Stroke& stro
 }
 
 void Pen::polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) {
-  if (!std::all_of(points.begin(), points.end(), is_finite)) return;
+  if (!std::all_of(points.begin(), points.end(), is_finite<2>)) return;
   const bool whole = std::all_of(points.begin(), points.end(),
                                  [&](const Vec<2>& p) { return contains(place_, p); });
   if (!whole) points = cut_to(std::move(points), place_);

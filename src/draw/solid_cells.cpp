@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostEdges = 500;
 constexpr std::size_t kMostEdgesInCrowd = 250;  // lines must not hide a crowd of dots
-constexpr std::size_t kMostFills = 300;
+constexpr std::size_t kMostSolidFills = 300;
 
 // How strongly an edge is drawn. Smaller is stronger, and wins where edges of several cells lie on
 // one line.
@@ -180,7 +180,7 @@ void draw_cell_grounds(const Frame& frame, const SolidView& view, DrawList& list
     const bool shown = node.leaf || (node.mark == Mark::lit && !lit_inside[i]);
     if (shown && node.mark != Mark::quiet && is_valid(node.box)) filled.push_back(&node);
   }
-  if (filled.size() > kMostFills) return;
+  if (filled.size() > kMostSolidFills) return;
   std::stable_sort(filled.begin(), filled.end(), [&](const FrameNode* a, const FrameNode* b) {
     const auto key = [&](const FrameNode* n) {
       return std::pair{n->mark == Mark::lit, -view.depth(n->box.center())};

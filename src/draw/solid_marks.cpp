@@ -8,9 +8,9 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostLinks = 900;
-constexpr std::size_t kMostJoined = 120;  // springs, joints and pins
-constexpr std::size_t kMostBoxed = 60;    // links with a casing and joints
+constexpr std::size_t kMostSolidLinks = 900;
+constexpr std::size_t kMostJoined = 120;     // springs, joints and pins
+constexpr std::size_t kMostSolidBoxed = 60;  // links with a casing and joints
 
 // The bodies that are drawn, and half-spaces, which are ground.
 using ById = std::map<BodyId, const FrameBody*>;
@@ -36,14 +36,14 @@ Vec<3> end_at(const FrameBody& body, const FrameBody& other) {
 bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
   const ById found = by_id(frame, bodies);
-  const bool many = frame.pairs.size() > kMostBoxed;
+  const bool many = frame.pairs.size() > kMostSolidBoxed;
   std::size_t drawn = 0;
   for (const bool lit : {false, true})
     for (const FramePair& pair : frame.pairs) {
       if (pair.lit != lit) continue;
       const auto a = found.find(pair.pair.a), b = found.find(pair.pair.b);
       if (a == found.end() || b == found.end()) continue;
-      if (++drawn > kMostLinks) return false;
+      if (++drawn > kMostSolidLinks) return false;
       const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
       add_line(end_at(*a->second, *b->second), end_at(*b->second, *a->second),
                {Role::pair, width, 0}, {Role::panel, many ? 0 : width + 4, 0}, bodies, view,
@@ -55,7 +55,7 @@ bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const S
 // Where two bodies that are to be tested cover each other, in space.
 void draw_joints(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                  DrawList& list) {
-  if (frame.pairs.size() > kMostBoxed) return;
+  if (frame.pairs.size() > kMostSolidBoxed) return;
   const ById found = by_id(frame, bodies);
   for (const FramePair& pair : frame.pairs) {
     const auto a = found.find(pair.pair.a), b = found.find(pair.pair.b);
@@ -96,20 +96,12 @@ void add_spring(const FrameLink& link, const Stroke& stroke, const SolidView& vi
   pieces.push_back(std::move(piece));
 }
 
-// Stretched, pressed together, or neither: by colour, and the more the heavier.
-Stroke stroke_of(double strain) {
-  constexpr double kRest = 0.005;
-  const double size = std::min(std::abs(strain), 1.0);
-  if (!(size > kRest)) return {Role::quiet_ink, 2.2, 0};
-  return {strain > 0 ? Role::warning : Role::ray, 2.4 + 3.2 * size, 0};
-}
-
 void add_links(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < std::min(frame.links.size(), kMostJoined); ++i) {
     const FrameLink& link = frame.links[i];
     if (view.lost(link.from) || view.lost(link.to)) continue;
-    const Stroke stroke = stroke_of(link.strain);
+    const Stroke stroke = strain_stroke(link.strain);
     if (link.kind == FrameLink::Kind::spring)
       add_spring(link, stroke, view, pieces);
     else if (link.kind == FrameLink::Kind::distance)
@@ -178,7 +170,7 @@ bool add_marks(const Frame& frame, const std::vector<SolidBody>& bodies, const S
   add_links(frame, bodies, view, pieces);
   add_velocities(frame, bodies, view, pieces);
   for (const SolidBody& b : bodies)
-    if (frame.show_boxes && (b.body->lit || bodies.size() <= kMostBoxed))
+    if (frame.show_boxes && (b.body->lit || bodies.size() <= kMostSolidBoxed))
       add_box(b.body->box, {b.body->lit ? Role::lit : Role::quiet_ink, 1.5, 5}, bodies, view,
               pieces);
   return complete;

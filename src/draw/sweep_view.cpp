@@ -12,7 +12,7 @@
 namespace lantern {
 namespace {
 
-constexpr double kLeastRow = 22, kMostRow = 44;
+constexpr double kLeastBand = 22, kMostBand = 44;
 constexpr double kAxisHeading = 34, kAxis = 16;
 
 int axis_of(const Frame& frame) {
@@ -39,17 +39,17 @@ void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   const Box<2> world{{frame.bounds.lo[axis], 0}, {frame.bounds.hi[axis], 1}};
   std::vector<const FrameBody*> order = swept(frame, axis);
   const double length = world.size().x;
-  if (order.empty() || !(length > 0) || panel.size().y < kAxisHeading + 2 * kMostRow) return;
+  if (order.empty() || !(length > 0) || panel.size().y < kAxisHeading + 2 * kMostBand) return;
   const TextStyle heading{kLabel, Weight::semibold, Role::quiet_ink, Role::none};
   const TextStyle note{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
   labels.add(
       shortened(fmt::format("intervals along {}, sorted", "xyz"[axis]), panel.size().x, heading),
       {{panel.lo.x, panel.lo.y + 20}, 0}, heading, panel);
-  Box<2> area{panel.lo + Vec<2>(kMostRow, kAxisHeading), panel.hi - Vec<2>(14, kAxis + 26)};
-  const auto most = static_cast<std::size_t>(std::max(1.0, area.size().y / kLeastRow));
+  Box<2> area{panel.lo + Vec<2>(kMostBand, kAxisHeading), panel.hi - Vec<2>(14, kAxis + 26)};
+  const auto most = static_cast<std::size_t>(std::max(1.0, area.size().y / kLeastBand));
   const std::size_t all = order.size();
   if (all > most) order.resize(most);
-  const double row = std::min(kMostRow, area.size().y / static_cast<double>(order.size()));
+  const double row = std::min(kMostBand, area.size().y / static_cast<double>(order.size()));
   area.hi.y = area.lo.y + row * static_cast<double>(order.size());
   const auto x_of = [&](double at) {
     const double share = (at - world.lo.x) / length;

@@ -11,7 +11,7 @@ constexpr Index kNobody = 0xffffffff;
 // The names are those of the paper: a node's place is the sum of `prelim` and the `mod` of all its
 // ancestors; `thread` leads on along the contour of a subtree that ends; `shift` and `change`
 // spread a move over the subtrees in between.
-struct Placed {
+struct PlacedNode {
   std::vector<Index> children;
   Index number = 0;  // among its siblings
   Index thread = kNobody;
@@ -67,7 +67,7 @@ class Tidy {
       last = child;
     }
     execute_shifts(v);
-    Placed& p = at_[v];
+    PlacedNode& p = at_[v];
     const double beside =
         left_sibling == kNobody ? 0 : at_[left_sibling].prelim + distance(left_sibling, v);
     p.prelim = beside;
@@ -129,7 +129,7 @@ class Tidy {
   void execute_shifts(Index v) {
     double shift = 0, change = 0;
     for (auto child = at_[v].children.rbegin(); child != at_[v].children.rend(); ++child) {
-      Placed& c = at_[*child];
+      PlacedNode& c = at_[*child];
       c.prelim += shift;
       c.mod += shift;
       change += c.change;
@@ -139,7 +139,7 @@ class Tidy {
 
   std::span<const TidyNode> in_;
   double gap_;
-  std::vector<Placed> at_;
+  std::vector<PlacedNode> at_;
 };
 
 }  // namespace

@@ -30,14 +30,6 @@ void draw_spring(Pen& pen, const Vec<2>& from, const Vec<2>& to, const Stroke& s
   pen.path(points, false, stroke);
 }
 
-// Stretched, pressed together, or neither: by colour, and the more the heavier.
-Stroke stroke_of(double strain) {
-  constexpr double kRest = 0.005;
-  const double size = std::min(std::abs(strain), 1.0);
-  if (!(size > kRest)) return {Role::quiet_ink, 2.2, 0};
-  return {strain > 0 ? Role::warning : Role::ray, 2.4 + 3.2 * size, 0};
-}
-
 }  // namespace
 
 Box<2> mark_limit(const WorldMap& map) { return shrunk(map.rect, -8); }
@@ -55,7 +47,7 @@ void draw_links(const Frame& frame, const WorldMap& map, DrawList& list) {
       pen.dot(to, 2, Role::ink);
       continue;
     }
-    const Stroke stroke = stroke_of(link.strain);
+    const Stroke stroke = strain_stroke(link.strain);
     if (link.kind == FrameLink::Kind::spring)
       draw_spring(pen, from, to, stroke);
     else

@@ -23,7 +23,7 @@ using Real = long double;
 struct Point {
   Real x = 0, y = 0;
 };
-Real cross(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
+Real turning(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
 Real dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
 
 class BlocksAndWall : public Yardstick {
@@ -54,7 +54,7 @@ class BlocksAndWall : public Yardstick {
     start_.x = root_outer_ * (height(outer_) - 2 * half - reach_along(outer, wall_.normal));
     speed_ = scaled(inner.velocity, outer.velocity);
     theta_ = std::atan2(root_inner_, root_outer_);
-    if (start_.y < 0 || cross(start_, {root_outer_, root_inner_}) < 0)
+    if (start_.y < 0 || turning(start_, {root_outer_, root_inner_}) < 0)
       refuse_problem(scenario, "the blocks begin in each other");
     if (inner.velocity != Vec<3>(0.0) || !(speed_.x < 0))
       refuse_problem(scenario, "not the outer block alone moves, towards the wall");
@@ -64,7 +64,7 @@ class BlocksAndWall : public Yardstick {
     const Real t = now.time;
     const Point place{start_.x + speed_.x * t, start_.y + speed_.y * t};
     const Real angle =
-        std::atan2(start_.y, start_.x) + std::atan2(cross(start_, place), dot(start_, place));
+        std::atan2(start_.y, start_.x) + std::atan2(turning(start_, place), dot(start_, place));
     const Point found = scaled(now.states[inner_].velocity, now.states[outer_].velocity);
     measure_hits(angle / theta_, found, now.impacts);
     measure_speeds(std::floor(angle / theta_), found);

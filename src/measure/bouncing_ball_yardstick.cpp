@@ -21,7 +21,7 @@ constexpr Real kTimed = 1e-6L;
 // A state so near to an impact, in flights, may belong to the flight before or after it.
 constexpr Real kNearImpact = 0.1L;
 
-struct Flight {
+struct Fall {
   Real begin = 0, end = 0;
   Real speed = 0;  // with which it leaves the ground; 0 at rest
   bool first = false;
@@ -57,7 +57,7 @@ class BouncingBall : public Yardstick {
       before_ = flight_;
       flight_ = after(flight_);
     }
-    std::array<Flight, 3> meant{flight_};
+    std::array<Fall, 3> meant{flight_};
     std::size_t count = 1;
     if (!flight_.first && t - flight_.begin < kNearImpact * (before_.end - before_.begin))
       meant[count++] = before_;
@@ -90,14 +90,14 @@ class BouncingBall : public Yardstick {
     return static_cast<Real>(glm::dot(position, ground_.normal)) - reach_ - ground_.height;
   }
 
-  Flight after(const Flight& flight) const {
+  Fall after(const Fall& flight) const {
     const Real speed = restitution_ * flight.speed;
     const bool rests = speed < 1e-12L * first_.speed;
     if (rests) return {flight.end, std::numeric_limits<Real>::infinity(), 0, false};
     return {flight.end, flight.end + 2 * speed / gravity_, speed, false};
   }
 
-  Errors held_against(const Flight& flight, const Observation& now) const {
+  Errors held_against(const Fall& flight, const Observation& now) const {
     const BodyState& state = now.states[ball_];
     const Real y = above(state.position), v = glm::dot(state.velocity, ground_.normal);
     const Real square = v * v + 2 * gravity_ * y;
@@ -119,7 +119,7 @@ class BouncingBall : public Yardstick {
   Footing ground_;
   std::size_t ball_ = 0;
   Real gravity_ = 0, restitution_ = 0, reach_ = 0;
-  Flight first_, before_, flight_;
+  Fall first_, before_, flight_;
   Worst times_, apex_;
 };
 

@@ -8,6 +8,7 @@
 #include "base/check.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "geometry/not_finite.hpp"
 #include "measure/lantern_contestant.hpp"
 #include "measure/own_run.hpp"
 #include "measure/timed.hpp"
@@ -17,13 +18,10 @@ namespace {
 
 constexpr double kBeyondSense = 100;  // times the scale: the run has diverged
 
-bool is_finite(const BodyState& s) {
-  for (int i = 0; i < 3; ++i)
-    if (!std::isfinite(s.position[i]) || !std::isfinite(s.velocity[i]) ||
-        !std::isfinite(s.angular_momentum[i]))
-      return false;
-  return std::isfinite(s.orientation.q.w) && std::isfinite(s.orientation.q.x) &&
-         std::isfinite(s.orientation.q.y) && std::isfinite(s.orientation.q.z);
+bool all_finite(const BodyState& s) {
+  const glm::dquat& q = s.orientation.q;
+  return is_finite<3>(s.position) && is_finite<3>(s.velocity) && is_finite<3>(s.angular_momentum) &&
+         std::isfinite(q.w) && is_finite<3>({q.x, q.y, q.z});
 }
 
 struct NotANumber {};
@@ -61,7 +59,7 @@ class Runner {
     now_.time = static_cast<double>(steps_) * h_;
     simulation_->observe(now_.states);
     now_.impacts = simulation_->impacts();
-    if (!std::ranges::all_of(now_.states, is_finite)) throw NotANumber();
+    if (!std::ranges::all_of(now_.states, all_finite)) throw NotANumber();
     look(now_);
     yardstick.look(now_);
     yardstick.interfere(now_, *simulation_);

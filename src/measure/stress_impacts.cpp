@@ -14,7 +14,7 @@ namespace {
 using namespace stress;
 
 template <int D>
-WorldConfig<D> exact_flight(double gravity) {
+WorldConfig<D> flight_rules(double gravity) {
   WorldConfig<D> config;
   config.gravity = at<D>(0, -gravity);
   config.integrator = Integrator::velocity_verlet;
@@ -24,7 +24,7 @@ WorldConfig<D> exact_flight(double gravity) {
 // A ball that loses nothing, 20 s at several steps: the largest relative change of its energy.
 template <int D>
 double bounce_drift(double h) {
-  World<D> world(exact_flight<D>(kGravity));
+  World<D> world(flight_rules<D>(kGravity));
   world.add(make_floor<D>());
   Body<D> ball = make_ball<D>(at<D>(0, 2));
   ball.material.restitution = 1;
@@ -55,7 +55,7 @@ StressResult zeno() {
   double worst = 0;
   std::uint64_t most = 0;
   for (const double e : {0.0, 0.3, 0.8, 0.99}) {
-    World<2> world(exact_flight<2>(kGravity));
+    World<2> world(flight_rules<2>(kGravity));
     world.add(make_floor<2>());
     Body<2> ball = make_ball<2>({0, 0.5 + 0.8});
     ball.material.restitution = e;
@@ -74,7 +74,7 @@ StressResult zeno() {
 StressResult pi_by_blocks() {
   double worst = 0, ratio = 1, expected = std::numbers::pi;
   for (int k = 0; k <= 3; ++k, ratio *= 100, expected *= 10) {
-    World<2> world(exact_flight<2>(0));
+    World<2> world(flight_rules<2>(0));
     Body<2> wall = make_floor<2>();
     wall.shape = HalfSpace<2>{{1, 0}};
     world.add(wall);
@@ -128,7 +128,7 @@ StressResult superball() {
 StressResult cradle() {
   double worst = 0;
   for (int moving = 1; moving <= 4; ++moving) {
-    World<2> world(exact_flight<2>(0));
+    World<2> world(flight_rules<2>(0));
     for (int i = 0; i < 5; ++i) {
       Body<2> ball = make_ball<2>({i < moving ? i - 1.7 : i, 0});
       ball.velocity = {i < moving ? 2.0 : 0.0, 0};

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "geometry/not_finite.hpp"
 #include "physics/world.hpp"
 
 namespace lantern::stress {
@@ -97,16 +98,9 @@ double deepest(const World<D>& world) {
 }
 
 template <int D>
-bool is_finite(const Vec<D>& v) {
-  for (int i = 0; i < D; ++i)
-    if (!std::isfinite(v[i])) return false;
-  return true;
-}
-
-template <int D>
 bool is_finite(const World<D>& world) {
   return std::all_of(world.bodies().begin(), world.bodies().end(), [](const Body<D>& body) {
-    return is_finite<D>(body.position) && is_finite<D>(body.velocity);
+    return lantern::is_finite<D>(body.position) && lantern::is_finite<D>(body.velocity);
   });
 }
 

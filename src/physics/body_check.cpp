@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "geometry/not_finite.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern {
@@ -47,11 +48,6 @@ void check_rotation(const Rotation<3>& r, const std::string& who) {
     throw Refused(fmt::format("{}: orientation has length {}, must have 1", who, length));
 }
 
-bool all_finite(double value) { return std::isfinite(value); }
-bool all_finite(const Vec<3>& value) {
-  return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
-}
-
 double inverse(double value) { return value > 0 ? 1 / value : 0; }
 Vec<3> inverse(const Vec<3>& value) {
   return {inverse(value.x), inverse(value.y), inverse(value.z)};
@@ -74,9 +70,9 @@ void check_body(const Body<D>& body) {
   require_finite<D>(body.position, who, "position");
   check_rotation(body.orientation, who);
   require_finite<D>(body.velocity, who, "velocity");
-  if (!all_finite(body.angular_momentum))
+  if (!is_finite(body.angular_momentum))
     throw Refused(fmt::format("{}: angular_momentum is not finite", who));
-  if (!all_finite(body.kinematic_spin))
+  if (!is_finite(body.kinematic_spin))
     throw Refused(fmt::format("{}: kinematic_spin is not finite", who));
   check_shape<D>(body.shape, who);
   require_not_negative(body.density, who, "density");
@@ -101,14 +97,14 @@ void derive_mass(Body<D>& body) {
   const std::string who = named(body.name);
   if (!(properties.mass > 0))
     throw Refused(fmt::format("{}: mass is 0 by its size and density; give it a mass", who));
-  if (!std::isfinite(properties.mass) || !all_finite(properties.inertia) ||
+  if (!std::isfinite(properties.mass) || !is_finite(properties.inertia) ||
       !std::isfinite(1 / properties.mass))
     throw Refused(fmt::format("{}: mass or inertia is out of range", who));
   body.mass = properties.mass;
   body.inverse_mass = 1 / properties.mass;
   if (body.may_turn && !std::holds_alternative<AxisBox<D>>(body.shape))
     body.inverse_inertia = inverse(properties.inertia);
-  if (!all_finite(body.inverse_inertia))
+  if (!is_finite(body.inverse_inertia))
     throw Refused(fmt::format("{}: inertia is out of range", who));
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/not_finite.hpp"
 #include "physics/step.hpp"
 
 namespace lantern {
@@ -121,18 +122,6 @@ void World<D>::Step::bring_back(Island<D>& island) {
   }
 }
 
-namespace {
-
-bool all_finite(double value) { return std::isfinite(value); }
-template <int D>
-bool all_finite(const glm::vec<D, double>& value) {
-  for (int i = 0; i < D; ++i)
-    if (!std::isfinite(value[i])) return false;
-  return true;
-}
-
-}  // namespace
-
 template <int D>
 void World<D>::Step::require_no_overflow() const {
   const auto refuse = [&](const Body<D>& body, const char* field) {
@@ -140,8 +129,8 @@ void World<D>::Step::require_no_overflow() const {
         fmt::format("body '{}': {} overflows in step {}", body.name, field, world.work_.steps + 1));
   };
   for (const Body<D>& body : moved) {
-    if (!all_finite(body.velocity)) refuse(body, "velocity");
-    if (!all_finite(body.angular_momentum)) refuse(body, "angular_momentum");
+    if (!is_finite(body.velocity)) refuse(body, "velocity");
+    if (!is_finite(body.angular_momentum)) refuse(body, "angular_momentum");
     if (!is_valid(body.box())) refuse(body, "position");
   }
 }

@@ -6,13 +6,13 @@
 #include <EGL/eglext.h>
 #include <fmt/format.h>
 
-#include "render/backends.hpp"
 #include "base/library.hpp"
+#include "render/backends.hpp"
 
 namespace lantern {
 namespace {
 
-struct Functions {
+struct EglFunctions {
   decltype(&::eglGetProcAddress) function = nullptr;
   decltype(&::eglInitialize) initialize = nullptr;
   decltype(&::eglTerminate) terminate = nullptr;
@@ -40,7 +40,7 @@ struct Functions {
 
 class EglContext : public Context {
  public:
-  EglContext(const Functions& egl, EGLDisplay display) : egl_(egl), display_(display) {}
+  EglContext(const EglFunctions& egl, EGLDisplay display) : egl_(egl), display_(display) {}
   ~EglContext() override {
     egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (context_ != EGL_NO_CONTEXT) egl_.destroy(display_, context_);
@@ -79,7 +79,7 @@ class EglContext : public Context {
   std::string_view backend() const override { return "egl"; }
 
  private:
-  Functions egl_;
+  EglFunctions egl_;
   EGLDisplay display_;
   EGLContext context_ = EGL_NO_CONTEXT;
 };
@@ -95,7 +95,7 @@ Attempt try_egl() {
   const Library library({"libEGL.so.1"});
   Attempt attempt;
   attempt.library = library.name();
-  Functions egl;
+  EglFunctions egl;
   if (!library.loaded()) {
     attempt.problem = fmt::format("{}; {}", library.problem(), kPackages);
     return attempt;

@@ -5,8 +5,8 @@
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
 
-#include "render/backends.hpp"
 #include "base/library.hpp"
+#include "render/backends.hpp"
 
 namespace lantern {
 namespace {
@@ -17,7 +17,7 @@ constexpr int kMajor = 0x36, kMinor = 0x37;
 
 using Handle = void*;
 
-struct Functions {
+struct OsMesaFunctions {
   Handle (*create)(const int* attributes, Handle shared) = nullptr;
   void (*destroy)(Handle) = nullptr;
   unsigned char (*make_current)(Handle, void* pixels, unsigned type, int w, int h) = nullptr;
@@ -33,7 +33,7 @@ struct Functions {
 
 class OsmesaContext : public Context {
  public:
-  OsmesaContext(const Functions& functions, Handle handle)
+  OsmesaContext(const OsMesaFunctions& functions, Handle handle)
       : functions_(functions), handle_(handle) {}
   ~OsmesaContext() override {
     functions_.make_current(nullptr, nullptr, 0, 0, 0);
@@ -53,7 +53,7 @@ class OsmesaContext : public Context {
   // OSMesa insists on a buffer of its own; frames go to a framebuffer object instead.
   static constexpr int kSide = 4;
   std::array<std::uint8_t, 4 * kSide * kSide> unused_{};
-  Functions functions_;
+  OsMesaFunctions functions_;
   Handle handle_;
 };
 
@@ -63,7 +63,7 @@ Attempt try_osmesa() {
   const Library library({"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"});
   Attempt attempt;
   attempt.library = library.name();
-  Functions functions;
+  OsMesaFunctions functions;
   if (!library.loaded()) {
     attempt.problem = fmt::format("{}; install the package libosmesa6", library.problem());
     return attempt;

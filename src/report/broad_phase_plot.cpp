@@ -16,19 +16,19 @@ constexpr double kGridMargin = 60;
 
 // Five tones of blue, light where it is cheap, in every theme; `above` is the largest ratio to the
 // cheapest cell, `ink` what can be read on it.
-struct Tone {
+struct GridTone {
   double above;
   Role fill, ink;
 };
-constexpr std::array<Tone, 5> kTones = {{{1.1, Role::body_lit_6, Role::pupil},
-                                         {1.5, Role::body_6, Role::pupil},
-                                         {2.5, Role::body_lit_4, Role::pupil},
-                                         {5, Role::body_4, Role::eye},
-                                         {1e300, Role::body_shade_4, Role::eye}}};
+constexpr std::array<GridTone, 5> kTones = {{{1.1, Role::body_lit_6, Role::pupil},
+                                             {1.5, Role::body_6, Role::pupil},
+                                             {2.5, Role::body_lit_4, Role::pupil},
+                                             {5, Role::body_4, Role::eye},
+                                             {1e300, Role::body_shade_4, Role::eye}}};
 
-const Tone& tone_of(double ratio) {
+const GridTone& tone_of(double ratio) {
   return *std::find_if(kTones.begin(), kTones.end(),
-                       [&](const Tone& tone) { return ratio <= tone.above; });
+                       [&](const GridTone& tone) { return ratio <= tone.above; });
 }
 
 std::string words_of(BroadPhaseKind kind) {
@@ -61,9 +61,9 @@ double work_of(const BroadPhaseCost& row) {
   return static_cast<double>(row.counts.work()) / static_cast<double>(row.updates);
 }
 
-class Page {
+class GridPage {
  public:
-  Page(std::span<const BroadPhaseCost> rows, const BoxScene& scene, BroadPhaseKind kind)
+  GridPage(std::span<const BroadPhaseCost> rows, const BoxScene& scene, BroadPhaseKind kind)
       : rows_(rows), scene_(scene), kind_(kind), labels_(list_) {
     for (const BroadPhaseCost& row : rows) {
       if (row.scene != scene.name || row.kind != kind || !row.has_settings()) continue;
@@ -166,7 +166,7 @@ class Page {
     const bool large = by == CostBy::work;
     const double least = large ? work_of(best) : milliseconds(best);
     const double ratio = least > 0 ? (large ? work_of(row) : milliseconds(row)) / least : 1;
-    const Tone& tone = tone_of(ratio);
+    const GridTone& tone = tone_of(ratio);
     list_.shapes.emplace_back(
         RectShape{box, 0, tone.fill, {Role::paper, large ? 3.0 : 2.0, 0}, true});
     const bool cut_back = large && was_cut_back(rows_, row);
@@ -240,7 +240,8 @@ class Page {
     }
     if (some_cut_back_)
       labels_.add("† out of proportion (over 64 entries a body): built with half the depth limit",
-                  {{kGridMargin, y - 4}, 0}, {20, Weight::regular, Role::quiet_ink, Role::none}, place);
+                  {{kGridMargin, y - 4}, 0}, {20, Weight::regular, Role::quiet_ink, Role::none},
+                  place);
   }
 
   std::span<const BroadPhaseCost> rows_;
@@ -256,7 +257,7 @@ class Page {
 
 DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
                                BroadPhaseKind kind) {
-  return Page(rows, scene, kind).drawn();
+  return GridPage(rows, scene, kind).drawn();
 }
 
 }  // namespace lantern

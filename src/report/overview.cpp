@@ -19,17 +19,17 @@ constexpr double kTall = 1.41421356;  // height over width of an A3 page
 constexpr double kCell = 320;         // least width of a small plot with its words
 constexpr double kOverviewMargin = 56;
 constexpr double kGap = 34;
-constexpr double kSmall = 16.5, kText = 17.5;  // on A3, a page 1600 wide has 0.53 points a unit
+constexpr double kSmall = 16.5, kCellText = 17.5;  // on A3, a page 1600 wide has 0.53 points a unit
 constexpr double kLine = 22;
 constexpr std::size_t kMostLines = 5;  // of a sentence
 
-const TextStyle kQuiet{kSmall, Weight::regular, Role::quiet_ink, Role::none};
+const TextStyle kSmallPrint{kSmall, Weight::regular, Role::quiet_ink, Role::none};
 const TextStyle kSaid{kSmall, Weight::regular, Role::ink, Role::none};
-const TextStyle kCellName{kText, Weight::semibold, Role::ink, Role::none};
+const TextStyle kCellName{kCellText, Weight::semibold, Role::ink, Role::none};
 
-class Page {
+class OverviewPage {
  public:
-  Page(const Measurement& measurement, const std::vector<Bar>& bars)
+  OverviewPage(const Measurement& measurement, const std::vector<Bar>& bars)
       : measurement_(measurement),
         bars_(bars),
         problems_(by_problem(measurement.rows)),
@@ -116,8 +116,8 @@ class Page {
   }
 
   void rule(double y, double weight = 1.4) {
-    list_.shapes.emplace_back(
-        LineShape{{kOverviewMargin, y}, {width_ - kOverviewMargin, y}, {Role::ink, weight, 0}, true});
+    list_.shapes.emplace_back(LineShape{
+        {kOverviewMargin, y}, {width_ - kOverviewMargin, y}, {Role::ink, weight, 0}, true});
   }
 
   double draw_head() {
@@ -129,7 +129,8 @@ class Page {
         "upwards, its seconds to the right, both logarithmic; lower left is better.",
         problems_.size(), measurement_.rows.size());
     labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
-                {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none}, place);
+                {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none},
+                place);
     rule(126, 2);
     return 140;
   }
@@ -142,7 +143,8 @@ class Page {
         "Dashed: other engines. Open marks at the upper edge: runs that diverged (placed by their "
         "steps if not timed). Stairs: no run "
         "has both less error and less time. Dashed grey: rounding floor, an estimate.";
-    labels_.add(shortened(rest, inner(), kQuiet), {{kOverviewMargin, y + 17}, 0}, kQuiet, band(y, y + 26));
+    labels_.add(shortened(rest, inner(), kSmallPrint), {{kOverviewMargin, y + 17}, 0}, kSmallPrint,
+                band(y, y + 26));
     return y + 44;
   }
 
@@ -161,7 +163,7 @@ class Page {
     const std::string name = shortened(file_name(problems_[i]), cell.size().x, kCellName);
     labels_.add(name, {{cell.lo.x, cell.lo.y + 16}, 0}, kCellName, cell);
     const std::string norm = norm_words(main_norm(problems_[i]));
-    labels_.try_add(norm, {{{cell.hi.x, cell.lo.y + 16}, 1}}, kQuiet, cell);
+    labels_.try_add(norm, {{{cell.hi.x, cell.lo.y + 16}, 1}}, kSmallPrint, cell);
     const double said = cell.hi.y - kLine * static_cast<double>(lines_);
     Plot& plot = plots_[i];
     plot.names = PlotNames::none;
@@ -188,8 +190,8 @@ class Page {
     const double y = list_.page.y - 62;
     rule(y, 2);
     const Box<2> place = band(y, list_.page.y - 16);
-    labels_.add(shortened(circumstances_text(measurement_.circumstances), inner(), kQuiet),
-                {{kOverviewMargin, y + 30}, 0}, kQuiet, place);
+    labels_.add(shortened(circumstances_text(measurement_.circumstances), inner(), kSmallPrint),
+                {{kOverviewMargin, y + 30}, 0}, kSmallPrint, place);
   }
 
   const Measurement& measurement_;
@@ -213,7 +215,7 @@ std::optional<bool> Bar::met() const {
 }
 
 DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars) {
-  return Page(measurement, bars).draw();
+  return OverviewPage(measurement, bars).draw();
 }
 
 }  // namespace lantern

@@ -14,7 +14,7 @@ namespace lantern {
 namespace {
 
 constexpr double kMapMargin = 48;
-constexpr double kTitleLine = 58;  // baseline
+constexpr double kMapTitle = 58;  // baseline
 constexpr double kLegendLine = 118;
 constexpr double kPanelHeading = 34;  // of a panel, over its plot
 constexpr int kPanelsInRow = 3;
@@ -89,7 +89,8 @@ class Picture {
       const Vec<2> corner = area.lo + Vec<2>(column * (size.x + gap), row * row_height(area));
       Box<2> plot{corner, corner + size};
       plot.lo.y += kPanelHeading;
-      draw_panel(map_.panels[i], plot, i % kPanelsInRow == 0, i + kPanelsInRow >= map_.panels.size());
+      draw_panel(map_.panels[i], plot, i % kPanelsInRow == 0,
+                 i + kPanelsInRow >= map_.panels.size());
     }
     name_axes(area);
     return std::move(list_);
@@ -103,9 +104,9 @@ class Picture {
     const std::string_view title = "How one step multiplies the motion of a damped spring";
     const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
     const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
-    labels_.add(title, {{kMapMargin, kTitleLine}, 0}, bold, page());
+    labels_.add(title, {{kMapMargin, kMapTitle}, 0}, bold, page());
     labels_.add("measured with the engine, step by damping, and the limit by theory",
-                {{list_.page.x - kMapMargin, kTitleLine}, 1}, quiet, page());
+                {{list_.page.x - kMapMargin, kMapTitle}, 1}, quiet, page());
     list_.shapes.emplace_back(
         LineShape{{kMapMargin, 78}, {list_.page.x - kMapMargin, 78}, {Role::rule, 1.6, 0}, true});
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kGroups[] = {"extreme input", "stiff", "stability", "bars"};
 
-std::string_view verdict(const StressResult& result) { return result.good ? "good" : "FAILED"; }
+std::string_view verdict_of(const StressResult& result) { return result.good ? "good" : "FAILED"; }
 
 // Whole numbers as such, others with three figures.
 std::string figure_text(double figure) {
@@ -51,7 +51,7 @@ void add_number(JsonWriter& json, std::string_view name, double value) {
 std::string row_text(const StressOutcome& outcome, std::size_t name_width) {
   const StressResult& result = outcome.result;
   std::string text =
-      fmt::format("  {:<6}  {:<{}}  {:>9}  {:<10}  {}\n", verdict(result), outcome.of.name,
+      fmt::format("  {:<6}  {:<{}}  {:>9}  {:<10}  {}\n", verdict_of(result), outcome.of.name,
                   name_width, figure_text(result.figure), bound_text(result), result.unit);
   if (result.good) return text;
   text += fmt::format("          {}\n", outcome.of.what);
@@ -78,7 +78,7 @@ std::string to_table(const StressReport& report) {
 std::string to_csv(const StressReport& report) {
   std::string text = "name,group,verdict,figure,sense,bound,unit,what,detail\n";
   for (const auto& [of, result] : report.outcomes)
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", of.name, of.group, verdict(result),
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", of.name, of.group, verdict_of(result),
                         csv_number(result.figure), result.at_least ? "at least" : "at most",
                         csv_number(result.bound), csv_field(result.unit), csv_field(of.what),
                         csv_field(result.detail));

@@ -14,7 +14,7 @@ namespace {
 // JSON in the making: each piece is the text of one value.
 using Members = std::vector<std::pair<std::string_view, std::string>>;
 
-std::string array(const std::vector<std::string>& values) {
+std::string json_array(const std::vector<std::string>& values) {
   std::string text = "[";
   for (const std::string& value : values) text += (text.size() > 1 ? ", " : "") + value;
   return text + "]";
@@ -27,10 +27,10 @@ std::string object(const Members& members) {
   return text + "}";
 }
 
-std::string texts(const std::vector<std::string_view>& list) {
+std::string json_texts(const std::vector<std::string_view>& list) {
   std::vector<std::string> values;
   for (const std::string_view text : list) values.push_back(json_string(text));
-  return array(values);
+  return json_array(values);
 }
 
 void add_range(const KeyDoc& doc, Members& members) {
@@ -44,21 +44,23 @@ std::string reference(std::string_view table) {
   return object({{"$ref", json_string(fmt::format("#/$defs/{}", table))}});
 }
 
-std::string number(const KeyDoc& doc, const char* type) {
+std::string number_type(const KeyDoc& doc, const char* type) {
   Members members = {{"type", json_string(type)}};
   add_range(doc, members);
   return object(members);
 }
 
 Members two(const KeyDoc& doc, const char* type) {
-  return {
-      {"type", "\"array\""}, {"items", number(doc, type)}, {"minItems", "2"}, {"maxItems", "2"}};
+  return {{"type", "\"array\""},
+          {"items", number_type(doc, type)},
+          {"minItems", "2"},
+          {"maxItems", "2"}};
 }
 
 // Two numbers in a flat world, three in a solid one: the parser knows which.
-Members point(const KeyDoc& doc) {
+Members point_type(const KeyDoc& doc) {
   return {{"type", "\"array\""},
-          {"items", number(doc, "number")},
+          {"items", number_type(doc, "number")},
           {"minItems", "2"},
           {"maxItems", "3"}};
 }
@@ -81,9 +83,9 @@ Members value_members(const KeyDoc& doc) {
     case KeyType::truth:
       return {{"type", "\"boolean\""}};
     case KeyType::choice:
-      return {{"enum", texts(doc.choices)}};
+      return {{"enum", json_texts(doc.choices)}};
     case KeyType::point:
-      return point(doc);
+      return point_type(doc);
     case KeyType::two_numbers:
       return two(doc, "number");
     case KeyType::size:
@@ -95,10 +97,10 @@ Members value_members(const KeyDoc& doc) {
                                 {"minItems", "3"}})},
               {"minItems", "1"}};
     case KeyType::whole_or_names:
-      return {{"anyOf",
-               array({number(doc, "integer"), object({{"type", "\"array\""},
-                                                      {"items", object({{"type", "\"string\""}})},
-                                                      {"minItems", "1"}})})}};
+      return {{"anyOf", json_array({number_type(doc, "integer"),
+                                    object({{"type", "\"array\""},
+                                            {"items", object({{"type", "\"string\""}})},
+                                            {"minItems", "1"}})})}};
     case KeyType::names:
       return {{"type", "\"array\""}, {"items", object({{"type", "\"string\""}})}};
     case KeyType::texts:
@@ -106,7 +108,7 @@ Members value_members(const KeyDoc& doc) {
           {"type", "\"array\""}, {"items", object({{"type", "\"string\""}})}, {"minItems", "1"}};
     case KeyType::choices_list:
       return {{"type", "\"array\""},
-              {"items", object({{"enum", texts(doc.choices)}})},
+              {"items", object({{"enum", json_texts(doc.choices)}})},
               {"minItems", "1"},
               {"uniqueItems", "true"}};
     case KeyType::table:
@@ -122,11 +124,11 @@ Members value_members(const KeyDoc& doc) {
                                 {"minItems", "2"},
                                 {"maxItems", "2"}})}};
     case KeyType::name_wholes:
-      return {{"type", "\"object\""}, {"additionalProperties", number(doc, "integer")}};
+      return {{"type", "\"object\""}, {"additionalProperties", number_type(doc, "integer")}};
     case KeyType::name_numbers:
-      return {{"type", "\"object\""}, {"additionalProperties", number(doc, "number")}};
+      return {{"type", "\"object\""}, {"additionalProperties", number_type(doc, "number")}};
     case KeyType::name_points:
-      return {{"type", "\"object\""}, {"additionalProperties", object(point(doc))}};
+      return {{"type", "\"object\""}, {"additionalProperties", object(point_type(doc))}};
   }
   return m;
 }
@@ -142,8 +144,9 @@ std::string key_schema(const KeyDoc& doc) {
 void add_groups(const KeyGroups& groups, Members& members) {
   if (groups.groups.empty()) return;
   std::vector<std::string> choices;
-  for (const auto& group : groups.groups) choices.push_back(object({{"required", texts(group)}}));
-  members.push_back({groups.exactly_one ? "oneOf" : "anyOf", array(choices)});
+  for (const auto& group : groups.groups)
+    choices.push_back(object({{"required", json_texts(group)}}));
+  members.push_back({groups.exactly_one ? "oneOf" : "anyOf", json_array(choices)});
 }
 
 Members table_members(const TableDoc& table) {
@@ -159,7 +162,7 @@ Members table_members(const TableDoc& table) {
                      {"type", "\"object\""},
                      {"properties", object(properties)},
                      {"additionalProperties", "false"}};
-  if (!required.empty()) members.push_back({"required", texts(required)});
+  if (!required.empty()) members.push_back({"required", json_texts(required)});
   add_groups(table.groups, members);
   return members;
 }
@@ -169,7 +172,7 @@ std::string definitions() {
   for (const TableDoc& verb : language_verbs()) verbs.push_back(object(table_members(verb)));
   Members tables;
   for (const TableDoc& table : language_tables().subspan(1))
-    tables.push_back({table.name, table.name == "step" ? object({{"oneOf", array(verbs)}})
+    tables.push_back({table.name, table.name == "step" ? object({{"oneOf", json_array(verbs)}})
                                                        : object(table_members(table))});
   return object(tables);
 }

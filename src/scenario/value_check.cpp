@@ -158,8 +158,8 @@ class Check {
 
   // As many numbers as the world has dimensions.
   void check_point(const TomlValue& value) {
-    constexpr std::string_view kCounts[] = {"two or three numbers", "", "two numbers",
-                                            "three numbers"};
+    constexpr std::string_view kHowMany[] = {"two or three numbers", "", "two numbers",
+                                             "three numbers"};
     constexpr std::string_view kForms[] = {"[x, y] in a flat world, [x, y, z] in a solid one", "",
                                            "[x, y]", "[x, y, z]"};
     const std::string hint =
@@ -169,13 +169,13 @@ class Check {
     const auto* list = std::get_if<TomlArray>(&value.data);
     if (!list)
       return wrong_type(
-          value, fmt::format("{} {}", kCounts[dimension_], kForms[dimension_]),
+          value, fmt::format("{} {}", kHowMany[dimension_], kForms[dimension_]),
           fmt::format("as {} = {}", doc_.key, dimension_ == 3 ? "[1.5, 2, 0.5]" : "[1.5, 2]"));
     const auto count = static_cast<int>(std::min<std::size_t>(list->size(), 4));
     if (dimension_ == 0 ? count != 2 && count != 3 : count != dimension_)
       return add(
           value.where,
-          fmt::format("'{}' must have {}, not {}", doc_.key, kCounts[dimension_], list->size()),
+          fmt::format("'{}' must have {}, not {}", doc_.key, kHowMany[dimension_], list->size()),
           hint);
     for (const TomlValue& element : *list) check_number(element);
   }

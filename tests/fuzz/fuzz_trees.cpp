@@ -28,9 +28,9 @@ constexpr std::size_t kMostBodies = 24;
 constexpr std::uint64_t kMostEntries = 2000;
 constexpr std::uint64_t kMostPairs = 2'000'000;
 
-class Bytes {
+class ByteStream {
  public:
-  explicit Bytes(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  explicit ByteStream(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
   bool empty() const { return rest_.empty(); }
   std::uint8_t next() {
     if (rest_.empty()) return 0;
@@ -56,7 +56,7 @@ class Bytes {
 };
 
 template <int D>
-Box<D> read_box(Bytes& bytes) {
+Box<D> read_box(ByteStream& bytes) {
   Box<D> box;
   const bool any = bytes.next() < 16;  // else in order
   for (int i = 0; i < D; ++i) {
@@ -69,7 +69,7 @@ Box<D> read_box(Bytes& bytes) {
 // Inserts bodies as the bytes say. False if the structure's budget was passed. A box that is not
 // valid must be refused without a trace.
 template <int D, class Structure>
-bool fill(Structure& structure, Bytes& bytes, std::vector<Item<D>>& items) {
+bool fill(Structure& structure, ByteStream& bytes, std::vector<Item<D>>& items) {
   while (!bytes.empty() && items.size() < kMostBodies) {
     const Item<D> item{static_cast<BodyId>(items.size() * 7919 % 101), read_box<D>(bytes)};
     const std::uint64_t entries = structure.counters().entries;
@@ -125,7 +125,7 @@ void check_structure(const Structure& structure, const std::vector<Item<D>>& ite
 }
 
 template <int D>
-void fuzz_orthtree(Bytes& bytes) {
+void fuzz_orthtree(ByteStream& bytes) {
   typename Orthtree<D>::Config config;
   config.bounds = {Vec<D>(0.0), Vec<D>(64.0)};
   if (bytes.next() < 32) config.bounds = read_box<D>(bytes);
@@ -161,7 +161,7 @@ void fuzz_orthtree(Bytes& bytes) {
 }
 
 template <int D>
-void fuzz_bsp(Bytes& bytes) {
+void fuzz_bsp(ByteStream& bytes) {
   std::vector<BspPlane<D>> planes(bytes.next() % 12);
   const bool any = bytes.next() < 16;
   for (std::uint32_t i = 0; i < planes.size(); ++i) {
@@ -185,7 +185,7 @@ void fuzz_bsp(Bytes& bytes) {
 // All kinds of broad phase on the same bodies, updated several times: the same pairs. And a ray and
 // a ball find the same bodies in each.
 template <int D>
-void fuzz_broad_phase(Bytes& bytes) {
+void fuzz_broad_phase(ByteStream& bytes) {
   std::vector<BroadPhase<D>> phases;
   BroadPhaseConfig<D> config;
   config.bounds = {Vec<D>(0.0), Vec<D>(64.0)};
@@ -274,7 +274,7 @@ void check_atlas(const Atlas& atlas, const std::vector<std::pair<TextureId, Rect
   }
 }
 
-void fuzz_atlas(Bytes& bytes) {
+void fuzz_atlas(ByteStream& bytes) {
   std::optional<Atlas> atlas;
   try {
     atlas.emplace(bytes.next() * 2, bytes.next() * 2);
@@ -306,7 +306,7 @@ void fuzz_atlas(Bytes& bytes) {
 }  // namespace
 
 void fuzz_trees(std::span<const std::uint8_t> input) {
-  Bytes bytes(input);
+  ByteStream bytes(input);
   switch (bytes.next() % 7) {
     case 0:
       return fuzz_orthtree<2>(bytes);

@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kSolid = R"(title = "test"
+constexpr const char* kSolidFrames = R"(title = "test"
 [world]
 size = [8, 8, 8]
 gravity = [0, -10, 0]
@@ -48,7 +48,7 @@ to = [3, 1, 3]
 )";
 
 TEST(FrameJson, OfASolidWorldHasThreeNumbersAPoint) {
-  const auto frames = frames_of(parse_scenario(kSolid, "solid.toml"), Pace::step);
+  const auto frames = frames_of(parse_scenario(kSolidFrames, "solid.toml"), Pace::step);
   ASSERT_FALSE(frames.empty());
   const json frame = json::parse(to_json(frames.back()));
   EXPECT_EQ(frame["format"], "lantern.frame/1");
@@ -75,7 +75,7 @@ TEST(FrameJson, OfASolidWorldHasThreeNumbersAPoint) {
 }
 
 TEST(FrameJson, LosesNoBitOfANumber) {
-  const auto frames = frames_of(parse_scenario(kSolid, "solid.toml"), Pace::step);
+  const auto frames = frames_of(parse_scenario(kSolidFrames, "solid.toml"), Pace::step);
   const Frame& last = frames.back();
   const json frame = json::parse(to_json(last));
   for (std::size_t i = 0; i < last.bodies.size(); ++i)

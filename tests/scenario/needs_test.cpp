@@ -12,7 +12,7 @@
 namespace lantern::test {
 namespace {
 
-Scenario scenario(const std::string& name) {
+Scenario shipped(const std::string& name) {
   return good(read_text(std::string(LANTERN_ROOT "/scenarios/") + name + ".toml"));
 }
 
@@ -24,7 +24,7 @@ const Need& need(const Needs& needs, const std::string& stage) {
 }
 
 TEST(Needs, OfAStandingTree) {
-  const Needs needs = needs_of(scenario("ghost_quadtree"));
+  const Needs needs = needs_of(shipped("ghost_quadtree"));
   EXPECT_TRUE(needs.world && needs.structure && needs.pairs && needs.world_panel &&
               needs.tree_panel);
   EXPECT_FALSE(needs.motion || needs.atlas || needs.atlas_panel);
@@ -33,14 +33,14 @@ TEST(Needs, OfAStandingTree) {
 }
 
 TEST(Needs, OfAMovingScene) {
-  const Needs needs = needs_of(scenario("pong_bsp"));
+  const Needs needs = needs_of(shipped("pong_bsp"));
   EXPECT_TRUE(needs.motion);
   EXPECT_EQ(need(needs, "motion").reason, "ball moves, and 2 s pass");
   EXPECT_EQ(need(needs, "structure").reason, "brute_force, then bsp");
 }
 
 TEST(Needs, OfAnAtlas) {
-  const Needs needs = needs_of(scenario("kdtree_atlas"));
+  const Needs needs = needs_of(shipped("kdtree_atlas"));
   EXPECT_FALSE(needs.world || needs.motion || needs.structure || needs.pairs || needs.world_panel);
   EXPECT_TRUE(needs.atlas && needs.atlas_panel && needs.tree_panel);
 }
@@ -50,7 +50,7 @@ TEST(Needs, NameWhatTheProductHasAndThisSceneDoesNot) {
     for (const char* stage : {"rotation", "forces", "springs and joints", "static structure",
                               "narrow phase", "contact solver", "friction", "sleeping", "queries",
                               "level", "chart", "memory panel", "3D camera"})
-      EXPECT_FALSE(need(needs_of(scenario(name)), stage).used) << stage;
+      EXPECT_FALSE(need(needs_of(shipped(name)), stage).used) << stage;
 }
 
 TEST(Needs, AreListedAsTheyAre) {
@@ -172,8 +172,8 @@ TEST(Needs, OfALevel) {
 
 TEST(Needs, PanelsAreDerivedUnlessGiven) {
   using Panels = std::vector<Panel>;
-  EXPECT_EQ(scenario("ghost_quadtree").panels, (Panels{Panel::world, Panel::tree}));
-  EXPECT_EQ(scenario("kdtree_atlas").panels, (Panels{Panel::atlas, Panel::tree}));
+  EXPECT_EQ(shipped("ghost_quadtree").panels, (Panels{Panel::world, Panel::tree}));
+  EXPECT_EQ(shipped("kdtree_atlas").panels, (Panels{Panel::atlas, Panel::tree}));
   const std::string ghosts = read_text(LANTERN_ROOT "/scenarios/ghost_quadtree.toml");
   const Scenario given = good("panels = [\"tree\"]\n" + ghosts);
   EXPECT_EQ(given.panels, (Panels{Panel::tree}));

@@ -15,16 +15,16 @@ namespace {
 const std::string kFlat = "title = \"x\"\n[world]\nsize = [64, 64]\n";
 const std::string kDeep = "title = \"x\"\n[world]\nsize = [64, 32, 16]\n";
 
-std::string body(const std::string& keys, bool deep = false) {
+std::string body_text(const std::string& keys, bool deep = false) {
   return "[[body]]\nname = \"a\"\nposition = " + std::string(deep ? "[1, 2, 3]" : "[1, 2]") + "\n" +
          keys;
 }
 
 BodySpec flat_body(const std::string& keys) {
-  return good(kFlat + body(keys) + kShow).bodies.at(0);
+  return good(kFlat + body_text(keys) + kShow).bodies.at(0);
 }
 BodySpec deep_body(const std::string& keys) {
-  return good(kDeep + body(keys, true) + kShow).bodies.at(0);
+  return good(kDeep + body_text(keys, true) + kShow).bodies.at(0);
 }
 
 // --- dimensions ---
@@ -49,16 +49,16 @@ TEST(Dimension, IsThatOfAllPoints) {
   expect_mistakes(kDeep +
                       "[structure]\nkind = \"bsp\"\nplanes = [{ point = @[1, 2], normal = "
                       "[0, 1, 0] }]\n" +
-                      body("radius = 1\n", true) + kShow,
+                      body_text("radius = 1\n", true) + kShow,
                   {"three numbers, not 2"});
-  expect_mistakes(kDeep + body("radius = 1\n", true) +
+  expect_mistakes(kDeep + body_text("radius = 1\n", true) +
                       "[[step]]\ndo = \"show\"\nexpect = { position = { a = @[1, 2] } }\n",
                   {"this world is solid"});
 }
 
 TEST(Dimension, ThatCannotBeToldBringsAboutNoOtherMistake) {
-  expect_mistakes("title = \"x\"\n[world]\nsize = @[1]\n" + body("radius = 1\n", true) +
-                      body("radius = 1\n").replace(16, 3, "\"b\"") + kShow,
+  expect_mistakes("title = \"x\"\n[world]\nsize = @[1]\n" + body_text("radius = 1\n", true) +
+                      body_text("radius = 1\n").replace(16, 3, "\"b\"") + kShow,
                   {"two or three numbers"});
 }
 
@@ -73,7 +73,8 @@ TEST(World, RulesAreRead) {
   const WorldSpec w =
       good(
           "title = \"x\"\n[world]\nsize = [1, 1]\ngravity = [0, -9.81]\ncontacts = \"soft\"\n"
-          "integrator = \"implicit_midpoint\"\nsub_steps = 4\niterations = 20\nimpact_budget = 30\nmay_sleep = true\n"
+          "integrator = \"implicit_midpoint\"\nsub_steps = 4\niterations = 20\nimpact_budget = "
+          "30\nmay_sleep = true\n"
           "frame_every = 5\nshow_boxes = true\nshow_velocities = true\n" +
           kShow)
           .world;
@@ -135,13 +136,13 @@ TEST(Bodies, HaveOneOfTheShapes) {
   EXPECT_EQ(std::get<HalfSpace<3>>(flat_body("ground = [1e-300, 0]\n").shape).normal,
             Vec<3>(1, 0, 0))
       << "a tiny direction is one";
-  expect_mistakes(kFlat + body("radius = 1\n@capsule = [1, 1]\n") + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\n@capsule = [1, 1]\n") + kShow,
                   {"one of them is enough"});
-  expect_mistakes(kFlat + body("ground = [0, 1]\nvelocity = @[1, 0]\n") + kShow,
+  expect_mistakes(kFlat + body_text("ground = [0, 1]\nvelocity = @[1, 0]\n") + kShow,
                   {"a static body has no velocity"});
-  expect_mistakes(kFlat + body("ground = [0, 1]\nkind = @\"dynamic\"\n") + kShow,
+  expect_mistakes(kFlat + body_text("ground = [0, 1]\nkind = @\"dynamic\"\n") + kShow,
                   {"the ground never moves"});
-  expect_mistakes(kFlat + body("ground = [0, 1]\n@turned = 5\n") + kShow,
+  expect_mistakes(kFlat + body_text("ground = [0, 1]\n@turned = 5\n") + kShow,
                   {"'ground' says where its face looks"});
 }
 
@@ -157,10 +158,10 @@ TEST(Bodies, ABoxTurnsIfItIsOriented) {
   const BodySpec spinning = flat_body("half_size = [1, 2]\nspin = -45\n");
   EXPECT_TRUE(is_oriented(spinning)) << "and so does spin";
   EXPECT_DOUBLE_EQ(spinning.spin, -45 * kDegree);
-  expect_mistakes(kFlat + body("half_size = [1, 2]\nturned = 9\noriented = @false\n") + kShow,
+  expect_mistakes(kFlat + body_text("half_size = [1, 2]\nturned = 9\noriented = @false\n") + kShow,
                   {"keeps to the axes does not turn"});
-  expect_mistakes(kFlat + body("radius = 1\n@oriented = true\n") + kShow, {"only a box"});
-  expect_mistakes(kFlat + body("half_size = [1, 2]\n@may_turn = true\n") + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\n@oriented = true\n") + kShow, {"only a box"});
+  expect_mistakes(kFlat + body_text("half_size = [1, 2]\n@may_turn = true\n") + kShow,
                   {"write oriented = true"});
 }
 
@@ -168,9 +169,9 @@ TEST(Bodies, TurnAboutTheirAxis) {
   EXPECT_EQ(flat_body("radius = 1\nturned = 5\n").axis, Vec<3>(0, 0, 1)) << "towards the viewer";
   EXPECT_EQ(deep_body("radius = 1\n").axis, Vec<3>(0, 1, 0)) << "upright";
   EXPECT_EQ(deep_body("radius = 1\naxis = [0, 0, -5]\n").axis, Vec<3>(0, 0, -1));
-  expect_mistakes(kDeep + body("radius = 1\naxis = @[0, 0, 0]\n", true) + kShow,
+  expect_mistakes(kDeep + body_text("radius = 1\naxis = @[0, 0, 0]\n", true) + kShow,
                   {"points nowhere"});
-  expect_mistakes(kFlat + body("radius = 1\n@axis = [0, 1]\n") + kShow, {"no other axis"});
+  expect_mistakes(kFlat + body_text("radius = 1\n@axis = [0, 1]\n") + kShow, {"no other axis"});
 }
 
 TEST(Bodies, AreDynamicKinematicOrStatic) {
@@ -181,13 +182,13 @@ TEST(Bodies, AreDynamicKinematicOrStatic) {
   EXPECT_EQ(flat_body("radius = 1\nstatic = true\n").kind, BodyKind::static_body);
   EXPECT_EQ(flat_body("radius = 1\nstatic = true\nkind = \"static\"\n").kind,
             BodyKind::static_body);
-  expect_mistakes(kFlat + body("radius = 1\nstatic = true\nkind = @\"dynamic\"\n") + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\nstatic = true\nkind = @\"dynamic\"\n") + kShow,
                   {"contradicts static = true"});
-  expect_mistakes(kFlat + body("radius = 1\nstatic = false\nkind = @\"static\"\n") + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\nstatic = false\nkind = @\"static\"\n") + kShow,
                   {"contradicts static = false"});
-  expect_mistakes(kFlat + body("radius = 1\nstatic = true\nspin = @9\n") + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\nstatic = true\nspin = @9\n") + kShow,
                   {"a static body has no spin"});
-  expect_mistakes(kFlat + body("radius = @0\nspin = 9\n") + kShow, {"needs a size"});
+  expect_mistakes(kFlat + body_text("radius = @0\nspin = 9\n") + kShow, {"needs a size"});
 }
 
 TEST(Bodies, AreMadeOfSomething) {
@@ -205,13 +206,13 @@ TEST(Bodies, AreMadeOfSomething) {
   EXPECT_EQ(plain.mass, 0) << "from shape and density";
   EXPECT_EQ(plain.material.friction, 0.5);
   EXPECT_TRUE(plain.may_turn);
-  expect_mistakes(kFlat + body("radius = 1\ndensity = 2\n@mass = 3\n") + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\ndensity = 2\n@mass = 3\n") + kShow,
                   {"one of them is enough"});
-  expect_mistakes(kFlat + body("radius = 1\n@asleep = true\n") + kShow, {"may_sleep = true"});
-  expect_mistakes(
-      kFlat + "may_sleep = true\n" + body("radius = 1\nstatic = true\n@asleep = true\n") + kShow,
-      {"only a dynamic body sleeps"});
-  EXPECT_TRUE(good(kFlat + "may_sleep = true\n" + body("radius = 1\nasleep = true\n") + kShow)
+  expect_mistakes(kFlat + body_text("radius = 1\n@asleep = true\n") + kShow, {"may_sleep = true"});
+  expect_mistakes(kFlat + "may_sleep = true\n" +
+                      body_text("radius = 1\nstatic = true\n@asleep = true\n") + kShow,
+                  {"only a dynamic body sleeps"});
+  EXPECT_TRUE(good(kFlat + "may_sleep = true\n" + body_text("radius = 1\nasleep = true\n") + kShow)
                   .bodies[0]
                   .asleep);
 }
@@ -219,41 +220,44 @@ TEST(Bodies, AreMadeOfSomething) {
 TEST(Bodies, FollowAnotherThatMayBeDeclaredLater) {
   const std::string ball = "[[body]]\nname = \"ball\"\nradius = 1\nposition = [5, 5]\n";
   const std::string bat = "half_size = [1, 1]\nkind = \"kinematic\"\nspeed = 3\nfollow = ";
-  const Scenario s = good(kFlat + body(bat + "\"ball\"\nfollow_axes = [0, 1]\n") + ball + kShow);
+  const Scenario s =
+      good(kFlat + body_text(bat + "\"ball\"\nfollow_axes = [0, 1]\n") + ball + kShow);
   EXPECT_EQ(s.bodies[0].brain, Brain::follow);
   EXPECT_EQ(s.bodies[0].follows, 1u);
   EXPECT_EQ(s.bodies[0].brain_axes, Vec<3>(0, 1, 0));
   EXPECT_EQ(s.bodies[0].brain_speed, 3);
   EXPECT_EQ(s.bodies[0].velocity, Vec<3>(0.0));
-  EXPECT_EQ(good(kFlat + body(bat + "\"ball\"\n") + ball + kShow).bodies[0].brain_axes,
+  EXPECT_EQ(good(kFlat + body_text(bat + "\"ball\"\n") + ball + kShow).bodies[0].brain_axes,
             Vec<3>(1.0));
-  expect_mistakes(kFlat + body(bat + "@\"bal\"\n") + ball + kShow, {"did you mean 'ball'?"});
-  expect_mistakes(kFlat + body(bat + "@\"a\"\n") + ball + kShow, {"cannot follow itself"});
-  expect_mistakes(kFlat + body(bat + "@\"dot\"\n") +
+  expect_mistakes(kFlat + body_text(bat + "@\"bal\"\n") + ball + kShow, {"did you mean 'ball'?"});
+  expect_mistakes(kFlat + body_text(bat + "@\"a\"\n") + ball + kShow, {"cannot follow itself"});
+  expect_mistakes(kFlat + body_text(bat + "@\"dot\"\n") +
                       "[[pattern]]\nname = \"dot\"\ncount = 2\nradius = 1\n" + kShow,
                   {"'dot1' to 'dot2'"});
-  expect_mistakes(kFlat + body(bat + "\"ball\"\nfollow_axes = @[0.5, 1]\n") + ball + kShow,
+  expect_mistakes(kFlat + body_text(bat + "\"ball\"\nfollow_axes = @[0.5, 1]\n") + ball + kShow,
                   {"it takes 0 or 1"});
-  expect_mistakes(kFlat + body("radius = 1\nspeed = 3\n@follow = \"ball\"\n") + ball + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\nspeed = 3\n@follow = \"ball\"\n") + ball + kShow,
                   {"kind = \"kinematic\""});
   expect_mistakes(
-      kFlat + body("radius = 1\nkind = \"kinematic\"\n@follow = \"ball\"\n") + ball + kShow,
+      kFlat + body_text("radius = 1\nkind = \"kinematic\"\n@follow = \"ball\"\n") + ball + kShow,
       {"needs a 'speed'"});
-  expect_mistakes(kFlat + body("radius = 1\n@follow_axes = [1, 1]\n") + kShow,
+  expect_mistakes(kFlat + body_text("radius = 1\n@follow_axes = [1, 1]\n") + kShow,
                   {"without 'follow'"});
-  expect_mistakes(kFlat + body("radius = 1\n@speed = 1\n") + kShow, {"velocity"});
+  expect_mistakes(kFlat + body_text("radius = 1\n@speed = 1\n") + kShow, {"velocity"});
 }
 
 TEST(Bodies, Wander) {
   const BodySpec b = flat_body("radius = 1\nwander = true\nspeed = 3\n");
   EXPECT_EQ(b.brain, Brain::wander);
   EXPECT_EQ(b.brain_speed, 3);
-  expect_mistakes(kFlat + body("radius = 1\n@wander = true\n") + kShow, {"needs a 'speed'"});
-  expect_mistakes(kFlat + body("radius = 1\nstatic = true\n@wander = true\nspeed = 1\n") + kShow,
-                  {"a static body does not wander"});
+  expect_mistakes(kFlat + body_text("radius = 1\n@wander = true\n") + kShow, {"needs a 'speed'"});
+  expect_mistakes(
+      kFlat + body_text("radius = 1\nstatic = true\n@wander = true\nspeed = 1\n") + kShow,
+      {"a static body does not wander"});
   expect_mistakes(
       kFlat +
-          body("radius = 1\nkind = \"kinematic\"\nspeed = 1\nfollow = \"b\"\n@wander = true\n") +
+          body_text(
+              "radius = 1\nkind = \"kinematic\"\nspeed = 1\nfollow = \"b\"\n@wander = true\n") +
           "[[body]]\nname = \"b\"\nradius = 1\nposition = [5, 5]\n" + kShow,
       {"either follows or wanders"});
 }
@@ -424,7 +428,8 @@ TEST(Level, IsOfAFlatWorldAndCompiledFirst) {
 }
 
 TEST(Chart, IsOfCountsThatTheStepsCount) {
-  const std::string scene = kFlat + "[structure]\nkind = \"brute_force\"\n" + body("radius = 1\n");
+  const std::string scene =
+      kFlat + "[structure]\nkind = \"brute_force\"\n" + body_text("radius = 1\n");
   const Scenario s =
       good(scene + "[chart]\nx = \"bodies\"\ny = [\"pairs\", \"all_pairs\"]\nlogarithmic = true\n" +
            kShow + "plot = \"one\"\n" + kShow);

@@ -12,7 +12,7 @@
 namespace lantern::test {
 namespace {
 
-const std::vector<std::string> kFlat = {
+const std::vector<std::string> kFlatKinds = {
     "brute_force", "sort_and_sweep", "quadtree", "kd_tree",
     "bsp\"\nplanes = [{ point = [16, 0], normal = [1, 0] }]\n#"};
 const std::vector<std::string> kSolidKinds = {"brute_force", "sort_and_sweep", "quadtree", "octree",
@@ -38,7 +38,7 @@ Scenario asked(bool solid, const std::string& kind, bool split, const std::strin
 void ask_all(const std::string& flat, const std::string& solid_question,
              const std::function<void(const Frame&)>& check) {
   for (const bool solid : {false, true})
-    for (const std::string& kind : solid ? kSolidKinds : kFlat)
+    for (const std::string& kind : solid ? kSolidKinds : kFlatKinds)
       for (const bool split : {false, true}) {
         SCOPED_TRACE(kind + (solid ? " solid" : " flat") + (split ? " split" : ""));
         const std::string& question = solid ? solid_question : flat;

@@ -9,7 +9,7 @@
 namespace lantern::test {
 namespace {
 
-const std::string kScene = R"(title = "x"
+const std::string kScriptScene = R"(title = "x"
 [world]
 size = [64, 64]
 time_step = 0.25
@@ -31,7 +31,7 @@ count = 3
 radius = 1
 )";
 
-const std::string kAtlas = R"(title = "x"
+const std::string kScriptAtlas = R"(title = "x"
 [atlas]
 size = [64, 32]
 [[texture]]
@@ -53,7 +53,7 @@ using Indices = std::vector<std::size_t>;
 
 TEST(Script, VerbsOfAWorld) {
   const Scenario s = good(
-      kScene +
+      kScriptScene +
       steps({"do = \"show\"\nname = \"a\"\npart = \"b\"\ncaption = \"c\"",
              "do = \"insert\"\nbodies = [\"dot\", \"red\"]\npace = \"event\"\nevents = [\"split\"]",
              "do = \"remove\"\nbodies = [\"dot2\"]", "do = \"move\"\nbody = \"red\"\nto = [3, 4]",
@@ -79,7 +79,7 @@ TEST(Script, VerbsOfAWorld) {
 
 TEST(Script, ARebuildKeepsWhatItDoesNotSay) {
   const Scenario s = good(
-      kScene +
+      kScriptScene +
       steps({"do = \"rebuild\"\nmax_depth = 3\nchildren = \"eager\"",
              "do = \"rebuild\"\nkind = \"bsp\"\nplanes = [{ point = [1, 2], normal = [0, 1] }, { "
              "name = \"b\", point = [3, 4], normal = [1, 0], at = \"front\" }]",
@@ -101,7 +101,7 @@ TEST(Script, ARebuildKeepsWhatItDoesNotSay) {
 }
 
 TEST(Script, VerbsOfAnAtlas) {
-  const Scenario s = good(kAtlas + steps({"do = \"pack\"\ntextures = [\"t\", \"A\"]\neach = false\n"
+  const Scenario s = good(kScriptAtlas + steps({"do = \"pack\"\ntextures = [\"t\", \"A\"]\neach = false\n"
                                           "free_name = \"C\"\nevents = [\"cut\"]",
                                           "do = \"ask_room\"\nsize = [7, 9]"}));
   const Pack pack = verb<Pack>(s, 0);
@@ -116,42 +116,42 @@ TEST(Script, VerbsOfAnAtlas) {
 
 TEST(Script, BodiesAreWhereTheScriptHasThem) {
   const std::string insert = "do = \"insert\"\nbodies = [\"red\"]";
-  expect_mistakes(kScene + steps({insert, "do = \"insert\"\nbodies = [\"wall\", @\"red\"]"}),
+  expect_mistakes(kScriptScene + steps({insert, "do = \"insert\"\nbodies = [\"wall\", @\"red\"]"}),
                   {"'red' is in the world already"});
-  expect_mistakes(kScene + steps({"do = \"insert\"\nbodies = [\"red\", @\"red\"]"}), {"already"});
-  expect_mistakes(kScene + steps({"do = \"insert\"\nbodies = [\"dot2\", @\"dot\"]"}),
+  expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"red\", @\"red\"]"}), {"already"});
+  expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"dot2\", @\"dot\"]"}),
                   {"'dot2' is in the world already"});
-  expect_mistakes(kScene + steps({"do = \"remove\"\nbodies = [@\"red\"]"}),
+  expect_mistakes(kScriptScene + steps({"do = \"remove\"\nbodies = [@\"red\"]"}),
                   {"'red' is not in the world at this step"});
-  expect_mistakes(kScene + steps({"do = \"move\"\nbody = @\"red\"\nto = [1, 1]"}),
+  expect_mistakes(kScriptScene + steps({"do = \"move\"\nbody = @\"red\"\nto = [1, 1]"}),
                   {"'red' is not in the world at this step"});
-  expect_mistakes(kScene + steps({insert, "do = \"remove\"\nbodies = [\"red\"]",
+  expect_mistakes(kScriptScene + steps({insert, "do = \"remove\"\nbodies = [\"red\"]",
                                   "do = \"move\"\nbody = @\"red\"\nto = [1, 1]"}),
                   {"insert it first"});
-  good(kScene + steps({insert, "do = \"remove\"\nbodies = [\"red\"]", insert}));
+  good(kScriptScene + steps({insert, "do = \"remove\"\nbodies = [\"red\"]", insert}));
 }
 
 TEST(Script, ATextureIsPackedOnce) {
-  expect_mistakes(kAtlas + steps({"do = \"pack\"\ntextures = [\"A\"]",
+  expect_mistakes(kScriptAtlas + steps({"do = \"pack\"\ntextures = [\"A\"]",
                                   "do = \"pack\"\ntextures = [\"t\", @\"A\"]"}),
                   {"'A' is packed already"});
 }
 
 TEST(Script, AMoveIsOfOneBodyThatCan) {
-  expect_mistakes(kScene + steps({"do = \"insert\"\nbodies = [\"dot\"]",
+  expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"dot\"]",
                                   "do = \"move\"\nbody = @\"dot\"\nto = [1, 1]"}),
                   {"its bodies are 'dot1' to 'dot3'"});
-  expect_mistakes(kScene + steps({"do = \"insert\"\nbodies = [\"wall\"]",
+  expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"wall\"]",
                                   "do = \"move\"\nbody = \"wall\"\nvelocity = @[1, 1]"}),
                   {"'wall' is static"});
-  good(kScene + steps({"do = \"insert\"\nbodies = [\"wall\"]",
+  good(kScriptScene + steps({"do = \"insert\"\nbodies = [\"wall\"]",
                        "do = \"move\"\nbody = \"wall\"\nto = [1, 1]\nvelocity = [0, 0]"}));
 }
 
 TEST(Script, ARunIsAWholeNumberOfTimeSteps) {
-  expect_mistakes(kScene + steps({"do = \"run\"\nseconds = @0.3"}),
+  expect_mistakes(kScriptScene + steps({"do = \"run\"\nseconds = @0.3"}),
                   {"0.25 s or 0.5 s would be 1 or 2"});
-  expect_mistakes(kScene + steps({"do = \"run\"\nseconds = @0.1"}), {"not a whole number"});
+  expect_mistakes(kScriptScene + steps({"do = \"run\"\nseconds = @0.1"}), {"not a whole number"});
   // A third of a second cannot be written as a decimal, but is meant.
   const std::string sixtieth = "title = \"x\"\n[world]\nsize = [1, 1]\n";
   good(sixtieth + steps({"do = \"run\"\nseconds = 0.3333333"}));
@@ -160,10 +160,10 @@ TEST(Script, ARunIsAWholeNumberOfTimeSteps) {
 
 TEST(Script, FramesOfAllStepsAreBounded) {
   const std::string run = "do = \"run\"\nseconds = 12500";  // 50000 time steps
-  good(kScene + steps({run, run}));
-  expect_mistakes(kScene + steps({run, run, "do = @\"show\"", "do = \"show\""}),
+  good(kScriptScene + steps({run, run}));
+  expect_mistakes(kScriptScene + steps({run, run, "do = @\"show\"", "do = \"show\""}),
                   {"100001 frames in all, the limit is 100000"});
-  expect_mistakes(kScene + steps({"do = \"run\"\nseconds = @25000.25"}), {"100001 frames in all"});
+  expect_mistakes(kScriptScene + steps({"do = \"run\"\nseconds = @25000.25"}), {"100001 frames in all"});
 }
 
 TEST(Script, WhatAllStepsNameIsBounded) {
@@ -203,7 +203,7 @@ TEST(Script, PlanesHaveFreePlacesBelowEarlierOnes) {
 
 TEST(Script, ExpectationsKeepTheirPlaces) {
   const Scenario s =
-      good(kScene + steps({"do = \"insert\"\nbodies = [\"red\", \"wall\"]\n"
+      good(kScriptScene + steps({"do = \"insert\"\nbodies = [\"red\", \"wall\"]\n"
                            "expect = { pairs = 1, nodes = 5, in_leaves = { wall = 2 }, pairs_are = "
                            "[[\"red\", \"wall\"]], position = { red = [1, 2] }, tolerance = 0.5 }\n"
                            "always = { all_pairs = 1 }"}));
@@ -226,49 +226,49 @@ TEST(Script, ExpectationsKeepTheirPlaces) {
   ASSERT_EQ(s.steps[0].always.size(), 1u);
   EXPECT_EQ(s.steps[0].always[0].name, "all_pairs");
   const Expectation strict =
-      good(kScene + steps({"do = \"show\"\nexpect = { position = { red = [1, 2] } }"}))
+      good(kScriptScene + steps({"do = \"show\"\nexpect = { position = { red = [1, 2] } }"}))
           .steps[0]
           .expect[0];
   EXPECT_EQ(strict.tolerance, 1e-9);
 }
 
 TEST(Script, NoPairsMayBePromised) {
-  const Scenario s = good(kScene + steps({"do = \"show\"\nexpect = { pairs_are = [] }"}));
+  const Scenario s = good(kScriptScene + steps({"do = \"show\"\nexpect = { pairs_are = [] }"}));
   ASSERT_EQ(s.steps[0].expect.size(), 1u) << "an empty list is a promise, too";
 }
 
 TEST(Script, OnlyWhatIsCountedCanBePromisedOrQuoted) {
-  expect_mistakes(kScene + steps({"do = \"show\"\nexpect = { @refused = 1 }"}), {"no [atlas]"});
-  expect_mistakes(kAtlas + steps({"do = \"show\"\nexpect = { @pairs = 1, nodes = 1 }"}),
+  expect_mistakes(kScriptScene + steps({"do = \"show\"\nexpect = { @refused = 1 }"}), {"no [atlas]"});
+  expect_mistakes(kScriptAtlas + steps({"do = \"show\"\nexpect = { @pairs = 1, nodes = 1 }"}),
                   {"an atlas has none"});
-  expect_mistakes(kAtlas + steps({"do = \"show\"\nexpect = { @room = 1 }\ncaption = \"@{room}\"",
+  expect_mistakes(kScriptAtlas + steps({"do = \"show\"\nexpect = { @room = 1 }\ncaption = \"@{room}\"",
                                   "do = \"ask_room\"\nsize = [1, 1]\nexpect = { room = 1 }",
                                   "do = \"show\"\nexpect = { room = 1 }"}),
                   {"no step has asked for room yet", "no step has asked for room yet"});
-  expect_mistakes(kScene + steps({"do = \"show\"\ncaption = \"{nodes}\"",
+  expect_mistakes(kScriptScene + steps({"do = \"show\"\ncaption = \"{nodes}\"",
                                   "do = \"rebuild\"\nkind = \"none\"\ncaption = \"@{nodes} "
                                   "{bodies} {all_pairs}\"\nexpect = { @in_leaves = { red = 1 } }"}),
                   {"there is no structure at this step", "there is no structure at this step"});
   expect_mistakes("title = \"x\"\n" + steps({"do = \"show\"\nexpect = { @bodies = 0 }"}),
                   {"no bodies"});
-  expect_mistakes(kScene + steps({"do = \"show\"\nexpect = { @pair = 0 }"}),
+  expect_mistakes(kScriptScene + steps({"do = \"show\"\nexpect = { @pair = 0 }"}),
                   {"did you mean 'pairs'?"});
-  expect_mistakes(kScene + steps({"do = \"show\"\nexpect = { @tolerance = 0.1 }"}),
+  expect_mistakes(kScriptScene + steps({"do = \"show\"\nexpect = { @tolerance = 0.1 }"}),
                   {"without a 'position'"});
-  expect_mistakes(kScene + steps({"do = \"show\"\nexpect = { in_leaves = { @dot = 1 } }"}),
+  expect_mistakes(kScriptScene + steps({"do = \"show\"\nexpect = { in_leaves = { @dot = 1 } }"}),
                   {"its bodies are 'dot1' to 'dot3'"});
 }
 
 TEST(Script, CaptionsAreCheckedBeforeAnythingRuns) {
   expect_mistakes(
-      kScene + steps({"do = \"show\"\ncaption = \"{pairs:pair}, @{piars} and @{texture}\""}),
+      kScriptScene + steps({"do = \"show\"\ncaption = \"{pairs:pair}, @{piars} and @{texture}\""}),
       {"did you mean 'pairs'?", "no [atlas]"});
   expect_mistakes(
-      kScene + steps({"do = \"show\"\ncaption = \"all {{ of }} @{time:second} @{ it\""}),
+      kScriptScene + steps({"do = \"show\"\ncaption = \"all {{ of }} @{time:second} @{ it\""}),
       {"it takes no noun", "a '{' without its '}'"});
-  expect_mistakes(kScene + steps({"do = \"show\"\ncaption = @\"\"\"\n{pairs} {piars}\"\"\""}),
+  expect_mistakes(kScriptScene + steps({"do = \"show\"\ncaption = @\"\"\"\n{pairs} {piars}\"\"\""}),
                   {"cannot quote 'piars'"});
-  good(kAtlas +
+  good(kScriptAtlas +
        steps({"do = \"show\"\ncaption = \"{texture} {refused_names} {refused:one/many}\""}));
 }
 

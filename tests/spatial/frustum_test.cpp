@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "geometry/random_vec.hpp"
 
 namespace lantern {
 namespace {
@@ -15,21 +16,15 @@ namespace {
 using std::numbers::pi;
 
 template <int D>
-Vec<D> vector(Random& random, double size) {
-  Vec<D> v;
-  for (int i = 0; i < D; ++i) v[i] = random.between(-size, size);
-  return v;
-}
-
-template <int D>
 Frustum<D> random_view(Random& random) {
   const double near = random.between(0, 2), far = near + random.between(0.5, 8);
   const double angle = random.between(0.1, 2.8);
   if constexpr (D == 2)
-    return view_wedge(vector<2>(random, 3), vector<2>(random, 1), angle, near, far);
+    return view_wedge(random_point<2>(random, -3, 3), random_point<2>(random, -1, 1), angle, near,
+                      far);
   else
-    return view_frustum(vector<3>(random, 3), vector<3>(random, 3), {0, 1, 0}, angle,
-                        random.between(0.4, 2), near, far);
+    return view_frustum(random_point<3>(random, -3, 3), random_point<3>(random, -3, 3), {0, 1, 0},
+                        angle, random.between(0.4, 2), near, far);
 }
 
 template <int D>
@@ -81,7 +76,8 @@ template <int D>
 void overlap_agrees_with_points(std::uint64_t seed) {
   Random random(seed);
   const Frustum<D> f = random_view<D>(random);
-  const Box<D> box = Box<D>::around(vector<D>(random, 6), glm::abs(vector<D>(random, 2)));
+  const Box<D> box =
+      Box<D>::around(random_point<D>(random, -6, 6), glm::abs(random_point<D>(random, -2, 2)));
   const bool said = overlap(f, box);
   EXPECT_TRUE(!said || may_overlap(f, box)) << "the cheap test must not refuse, seed " << seed;
   // Alternating projections between two convex bodies come as near to each other as they are.

@@ -16,7 +16,7 @@ using testing::picture_of;
 using testing::ReferenceTree;
 using testing::Sort;
 
-constexpr std::uint64_t kBudget = 4000;
+constexpr std::uint64_t kFewEntries = 4000;
 
 template <int D>
 typename Orthtree<D>::Config random_config(Sort sort, Random& random) {
@@ -26,7 +26,7 @@ typename Orthtree<D>::Config random_config(Sort sort, Random& random) {
   config.max_depth = static_cast<std::uint32_t>(random.whole(0, 10));
   config.eager_children = random.bits() % 2 == 0;
   config.no_progress_stop = random.bits() % 2 == 0;
-  config.most_entries = kBudget;
+  config.most_entries = kFewEntries;
   return config;
 }
 

@@ -1,5 +1,4 @@
 // Rays against shapes: closed forms, and points walked along the ray.
-#include "geometry/not_finite.hpp"
 #include "geometry/ray.hpp"
 
 #include <cmath>
@@ -9,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "geometry/not_finite.hpp"
+#include "geometry/random_vec.hpp"
 
 namespace lantern {
 namespace {
@@ -89,27 +90,23 @@ double outside(const Shape<D>& shape, const Vec<D>& position, const Rotation<D>&
   return glm::dot(std::get<HalfSpace<D>>(shape).normal, p);
 }
 
-template <int D>
-Vec<D> vector(Random& random, double size) {
-  Vec<D> v;
-  for (int i = 0; i < D; ++i) v[i] = random.between(-size, size);
-  return v;
-}
-
 Rotation<2> rotation(Random& random, Rotation<2>) { return {random.between(-7, 7)}; }
-Rotation<3> rotation(Random& random, Rotation<3> r) { return turned(r, vector<3>(random, 4)); }
+Rotation<3> rotation(Random& random, Rotation<3> r) {
+  return turned(r, random_point<3>(random, -4, 4));
+}
 
 template <int D>
 void entries_lie_on_surfaces(std::uint64_t seed) {
   Random random(seed);
-  const Vec<D> half = glm::abs(vector<D>(random, 3)) + 0.1;
+  const Vec<D> half = glm::abs(random_point<D>(random, -3, 3)) + 0.1;
   const std::array<Shape<D>, 5> shapes = {
       Sphere{half.x}, AxisBox<D>{half}, OrientedBox<D>{half}, Capsule{half.x, half.y},
-      HalfSpace<D>{glm::normalize(vector<D>(random, 1) + 1e-3)}};
+      HalfSpace<D>{glm::normalize(random_point<D>(random, -1, 1) + 1e-3)}};
   for (const Shape<D>& shape : shapes) {
-    const Vec<D> position = vector<D>(random, 5);
+    const Vec<D> position = random_point<D>(random, -5, 5);
     const Rotation<D> r = rotation(random, Rotation<D>{});
-    const Ray<D> ray{vector<D>(random, 10), vector<D>(random, 2) + 1e-3, random.between(0, 20)};
+    const Ray<D> ray{random_point<D>(random, -10, 10), random_point<D>(random, -2, 2) + 1e-3,
+                     random.between(0, 20)};
     const auto t = entry(ray, shape, position, r);
     const double end = std::min(t.value_or(ray.length), 1e3);
     for (int i = 0; i < 200; ++i) {
