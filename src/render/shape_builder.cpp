@@ -147,14 +147,14 @@ void ShapeBuilder::add(const TextShape& shape) {
   add_text(key, at, shape.role);
 }
 
-// The origin lies on a whole pixel vertically, on a quarter horizontally.
+// The origin lies on a whole pixel vertically, on one of kGlyphPlaces parts of it horizontally.
 void ShapeBuilder::add_text(const TextKey& key, const Vec<2>& at, Role role) {
   if (role == Role::none) return;
-  const auto quarters = static_cast<int>(rounded(4 * at.x));
+  const auto x = static_cast<int>(rounded(kGlyphPlaces * at.x));
   TextKey placed = key;
-  placed.quarter = quarters & 3;
+  placed.place = x & (kGlyphPlaces - 1);
   const Mask& mask = text_.mask(placed);
-  const int left = (quarters >> 2) + mask.left, top = static_cast<int>(rounded(at.y)) + mask.top;
+  const int left = (x >> kGlyphBits) + mask.left, top = static_cast<int>(rounded(at.y)) + mask.top;
   add_mask(paint(role, Role::none), mask.offset, {left, top, left + mask.width, top + mask.height});
 }
 

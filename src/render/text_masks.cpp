@@ -12,9 +12,10 @@ void TextMasks::forget() {
   glyphs_.clear();
 }
 
-const GlyphBitmap& TextMasks::glyph(int index, Weight weight, double pixels, int quarter) {
-  const auto [it, fresh] = glyphs_.try_emplace({index, weight, pixels, quarter});
-  if (fresh) it->second = rasterise_glyph(index, weight, pixels, 0.25 * quarter);
+const GlyphBitmap& TextMasks::glyph(int index, Weight weight, double pixels, int place) {
+  const auto [it, fresh] = glyphs_.try_emplace({index, weight, pixels, place});
+  if (fresh)
+    it->second = rasterise_glyph(index, weight, pixels, static_cast<double>(place) / kGlyphPlaces);
   return it->second;
 }
 
@@ -33,10 +34,10 @@ Mask TextMasks::letters(const TextKey& key) {
   std::vector<Placed> placed;
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   for (const PlacedGlyph& g : shape_text(key.text, key.pixels, key.weight)) {
-    const auto quarters = static_cast<int>(rounded(4 * g.x)) + key.quarter;
-    const GlyphBitmap& bitmap = glyph(g.glyph, key.weight, key.pixels, quarters & 3);
+    const int x = static_cast<int>(rounded(kGlyphPlaces * g.x)) + key.place;
+    const GlyphBitmap& bitmap = glyph(g.glyph, key.weight, key.pixels, x & (kGlyphPlaces - 1));
     if (bitmap.width == 0 || bitmap.height == 0) continue;
-    const Placed p{&bitmap, (quarters >> 2) + bitmap.left, bitmap.top};
+    const Placed p{&bitmap, (x >> kGlyphBits) + bitmap.left, bitmap.top};
     const bool first = placed.empty();
     x0 = first ? p.left : std::min(x0, p.left);
     y0 = first ? p.top : std::min(y0, p.top);

@@ -11,6 +11,10 @@
 
 namespace lantern {
 
+// Where a letter may stand between two pixels: fine enough that words neither jitter when they move
+// nor look unevenly spaced, coarse enough that a letter is drawn once for most of its places.
+inline constexpr int kGlyphBits = 4, kGlyphPlaces = 1 << kGlyphBits;
+
 // A mask in the store: `offset` is its first byte, its corner lies at (left, top) from the pixel
 // that holds the text's origin, y down. Empty for blanks.
 struct Mask {
@@ -18,15 +22,15 @@ struct Mask {
   int left = 0, top = 0, width = 0, height = 0;
 };
 
-// A line of text at an em of `pixels`, its origin `quarter` quarters of a pixel right of a whole
-// one. `halo` pixels wide around the letters, or the letters themselves when 0.
+// A line of text at an em of `pixels`, its origin `place` of kGlyphPlaces parts of a pixel right of
+// a whole one. `halo` pixels wide around the letters, or the letters themselves when 0.
 struct TextKey {
   std::string text;
   Weight weight = Weight::regular;
   double pixels = 0;
-  int quarter = 0;
+  int place = 0;
   double halo = 0;
-  auto tied() const { return std::tie(text, weight, pixels, quarter, halo); }
+  auto tied() const { return std::tie(text, weight, pixels, place, halo); }
   bool operator<(const TextKey& other) const { return tied() < other.tied(); }
 };
 
@@ -38,7 +42,7 @@ class TextMasks {
   const Mask& mask(const TextKey& key);
 
  private:
-  const GlyphBitmap& glyph(int index, Weight weight, double pixels, int quarter);
+  const GlyphBitmap& glyph(int index, Weight weight, double pixels, int place);
   Mask letters(const TextKey& key);
   Mask halo(const TextKey& key);
 
