@@ -5,6 +5,7 @@
 
 #include "draw/clip.hpp"
 #include "draw/plot_axes.hpp"
+#include "draw/plot_bands.hpp"
 #include "draw/plot_fan.hpp"
 #include "draw/plot_legend.hpp"
 #include "draw/plot_marks.hpp"
@@ -30,6 +31,7 @@ struct Placed {
   const PlotSeries* series = nullptr;
   std::vector<Vec<2>> points;  // that are joined
   std::vector<Vec<2>> beyond;  // at the upper edge
+  std::vector<bool> open;      // of the joined ones
   std::vector<std::pair<Vec<2>, std::string>> notes;
 };
 
@@ -120,8 +122,10 @@ class Drawing {
     area_.hi.y -= plot_ticks_height(type_) + (plot_.x_name.empty() ? 0 : 1.3 * plot_.size);
     area_.lo.y += 6;
     if (xs_.empty()) return;
-    strip_ = any_beyond_ ? beyond_rows() * 2.7 * radius() + 6 : 0;
-    ground_ = any_zero_ ? 2.7 * radius() + 10 : 0;
+    const auto is_beyond = [](const PlotPoint& p) { return p.beyond; };
+    const auto is_zero = [&](const PlotPoint& p) { return is_on_ground(p); };
+    strip_ = any_beyond_ ? rows_of(is_beyond) * row_height() + 6 : 0;
+    ground_ = any_zero_ ? rows_of(is_zero) * row_height() + 10 : 0;
     const double height = scale_height();
     y_ = {ys_.least, ys_.most, plot_.log_y, std::clamp(int(height / (2.1 * plot_.size)), 2, 9)};
     area_.lo.x += plot_ticks_width(y_, type_);
@@ -140,15 +144,18 @@ class Drawing {
     labels_.try_add(shortened(plot_.empty, room, style), {{area_.center(), 0.5}}, style, panel_);
   }
 
-  // Marks that would cover each other at the edge stand in rows.
+  // Marks that would cover each other at an edge stand in rows, one a series.
   static constexpr int kMostRows = 4;
-  int beyond_rows() const {
+  double row_height() const { return 2.7 * radius(); }
+  template <class Is>
+  int rows_of(const Is& is) const {
     int series = 0;
     for (const PlotSeries& s : plot_.series)
-      series += std::any_of(s.points.begin(), s.points.end(),
-                            [&](const PlotPoint& p) { return p.beyond && is_drawn(p); });
+      series +=
+          std::ranges::any_of(s.points, [&](const PlotPoint& p) { return is_drawn(p) && is(p); });
     return std::clamp(series, 1, kMostRows);
   }
+  bool is_on_ground(const PlotPoint& p) const { return !p.beyond && plot_.log_y && p.at.y <= 0; }
 
   double scale_height() const { return area_.size().y - strip_ - ground_; }
 
@@ -159,21 +166,28 @@ class Drawing {
   }
 
   void place_points() {
-    int row = 0;
+    int row = 0, ground_row = 0;
     for (const PlotSeries& series : plot_.series) {
       Placed placed;
       placed.series = &series;
+      bool any_zero = false;
       for (const PlotPoint& p : series.points) {
         if (!is_drawn(p)) continue;
+        Vec<2> place = at(p.at);
         if (p.beyond) {
-          placed.beyond.push_back(
-              {at(p.at).x, area_.lo.y + 3 + (2.7 * (row % kMostRows) + 1.35) * radius()});
-        } else {
-          placed.points.push_back(at(p.at));
-          if (!p.note.empty()) placed.notes.push_back({placed.points.back(), p.note});
+          place.y = area_.lo.y + 3 + (row % kMostRows + 0.5) * row_height();
+          placed.beyond.push_back(place);
+          continue;
         }
+        if (is_on_ground(p))
+          place.y = area_.hi.y - ground_ + 5 + (ground_row % kMostRows + 0.5) * row_height();
+        any_zero = any_zero || is_on_ground(p);
+        placed.points.push_back(place);
+        placed.open.push_back(p.open);
+        if (!p.note.empty()) placed.notes.push_back({place, p.note});
       }
-      row += placed.beyond.empty() ? 0 : 1;
+      row += !placed.beyond.empty();
+      ground_row += any_zero;
       placed_.push_back(std::move(placed));
     }
   }
@@ -252,11 +266,12 @@ class Drawing {
   }
 
   void draw_marks(const Placed& placed, PlotNamer& namer) {
-    for (const bool open : {false, true})
-      for (const Vec<2>& p : open ? placed.beyond : placed.points) {
-        draw_plot_mark(placed.series->look, p, radius(), open, list_);
-        namer.mark(p, 1.2 * radius());
-      }
+    const auto draw = [&](const Vec<2>& p, bool open) {
+      draw_plot_mark(placed.series->look, p, radius(), open, list_);
+      namer.mark(p, 1.2 * radius());
+    };
+    for (std::size_t i = 0; i < placed.points.size(); ++i) draw(placed.points[i], placed.open[i]);
+    for (const Vec<2>& p : placed.beyond) draw(p, true);
   }
 
   void name_strip(PlotNamer& namer) {
@@ -324,6 +339,7 @@ class Drawing {
 }  // namespace
 
 void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels) {
+  if (!plot.bands.empty()) return draw_banded_plot(plot, panel, list, labels);
   bool with_legend = plot.names == PlotNames::legend;
   if (plot.names == PlotNames::ends) {
     DrawList trial;
