@@ -14,7 +14,8 @@
 namespace lantern {
 namespace {
 
-constexpr double kLeastArea = 24;  // page units: what is smaller shows nothing
+constexpr double kMostOfEdge = 0.25;  // of the area's height, for marks at one of its edges
+constexpr double kLeastArea = 24;     // page units: what is smaller shows nothing
 
 struct Range {
   double least = 1e300, most = -1e300;
@@ -145,7 +146,9 @@ class Drawing {
   }
 
   // Marks that would cover each other at an edge stand in rows, one a series.
-  static constexpr int kMostRows = 4;
+  int most_rows() const {
+    return std::clamp(int(kMostOfEdge * (area_.size().y) / row_height()), 1, 8);
+  }
   double row_height() const { return 2.7 * radius(); }
   template <class Is>
   int rows_of(const Is& is) const {
@@ -153,7 +156,7 @@ class Drawing {
     for (const PlotSeries& s : plot_.series)
       series +=
           std::ranges::any_of(s.points, [&](const PlotPoint& p) { return is_drawn(p) && is(p); });
-    return std::clamp(series, 1, kMostRows);
+    return std::clamp(series, 1, most_rows());
   }
   bool is_on_ground(const PlotPoint& p) const { return !p.beyond && plot_.log_y && p.at.y <= 0; }
 
@@ -175,12 +178,12 @@ class Drawing {
         if (!is_drawn(p)) continue;
         Vec<2> place = at(p.at);
         if (p.beyond) {
-          place.y = area_.lo.y + 3 + (row % kMostRows + 0.5) * row_height();
+          place.y = area_.lo.y + 3 + (row % most_rows() + 0.5) * row_height();
           placed.beyond.push_back(place);
           continue;
         }
         if (is_on_ground(p))
-          place.y = area_.hi.y - ground_ + 5 + (ground_row % kMostRows + 0.5) * row_height();
+          place.y = area_.hi.y - ground_ + 5 + (ground_row % most_rows() + 0.5) * row_height();
         any_zero = any_zero || is_on_ground(p);
         placed.points.push_back(place);
         placed.open.push_back(p.open);

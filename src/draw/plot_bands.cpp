@@ -22,7 +22,7 @@ struct Band {
   std::string name;
   bool lowest = false;
   std::vector<Lane> lanes;
-  double top = 0, bottom = 0;  // page units
+  double top = 0, bottom = 0, named_to = 0;  // page units
 };
 
 class BandDrawing {
@@ -43,7 +43,7 @@ class BandDrawing {
     draw_plot_axes(x_, PlotScale(), {area_, 0, 0}, panel_, type_, list_, labels_);
     labels_.try_add(shortened(plot_.x_name, area_.size().x, type_.tick),
                     {{{area_.center().x, below - 0.3 * type_.tick.size}, 0.5}}, type_.tick, panel_);
-    for (const Band& band : bands_) draw_band(band);
+    for (Band& band : bands_) draw_band(band);
     draw_front();
     for (const Band& band : bands_)
       for (const Lane& lane : band.lanes) draw_lane(lane, !band.lowest);
@@ -130,7 +130,7 @@ class BandDrawing {
 
   double x_of(double value) const { return area_.lo.x + x_.share(value) * area_.size().x; }
 
-  void draw_band(const Band& band) {
+  void draw_band(Band& band) {
     if (&band != &bands_.front())
       list_.shapes.emplace_back(
           LineShape{{area_.lo.x, band.top}, {area_.hi.x, band.top}, {Role::ink, 1.2, 0}, true});
@@ -138,6 +138,7 @@ class BandDrawing {
     style.size = type_.tick.size;
     style.halo = Role::panel;
     const std::string name = band.lanes.empty() ? band.name + ": none" : band.name;
+    band.named_to = area_.lo.x + 8 + text_width(name, style);
     labels_.try_add(shortened(name, area_.size().x - 16, style),
                     {{{area_.lo.x + 8, band.top + 1.08 * style.size}, 0}}, style, area_);
   }
@@ -162,7 +163,9 @@ class BandDrawing {
     style.halo = Role::panel;
     const double y = band.top + 1.08 * style.size;
     if (!plot_.front_name.empty())
-      labels_.try_add(plot_.front_name, {{{x, y}, 0.5}, {{x, y}, 0}, {{x, y}, 1}}, style, area_);
+      labels_.try_add(plot_.front_name,
+                      {{{x, y}, 0.5}, {{x, y}, 1}, {{std::max(x, band.named_to + 10), y}, 0}},
+                      style, area_);
   }
 
   void draw_lane(const Lane& lane, bool open) {

@@ -33,15 +33,20 @@ std::vector<Priced> best_of_each(std::span<const Row* const> rows, const Cost& c
 
 }  // namespace
 
+bool costs_the_same(const Timing& faster, const Timing& slower) {
+  return slower.median - faster.median <= std::max(faster.spread, slower.spread) &&
+         slower.least <= faster.median + faster.spread;
+}
+
 std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Cost& cost,
                                       bool timed) {
   std::vector<Priced> best = best_of_each(rows, cost);
   std::ranges::stable_sort(best, is_less);
   std::vector<const Row*> group;
   for (const Priced& one : best) {
-    const double spread =
-        timed ? std::max(one.row->timing.spread, best[0].row->timing.spread) : 0.0;
-    if (one.cost - best[0].cost <= spread || &one == &best[0]) group.push_back(one.row);
+    const Priced& first = best[0];
+    if (timed ? costs_the_same(first.row->timing, one.row->timing) : one.cost == first.cost)
+      group.push_back(one.row);
   }
   return group;
 }

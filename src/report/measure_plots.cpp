@@ -11,6 +11,7 @@
 #include "draw/font.hpp"
 #include "draw/plot_legend.hpp"
 #include "report/outcome_plot.hpp"
+#include "report/page_foot.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern {
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kPlotMargin = 60;
 constexpr double kTitleLine = 58;
-constexpr double kCaption = 25;
 constexpr std::size_t kMostNamedLanes = 16;
 constexpr const char* kSeconds = "seconds for the whole run, median";
 constexpr double kFarOff =
@@ -102,32 +102,6 @@ void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
                   file_name(problem));
   labels.add(shortened(rest, band.hi.x - x, quiet), {{x, kTitleLine}, 0}, quiet, band);
   add_rule(list, 78);
-}
-
-// The sentence and the circumstances; gives the y above them.
-double draw_foot(const ProblemRows& problem, const Circumstances& circumstances, DrawList& list,
-                 Labels& labels) {
-  TextStyle style{kCaption, Weight::regular, Role::ink, Role::none};
-  const TextStyle quiet{kLeastLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
-  const double width = list.page.x - 2 * kPlotMargin, line = 36;
-  const std::string text = sentence(problem);
-  std::vector<std::string> lines = wrapped(text, width, style);
-  if (lines.size() > 2) {
-    style.size = kLeastCaption;
-    lines = wrapped(text, width, style);
-  }
-  if (lines.size() > 3) lines = {lines[0], lines[1], shortened(lines[2] + " …", width, style)};
-  const double top = list.page.y - 62 - line * static_cast<double>(lines.size());
-  const Box<2> band{{kPlotMargin, top}, {list.page.x - kPlotMargin, list.page.y - 14}};
-  double y = top + 36;
-  for (const std::string& words : lines) {
-    labels.add(words, {{kPlotMargin, y}, 0}, style, band);
-    y += line;
-  }
-  labels.add(shortened(circumstances_text(circumstances), width, quiet),
-             {{kPlotMargin, list.page.y - 26}, 0}, quiet, band);
-  add_rule(list, top);
-  return top;
 }
 
 std::string error_words(const ProblemRows& problem) {
@@ -266,7 +240,10 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
   DrawList list;
   Labels labels(list);
   draw_title(problem, list, labels);
-  const double bottom = draw_foot(problem, measurement.circumstances, list, labels) - 18;
+  const double bottom =
+      draw_page_foot(sentence(problem), circumstances_text(measurement.circumstances), kPlotMargin,
+                     list, labels) -
+      18;
   auto [left, right] = plots_of(problem, looks);
   // Lanes are named beside them, and need no legend while there is room for the names.
   const bool has_lanes = !left.bands.empty() && left.series.size() <= kMostNamedLanes;

@@ -116,8 +116,8 @@ class Page {
   }
 
   void rule(double y, double weight = 1.4) {
-    list_.shapes.emplace_back(
-        LineShape{{kOverviewMargin, y}, {width_ - kOverviewMargin, y}, {Role::ink, weight, 0}, true});
+    list_.shapes.emplace_back(LineShape{
+        {kOverviewMargin, y}, {width_ - kOverviewMargin, y}, {Role::ink, weight, 0}, true});
   }
 
   double draw_head() {
@@ -129,7 +129,8 @@ class Page {
         "upwards, its seconds to the right, both logarithmic; lower left is better.",
         problems_.size(), measurement_.rows.size());
     labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
-                {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none}, place);
+                {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none},
+                place);
     rule(126, 2);
     return 140;
   }
@@ -139,10 +140,12 @@ class Page {
     draw_plot_legend(legend_, band(y, y + height), kSmall, list_, labels_);
     y += height + 4;
     const std::string rest =
-        "Dashed: other engines. Open marks at the upper edge: runs that diverged (placed by their "
-        "steps if not timed). Stairs: no run "
-        "has both less error and less time. Dashed grey: rounding floor, an estimate.";
-    labels_.add(shortened(rest, inner(), kQuiet), {{kOverviewMargin, y + 17}, 0}, kQuiet, band(y, y + 26));
+        "Dashed: other engines. Open marks: runs that diverged (placed by their steps if not "
+        "timed) "
+        "or were off. Stairs: no run has both less error and less time. Dashed grey: estimated "
+        "rounding floor.";
+    labels_.add(shortened(rest, inner(), kQuiet), {{kOverviewMargin, y + 17}, 0}, kQuiet,
+                band(y, y + 26));
     return y + 44;
   }
 

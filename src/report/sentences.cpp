@@ -17,13 +17,6 @@ bool meets(const Row& row, double bound) {
   return error && std::isfinite(*error) && *error <= bound;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
-}
-
 std::string count_text(double n, const std::string& name) {
   if (n == 1) return "1 " + name.substr(0, name.size() - 1);  // all names end with an s
   if (n < 1e6) return fmt::format("{:.0f} {}", n, name);
@@ -45,7 +38,7 @@ std::string price(const Row& row, const WorkCount& work, bool brief) {
 std::string peer_name(const Row& row) { return row.method + " " + row.version; }
 
 std::string name_of(const Row& row) {
-  return row.is_peer() ? "the peer " + peer_name(row) : method_words(row.method);
+  return row.is_peer() ? "the peer " + row.method : method_words(row.method);
 }
 
 // Of methods that are named by what they give: "impulses", "soft contacts (16 sub-steps)".
@@ -111,27 +104,31 @@ class Teller {
 
   std::string price_of(const Row& row) const { return price(row, work_, brief_); }
 
-  // "is velocity Verlet: 2 ms at ..."; of several, "are A (2 ms at ...) and B (...), which ...".
+  // "is velocity Verlet: 2 ms at ..."; of several, "are A with 2 ms at ... and B with ..., which".
   std::string with_verb(const Rows& rows) const {
     if (rows.size() > 1) return "are " + with_price(rows);
     const Row& row = *rows[0];
-    return fmt::format("is {}: {}", row.is_peer() ? peer_name(row) + ", a peer" : name_of(row),
-                       price_of(row));
+    const std::string name = row.is_peer() ? peer(row) + ", a peer" : name_of(row);
+    return fmt::format("is {}: {}", name, price_of(row));
   }
 
+  // Equals have no counted work beside: they would be told apart by it.
   std::string with_price(const Rows& rows) const {
     if (rows.size() == 1) return name_of(*rows[0]) + ": " + price_of(*rows[0]);
-    constexpr std::size_t kMostNamed = 4;
-    const bool timed = seconds_of(*rows[0]).has_value();
-    const std::size_t named = rows.size() > kMostNamed ? kMostNamed - 1 : rows.size();
+    const bool timed = seconds_of(*rows[0]).has_value(), each = timed && !brief_;
+    const std::size_t most = brief_ ? 2 : 4;
+    const std::size_t named = rows.size() > most ? most - 1 : rows.size();
     std::vector<std::string> names;
     for (std::size_t i = 0; i < named; ++i)
-      names.push_back(timed ? fmt::format("{} ({})", name_of(*rows[i]), price_of(*rows[i]))
-                            : name_of(*rows[i]));
+      names.push_back(each ? name_of(*rows[i]) + " with " + price(*rows[i], work_, true)
+                           : name_of(*rows[i]));
     if (named < rows.size()) names.push_back(fmt::format("{} others", rows.size() - named));
-    if (!timed) return listed(names) + ", equally: " + price_of(*rows[0]);
-    return listed(names) + ", which cost the same within the spread";
+    if (each) return listed(names) + ", which cost the same within the spread";
+    return listed(names) + ", equally: " + price_of(*rows[0]);
   }
+
+  // Where it is brief, a legend tells the version.
+  std::string peer(const Row& row) const { return brief_ ? row.method : peer_name(row); }
 
   std::string alone(const Row& row) const {
     const std::string name = method_words(row.method);
@@ -158,7 +155,7 @@ class Teller {
     const std::string which = methods_ == 0 ? limit() : *s ? "that do" : "that does";
     if (best.size() > 1)
       return fmt::format("{}; the cheapest peers {} are {}.", who, which, with_price(best));
-    return fmt::format("{}; the cheapest peer {} is {}: {}.", who, which, peer_name(*best[0]),
+    return fmt::format("{}; the cheapest peer {} is {}: {}.", who, which, peer(*best[0]),
                        price_of(*best[0]));
   }
 
@@ -210,6 +207,13 @@ std::vector<std::string> sentences(const Measurement& measurement) {
 }
 
 std::string short_sentence(const ProblemRows& problem) { return Teller(problem, true).text(); }
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
 
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
