@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/measure_unsuited.hpp"
 #include "app/report_folder.hpp"
 #include "app/table.hpp"
 #include "app/terminal.hpp"
@@ -76,9 +77,11 @@ PlanOptions plan_options(const MeasureOptions& options) {
   plan.peers = options.peers;
   plan.longest = options.longest;
   for (const std::string& name : options.methods) {
-    if (!can_be_measured_by(name))
+    if (!can_be_measured_by(name)) {
+      if (const auto words = about_peer(name, plan.scenarios)) throw UsageError(*words);
       throw UsageError(
           fmt::format("there is no method '{}'; {}", name, suggestion(name, method_names())));
+    }
     plan.methods.push_back(name);
   }
   for (const double step : options.steps) {
@@ -224,6 +227,9 @@ void save_pages(const ReportFolder& folder, const Measurement& m, const MeasureO
 int measure_problems(const MeasureOptions& options) {
   PlanOptions planned = plan_options(options);
   const ReportFolder folder(options.output);
+  // Of all problems some suit nobody: only who asks for a few is told.
+  const bool with_peers = planned.peers && !options.problems.empty();
+  for (const std::string& line : unsuited(planned.scenarios, planned.methods, with_peers)) say(line);
   Plan plan(std::move(planned), [](const Scenario&) {});
   Measuring measuring(plan, folder, options);
   measuring.run();

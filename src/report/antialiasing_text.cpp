@@ -96,15 +96,16 @@ std::string cheapest_picture(const PictureReport& report, const std::string& sce
   const PictureRow* best = rows[0];
   std::erase_if(rows,
                 [&](const PictureRow* row) { return !costs_the_same(best->timing, row->timing); });
+  const bool many = rows.size() > 1;
   std::vector<std::string> names;
   for (const PictureRow* row : rows)
-    names.push_back(fmt::format("{}{} {} ms a frame, off by {} levels", way(*row),
-                                rows.size() > 1 ? " with" : ":", short_number(milliseconds(*row)),
+    names.push_back(fmt::format("{}{} {} ms a frame{} {} levels", way(*row), many ? " with" : ":",
+                                short_number(milliseconds(*row)), many ? " and" : ", off by",
                                 short_number(row->error.rms)));
   std::string text =
       fmt::format("The cheapest way{} under {} levels RMS {} {}", rows.size() > 1 ? "s" : "", bound,
                   rows.size() > 1 ? "are" : "is", listed(names));
-  if (rows.size() > 1) text += ", which cost the same within the spread";
+  if (many) text += ", which cost the same within the spread";
   if (!never.empty())
     text += fmt::format("; {} never {} there", listed(never), never.size() > 1 ? "get" : "gets");
   return text + ".";

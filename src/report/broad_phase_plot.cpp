@@ -247,8 +247,8 @@ class Page {
     const TextStyle quiet{20, Weight::regular, Role::quiet_ink, Role::none};
     if (some_cut_back_)
       labels_.add(
-          "† The tree would hold more than 64 entries a body: it was built with half this depth "
-          "limit instead.",
+          "† The tree would hold more than 64 entries a body: its depth limit was halved until it "
+          "does not.",
           {{kGridMargin, std::min(y, 884.0)}, 0}, quiet, place);
   }
 
