@@ -22,7 +22,7 @@
 namespace lantern {
 namespace {
 
-constexpr double kSaveEvery = 5;                            // seconds
+constexpr double kSaveEvery = 5;                                   // seconds
 constexpr std::size_t kMostMeasureBytes = std::size_t{256} << 20;  // of an earlier measure.json
 
 std::string duration_text(double seconds) {
@@ -229,7 +229,8 @@ int measure_problems(const MeasureOptions& options) {
   const ReportFolder folder(options.output);
   // Of all problems some suit nobody: only who asks for a few is told.
   const bool with_peers = planned.peers && !options.problems.empty();
-  for (const std::string& line : unsuited(planned.scenarios, planned.methods, with_peers)) say(line);
+  for (const std::string& line : unsuited(planned.scenarios, planned.methods, with_peers))
+    say(line);
   Plan plan(std::move(planned), [](const Scenario&) {});
   Measuring measuring(plan, folder, options);
   measuring.run();
@@ -253,16 +254,15 @@ int measure_problems(const MeasureOptions& options) {
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems();
   std::vector<std::string> words = options.problems;
-  if (!words.empty() && (words[0] == "pictures" || words[0] == "broad_phase")) {
-    const bool pictures = words[0] == "pictures";
-    words.erase(words.begin());
-    if (pictures)
+  const std::string first = words.empty() ? "" : words[0];
+  if (first == "pictures" || first == "broad_phase") words.erase(words.begin());
+  try {
+    if (first == "pictures")
       return measure_pictures_command(
           {words, options.output, options.theme, options.full, options.json});
-    return measure_broad_phase_command(
-        {words, options.output, options.theme, options.full, options.json});
-  }
-  try {
+    if (first == "broad_phase")
+      return measure_broad_phase_command(
+          {words, options.output, options.theme, options.full, options.json});
     return measure_problems(options);
   } catch (const Refused& refused) {
     complain(refused.what());

@@ -31,18 +31,13 @@ class BandDrawing {
       : plot_(plot), panel_(panel), area_(panel), type_(plot.size), list_(list), labels_(labels) {}
 
   void draw() {
-    heading(plot_.title, type_.title);
-    heading(plot_.y_name, type_.tick);
-    sort_into_bands();
-    const double below = area_.hi.y;
-    area_.hi.y -= plot_ticks_height(type_) + (plot_.x_name.empty() ? 0 : 1.3 * plot_.size);
-    area_.lo.y += 6;
+    prepare();
     if (!(least_ <= most_)) return say_nothing();
-    lay_out();
     if (pitch_ < 3 || area_.size().x < 24) return;
     draw_plot_axes(x_, PlotScale(), {area_, 0, 0}, panel_, type_, list_, labels_);
     labels_.try_add(shortened(plot_.x_name, area_.size().x, type_.tick),
-                    {{{area_.center().x, below - 0.3 * type_.tick.size}, 0.5}}, type_.tick, panel_);
+                    {{{area_.center().x, below_ - 0.3 * type_.tick.size}, 0.5}}, type_.tick,
+                    panel_);
     for (Band& band : bands_) draw_band(band);
     draw_front();
     for (const Band& band : bands_)
@@ -50,13 +45,16 @@ class BandDrawing {
     for (const Band& band : bands_) name_points(band);
   }
 
+  bool names_lanes() {
+    prepare();
+    return named_;
+  }
+
  private:
   double radius() const {
     const double wanted = plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size;
     return std::min(wanted, 0.36 * pitch_);
   }
-  double heading_height() const { return 1.5 * type_.tick.size; }
-
   void heading(const std::string& text, const TextStyle& style) {
     if (text.empty()) return;
     labels_.add(shortened(text, panel_.size().x, style),
@@ -66,6 +64,16 @@ class BandDrawing {
 
   bool has_place(const PlotPoint& p) const {
     return std::isfinite(p.at.x) && (!plot_.log_x || p.at.x > 0);
+  }
+
+  void prepare() {
+    heading(plot_.title, type_.title);
+    heading(plot_.y_name, type_.tick);
+    sort_into_bands();
+    below_ = area_.hi.y;
+    area_.hi.y -= plot_ticks_height(type_) + (plot_.x_name.empty() ? 0 : 1.3 * plot_.size);
+    area_.lo.y += 6;
+    if (least_ <= most_) lay_out();  // else there is nothing to be seen
   }
 
   // The highest band first.
@@ -96,20 +104,23 @@ class BandDrawing {
     double lanes = 0;
     for (const Band& band : bands_) lanes += std::max(0.6, static_cast<double>(band.lanes.size()));
     const auto bands = static_cast<double>(bands_.size());
-    const double height = area_.size().y - bands * (heading_height() + 6);
+    // Where there is little room bands have no line of their own for their names.
+    heading_ = 1.5 * type_.tick.size;
+    if (bands * (heading_ + 6) > 0.5 * area_.size().y) heading_ = 0;
+    const double height = area_.size().y - bands * (heading_ + 6);
     pitch_ = std::min(height / lanes, 2.6 * plot_.size);
     const double air = (height - lanes * pitch_) / bands;
     named_ = plot_.names != PlotNames::none && pitch_ >= 1.12 * plot_.size;
-    area_.lo.x += named_ ? std::min(widest_name() + 12, kMostNames * panel_.size().x) : 0;
+    area_.lo.x += named_ ? std::min(widest_name() + 12, kMostNames * panel_.size().x)
+                         : 1.8 * radius();  // a mark at the axis stays in the panel
     area_.hi.x -= 0.9 * plot_.size;
     x_ = {least_, most_, plot_.log_x, std::clamp(int(area_.size().x / (3.6 * plot_.size)), 2, 10)};
     double y = area_.lo.y;
     for (Band& band : bands_) {
       band.top = y;
       for (std::size_t i = 0; i < band.lanes.size(); ++i)
-        band.lanes[i].y = y + heading_height() + air / 2 + (static_cast<double>(i) + 0.5) * pitch_;
-      y += heading_height() + 6 + air +
-           pitch_ * std::max(0.6, static_cast<double>(band.lanes.size()));
+        band.lanes[i].y = y + heading_ + air / 2 + (static_cast<double>(i) + 0.5) * pitch_;
+      y += heading_ + 6 + air + pitch_ * std::max(0.6, static_cast<double>(band.lanes.size()));
       band.bottom = y;
     }
   }
@@ -154,7 +165,7 @@ class BandDrawing {
   }
 
   void stripe(const Band& band, double x, double width) {
-    const Vec<2> from{x, band.top + heading_height()}, to{x, band.bottom - 3};
+    const Vec<2> from{x, band.top + heading_}, to{x, band.bottom - 3};
     for (const auto& [role, w] :
          {std::pair(Role::lit, width), std::pair(Role::lit_fill, 0.74 * width)})
       list_.shapes.emplace_back(LineShape{from, to, {role, w, 0}, false});
@@ -203,11 +214,18 @@ class BandDrawing {
   Labels& labels_;
   std::vector<Band> bands_;
   PlotScale x_;
-  double least_ = 1e300, most_ = -1e300, pitch_ = 0;
+  double least_ = 1e300, most_ = -1e300, pitch_ = 0, heading_ = 0, below_ = 0;
   bool named_ = false;
 };
 
 }  // namespace
+
+bool names_its_lanes(const Plot& plot, const Box<2>& panel) {
+  if (plot.bands.empty()) return false;
+  DrawList list;
+  Labels labels(list);
+  return BandDrawing(plot, panel, list, labels).names_lanes();
+}
 
 void draw_banded_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels) {
   BandDrawing(plot, panel, list, labels).draw();

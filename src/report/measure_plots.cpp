@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/plot_bands.hpp"
 #include "draw/plot_legend.hpp"
 #include "report/outcome_plot.hpp"
 #include "report/page_foot.hpp"
@@ -19,7 +20,6 @@ namespace {
 
 constexpr double kPlotMargin = 60;
 constexpr double kTitleLine = 58;
-constexpr std::size_t kMostNamedLanes = 16;
 constexpr const char* kSeconds = "seconds for the whole run, median";
 constexpr double kFarOff =
     1e3;  // errors beyond this are at the edge, or the others would be a line
@@ -245,18 +245,19 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
                      list, labels) -
       18;
   auto [left, right] = plots_of(problem, looks);
-  // Lanes are named beside them, and need no legend while there is room for the names.
-  const bool has_lanes = !left.bands.empty() && left.series.size() <= kMostNamedLanes;
-  const std::vector<LegendEntry> legend = has_lanes ? std::vector<LegendEntry>() : legend_of(left);
-  const double width = list.page.x - 2 * kPlotMargin, gap = 48;
-  const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
-  draw_plot_legend(legend, {{kPlotMargin, bottom - height}, {kPlotMargin + width, bottom}}, kLabel,
-                   list, labels);
-  const double middle = kPlotMargin + width / 2, low = bottom - height - 12;
+  const double width = list.page.x - 2 * kPlotMargin, middle = kPlotMargin + width / 2, gap = 48;
+  Box<2> left_panel{{kPlotMargin, 96}, {middle - gap / 2, bottom - 12}};
+  if (!names_its_lanes(left, left_panel)) {
+    const std::vector<LegendEntry> legend = legend_of(left);
+    const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
+    draw_plot_legend(legend, {{kPlotMargin, bottom - height}, {kPlotMargin + width, bottom}},
+                     kLabel, list, labels);
+    left_panel.hi.y -= height;
+    left.names = PlotNames::none;
+  }
   right.names = PlotNames::none;
-  if (!has_lanes) left.names = PlotNames::none;
-  draw_plot(left, {{kPlotMargin, 96}, {middle - gap / 2, low}}, list, labels);
-  draw_plot(right, {{middle + gap / 2, 96}, {kPlotMargin + width, low}}, list, labels);
+  draw_plot(left, left_panel, list, labels);
+  draw_plot(right, {{middle + gap / 2, 96}, {kPlotMargin + width, left_panel.hi.y}}, list, labels);
   return list;
 }
 

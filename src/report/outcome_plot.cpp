@@ -19,9 +19,9 @@ void put_into_bands(Plot& plot) {
       if (p.at.y > 1) p.note = figure(p.at.y);
     }
   plot.bands = {{"exact", 0, 0}, {"off by 1", 1, 1}};
-  for (double from = 2, to = 9; from <= most && to < 1e4; from = to + 1, to = 10 * to + 9)
+  for (double from = 2, to = 9; from <= most && to < 1e3; from = to + 1, to = 10 * to + 9)
     plot.bands.push_back({fmt::format("off by {} to {}", from, to), from, to});
-  if (most >= 1e4) plot.bands.push_back({"off by 10000 or more", 1e4, most});
+  if (most >= 1e3) plot.bands.push_back({"off by 1000 or more", 1e3, most});
   plot.guides.clear();
   plot.slopes.clear();
   plot.front_name = "cheapest";
