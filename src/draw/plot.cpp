@@ -51,10 +51,10 @@ class Drawing {
     place_points();
     draw_plot_axes(x_, y_, {area_, strip_, ground_}, panel_, PlotType(plot_.size), list_, labels_);
     draw_front();
-    PlotNamer namer(area_, labels_);
+    PlotNamer namer({area_.lo + Vec<2>{4, 0}, area_.hi}, labels_);  // off the axis
     draw_guides(namer);
     for (const Placed& placed : placed_) draw_line(placed, namer);
-    for (const Placed& placed : placed_) draw_marks(placed, namer);
+    for (std::size_t i = 0; i < placed_.size(); ++i) draw_marks(i, namer);
     name_strip(namer);
     for (std::size_t i = 0; i < guides_.size(); ++i) name_guide(i, namer);
     name_front(namer);
@@ -222,7 +222,7 @@ class Drawing {
     const double lift = front_width() / 2 + 0.35 * type_.tick.size;
     for (std::size_t i = front_.size(); i-- > 1;) {
       if (front_[i].y != front_[i - 1].y) continue;
-      const double right = std::min(front_[i].x, area_.hi.x) - 4;
+      const double right = std::min(front_[i].x - front_width() / 2, area_.hi.x) - 4;
       anchors.push_back({{right, front_[i].y - lift}, 1});
       anchors.push_back({{right, front_[i].y + lift + 0.7 * type_.tick.size}, 1});
     }
@@ -268,9 +268,23 @@ class Drawing {
     }
   }
 
-  void draw_marks(const Placed& placed, PlotNamer& namer) {
+  // Marks of one place are drawn the larger the more are on them, so that each is seen.
+  //
+  //     (<o>)
+  double mark_radius(std::size_t series, const Vec<2>& p) const {
+    constexpr double kRim = 0.32, kMostOver = 2;
+    double over = 0;
+    for (std::size_t i = series + 1; i < placed_.size(); ++i)
+      over += std::ranges::any_of(placed_[i].points, [&](const Vec<2>& q) {
+        return std::abs(p.x - q.x) + std::abs(p.y - q.y) < 0.3 * radius();
+      });
+    return radius() * (1 + kRim * std::min(over, kMostOver));
+  }
+
+  void draw_marks(std::size_t series, PlotNamer& namer) {
+    const Placed& placed = placed_[series];
     const auto draw = [&](const Vec<2>& p, bool open) {
-      draw_plot_mark(placed.series->look, p, radius(), open, list_);
+      draw_plot_mark(placed.series->look, p, open ? radius() : mark_radius(series, p), open, list_);
       namer.mark(p, 1.2 * radius());
     };
     for (std::size_t i = 0; i < placed.points.size(); ++i) draw(placed.points[i], placed.open[i]);

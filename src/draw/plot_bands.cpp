@@ -154,14 +154,16 @@ class BandDrawing {
                     {{{area_.lo.x + 8, band.top + 1.08 * style.size}, 0}}, style, area_);
   }
 
-  // A stripe through the band where its cheapest point is.
+  // A stripe through the band of the least error, at the point where it is had for the least. Who
+  // is wrong for less is no example.
   void draw_front() {
-    for (const Vec<2>& corner : plot_.front)
-      for (const PlotBand& range : plot_.bands) {
-        if (!range.holds(corner.y)) continue;
-        const auto band = std::ranges::find(bands_, range.name, &Band::name);
-        if (band != bands_.end()) stripe(*band, x_of(corner.x), 1.15 * 0.31 * plot_.size);
-      }
+    if (plot_.front.empty()) return;
+    const Vec<2>& best = plot_.front.back();
+    for (const PlotBand& range : plot_.bands) {
+      if (!range.holds(best.y)) continue;
+      const auto band = std::ranges::find(bands_, range.name, &Band::name);
+      if (band != bands_.end()) stripe(*band, x_of(best.x), 1.15 * 0.31 * plot_.size);
+    }
   }
 
   void stripe(const Band& band, double x, double width) {

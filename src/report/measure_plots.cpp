@@ -226,12 +226,13 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
     }
     plot.series.push_back(std::move(series));
   }
-  send_far_ones_off(plot);
+  const bool whole = has_whole_errors(problem);
+  if (!whole) send_far_ones_off(plot);
   add_slopes(orders, plot);
   if (most > 0) add_floor(problem, cost, least, most, plot);
   for (const std::size_t i : pareto_front(problem.rows, cost))
     plot.front.push_back({*cost(problem.rows[i]), *problem.rows[i].error()});
-  if (has_whole_errors(problem)) put_into_bands(plot);
+  if (whole) put_into_bands(plot);
   return plot;
 }
 
