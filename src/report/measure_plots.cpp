@@ -21,6 +21,7 @@ namespace {
 constexpr double kPlotMargin = 60;
 constexpr double kTitleLine = 58;
 constexpr const char* kSeconds = "seconds for the whole run, median";
+constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
 constexpr double kFarOff =
     1e3;  // errors beyond this are at the edge, or the others would be a line
 
@@ -221,8 +222,10 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
       }
     if (const auto order = observed_order(c.rows)) {
       if (with_orders) series.name += fmt::format(": order {:.2f}", *order);
-      const int whole = static_cast<int>(std::lround(*order));
-      if (!c.is_peer && whole >= 1 && whole <= 6 && !series.points.empty()) orders.insert(whole);
+      const int nearest = static_cast<int>(std::lround(*order));
+      const bool is_near = std::abs(*order - nearest) <= kNearOrder;
+      if (!c.is_peer && is_near && nearest >= 1 && nearest <= 6 && !series.points.empty())
+        orders.insert(nearest);
     }
     plot.series.push_back(std::move(series));
   }

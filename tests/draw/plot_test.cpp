@@ -223,6 +223,19 @@ TEST(BandedPlot, IsLaidOutAtAnySize) {
   }
 }
 
+TEST(Plot, NoMarkHidesAnotherOfTheSamePlace) {
+  Plot plot;
+  plot.names = PlotNames::none;
+  for (int s = 0; s < 2; ++s)
+    plot.series.push_back({"a", {{{1, 1}, false, ""}, {{100, s ? 1e-3 : 1e-2}, false, ""}}, 6});
+  std::vector<double> sizes;
+  for (const DrawShape& shape : drawn(plot).shapes)
+    if (place_of(shape, plot_role(6))) sizes.push_back(test::reach_of(shape).size().x);
+  ASSERT_EQ(sizes.size(), 4u);
+  EXPECT_GT(sizes[0], 1.2 * sizes[2]) << "the first mark is under the third and cannot be seen";
+  EXPECT_EQ(sizes[1], sizes[3]) << "marks by themselves are of one size";
+}
+
 TEST(Plot, AnEmptyOneSaysSo) {
   Plot plot;
   plot.empty = "no run was timed";
@@ -252,7 +265,7 @@ TEST(Plot, PeersAreDashed) {
   }
 }
 
-TEST(PlotScale, LogarithmicTicksArePowersOfTenWithinTheAxis) {
+TEST(PlotScale, LogarithmicTicksArePowersOfTenOrPartsWithinTheAxis) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const double least = std::pow(10, random.between(-20, 10));
@@ -260,17 +273,31 @@ TEST(PlotScale, LogarithmicTicksArePowersOfTenWithinTheAxis) {
     const int ticks = static_cast<int>(random.whole(2, 10));
     const PlotScale scale(least, most, true, ticks);
     ASSERT_GE(scale.ticks().size(), 2u) << least << " to " << most;
-    EXPECT_LE(scale.ticks().size(), static_cast<std::size_t>(std::max(2, ticks)));
+    EXPECT_LE(scale.ticks().size(), static_cast<std::size_t>(std::max(4, ticks)));
     EXPECT_GE(scale.share(least), 0);
     EXPECT_LE(scale.share(most), 1);
+    int powers = 0;
     for (const Axis::Tick& tick : scale.ticks()) {
-      const double power = std::log10(tick.value);
-      EXPECT_NEAR(power, std::round(power), 1e-9);
-      EXPECT_EQ(tick.text, power_of_ten(static_cast<int>(std::lround(power))));
+      const double power = std::floor(std::log10(tick.value) + 1e-9);
+      const double part = tick.value / std::pow(10, power);
+      const bool is_power = std::abs(part - 1) < 1e-9;
+      powers += is_power;
+      EXPECT_TRUE(is_power || std::abs(part - 2) < 1e-9 || std::abs(part - 5) < 1e-9) << tick.value;
+      if (is_power) {
+        EXPECT_EQ(tick.text, power_of_ten(static_cast<int>(std::lround(power))));
+      }
       EXPECT_GE(scale.share(tick.value), -1e-9) << least << " to " << most;
       EXPECT_LE(scale.share(tick.value), 1 + 1e-9) << least << " to " << most;
     }
+    if (powers > 1) {
+      EXPECT_EQ(static_cast<std::size_t>(powers), scale.ticks().size())
+          << "parts are only for axes with fewer than two powers of ten";
+    }
   }
+  const PlotScale parts(1.5e-3, 8e-3, true, 8);
+  ASSERT_EQ(parts.ticks().size(), 2u);
+  EXPECT_EQ(parts.ticks()[0].text, "2·10⁻³");
+  EXPECT_NEAR(parts.share(1.5e-3), 0.09, 0.04) << "the axis is much longer than its values need";
   EXPECT_EQ(power_of_ten(-12), "10⁻¹²");
   EXPECT_EQ(power_of_ten(0), "1");
   EXPECT_EQ(power_of_ten(1), "10");
