@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/clip.hpp"
 #include "draw/plot_axes.hpp"
 #include "draw/plot_bands.hpp"
 #include "draw/plot_fan.hpp"
 #include "draw/plot_legend.hpp"
+#include "draw/plot_lines.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_names.hpp"
 
@@ -50,14 +50,16 @@ class Drawing {
     if (scale_height() < kLeastArea || area_.size().x < kLeastArea) return;
     place_points();
     draw_plot_axes(x_, y_, {area_, strip_, ground_}, panel_, PlotType(plot_.size), list_, labels_);
-    draw_front();
+    const Box<2> under_strip{{area_.lo.x, area_.lo.y + strip_}, area_.hi};
+    front_.draw(on_page(plot_.front), under_strip, 1.15 * radius(), 0.3 * radius(), list_);
     PlotNamer namer({area_.lo + Vec<2>{4, 0}, area_.hi}, labels_);  // off the axis
     draw_guides(namer);
     for (const Placed& placed : placed_) draw_line(placed, namer);
     for (std::size_t i = 0; i < placed_.size(); ++i) draw_marks(i, namer);
     name_strip(namer);
-    for (std::size_t i = 0; i < guides_.size(); ++i) name_guide(i, namer);
-    name_front(namer);
+    for (std::size_t i = 0; i < guides_.size(); ++i)
+      guides_[i].name(plot_.guides[i].name, type_.tick, namer);
+    front_.name(plot_.front_name, type_.tick, namer);
     draw_slopes(namer);
     if (!with_legend && plot_.names == PlotNames::ends)
       for (const Placed& placed : placed_) all_named_ &= name_end(placed, namer);
@@ -69,7 +71,6 @@ class Drawing {
  private:
   double radius() const { return plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size; }
   double width() const { return 0.44 * radius(); }
-  double front_width() const { return 1.15 * radius(); }
 
   bool is_drawn(const PlotPoint& p) const {
     if (!std::isfinite(p.at.x) || (plot_.log_x && p.at.x <= 0)) return false;
@@ -195,68 +196,16 @@ class Drawing {
     }
   }
 
-  void draw_front() {
-    std::vector<Vec<2>> steps;
-    for (const Vec<2>& corner : plot_.front) {
-      const Vec<2> p = at(corner);
-      if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-      if (!steps.empty()) steps.push_back({p.x, steps.back().y});
-      steps.push_back(p);
-    }
-    if (steps.empty()) return;
-    steps.insert(steps.begin(), {steps.front().x, area_.lo.y + strip_});
-    steps.push_back({area_.hi.x, steps.back().y});
-    const Box<2> inside = shrunk(area_, front_width() / 2 + 1);
-    const double rim = 0.3 * radius();
-    for (const auto& [role, width] :
-         {std::pair(Role::lit, front_width()), std::pair(Role::lit_fill, front_width() - rim)})
-      for (std::size_t i = 1; i < steps.size(); ++i)
-        if (const auto part = cut_line(steps[i - 1], steps[i], inside))
-          list_.shapes.emplace_back(LineShape{part->first, part->second, {role, width, 0}, false});
-    front_ = std::move(steps);
-  }
-
-  // Along the last step, else along the others.
-  void name_front(PlotNamer& namer) {
-    std::vector<Anchor> anchors;
-    const double lift = front_width() / 2 + 0.35 * type_.tick.size;
-    for (std::size_t i = front_.size(); i-- > 1;) {
-      if (front_[i].y != front_[i - 1].y) continue;
-      const double right = std::min(front_[i].x - front_width() / 2, area_.hi.x) - 4;
-      anchors.push_back({{right, front_[i].y - lift}, 1});
-      anchors.push_back({{right, front_[i].y + lift + 0.7 * type_.tick.size}, 1});
-    }
-    TextStyle style = type_.tick;
-    style.role = Role::lit_ink;
-    namer.name(plot_.front_name, anchors, style, 0);
+  std::vector<Vec<2>> on_page(const std::vector<Vec<2>>& values) const {
+    std::vector<Vec<2>> points;
+    for (const Vec<2>& value : values) points.push_back(at(value));
+    return points;
   }
 
   void draw_guides(PlotNamer& namer) {
     const Box<2> inside{{area_.lo.x, area_.lo.y + strip_}, {area_.hi.x, area_.hi.y - ground_}};
-    for (const PlotGuide& guide : plot_.guides) {
-      std::vector<std::pair<Vec<2>, Vec<2>>> parts;
-      for (std::size_t i = 1; i < guide.points.size(); ++i)
-        if (const auto part = cut_line(at(guide.points[i - 1]), at(guide.points[i]), inside)) {
-          parts.push_back(*part);
-          namer.cross(part->first, part->second);
-          list_.shapes.emplace_back(
-              LineShape{part->first, part->second, {Role::quiet_ink, 1.5, 7}, false});
-        }
-      guides_.push_back(std::move(parts));
-    }
-  }
-
-  void name_guide(std::size_t i, PlotNamer& namer) {
-    if (guides_[i].empty()) return;
-    TextStyle style = type_.tick;
-    std::vector<Anchor> anchors;
-    for (const double t : {0.98, 0.02, 0.75, 0.25, 0.5})
-      for (const double lift : {-0.45, 1.05}) {
-        const auto& part = guides_[i][t > 0.5 ? guides_[i].size() - 1 : 0];
-        const Vec<2> p = part.first + t * (part.second - part.first);
-        anchors.push_back({p + Vec<2>{0, lift * style.size}, t});
-      }
-    namer.name(plot_.guides[i].name, anchors, style, 3);
+    for (const PlotGuide& guide : plot_.guides)
+      guides_.emplace_back().draw(on_page(guide.points), inside, namer, list_);
   }
 
   void draw_line(const Placed& placed, PlotNamer& namer) {
@@ -284,8 +233,9 @@ class Drawing {
   void draw_marks(std::size_t series, PlotNamer& namer) {
     const Placed& placed = placed_[series];
     const auto draw = [&](const Vec<2>& p, bool open) {
-      draw_plot_mark(placed.series->look, p, open ? radius() : mark_radius(series, p), open, list_);
-      namer.mark(p, 1.2 * radius());
+      const double size = open ? radius() : mark_radius(series, p);
+      draw_plot_mark(placed.series->look, p, size, open, list_);
+      namer.mark(p, 1.2 * size);
     };
     for (std::size_t i = 0; i < placed.points.size(); ++i) draw(placed.points[i], placed.open[i]);
     for (const Vec<2>& p : placed.beyond) draw(p, true);
@@ -349,8 +299,8 @@ class Drawing {
   double strip_ = 0, ground_ = 0;  // heights of what lies above the scale of y, and below it
   bool any_beyond_ = false, any_zero_ = false, all_named_ = true;
   std::vector<Placed> placed_;
-  std::vector<Vec<2>> front_;
-  std::vector<std::vector<std::pair<Vec<2>, Vec<2>>>> guides_;
+  PlotFront front_;
+  std::vector<PlotGuideLine> guides_;
 };
 
 }  // namespace
