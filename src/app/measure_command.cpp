@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/measure_unsuited.hpp"
 #include "app/report_folder.hpp"
 #include "app/table.hpp"
 #include "app/terminal.hpp"
@@ -21,7 +22,7 @@
 namespace lantern {
 namespace {
 
-constexpr double kSaveEvery = 5;                            // seconds
+constexpr double kSaveEvery = 5;                                   // seconds
 constexpr std::size_t kMostMeasureBytes = std::size_t{256} << 20;  // of an earlier measure.json
 
 std::string duration_text(double seconds) {
@@ -76,9 +77,11 @@ PlanOptions plan_options(const MeasureOptions& options) {
   plan.peers = options.peers;
   plan.longest = options.longest;
   for (const std::string& name : options.methods) {
-    if (!can_be_measured_by(name))
+    if (!can_be_measured_by(name)) {
+      if (const auto words = about_peer(name, plan.scenarios)) throw UsageError(*words);
       throw UsageError(
           fmt::format("there is no method '{}'; {}", name, suggestion(name, method_names())));
+    }
     plan.methods.push_back(name);
   }
   for (const double step : options.steps) {
@@ -224,6 +227,10 @@ void save_pages(const ReportFolder& folder, const Measurement& m, const MeasureO
 int measure_problems(const MeasureOptions& options) {
   PlanOptions planned = plan_options(options);
   const ReportFolder folder(options.output);
+  // Of all problems some suit nobody: only who asks for a few is told.
+  const bool with_peers = planned.peers && !options.problems.empty();
+  for (const std::string& line : unsuited(planned.scenarios, planned.methods, with_peers))
+    say(line);
   Plan plan(std::move(planned), [](const Scenario&) {});
   Measuring measuring(plan, folder, options);
   measuring.run();
@@ -247,16 +254,15 @@ int measure_problems(const MeasureOptions& options) {
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems();
   std::vector<std::string> words = options.problems;
-  if (!words.empty() && (words[0] == "pictures" || words[0] == "broad_phase")) {
-    const bool pictures = words[0] == "pictures";
-    words.erase(words.begin());
-    if (pictures)
+  const std::string first = words.empty() ? "" : words[0];
+  if (first == "pictures" || first == "broad_phase") words.erase(words.begin());
+  try {
+    if (first == "pictures")
       return measure_pictures_command(
           {words, options.output, options.theme, options.full, options.json});
-    return measure_broad_phase_command(
-        {words, options.output, options.theme, options.full, options.json});
-  }
-  try {
+    if (first == "broad_phase")
+      return measure_broad_phase_command(
+          {words, options.output, options.theme, options.full, options.json});
     return measure_problems(options);
   } catch (const Refused& refused) {
     complain(refused.what());

@@ -5,7 +5,9 @@
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "draw/page.hpp"
+#include "embedded/version.hpp"
 #include "report/antialiasing.hpp"
+#include "report/measure_plots.hpp"
 #include "scenario/director.hpp"
 
 namespace lantern {
@@ -26,13 +28,6 @@ PictureScene scene_of(const std::string& file, const PictureConfig& config) {
     return !interrupted();
   });
   return scene;
-}
-
-DrawList page_of(const Plot& plot) {
-  DrawList list;
-  Labels labels(list);
-  draw_plot(plot, {{60, 40}, list.page - Vec<2>(60, 40)}, list, labels);
-  return list;
 }
 
 }  // namespace
@@ -70,9 +65,10 @@ int measure_pictures_command(const MeasurePicturesOptions& options) {
   folder.write("pictures.txt", table);
   folder.write("pictures.csv", to_csv(report));
   folder.write("pictures.json", json);
+  const std::string circumstances = circumstances_text(here(kVersion));
   std::vector<ReportPage> pages;
   for (const std::string& scene : report.scenes)
-    pages.push_back({"pictures_" + scene, page_of(picture_plot(report, scene))});
+    pages.push_back({"pictures_" + scene, draw_picture_page(report, scene, circumstances)});
   folder.draw(pages, options.theme);
   write_stdout(options.json ? json : table);
   return kGood;

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/clip.hpp"
 #include "draw/plot_axes.hpp"
+#include "draw/plot_bands.hpp"
 #include "draw/plot_fan.hpp"
 #include "draw/plot_legend.hpp"
+#include "draw/plot_lines.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_names.hpp"
 
 namespace lantern {
 namespace {
 
-constexpr double kLeastArea = 24;  // page units: what is smaller shows nothing
+constexpr double kMostOfEdge = 0.25;  // of the area's height, for marks at one of its edges
+constexpr double kLeastArea = 24;     // page units: what is smaller shows nothing
 
 struct Range {
   double least = 1e300, most = -1e300;
@@ -30,6 +32,7 @@ struct Placed {
   const PlotSeries* series = nullptr;
   std::vector<Vec<2>> points;  // that are joined
   std::vector<Vec<2>> beyond;  // at the upper edge
+  std::vector<bool> open;      // of the joined ones
   std::vector<std::pair<Vec<2>, std::string>> notes;
 };
 
@@ -47,14 +50,16 @@ class Drawing {
     if (scale_height() < kLeastArea || area_.size().x < kLeastArea) return;
     place_points();
     draw_plot_axes(x_, y_, {area_, strip_, ground_}, panel_, PlotType(plot_.size), list_, labels_);
-    draw_front();
-    PlotNamer namer(area_, labels_);
+    const Box<2> under_strip{{area_.lo.x, area_.lo.y + strip_}, area_.hi};
+    front_.draw(on_page(plot_.front), under_strip, 1.15 * radius(), 0.3 * radius(), list_);
+    PlotNamer namer({area_.lo + Vec<2>{4, 0}, area_.hi}, labels_);  // off the axis
     draw_guides(namer);
     for (const Placed& placed : placed_) draw_line(placed, namer);
-    for (const Placed& placed : placed_) draw_marks(placed, namer);
+    for (std::size_t i = 0; i < placed_.size(); ++i) draw_marks(i, namer);
     name_strip(namer);
-    for (std::size_t i = 0; i < guides_.size(); ++i) name_guide(i, namer);
-    name_front(namer);
+    for (std::size_t i = 0; i < guides_.size(); ++i)
+      guides_[i].name(plot_.guides[i].name, type_.tick, namer);
+    front_.name(plot_.front_name, type_.tick, namer);
     draw_slopes(namer);
     if (!with_legend && plot_.names == PlotNames::ends)
       for (const Placed& placed : placed_) all_named_ &= name_end(placed, namer);
@@ -66,7 +71,6 @@ class Drawing {
  private:
   double radius() const { return plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size; }
   double width() const { return 0.44 * radius(); }
-  double front_width() const { return 1.15 * radius(); }
 
   bool is_drawn(const PlotPoint& p) const {
     if (!std::isfinite(p.at.x) || (plot_.log_x && p.at.x <= 0)) return false;
@@ -120,8 +124,10 @@ class Drawing {
     area_.hi.y -= plot_ticks_height(type_) + (plot_.x_name.empty() ? 0 : 1.3 * plot_.size);
     area_.lo.y += 6;
     if (xs_.empty()) return;
-    strip_ = any_beyond_ ? beyond_rows() * 2.7 * radius() + 6 : 0;
-    ground_ = any_zero_ ? 2.7 * radius() + 10 : 0;
+    const auto is_beyond = [](const PlotPoint& p) { return p.beyond; };
+    const auto is_zero = [&](const PlotPoint& p) { return is_on_ground(p); };
+    strip_ = any_beyond_ ? rows_of(is_beyond) * row_height() + 6 : 0;
+    ground_ = any_zero_ ? rows_of(is_zero) * row_height() + 10 : 0;
     const double height = scale_height();
     y_ = {ys_.least, ys_.most, plot_.log_y, std::clamp(int(height / (2.1 * plot_.size)), 2, 9)};
     area_.lo.x += plot_ticks_width(y_, type_);
@@ -140,15 +146,20 @@ class Drawing {
     labels_.try_add(shortened(plot_.empty, room, style), {{area_.center(), 0.5}}, style, panel_);
   }
 
-  // Marks that would cover each other at the edge stand in rows.
-  static constexpr int kMostRows = 4;
-  int beyond_rows() const {
+  // Marks that would cover each other at an edge stand in rows, one a series.
+  int most_rows() const {
+    return std::clamp(int(kMostOfEdge * (area_.size().y) / row_height()), 1, 8);
+  }
+  double row_height() const { return 2.7 * radius(); }
+  template <class Is>
+  int rows_of(const Is& is) const {
     int series = 0;
     for (const PlotSeries& s : plot_.series)
-      series += std::any_of(s.points.begin(), s.points.end(),
-                            [&](const PlotPoint& p) { return p.beyond && is_drawn(p); });
-    return std::clamp(series, 1, kMostRows);
+      series +=
+          std::ranges::any_of(s.points, [&](const PlotPoint& p) { return is_drawn(p) && is(p); });
+    return std::clamp(series, 1, most_rows());
   }
+  bool is_on_ground(const PlotPoint& p) const { return !p.beyond && plot_.log_y && p.at.y <= 0; }
 
   double scale_height() const { return area_.size().y - strip_ - ground_; }
 
@@ -159,87 +170,42 @@ class Drawing {
   }
 
   void place_points() {
-    int row = 0;
+    int row = 0, ground_row = 0;
     for (const PlotSeries& series : plot_.series) {
       Placed placed;
       placed.series = &series;
+      bool any_zero = false;
       for (const PlotPoint& p : series.points) {
         if (!is_drawn(p)) continue;
+        Vec<2> place = at(p.at);
         if (p.beyond) {
-          placed.beyond.push_back(
-              {at(p.at).x, area_.lo.y + 3 + (2.7 * (row % kMostRows) + 1.35) * radius()});
-        } else {
-          placed.points.push_back(at(p.at));
-          if (!p.note.empty()) placed.notes.push_back({placed.points.back(), p.note});
+          place.y = area_.lo.y + 3 + (row % most_rows() + 0.5) * row_height();
+          placed.beyond.push_back(place);
+          continue;
         }
+        if (is_on_ground(p))
+          place.y = area_.hi.y - ground_ + 5 + (ground_row % most_rows() + 0.5) * row_height();
+        any_zero = any_zero || is_on_ground(p);
+        placed.points.push_back(place);
+        placed.open.push_back(p.open);
+        if (!p.note.empty()) placed.notes.push_back({place, p.note});
       }
-      row += placed.beyond.empty() ? 0 : 1;
+      row += !placed.beyond.empty();
+      ground_row += any_zero;
       placed_.push_back(std::move(placed));
     }
   }
 
-  void draw_front() {
-    std::vector<Vec<2>> steps;
-    for (const Vec<2>& corner : plot_.front) {
-      const Vec<2> p = at(corner);
-      if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-      if (!steps.empty()) steps.push_back({p.x, steps.back().y});
-      steps.push_back(p);
-    }
-    if (steps.empty()) return;
-    steps.insert(steps.begin(), {steps.front().x, area_.lo.y + strip_});
-    steps.push_back({area_.hi.x, steps.back().y});
-    const Box<2> inside = shrunk(area_, front_width() / 2 + 1);
-    const double rim = 0.3 * radius();
-    for (const auto& [role, width] :
-         {std::pair(Role::lit, front_width()), std::pair(Role::lit_fill, front_width() - rim)})
-      for (std::size_t i = 1; i < steps.size(); ++i)
-        if (const auto part = cut_line(steps[i - 1], steps[i], inside))
-          list_.shapes.emplace_back(LineShape{part->first, part->second, {role, width, 0}, false});
-    front_ = std::move(steps);
-  }
-
-  // Along the last step, else along the others.
-  void name_front(PlotNamer& namer) {
-    std::vector<Anchor> anchors;
-    const double lift = front_width() / 2 + 0.35 * type_.tick.size;
-    for (std::size_t i = front_.size(); i-- > 1;) {
-      if (front_[i].y != front_[i - 1].y) continue;
-      const double right = std::min(front_[i].x, area_.hi.x) - 4;
-      anchors.push_back({{right, front_[i].y - lift}, 1});
-      anchors.push_back({{right, front_[i].y + lift + 0.7 * type_.tick.size}, 1});
-    }
-    TextStyle style = type_.tick;
-    style.role = Role::lit_ink;
-    namer.name(plot_.front_name, anchors, style, 0);
+  std::vector<Vec<2>> on_page(const std::vector<Vec<2>>& values) const {
+    std::vector<Vec<2>> points;
+    for (const Vec<2>& value : values) points.push_back(at(value));
+    return points;
   }
 
   void draw_guides(PlotNamer& namer) {
     const Box<2> inside{{area_.lo.x, area_.lo.y + strip_}, {area_.hi.x, area_.hi.y - ground_}};
-    for (const PlotGuide& guide : plot_.guides) {
-      std::vector<std::pair<Vec<2>, Vec<2>>> parts;
-      for (std::size_t i = 1; i < guide.points.size(); ++i)
-        if (const auto part = cut_line(at(guide.points[i - 1]), at(guide.points[i]), inside)) {
-          parts.push_back(*part);
-          namer.cross(part->first, part->second);
-          list_.shapes.emplace_back(
-              LineShape{part->first, part->second, {Role::quiet_ink, 1.5, 7}, false});
-        }
-      guides_.push_back(std::move(parts));
-    }
-  }
-
-  void name_guide(std::size_t i, PlotNamer& namer) {
-    if (guides_[i].empty()) return;
-    TextStyle style = type_.tick;
-    std::vector<Anchor> anchors;
-    for (const double t : {0.98, 0.02, 0.75, 0.25, 0.5})
-      for (const double lift : {-0.45, 1.05}) {
-        const auto& part = guides_[i][t > 0.5 ? guides_[i].size() - 1 : 0];
-        const Vec<2> p = part.first + t * (part.second - part.first);
-        anchors.push_back({p + Vec<2>{0, lift * style.size}, t});
-      }
-    namer.name(plot_.guides[i].name, anchors, style, 3);
+    for (const PlotGuide& guide : plot_.guides)
+      guides_.emplace_back().draw(on_page(guide.points), inside, namer, list_);
   }
 
   void draw_line(const Placed& placed, PlotNamer& namer) {
@@ -251,12 +217,28 @@ class Drawing {
     }
   }
 
-  void draw_marks(const Placed& placed, PlotNamer& namer) {
-    for (const bool open : {false, true})
-      for (const Vec<2>& p : open ? placed.beyond : placed.points) {
-        draw_plot_mark(placed.series->look, p, radius(), open, list_);
-        namer.mark(p, 1.2 * radius());
-      }
+  // Marks of one place are drawn the larger the more are on them, so that each is seen.
+  //
+  //     (<o>)
+  double mark_radius(std::size_t series, const Vec<2>& p) const {
+    constexpr double kRim = 0.32, kMostOver = 2;
+    double over = 0;
+    for (std::size_t i = series + 1; i < placed_.size(); ++i)
+      over += std::ranges::any_of(placed_[i].points, [&](const Vec<2>& q) {
+        return std::abs(p.x - q.x) + std::abs(p.y - q.y) < 0.3 * radius();
+      });
+    return radius() * (1 + kRim * std::min(over, kMostOver));
+  }
+
+  void draw_marks(std::size_t series, PlotNamer& namer) {
+    const Placed& placed = placed_[series];
+    const auto draw = [&](const Vec<2>& p, bool open) {
+      const double size = open ? radius() : mark_radius(series, p);
+      draw_plot_mark(placed.series->look, p, size, open, list_);
+      namer.mark(p, 1.2 * size);
+    };
+    for (std::size_t i = 0; i < placed.points.size(); ++i) draw(placed.points[i], placed.open[i]);
+    for (const Vec<2>& p : placed.beyond) draw(p, true);
   }
 
   void name_strip(PlotNamer& namer) {
@@ -317,13 +299,14 @@ class Drawing {
   double strip_ = 0, ground_ = 0;  // heights of what lies above the scale of y, and below it
   bool any_beyond_ = false, any_zero_ = false, all_named_ = true;
   std::vector<Placed> placed_;
-  std::vector<Vec<2>> front_;
-  std::vector<std::vector<std::pair<Vec<2>, Vec<2>>>> guides_;
+  PlotFront front_;
+  std::vector<PlotGuideLine> guides_;
 };
 
 }  // namespace
 
 void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels) {
+  if (!plot.bands.empty()) return draw_banded_plot(plot, panel, list, labels);
   bool with_legend = plot.names == PlotNames::legend;
   if (plot.names == PlotNames::ends) {
     DrawList trial;

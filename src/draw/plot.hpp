@@ -12,6 +12,7 @@ struct PlotPoint {
   Vec<2> at{0.0};       // x, y in the axes' units
   bool beyond = false;  // diverged: drawn as an open mark at the upper edge, whatever its y
   std::string note;     // written beside it if there is room; mostly empty
+  bool open = false;    // drawn as an open mark where it is
 };
 
 // Points of one contestant, joined in their order; those beyond stand alone.
@@ -37,6 +38,13 @@ struct PlotSlope {
   double exponent = 0;
 };
 
+// An outcome, of y from `least` to `most`: "exact" from 0 to 0.
+struct PlotBand {
+  std::string name;
+  double least = 0, most = 0;
+  bool holds(double y) const { return y >= least && y <= most; }
+};
+
 enum class PlotNames {
   ends,    // at the lines' ends where all have room, else in a legend below
   legend,  // in a legend below
@@ -51,6 +59,8 @@ struct Plot {
   std::vector<PlotSeries> series;
   std::vector<PlotGuide> guides;
   std::vector<PlotSlope> slopes;
+  std::vector<PlotBand>
+      bands;                  // the lowest first; if there are any, y is no scale (plot_bands.hpp)
   std::vector<Vec<2>> front;  // the Pareto front's corners, ascending in x; drawn as stairs
   std::string front_name = "Pareto front";
   PlotNames names = PlotNames::ends;
@@ -61,7 +71,8 @@ struct Plot {
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that
-// are not finite are left out; an empty plot says that there is nothing to see.
+// are not finite are left out, and those in none of the bands; an empty plot says that there is
+// nothing to see.
 void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels);
 
 }  // namespace lantern

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "draw/font.hpp"
 
 namespace lantern {
@@ -43,6 +45,7 @@ PlotScale::PlotScale(double least, double most, bool logarithmic, int most_ticks
   low_ = a - kAir * (b - a) - 0.05;
   high_ = b + kAir * (b - a) + 0.05;
   if (std::floor(high_) - std::ceil(low_) < 1) {  // fewer than two powers of ten on it
+    if (add_parts(b - a, most_ticks)) return;
     const double low = std::min(low_, std::floor(a));
     high_ = std::max(high_, std::floor(low + 0.999) + 1) + 0.06;
     low_ = low - 0.06;
@@ -54,6 +57,26 @@ PlotScale::PlotScale(double least, double most, bool logarithmic, int most_ticks
   const int begin = every * static_cast<int>(std::ceil(static_cast<double>(first) / every));
   for (int power = begin + every > last ? first : begin; power <= last; power += every)
     ticks_.push_back({value_of(power), power_of_ten(power)});
+}
+
+// Twice and five times the powers of ten too, where these alone would make the axis much longer
+// than its values need. False, and there are none, if that gives too few or too many ticks.
+bool PlotScale::add_parts(double decades, int most_ticks) {
+  constexpr double kLeastDecades = 0.7;  // less is a close look at nothing
+  if (decades < kLeastDecades) return false;
+  for (int power = static_cast<int>(std::floor(low_)); power <= high_; ++power)
+    for (const int part : {1, 2, 5}) {
+      const double at = power + std::log10(part), value = part * value_of(power);
+      if (at < low_ || at > high_) continue;
+      const bool is_plain = power >= -1 && power <= 1;  // 0.5, 2, 20
+      const std::string text = part == 1  ? power_of_ten(power)
+                               : is_plain ? fmt::format("{:g}", value)
+                                          : fmt::format("{}·{}", part, power_of_ten(power));
+      ticks_.push_back({value, text});
+    }
+  if (ticks_.size() >= 2 && static_cast<int>(ticks_.size()) <= std::max(4, most_ticks)) return true;
+  ticks_.clear();
+  return false;
 }
 
 double PlotScale::share(double value) const {

@@ -12,7 +12,8 @@ namespace lantern {
 // "10⁻⁵"; 1 and 10 as they are.
 std::string power_of_ten(int power);
 
-// One axis. A logarithmic one fits its values closely, with at least two powers of ten on it.
+// One axis. A logarithmic one fits its values closely. Its ticks are powers of ten, or, where fewer
+// than two are on it, these with twice and five times as much: "2·10⁻³".
 class PlotScale {
  public:
   PlotScale() = default;
@@ -29,6 +30,8 @@ class PlotScale {
   double decades() const { return high_ - low_; }  // of a logarithmic one
 
  private:
+  bool add_parts(double decades, int most_ticks);
+
   double low_ = 0, high_ = 1;
   bool logarithmic_ = false;
   std::vector<Axis::Tick> ticks_;

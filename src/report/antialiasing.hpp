@@ -75,6 +75,16 @@ Plot picture_plot(const PictureReport& report, const std::string& scene);
 // "ghost_quadtree: coverage is off by 1.1 levels in 2.1 ms; ..."
 std::string picture_sentence(const PictureReport& report, const std::string& scene);
 
+// "The cheapest way under 10 levels RMS is coverage 1 × 1: 2.1 ms a frame, off by 7.3 levels; cairo
+// none never gets there." Of the scene's timed rows; ways that cost the same within the spread of
+// their times (costs_the_same) are told as equals. Where none is under 10, the least of 20, 50, 100
+// and 255 that one is under. Without a timed row it says so.
+std::string cheapest_picture(const PictureReport& report, const std::string& scene);
+
+// A page of 1600 x 900: the plot, that sentence, and in small what drew it and where.
+DrawList draw_picture_page(const PictureReport& report, const std::string& scene,
+                           const std::string& circumstances);
+
 std::string to_table(const PictureReport& report);
 std::string to_csv(const PictureReport& report);
 std::string to_json(const PictureReport& report);  // lantern.measure.pictures/1

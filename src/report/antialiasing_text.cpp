@@ -5,7 +5,9 @@
 #include "base/json_writer.hpp"
 #include "draw/number_text.hpp"
 #include "report/antialiasing.hpp"
+#include "report/cheapest.hpp"
 #include "report/pareto.hpp"
+#include "report/sentences.hpp"
 
 namespace lantern {
 namespace {
@@ -19,6 +21,11 @@ std::string printed(std::string choice) {
     choice.replace(at, 3, " × ");
   return choice;
 }
+
+double rms_of(const PictureRow* row) { return row->error.rms; }
+
+// "coverage 2 × 2", "cairo best".
+std::string way(const PictureRow& row) { return row.family + " " + printed(row.choice); }
 
 const PictureRow* row_of(const PictureReport& report, const std::string& scene,
                          const std::string& family, const std::string& choice) {
@@ -72,6 +79,38 @@ Plot picture_plot(const PictureReport& report, const std::string& scene) {
   return plot;
 }
 
+std::string cheapest_picture(const PictureReport& report, const std::string& scene) {
+  std::vector<const PictureRow*> rows;
+  for (const PictureRow& row : report.rows)
+    if (row.scene == scene && row.part.empty() && is_timed(row)) rows.push_back(&row);
+  if (rows.empty()) return "No way of drawing was timed.";
+  const double least = std::ranges::min(rows, {}, rms_of)->error.rms;
+  double bound = 255;
+  for (const double levels : {100.0, 50.0, 20.0, 10.0})
+    if (least <= levels) bound = levels;
+  std::vector<std::string> never;
+  for (const PictureRow* row : rows)
+    if (row->error.rms > bound) never.push_back(way(*row));
+  std::erase_if(rows, [&](const PictureRow* row) { return row->error.rms > bound; });
+  std::ranges::stable_sort(rows, {}, [](const PictureRow* row) { return row->timing.median; });
+  const PictureRow* best = rows[0];
+  std::erase_if(rows,
+                [&](const PictureRow* row) { return !costs_the_same(best->timing, row->timing); });
+  const bool many = rows.size() > 1;
+  std::vector<std::string> names;
+  for (const PictureRow* row : rows)
+    names.push_back(fmt::format("{}{} {} ms a frame{} {} levels", way(*row), many ? " with" : ":",
+                                short_number(milliseconds(*row)), many ? " and" : ", off by",
+                                short_number(row->error.rms)));
+  std::string text =
+      fmt::format("The cheapest way{} under {} levels RMS {} {}", rows.size() > 1 ? "s" : "", bound,
+                  rows.size() > 1 ? "are" : "is", listed(names));
+  if (many) text += ", which cost the same within the spread";
+  if (!never.empty())
+    text += fmt::format("; {} never {} there", listed(never), never.size() > 1 ? "get" : "gets");
+  return text + ".";
+}
+
 std::string picture_sentence(const PictureReport& report, const std::string& scene) {
   const PictureRow* own = row_of(report, scene, "coverage", "1 x 1");
   if (own == nullptr) return "";
@@ -114,6 +153,7 @@ std::string to_table(const PictureReport& report) {
                                           1e3 * row.timing.least, 1e3 * row.timing.spread)
                             : fmt::format("{:>10}\n", "not timed");
     }
+    text += "  " + cheapest_picture(report, scene) + "\n";
     text += "  " + picture_sentence(report, scene) + "\n";
   }
   return text;
@@ -139,6 +179,8 @@ std::string to_json(const PictureReport& report) {
   json.line().member("sub_pixels", kReferenceTimes).member("backend", report.backend);
   json.line().member("cairo", report.cairo).line().key("sentences").begin_array();
   for (const std::string& scene : report.scenes) json.value(picture_sentence(report, scene));
+  json.end_array().line().key("cheapest").begin_array();
+  for (const std::string& scene : report.scenes) json.value(cheapest_picture(report, scene));
   json.end_array().line().key("rows").begin_array();
   for (const PictureRow& row : report.rows) {
     json.line().begin_object().member("scene", row.scene).member("part", row.part);

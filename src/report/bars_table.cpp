@@ -18,7 +18,10 @@ const TextStyle kQuiet{16, Weight::regular, Role::quiet_ink, Role::none};
 const TextStyle kText{16.5, Weight::regular, Role::ink, Role::none};
 const TextStyle kMissed{16.5, Weight::semibold, Role::ink, Role::none};
 
+// "1 hash" of hashes.
 std::string with_unit(const std::string& number, const std::string& unit) {
+  if (number == "1" && (unit.ends_with("shes") || unit.ends_with("xes")))
+    return number + " " + unit.substr(0, unit.size() - 2);
   return unit.empty() ? number : number + " " + unit;
 }
 

@@ -169,14 +169,14 @@ class GridPage {
     const GridTone& tone = tone_of(ratio);
     list_.shapes.emplace_back(
         RectShape{box, 0, tone.fill, {Role::paper, large ? 3.0 : 2.0, 0}, true});
-    const bool cut_back = large && was_cut_back(rows_, row);
+    const bool cut_back = was_cut_back(rows_, row);
+    const std::string mark = !cut_back ? "" : large ? " †" : "†";
     some_cut_back_ |= cut_back;
     if (&row != &best)
-      return cell_text(ratio_text(ratio) + (cut_back ? " †" : ""), box, large ? 23 : 17.4, tone.ink,
-                       false);
+      return cell_text(ratio_text(ratio) + mark, box, large ? 23 : 17.4, tone.ink, false);
 
-    if (!large) return cell_text(short_number(milliseconds(row)), box, 17.4, tone.ink, true);
-    cell_text(number_text(work_of(row)), box, 24, tone.ink, true);
+    if (!large) return cell_text(short_number(milliseconds(row)) + mark, box, 17.4, tone.ink, true);
+    cell_text(number_text(work_of(row)) + mark, box, 24, tone.ink, true);
   }
 
   void cell_text(const std::string& text, const Box<2>& box, double size, Role ink, bool bold) {
@@ -228,20 +228,28 @@ class GridPage {
     }
   }
 
+  // Three lines need smaller type, or there is no room for what the dagger means.
   void sentence() {
     rule(752);
-    const TextStyle style{28, Weight::regular, Role::ink, Role::none};
-    const Box<2> place{{kGridMargin, 756}, {list_.page.x - kGridMargin, 890}};
-    double y = 798;
-    for (const std::string& line :
-         wrapped(sentence_about(rows_, scene_, kind_), place.size().x, style)) {
-      labels_.add(line, {{kGridMargin, y}, 0}, style, place);
-      y += 42;
+    TextStyle style{28, Weight::regular, Role::ink, Role::none};
+    const Box<2> place{{kGridMargin, 756}, {list_.page.x - kGridMargin, 894}};
+    const std::string text = sentence_about(rows_, scene_, kind_);
+    std::vector<std::string> lines = wrapped(text, place.size().x, style);
+    if (lines.size() > 2) {
+      style.size = kLeastCaption;
+      lines = wrapped(text, place.size().x, style);
     }
+    double y = 756 + 1.5 * style.size;
+    for (const std::string& line : lines) {
+      labels_.add(line, {{kGridMargin, y}, 0}, style, place);
+      y += 1.45 * style.size;
+    }
+    const TextStyle quiet{20, Weight::regular, Role::quiet_ink, Role::none};
     if (some_cut_back_)
-      labels_.add("† out of proportion (over 64 entries a body): built with half the depth limit",
-                  {{kGridMargin, y - 4}, 0}, {20, Weight::regular, Role::quiet_ink, Role::none},
-                  place);
+      labels_.add(
+          "† The tree would hold more than 64 entries a body: its depth limit was halved until it "
+          "does not.",
+          {{kGridMargin, std::min(y, 884.0)}, 0}, quiet, place);
   }
 
   std::span<const BroadPhaseCost> rows_;

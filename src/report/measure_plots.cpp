@@ -4,11 +4,15 @@
 #include <cmath>
 #include <set>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/plot_bands.hpp"
 #include "draw/plot_legend.hpp"
+#include "report/outcome_plot.hpp"
+#include "report/page_foot.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern {
@@ -16,7 +20,8 @@ namespace {
 
 constexpr double kPlotMargin = 60;
 constexpr double kTitleLine = 58;
-constexpr double kCaption = 25;
+constexpr const char* kSeconds = "seconds for the whole run, median";
+constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
 constexpr double kFarOff =
     1e3;  // errors beyond this are at the edge, or the others would be a line
 
@@ -93,35 +98,11 @@ void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
   const std::string title = shortened(problem_words(problem), 0.6 * band.size().x, bold);
   labels.add(title, {{kPlotMargin, kTitleLine}, 0}, bold, band);
   const double x = kPlotMargin + text_width(title, bold) + 11;
-  const std::string rest = "·  error against cost  ·  " + file_name(problem);
+  const std::string rest =
+      fmt::format("·  {} against cost  ·  {}", has_whole_errors(problem) ? "outcome" : "error",
+                  file_name(problem));
   labels.add(shortened(rest, band.hi.x - x, quiet), {{x, kTitleLine}, 0}, quiet, band);
   add_rule(list, 78);
-}
-
-// The sentence and the circumstances; gives the y above them.
-double draw_foot(const ProblemRows& problem, const Circumstances& circumstances, DrawList& list,
-                 Labels& labels) {
-  TextStyle style{kCaption, Weight::regular, Role::ink, Role::none};
-  const TextStyle quiet{kLeastLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
-  const double width = list.page.x - 2 * kPlotMargin, line = 36;
-  const std::string text = sentence(problem);
-  std::vector<std::string> lines = wrapped(text, width, style);
-  if (lines.size() > 2) {
-    style.size = kLeastCaption;
-    lines = wrapped(text, width, style);
-  }
-  if (lines.size() > 3) lines = {lines[0], lines[1], shortened(lines[2] + " …", width, style)};
-  const double top = list.page.y - 62 - line * static_cast<double>(lines.size());
-  const Box<2> band{{kPlotMargin, top}, {list.page.x - kPlotMargin, list.page.y - 14}};
-  double y = top + 36;
-  for (const std::string& words : lines) {
-    labels.add(words, {{kPlotMargin, y}, 0}, style, band);
-    y += line;
-  }
-  labels.add(shortened(circumstances_text(circumstances), width, quiet),
-             {{kPlotMargin, list.page.y - 26}, 0}, quiet, band);
-  add_rule(list, top);
-  return top;
 }
 
 std::string error_words(const ProblemRows& problem) {
@@ -139,6 +120,57 @@ bool any_without(const Plot& plot) {
                      [](const PlotSeries& s) { return s.is_peer && s.points.empty(); });
 }
 
+Plot left_plot(const ProblemRows& problem, const std::map<std::string, int>& looks) {
+  Plot plot = cost_plot(problem, seconds_of, looks, true);
+  plot.title = "Error against time";
+  plot.x_name = kSeconds;
+  plot.y_name = error_words(problem);
+  plot.empty = "no run was timed";
+  return plot;
+}
+
+Plot right_plot(const ProblemRows& problem, const std::map<std::string, int>& looks) {
+  const WorkCount work = work_count(problem);
+  Plot plot;
+  if (is_one_count(problem, work)) {  // nothing to be seen: what does the step do?
+    plot = step_plot(
+        problem, [](const Row& row) { return row.error(); }, looks);
+    send_far_ones_off(plot);
+    plot.title = "Error against step";
+    plot.empty = "no run has an error";
+  } else {
+    plot = cost_plot(
+        problem, [&](const Row& row) { return work.of(row); }, looks, true);
+    plot.title = "Error against " + work.name;
+    plot.x_name = work.name + " in the whole run";
+    plot.empty = "no work was counted";
+    if (any_without(plot)) plot.x_name += " (not told by peers)";
+  }
+  plot.y_name = error_words(problem);
+  return plot;
+}
+
+// Left and right of a problem's page. Runs that are only right or wrong are shown by their outcome,
+// and what they cost against the step: in seconds, or where none is timed in work.
+std::pair<Plot, Plot> plots_of(const ProblemRows& problem,
+                               const std::map<std::string, int>& looks) {
+  if (!has_whole_errors(problem)) return {left_plot(problem, looks), right_plot(problem, looks)};
+  const WorkCount work = work_count(problem);
+  const bool timed =
+      std::ranges::any_of(problem.rows, [](const Row& row) { return seconds_of(row).has_value(); });
+  const Cost cost = timed ? Cost(seconds_of) : [&](const Row& row) { return work.of(row); };
+  const std::string cost_name = timed ? kSeconds : work.name + " in the whole run";
+  Plot outcome = cost_plot(problem, cost, looks, false), price = step_plot(problem, cost, looks);
+  outcome.names = PlotNames::ends;
+  outcome.title = timed ? "Outcome against time" : "Outcome against " + work.name;
+  outcome.x_name = cost_name;
+  outcome.y_name = error_words(problem);
+  price.title = timed ? "Time against step" : capital(work.name) + " against step";
+  price.y_name = cost_name + "; open marks: a wrong outcome";
+  outcome.empty = price.empty = "no run has a cost";
+  return {outcome, price};
+}
+
 std::vector<LegendEntry> legend_of(const Plot& plot) {
   std::vector<LegendEntry> entries;
   for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
@@ -147,13 +179,13 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
 
 }  // namespace
 
+// "_stiff" and what follows it stands behind a comma.
 std::string problem_words(const ProblemRows& problem) {
-  std::string words = problem.family.empty() ? problem.problem : problem.family;
+  std::string words = problem.problem;
+  const std::size_t variant = words.find("_" + problem.variant);
+  if (!problem.variant.empty() && variant != std::string::npos) words.replace(variant, 1, ", ");
   std::replace(words.begin(), words.end(), '_', ' ');
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
-    words[0] = static_cast<char>(words[0] - 'a' + 'A');
-  return problem.variant.empty() || problem.variant == "plain" ? words
-                                                               : words + ", " + problem.variant;
+  return capital(words);
 }
 
 std::string file_name(const ProblemRows& problem) {
@@ -190,16 +222,20 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
       }
     if (const auto order = observed_order(c.rows)) {
       if (with_orders) series.name += fmt::format(": order {:.2f}", *order);
-      const int whole = static_cast<int>(std::lround(*order));
-      if (!c.is_peer && whole >= 1 && whole <= 6 && !series.points.empty()) orders.insert(whole);
+      const int nearest = static_cast<int>(std::lround(*order));
+      const bool is_near = std::abs(*order - nearest) <= kNearOrder;
+      if (!c.is_peer && is_near && nearest >= 1 && nearest <= 6 && !series.points.empty())
+        orders.insert(nearest);
     }
     plot.series.push_back(std::move(series));
   }
-  send_far_ones_off(plot);
+  const bool whole = has_whole_errors(problem);
+  if (!whole) send_far_ones_off(plot);
   add_slopes(orders, plot);
   if (most > 0) add_floor(problem, cost, least, most, plot);
   for (const std::size_t i : pareto_front(problem.rows, cost))
     plot.front.push_back({*cost(problem.rows[i]), *problem.rows[i].error()});
+  if (whole) put_into_bands(plot);
   return plot;
 }
 
@@ -208,32 +244,24 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
   DrawList list;
   Labels labels(list);
   draw_title(problem, list, labels);
-  const double bottom = draw_foot(problem, measurement.circumstances, list, labels) - 18;
-  const WorkCount work = work_count(problem);
-  Plot timed = cost_plot(problem, seconds_of, looks, true);
-  timed.title = "Error against time";
-  timed.x_name = "seconds for the whole run, median";
-  timed.empty = "no run was timed";
-  Plot counted = cost_plot(
-      problem, [&](const Row& row) { return work.of(row); }, looks, true);
-  counted.title = "Error against " + work.name;
-  counted.x_name = work.name + " in the whole run";
-  counted.empty = "no work was counted";
-  timed.y_name = counted.y_name = error_words(problem);
-  if (any_without(counted)) counted.x_name += " (not told by peers)";
-  const std::vector<LegendEntry> legend = legend_of(timed);
-  const double width = list.page.x - 2 * kPlotMargin, gap = 48;
-  const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
-  draw_plot_legend(legend, {{kPlotMargin, bottom - height}, {kPlotMargin + width, bottom}}, kLabel, list,
-                   labels);
-  const double middle = kPlotMargin + width / 2, low = bottom - height - 12;
-  for (Plot* plot : {&timed, &counted}) {
-    plot->names = PlotNames::none;
-    const bool left = plot == &timed;
-    const Box<2> panel{{left ? kPlotMargin : middle + gap / 2, 96},
-                       {left ? middle - gap / 2 : kPlotMargin + width, low}};
-    draw_plot(*plot, panel, list, labels);
+  const double bottom =
+      draw_page_foot(sentence(problem), circumstances_text(measurement.circumstances), kPlotMargin,
+                     list, labels) -
+      18;
+  auto [left, right] = plots_of(problem, looks);
+  const double width = list.page.x - 2 * kPlotMargin, middle = kPlotMargin + width / 2, gap = 48;
+  Box<2> left_panel{{kPlotMargin, 96}, {middle - gap / 2, bottom - 12}};
+  if (!names_its_lanes(left, left_panel)) {
+    const std::vector<LegendEntry> legend = legend_of(left);
+    const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
+    draw_plot_legend(legend, {{kPlotMargin, bottom - height}, {kPlotMargin + width, bottom}},
+                     kLabel, list, labels);
+    left_panel.hi.y -= height;
+    left.names = PlotNames::none;
   }
+  right.names = PlotNames::none;
+  draw_plot(left, left_panel, list, labels);
+  draw_plot(right, {{middle + gap / 2, 96}, {kPlotMargin + width, left_panel.hi.y}}, list, labels);
   return list;
 }
 

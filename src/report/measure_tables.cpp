@@ -62,6 +62,12 @@ std::string line_for(const ContestantRows& c, const WorkCount& work) {
                count ? fmt::format("{:.0f}", *count) : "-", status});
 }
 
+// No wider than its column.
+std::string short_name(const std::string& work) {
+  if (work == "force evaluations") return "force evals";
+  return work == "constraint rows" ? "constr. rows" : work;
+}
+
 // Broken at spaces.
 std::string folded(const std::string& text) {
   std::string out, row;
@@ -89,7 +95,7 @@ std::string to_table(const Measurement& measurement) {
     text += fmt::format("{}{} ({}, {})\n", text.empty() ? "" : "\n", problem.problem,
                         problem.family, problem.variant);
     text += line({"method", "runs ok", "order", norm.empty() ? "error" : norm, "at h", "time",
-                  work.name == "force evaluations" ? "force evals" : work.name, "failures"});
+                  short_name(work.name), "failures"});
     for (const ContestantRows& c : by_contestant(problem)) text += line_for(c, work);
     text += folded(sentence(problem));
   }

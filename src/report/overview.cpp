@@ -94,8 +94,10 @@ class OverviewPage {
     const double texts = 56 + kLine * static_cast<double>(lines_);
     const double page = kTall * width_;
     row_ = rows > 0 ? (page - fixed) / rows : 0;
-    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + 1.2 * cell_width());
-    list_.page = {width_, std::max(page, std::ceil(fixed + rows * row_))};
+    const double tallest = columns_ > 2 ? 1.2 : 0.62;  // over the width
+    row_ = std::clamp(row_, texts + 0.62 * cell_width(), texts + tallest * cell_width());
+    const double needed = std::ceil(fixed + rows * row_);
+    list_.page = {width_, columns_ > 2 ? std::max(page, needed) : needed};
   }
 
   std::vector<LegendEntry> legend() const {
@@ -125,9 +127,10 @@ class OverviewPage {
     labels_.add("Error against run time", {{kOverviewMargin, 74}, 0},
                 {38, Weight::semibold, Role::ink, Role::none}, place);
     const std::string how = fmt::format(
-        "{} problems, {} runs. Each plot: the error of a run (of what is named at its upper right) "
+        "{} problem{}, {} runs. Each plot: the error of a run (of what is named at its upper "
+        "right) "
         "upwards, its seconds to the right, both logarithmic; lower left is better.",
-        problems_.size(), measurement_.rows.size());
+        problems_.size(), problems_.size() == 1 ? "" : "s", measurement_.rows.size());
     labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
                 {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none},
                 place);
@@ -140,9 +143,10 @@ class OverviewPage {
     draw_plot_legend(legend_, band(y, y + height), kSmall, list_, labels_);
     y += height + 4;
     const std::string rest =
-        "Dashed: other engines. Open marks at the upper edge: runs that diverged (placed by their "
-        "steps if not timed). Stairs: no run "
-        "has both less error and less time. Dashed grey: rounding floor, an estimate.";
+        "Dashed: other engines. Open marks: runs that diverged (placed by their steps if not "
+        "timed) "
+        "or were off. Stairs: no run has both less error and less time. Dashed grey: estimated "
+        "rounding floor.";
     labels_.add(shortened(rest, inner(), kSmallPrint), {{kOverviewMargin, y + 17}, 0}, kSmallPrint,
                 band(y, y + 26));
     return y + 44;
@@ -168,7 +172,7 @@ class OverviewPage {
     Plot& plot = plots_[i];
     plot.names = PlotNames::none;
     plot.size = kSmall;
-    plot.mark = columns_ < 4 ? 4.8 : 4.2;
+    plot.mark = columns_ < 3 ? 6 : columns_ < 4 ? 4.8 : 4.2;
     plot.front_name.clear();
     plot.empty = "no run was timed";
     for (PlotGuide& guide : plot.guides) guide.name.clear();

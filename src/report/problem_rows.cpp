@@ -116,7 +116,7 @@ std::string method_words(std::string_view method) {
 }
 
 std::string norm_words(std::string_view norm) {
-  constexpr std::array<std::array<std::string_view, 2>, 10> kWords{{
+  constexpr std::array<std::array<std::string_view, 2>, 11> kWords{{
       {"traj", "state"},
       {"att", "attitude"},
       {"inv", "drift"},
@@ -126,7 +126,8 @@ std::string norm_words(std::string_view norm) {
       {"p", "momentum"},
       {"L", "angular momentum"},
       {"times", "impact times"},
-      {"class", "wrong outcome"},
+      {"class", "wrong outcomes"},
+      {"hits", "miscounted hits"},
   }};
   for (const auto& [name, words] : kWords)
     if (name == norm) return std::string(words);
@@ -137,6 +138,17 @@ std::string main_norm(const ProblemRows& problem) {
   for (const Row& row : problem.rows)
     if (!row.norms.empty()) return row.norms.front().name;
   return "";
+}
+
+bool has_whole_errors(const ProblemRows& problem) {
+  bool any = false;
+  for (const Row& row : problem.rows) {
+    const auto error = row.error();
+    if (!error || !std::isfinite(*error)) continue;
+    if (*error != std::floor(*error)) return false;
+    any = true;
+  }
+  return any;
 }
 
 std::map<std::string, int> looks_of(std::span<const Row> rows) {
@@ -189,7 +201,8 @@ std::optional<double> observed_order(std::span<const Row> rows) {
     length = n;
   }
   if (length < 2) return std::nullopt;
-  return fitted(std::span(samples).subspan(from, length + 1));
+  const double order = fitted(std::span(samples).subspan(from, length + 1));
+  return order > 0 ? std::optional(order) : std::nullopt;
 }
 
 double rounding_floor(double steps) { return 0x1p-52 * std::sqrt(std::max(1.0, steps)); }

@@ -40,13 +40,18 @@ std::string norm_words(std::string_view norm);
 // The name of the problem's main norm; empty if no row has one.
 std::string main_norm(const ProblemRows& problem);
 
+// Whether every error is a whole number: what is counted is right or wrong, and there is nothing
+// between. False if no run has an error.
+bool has_whole_errors(const ProblemRows& problem);
+
 // A look for each contestant: the known methods have always the same, others in order of their
 // first row, peers from kFirstPeerLook on.
 std::map<std::string, int> looks_of(std::span<const Row> rows);
 
 // p in error ~ step^p: least squares through the logarithms of the rows above the rounding floor,
 // where the error has begun to shrink evenly. Nothing for fewer than three such rows, or if no even
-// piece is there. An adaptive method has none: its steps are tolerances.
+// piece is there, or if the error grows as steps shrink. An adaptive method has none: its steps are
+// tolerances.
 std::optional<double> observed_order(std::span<const Row> rows);
 
 // An estimate of what rounding alone leaves after so many steps: 2^-52 times their square root, as

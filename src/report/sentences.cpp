@@ -5,45 +5,16 @@
 
 #include <fmt/format.h>
 
+#include "report/cheapest.hpp"
+
 namespace lantern {
 namespace {
-
-struct Best {
-  const Row* row = nullptr;
-  double cost = 0;
-  std::vector<std::string> equal;  // other methods at the same cost
-};
 
 using Rows = std::vector<const Row*>;
 
 bool meets(const Row& row, double bound) {
   const auto error = row.error();
   return error && std::isfinite(*error) && *error <= bound;
-}
-
-// The cheapest of `rows`; nothing if none has a cost. Of equal ones that with less error, then the
-// first.
-Best cheapest(const Rows& rows, const Cost& cost) {
-  Best best;
-  for (const Row* row : rows) {
-    const auto price = cost(*row);
-    if (!price) continue;
-    const bool less = !best.row || *price < best.cost ||
-                      (*price == best.cost && *row->error() < *best.row->error());
-    if (less) best = {row, *price, {}};
-  }
-  for (const Row* row : rows)
-    if (best.row && row->method != best.row->method && cost(*row) == best.cost &&
-        row->error() == best.row->error())
-      best.equal.push_back(method_words(row->method));
-  return best;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
 }
 
 std::string count_text(double n, const std::string& name) {
@@ -66,9 +37,19 @@ std::string price(const Row& row, const WorkCount& work, bool brief) {
 
 std::string peer_name(const Row& row) { return row.method + " " + row.version; }
 
+std::string name_of(const Row& row) {
+  return row.is_peer() ? "the peer " + row.method : method_words(row.method);
+}
+
+// Of methods that are named by what they give: "impulses", "soft contacts (16 sub-steps)".
+bool is_plural(const std::string& name) {
+  return name.starts_with("impulses") || name.starts_with("soft contacts");
+}
+
 class Teller {
  public:
-  Teller(const ProblemRows& problem, bool brief) : work_(work_count(problem)), brief_(brief) {
+  Teller(const ProblemRows& problem, bool brief)
+      : work_(work_count(problem)), brief_(brief), counts_wrong_(has_whole_errors(problem)) {
     bound_ = error_bound(problem);
     for (const ContestantRows& c : by_contestant(problem)) {
       if (!c.is_peer) ++methods_;
@@ -86,65 +67,96 @@ class Teller {
 
   std::string text() const {
     if (!bound_) return nothing();
-    const std::string limit = figure(*bound_);
-    if (own_.empty()) return only_peers(limit);
-    const Best best = cheapest(own_, cost(timed_));
-    const Row& row = best.row ? *best.row : *own_.front();
-    const Best peer = cheapest(peers_, cost(timed_ && timed_peers_));
-    const bool peer_first = peer.row && best.row && peer.cost < best.cost && timed_ && timed_peers_;
-    const std::string name = method_words(row.method);
-    const std::string own_price = price(row, work_, brief_);
+    if (own_.empty()) return only_peers();
+    Rows own = cheapest(own_, timed_);
+    if (own.empty()) own = {own_.front()};
+    Rows all = own_;
+    if (timed_ && timed_peers_) all.insert(all.end(), peers_.begin(), peers_.end());
+    const Rows best = timed_ ? cheapest(all, timed_) : own;
+    const bool has_own = std::ranges::any_of(best, [](const Row* row) { return !row->is_peer(); });
+    const bool has_peer = std::ranges::any_of(best, [](const Row* row) { return row->is_peer(); });
     std::string text;
-    if (peer_first)
-      text = fmt::format("The cheapest under {} is {}, a peer: {}; of Lantern's methods, {}: {}",
-                         limit, peer_name(*peer.row), price(*peer.row, work_, brief_), name,
-                         own_price);
-    else if (methods_ == 1)
-      text = fmt::format("{} gets under {} with {}", capital(name), limit, own_price);
-    else if (best.equal.empty())
-      text = fmt::format("The cheapest method under {} is {}: {}", limit, name, own_price);
+    if (!has_own)
+      text = fmt::format("The cheapest {} {}; of Lantern's methods, {}", limit(), with_verb(best),
+                         with_price(own));
+    else if (methods_ == 1 && !has_peer)
+      text = alone(*own[0]);
+    else if (has_peer)
+      text = fmt::format("The cheapest {} {}", limit(), with_verb(best));
     else
-      text = fmt::format("The cheapest methods under {} are {}, equally: {}", limit,
-                         listed(together(name, best.equal)), own_price);
+      text = fmt::format("The cheapest method{} {} {}", best.size() > 1 ? "s" : "", limit(),
+                         with_verb(best));
     return text + never() + ".";
   }
 
  private:
-  Cost cost(bool timed) const {
-    if (timed) return seconds_of;
-    return [this](const Row& row) { return work_.of(row); };
+  Rows cheapest(const Rows& rows, bool timed) const {
+    if (timed) return cheapest_rows(rows, seconds_of, true);
+    return cheapest_rows(
+        rows, [this](const Row& row) { return work_.of(row); }, false);
   }
 
-  static std::vector<std::string> together(std::string first, std::vector<std::string> others) {
-    others.insert(others.begin(), std::move(first));
-    std::vector<std::string> unlike;
-    for (std::string& name : others)
-      if (std::find(unlike.begin(), unlike.end(), name) == unlike.end())
-        unlike.push_back(std::move(name));
-    return unlike;
+  // "under 1e-6"; of errors that are counted, "that is exact".
+  std::string limit() const {
+    if (!counts_wrong_) return "under " + figure(*bound_);
+    return *bound_ < 1 ? "without an error" : fmt::format("with {} wrong at most", figure(*bound_));
   }
 
-  static std::string capital(std::string text) {
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
-      text[0] = static_cast<char>(text[0] - 'a' + 'A');
-    return text;
+  std::string price_of(const Row& row) const { return price(row, work_, brief_); }
+
+  // "is velocity Verlet: 2 ms at ..."; of several, "are A with 2 ms at ... and B with ..., which".
+  std::string with_verb(const Rows& rows) const {
+    if (rows.size() > 1) return "are " + with_price(rows);
+    const Row& row = *rows[0];
+    const std::string name = row.is_peer() ? peer(row) + ", a peer" : name_of(row);
+    return fmt::format("is {}: {}", name, price_of(row));
+  }
+
+  // Equals have no counted work beside: they would be told apart by it.
+  std::string with_price(const Rows& rows) const {
+    if (rows.size() == 1) return name_of(*rows[0]) + ": " + price_of(*rows[0]);
+    const bool timed = seconds_of(*rows[0]).has_value(), each = timed && !brief_;
+    const std::size_t most = brief_ ? 2 : 4;
+    const std::size_t named = rows.size() > most ? most - 1 : rows.size();
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < named; ++i)
+      names.push_back(each ? name_of(*rows[i]) + " with " + price(*rows[i], work_, true)
+                           : name_of(*rows[i]));
+    if (named < rows.size()) names.push_back(fmt::format("{} others", rows.size() - named));
+    if (each) return listed(names) + ", which cost the same within the spread";
+    return listed(names) + ", equally: " + price_of(*rows[0]);
+  }
+
+  // Where it is brief, a legend tells the version.
+  std::string peer(const Row& row) const { return brief_ ? row.method : peer_name(row); }
+
+  std::string alone(const Row& row) const {
+    const std::string name = method_words(row.method);
+    const char* gets = is_plural(name) ? "get" : "gets";
+    const std::string there = counts_wrong_ ? "through " + limit() : limit();
+    return fmt::format("{} {} {} with {}", capital(name), gets, there, price_of(row));
   }
 
   std::string never() const {
     if (never_.empty() || brief_) return "";
     if (never_.size() > 3)
       return fmt::format("; {} of Lantern's methods never get there", never_.size());
-    return fmt::format("; {} never {} there", listed(never_), never_.size() == 1 ? "gets" : "get");
+    const bool many = never_.size() > 1 || is_plural(never_[0]);
+    return fmt::format("; {} never {} there", listed(never_), many ? "get" : "gets");
   }
 
-  std::string only_peers(const std::string& limit) const {
-    const Best peer = cheapest(peers_, cost(timed_peers_));
-    const Row& row = peer.row ? *peer.row : *peers_.front();
-    const std::string who =
-        methods_ == 0 ? "Only peers were run" : "No method of Lantern gets under " + limit;
-    return fmt::format("{}; the cheapest peer {} is {}: {}.", who,
-                       methods_ == 0 ? "under " + limit : "that does", peer_name(row),
-                       price(row, work_, brief_));
+  std::string only_peers() const {
+    Rows best = cheapest(peers_, timed_peers_);
+    if (best.empty()) best = {peers_.front()};
+    const std::string who = methods_ == 0 ? "Only peers were run"
+                                          : fmt::format("No method of Lantern gets {}{}",
+                                                        counts_wrong_ ? "through " : "", limit());
+    const char* s = best.size() > 1 ? "s" : "";
+    const std::string which = methods_ == 0 ? limit() : *s ? "that do" : "that does";
+    if (best.size() > 1)
+      return fmt::format("{}; the cheapest peers {} are {}.", who, which, with_price(best));
+    return fmt::format("{}; the cheapest peer {} is {}: {}.", who, which, peer(*best[0]),
+                       price_of(*best[0]));
   }
 
   std::string nothing() const {
@@ -160,6 +172,7 @@ class Teller {
 
   WorkCount work_;
   bool brief_ = false;
+  bool counts_wrong_ = false;
   std::optional<double> bound_;
   std::size_t methods_ = 0;
   std::vector<std::string> never_;
@@ -194,6 +207,19 @@ std::vector<std::string> sentences(const Measurement& measurement) {
 }
 
 std::string short_sentence(const ProblemRows& problem) { return Teller(problem, true).text(); }
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
 
 std::string seconds_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";

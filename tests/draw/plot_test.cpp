@@ -1,16 +1,18 @@
 #include "draw/plot.hpp"
 
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "draw/layout_check.hpp"
 #include "draw/plot_axes.hpp"
 #include "draw/plot_legend.hpp"
 #include "draw/plot_marks.hpp"
-#include "draw/layout_check.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern {
@@ -19,6 +21,16 @@ namespace {
 using test::expect_laid_out;
 using test::says;
 
+// Where a mark of that colour is, filled or open.
+std::optional<Vec<2>> place_of(const DrawShape& shape, Role role) {
+  if (const auto* rect = std::get_if<RectShape>(&shape))
+    if (rect->fill == role || rect->stroke.role == role) return rect->box.center();
+  const auto* polygon = std::get_if<PolygonShape>(&shape);
+  if (!polygon || (polygon->fill != role && polygon->stroke.role != role)) return std::nullopt;
+  Vec<2> middle(0.0);
+  for (const Vec<2>& p : polygon->points) middle += p / static_cast<double>(polygon->points.size());
+  return middle;
+}
 
 DrawList drawn(const Plot& plot, const Box<2>& panel = {{0, 0}, {800, 500}}) {
   DrawList list;
@@ -156,6 +168,74 @@ TEST(Plot, AnErrorOfZeroHasItsOwnPlaceBelowTheScale) {
   EXPECT_FALSE(says(drawn(plot), "0"));
 }
 
+TEST(Plot, NoErrorOfZeroHidesAnother) {
+  Plot plot;
+  plot.names = PlotNames::none;
+  for (int s = 0; s < 3; ++s)
+    plot.series.push_back({fmt::format("{}", s), {{{1, 0}, false, ""}, {{9, 1}, false, ""}}, s});
+  std::set<double> heights;
+  for (const DrawShape& shape : drawn(plot).shapes)
+    for (int s = 0; s < 3; ++s) {
+      const auto at = place_of(shape, plot_role(s));
+      if (at && at->x < 400) heights.insert(at->y);
+    }
+  EXPECT_EQ(heights.size(), 3u) << "marks of three series lie on one another";
+}
+
+Plot banded_plot() {
+  Plot plot;
+  plot.bands = {{"exact", 0, 0}, {"off by 1", 1, 1}, {"off by 2 to 9", 2, 9}};
+  plot.series = {{"a", {{{1, 0}, false, ""}, {{10, 0}, false, ""}}, 0},
+                 {"b", {{{1, 0}, false, ""}, {{20, 5}, false, "5"}}, 1},
+                 {"c", {{{2, kNan}, true, ""}, {{3, 0.5}, false, ""}}, 2}};
+  return plot;
+}
+
+TEST(BandedPlot, HasALaneForEachSeriesInEachBand) {
+  const DrawList list = drawn(banded_plot());
+  for (const char* text : {"exact", "off by 2 to 9", "diverged", "a", "b", "c", "5"})
+    EXPECT_TRUE(says(list, text)) << text;
+  EXPECT_FALSE(says(list, "off by 1")) << "nothing is in it";
+  std::map<std::string, double> height;  // of names
+  for (const LabelBox& label : list.labels) height[label.text] = label.box.center().y;
+  EXPECT_LT(height["diverged"], height["off by 2 to 9"]);
+  EXPECT_LT(height["off by 2 to 9"], height["exact"]) << "what is right is at the lower edge";
+  std::size_t marks = 0;
+  for (const DrawShape& shape : list.shapes)
+    for (int s = 0; s < 3; ++s) marks += place_of(shape, plot_role(s)).has_value();
+  EXPECT_EQ(marks, 5u) << "every point has a mark but 0.5, which is in no band";
+  expect_laid_out(list, {{0, 0}, {800, 500}}, 17, "bands");
+}
+
+TEST(BandedPlot, IsLaidOutAtAnySize) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    Plot plot = random_plot(random);
+    plot.bands = banded_plot().bands;
+    for (PlotSeries& s : plot.series)
+      for (PlotPoint& p : s.points)
+        if (random.unit() < 0.8) p.at.y = static_cast<double>(random.whole(0, 9));
+    plot.size = random.between(17.1, 22);
+    const Box<2> panel{{7, 9}, {7 + random.between(240, 900), 9 + random.between(180, 600)}};
+    expect_laid_out(drawn(plot, panel), panel, 0.91 * plot.size,
+                    fmt::format("banded plot {} of {} x {}", i, panel.size().x, panel.size().y));
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Plot, NoMarkHidesAnotherOfTheSamePlace) {
+  Plot plot;
+  plot.names = PlotNames::none;
+  for (int s = 0; s < 2; ++s)
+    plot.series.push_back({"a", {{{1, 1}, false, ""}, {{100, s ? 1e-3 : 1e-2}, false, ""}}, 6});
+  std::vector<double> sizes;
+  for (const DrawShape& shape : drawn(plot).shapes)
+    if (place_of(shape, plot_role(6))) sizes.push_back(test::reach_of(shape).size().x);
+  ASSERT_EQ(sizes.size(), 4u);
+  EXPECT_GT(sizes[0], 1.2 * sizes[2]) << "the first mark is under the third and cannot be seen";
+  EXPECT_EQ(sizes[1], sizes[3]) << "marks by themselves are of one size";
+}
+
 TEST(Plot, AnEmptyOneSaysSo) {
   Plot plot;
   plot.empty = "no run was timed";
@@ -185,7 +265,7 @@ TEST(Plot, PeersAreDashed) {
   }
 }
 
-TEST(PlotScale, LogarithmicTicksArePowersOfTenWithinTheAxis) {
+TEST(PlotScale, LogarithmicTicksArePowersOfTenOrPartsWithinTheAxis) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const double least = std::pow(10, random.between(-20, 10));
@@ -193,17 +273,31 @@ TEST(PlotScale, LogarithmicTicksArePowersOfTenWithinTheAxis) {
     const int ticks = static_cast<int>(random.whole(2, 10));
     const PlotScale scale(least, most, true, ticks);
     ASSERT_GE(scale.ticks().size(), 2u) << least << " to " << most;
-    EXPECT_LE(scale.ticks().size(), static_cast<std::size_t>(std::max(2, ticks)));
+    EXPECT_LE(scale.ticks().size(), static_cast<std::size_t>(std::max(4, ticks)));
     EXPECT_GE(scale.share(least), 0);
     EXPECT_LE(scale.share(most), 1);
+    int powers = 0;
     for (const Axis::Tick& tick : scale.ticks()) {
-      const double power = std::log10(tick.value);
-      EXPECT_NEAR(power, std::round(power), 1e-9);
-      EXPECT_EQ(tick.text, power_of_ten(static_cast<int>(std::lround(power))));
+      const double power = std::floor(std::log10(tick.value) + 1e-9);
+      const double part = tick.value / std::pow(10, power);
+      const bool is_power = std::abs(part - 1) < 1e-9;
+      powers += is_power;
+      EXPECT_TRUE(is_power || std::abs(part - 2) < 1e-9 || std::abs(part - 5) < 1e-9) << tick.value;
+      if (is_power) {
+        EXPECT_EQ(tick.text, power_of_ten(static_cast<int>(std::lround(power))));
+      }
       EXPECT_GE(scale.share(tick.value), -1e-9) << least << " to " << most;
       EXPECT_LE(scale.share(tick.value), 1 + 1e-9) << least << " to " << most;
     }
+    if (powers > 1) {
+      EXPECT_EQ(static_cast<std::size_t>(powers), scale.ticks().size())
+          << "parts are only for axes with fewer than two powers of ten";
+    }
   }
+  const PlotScale parts(1.5e-3, 8e-3, true, 8);
+  ASSERT_EQ(parts.ticks().size(), 2u);
+  EXPECT_EQ(parts.ticks()[0].text, "2·10⁻³");
+  EXPECT_NEAR(parts.share(1.5e-3), 0.09, 0.04) << "the axis is much longer than its values need";
   EXPECT_EQ(power_of_ten(-12), "10⁻¹²");
   EXPECT_EQ(power_of_ten(0), "1");
   EXPECT_EQ(power_of_ten(1), "10");

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "draw/layout_check.hpp"
 #include "draw/page.hpp"
 #include "render/renderer.hpp"
 #include "report/settled.hpp"
@@ -244,6 +245,47 @@ TEST(Antialiasing, APlotHasAPointForEachTimedRow) {
   EXPECT_EQ(plot.guides.size(), 1u) << "samples are not timed: they are levels to compare with";
   EXPECT_EQ(plot.front, (std::vector<Vec<2>>{{2, 0.7}, {20, 0.4}})) << "cairo is behind both";
   EXPECT_EQ(picture_plot(report, "other").series.size(), 0u);
+}
+
+PictureRow timed_way(const char* family, const char* choice, double rms, double milliseconds,
+                     double spread) {
+  const Timing timing{5, 1e-3 * milliseconds, 1e-3 * (milliseconds - spread), 1e-3 * spread};
+  return {"s", family, choice, "", {10, 0.5, rms, 3, 0}, timing, ""};
+}
+
+TEST(Antialiasing, TheSentenceNamesTheCheapestWay) {
+  PictureReport report;
+  report.scenes = {"s"};
+  EXPECT_EQ(cheapest_picture(report, "s"), "No way of drawing was timed.");
+  report.rows = {
+      timed_way("coverage", "1 x 1", 7.35, 2, 0.1), timed_way("coverage", "4 x 4", 1.73, 30, 0.1),
+      timed_way("cairo", "none", 43.9, 0.8, 0.1), timed_way("cairo", "best", 3.6, 3.5, 0.1)};
+  EXPECT_EQ(cheapest_picture(report, "s"),
+            "The cheapest way under 10 levels RMS is coverage 1 × 1: 2 ms a frame, off by 7.35 "
+            "levels; cairo none never gets there.");
+  report.rows[3] = timed_way("cairo", "best", 3.6, 2.05, 0.1);
+  EXPECT_EQ(cheapest_picture(report, "s"),
+            "The cheapest ways under 10 levels RMS are coverage 1 × 1 with 2 ms a frame and 7.35 "
+            "levels and cairo best with 2.05 ms a frame and 3.6 levels, which cost the same within "
+            "the spread; cairo none never gets there.")
+      << "0.05 ms apart, where repeats are 0.1 ms apart, is no win";
+  report.rows.resize(3);
+  report.rows.erase(report.rows.begin(), report.rows.begin() + 2);
+  EXPECT_EQ(cheapest_picture(report, "s"),
+            "The cheapest way under 50 levels RMS is cairo none: 0.8 ms a frame, off by 43.9 "
+            "levels.");
+}
+
+TEST(Antialiasing, ThePageSaysItsSentence) {
+  PictureReport report;
+  report.scenes = {"s"};
+  report.rows = {timed_way("coverage", "1 x 1", 7.35, 2, 0.1),
+                 timed_way("coverage", "4 x 4", 1.73, 30, 0.1),
+                 timed_way("cairo", "none", 43.9, 0.8, 0.1)};
+  const DrawList list = draw_picture_page(report, "s", "made here");
+  EXPECT_TRUE(test::says_part(list, "The cheapest way under 10 levels RMS is coverage 1 × 1"));
+  EXPECT_TRUE(test::says_part(list, "made here"));
+  test::expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, "a page of pictures");
 }
 
 TEST(Antialiasing, SizesThatCannotBeSupersampledAreRefused) {

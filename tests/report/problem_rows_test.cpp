@@ -36,6 +36,23 @@ TEST(Order, OfCoarseStepsThatDoNotShrinkYetIsNotMixedIn) {
   EXPECT_NEAR(*found, 2, 0.02);
 }
 
+TEST(Order, OfAnErrorThatGrowsAsStepsShrinkIsNone) {
+  EXPECT_FALSE(observed_order(power(-1, 1e-4, 0, 6))) << "no scheme has order -1";
+}
+
+TEST(WholeErrors, AreThoseOfOutcomesThatAreCounted) {
+  const auto whole = [](std::vector<double> errors) {
+    ProblemRows problem;
+    for (const double error : errors) problem.rows.push_back(samples::row("m", 0.1, error, 1, 1));
+    return has_whole_errors(problem);
+  };
+  EXPECT_TRUE(whole({0, 0, 0}));
+  EXPECT_TRUE(whole({0, 1, 17}));
+  EXPECT_FALSE(whole({0, 1, 1e-12})) << "almost right is another thing than right";
+  EXPECT_FALSE(whole({})) << "no error says nothing";
+  EXPECT_TRUE(whole({0, std::nan("")}));
+}
+
 TEST(Order, IsNotClaimedFromTooLittle) {
   EXPECT_FALSE(observed_order(power(2, 1, 0, 2))) << "two points fit any order";
   EXPECT_FALSE(observed_order(power(2, 1e-14, 0, 8))) << "only rounding";

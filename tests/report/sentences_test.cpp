@@ -60,9 +60,85 @@ TEST(Sentence, TellsOfTies) {
   EXPECT_EQ(
       sentence(
           problem({row("velocity_verlet", 0.1, 0, 0, 100), row("runge_kutta_4", 0.1, 0, 0, 100),
-                   row("implicit_midpoint", 0.1, 0, 0, 200)})),
+                   row("implicit_midpoint", 0.1, 1e-9, 0, 200)})),
       "The cheapest methods under 1e-6 are velocity Verlet and Runge–Kutta 4, equally: at h = "
       "0.1 s, 100 force evaluations.");
+}
+
+Row timed(const std::string& name, double error, double seconds, double spread) {
+  Row r = row(name, 0.01, error, seconds, 100);
+  r.timing.spread = spread;
+  r.timing.least = seconds - spread;
+  return r;
+}
+
+Row timed_peer(const std::string& name, double error, double seconds, double spread) {
+  Row r = timed(name, error, seconds, spread);
+  r.version = "1.2";
+  r.counted = {};
+  return r;
+}
+
+TEST(Sentence, MethodsWithinTheirSpreadAreEquals) {
+  const std::vector<Row> rows = {timed("velocity_verlet", 1e-7, 2.03e-3, 1e-4),
+                                 timed("runge_kutta_4", 1e-8, 2e-3, 1e-5),
+                                 timed("implicit_midpoint", 1e-9, 2.2e-3, 1e-5)};
+  EXPECT_EQ(
+      sentence(problem(rows)),
+      "The cheapest methods under 1e-6 are Runge–Kutta 4 with 2 ms at h = 0.01 s and velocity "
+      "Verlet with 2.03 ms at h = 0.01 s, which cost the same within the spread.")
+      << "30 µs apart, where repeats are 100 µs apart, is no win";
+  EXPECT_EQ(short_sentence(problem(rows)),
+            "The cheapest methods under 1e-6 are Runge–Kutta 4 and velocity Verlet, equally: 2 ms "
+            "at h = 0.01 s.");
+  EXPECT_EQ(sentence(problem({timed("velocity_verlet", 1e-7, 2.03e-3, 2e-5),
+                              timed("runge_kutta_4", 1e-8, 2e-3, 2e-5)})),
+            "The cheapest method under 1e-6 is Runge–Kutta 4: 2 ms at h = 0.01 s, 100 force "
+            "evaluations.")
+      << "30 µs apart, where repeats are 20 µs apart, is one";
+}
+
+TEST(Sentence, AMethodThatIsNeverAsFastIsNoEqualHoweverWideItsSpread) {
+  Row disturbed = timed("runge_kutta_4", 1e-8, 7e-4, 7e-4);
+  disturbed.timing.least = 3e-4;
+  EXPECT_TRUE(sentence(problem({timed("velocity_verlet", 1e-7, 6e-5, 1e-6), disturbed}))
+                  .starts_with("The cheapest method under 1e-6 is velocity Verlet: 60 µs"));
+}
+
+TEST(Sentence, PeersWithinTheSpreadAreEqualsToo) {
+  EXPECT_EQ(sentence(problem({timed("velocity_verlet", 1e-7, 2.03e-3, 1e-4),
+                              timed("runge_kutta_4", 1e-7, 4e-3, 1e-4),
+                              timed_peer("ODE", 1e-7, 2e-3, 1e-4)})),
+            "The cheapest under 1e-6 are the peer ODE with 2 ms at h = 0.01 s and velocity Verlet "
+            "with 2.03 ms at h = 0.01 s, which cost the same within the spread.");
+  EXPECT_EQ(
+      sentence(problem(
+          {timed("velocity_verlet", 1e-7, 4e-3, 1e-4), timed("runge_kutta_4", 1e-7, 4.02e-3, 1e-4),
+           timed_peer("ODE", 1e-7, 2e-3, 1e-4), timed_peer("DART", 1e-7, 2.01e-3, 1e-4)})),
+      "The cheapest under 1e-6 are the peer ODE with 2 ms at h = 0.01 s and the peer DART "
+      "with 2.01 ms at h = 0.01 s, which cost the same within the spread; of Lantern's "
+      "methods, velocity Verlet with 4 ms at h = 0.01 s and Runge–Kutta 4 with 4.02 ms at h "
+      "= 0.01 s, which cost the same within the spread.");
+}
+
+TEST(Sentence, OfManyEqualsTheFirstAreNamed) {
+  std::vector<Row> rows;
+  for (const char* name : {"a", "b", "c", "d", "e", "f"})
+    rows.push_back(timed(name, 1e-7, 1e-3, 1e-4));
+  EXPECT_EQ(short_sentence(problem(rows)),
+            "The cheapest methods under 1e-6 are a and 5 others, equally: 1 ms at h = 0.01 s.");
+  EXPECT_NE(sentence(problem(rows)).find("and 3 others, which cost the same"), std::string::npos);
+}
+
+TEST(Sentence, OfOutcomesThatAreCountedSaysWhoIsExact) {
+  EXPECT_EQ(sentence(problem({row("impulse", 0.1, 0, 0.002, 10), row("soft", 0.1, 0, 0.004, 10),
+                              row("soft:16", 0.1, 2, 0.001, 10)})),
+            "The cheapest method without an error is impulses: 2 ms at h = 0.1 s, 10 force "
+            "evaluations; soft contacts (16 sub-steps) never get there.")
+      << "an outcome that is right is not 'under 1e-6'";
+  EXPECT_EQ(sentence(problem({row("impulse", 0.1, 1, 0.002, 10), row("soft", 0.1, 7, 0.001, 10)})),
+            "The cheapest method with 1 wrong at most is impulses: 2 ms at h = 0.1 s, 10 force "
+            "evaluations; soft contacts never get there.");
 }
 
 TEST(Sentence, SaysItIfAPeerIsCheaper) {

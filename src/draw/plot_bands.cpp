@@ -1,0 +1,236 @@
+#include "draw/plot_bands.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/plot_axes.hpp"
+#include "draw/plot_marks.hpp"
+#include "draw/plot_names.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kMostNames = 0.45;  // of the panel's width, for the lanes' names
+
+struct Lane {
+  const PlotSeries* series = nullptr;
+  std::vector<const PlotPoint*> points;
+  double y = 0;  // of its middle, page units
+};
+
+struct Band {
+  std::string name;
+  bool lowest = false;
+  std::vector<Lane> lanes;
+  double top = 0, bottom = 0, named_to = 0;  // page units
+};
+
+class BandDrawing {
+ public:
+  BandDrawing(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels)
+      : plot_(plot), panel_(panel), area_(panel), type_(plot.size), list_(list), labels_(labels) {}
+
+  void draw() {
+    prepare();
+    if (!(least_ <= most_)) return say_nothing();
+    if (pitch_ < 3 || area_.size().x < 24) return;
+    draw_plot_axes(x_, PlotScale(), {area_, 0, 0}, panel_, type_, list_, labels_);
+    labels_.try_add(shortened(plot_.x_name, area_.size().x, type_.tick),
+                    {{{area_.center().x, below_ - 0.3 * type_.tick.size}, 0.5}}, type_.tick,
+                    panel_);
+    for (Band& band : bands_) draw_band(band);
+    draw_front();
+    for (const Band& band : bands_)
+      for (const Lane& lane : band.lanes) draw_lane(lane, !band.lowest);
+    for (const Band& band : bands_) name_points(band);
+  }
+
+  bool names_lanes() {
+    prepare();
+    return named_;
+  }
+
+ private:
+  double radius() const {
+    const double wanted = plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size;
+    return std::min(wanted, 0.36 * pitch_);
+  }
+  void heading(const std::string& text, const TextStyle& style) {
+    if (text.empty()) return;
+    labels_.add(shortened(text, panel_.size().x, style),
+                {{panel_.lo.x, area_.lo.y + 0.78 * style.size}, 0}, style, panel_);
+    area_.lo.y += 1.42 * style.size;
+  }
+
+  bool has_place(const PlotPoint& p) const {
+    return std::isfinite(p.at.x) && (!plot_.log_x || p.at.x > 0);
+  }
+
+  void prepare() {
+    heading(plot_.title, type_.title);
+    heading(plot_.y_name, type_.tick);
+    sort_into_bands();
+    below_ = area_.hi.y;
+    area_.hi.y -= plot_ticks_height(type_) + (plot_.x_name.empty() ? 0 : 1.3 * plot_.size);
+    area_.lo.y += 6;
+    if (least_ <= most_) lay_out();  // else there is nothing to be seen
+  }
+
+  // The highest band first.
+  void sort_into_bands() {
+    bands_.push_back({plot_.beyond, false, {}});
+    for (std::size_t i = plot_.bands.size(); i-- > 0;)
+      bands_.push_back({plot_.bands[i].name, i == 0, {}});
+    for (const PlotSeries& series : plot_.series)
+      for (std::size_t b = 0; b < bands_.size(); ++b) {
+        Lane lane{&series, {}};
+        for (const PlotPoint& p : series.points)
+          if (has_place(p) && is_in(p, b)) lane.points.push_back(&p);
+        for (const PlotPoint* p : lane.points) {
+          least_ = std::min(least_, p->at.x);
+          most_ = std::max(most_, p->at.x);
+        }
+        if (!lane.points.empty()) bands_[b].lanes.push_back(std::move(lane));
+      }
+    std::erase_if(bands_, [](const Band& band) { return band.lanes.empty() && !band.lowest; });
+  }
+
+  bool is_in(const PlotPoint& p, std::size_t band) const {
+    if (band == 0 || p.beyond) return band == 0 && p.beyond;
+    return plot_.bands[plot_.bands.size() - band].holds(p.at.y);
+  }
+
+  void lay_out() {
+    double lanes = 0;
+    for (const Band& band : bands_) lanes += std::max(0.6, static_cast<double>(band.lanes.size()));
+    const auto bands = static_cast<double>(bands_.size());
+    // Where there is little room bands have no line of their own for their names.
+    heading_ = 1.5 * type_.tick.size;
+    if (bands * (heading_ + 6) > 0.5 * area_.size().y) heading_ = 0;
+    const double height = area_.size().y - bands * (heading_ + 6);
+    pitch_ = std::min(height / lanes, 2.6 * plot_.size);
+    const double air = (height - lanes * pitch_) / bands;
+    named_ = plot_.names != PlotNames::none && pitch_ >= 1.12 * plot_.size;
+    area_.lo.x += named_ ? std::min(widest_name() + 12, kMostNames * panel_.size().x)
+                         : 1.8 * radius();  // a mark at the axis stays in the panel
+    area_.hi.x -= 0.9 * plot_.size;
+    x_ = {least_, most_, plot_.log_x, std::clamp(int(area_.size().x / (3.6 * plot_.size)), 2, 10)};
+    double y = area_.lo.y;
+    for (Band& band : bands_) {
+      band.top = y;
+      for (std::size_t i = 0; i < band.lanes.size(); ++i)
+        band.lanes[i].y = y + heading_ + air / 2 + (static_cast<double>(i) + 0.5) * pitch_;
+      y += heading_ + 6 + air + pitch_ * std::max(0.6, static_cast<double>(band.lanes.size()));
+      band.bottom = y;
+    }
+  }
+
+  double widest_name() const {
+    double widest = 0;
+    for (const Band& band : bands_)
+      for (const Lane& lane : band.lanes)
+        widest = std::max(widest, text_width(lane.series->name, type_.name));
+    return widest;
+  }
+
+  void say_nothing() {
+    list_.shapes.emplace_back(RectShape{area_, 0, Role::panel, {Role::rule, 1.2, 0}, true});
+    labels_.try_add(shortened(plot_.empty, area_.size().x - 2 * plot_.size, type_.tick),
+                    {{area_.center(), 0.5}}, type_.tick, panel_);
+  }
+
+  double x_of(double value) const { return area_.lo.x + x_.share(value) * area_.size().x; }
+
+  void draw_band(Band& band) {
+    if (&band != &bands_.front())
+      list_.shapes.emplace_back(
+          LineShape{{area_.lo.x, band.top}, {area_.hi.x, band.top}, {Role::ink, 1.2, 0}, true});
+    TextStyle style = band.lowest ? type_.title : type_.tick;
+    style.size = type_.tick.size;
+    style.halo = Role::panel;
+    const std::string name = band.lanes.empty() ? band.name + ": none" : band.name;
+    band.named_to = area_.lo.x + 8 + text_width(name, style);
+    labels_.try_add(shortened(name, area_.size().x - 16, style),
+                    {{{area_.lo.x + 8, band.top + 1.08 * style.size}, 0}}, style, area_);
+  }
+
+  // A stripe through the band of the least error, at the point where it is had for the least. Who
+  // is wrong for less is no example.
+  void draw_front() {
+    if (plot_.front.empty()) return;
+    const Vec<2>& best = plot_.front.back();
+    for (const PlotBand& range : plot_.bands) {
+      if (!range.holds(best.y)) continue;
+      const auto band = std::ranges::find(bands_, range.name, &Band::name);
+      if (band != bands_.end()) stripe(*band, x_of(best.x), 1.15 * 0.31 * plot_.size);
+    }
+  }
+
+  void stripe(const Band& band, double x, double width) {
+    const Vec<2> from{x, band.top + heading_}, to{x, band.bottom - 3};
+    for (const auto& [role, w] :
+         {std::pair(Role::lit, width), std::pair(Role::lit_fill, 0.74 * width)})
+      list_.shapes.emplace_back(LineShape{from, to, {role, w, 0}, false});
+    TextStyle style = type_.tick;
+    style.role = Role::lit_ink;
+    style.halo = Role::panel;
+    const double y = band.top + 1.08 * style.size;
+    if (!plot_.front_name.empty())
+      labels_.try_add(plot_.front_name,
+                      {{{x, y}, 0.5}, {{x, y}, 1}, {{std::max(x, band.named_to + 10), y}, 0}},
+                      style, area_);
+  }
+
+  void draw_lane(const Lane& lane, bool open) {
+    list_.shapes.emplace_back(
+        LineShape{{area_.lo.x, lane.y}, {area_.hi.x, lane.y}, {Role::rule, 1.2, 0}, true});
+    const Vec<2> end{area_.lo.x - 9, lane.y + 0.36 * type_.name.size};
+    if (named_)
+      labels_.try_add(shortened(lane.series->name, end.x - panel_.lo.x, type_.name), {{end, 1}},
+                      type_.name, panel_);
+    const auto at = [&](const PlotPoint* p) { return Vec<2>{x_of(p->at.x), lane.y}; };
+    const auto& [series, points, _] = lane;
+    for (std::size_t i = 1; i < points.size() && !open; ++i)
+      draw_plot_line(series->look, series->is_peer, at(points[i - 1]), at(points[i]),
+                     0.44 * radius(), list_);
+    for (const PlotPoint* p : points) draw_plot_mark(series->look, at(p), radius(), open, list_);
+  }
+
+  void name_points(const Band& band) {
+    PlotNamer namer(area_, labels_);
+    for (const Lane& lane : band.lanes)
+      for (const PlotPoint* p : lane.points) namer.mark({x_of(p->at.x), lane.y}, 1.2 * radius());
+    const double r = 1.5 * radius() + 3, drop = 0.36 * type_.tick.size;
+    for (const Lane& lane : band.lanes)
+      for (const PlotPoint* p : lane.points) {
+        const Vec<2> at{x_of(p->at.x), lane.y + drop};
+        if (!p->note.empty())
+          namer.name(p->note, {{at + Vec<2>{r, 0}, 0}, {at - Vec<2>{r, 0}, 1}}, type_.tick, 0);
+      }
+  }
+
+  const Plot& plot_;
+  Box<2> panel_, area_;
+  PlotType type_;
+  DrawList& list_;
+  Labels& labels_;
+  std::vector<Band> bands_;
+  PlotScale x_;
+  double least_ = 1e300, most_ = -1e300, pitch_ = 0, heading_ = 0, below_ = 0;
+  bool named_ = false;
+};
+
+}  // namespace
+
+bool names_its_lanes(const Plot& plot, const Box<2>& panel) {
+  if (plot.bands.empty()) return false;
+  DrawList list;
+  Labels labels(list);
+  return BandDrawing(plot, panel, list, labels).names_lanes();
+}
+
+void draw_banded_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels) {
+  BandDrawing(plot, panel, list, labels).draw();
+}
+
+}  // namespace lantern

@@ -1,0 +1,40 @@
+// Lines of a plot that are not a series: the front's stairs, and guides. First drawn, and named
+// when all marks are in place.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "draw/plot_names.hpp"
+
+namespace lantern {
+
+// From the upper edge down to the first corner, then in steps from corner to corner to the right
+// edge, under the marks.
+class PlotFront {
+ public:
+  // The corners on the page, ascending in x; those that are not finite are left out. `area` is the
+  // part of the plot that has a scale, `rim` the width of the stairs' outline.
+  void draw(const std::vector<Vec<2>>& corners, const Box<2>& area, double width, double rim,
+            DrawList& list);
+  // Along the last step where it is free, else along the others.
+  void name(const std::string& text, TextStyle style, PlotNamer& namer) const;
+
+ private:
+  std::vector<Vec<2>> steps_;
+  double width_ = 0, right_ = 0;
+};
+
+// Dashed, cut to the area.
+class PlotGuideLine {
+ public:
+  void draw(const std::vector<Vec<2>>& points, const Box<2>& area, PlotNamer& namer,
+            DrawList& list);
+  void name(const std::string& text, const TextStyle& style, PlotNamer& namer) const;
+
+ private:
+  std::vector<std::pair<Vec<2>, Vec<2>>> parts_;
+};
+
+}  // namespace lantern

@@ -1,0 +1,146 @@
+// `lantern measure pictures`, `lantern measure broad_phase`, and whom `lantern measure` leaves out,
+// as a user meets them.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kMeasuresAll = false;
+#else
+constexpr bool kMeasuresAll = true;
+#endif
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t from = 0, to; (to = text.find('\n', from)) != std::string::npos; from = to + 1)
+    lines.push_back(text.substr(from, to - from));
+  return lines;
+}
+
+// Of a table without quoted fields: every line has as many fields as the first.
+void expect_csv(const std::string& text, std::size_t rows) {
+  const std::vector<std::string> lines = lines_of(text);
+  ASSERT_EQ(lines.size(), rows + 1);
+  for (const std::string& line : lines)
+    EXPECT_EQ(std::ranges::count(line, ','), std::ranges::count(lines[0], ',')) << line;
+}
+
+TEST(MeasurePictures, WritesTablesAndAPageThatEndsInASentence) {
+  if (!kMeasuresAll) GTEST_SKIP() << "draws a picture of 256 times as many pixels";
+  const fs::path out = fresh_folder("measure_pictures") / "deeper";
+  const Outcome o = shell("lantern measure pictures --json " + scenario("coincident_max_depth") +
+                          " -o " + out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* file :
+       {"pictures.txt", "pictures.csv", "pictures.json", "pictures_coincident_max_depth.svg",
+        "pictures_coincident_max_depth.png"})
+    EXPECT_TRUE(fs::exists(out / file)) << file;
+  EXPECT_EQ(o.out, read_text(out / "pictures.json")) << "--json is the file";
+  const json report = json::parse(o.out);
+  EXPECT_EQ(report["format"], "lantern.measure.pictures/1");
+  EXPECT_GE(report["rows"].size(), 7u);
+  expect_csv(read_text(out / "pictures.csv"), report["rows"].size());
+  ASSERT_EQ(report["cheapest"].size(), 1u);
+  const std::string sentence = report["cheapest"][0];
+  EXPECT_TRUE(sentence.starts_with("The cheapest way")) << sentence;
+  EXPECT_NE(read_text(out / "pictures.txt").find(sentence), std::string::npos);
+}
+
+TEST(MeasurePictures, MistakesAreTold) {
+  const fs::path out = fresh_folder("measure_pictures_mistakes");
+  const auto run = [&](const std::string& words) {
+    return shell("lantern measure pictures " + words + " -o " + (out / "none").string());
+  };
+  EXPECT_EQ(run("--size 0x0").code, 2) << "pictures have the size that the command gives them";
+  EXPECT_EQ(run("--theme pink").code, 2);
+  const Outcome missing = run("no_such_file.toml");
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_NE(missing.err.find("no_such_file.toml"), std::string::npos) << missing.err;
+  write_text(out / "broken.toml", "title = 7\n");
+  const Outcome broken = run((out / "broken.toml").string());
+  EXPECT_EQ(broken.code, 3) << broken.err;
+  EXPECT_NE(broken.err.find("broken.toml"), std::string::npos) << broken.err;
+  for (const char* file : {"pictures.json", "pictures.csv"})
+    EXPECT_FALSE(fs::exists(out / "none" / file)) << file;
+}
+
+TEST(MeasureBroadPhase, WritesTablesAndAPageForEachTree) {
+  if (!kMeasuresAll) GTEST_SKIP() << "builds many trees";
+  const fs::path out = fresh_folder("measure_broad_phase") / "deeper";
+  const Outcome o =
+      shell("lantern measure broad_phase --json " + scenario("ghost_maze") + " -o " + out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const std::string tree : {"quadtree", "bsp", "kd_tree"})
+    for (const char* ending : {".svg", ".png"})
+      EXPECT_TRUE(fs::exists(out / ("broad_phase_ghost_maze_" + tree + ending))) << tree << ending;
+  EXPECT_EQ(o.out, read_text(out / "broad_phase.json"));
+  const json report = json::parse(o.out);
+  EXPECT_EQ(report["format"], "lantern.measure.broad_phase/1");
+  ASSERT_EQ(report["scenes"].size(), 1u);
+  EXPECT_EQ(report["scenes"][0]["sentences"].size(), 3u) << "one a tree";
+  expect_csv(read_text(out / "broad_phase.csv"), report["rows"].size());
+  EXPECT_NE(read_text(out / "broad_phase.txt").find("sort_and_sweep"), std::string::npos);
+}
+
+TEST(MeasureBroadPhase, MistakesAreTold) {
+  const fs::path out = fresh_folder("measure_broad_phase_mistakes");
+  const auto run = [&](const std::string& words) {
+    return shell("lantern measure broad_phase " + words + " -o " + (out / "none").string());
+  };
+  const Outcome missing = run("quadtree");
+  EXPECT_EQ(missing.code, 1) << "words are files here";
+  EXPECT_NE(missing.err.find("quadtree"), std::string::npos) << missing.err;
+  const Outcome atlas = run(scenario("kdtree_atlas"));
+  EXPECT_EQ(atlas.code, 3) << atlas.err;
+  EXPECT_FALSE(fs::exists(out / "none" / "broad_phase.json"));
+}
+
+TEST(MeasureCommands, AFolderThatCannotBeWrittenIsFoundOutFirst) {
+  for (const char* words : {"pictures", "broad_phase"}) {
+    const Outcome o = shell(std::string("lantern measure ") + words + " -o /proc/lantern");
+    EXPECT_EQ(o.code, 1) << words;
+    EXPECT_NE(o.err.find("/proc/lantern"), std::string::npos) << words << ": " << o.err;
+  }
+}
+
+TEST(MeasureCommand, AMethodThatDoesNotSuitIsNamedWithTheReason) {
+  const fs::path out = fresh_folder("measure_unsuited");
+  const Outcome alone =
+      shell("lantern measure projectile --quick --no-peers --method impulse -o " + out.string());
+  EXPECT_EQ(alone.code, 1);
+  EXPECT_NE(alone.err.find("projectile is not run by impulse: its bodies do not collide"),
+            std::string::npos)
+      << alone.err;
+  const Outcome beside = shell(
+      "lantern measure projectile kepler --quick --no-peers --method impulse "
+      "--method velocity_verlet --step 0.1 -o " +
+      out.string());
+  EXPECT_EQ(beside.code, 0);
+  EXPECT_NE(beside.err.find("projectile and kepler are not run by impulse"), std::string::npos)
+      << "a method that was asked for is missing without a word: " << beside.err;
+}
+
+// Whether engines are there depends on what was installed when Lantern was built.
+TEST(MeasureCommand, AnEngineIsNoMethodAndThisIsSaid) {
+  for (const char* engine : {"bullet", "Box2D", "ode", "MuJoCo:RK4"}) {
+    const Outcome o = shell(std::string("lantern measure kepler --method ") + engine);
+    EXPECT_EQ(o.code, 2) << engine;
+    EXPECT_NE(o.err.find("is no method but another engine"), std::string::npos) << o.err;
+  }
+  const Outcome o = shell("lantern measure kepler --method mujoco");
+  EXPECT_TRUE(o.err.find("not built in") != std::string::npos ||
+              o.err.find("kepler is not run by MuJoCo") != std::string::npos)
+      << "the reason is missing: " << o.err;
+}
+
+}  // namespace
+}  // namespace lantern::test
