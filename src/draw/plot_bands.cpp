@@ -10,7 +10,7 @@
 namespace lantern {
 namespace {
 
-constexpr double kMostNames = 0.45;  // of the panel's width, for the lanes' names
+constexpr double kMostForNames = 0.45;  // of the panel's width, for the lanes' names
 
 struct Lane {
   const PlotSeries* series = nullptr;
@@ -111,7 +111,7 @@ class BandDrawing {
     pitch_ = std::min(height / lanes, 2.6 * plot_.size);
     const double air = (height - lanes * pitch_) / bands;
     named_ = plot_.names != PlotNames::none && pitch_ >= 1.12 * plot_.size;
-    area_.lo.x += named_ ? std::min(widest_name() + 12, kMostNames * panel_.size().x)
+    area_.lo.x += named_ ? std::min(widest_name() + 12, kMostForNames * panel_.size().x)
                          : 1.8 * radius();  // a mark at the axis stays in the panel
     area_.hi.x -= 0.9 * plot_.size;
     x_ = {least_, most_, plot_.log_x, std::clamp(int(area_.size().x / (3.6 * plot_.size)), 2, 10)};
