@@ -197,8 +197,7 @@ bool DirectSolve<D>::settle_velocities(Island<D>& island, double h, Sweep& sweep
       const Vec<D> u =
           relative_velocity(island.movers[row.a], row.arm_a, island.movers[row.b], row.arm_b);
       double wanted = 0;
-      if (row.point != nullptr && row.tangent < 0)
-        wanted = row.point->bounce - std::max(row.point->separation, 0.0) / h;
+      if (row.point != nullptr && row.tangent < 0) wanted = row.point->bounce - row.point->gap / h;
       values_.push_back(wanted - glm::dot(u, row.direction));
     }
     solve();
@@ -223,7 +222,11 @@ bool DirectSolve<D>::settle_velocities(Island<D>& island, double h, Sweep& sweep
 }
 
 template <int D>
-bool DirectSolve<D>::settle_carriage(Island<D>& island, double h, Sweep& sweep) {
+bool DirectSolve<D>::settle_carriage(Island<D>& island, double h, bool factored, Sweep& sweep) {
+  if (!factored) {
+    list_rows(island);
+    if (rows_.empty() || !factor(island)) return false;
+  }
   values_.clear();
   for (const Row& row : rows_) {
     const Vec<D> u =
@@ -236,7 +239,8 @@ bool DirectSolve<D>::settle_carriage(Island<D>& island, double h, Sweep& sweep) 
   solve();
   sweep.rows += rows_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i)
-    if (rows_[i].point != nullptr && rows_[i].tangent < 0 && values_[i] < -rows_[i].point->pn)
+    if (rows_[i].point != nullptr && rows_[i].tangent < 0 &&
+        rows_[i].point->carried + values_[i] < -rows_[i].point->pn)
       return false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];

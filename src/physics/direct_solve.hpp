@@ -23,8 +23,9 @@ class DirectSolve {
   // found that holds together.
   bool settle_velocities(Island<D>& island, double h, Sweep& sweep);
 
-  // After that: the same rows for mean velocities.
-  bool settle_carriage(Island<D>& island, double h, Sweep& sweep);
+  // The same rows for mean velocities, after they were settled for velocities. If they were not
+  // (not `factored`), all rows that press. False, with nothing changed, if some would pull.
+  bool settle_carriage(Island<D>& island, double h, bool factored, Sweep& sweep);
 
  private:
   struct Row {

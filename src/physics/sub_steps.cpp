@@ -34,7 +34,8 @@ constexpr double kPresses = 0.01;           // of the largest impulse
 constexpr double kCarriedTolerance = 1e-3;  // of the largest push out of penetration
 constexpr double kSettledTolerance = 1e-7;  // the same, once all rows were solved at once
 constexpr double kSweepTolerance = 1e-9;    // of the largest impulse
-constexpr double kBounceSteps = 2;  // slower than gravity makes in so many sub-steps: no bounce
+constexpr double kBounceSteps = 2;     // slower than gravity makes in so many sub-steps: no bounce
+constexpr double kTouchingWay = 1e-4;  // of the way that forces make in a sub-step: so near touches
 
 template <int D>
 bool may_turn(const Body<D>& body) {
@@ -115,8 +116,10 @@ struct SubStep {
     for (const Body<D>& body : island.bodies) island.movers.push_back(mover_of(body));
     const auto& kicks = island.increments;
     each_pair([&](ContactRows<D>& rows, Mover<D>& a, Mover<D>& b) {
-      const double kick = glm::length(kicks[rows.b].kick - kicks[rows.a].kick);
-      refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b, kBounceSteps * kick);
+      const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
+      const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
+      refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b,
+              kBounceSteps * glm::length(kick_b - kick_a), kTouchingWay * way);
     });
     each_joint([&](JointRows<D>& rows, Mover<D>& a, Mover<D>& b) {
       refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b);
@@ -184,12 +187,9 @@ struct SubStep {
       begin_carrying(rows, a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
     });
     Sweep all;
-    if (settled && direct.settle_carriage(island, h, all)) {
-      count(all);
-      return;
-    }
+    const bool done = settled && direct.settle_carriage(island, h, true, all);
     double largest = 0;
-    for (int i = 0; i < most_sweeps(); ++i) {
+    for (int i = 0; !done && i < most_sweeps(); ++i) {
       Sweep sweep;
       each_joint([&](auto& rows, auto& a, auto& b) { sweep_carriage(rows, a, b, h, sweep); });
       each_pair([&](auto& rows, auto& a, auto& b) { sweep_carriage(rows, a, b, h, sweep); });
@@ -197,7 +197,9 @@ struct SubStep {
       largest = std::max(largest, sweep.change);
       if (sweep.change <= std::max(kCarriedTolerance * largest, kSettledTolerance * pressing))
         break;
+      if (i == 1 && !impulse_method() && direct.settle_carriage(island, h, false, all)) break;
     }
+    count(all);
   }
 
   void move_bodies() {
