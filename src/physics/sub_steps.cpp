@@ -25,15 +25,18 @@ namespace {
 
 // Sweeps in a sub-step of the soft method, if they do not end earlier: more for small islands.
 constexpr int kFewestSweeps = 24, kMostSweeps = 256;
-constexpr int kMostSolved = 2048;           // pairs times sweeps
-constexpr double kGoodGuess = 0.05;         // the same, to be left alone
-constexpr double kPresses = 0.01;           // of the largest impulse
-constexpr double kCarriedTolerance = 1e-3;  // of the largest push out of penetration
-constexpr double kSettledTolerance = 1e-7;  // of the largest impulse, once all were solved at once
-// The same while they were not. In a stack of n boxes the last change stands for an error of
-// (2n / pi)^2 times as much; the motion that it leaves is a blow to the next direct solve, and so
-// on.
+constexpr int kMostSolved = 2048;    // pairs times sweeps
+constexpr int kPatience = 16;        // sweeps after which even a good guess is not left alone
+constexpr double kGoodGuess = 0.05;  // changes by less than this part of the largest impulse
+constexpr double kPresses = 0.01;    // of the largest impulse
+
+// Sweeps end at a change of so small a part of the largest impulse. In a stack of n boxes the last
+// change stands for an error of (2n / pi)^2 times as much; the motion that it leaves is a blow to
+// the next direct solve, which would push as much the other way, and so on.
 constexpr double kSweepTolerance = 1e-12;
+constexpr double kSettledTolerance = 1e-7;  // once all rows were solved at once
+constexpr double kCarriedTolerance = 1e-3;  // of the largest push out of penetration
+
 constexpr double kBounceSteps = 2;     // slower than gravity makes in so many sub-steps: no bounce
 constexpr double kTouchingWay = 1e-4;  // of the way that forces make in a sub-step: so near touches
 
@@ -136,8 +139,10 @@ struct SubStep {
   }
 
   // All at once after 2, 4, 8 ... sweeps, never last. Where something slips, a guess that is good
-  // already is left alone: friction that lags behind would only spoil it. Of four corners of a face
-  // three are enough, so that one may press next to nothing and slip: that does not count.
+  // already is left alone at first: friction that lags behind would only spoil it. But sweeps that
+  // do not come to an end need help in any case: of a heap, something always slips a little. Of
+  // four corners of a face three are enough, so that one may press next to nothing and slip: that
+  // does not count.
   bool wants_direct(int done, const Sweep& sweep) {
     if (impulse_method() || done == 0 || done + 1 >= most_sweeps()) return false;
     if (!std::has_single_bit(static_cast<unsigned>(done + 1))) return false;
@@ -146,7 +151,7 @@ struct SubStep {
       for (const ContactPoint<D>& p : rows.points())
         slips |= rows.friction > 0 && p.pn > kPresses * sweep.largest && !p.sticks;
     });
-    return !slips || sweep.change > kGoodGuess * sweep.largest;
+    return !slips || done + 1 >= kPatience || sweep.change > kGoodGuess * sweep.largest;
   }
 
   void solve_velocities() {
