@@ -100,7 +100,7 @@ void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mov
     if (rows.friction > 0) p.tangent_compliance = softest(mover_a, mover_b, p, rows.normal);
     const Vec<D> velocity = relative_velocity(mover_a, p.arm_a, mover_b, p.arm_b);
     const double parting = glm::dot(velocity, rows.normal);
-    p.bounce = p.separation <= 0 && parting < -threshold ? -rows.restitution * parting : 0;
+    p.bounce = p.gap == 0 && parting < -threshold ? -rows.restitution * parting : 0;
     p.slip = across(velocity, rows.normal);
   }
 }
