@@ -1,5 +1,7 @@
 // Which rows a direct solve has: those of joints, of contacts that press, and of welds.
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "physics/direct_solve.hpp"
 

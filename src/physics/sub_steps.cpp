@@ -26,7 +26,6 @@ namespace {
 // Sweeps in a sub-step of the soft method, if they do not end earlier: more for small islands.
 constexpr int kFewestSweeps = 24, kMostSweeps = 256;
 constexpr int kMostSolved = 2048;    // pairs times sweeps
-constexpr int kPatience = 16;        // sweeps after which even a good guess is not left alone
 constexpr double kGoodGuess = 0.05;  // changes by less than this part of the largest impulse
 constexpr double kPresses = 0.01;    // of the largest impulse
 
@@ -139,10 +138,8 @@ struct SubStep {
   }
 
   // All at once after 2, 4, 8 ... sweeps, never last. Where something slips, a guess that is good
-  // already is left alone at first: friction that lags behind would only spoil it. But sweeps that
-  // do not come to an end need help in any case: of a heap, something always slips a little. Of
-  // four corners of a face three are enough, so that one may press next to nothing and slip: that
-  // does not count.
+  // already is left alone: friction that lags behind would only spoil it. Of four corners of a face
+  // three are enough, so that one may press next to nothing and slip: that does not count.
   bool wants_direct(int done, const Sweep& sweep) {
     if (impulse_method() || done == 0 || done + 1 >= most_sweeps()) return false;
     if (!std::has_single_bit(static_cast<unsigned>(done + 1))) return false;
@@ -151,7 +148,7 @@ struct SubStep {
       for (const ContactPoint<D>& p : rows.points())
         slips |= rows.friction > 0 && p.pn > kPresses * sweep.largest && !p.sticks;
     });
-    return !slips || done + 1 >= kPatience || sweep.change > kGoodGuess * sweep.largest;
+    return !slips || sweep.change > kGoodGuess * sweep.largest;
   }
 
   void solve_velocities() {
@@ -196,6 +193,7 @@ struct SubStep {
       largest = std::max(largest, sweep.change);
       if (sweep.change <= std::max(kCarriedTolerance * largest, kSettledTolerance * pressing))
         break;
+      // Two did not do: all at once. What slips is done with already and does not matter here.
       if (i == 1 && !impulse_method() && direct.settle_carriage(island, h, false, all)) break;
     }
     count(all);
