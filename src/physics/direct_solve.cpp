@@ -41,12 +41,10 @@ bool DirectSolve<D>::factor(const Island<D>& island) {
     system_.add_line(first);
     if (system_.work() > kMostWork) return false;
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    for (std::size_t j = system_.first(i); j <= i; ++j)
-      system_.entry(i, j) = link(island, rows_[i], rows_[j]);
-    system_.entry(i, i) *= 1 + kCompliance;
-  }
-  return system_.factor();
+  return system_.factor([&](std::size_t i, std::size_t j) {
+    const double value = link(island, rows_[i], rows_[j]);
+    return i == j ? value * (1 + kCompliance) : value;
+  });
 }
 
 // The gains of all parts after which nothing is missing; missing(part) is the velocity along it.

@@ -20,30 +20,27 @@ class EnvelopeSystem {
     work_ = 0;
   }
 
-  // The next line: all zero, and nothing of it before the column `first`, which is no further than
-  // its diagonal.
+  // The next line has nothing before the column `first`, which is no further than its diagonal.
   void add_line(std::size_t first) {
     const std::size_t length = first_.size() - first + 1;
     first_.push_back(first);
     start_.push_back(entries_.size());
-    entries_.resize(entries_.size() + length, 0.0);
+    entries_.resize(entries_.size() + length);
     work_ += static_cast<double>(length) * static_cast<double>(length) / 2;
   }
 
   std::size_t lines() const { return first_.size(); }
-  std::size_t first(std::size_t line) const { return first_[line]; }
-  double& entry(std::size_t line, std::size_t column) {
-    return entries_[start_[line] + (column - first_[line])];
-  }
   double work() const { return work_; }  // products that a factor takes, about
 
-  // Replaces the matrix by its factor. False if it is not positive definite.
-  bool factor() {
+  // Finds the factor of the matrix whose entries are matrix(line, column), asked for once each, up
+  // to the diagonal. False if it is not positive definite.
+  template <class Matrix>
+  bool factor(Matrix&& matrix) {
     for (std::size_t i = 0; i < lines(); ++i) {
       double* line_i = &entries_[start_[i]];
       for (std::size_t j = first_[i]; j <= i; ++j) {
         const double* line_j = &entries_[start_[j]];
-        double value = line_i[j - first_[i]];
+        double value = matrix(i, j);
         for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k)
           value -= line_i[k - first_[i]] * line_j[k - first_[j]];
         if (i == j && !(value > 0)) return false;
@@ -70,7 +67,7 @@ class EnvelopeSystem {
 
  private:
   std::vector<std::size_t> first_, start_;  // of each line: its first column, and where it is kept
-  std::vector<double> entries_;
+  std::vector<double> entries_;             // of the factor
   double work_ = 0;
 };
 
