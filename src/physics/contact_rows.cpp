@@ -11,6 +11,8 @@ namespace {
 // Physics Simulation", 2019).
 constexpr double kPushedOut = 0.25;
 constexpr double kFastestPush = 4;  // units a second
+// Of full friction: what stops a body within so little of it does not slip in the end.
+constexpr double kSlipByRounding = 1e-6;
 
 template <int D>
 Mat<D> axes_of(const Body<D>& body) {
@@ -85,19 +87,20 @@ void set_points(ContactRows<D>& rows, const Manifold<D>& manifold, const Body<D>
 
 template <int D>
 void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mover<D>& mover_a,
-             const Mover<D>& mover_b, double threshold) {
+             const Mover<D>& mover_b, double threshold, double touching) {
   const Mat<D> axes_a = axes_of(a), axes_b = axes_of(b);
   for (ContactPoint<D>& p : rows.points()) {
     const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
     const Vec<D> gap = (b.position - a.position) + to_b - to_a;
     p.separation = glm::dot(rows.normal, gap) + p.offset;
+    p.gap = p.separation > touching ? p.separation : 0;
     p.arm_a = to_a + gap * rows.share;
     p.arm_b = to_b - gap * (1 - rows.share);
     p.normal_compliance = compliance(mover_a, p.arm_a, mover_b, p.arm_b, rows.normal);
     if (rows.friction > 0) p.tangent_compliance = softest(mover_a, mover_b, p, rows.normal);
     const Vec<D> velocity = relative_velocity(mover_a, p.arm_a, mover_b, p.arm_b);
     const double parting = glm::dot(velocity, rows.normal);
-    p.bounce = p.separation <= 0 && parting < -threshold ? -rows.restitution * parting : 0;
+    p.bounce = p.gap == 0 && parting < -threshold ? -rows.restitution * parting : 0;
     p.slip = across(velocity, rows.normal);
   }
 }
@@ -120,9 +123,8 @@ void sweep_velocities(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, 
     const double parting =
         glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal) - p.bounce;
     // Bodies that are still apart may come as close as to touch.
-    const double room = std::max(p.separation, 0.0) / h;
     const double before = p.pn;
-    p.pn = std::max(before - (parting + room) / p.normal_compliance, 0.0);
+    p.pn = std::max(before - (parting + p.gap / h) / p.normal_compliance, 0.0);
     const Vec<D> impulse = rows.normal * (p.pn - before);
     a.apply(-impulse, p.arm_a);
     b.apply(impulse, p.arm_b);
@@ -137,8 +139,8 @@ void sweep_velocities(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, 
     const Vec<D> before = p.pt;
     p.pt -= slip / p.tangent_compliance;
     const double most = rows.friction * p.pn, length = glm::length(p.pt);
-    p.sticks = length <= most;
-    if (!p.sticks) p.pt *= most / length;
+    p.sticks = length <= most * (1 + kSlipByRounding);
+    if (length > most) p.pt *= most / length;
     const Vec<D> impulse = p.pt - before;
     a.apply(-impulse, p.arm_a);
     b.apply(impulse, p.arm_b);
@@ -186,7 +188,7 @@ void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a
 
 template <int D>
 double wanted_carriage(const ContactPoint<D>& point, double h) {
-  if (point.separation > 0) return -point.separation / h;
+  if (point.gap > 0) return -point.gap / h;
   return std::min(-point.separation * kPushedOut / h, kFastestPush);
 }
 
@@ -212,6 +214,7 @@ void sweep_carriage(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sw
     const Vec<D> impulse = (p.wanted_slip - slip) / p.tangent_compliance;
     a.carry(-impulse, p.arm_a);
     b.carry(impulse, p.arm_b);
+    sweep.change = std::max(sweep.change, glm::length(impulse));
     sweep.rows += D - 1;
     sweep.friction_rows += D - 1;
   }
@@ -221,7 +224,7 @@ void sweep_carriage(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sw
   template void set_points(ContactRows<D>&, const Manifold<D>&, const Body<D>&, const Body<D>&, \
                            const Contact<D>*, double);                                          \
   template void refresh(ContactRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&,       \
-                        const Mover<D>&, double);                                               \
+                        const Mover<D>&, double, double);                                       \
   template void warm_start(ContactRows<D>&, Mover<D>&, Mover<D>&);                              \
   template void sweep_velocities(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);        \
   template void begin_carrying(ContactRows<D>&, Mover<D>&, Mover<D>&, double, double);          \

@@ -26,6 +26,7 @@ struct ContactPoint {
   Vec<D> arm_a{0.0}, arm_b{0.0};  // to the point where impulses act, in the world's axes
   double offset = 0;              // of the separation, against what the arms say
   double separation = 0;
+  double gap = 0;  // the same while they do not touch, else 0
   double normal_compliance = 0;
   double tangent_compliance = 0;  // in the softest direction
   double pn = 0;                  // normal impulse of this sub-step, N s
@@ -69,10 +70,12 @@ void set_points(ContactRows<D>& rows, const Manifold<D>& manifold, const Body<D>
                 const Body<D>& b, const Contact<D>* remembered, double scale);
 
 // Arms, separations and compliances where the bodies are now; velocities are those before the
-// sub-step's forces. Points that approach faster than `threshold` bounce.
+// sub-step's forces. Points that approach faster than `threshold` bounce; those no farther apart
+// than `touching` have no gap. (A gap must be closed by a velocity, which the next sub-step must
+// stop again: of gaps that are mere rounding that would make noise in all the impulses of a stack.)
 template <int D>
 void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mover<D>& mover_a,
-             const Mover<D>& mover_b, double threshold);
+             const Mover<D>& mover_b, double threshold, double touching);
 
 template <int D>
 void warm_start(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b);

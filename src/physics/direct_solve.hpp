@@ -5,12 +5,17 @@
 //
 //   K dp = wanted - u     K = J M^-1 J^T: how relative velocities u answer to impulses dp
 //
-// K links only rows that share a body. Rows lie in order of their pairs' ids, and each line of the
-// factor begins where K's does (an envelope: Jennings, "A Compact Storage Scheme", 1966).
+// K links only rows that share a body. Rows lie in order of their pairs' ids.
+//
+// Two bodies have no more than 6 freedoms against each other, 3 in 2D, but the corners of a face
+// that hold have 12 conditions. Such a contact is solved as a weld: a force and a torque at its
+// middle. What they do to each corner is then shared out with the least squares.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "physics/envelope_system.hpp"
 #include "physics/island.hpp"
 
 namespace lantern {
@@ -23,37 +28,61 @@ class DirectSolve {
   // found that holds together.
   bool settle_velocities(Island<D>& island, double h, Sweep& sweep);
 
-  // After that: the same rows for mean velocities.
-  bool settle_carriage(Island<D>& island, double h, Sweep& sweep);
+  // The same rows for mean velocities, after they were settled for velocities. If they were not
+  // (not `factored`), all rows that press. False, with nothing changed, if some would pull.
+  bool settle_carriage(Island<D>& island, double h, bool factored, Sweep& sweep);
 
  private:
+  static constexpr int kFreedoms = D == 2 ? 3 : 6;
+  using Wrench = std::array<double, kFreedoms>;  // a force, and a torque over the contact's size
+
+  // An unknown impulse: of `direction` and, upon a and b, of turning.
   struct Row {
     std::uint32_t a = 0, b = 0;
     Vec<D> direction{0.0};
-    Vec<D> arm_a{0.0}, arm_b{0.0};
     Spin<D> turn_a{0.0}, turn_b{0.0};
     Spin<D> gained_a{0.0}, gained_b{0.0};
+  };
+  // One direction of a contact point or of a joint. It has its share of `width` rows.
+  struct Part {
+    std::uint32_t a = 0, b = 0;
     ContactPoint<D>* point = nullptr;  // of a contact; null for a joint
     JointRows<D>* joint = nullptr;
+    Vec<D> arm_a{0.0}, arm_b{0.0};
+    Vec<D> direction{0.0};
     double most = 0;   // friction coefficient
-    int tangent = -1;  // which of the tangents; -1: a normal or joint row
-    int axis = 0;      // of a pin
+    int tangent = -1;  // which of the tangents; -1: a normal or a joint's
+    std::size_t row = 0;
+    int width = 1;
+    Wrench share{1};
+    double gain = 0;  // of impulse, that is found
+  };
+  struct Guess {  // of what presses and sticks, before the solve
+    double pn = 0;
+    Vec<D> pt{0.0};
+    bool sticks = false;
   };
 
   void list_rows(Island<D>& island);
+  void list_joint(const Island<D>& island, JointRows<D>& joint);
+  void list_contact(const Island<D>& island, ContactRows<D>& contact);
   void add_row(const Island<D>& island, Row row);
-  bool lay_out(const Island<D>& island);
+  void add_rows_of_their_own(const Island<D>& island, std::size_t first_part);
+  bool add_weld(const Island<D>& island, std::size_t first_part);
   bool factor(const Island<D>& island);
   double link(const Island<D>& island, const Row& x, const Row& y) const;
-  void solve();
+  template <class Missing>
+  void find_gains(Missing&& missing);
   bool let_go(Island<D>& island);
-  double& entry(std::size_t row, std::size_t column) {
-    return entries_[start_[row] + (column - first_[row])];
-  }
+  void keep_guess(Island<D>& island);
+  void take_guess_back(Island<D>& island);
 
   std::vector<Row> rows_;
-  std::vector<std::size_t> first_, start_;  // of each line: its first column, and where it is kept
-  std::vector<double> entries_, values_;    // the factor; wanted, then impulses
+  std::vector<Part> parts_;
+  EnvelopeSystem system_;
+  std::vector<double> values_;  // wanted, then impulses
+  std::vector<Mover<D>> kept_movers_;
+  std::vector<Guess> kept_;
 };
 
 }  // namespace lantern

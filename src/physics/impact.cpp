@@ -7,7 +7,7 @@ namespace lantern {
 namespace {
 
 constexpr int kBouncingRounds = 64;    // through all touching pairs, in one impact
-constexpr int kMostImpactRounds = 96;        // the last ones without restitution
+constexpr int kMostImpactRounds = 96;  // the last ones without restitution
 constexpr int kMostPointSweeps = 200;  // over the points of one pair
 constexpr double kTouching = 1e-9;     // of the sizes: so near is touching
 constexpr double kGainByRounding = 1e-12;
@@ -21,7 +21,7 @@ void strike(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, 
     p.bounce = parting < 0 ? -restitution * parting : 0;
     p.pn = 0;
     p.pt = Vec<D>(0.0);
-    p.separation = 0;
+    p.separation = p.gap = 0;
   }
   for (int i = 0; i < kMostPointSweeps; ++i) {
     Sweep sweep;
@@ -125,7 +125,7 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
                                   Placed<D>{b.shape, b.position, b.orientation}, kTouching * size);
     if (!manifold) continue;
     set_points<D>(pair.rows, *manifold, a, b, nullptr, 0);
-    refresh(pair.rows, a, b, island.movers[pair.rows.a], island.movers[pair.rows.b], 0);
+    refresh(pair.rows, a, b, island.movers[pair.rows.a], island.movers[pair.rows.b], 0, 0);
     renew_record(pair.record, *manifold);
     work.contact_points += static_cast<std::uint64_t>(pair.rows.count);
     touching.push_back(i);

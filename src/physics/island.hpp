@@ -41,7 +41,8 @@ struct Island {
   std::vector<Vec<D>> kicked;  // velocities after the forces, before the constraints
 };
 
-// The state of an island's bodies as movers.
+// The state of an island's bodies as movers. (This and what follows, up to increments:
+// free_motion.cpp)
 template <int D>
 Mover<D> mover_of(const Body<D>& body);
 

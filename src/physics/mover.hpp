@@ -32,6 +32,16 @@ struct Mover {
     spin += inverse_inertia * turn;
     twist += turn;
   }
+  // The same for an impulse of `size` along `direction`, of which is known how it turns the body.
+  void gain(const Vec<D>& direction, const Spin<D>& turn, const Spin<D>& gained, double size) {
+    velocity += direction * (size * inverse_mass);
+    spin += gained * size;
+    twist += turn * size;
+  }
+  void gain_mean(const Vec<D>& direction, const Spin<D>& gained, double size) {
+    mean_velocity += direction * (size * inverse_mass);
+    mean_spin += gained * size;
+  }
   void carry(const Vec<D>& impulse, const Vec<D>& arm) {
     mean_velocity += impulse * inverse_mass;
     mean_spin += inverse_inertia * cross(arm, impulse);

@@ -28,8 +28,8 @@ TEST(Contacts, SlidesAsFarInEveryHeading) {
       world.add(box);
       run(world, 1.5);
       const Vec<3> way = world.bodies()[1].position - box.position;
-      EXPECT_NEAR(glm::length(way), 2.5, turns ? 1e-6 : 3e-9) << "v^2 / (2 mu g), heading " << i;
-      EXPECT_NEAR(glm::dot(way, heading<3>(i)), 2.5, turns ? 1e-6 : 3e-9) << "left its heading " << i;
+      EXPECT_NEAR(glm::length(way), 2.5, 1e-10) << "v^2 / (2 mu g), heading " << i;
+      EXPECT_NEAR(glm::dot(way, heading<3>(i)), 2.5, 1e-10) << "left its heading " << i;
     }
 }
 

@@ -1,0 +1,202 @@
+// Which rows a direct solve has: those of joints, of contacts that press, and of welds.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "physics/direct_solve.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kThin = 1e-6;  // a contact whose corners lie nearly in a line is no weld
+
+std::array<Vec<2>, 1> tangents(const Vec<2>& n) { return {Vec<2>(-n.y, n.x)}; }
+std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
+  const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
+  const Vec<3> s = glm::normalize(glm::cross(n, other));
+  return {s, glm::cross(n, s)};
+}
+
+double part_of(double spin, int) { return spin; }
+double part_of(const Vec<3>& spin, int axis) { return spin[axis]; }
+
+template <int D>
+Spin<D> spin_about(int axis, double size) {
+  if constexpr (D == 2) {
+    return size;
+  } else {
+    Spin<D> spin(0.0);
+    spin[axis] = size;
+    return spin;
+  }
+}
+
+template <int D>
+Vec<D> axis_of(int axis) {
+  Vec<D> unit(0.0);
+  unit[axis] = 1;
+  return unit;
+}
+
+// About every axis.
+template <int D>
+bool turns(const Island<D>& island, std::uint32_t body) {
+  if (island.movers[body].inverse_mass == 0) return false;
+  for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
+    if (!(part_of(island.bodies[body].inverse_inertia, i) > 0)) return false;
+  return true;
+}
+
+// A small matrix, row by row, of which Cholesky's factor takes the lower half's place.
+template <int N>
+using Small = std::array<std::array<double, N>, N>;
+
+// False if a row is nearly what those before it say.
+template <int N>
+bool factor_small(Small<N>& m) {
+  for (int i = 0; i < N; ++i) {
+    const double whole = m[i][i];
+    for (int j = 0; j <= i; ++j) {
+      double sum = m[i][j];
+      for (int k = 0; k < j; ++k) sum -= m[i][k] * m[j][k];
+      if (i == j && !(sum > kThin * whole)) return false;
+      m[i][j] = i == j ? std::sqrt(sum) : sum / m[j][j];
+    }
+  }
+  return true;
+}
+
+template <int N>
+std::array<double, N> solved(const Small<N>& factor, std::array<double, N> x) {
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < i; ++j) x[i] -= factor[i][j] * x[j];
+    x[i] /= factor[i][i];
+  }
+  for (int i = N; i-- > 0;) {
+    for (int j = i + 1; j < N; ++j) x[i] -= factor[j][i] * x[j];
+    x[i] /= factor[i][i];
+  }
+  return x;
+}
+
+}  // namespace
+
+template <int D>
+void DirectSolve<D>::add_row(const Island<D>& island, Row row) {
+  row.gained_a = island.movers[row.a].inverse_inertia * row.turn_a;
+  row.gained_b = island.movers[row.b].inverse_inertia * row.turn_b;
+  rows_.push_back(row);
+}
+
+template <int D>
+void DirectSolve<D>::add_rows_of_their_own(const Island<D>& island, std::size_t first_part) {
+  for (std::size_t i = first_part; i < parts_.size(); ++i) {
+    Part& part = parts_[i];
+    part.row = rows_.size();
+    add_row(island, {part.a, part.b, part.direction, cross(part.arm_a, part.direction),
+                     cross(part.arm_b, part.direction)});
+  }
+}
+
+// The wrench w of a part about the middle is its impulse times the column g. Of all gains that give
+// the weld's wrench W, those with the least squares are gains = G^T (G G^T)^-1 W; and where the
+// parts want different things of the weld, (G G^T)^-1 G is the least squares' way between them. So
+// the shares (G G^T)^-1 g serve both ways.
+template <int D>
+bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
+  const std::span<Part> parts{parts_.data() + first_part, parts_.size() - first_part};
+  const std::uint32_t a = parts[0].a, b = parts[0].b;
+  if (parts.size() <= kFreedoms || (!turns(island, a) && !turns(island, b))) return false;
+  Vec<D> middle_a(0.0), middle_b(0.0);
+  for (const Part& part : parts) {
+    middle_a += part.arm_a / static_cast<double>(parts.size());
+    middle_b += part.arm_b / static_cast<double>(parts.size());
+  }
+  double size = 0;
+  for (const Part& part : parts) size = std::max(size, glm::length(part.arm_a - middle_a));
+  if (!(size > 0)) return false;
+
+  Small<kFreedoms> square{};
+  for (Part& part : parts) {
+    const Spin<D> torque = cross(part.arm_a - middle_a, part.direction);
+    for (int k = 0; k < kFreedoms; ++k)
+      part.share[k] = k < D ? part.direction[k] : part_of(torque, k - D) / size;
+    for (int r = 0; r < kFreedoms; ++r)
+      for (int c = 0; c <= r; ++c) square[r][c] += part.share[r] * part.share[c];
+  }
+  const bool holds = factor_small<kFreedoms>(square);
+  for (Part& part : parts) {
+    part.share = holds ? solved<kFreedoms>(square, part.share) : Wrench{1};
+    part.width = holds ? kFreedoms : 1;
+    part.row = rows_.size();
+  }
+  if (!holds) return false;
+  for (int k = 0; k < D; ++k) {
+    const Vec<D> axis = axis_of<D>(k);
+    add_row(island, {a, b, axis, cross(middle_a, axis), cross(middle_b, axis)});
+  }
+  for (int k = D; k < kFreedoms; ++k) {
+    const Spin<D> turn = spin_about<D>(k - D, size);
+    add_row(island, {a, b, Vec<D>(0.0), turn, turn});
+  }
+  return true;
+}
+
+template <int D>
+void DirectSolve<D>::list_joint(const Island<D>& island, JointRows<D>& joint) {
+  Part part;
+  part.a = joint.a;
+  part.b = joint.b;
+  part.joint = &joint;
+  part.arm_a = joint.arm_a;
+  part.arm_b = joint.arm_b;
+  const std::size_t first = parts_.size();
+  if (joint.joint.kind == JointKind::pin) {
+    for (int axis = 0; axis < D; ++axis) {
+      part.direction = axis_of<D>(axis);
+      parts_.push_back(part);
+    }
+  } else if (joint.compliance > 0) {
+    part.direction = joint.direction;
+    parts_.push_back(part);
+  }
+  add_rows_of_their_own(island, first);
+}
+
+template <int D>
+void DirectSolve<D>::list_contact(const Island<D>& island, ContactRows<D>& contact) {
+  const auto across = tangents(contact.normal);
+  const std::size_t first = parts_.size();
+  for (ContactPoint<D>& point : contact.points()) {
+    if (!(point.pn > 0) || !(point.normal_compliance > 0)) continue;
+    Part part;
+    part.a = contact.a;
+    part.b = contact.b;
+    part.point = &point;
+    part.arm_a = point.arm_a;
+    part.arm_b = point.arm_b;
+    part.direction = contact.normal;
+    parts_.push_back(part);
+    if (contact.friction == 0 || !point.sticks) continue;
+    part.most = contact.friction;
+    for (const Vec<D>& tangent : across) {
+      ++part.tangent;
+      part.direction = tangent;
+      parts_.push_back(part);
+    }
+  }
+  if (first < parts_.size() && !add_weld(island, first)) add_rows_of_their_own(island, first);
+}
+
+template <int D>
+void DirectSolve<D>::list_rows(Island<D>& island) {
+  rows_.clear();
+  parts_.clear();
+  for (JointRows<D>& joint : island.joints) list_joint(island, joint);
+  for (IslandPair<D>& pair : island.pairs) list_contact(island, pair.rows);
+}
+
+template void DirectSolve<2>::list_rows(Island<2>&);
+template void DirectSolve<3>::list_rows(Island<3>&);
+
+}  // namespace lantern
