@@ -186,7 +186,9 @@ bool DirectSolve<D>::settle_carriage(Island<D>& island, double h, bool factored,
   return true;
 }
 
-template class DirectSolve<2>;
-template class DirectSolve<3>;
+template bool DirectSolve<2>::settle_velocities(Island<2>&, double, Sweep&);
+template bool DirectSolve<3>::settle_velocities(Island<3>&, double, Sweep&);
+template bool DirectSolve<2>::settle_carriage(Island<2>&, double, bool, Sweep&);
+template bool DirectSolve<3>::settle_carriage(Island<3>&, double, bool, Sweep&);
 
 }  // namespace lantern
