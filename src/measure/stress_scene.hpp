@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -24,7 +23,7 @@ inline constexpr Integrator kIntegrators[] = {
 // The larger one; what is no number wins, and is never lost.
 inline double largest(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
 inline double largest(std::initializer_list<double> values) {
-  double most = -std::numeric_limits<double>::infinity();
+  double most = -kInfinity;
   for (const double value : values) most = largest(most, value);
   return most;
 }

@@ -1,6 +1,5 @@
 // Steps of every length, numbers that overflow, and bodies that begin inside each other.
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include <fmt/format.h>
@@ -74,7 +73,7 @@ double rest_error(Integrator method, double h, int steps) {
   });
   const bool told =
       !why || (why->find("'") != std::string::npos && why->find("step") != std::string::npos);
-  if (!told || !is_finite(world)) return std::numeric_limits<double>::infinity();
+  if (!told || !is_finite(world)) return kInfinity;
   return largest(glm::length(world.bodies()[1].position - at<D>(0, 0.5)),
                  glm::length(world.bodies()[2].position - at<D>(0, 1.5)));
 }
@@ -182,8 +181,7 @@ double exit_speed(const Body<D>& body, double apart) {
     world.step(kStep);
     for (const Body<D>& b : world.bodies()) fastest = largest(fastest, glm::length(b.velocity));
   }
-  return deepest(world) <= 1e-3 && is_finite(world) ? fastest
-                                                    : std::numeric_limits<double>::infinity();
+  return deepest(world) <= 1e-3 && is_finite(world) ? fastest : kInfinity;
 }
 
 template <int D>

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "geometry/not_finite.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
@@ -84,8 +85,7 @@ StressResult pairs_case(Make&& make) {
   const std::size_t wrong =
       wrong_pairs<2>([&](Random& r) { return make(r, std::integral_constant<int, 2>()); }, count) +
       wrong_pairs<3>([&](Random& r) { return make(r, std::integral_constant<int, 3>()); }, count);
-  if (count == 0)
-    return at_most(0, std::numeric_limits<double>::quiet_NaN(), "pairs", "no overlap");
+  if (count == 0) return at_most(0, kNan, "pairs", "no overlap");
   return at_most(0, static_cast<double>(wrong), "pairs",
                  fmt::format("missed, invented or repeated, of {}; all broad phases", count));
 }
@@ -252,7 +252,7 @@ double nodes_of_root(const Box<D>& bounds) {
   config.max_depth = Orthtree<D>::kDeepest;
   Orthtree<D> tree(config);
   for (BodyId id = 0; id < 3; ++id) tree.insert({id, bounds});
-  if (candidate_pairs(tree, 100).pairs.size() != 3) return std::numeric_limits<double>::infinity();
+  if (candidate_pairs(tree, 100).pairs.size() != 3) return kInfinity;
   return static_cast<double>(tree.counters().nodes);
 }
 
@@ -260,7 +260,7 @@ template <int D>
 double worst_root(std::initializer_list<double> lows) {
   double worst = 0;
   for (const double low : lows) {
-    const double next = std::nextafter(low, std::numeric_limits<double>::infinity());
+    const double next = std::nextafter(low, kInfinity);
     worst = largest(worst, nodes_of_root<D>({Vec<D>(low), Vec<D>(next)}));
   }
   return worst;

@@ -124,13 +124,15 @@ bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
     for (int r = 0; r < kFreedoms; ++r)
       for (int c = 0; c <= r; ++c) square[r][c] += part.share[r] * part.share[c];
   }
-  const bool holds = factor_small<kFreedoms>(square);
+  if (!factor_small<kFreedoms>(square)) {
+    for (Part& part : parts) part.share = {1};
+    return false;
+  }
   for (Part& part : parts) {
-    part.share = holds ? solved<kFreedoms>(square, part.share) : Wrench{1};
-    part.width = holds ? kFreedoms : 1;
+    part.share = solved<kFreedoms>(square, part.share);
+    part.width = kFreedoms;
     part.row = rows_.size();
   }
-  if (!holds) return false;
   for (int k = 0; k < D; ++k) {
     const Vec<D> axis = axis_of<D>(k);
     add_row(island, {a, b, axis, cross(middle_a, axis), cross(middle_b, axis)});

@@ -102,9 +102,8 @@ std::string cheapest_picture(const PictureReport& report, const std::string& sce
     names.push_back(fmt::format("{}{} {} ms a frame{} {} levels", way(*row), many ? " with" : ":",
                                 short_number(milliseconds(*row)), many ? " and" : ", off by",
                                 short_number(row->error.rms)));
-  std::string text =
-      fmt::format("The cheapest way{} under {} levels RMS {} {}", rows.size() > 1 ? "s" : "", bound,
-                  rows.size() > 1 ? "are" : "is", listed(names));
+  std::string text = fmt::format("The cheapest way{} under {} levels RMS {} {}", many ? "s" : "",
+                                 bound, many ? "are" : "is", listed(names));
   if (many) text += ", which cost the same within the spread";
   if (!never.empty())
     text += fmt::format("; {} never {} there", listed(never), never.size() > 1 ? "get" : "gets");
