@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
 #include "scenario/reference.hpp"
@@ -214,6 +215,8 @@ int run_and_report(const Run& run) {
   } catch (const BackendError& e) {
     complain(e.what());
     return kNoBackend;
+  } catch (const Stopped&) {
+    return kInterrupted;
   } catch (const std::bad_alloc&) {
     complain("out of memory");
     return kFailed;

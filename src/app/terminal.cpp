@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 namespace {
-
-volatile std::sig_atomic_t interrupt_seen = 0;
 
 constexpr double kRedraw = 0.1;     // seconds between two drawings on a terminal
 constexpr double kPlainLine = 5.0;  // and between two plain lines elsewhere
@@ -69,7 +69,7 @@ void Progress::tell(const std::string& words) {
 
 void catch_interrupts() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupt_seen = 1; };
+  action.sa_handler = [](int) { ask_to_stop(); };
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
   // A closed pipe and a file that may not grow are failed writes like any other.
@@ -77,6 +77,6 @@ void catch_interrupts() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return interrupt_seen != 0; }
+bool interrupted() { return stop_asked(); }
 
 }  // namespace lantern
