@@ -20,7 +20,7 @@ Scenario known_problem(std::string_view name) {
   for (const auto& [known, text] : problem::files())
     if (known == name) return parse_scenario(text, fmt::format("scenarios/problems/{}.toml", name));
   LANTERN_CHECK(name, ==, std::string_view("a known problem"));
-  return {};
+  return Scenario(ScenarioSpec());
 }
 
 }  // namespace lantern

@@ -38,7 +38,7 @@ Place place_within(std::string_view file, Place where, std::string_view text, st
   return {where.line, where.column + 1 + static_cast<int>(letters(before))};
 }
 
-bool has_contacts(const Scenario& s) { return s.world.contacts != ContactMethod::none; }
+bool has_contacts(const ScenarioSpec& s) { return s.world.contacts != ContactMethod::none; }
 
 // Those that are built of an orthtree's nodes.
 bool shares_an_array(StructureKind kind) {
@@ -46,16 +46,17 @@ bool shares_an_array(StructureKind kind) {
 }
 
 // Is what rests told apart from what is awake?
-bool tells_sleepers(const Scenario& s) {
+bool tells_sleepers(const ScenarioSpec& s) {
   return has_contacts(s) || s.world.may_sleep || s.structure.split_static;
 }
 
-bool has_physics(const Scenario& s) {
+bool has_physics(const ScenarioSpec& s) {
   return has_contacts(s) || s.world.gravity != Vec<3>(0.0) || !s.links.empty();
 }
 
 // Of the structure that stands at this step.
-std::string why_not_in(const StructureSpec& structure, CountNeed need, const Scenario& scenario) {
+std::string why_not_in(const StructureSpec& structure, CountNeed need,
+                       const ScenarioSpec& scenario) {
   const StructureKind kind = structure.kind;
   if (kind == StructureKind::none) return "there is no structure at this step";
   if (need == CountNeed::kd_tree && kind != StructureKind::kd_tree)
@@ -71,7 +72,7 @@ std::string why_not_in(const StructureSpec& structure, CountNeed need, const Sce
 
 // Of a world, at this step.
 std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState& state) {
-  const Scenario& s = draft.scenario;
+  const ScenarioSpec& s = draft.scenario;
   switch (need) {
     case CountNeed::bodies:
     case CountNeed::room:

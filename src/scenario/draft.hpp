@@ -1,4 +1,4 @@
-// A scenario while it is being read: what the parts of the parser share.
+// A scenario while it is being read, and may be wrong: what the parts of the parser share.
 #pragma once
 
 #include <optional>
@@ -43,7 +43,7 @@ struct Follower {
 };
 
 struct Draft {
-  Scenario scenario;
+  ScenarioSpec scenario;
   Problems problems;
   std::string_view text;  // of the file, without a byte order mark
   bool has_world = false;

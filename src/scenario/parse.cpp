@@ -1,4 +1,5 @@
 // A scenario file from its bytes to plain values.
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -36,18 +37,24 @@ void read_name(const TableReader& file, const std::string& path, Draft& draft) {
       fmt::format("add name = \"{}\", or rename the file", legal_name(stem, pattern)));
 }
 
+// A verb of this kind, for which `holds` is true, is somewhere in the script.
+template <class V>
+bool some_step(const ScenarioSpec& s, bool (*holds)(const V&)) {
+  return std::any_of(s.steps.begin(), s.steps.end(), [&](const Step& step) {
+    const V* verb = std::get_if<V>(&step.verb);
+    return verb && holds(*verb);
+  });
+}
+
+// Those that the file wishes for.
 void read_panels(const TableReader& file, Draft& draft) {
-  Scenario& s = draft.scenario;
-  const Needs needs = needs_of(s);
-  if (!file.has("panels")) {
-    if (needs.world_panel) s.panels.push_back(Panel::world);
-    if (needs.atlas_panel) s.panels.push_back(Panel::atlas);
-    if (needs.tree_panel) s.panels.push_back(Panel::tree);
-    if (needs.chart_panel) s.panels.push_back(Panel::chart);
-    return;
-  }
-  const bool possible[] = {draft.has_world, needs.structure || needs.level || needs.atlas,
-                           needs.atlas, needs.chart, needs.structure};
+  ScenarioSpec& s = draft.scenario;
+  const auto is_there = [](const Rebuild& r) { return r.structure.kind != StructureKind::none; };
+  const bool structure = s.structure.kind != StructureKind::none || some_step<Rebuild>(s, is_there);
+  const bool level =
+      s.level && some_step<CompileLevel>(s, [](const CompileLevel&) { return true; });
+  const bool possible[] = {draft.has_world, structure || level || s.atlas, s.atlas.has_value(),
+                           s.chart.has_value(), structure};
   constexpr const char* kMissing[] = {
       "it needs a [world]", "it needs a [structure], a [level] or an [atlas]",
       "it needs an [atlas]", "it needs a [chart]", "it needs a [structure]"};
@@ -63,12 +70,22 @@ void read_panels(const TableReader& file, Draft& draft) {
 }
 
 void read_file_keys(const TableReader& file, const std::string& path, Draft& draft) {
-  Scenario& s = draft.scenario;
+  ScenarioSpec& s = draft.scenario;
   s.title = file.text("title").value_or("");
   s.source = file.text("source").value_or("");
   s.seed = static_cast<std::uint64_t>(file.whole("seed").value_or(1));
   s.pace = static_cast<Pace>(file.choice("pace").value_or(0));
   read_name(file, path, draft);
+}
+
+// Those that it needs.
+std::vector<Panel> derived_panels(const Needs& needs) {
+  std::vector<Panel> panels;
+  if (needs.world_panel) panels.push_back(Panel::world);
+  if (needs.atlas_panel) panels.push_back(Panel::atlas);
+  if (needs.tree_panel) panels.push_back(Panel::tree);
+  if (needs.chart_panel) panels.push_back(Panel::chart);
+  return panels;
 }
 
 bool is_blank(std::string_view text) {
@@ -108,7 +125,10 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
     if (!draft.problems.any()) read_all(table, path, draft);
   }
   draft.problems.raise(path, draft.text);
-  return std::move(draft.scenario);
+  const bool wishes = !draft.scenario.panels.empty();
+  Scenario scenario(std::move(draft.scenario));
+  if (!wishes) scenario.panels = derived_panels(needs_of(scenario));
+  return scenario;
 }
 
 Scenario load_scenario(const std::string& path) {

@@ -73,7 +73,7 @@ void read_texture_pattern(const TomlValue& value, Draft& draft) {
     made[i].name = fmt::format("{}{}", name, i + 1);
     made[i].color = cycled_color(table.whole("color").value_or(0), i);
     const NamedRange one{textures.size(), 1, table.place("name")};
-    if (!draft.textures.add(made[i].name, one, false, draft.problems)) return;
+    draft.textures.add(made[i].name, one, false, draft.problems);
     textures.push_back(std::move(made[i]));
   }
 }

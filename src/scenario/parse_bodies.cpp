@@ -82,8 +82,7 @@ void find_the_followed(Draft& draft) {
     if (f.first <= *followed && *followed < f.first + f.count)
       draft.problems.add(f.followed.where, "a body cannot follow itself",
                          "name another one in 'follow'");
-    for (std::size_t i = f.first; i < std::min(f.first + f.count, bodies.size()); ++i)
-      bodies[i].follows = *followed;
+    for (std::size_t i = f.first; i < f.first + f.count; ++i) bodies[i].follows = *followed;
   }
 }
 

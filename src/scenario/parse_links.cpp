@@ -45,7 +45,7 @@ bool is_dynamic(std::size_t body, const Draft& draft) {
 
 // Each method would need the other's state within the step.
 void check_integrators(std::size_t a, std::size_t b, const TableReader& table, Draft& draft) {
-  const Scenario& s = draft.scenario;
+  const ScenarioSpec& s = draft.scenario;
   const auto of = [&](std::size_t i) {
     return s.bodies[i].integrator.value_or(s.world.integrator);
   };
@@ -111,7 +111,7 @@ void read_chain(const TableReader& table, const LinkSpec& like, Draft& draft) {
     LinkSpec link = like;
     link.a = range->first + i;
     link.b = link.a + 1;
-    if (*link.b < draft.scenario.bodies.size()) draft.scenario.links.push_back(std::move(link));
+    draft.scenario.links.push_back(std::move(link));
   }
 }
 

@@ -130,7 +130,7 @@ void unroll_pattern(const BodySpec& like, std::size_t count, const TableReader& 
       body.velocity = speed * (dimension == 2 ? solid(random_direction<2>(random))
                                               : random_direction<3>(random));
     const NamedRange range{draft.scenario.bodies.size(), 1, table.place("name")};
-    if (!draft.bodies.add(body.name, range, false, draft.problems)) return;
+    draft.bodies.add(body.name, range, false, draft.problems);
     draft.scenario.bodies.push_back(std::move(body));
   }
 }

@@ -101,7 +101,7 @@ class ScriptReader {
     draft_.scenario.steps.push_back(std::move(step));
   }
 
-  bool has_plot() const { return state_.has_plot; }
+  const ScriptState& state() const { return state_; }
 
  private:
   // The language's table of the step's verb. Adds a problem and gives null if there is none.
@@ -191,7 +191,9 @@ void read_script(const TableReader& file, Draft& draft) {
                        "add [[step]] with do = \"show\"");
   ScriptReader reader(draft);
   for (const TomlValue* value : file.tables("step")) reader.read(*value);
-  if (draft.scenario.chart && !draft.scenario.chart->over_time() && !reader.has_plot() &&
+  draft.scenario.most_frames = reader.state().frames;
+  draft.scenario.world_steps = reader.state().ticks;
+  if (draft.scenario.chart && !draft.scenario.chart->over_time() && !reader.state().has_plot &&
       !draft.problems.any())
     draft.problems.add(file.place("chart"), "no step adds anything to the chart",
                        "give steps a label in 'plot'");

@@ -77,8 +77,7 @@ std::vector<std::size_t> read_sleepers(const TableReader& table, std::string_vie
   const std::vector<Named> written = table.texts("bodies");
   for (const Named& named : written) {
     const NamedRange* range = scope.draft.bodies.find(named.name);
-    if (range && range->first < scope.draft.scenario.bodies.size() &&
-        scope.draft.scenario.bodies[range->first].kind != BodyKind::dynamic_body)
+    if (range && scope.draft.scenario.bodies[range->first].kind != BodyKind::dynamic_body)
       scope.draft.problems.add(named.where,
                                fmt::format("'{}' is not dynamic: it cannot {}", named.name, verb),
                                "only dynamic bodies sleep and wake");

@@ -148,7 +148,7 @@ class Promises {
         continue;
       }
       const auto& bodies = draft_.scenario.bodies;
-      for (std::size_t i = range->first; i < range->first + range->count && i < bodies.size(); ++i)
+      for (std::size_t i = range->first; i < range->first + range->count; ++i)
         e.names.push_back(bodies[i].name);
     }
   }

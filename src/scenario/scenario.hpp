@@ -340,7 +340,9 @@ struct Step {
   SourcePosition where;
 };
 
-struct Scenario {
+// All that a file says. Each value has its type, but nothing is known to be right: a name may be
+// that of nobody, an index may lie beyond its list. Only diagnostics can be made of it.
+struct ScenarioSpec {
   std::string name;  // [a-z0-9_]+, from the file's name unless given; names files and folders
   std::string file;  // as it was given
   std::string title;
@@ -361,6 +363,17 @@ struct Scenario {
   std::vector<Step> steps;
   std::uint64_t text_hash = 0;  // of the file's bytes
   std::string text;             // the file's bytes, for diagnostics of the run
+  std::uint64_t most_frames = 0;  // in step pace; a step that waits may give fewer
+  std::uint64_t world_steps = 0;  // at most, for the same reason
+};
+
+// One that is right, and the only one that can be walked, explained, run or drawn: whatever is named
+// is there.
+class Scenario : public ScenarioSpec {
+ public:
+  // The parser has found no mistake, or code has made the spec and vouches for it: an index beyond
+  // its list is a broken invariant.
+  explicit Scenario(ScenarioSpec spec);
 };
 
 // Throws ScenarioError with every mistake found, IoError if the file cannot be read.

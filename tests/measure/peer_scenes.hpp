@@ -31,12 +31,12 @@ inline BodySpec ground(const Vec<3>& normal) {
 }
 
 inline Scenario scene(int dimension, std::vector<BodySpec> bodies) {
-  Scenario s;
+  ScenarioSpec s;
   s.world.dimension = dimension;
   s.world.bounds = {Vec<3>(-20.0), Vec<3>(20.0)};
   s.bodies = std::move(bodies);
   s.problem.emplace();
-  return s;
+  return Scenario(std::move(s));
 }
 
 inline std::vector<BodyState> after(const Contestant& peer, const Scenario& s, double h,

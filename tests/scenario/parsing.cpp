@@ -138,7 +138,7 @@ Scenario good(const std::string& text) {
   } catch (const ScenarioError& error) {
     ADD_FAILURE() << error.what() << text;
   }
-  return {};
+  return Scenario(ScenarioSpec());
 }
 
 std::vector<std::string> good_texts() {
