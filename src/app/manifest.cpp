@@ -10,31 +10,43 @@
 #include "embedded/version.hpp"
 
 namespace lantern {
+namespace {
 
-std::string Manifest::key() const {
-  Hash hash;
-  hash.add(kSourceHash).add(scenario_hash).add(pace).add(size).add(theme).add(format).add(png);
-  return fmt::format("{:016x}", hash.add(std::uint64_t{transparent}).value());
+std::string text_of(const Hash& hash) { return fmt::format("{:016x}", hash.value()); }
+
+Hash facts_of(const Manifest& m) {
+  return Hash().add(kVersion).add(m.scenario).add(m.scenario_hash).add(m.pace);
 }
 
-std::string Manifest::facts_key() const {
-  return fmt::format("{:016x}", Hash().add(kSourceHash).add(scenario_hash).add(pace).value());
+// `png`, the effort of encoding, counts only where it shows.
+Hash style_of(const Manifest& m) {
+  Hash hash = Hash().add(m.theme).add(m.format).add(std::uint64_t{m.transparent});
+  if (m.format == "png") hash.add(m.png);
+  return hash;
 }
 
-std::optional<OldManifest> read_manifest(const std::filesystem::path& file) try {
+}  // namespace
+
+MadeFrom Manifest::frame_from(std::uint32_t index) const {
+  return {text_of(facts_of(*this).add(std::uint64_t{index})),
+          text_of(style_of(*this).add(size).add(std::uint64_t{index}))};
+}
+
+MadeFrom Manifest::atlas_from() const {
+  return {text_of(facts_of(*this).add("atlas")), text_of(style_of(*this).add("atlas"))};
+}
+
+bool is_of_this_build(const std::filesystem::path& manifest) try {
   constexpr std::size_t kMostBytes = 1u << 28;
-  const auto json = nlohmann::json::parse(read_file(file, kMostBytes));
-  OldManifest old{json.at("key"), json.at("facts_key"), json.at("finished"), {}};
-  for (const auto& frame : json.at("frames")) old.frames.push_back(frame.at("frame"));
-  return old;
+  const auto json = nlohmann::json::parse(read_file(manifest, kMostBytes));
+  return json.at("sources").get<std::string>() == kSourceHash;
 } catch (const IoError&) {
-  return std::nullopt;
+  return false;
 } catch (const nlohmann::json::exception&) {
-  return std::nullopt;
+  return false;
 }
 
-std::string frame_file(const std::string& scenario, std::uint32_t index,
-                       const std::string& ending) {
+std::string frame_file(const std::string& scenario, std::uint32_t index, std::string_view ending) {
   return fmt::format("{}_{:04}.{}", scenario, index, ending);
 }
 
@@ -42,12 +54,12 @@ std::string to_json(const Manifest& m) {
   JsonWriter json;
   json.begin_object().line().member("format", "lantern.manifest/1");
   json.line().member("scenario", m.scenario).line().member("title", m.title);
-  json.line().member("version", kVersion).line().member("scenario_hash", m.scenario_hash);
+  json.line().member("version", kVersion).line().member("sources", kSourceHash);
+  json.line().member("scenario_hash", fmt::format("{:016x}", m.scenario_hash));
   json.line().member("seed", m.seed).line().member("pace", m.pace);
   json.line().member("size", m.size).line().member("theme", m.theme);
   json.line().member("picture_format", m.format).line().member("png", m.png);
-  json.line().member("transparent", m.transparent).line().member("key", m.key());
-  json.line().member("facts_key", m.facts_key()).line().member("finished", m.finished);
+  json.line().member("transparent", m.transparent).line().member("finished", m.finished);
   json.line().member("expectations", m.expectations).line().member("unmet", m.unmet);
   json.line().key("frames").begin_array();
   for (const auto& [index, frame] : m.frames) {

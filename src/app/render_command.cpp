@@ -1,18 +1,21 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/frame_folder.hpp"
 #include "app/manifest.hpp"
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
 #include "atlas/atlas.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/stop.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "render/pipeline.hpp"
@@ -56,22 +59,6 @@ Pace pace_of(const RenderJob& job, const Scenario& scenario) {
   return job.options.pace == "event" ? Pace::event : Pace::step;
 }
 
-// The run without pixels: which frames there are, and whether the expectations hold.
-struct Rehearsal {
-  std::vector<PlannedFrame> plan;
-  DirectorReport report;
-};
-
-Rehearsal rehearse(const Scenario& scenario, Pace pace) {
-  Rehearsal r;
-  Work unseen;  // the same work again: counted once, in the run that draws
-  r.report = direct(scenario, pace, unseen, [&](const Frame& f) {
-    r.plan.push_back({f.index, f.step, f.event, f.time, f.caption, f.hash});
-    return !interrupted();
-  });
-  return r;
-}
-
 std::vector<PngText> texts_of(const Frame& frame) {
   return {{"Title", frame.title},
           {"Software", fmt::format("Lantern {}", kVersion)},
@@ -80,51 +67,78 @@ std::vector<PngText> texts_of(const Frame& frame) {
           {"Seed", fmt::format("{}", frame.seed)}};
 }
 
+Manifest manifest_of(const RenderJob& job, const Scenario& scenario, Pace pace) {
+  Manifest m;
+  m.scenario = scenario.name;
+  m.title = scenario.title;
+  m.seed = scenario.seed;
+  m.pace = pace == Pace::event ? "event" : "step";
+  m.size = fmt::format("{}x{}", job.width, job.height);
+  m.theme = job.options.theme;
+  m.format = job.options.format;
+  m.png = job.options.png;
+  m.transparent = job.options.transparent;
+  m.scenario_hash = scenario.text_hash;
+  return m;
+}
+
+// The facts of a frame are the same whatever is drawn of it.
+std::string facts_of(const Frame& frame, const MadeFrom& from) {
+  return sealed(FileKind::json, to_json(frame), {from.facts, from.facts});
+}
+
+std::string svg_of(const RenderJob& job, const DrawList& list, int width, int height,
+                   bool transparent, const MadeFrom& from) {
+  return sealed(FileKind::svg, to_svg(list, job.theme, transparent, width, height), from);
+}
+
+std::string png_of(const RenderJob& job, const DrawList& list, int width, int height,
+                   bool transparent, int pixels_per_metre, const Frame& frame, const MadeFrom& from,
+                   Work& work) {
+  Renderer renderer(Context::create(job.backend), width, height);
+  ++work.graphics_contexts;
+  Image image;
+  renderer.draw(list, job.theme, transparent, image);
+  ++work.frames_drawn;
+  ++work.frames_encoded;
+  return sealed(FileKind::png, encode_png(image, job.effort, texts_of(frame), pixels_per_metre),
+                from);
+}
+
 // --- one frame to standard output ---
 
-void draw_to_stdout(const RenderJob& job, const Scenario& scenario, Pace pace, std::uint32_t index,
-                    Work& work) {
+DirectorReport draw_to_stdout(const RenderJob& job, const Scenario& scenario, Pace pace,
+                              Selection& selection, Work& work) {
+  const Manifest manifest = manifest_of(job, scenario, pace);
+  std::size_t chosen = 0;
   std::string bytes;
-  direct(scenario, pace, work, [&](const Frame& frame) {
-    if (frame.index != index) return true;
+  DirectorReport report = direct(scenario, pace, work, [&](const Frame& frame) {
+    if (!selection.takes(frame) || ++chosen > 1) return true;
     const DrawList list = draw_frame(frame, page_for(job.width, job.height), work);
-    if (job.svg()) {
-      bytes = to_svg(list, job.theme, job.options.transparent, job.width, job.height);
-    } else {
-      Renderer renderer(Context::create(job.backend), job.width, job.height);
-      ++work.graphics_contexts;
-      Image image;
-      renderer.draw(list, job.theme, job.options.transparent, image);
-      bytes = encode_png(image, job.effort, texts_of(frame), kPixelsPerMetre);
-      ++work.frames_drawn;
-      ++work.frames_encoded;
-    }
-    return false;
+    const MadeFrom from = manifest.frame_from(frame.index);
+    const bool transparent = job.options.transparent;
+    bytes = job.svg() ? svg_of(job, list, job.width, job.height, transparent, from)
+                      : png_of(job, list, job.width, job.height, transparent, kPixelsPerMetre,
+                               frame, from, work);
+    return true;
   });
+  selection.require_some();
+  if (chosen != 1)
+    throw UsageError(fmt::format(
+        "-o - writes one frame, but {} are chosen; pick one with --frames or --at", chosen));
   write_stdout(bytes);
+  return report;
 }
 
 // --- a folder of frames ---
 
-// The finished atlas as an image of its own, and where each texture lies in it.
-void write_atlas(const RenderJob& job, const Frame& frame, const fs::path& folder, Work& work) {
-  const fs::path stem = folder / (frame.scenario + "_atlas");
-  const DrawList list = draw_atlas_image(frame);
-  const int width = static_cast<int>(list.page.x);
-  const int height = static_cast<int>(list.page.y);
-  if (job.svg()) {
-    write_file(stem.string() + ".svg", to_svg(list, job.theme, true, width, height));
-  } else {
-    Renderer renderer(Context::create(job.backend), width, height);
-    ++work.graphics_contexts;
-    Image image;
-    renderer.draw(list, job.theme, true, image);
-    write_file(stem.string() + ".png", encode_png(image, job.effort, texts_of(frame), 0));
-  }
+// Where each texture lies in the image of the finished atlas.
+std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList& list) {
   JsonWriter json;
   json.begin_object().line().member("format", "lantern.atlas/1");
   json.line().member("image", frame.scenario + "_atlas." + job.options.format);
-  json.line().key("size").begin_array().value(width).value(height).end_array();
+  json.line().key("size").begin_array();
+  json.value(static_cast<int>(list.page.x)).value(static_cast<int>(list.page.y)).end_array();
   json.line().key("textures").begin_array();
   for (const FrameTexture& t : frame.textures) {
     if (!t.packed) continue;
@@ -135,139 +149,147 @@ void write_atlas(const RenderJob& job, const Frame& frame, const fs::path& folde
   for (const FrameTexture& t : frame.textures)
     if (t.refused) json.value(t.name);
   json.end_array().line().end_object();
-  write_file(stem.string() + ".json", json.text() + "\n");
+  return json.text() + "\n";
 }
 
-// Renders the chosen frames of one scenario into DIR/<scenario>/.
+// Renders the chosen frames of one scenario into DIR/<scenario>/, in one run of the scenario: each
+// is drawn when it comes by, unless its picture stands there already.
 class FolderRun {
  public:
-  FolderRun(const RenderJob& job, const Scenario& scenario, const Rehearsal& rehearsal, Work& work)
+  FolderRun(const RenderJob& job, const Scenario& scenario, Pace pace, Selection& selection,
+            Work& work)
       : job_(job),
         scenario_(scenario),
-        pace_(pace_of(job, scenario)),
-        plan_(rehearsal.plan),
-        chosen_(select_frames(plan_, job.options.frames, job.options.at)),
-        folder_(fs::path(job.options.output) / scenario.name),
-        work_(work) {
-    manifest_.scenario = scenario.name;
-    manifest_.title = scenario.title;
-    manifest_.seed = scenario.seed;
-    manifest_.pace = pace_ == Pace::event ? "event" : "step";
-    manifest_.size = fmt::format("{}x{}", job.width, job.height);
-    manifest_.theme = job.options.theme;
-    manifest_.format = job.options.format;
-    manifest_.png = job.options.png;
-    manifest_.transparent = job.options.transparent;
-    manifest_.scenario_hash = fmt::format("{:016x}", scenario.text_hash);
-    manifest_.expectations = rehearsal.report.expectations;
-    manifest_.unmet = rehearsal.report.unmet.size();
-  }
+        pace_(pace),
+        selection_(selection),
+        manifest_(manifest_of(job, scenario, pace)),
+        path_(fs::path(job.options.output) / scenario.name),
+        work_(work) {}
 
-  // True when every chosen frame is there; false when interrupted.
-  bool run() {
-    make_folder(folder_);
-    remove_leftovers(folder_);
-    take_over_old_frames();
-    write_file(folder_ / "manifest.json", to_json(manifest_));
-    if (!to_draw_.empty()) draw();
-    if (interrupted()) return false;
-    for (const std::uint32_t index : to_draw_) manifest_.frames[index] = plan_[index];
+  // Throws UsageError, and leaves the disk as it was, if no frame is chosen.
+  DirectorReport run() {
+    DirectorReport report;
+    {
+      Progress progress(scenario_.name, scenario_.most_frames);
+      report = direct(scenario_, pace_, work_, [&](const Frame& frame) {
+        stop_if_asked();
+        all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
+        if (selection_.takes(frame)) take(frame);
+        if (scenario_.atlas) last_ = frame;
+        progress.done(all_.size());
+        return true;
+      });
+    }
+    selection_.require_some();
+    if (pipeline_) pipeline_->finish();
+    list_frames();
+    if (last_ && manifest_.frames.size() == all_.size()) write_atlas(*last_);
     manifest_.finished = true;
-    write_file(folder_ / "manifest.json", to_json(manifest_));
-    remove_stale_frames();
-    return true;
+    manifest_.expectations = report.expectations;
+    manifest_.unmet = report.unmet.size();
+    write_manifest();
+    return report;
   }
 
-  std::size_t drawn() const { return to_draw_.size(); }
-  std::size_t kept() const { return chosen_.size() - to_draw_.size(); }
-  const fs::path& folder() const { return folder_; }
+  std::size_t drawn() const { return drawn_here_.size(); }
+  std::size_t kept() const { return kept_; }
+  const fs::path& path() const { return path_; }
 
  private:
-  fs::path file(std::uint32_t index, const std::string& ending) const {
-    return folder_ / frame_file(scenario_.name, index, ending);
+  // Only when there is a frame for it.
+  void open_folder() {
+    folder_.emplace(path_, manifest_, selection_.takes_all());
+    if (!folder_->removed().empty())
+      say(fmt::format("{}: removed what an earlier run has left: {}", scenario_.name,
+                      some_of(folder_->removed())));
+    if (!folder_->strange().empty())
+      say(fmt::format("{}: left alone, since it is not as Lantern made it: {}", scenario_.name,
+                      some_of(folder_->strange())));
+    write_manifest();
   }
 
-  bool stands(std::uint32_t index) const {
-    std::error_code error;
-    return fs::is_regular_file(file(index, job_.options.format), error) &&
-           fs::is_regular_file(file(index, "json"), error);
-  }
-
-  // Frames of the same pictures stay listed; those of a run that was cut off are not drawn again.
-  void take_over_old_frames() {
-    old_ = read_manifest(folder_ / "manifest.json");
-    const bool same = old_ && old_->key == manifest_.key();
-    if (same)
-      for (const std::uint32_t index : old_->frames)
-        if (index < plan_.size() && stands(index)) manifest_.frames[index] = plan_[index];
-    for (const std::uint32_t index : chosen_)
-      if (same && !old_->finished && stands(index))
-        manifest_.frames[index] = plan_[index];
-      else
-        to_draw_.push_back(index);
-  }
-
-  void draw() {
-    Progress progress(scenario_.name, to_draw_.size());
-    std::unique_ptr<Pipeline> pipeline;
-    std::uint64_t count = 0;
-    if (!job_.svg()) {
-      Pipeline::Config config;
-      config.width = job_.width;
-      config.height = job_.height;
-      config.theme = job_.theme;
-      config.transparent = job_.options.transparent;
-      config.effort = job_.effort;
-      config.pixels_per_metre = kPixelsPerMetre;
-      config.threads = job_.threads;
-      pipeline = std::make_unique<Pipeline>(Context::create(job_.backend), config, work_);
+  void take(const Frame& frame) {
+    if (!folder_) open_folder();
+    const std::uint32_t index = frame.index;
+    const MadeFrom from = manifest_.frame_from(index);
+    if (!folder_->stands(index, "json"))
+      write_file(folder_->file(index, "json"), facts_of(frame, from));
+    if (folder_->stands(index, job_.options.format)) {
+      ++kept_;
+      return;
     }
-    auto next = to_draw_.begin();
-    direct(scenario_, pace_, work_, [&](const Frame& frame) {
-      if (interrupted()) return false;
-      if (frame.index == *next) {
-        const DrawList list = draw_frame(frame, page_for(job_.width, job_.height), work_);
-        write_file(file(frame.index, "json"), to_json(frame));
-        if (pipeline)
-          pipeline->submit(list, texts_of(frame), file(frame.index, "png"));
-        else
-          write_file(file(frame.index, "svg"),
-                     to_svg(list, job_.theme, job_.options.transparent, job_.width, job_.height));
-        progress.done(++count);
-        ++next;
-      }
-      const bool last = frame.index + 1 == plan_.size();
-      if (last && scenario_.atlas && chosen_.size() == plan_.size())
-        write_atlas(job_, frame, folder_, work_);
-      return next != to_draw_.end();
-    });
-    if (pipeline) pipeline->finish();
+    const DrawList list = draw_frame(frame, page_for(job_.width, job_.height), work_);
+    const fs::path file = folder_->file(index, job_.options.format);
+    if (job_.svg())
+      write_file(file, svg_of(job_, list, job_.width, job_.height, job_.options.transparent, from));
+    else
+      pipeline().submit(list, texts_of(frame), file, from);
+    drawn_here_.insert(index);
   }
 
-  // After a whole run nothing of an older one stands among the new frames: none that the scenario
-  // no longer has, and no picture in the other format of what is no longer so.
-  void remove_stale_frames() const {
-    if (!old_ || old_->frames.empty() || chosen_.size() != plan_.size()) return;
-    const std::string other = job_.svg() ? "png" : "svg";
-    std::error_code error;
-    for (std::uint32_t index = 0; index <= old_->frames.back(); ++index) {
-      if (index >= plan_.size())
-        for (const char* ending : {"png", "svg", "json"}) fs::remove(file(index, ending), error);
-      else if (old_->facts_key != manifest_.facts_key())
-        fs::remove(file(index, other), error);
-    }
+  // Made when there is something to draw.
+  Pipeline& pipeline() {
+    if (pipeline_) return *pipeline_;
+    Pipeline::Config config;
+    config.width = job_.width;
+    config.height = job_.height;
+    config.theme = job_.theme;
+    config.transparent = job_.options.transparent;
+    config.effort = job_.effort;
+    config.pixels_per_metre = kPixelsPerMetre;
+    config.threads = job_.threads;
+    pipeline_ = std::make_unique<Pipeline>(Context::create(job_.backend), config, work_);
+    return *pipeline_;
+  }
+
+  // Those of this run, and those of earlier ranges that still stand.
+  void list_frames() {
+    for (std::uint32_t i = 0; i < all_.size(); ++i)
+      if (drawn_here_.contains(i) ||
+          (folder_->stands(i, job_.options.format) && folder_->stands(i, "json")))
+        manifest_.frames.emplace(i, std::move(all_[i]));
+  }
+
+  // Transparent, in its own size, as soon as all frames are there.
+  void write_atlas(const Frame& frame) {
+    const DrawList list = draw_atlas_image(frame);
+    const int width = static_cast<int>(list.page.x), height = static_cast<int>(list.page.y);
+    const MadeFrom from = manifest_.atlas_from();
+    const std::string& format = job_.options.format;
+    if (!folder_->atlas_stands(format))
+      write_file(folder_->atlas(format),
+                 job_.svg() ? svg_of(job_, list, width, height, true, from)
+                            : png_of(job_, list, width, height, true, 0, frame, from, work_));
+    if (!folder_->atlas_stands("json"))
+      write_file(folder_->atlas("json"),
+                 sealed(FileKind::json, atlas_facts(job_, frame, list), from));
+  }
+
+  void write_manifest() { write_file(path_ / "manifest.json", to_json(manifest_)); }
+
+  // "a.png, b.png and 17 more"
+  static std::string some_of(const std::vector<std::string>& names) {
+    constexpr std::size_t kMost = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+      text += (i > 0 ? ", " : "") + names[i];
+    if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
+    return text;
   }
 
   const RenderJob& job_;
   const Scenario& scenario_;
   Pace pace_;
-  const std::vector<PlannedFrame>& plan_;
-  std::vector<std::uint32_t> chosen_;
-  std::vector<std::uint32_t> to_draw_;
-  std::optional<OldManifest> old_;  // of the run before
-  fs::path folder_;
+  Selection& selection_;
   Manifest manifest_;
+  fs::path path_;
   Work& work_;
+  std::optional<FrameFolder> folder_;
+  std::unique_ptr<Pipeline> pipeline_;
+  std::vector<ListedFrame> all_;  // of the run so far
+  std::set<std::uint32_t> drawn_here_;
+  std::size_t kept_ = 0;
+  std::optional<Frame> last_;  // of an atlas
 };
 
 // --- the command ---
@@ -301,29 +323,26 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 // Draws one scenario; the exit code that it deserves.
 int render_one(const RenderJob& job, const Scenario& scenario, Work& work, JsonWriter& json) {
   const Pace pace = pace_of(job, scenario);
-  const Rehearsal rehearsal = rehearse(scenario, pace);
-  if (interrupted()) return kInterrupted;
-  if (!rehearsal.report.unmet.empty()) complain(ScenarioError(rehearsal.report.unmet));
-  const int code = rehearsal.report.unmet.empty() ? kGood : kFailed;
-  if (job.to_stdout()) {
-    const auto chosen = select_frames(rehearsal.plan, job.options.frames, job.options.at);
-    if (chosen.size() != 1)
-      throw UsageError(
-          fmt::format("-o - writes one frame, but {} are chosen; pick one with "
-                      "--frames or --at",
-                      chosen.size()));
-    draw_to_stdout(job, scenario, pace, chosen[0], work);
-    return code;
-  }
-  FolderRun run(job, scenario, rehearsal, work);
-  if (!run.run()) return kInterrupted;
+  // In event pace, how many frames there are is known only after the run.
+  const bool by_step =
+      pace == Pace::step && std::none_of(scenario.steps.begin(), scenario.steps.end(),
+                                         [](const Step& s) { return s.pace == Pace::event; });
+  Selection selection(job.options.frames, job.options.at,
+                      by_step ? std::optional(scenario.most_frames) : std::nullopt);
+  std::optional<FolderRun> run;
+  if (!job.to_stdout()) run.emplace(job, scenario, pace, selection, work);
+  const DirectorReport report =
+      run ? run->run() : draw_to_stdout(job, scenario, pace, selection, work);
+  if (!report.unmet.empty()) complain(ScenarioError(report.unmet));
+  const int code = report.unmet.empty() ? kGood : kFailed;
+  if (!run) return code;
   json.line().begin_object().member("scenario", scenario.name);
-  json.member("folder", run.folder().string()).member("drawn", run.drawn());
-  json.member("kept", run.kept()).member("expectations", rehearsal.report.expectations);
-  json.member("unmet", rehearsal.report.unmet.size()).end_object();
-  say(fmt::format("{}: {} frames in {}{}", scenario.name, run.drawn() + run.kept(),
-                  run.folder().string(),
-                  run.kept() ? fmt::format(", {} of them there already", run.kept()) : ""));
+  json.member("folder", run->path().string()).member("drawn", run->drawn());
+  json.member("kept", run->kept()).member("expectations", report.expectations);
+  json.member("unmet", report.unmet.size()).end_object();
+  say(fmt::format("{}: {} frames in {}{}", scenario.name, run->drawn() + run->kept(),
+                  run->path().string(),
+                  run->kept() ? fmt::format(", {} of them there already", run->kept()) : ""));
   return code;
 }
 
@@ -344,8 +363,7 @@ int render_command(const RenderOptions& options) {
     } catch (const ScenarioError& e) {
       complain(e);
       code = std::max<int>(code, kBadScenario);
-    }
-    if (interrupted()) {
+    } catch (const Stopped&) {
       say("interrupted; the same command goes on where this one stopped");
       return kInterrupted;
     }

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
-#include <set>
 #include <string_view>
-#include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,35 +20,6 @@ std::optional<T> number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
-}
-
-// First and last frame of "A", "A-B", "A-" or "-B".
-std::pair<std::uint32_t, std::uint32_t> frame_range(const std::string& text, std::uint32_t count) {
-  const auto bad = [&]() -> UsageError {
-    return UsageError(fmt::format(
-        "--frames {}: give a frame or a range within 0-{}, as 7, 3-9, 3- or -9", text, count - 1));
-  };
-  const std::size_t dash = text.find('-');
-  const std::string_view all = text;
-  const std::string_view from = all.substr(0, dash);
-  const std::string_view to = dash == std::string::npos ? from : all.substr(dash + 1);
-  if (from.empty() && to.empty()) throw bad();
-  const auto first = from.empty() ? std::optional<std::uint32_t>(0) : number<std::uint32_t>(from);
-  const auto last = to.empty() ? std::optional(count - 1) : number<std::uint32_t>(to);
-  if (!first || !last || *first > *last || *last >= count) throw bad();
-  return {*first, *last};
-}
-
-bool any_of_event(const std::vector<PlannedFrame>& plan, const std::string& event) {
-  return std::any_of(plan.begin(), plan.end(), [&](const auto& f) { return f.event == event; });
-}
-
-[[noreturn]] void no_such_event(const std::vector<PlannedFrame>& plan, const std::string& event) {
-  std::set<std::string_view> names;
-  for (const PlannedFrame& frame : plan) names.insert(frame.event);
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  throw UsageError(
-      fmt::format("--at {}: no frame has this event; {}", event, suggestion(event, known, 40)));
 }
 
 }  // namespace
@@ -69,28 +38,57 @@ std::pair<int, int> parse_size(const std::string& text, int most) {
   return {*width, *height};
 }
 
-std::vector<std::uint32_t> select_frames(const std::vector<PlannedFrame>& plan,
-                                         const std::string& frames, const std::string& at) {
-  const auto count = static_cast<std::uint32_t>(plan.size());
-  std::uint32_t first = 0;
-  std::uint32_t last = count - 1;
-  if (!frames.empty()) std::tie(first, last) = frame_range(frames, count);
-  std::optional<double> time = number<double>(at);
-  if (time && !std::isfinite(*time)) time.reset();
-  if (!at.empty() && !time && !any_of_event(plan, at)) no_such_event(plan, at);
-  std::vector<std::uint32_t> selected;
-  for (std::uint32_t i = first; i <= last; ++i) {
-    if (time) {
-      // World time is a sum of steps, so a time as written may miss it by a rounding error.
-      if (plan[i].time < *time - 1e-9) continue;
-      return {i};
-    }
-    if (at.empty() || plan[i].event == at) selected.push_back(i);
+Selection::Selection(const std::string& frames, const std::string& at,
+                     std::optional<std::uint64_t> most_frames)
+    : frames_(frames), at_(at), time_(number<double>(at)) {
+  if (time_ && !std::isfinite(*time_)) time_.reset();
+  if (frames.empty()) return;
+  const std::size_t dash = frames.find('-');
+  const std::string_view from = std::string_view(frames).substr(0, dash);
+  const std::string_view to =
+      dash == std::string::npos ? from : std::string_view(frames).substr(dash + 1);
+  const auto read = [&](std::string_view word) {
+    const auto index = number<std::uint32_t>(word);
+    if (!index)
+      throw UsageError(
+          fmt::format("--frames {}: give a frame or a range, as 7, 3-9, 3- or -9", frames));
+    return *index;
+  };
+  if (!from.empty() || to.empty()) first_ = read(from);
+  if (!to.empty()) last_ = read(to);
+  if (last_ && first_ > *last_)
+    throw UsageError(fmt::format("--frames {}: the range ends before it begins", frames));
+  if (most_frames && std::max(first_, last_.value_or(0)) >= *most_frames)
+    refuse_range(*most_frames);
+}
+
+void Selection::refuse_range(std::uint64_t count) const {
+  throw UsageError(fmt::format(
+      "--frames {}: give a frame or a range within 0-{}, as 7, 3-9, 3- or -9", frames_, count - 1));
+}
+
+bool Selection::takes(const Frame& frame) {
+  ++asked_;
+  end_ = frame.time;
+  if (!at_.empty()) events_.insert(frame.event);
+  if (frame.index < first_ || (last_ && frame.index > *last_)) return false;
+  // World time is a sum of steps, so a time as written may miss it by a rounding error.
+  if (time_ && (taken_ > 0 || frame.time < *time_ - 1e-9)) return false;
+  if (!at_.empty() && !time_ && frame.event != at_) return false;
+  ++taken_;
+  return true;
+}
+
+void Selection::require_some() const {
+  if (std::max(first_, last_.value_or(0)) >= asked_ && !frames_.empty()) refuse_range(asked_);
+  if (taken_ > 0) return;
+  if (!at_.empty() && !time_ && !events_.contains(at_)) {
+    const std::vector<std::string_view> known(events_.begin(), events_.end());
+    throw UsageError(
+        fmt::format("--at {}: no frame has this event; {}", at_, suggestion(at_, known, 40)));
   }
-  if (selected.empty())
-    throw UsageError(fmt::format("--at {}: no frame is chosen; the last one is at {:.6g} s", at,
-                                 plan.back().time));
-  return selected;
+  throw UsageError(
+      fmt::format("--at {}: no frame is chosen; the last one is at {:.6g} s", at_, end_));
 }
 
 }  // namespace lantern

@@ -2,29 +2,46 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
-#include <vector>
+
+#include "scenario/frame.hpp"
 
 namespace lantern {
-
-// One frame as the run without pixels found it.
-struct PlannedFrame {
-  std::uint32_t index = 0;
-  std::uint32_t step = 0;
-  std::string event;
-  double time = 0;
-  std::string caption;
-  std::uint64_t hash = 0;
-};
 
 // "1280x720" as width and height. Throws UsageError unless both are 16 ... `most`.
 std::pair<int, int> parse_size(const std::string& text, int most);
 
-// Indices, ascending, of the frames that both words choose. `frames` is "7", "3-9", "3-", "-9" or
-// empty; `at` is an event's name, a time in seconds, or empty. Throws UsageError that tells what
-// there is when a word is malformed or chooses nothing.
-std::vector<std::uint32_t> select_frames(const std::vector<PlannedFrame>& plan,
-                                         const std::string& frames, const std::string& at);
+// The frames that two words of the command line choose, asked frame by frame while they are made.
+class Selection {
+ public:
+  // `frames` is "7", "3-9", "3-", "-9" or empty; `at` is an event's name, a time in seconds, or
+  // empty. `most_frames` is how many the scenario can have, if that is known. Throws UsageError for
+  // a malformed word, or a range that cannot be.
+  Selection(const std::string& frames, const std::string& at,
+            std::optional<std::uint64_t> most_frames);
+
+  bool takes_all() const { return frames_.empty() && at_.empty(); }
+
+  // Asked once for each frame, in order.
+  bool takes(const Frame& frame);
+
+  // After the last frame: throws UsageError that tells what there is when the range goes beyond it,
+  // or nothing was chosen.
+  void require_some() const;
+
+ private:
+  [[noreturn]] void refuse_range(std::uint64_t count) const;
+
+  std::string frames_, at_;
+  std::uint64_t first_ = 0;
+  std::optional<std::uint64_t> last_;  // none: to the end
+  std::optional<double> time_;         // `at` is one
+  std::uint64_t asked_ = 0, taken_ = 0;
+  double end_ = 0;  // time of the last frame
+  std::set<std::string> events_;
+};
 
 }  // namespace lantern

@@ -64,7 +64,7 @@ std::shared_ptr<Pipeline::Picture> Pipeline::free_picture() {
 }
 
 void Pipeline::submit(const DrawList& list, std::vector<PngText> texts,
-                      std::filesystem::path path) {
+                      std::filesystem::path path, std::optional<MadeFrom> from) {
   std::shared_ptr<Picture> picture = free_picture();
   renderer_.draw(list, config_.theme, config_.transparent, picture->image);
   ++work_.frames_drawn;
@@ -77,7 +77,7 @@ void Pipeline::submit(const DrawList& list, std::vector<PngText> texts,
   const std::lock_guard lock(mutex_);
   rethrow_locked();
   last_ = picture;
-  jobs_.push_back({std::move(picture), std::move(texts), std::move(path)});
+  jobs_.push_back({std::move(picture), std::move(texts), std::move(path), std::move(from)});
   job_ready_.notify_one();
 }
 
@@ -114,7 +114,8 @@ void Pipeline::encode_jobs(const std::stop_token& stop) {
 void Pipeline::encode(const Job& job) {
   Picture& picture = *job.picture;
   std::call_once(*picture.encoded, [&] { picture.body = compress(picture.image, config_.effort); });
-  write_file(job.path, assemble(picture.body, job.texts, config_.pixels_per_metre));
+  std::string png = assemble(picture.body, job.texts, config_.pixels_per_metre);
+  write_file(job.path, job.from ? sealed(FileKind::png, std::move(png), *job.from) : png);
   if (!config_.written) return;
   const std::lock_guard lock(written_mutex_);
   config_.written(job.path);

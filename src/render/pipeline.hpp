@@ -19,6 +19,7 @@
 #include "render/context.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
+#include "render/seal.hpp"
 
 namespace lantern {
 
@@ -47,7 +48,9 @@ class Pipeline {
 
   // Draws at once; the file appears later. Waits while too many pictures are under way. An error of
   // an earlier file is thrown here or by finish(), as it was; after it nothing more is written.
-  void submit(const DrawList& list, std::vector<PngText> texts, std::filesystem::path path);
+  // The file is sealed if it says what it was made `from`.
+  void submit(const DrawList& list, std::vector<PngText> texts, std::filesystem::path path,
+              std::optional<MadeFrom> from = std::nullopt);
 
   // Waits until every file is in place.
   void finish();
@@ -58,6 +61,7 @@ class Pipeline {
     std::shared_ptr<Picture> picture;
     std::vector<PngText> texts;
     std::filesystem::path path;
+    std::optional<MadeFrom> from;
   };
 
   std::shared_ptr<Picture> free_picture();

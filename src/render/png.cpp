@@ -51,7 +51,7 @@ unsigned char* deflate(unsigned char* data, int size, int* out_size, int) {
 namespace lantern {
 namespace {
 
-constexpr std::size_t kSignatureBytes = 8, kHeaderChunk = 12 + 13, kEndChunk = 12;
+constexpr std::size_t kSignatureBytes = 8, kHeaderChunk = 12 + 13;
 
 // Set once, before any thread encodes. Up turns a row equal to the one above into zeros.
 [[maybe_unused]] const int filter_is_up = stbi_write_force_png_filter = 2;
@@ -82,16 +82,22 @@ void put_chunk(std::string& to, std::string_view type, std::string_view data) {
   put32(to, libdeflate_crc32(0, to.data() + checked, to.size() - checked));
 }
 
-void put_text(std::string& to, const PngText& text) {
+}  // namespace
+
+std::string png_text(const PngText& text) {
   LANTERN_CHECK(text.key.size() - 1, <, 79u);
+  std::string chunk;
   std::string value = text.value;
   std::replace(value.begin(), value.end(), '\0', ' ');
   const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return c > 0; });
   if (ascii)
-    put_chunk(to, "tEXt", text.key + '\0' + value);
+    put_chunk(chunk, "tEXt", text.key + '\0' + value);
   else  // not compressed, in no language, its key not translated
-    put_chunk(to, "iTXt", text.key + std::string(5, '\0') + value);
+    put_chunk(chunk, "iTXt", text.key + std::string(5, '\0') + value);
+  return chunk;
 }
+
+namespace {
 
 // By stb_image_write, with libdeflate in place of its own compressor.
 PngBody compress_small(const Image& image) {
@@ -107,7 +113,8 @@ PngBody compress_small(const Image& image) {
                                static_cast<std::size_t>(size));
   PngBody body;
   body.header = bytes.substr(0, kSignatureBytes + kHeaderChunk);
-  body.pixels = bytes.substr(body.header.size(), bytes.size() - body.header.size() - kEndChunk);
+  body.pixels =
+      bytes.substr(body.header.size(), bytes.size() - body.header.size() - kPngEnd.size());
   return body;
 }
 
@@ -143,10 +150,9 @@ std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int
     data += '\1';  // the unit is the metre
     put_chunk(png, "pHYs", data);
   }
-  for (const PngText& text : texts) put_text(png, text);
+  for (const PngText& text : texts) png += png_text(text);
   png += body.pixels;
-  put_chunk(png, "IEND", {});
-  return png;
+  return png += kPngEnd;
 }
 
 std::string encode_png(const Image& image, PngEffort effort, const std::vector<PngText>& texts,

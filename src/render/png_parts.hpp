@@ -18,6 +18,12 @@ struct PngBody {
 
 PngBody compress(const Image& image, PngEffort effort);
 
+// A chunk of one text.
+std::string png_text(const PngText& text);
+
+// The last chunk of every PNG.
+inline constexpr std::string_view kPngEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+
 std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int pixels_per_metre);
 
 }  // namespace lantern

@@ -1,0 +1,119 @@
+#include "app/frame_folder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+
+namespace lantern {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kAtlas = "atlas";
+
+fs::path made(const fs::path& path) {
+  make_folder(path);
+  return path;
+}
+
+std::optional<FileKind> kind_of(std::string_view ending) {
+  if (ending == "png") return FileKind::png;
+  if (ending == "svg") return FileKind::svg;
+  if (ending == "json") return FileKind::json;
+  return std::nullopt;
+}
+
+// What stands between "<scenario>_" and the ending: a frame's number of at least four digits, or
+// "atlas". Nothing for files that are none of ours by their name.
+std::optional<std::string_view> part_of(std::string_view name, const std::string& scenario) {
+  if (!name.starts_with(scenario + "_")) return std::nullopt;
+  name.remove_prefix(scenario.size() + 1);
+  const std::string_view part = name.substr(0, name.find('.'));
+  const bool is_number = part.size() >= 4 && std::all_of(part.begin(), part.end(), [](char c) {
+                           return '0' <= c && c <= '9';
+                         });
+  return is_number || part == kAtlas ? std::optional(part) : std::nullopt;
+}
+
+// Frames of version 0.1.0 have no seal, but a PNG says who wrote it, and facts have a format.
+bool is_of_the_first_version(FileKind kind, std::string_view bytes) {
+  if (kind == FileKind::png)
+    return bytes.find(std::string_view("tEXtSoftware\0Lantern 0.1.0", 26)) !=
+           std::string_view::npos;
+  return kind == FileKind::json && bytes.substr(0, 64).find("\"lantern.") != std::string_view::npos;
+}
+
+}  // namespace
+
+FrameFolder::FrameFolder(const fs::path& path, const Manifest& wanted, bool whole)
+    : path_(made(path)), wanted_(wanted), lock_(path_) {
+  remove_leftovers(path_);
+  const bool same_build = is_of_this_build(path_ / "manifest.json");
+  std::set<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator it(path_, error), end; !error && it != end; it.increment(error))
+    names.insert(it->path().filename().string());
+  for (const std::string& name : names) look_at(name, same_build, whole);
+}
+
+void FrameFolder::look_at(const std::string& name, bool same_build, bool whole) {
+  if (!part_of(name, wanted_.scenario)) return;
+  const std::string ending = name.substr(name.find('.') + 1);
+  const auto kind = kind_of(ending);
+  if (!kind) return;
+  std::string bytes;
+  try {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+    bytes = read_file(path_ / name, kMostBytes);
+  } catch (const IoError&) {
+    strange_.push_back(name);
+    return;
+  }
+  const std::optional<MadeFrom> found = made_from(*kind, bytes);
+  if (!found && !is_of_the_first_version(*kind, bytes)) {
+    strange_.push_back(name);
+  } else if (found && same_build && is_wanted(name, ending, *found, whole)) {
+    standing_[name] = *found;
+  } else {
+    std::error_code ignored;  // what is written later says so if nothing can be
+    if (fs::remove(path_ / name, ignored)) removed_.push_back(name);
+  }
+}
+
+bool FrameFolder::is_wanted(const std::string& name, std::string_view ending, const MadeFrom& found,
+                            bool whole) const {
+  const std::string_view part = *part_of(name, wanted_.scenario);
+  MadeFrom now;
+  if (part == kAtlas) {
+    now = wanted_.atlas_from();
+  } else {
+    std::uint32_t index = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (error != std::errc() || name != frame_file(wanted_.scenario, index, ending)) return false;
+    now = wanted_.frame_from(index);
+  }
+  if (ending == wanted_.format || (part == kAtlas && ending == "json")) return found == now;
+  return found.facts == now.facts && (ending == "json" || !whole);
+}
+
+fs::path FrameFolder::file(std::uint32_t index, std::string_view ending) const {
+  return path_ / frame_file(wanted_.scenario, index, ending);
+}
+
+fs::path FrameFolder::atlas(std::string_view ending) const {
+  return path_ / fmt::format("{}_{}.{}", wanted_.scenario, kAtlas, ending);
+}
+
+bool FrameFolder::stands(std::uint32_t index, std::string_view ending) const {
+  return standing_.contains(frame_file(wanted_.scenario, index, ending));
+}
+
+bool FrameFolder::atlas_stands(std::string_view ending) const {
+  return standing_.contains(atlas(ending).filename().string());
+}
+
+}  // namespace lantern
