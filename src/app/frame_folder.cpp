@@ -39,12 +39,14 @@ std::optional<std::string_view> part_of(std::string_view name, const std::string
   return is_number || part == kAtlas ? std::optional(part) : std::nullopt;
 }
 
-// Frames of version 0.1.0 have no seal, but a PNG says who wrote it, and facts have a format.
+// Frames of version 0.1.0 have no seal, but a PNG says who wrote it, and facts have a format. One
+// whose seal is broken is not of that version.
 bool is_of_the_first_version(FileKind kind, std::string_view bytes) {
+  const auto has = [&](std::string_view text) { return bytes.find(text) != bytes.npos; };
   if (kind == FileKind::png)
-    return bytes.find(std::string_view("tEXtSoftware\0Lantern 0.1.0", 26)) !=
-           std::string_view::npos;
-  return kind == FileKind::json && bytes.substr(0, 64).find("\"lantern.") != std::string_view::npos;
+    return has(std::string_view("tEXtSoftware\0Lantern 0.1.0", 26)) && !has("Made from");
+  return kind == FileKind::json && bytes.substr(0, 64).find("\"lantern.") != bytes.npos &&
+         bytes.ends_with("\n}\n") && !has("\"made_from\"");
 }
 
 }  // namespace

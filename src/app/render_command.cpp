@@ -191,7 +191,7 @@ class FolderRun {
     return report;
   }
 
-  std::size_t drawn() const { return drawn_here_.size(); }
+  std::size_t drawn() const { return drawn_; }
   std::size_t kept() const { return kept_; }
   const fs::path& path() const { return path_; }
 
@@ -211,6 +211,7 @@ class FolderRun {
   void take(const Frame& frame) {
     if (!folder_) open_folder();
     const std::uint32_t index = frame.index;
+    taken_.insert(index);
     const MadeFrom from = manifest_.frame_from(index);
     if (!folder_->stands(index, "json"))
       write_file(folder_->file(index, "json"), facts_of(frame, from));
@@ -224,7 +225,7 @@ class FolderRun {
       write_file(file, svg_of(job_, list, job_.width, job_.height, job_.options.transparent, from));
     else
       pipeline().submit(list, texts_of(frame), file, from);
-    drawn_here_.insert(index);
+    ++drawn_;
   }
 
   // Made when there is something to draw.
@@ -245,7 +246,7 @@ class FolderRun {
   // Those of this run, and those of earlier ranges that still stand.
   void list_frames() {
     for (std::uint32_t i = 0; i < all_.size(); ++i)
-      if (drawn_here_.contains(i) ||
+      if (taken_.contains(i) ||
           (folder_->stands(i, job_.options.format) && folder_->stands(i, "json")))
         manifest_.frames.emplace(i, std::move(all_[i]));
   }
@@ -287,8 +288,8 @@ class FolderRun {
   std::optional<FrameFolder> folder_;
   std::unique_ptr<Pipeline> pipeline_;
   std::vector<ListedFrame> all_;  // of the run so far
-  std::set<std::uint32_t> drawn_here_;
-  std::size_t kept_ = 0;
+  std::set<std::uint32_t> taken_;  // of these, chosen
+  std::size_t drawn_ = 0, kept_ = 0;
   std::optional<Frame> last_;  // of an atlas
 };
 

@@ -26,7 +26,10 @@ std::string_view ending(FileKind kind) {
 
 // The seal of what stands before it.
 std::string seal(FileKind kind, std::string_view before, const MadeFrom& from) {
-  const std::string sum = fmt::format("{:08x}", libdeflate_crc32(0, before.data(), before.size()));
+  std::uint32_t crc = libdeflate_crc32(0, before.data(), before.size());
+  for (const std::string& key : {from.facts, from.picture})
+    crc = libdeflate_crc32(crc, key.data(), key.size());
+  const std::string sum = fmt::format("{:08x}", crc);
   switch (kind) {
     case FileKind::png:
       return png_text(

@@ -21,7 +21,7 @@ struct MadeFrom {
 
 // The whole file `bytes` with its seal: a text chunk before a PNG's end, a comment behind an SVG,
 // the last members of a JSON object that ends with "\n}\n". The checksum is a CRC-32 of all bytes
-// before the seal.
+// before the seal and of the keys.
 std::string sealed(FileKind kind, std::string bytes, const MadeFrom& from);
 
 // Nothing if there is no seal, or if a single bit is not as it was written.
