@@ -52,7 +52,7 @@ std::string frame_file(const std::string& scenario, std::uint32_t index, std::st
 
 std::string to_json(const Manifest& m) {
   JsonWriter json;
-  json.begin_object().line().member("format", "lantern.manifest/1");
+  json.begin_object().line().member("format", "lantern.manifest/2");
   json.line().member("scenario", m.scenario).line().member("title", m.title);
   json.line().member("version", kVersion).line().member("sources", kSourceHash);
   json.line().member("scenario_hash", fmt::format("{:016x}", m.scenario_hash));

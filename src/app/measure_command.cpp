@@ -104,7 +104,7 @@ int list_problems() {
 }
 
 bool same(const Circumstances& a, const Circumstances& b) {
-  return a.version == b.version && a.compiler == b.compiler && a.flags == b.flags &&
+  return a.version == b.version && a.sources == b.sources && a.compiler == b.compiler && a.flags == b.flags &&
          a.processor == b.processor && a.effort == b.effort;
 }
 
@@ -125,7 +125,7 @@ class Measuring {
  public:
   Measuring(Plan& plan, const ReportFolder& folder, const MeasureOptions& options)
       : plan_(plan), folder_(folder), progress_("measure", plan.jobs().size(), "runs") {
-    measurement_.circumstances = here(kVersion);
+    measurement_.circumstances = here(kVersion, kSourceHash);
     measurement_.circumstances.effort = options.quick ? "quick" : options.full ? "full" : "normal";
     known_ = finished_rows(folder_, measurement_.circumstances);
   }

@@ -65,7 +65,7 @@ int measure_pictures_command(const MeasurePicturesOptions& options) {
   folder.write("pictures.txt", table);
   folder.write("pictures.csv", to_csv(report));
   folder.write("pictures.json", json);
-  const std::string circumstances = circumstances_text(here(kVersion));
+  const std::string circumstances = circumstances_text(here(kVersion, kSourceHash));
   std::vector<ReportPage> pages;
   for (const std::string& scene : report.scenes)
     pages.push_back({"pictures_" + scene, draw_picture_page(report, scene, circumstances)});

@@ -24,9 +24,10 @@ std::string processor() {
 
 }  // namespace
 
-Circumstances here(std::string_view version) {
+Circumstances here(std::string_view version, std::string_view sources) {
   Circumstances c;
   c.version = version;
+  c.sources = sources;
   c.compiler = compiler();
   c.flags = LANTERN_FLAGS;
   c.processor = processor();

@@ -65,6 +65,7 @@ struct Row {
 // What a report says of how and where it was made.
 struct Circumstances {
   std::string version;   // of Lantern
+  std::string sources;   // a hash of them: two builds of one version may differ
   std::string compiler;  // and its version
   std::string flags;
   std::string processor;
@@ -72,8 +73,8 @@ struct Circumstances {
   std::string effort;  // "quick", "normal", "full"
 };
 
-// Of this build on this machine; `version` is Lantern's.
-Circumstances here(std::string_view version);
+// Of this build on this machine; `version` and `sources` are Lantern's.
+Circumstances here(std::string_view version, std::string_view sources);
 
 struct Measurement {
   Circumstances circumstances;

@@ -85,6 +85,7 @@ std::string to_csv(const Circumstances& c) {
   Records csv;
   csv.text("key").text("value").end();
   csv.text("version").text(c.version).end();
+  csv.text("sources").text(c.sources).end();
   csv.text("compiler").text(c.compiler).end();
   csv.text("flags").text(c.flags).end();
   csv.text("processor").text(c.processor).end();

@@ -191,6 +191,7 @@ std::string to_json(const Measurement& measurement) {
   w.json.begin_object().line().member("format", kFormat);
   w.json.line().key("circumstances").begin_object();
   w.text("version", c.version);
+  w.text("sources", c.sources);
   w.text("compiler", c.compiler);
   w.text("flags", c.flags);
   w.text("processor", c.processor);
@@ -211,6 +212,7 @@ std::optional<Measurement> read_measurement(std::string_view json) {
     Circumstances& c = measurement.circumstances;
     const Json& told = part(all, "circumstances");
     c.version = text(told, "version");
+    c.sources = text(told, "sources");
     c.compiler = text(told, "compiler");
     c.flags = text(told, "flags");
     c.processor = text(told, "processor");

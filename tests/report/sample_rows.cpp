@@ -106,9 +106,13 @@ Row row(const std::string& method, double step, double error, double seconds,
 Measurement measurement(std::size_t problems, std::uint64_t seed) {
   Random random(seed);
   Measurement m;
-  m.circumstances = {
-      "0.1.0", "g++ 13.2.0", "-O3 -ffp-contract=off", "Intel(R) Xeon(R) Platinum 8488C",
-      seed,    "normal"};
+  m.circumstances = {"0.1.0",
+                     "0123456789abcdef",
+                     "g++ 13.2.0",
+                     "-O3 -ffp-contract=off",
+                     "Intel(R) Xeon(R) Platinum 8488C",
+                     seed,
+                     "normal"};
   for (std::size_t i = 0; i < problems; ++i) {
     Problem problem = kProblems[i % std::size(kProblems)];
     const std::string name =

@@ -351,6 +351,48 @@ TEST(Mistakes, OfAPatternsMembersWhoseNamesAreTaken) {
   EXPECT_EQ(found[0].suggestion, "line 19 has it");
 }
 
+// What a step names may be nobody, many, or somebody who clashes: each verb is read to its end, and
+// nothing is walked or run.
+TEST(Mistakes, OfWhatAStepNames) {
+  const std::string acts[] = {
+      "do = \"move\"\nbody = WHO\nto = [0, 0]\n",
+      "do = \"force\"\nbody = WHO\nforce = [1, 0]\n",
+      "do = \"impulse\"\nbody = WHO\nimpulse = [1, 0]\n",
+      "do = \"insert\"\nbodies = [WHO]\n",
+      "do = \"remove\"\nbodies = [WHO]\n",
+      "do = \"sleep\"\nbodies = [WHO]\n",
+      "do = \"wake\"\nbodies = [WHO]\n",
+      "do = \"wait\"\nevent = \"touch\"\nbodies = [WHO, WHO]\nat_most = 1\n",
+  };
+  const auto said = [](std::string act, const std::string& who) {
+    for (std::size_t at; (at = act.find("WHO")) != std::string::npos;) act.replace(at, 3, who);
+    return act;
+  };
+  const std::string world = "title = \"x\"\n[world]\nsize = [9, 9]\ngravity = [0, -1]\n";
+  const std::string clash =
+      "[[body]]\nname = \"dot3\"\nradius = 1\nposition = [3, 3]\n"
+      "[[pattern]]\nname = \"dot\"\ncount = 3\nradius = 1\n";
+  for (const std::string& act : acts)
+    for (const std::string& around : {std::string(), clash, kScene.substr(kScene.find("[[body]]"))})
+      for (const std::string who : {"\"nobody\"", "\"dot\"", "\"\"", "7"}) {
+        const bool good_there = act.find("bodies = [WHO]") != std::string::npos &&
+                                who == "\"dot\"" && around.find("pink") != std::string::npos;
+        if (good_there) continue;
+        const std::string text = world + around + "[[step]]\n" + said(act, who);
+        EXPECT_FALSE(mistakes(text).empty()) << text;
+      }
+}
+
+// A scenario is right, or it is none: what code makes of nothing is a broken invariant.
+TEST(Mistakes, OfCodeStopTheProgram) {
+  ScenarioSpec spec;
+  spec.steps.emplace_back().verb = ApplyForce{0, Vec<3>(1.0), Vec<3>(0.0)};
+  EXPECT_DEATH(Scenario{spec},
+               "broken invariant: i < spec_.bodies.size\\(\\) \\(left 0, right 0\\)");
+  spec.bodies.emplace_back();
+  EXPECT_EQ(Scenario(spec).steps.size(), 1u);
+}
+
 TEST(Mistakes, OfTooMuchInAll) {
   std::string text = "title = \"x\"\n[world]\nsize = [9, 9]\n";
   for (const char* name : {"a", "b"})
