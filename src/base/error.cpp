@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "base/printable.hpp"
+#include "base/utf8.hpp"
+
 namespace lantern {
 namespace {
 
@@ -15,36 +18,45 @@ std::string joined(const std::vector<Diagnostic>& diagnostics) {
   return text;
 }
 
-// At most `width` bytes of a line from `first` on; letters of several bytes are left out whole.
-std::string part_of(std::string_view line, std::size_t first, std::size_t width) {
-  const auto within_letter = [&](std::size_t at) {
-    return at < line.size() && (static_cast<unsigned char>(line[at]) & 0xc0u) == 0x80u;
-  };
-  std::size_t end = std::min(first + width, line.size());
-  while (first < end && within_letter(first)) ++first;
-  while (first < end && within_letter(end)) --end;
-  return first < end ? std::string(line.substr(first, end - first)) : std::string();
+// The first letters of a line as they are shown: a tab as a blank, others that a terminal obeys as
+// escapes.
+std::vector<std::string> shown_letters(std::string_view line, std::size_t most) {
+  std::vector<std::string> shown;
+  while (!line.empty() && shown.size() < most) {
+    const std::string_view letter = line.substr(0, first_letter(line).bytes);
+    shown.push_back(letter == "\t" ? " " : printable(letter));
+    line.remove_prefix(letter.size());
+  }
+  return shown;
 }
 
-// A long line is cut around the column, so that the caret is always in view.
-constexpr std::size_t kShownWidth = 120;
+// The line and a caret under its letter `column` (from 0). A long line is cut around the column, so
+// that the caret is always in view.
+std::string with_caret(std::string_view line, std::size_t column) {
+  constexpr std::size_t kMostBefore = 100, kMost = 120;  // letters shown
+  for (column = std::min(column, letters(line)); column > kMostBefore; --column)
+    line.remove_prefix(first_letter(line).bytes);
+  const std::vector<std::string> all = shown_letters(line, kMostBefore + kMost);
+  std::size_t before = 0, first = column;
+  while (first > 0 && before + letters(all[first - 1]) <= kMostBefore)
+    before += letters(all[--first]);
+  std::string text;
+  for (std::size_t i = first, width = 0; i < all.size() && width < kMost; ++i) {
+    text += all[i];
+    width += letters(all[i]);
+  }
+  return fmt::format("\n  {}\n  {:>{}}", text, '^', before + 1);
+}
 
 }  // namespace
 
 std::string to_string(const Diagnostic& d) {
-  std::string text = d.where.file;
+  std::string text = printable(d.where.file);
   if (d.where.line > 0) text += fmt::format(":{}:{}", d.where.line, d.where.column);
-  text += ": error: " + d.message;
-  if (!d.source_line.empty() && d.where.line > 0) {
-    const auto column = static_cast<std::size_t>(std::max(d.where.column, 1)) - 1;
-    const std::size_t first = column < kShownWidth - 20 ? 0 : column - kShownWidth / 2;
-    std::string shown = part_of(d.source_line, first, kShownWidth);
-    std::replace_if(
-        shown.begin(), shown.end(),
-        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-    text += fmt::format("\n  {}\n  {:>{}}", shown, '^', column - first + 1);
-  }
-  if (!d.suggestion.empty()) text += "\n  " + d.suggestion;
+  text += ": error: " + printable(d.message);
+  if (!d.source_line.empty() && d.where.line > 0)
+    text += with_caret(d.source_line, static_cast<std::size_t>(std::max(d.where.column, 1)) - 1);
+  if (!d.suggestion.empty()) text += "\n  " + printable(d.suggestion);
   return text;
 }
 

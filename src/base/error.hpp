@@ -22,7 +22,8 @@ struct Diagnostic {
   std::string suggestion;   // "did you mean 'capacity'?"; may be empty
 };
 
-// `file:line:column: error: message`, the line, a caret under the column, and the suggestion.
+// `file:line:column: error: message`, the line, a caret under the column, and the suggestion. All
+// of them printable (see printable.hpp); only the line breaks between them are left.
 std::string to_string(const Diagnostic& diagnostic);
 
 // The user's scenario is wrong: every mistake found in one pass. Exit code 3.
@@ -48,6 +49,13 @@ class Refused : public std::invalid_argument {
 class IoError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// Whoever read standard output has seen enough (`| head`). Exit code 1 without a word, as for any
+// program that such a pipe stops.
+class ReaderGone : public IoError {
+ public:
+  using IoError::IoError;
 };
 
 // No graphics backend could be started. Exit code 4.

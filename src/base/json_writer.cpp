@@ -1,18 +1,25 @@
 #include "base/json_writer.hpp"
 
+#include "base/printable.hpp"
+#include "base/utf8.hpp"
+
 namespace lantern {
 
 std::string json_string(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      (out += '\\') += c;
-    else if (c == '\n')
+  while (!text.empty()) {
+    const auto [bytes, code] = first_letter(text);
+    if (!code)
+      out += "\ufffd";
+    else if (*code == '"' || *code == '\\')
+      (out += '\\') += text[0];
+    else if (*code == '\n')
       out += "\\n";
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    else if (is_obeyed(*code))
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(*code));
     else
-      out += c;
+      out += text.substr(0, bytes);
+    text.remove_prefix(bytes);
   }
   return out += '"';
 }

@@ -2,18 +2,19 @@
 // very same double; non-finite ones are a broken invariant, since none may enter the engine.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <concepts>
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "base/check.hpp"
 
 namespace lantern {
 
-// `text` with quotes, as a JSON string; bytes that are no UTF-8 are the caller's affair.
+// `text` with quotes, as a JSON string. Bytes that are no UTF-8 become U+FFFD; what a terminal
+// would obey is written as an escape, since JSON is printed, too.
 std::string json_string(std::string_view text);
 
 class JsonWriter {

@@ -10,6 +10,7 @@
 #include <stb/stb_truetype.h>
 
 #include "base/check.hpp"
+#include "base/utf8.hpp"
 #include "embedded/font.hpp"
 
 namespace lantern {
@@ -69,20 +70,9 @@ const FontFace& face(Weight weight) {
 // The code point at `at`, which moves behind it. A malformed byte gives U+FFFD and is one byte
 // long.
 int next_codepoint(std::string_view text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(at++);
-  if (first < 0x80) return first < ' ' ? ' ' : static_cast<int>(first);
-  const int more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : 1;
-  if (first < 0xc2 || first > 0xf4 || at + more > text.size()) return kReplacement;
-  int code = static_cast<int>(first) & (0x3f >> more);
-  for (int i = 0; i < more; ++i) {
-    if ((byte(at + i) & 0xc0) != 0x80) return kReplacement;
-    code = code << 6 | (byte(at + i) & 0x3f);
-  }
-  const bool overlong = (more == 2 && code < 0x800) || (more == 3 && code < 0x10000);
-  if (overlong || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff) return kReplacement;
-  at += more;
-  return code;
+  const auto [bytes, code] = first_letter(text.substr(at));
+  at += bytes;
+  return !code ? kReplacement : *code < ' ' ? ' ' : static_cast<int>(*code);
 }
 
 // Calls place(glyph, x in ems) for each glyph; gives the width of the line in ems.

@@ -12,40 +12,9 @@ namespace {
 
 constexpr std::string_view kFormat = "lantern.measure/1";
 
-// How many bytes the UTF-8 character at the start of `text` has; 0 if there is none (RFC 3629).
-std::size_t character(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  const unsigned second = byte(1);
-  const bool longer_than_needed =
-      (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
-  const bool no_character = (first == 0xed && second > 0x9f) || (first == 0xf4 && second > 0x8f);
-  return longer_than_needed || no_character ? 0 : length;
-}
-
-std::string clean(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const std::size_t length = character(text);
-    if (length == 0)
-      out += '?';
-    else
-      out += text.substr(0, length);
-    text.remove_prefix(std::max<std::size_t>(1, length));
-  }
-  return out;
-}
-
 class Writer {
  public:
-  void text(std::string_view name, std::string_view value) { json.member(name, clean(value)); }
+  void text(std::string_view name, std::string_view value) { json.member(name, value); }
   void number(std::string_view name, double value) {
     json.key(name);
     std::isfinite(value) ? json.value(value) : json.null();

@@ -18,7 +18,7 @@ std::string to_csv(const Measurement& measurement);
 std::string to_csv(const Circumstances& circumstances);
 
 // lantern.measure/1: circumstances and rows, one row a line. What is not finite becomes null; bytes
-// of texts that are no UTF-8 become question marks.
+// of texts that are no UTF-8 become U+FFFD.
 std::string to_json(const Measurement& measurement);
 
 // What to_json wrote. Nothing for a text that is damaged or of another format; null is read as NaN.

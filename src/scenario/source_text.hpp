@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/utf8.hpp"
+
 namespace lantern {
 
 // A line and a column of a file, both from 1; columns count letters, not bytes. {0, 0} is the file
@@ -16,9 +18,6 @@ struct Place {
   int column = 0;
   auto operator<=>(const Place&) const = default;
 };
-
-// Unicode code points in valid UTF-8.
-std::size_t letters(std::string_view text);
 
 // The first byte that no scenario may contain: one that is not valid UTF-8, or a NUL.
 std::optional<std::size_t> first_bad_byte(std::string_view text);
@@ -30,11 +29,8 @@ Place place_of(std::string_view text, std::size_t offset);
 // Empty if there is no such line.
 std::string line_of(std::string_view text, int line);
 
-// 'text' in quotes for a message: control characters become '?', a long one is cut.
+// 'text' in quotes for a message: printable (base/printable.hpp), a long one is cut.
 std::string in_quotes(std::string_view text);
-
-// Are there control characters (line breaks among them)?
-bool has_control(std::string_view text);
 
 // `text` without the byte order mark that some editors put first.
 std::string_view without_mark(std::string_view text);

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/printable.hpp"
+
 namespace lantern {
 namespace {
 
@@ -81,9 +83,7 @@ class Check {
   void check_text(const TomlValue& value) {
     const auto* text = std::get_if<std::string>(&value.data);
     if (!text) return wrong_type(value, "a text", "a text stands in \"quotes\"");
-    if (has_control(*text))
-      return add(value.where,
-                 fmt::format("'{}' must be one line without control characters", doc_.key));
+    if (!check_one_line(value.where, *text)) return;
     const std::size_t count = letters(*text);
     if (doc_.pattern) {
       if (!matches(*text, *doc_.pattern)) add_mismatch(value.where, *text);
@@ -91,6 +91,15 @@ class Check {
       add(value.where,
           fmt::format("'{}' has {} letters, allowed are {}", doc_.key, count, range_text(doc_)));
     }
+  }
+
+  // Texts are drawn and printed: nothing in them may act on a terminal or turn the direction of
+  // writing.
+  bool check_one_line(Place where, const std::string& text) {
+    if (is_printable(text)) return true;
+    add(where, fmt::format("'{}' must be one line without control characters", doc_.key),
+        fmt::format("it reads {}", in_quotes(text)));
+    return false;
   }
 
   void add_mismatch(Place where, const std::string& text) {
@@ -223,6 +232,7 @@ class Check {
       else if (!std::holds_alternative<std::string>(element.data))
         wrong_type(element, "a list of texts");
       const auto* text = std::get_if<std::string>(&element.data);
+      if (doc_.type != KeyType::choices_list && text) check_one_line(element.where, *text);
       if (doc_.type == KeyType::choices_list && text && !seen.insert(*text).second)
         add(element.where, fmt::format("{} stands twice in '{}'", in_quotes(*text), doc_.key));
     }
@@ -250,6 +260,9 @@ class Check {
                         std::holds_alternative<std::string>((*pair)[0].data) &&
                         std::holds_alternative<std::string>((*pair)[1].data);
       if (!good) add(element.where, "a pair is a list of two names", form);
+      if (good)
+        for (const TomlValue& name : *pair)
+          check_one_line(name.where, std::get<std::string>(name.data));
     }
   }
 
@@ -262,7 +275,10 @@ class Check {
                       doc_.type == KeyType::name_points
                           ? dimension_ == 3 ? "{ ball = [12, 14, 0] }" : "{ ball = [12, 14] }"
                           : "{ pink = 2 }"));
-    for (const TomlEntry& e : *table) check_named(e.value);
+    for (const TomlEntry& e : *table) {
+      check_one_line(e.where, e.key);
+      check_named(e.value);
+    }
   }
 
   void check_named(const TomlValue& value) {

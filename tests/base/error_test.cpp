@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/utf8.hpp"
+
 namespace lantern {
 namespace {
 
@@ -45,7 +47,27 @@ TEST(Diagnostic, KeepsTheCaretInViewOfLongLines) {
 
 TEST(Diagnostic, LetsNoControlCharactersThrough) {
   const std::string text = to_string(diagnostic(1, 2, "\tx\x1b[31m\x7f"));
-  EXPECT_EQ(text, "f:1:2: error: m\n   x [31m \n   ^") << "a tab moves the caret, an escape more";
+  EXPECT_EQ(text, "f:1:2: error: m\n   x\\x1b[31m\\x7f\n   ^") << "a tab moves the caret";
+  Diagnostic d = diagnostic(1, 1, "x", "\u202e\n");
+  d.where.file = "\x1b]0;f\x07";
+  d.message = "\u009b\xff";
+  EXPECT_EQ(to_string(d), "\\x1b]0;f\\x07:1:1: error: \\u009b\\xff\n  x\n  ^\n  \\u202e\\n");
+}
+
+// Letters of several bytes, escapes and a cut before the column: the caret stands under its letter.
+TEST(Diagnostic, CountsLettersUpToTheCaret) {
+  for (const char* before : {"é", "漢", "\x1b", "\u202e"})
+    for (const int count : {1, 20, 99, 130}) {
+      std::string line;
+      for (int i = 0; i < count; ++i) line += before;
+      const std::string text = to_string(diagnostic(1, count + 1, line + "X" + line));
+      const std::size_t shown = text.find('\n') + 1;
+      const std::size_t caret = text.find('\n', shown) + 1;
+      ASSERT_NE(text.find('X', shown), std::string::npos) << text;
+      EXPECT_EQ(letters(text.substr(shown, text.find('X', shown) - shown)), text.find('^') - caret)
+          << text;
+      EXPECT_LT(letters(text), 400u) << "a long line floods the terminal";
+    }
 }
 
 TEST(Diagnostic, SurvivesAnyColumn) {

@@ -10,8 +10,10 @@
 #include "base/grouped.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
+#include "base/printable.hpp"
 #include "base/random.hpp"
 #include "base/suggest.hpp"
+#include "base/utf8.hpp"
 
 namespace lantern {
 namespace {
@@ -90,6 +92,63 @@ TEST(Json, NestsAndBreaksLines) {
 TEST(Json, EscapesText) {
   EXPECT_EQ(json_string("a\"b\\c\nd\te\x01"), "\"a\\\"b\\\\c\\nd\\u0009e\\u0001\"");
   EXPECT_EQ(json_string("Ä × 2"), "\"Ä × 2\"") << "UTF-8 passes through";
+  EXPECT_EQ(json_string("a\xff\xc3z\xed\xa0\x80"), "\"a\ufffd\ufffdz\ufffd\ufffd\ufffd\"");
+  EXPECT_EQ(json_string("\x7f\u009b\u202e\u2028"), R"("\u007f\u009b\u202e\u2028")")
+      << "JSON is printed on terminals, too";
+}
+
+// Against the table of well-formed sequences: every code point there is, and every two bytes.
+TEST(Utf8, FirstLetterIsWhatTheStandardSays) {
+  for (char32_t code = 0; code < 0x110000; ++code) {
+    std::string text;
+    if (code < 0x80)
+      text = {static_cast<char>(code)};
+    else if (code < 0x800)
+      text = {static_cast<char>(0xc0 | code >> 6), static_cast<char>(0x80 | (code & 63))};
+    else if (code < 0x10000)
+      text = {static_cast<char>(0xe0 | code >> 12), static_cast<char>(0x80 | (code >> 6 & 63)),
+              static_cast<char>(0x80 | (code & 63))};
+    else
+      text = {static_cast<char>(0xf0 | code >> 18), static_cast<char>(0x80 | (code >> 12 & 63)),
+              static_cast<char>(0x80 | (code >> 6 & 63)), static_cast<char>(0x80 | (code & 63))};
+    const bool surrogate = code >= 0xd800 && code < 0xe000;
+    const Letter letter = first_letter(text + "\x80");
+    ASSERT_EQ(letter.code, surrogate ? std::nullopt : std::optional(code)) << std::size_t{code};
+    ASSERT_EQ(letter.bytes, surrogate ? 1 : text.size()) << std::size_t{code};
+    if (text.size() > 1) {
+      ASSERT_FALSE(first_letter(std::string_view(text).substr(0, text.size() - 1)).code)
+          << "cut off: " << std::size_t{code};
+    }
+  }
+  for (const char* bad : {"\x80", "\xc0\xaf", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf",
+                          "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xc3(", "\xe2\x82("})
+    EXPECT_FALSE(first_letter(bad).code) << bad;
+  EXPECT_EQ(letters(""), 0u);
+  EXPECT_EQ(letters("aé漢\xff\xf0\x9f\x8d\xb0\xc3"), 6u);
+}
+
+TEST(Printable, ShowsWhatATerminalWouldObey) {
+  EXPECT_EQ(printable("Ä × 2 \\ \"漢\""), "Ä × 2 \\ \"漢\"");
+  EXPECT_EQ(printable("\x1b[31m\a\b\x7f\n\t\r"), "\\x1b[31m\\x07\\x08\\x7f\\n\\t\\r");
+  EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
+  EXPECT_EQ(printable("\u009b1m\u0080\u202e\u2066\u200f\u2028\u061c"),
+            "\\u009b1m\\u0080\\u202e\\u2066\\u200f\\u2028\\u061c");
+  EXPECT_EQ(printable("\x9b\xff\xe2\x80"), "\\x9b\\xff\\xe2\\x80");
+  EXPECT_EQ(printable_lines("a\n\x1b\nb"), "a\n\\x1b\nb") << "our own line breaks stay";
+}
+
+// What comes out is printable itself, whatever went in.
+TEST(Printable, IsPrintableForAnyBytes) {
+  Random random(9);
+  for (int round = 0; round < 2000; ++round) {
+    std::string text;
+    for (int i = 0; i < 20; ++i)
+      text += random.unit() < 0.2 ? std::string("\u202e")
+                                  : std::string(1, static_cast<char>(random.whole(0, 255)));
+    EXPECT_TRUE(is_printable(printable(text)));
+    EXPECT_EQ(printable(printable(text)), printable(text));
+    EXPECT_EQ(is_printable(text), printable(text) == text);
+  }
 }
 
 TEST(JsonDeathTest, NoNumberThatIsNone) {

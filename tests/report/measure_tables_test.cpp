@@ -111,7 +111,7 @@ TEST(MeasureJson, IsReadBackAsItWas) {
     EXPECT_EQ(a.counted.pair_tests, b.counted.pair_tests);
     EXPECT_EQ(a.hash, b.hash);
   }
-  EXPECT_EQ(back->rows[1].reason, "it said \"no\", twice\r\nand ?? no UTF-8 ü");
+  EXPECT_EQ(back->rows[1].reason, "it said \"no\", twice\r\nand \ufffd\ufffd no UTF-8 ü");
   EXPECT_EQ(to_json(*back), to_json(m)) << "the second file differs from the first";
 }
 
