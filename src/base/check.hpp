@@ -1,28 +1,33 @@
-// A broken invariant is a fault of Lantern, never of its user: it stops the program with both values.
+// A broken invariant is a fault of Lantern, never of its user: it stops the program with both
+// values.
 #pragma once
+
+#include <cstdlib>
 
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <cstdlib>
+#include "base/file.hpp"
+#include "base/printable.hpp"
 
 namespace lantern::detail {
 
 template <class A, class B>
 [[noreturn]] void check_failed(const char* file, int line, const char* text, const A& a,
                                const B& b) {
-  fmt::print(stderr, "{}:{}: broken invariant: {} (left {}, right {})\n", file, line, text, a, b);
+  write_stderr(printable(fmt::format("{}:{}: broken invariant: {} (left {}, right {})", file, line,
+                                     text, a, b)) +
+               "\n");
   std::abort();
 }
 
 }  // namespace lantern::detail
 
 // LANTERN_CHECK(a, ==, b): stops with both values unless the comparison holds. Always on.
-#define LANTERN_CHECK(a, op, b)                                                              \
-  do {                                                                                       \
-    const auto& lantern_a = (a);                                                             \
-    const auto& lantern_b = (b);                                                             \
-    if (!(lantern_a op lantern_b))                                                           \
-      ::lantern::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, lantern_a,      \
-                                      lantern_b);                                            \
+#define LANTERN_CHECK(a, op, b)                                                         \
+  do {                                                                                  \
+    const auto& lantern_a = (a);                                                        \
+    const auto& lantern_b = (b);                                                        \
+    if (!(lantern_a op lantern_b))                                                      \
+      ::lantern::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, lantern_a, \
+                                      lantern_b);                                       \
   } while (false)

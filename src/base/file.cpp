@@ -7,18 +7,22 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 
 namespace lantern {
 namespace {
 
 constexpr std::string_view kTemporary = ".lantern-part-";
 
+std::string shown(const std::filesystem::path& path) { return printable(path.string()); }
+
 [[noreturn]] void fail(const char* what, const std::filesystem::path& path, int code) {
-  throw IoError(fmt::format("cannot {} '{}': {}", what, path.string(), std::strerror(code)));
+  throw IoError(fmt::format("cannot {} '{}': {}", what, shown(path), std::strerror(code)));
 }
 
 // An open file descriptor, closed on the way out.
@@ -31,9 +35,6 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
-  void open(const std::filesystem::path& path) {
-    number_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  }
   // Closes now and tells whether that went well: some disks report a failed write only here.
   bool close() {
     const int number = number_;
@@ -45,11 +46,16 @@ class Descriptor {
   int number_;
 };
 
-// False with errno set if not everything could be written.
+// False with errno set if not everything could be written. Waits where a pipe does not.
 bool write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(descriptor, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EAGAIN) {
+      pollfd room{descriptor, POLLOUT, 0};
+      ::poll(&room, 1, -1);
+      continue;
+    }
     if (n < 0) return false;
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
@@ -65,10 +71,10 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
   if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
   if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
   if (!S_ISREG(status.st_mode))
-    throw IoError(fmt::format("cannot read '{}': not a regular file", path.string()));
+    throw IoError(fmt::format("cannot read '{}': not a regular file", shown(path)));
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > most_bytes)
-    throw IoError(fmt::format("cannot read '{}': it has {} bytes, the limit is {}", path.string(),
+    throw IoError(fmt::format("cannot read '{}': it has {} bytes, the limit is {}", shown(path),
                               size, most_bytes));
   std::string bytes(size, '\0');
   std::size_t done = 0;
@@ -88,30 +94,57 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   const std::filesystem::path part =
       folder / fmt::format("{}{}-{}", kTemporary, ::getpid(), serial++);
-  // A file without a name vanishes with a killed process; only whole ones are given a name.
-  Descriptor file(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
-  const bool nameless = file.number() >= 0;
-  if (!nameless) file.open(part);
-  if (file.number() < 0) fail("write", path, errno);
-  const std::string self = fmt::format("/proc/self/fd/{}", file.number());
-  const auto give_name = [&](const std::filesystem::path& name) {
-    return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
-  };
-  bool good = write_all(file.number(), bytes);
-  // A new file gets its own name at once; only one that replaces another needs a name in between.
-  if (good && nameless && give_name(path)) return;
-  good = good && (!nameless || give_name(part)) && file.close() &&
-         ::rename(part.c_str(), path.c_str()) == 0;
-  if (!good) {
+  const auto check = [&](bool good) {
+    if (good) return;
     const int code = errno;
     ::unlink(part.c_str());
     fail("write", path, code);
+  };
+  // A file without a name vanishes with a killed process; only a whole one is given its name, at
+  // once if it is new, by way of another name if it replaces a file.
+  if (const Descriptor file(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
+      file.number() >= 0) {
+    check(write_all(file.number(), bytes));
+    const std::string self = fmt::format("/proc/self/fd/{}", file.number());
+    const auto give_name = [&](const std::filesystem::path& name) {
+      return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (give_name(path)) return;
+    if (errno == EEXIST && give_name(part)) return check(::rename(part.c_str(), path.c_str()) == 0);
   }
+  // Not every file system has files without names, and without /proc they cannot be given one.
+  Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (file.number() < 0) fail("write", path, errno);
+  check(write_all(file.number(), bytes) && file.close() &&
+        ::rename(part.c_str(), path.c_str()) == 0);
+}
+
+void make_durable(const std::filesystem::path& folder) {
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.number() < 0 || ::syncfs(opened.number()) != 0) fail("keep", folder, errno);
+}
+
+void hold_standard_streams() noexcept {
+  int number;
+  do number = ::open("/", O_RDONLY | O_DIRECTORY);
+  while (number >= 0 && number <= STDERR_FILENO);
+  if (number >= 0) ::close(number);
 }
 
 void write_stdout(std::string_view bytes) {
-  if (!write_all(STDOUT_FILENO, bytes))
-    throw IoError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  if (write_all(STDOUT_FILENO, bytes)) return;
+  const int code = errno;
+  const std::string text = fmt::format("cannot write to standard output: {}", std::strerror(code));
+  if (code == EPIPE) throw ReaderGone(text);
+  throw IoError(text);
+}
+
+void write_stderr(std::string_view bytes) noexcept {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(STDERR_FILENO, bytes.data(), bytes.size());
+    if (n < 0 && errno != EINTR) return;
+    if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
 }
 
 void remove_leftovers(const std::filesystem::path& folder) noexcept {
@@ -129,7 +162,7 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error))
-    throw IoError(fmt::format("cannot make the folder '{}': {}", folder.string(),
+    throw IoError(fmt::format("cannot make the folder '{}': {}", shown(folder),
                               error ? error.message() : "something else has this name"));
 }
 

@@ -17,8 +17,21 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
 // naming path and reason, and removes the temporary file.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-// Writes all bytes to standard output and flushes. Throws IoError (a full disk, a closed pipe).
+// Returns when everything that was written on the folder's file system would outlast a power cut.
+// That is dear: call it once when all is written, before it is said to be finished. Throws IoError.
+void make_durable(const std::filesystem::path& folder);
+
+// Takes the numbers of standard streams that are closed, so that no file opened later gets one and
+// has messages written into it. What is written to a stream held so is an error like any other.
+// Call it before anything is opened.
+void hold_standard_streams() noexcept;
+
+// Writes all bytes to standard output, unbuffered. Throws IoError (a full disk, a closed stream);
+// ReaderGone if it is a pipe that nobody reads any more.
 void write_stdout(std::string_view bytes);
+
+// Writes to standard error what can be written there, unbuffered; the rest is lost.
+void write_stderr(std::string_view bytes) noexcept;
 
 // Removes what an earlier write_file left in `folder` when it was killed. Never throws.
 void remove_leftovers(const std::filesystem::path& folder) noexcept;

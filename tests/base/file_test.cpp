@@ -1,11 +1,38 @@
 #include "base/file.hpp"
 
+#include <cerrno>
+#include <string_view>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "base/error.hpp"
+
+// The program under test calls these in place of the C library's, so that a test can take /proc
+// away or let a disk fail, and see what was asked for.
+namespace {
+bool proc_is_missing = false;
+int syncfs_calls = 0, syncfs_error = 0;
+}  // namespace
+
+extern "C" int linkat(int from, const char* name, int to, const char* new_name,
+                      int flags) noexcept {
+  if (proc_is_missing && std::string_view(name).starts_with("/proc/")) {
+    errno = ENOENT;
+    return -1;
+  }
+  return static_cast<int>(::syscall(SYS_linkat, from, name, to, new_name, flags));
+}
+
+extern "C" int syncfs(int descriptor) noexcept {
+  ++syncfs_calls;
+  errno = syncfs_error;
+  return syncfs_error != 0 ? -1 : static_cast<int>(::syscall(SYS_syncfs, descriptor));
+}
 
 namespace lantern {
 namespace {
@@ -117,6 +144,32 @@ TEST_F(File, MakesFoldersWithTheirParents) {
   write_file(folder_ / "file", "");
   expect_io_error("file", "cannot make the folder", [&] { make_folder(folder_ / "file"); });
   expect_io_error("file/x", "cannot make the folder", [&] { make_folder(folder_ / "file/x"); });
+}
+
+TEST_F(File, IsWrittenWithoutProc) {
+  proc_is_missing = true;
+  EXPECT_NO_THROW(write_file(folder_ / "x", "new"));
+  EXPECT_NO_THROW(write_file(folder_ / "x", "newer"));
+  expect_io_error("missing/x", "No such file", [&] { write_file(folder_ / "missing/x", "1"); });
+  proc_is_missing = false;
+  EXPECT_EQ(read_file(folder_ / "x", 10), "newer");
+  EXPECT_EQ(entries(), 1u) << "a temporary file is left";
+}
+
+TEST_F(File, AFolderIsMadeDurableByTheSystem) {
+  const int before = syncfs_calls;
+  make_durable(folder_);
+  EXPECT_EQ(syncfs_calls, before + 1);
+  expect_io_error("missing", "No such file", [&] { make_durable(folder_ / "missing"); });
+  syncfs_error = EIO;
+  expect_io_error(folder_.filename().string(), "Input/output", [&] { make_durable(folder_); });
+  syncfs_error = 0;
+}
+
+// A name never reaches a terminal as it is.
+TEST_F(File, ErrorsShowAStrangeNameAsEscapes) {
+  expect_io_error("a\\x1b[31m\\n\\xff", "No such file",
+                  [&] { read_file(folder_ / "a\x1b[31m\n\xff", 10); });
 }
 
 TEST_F(File, WritesIntoTheCurrentFolder) {
