@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "render/backends.hpp"
 #include "render/gl.hpp"
+#include "render/headroom.hpp"
 
 namespace lantern {
 namespace {
@@ -18,15 +19,28 @@ std::string describe(const Context& context) {
   return fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
 }
 
-BackendReport report(std::string name, Attempt attempt) {
+// A context that lacks a function which Lantern calls is none.
+Attempt attempt(Attempt (*start)()) {
+  Attempt made = start();
+  if (made.context) try {
+      const Gl complete(*made.context);
+    } catch (const BackendError& error) {
+      made.context.reset();
+      made.problem = error.what();
+    }
+  return made;
+}
+
+BackendReport report(std::string name, Attempt (*start)()) {
   BackendReport r;
   r.name = std::move(name);
-  r.library = attempt.library;
-  r.problem = attempt.problem;
-  if (!attempt.context) return r;
   try {
-    r.renderer = describe(*attempt.context);
-    r.works = true;
+    require_room_for_context();
+    const Attempt made = attempt(start);
+    r.library = made.library;
+    r.problem = made.problem;
+    r.works = made.context != nullptr;
+    if (r.works) r.renderer = describe(*made.context);
   } catch (const BackendError& error) {
     r.problem = error.what();
   }
@@ -43,14 +57,15 @@ std::optional<Backend> backend_named(std::string_view name) {
 }
 
 std::unique_ptr<Context> Context::create(Backend backend) {
+  require_room_for_context();
   std::string problems;
   if (backend != Backend::egl) {
-    Attempt osmesa = try_osmesa();
+    Attempt osmesa = attempt(try_osmesa);
     if (osmesa.context) return std::move(osmesa.context);
     problems += fmt::format("\n  osmesa: {}", osmesa.problem);
   }
   if (backend != Backend::osmesa) {
-    Attempt egl = try_egl();
+    Attempt egl = attempt(try_egl);
     if (egl.context) return std::move(egl.context);
     problems += fmt::format("\n  egl: {}", egl.problem);
   }
@@ -59,8 +74,8 @@ std::unique_ptr<Context> Context::create(Backend backend) {
 
 std::vector<BackendReport> examine_backends() {
   std::vector<BackendReport> reports;
-  reports.push_back(report("osmesa", try_osmesa()));
-  reports.push_back(report("egl", try_egl()));
+  reports.push_back(report("osmesa", try_osmesa));
+  reports.push_back(report("egl", try_egl));
   return reports;
 }
 

@@ -19,8 +19,9 @@ class Context {
   virtual void* function(const char* name) const = 0;  // null if there is none
   virtual std::string_view backend() const = 0;        // "osmesa", "egl"
 
-  // automatic: OSMesa first, then EGL on the surfaceless platform. Throws BackendError that says
-  // for each backend tried what failed and which package brings it.
+  // automatic: OSMesa first, then EGL on the surfaceless platform. One whose OpenGL lacks a
+  // function that Lantern calls counts as failed, too. Throws BackendError that says for each
+  // backend tried what failed and which package brings it, or that there is no room for any.
   static std::unique_ptr<Context> create(Backend backend);
 };
 

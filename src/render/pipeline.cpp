@@ -1,7 +1,11 @@
 #include "render/pipeline.hpp"
 
 #include <algorithm>
+#include <system_error>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "base/file.hpp"
 #include "render/png_parts.hpp"
 
@@ -31,8 +35,13 @@ Pipeline::Pipeline(std::unique_ptr<Context> context, Config config, Work& work)
   // One being drawn, the last one to compare with, one or two for each thread.
   const std::size_t bytes = std::size_t{4} * config_.width * config_.height;
   most_pictures_ = std::clamp<std::size_t>(kMostBytes / bytes, 2, 2 + 2 * threads);
-  for (std::size_t i = 0; i < threads; ++i)
-    threads_.emplace_back([this](const std::stop_token& stop) { encode_jobs(stop); });
+  for (std::size_t i = 0; i < threads; ++i) try {
+      threads_.emplace_back([this](const std::stop_token& stop) { encode_jobs(stop); });
+    } catch (const std::system_error& error) {
+      if (threads_.empty())
+        throw IoError(fmt::format("cannot start a thread: {}", error.code().message()));
+      break;  // the machine gives no more: those there are do all
+    }
 }
 
 Pipeline::~Pipeline() {

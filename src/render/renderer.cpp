@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "embedded/shaders.hpp"
 #include "render/gl.hpp"
+#include "render/headroom.hpp"
 #include "render/shape_builder.hpp"
 
 namespace lantern {
@@ -35,6 +36,7 @@ void unpremultiply(std::vector<std::uint8_t>& rgba) {
 struct Renderer::State {
   State(std::unique_ptr<Context> c, int w, int h)
       : context(std::move(c)), gl(*context), width(w), height(h), builder(w, h) {
+    require_room_for_pixels(static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h));
     make_framebuffer();
     make_instances();
     make_masks();

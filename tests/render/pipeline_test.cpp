@@ -1,16 +1,31 @@
 #include "render/pipeline.hpp"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <set>
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <sys/resource.h>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
+
+// All threads are made by this: a test can let the machine refuse to make more than so many.
+namespace {
+std::atomic<int> threads_left = 1'000'000;
+}
+
+extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
+                              void* (*start)(void*), void* argument) noexcept {
+  static const auto real =
+      reinterpret_cast<decltype(&pthread_create)>(::dlsym(RTLD_NEXT, "pthread_create"));
+  return threads_left-- > 0 ? real(thread, attributes, start, argument) : EAGAIN;
+}
 
 namespace lantern::test {
 namespace {
@@ -73,6 +88,27 @@ TEST(Pipeline, TellsOfEachFileOnceAndOneAtATime) {
   pipeline.finish();
   EXPECT_EQ(written.size(), 30u);
   for (int i = 0; i < 30; ++i) EXPECT_EQ(written.count(file(folder, i)), 1u);
+}
+
+TEST(Pipeline, MakesDoWithTheThreadsThereAre) {
+  const fs::path folder = fresh_folder("few-threads");
+  Work work;
+  for (const int possible : {0, 1, 3}) {
+    auto context = Context::create(Backend::automatic);  // and the backend's own threads
+    threads_left = possible;
+    try {
+      Pipeline pipeline(std::move(context), config(8), work);
+      threads_left = 1'000'000;
+      for (int i = 0; i < 9; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
+      pipeline.finish();
+      EXPECT_GT(possible, 0);
+      for (int i = 0; i < 9; ++i) EXPECT_TRUE(fs::remove(file(folder, i))) << possible;
+    } catch (const IoError& error) {
+      EXPECT_EQ(possible, 0) << error.what();
+      EXPECT_NE(std::string(error.what()).find("cannot start a thread"), std::string::npos);
+    }
+    threads_left = 1'000'000;
+  }
 }
 
 // Submits until the pipeline gives up; true if it threw an IoError.

@@ -1,0 +1,41 @@
+#!/bin/sh
+# With any limit of address space or data a run is good, or ends with one line that says why and exit
+# code 1 or 4: never by a signal. Needs LANTERN, the program; some minutes.
+set -u
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+# try LIMIT WORDS...: LIMIT as -v 300000 (kB)
+try() {
+  limit=$1
+  shift
+  rm -rf "$folder/out"
+  (ulimit -c 0; ulimit $limit; exec timeout 120 "$LANTERN" "$@") >/dev/null 2>"$folder/err"
+  code=$?
+  lines=$(grep -c '^lantern: error: ' "$folder/err")
+  case $code in
+    0) return ;;
+    1 | 4) [ "$1" = doctor ] || [ "$lines" -eq 1 ] && return ;;
+  esac
+  failures=$((failures + 1))
+  echo "ulimit $limit: $*: exit code $code"
+  head -5 "$folder/err"
+}
+
+ghosts=$root/scenarios/ghost_quadtree.toml
+for which in -v -d; do
+  for kilobytes in $(seq 50000 25000 500000) $(seq 520000 20000 700000) $(seq 800000 200000 2000000); do
+    limit="$which $kilobytes"
+    try "$limit" check "$ghosts"
+    try "$limit" doctor
+    for backend in osmesa egl; do
+      try "$limit" render --backend $backend --frames 0-3 -j 8 -o "$folder/out" "$ghosts"
+      try "$limit" render --backend $backend --frames 0-1 -j 2 --size 8192x8192 -o "$folder/out" \
+        "$ghosts"
+    done
+    try "$limit" measure kepler --quick --method velocity_verlet --longest 1 -o "$folder/out"
+  done
+done
+[ $failures -eq 0 ] && echo "no run was ended by a signal"
