@@ -60,7 +60,8 @@ int measure_broad_phase_command(const MeasureBroadPhaseOptions& options) {
   folder.write("broad_phase.csv", to_csv(rows));
   folder.write("broad_phase.json", json);
   if (folder.wanted()) folder.draw(pages_of(rows, scenes), options.theme);
-  write_stdout(options.json ? json : table);
+  folder.finish();
+  options.json ? write_stdout(json) : print(table);
   if (wrong == 0) return kGood;
   complain(fmt::format("{} pairs are missed or invented; see the column 'wrong'", wrong));
   return kFailed;

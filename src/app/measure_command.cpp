@@ -99,7 +99,7 @@ int list_problems() {
     rows.push_back({s.name, std::string(to_string(s.problem->solution)),
                     std::string(to_string(s.problem->variant)), s.title});
   }
-  write_stdout(table(rows));
+  print(table(rows));
   return kGood;
 }
 
@@ -152,7 +152,9 @@ class Measuring {
   const Measurement& measurement() const { return measurement_; }
 
  private:
-  void save() const { folder_.write("measure.json", to_json(measurement_)); }
+  void save() const {
+    if (!measurement_.rows.empty()) folder_.write("measure.json", to_json(measurement_));
+  }
 
   const Row* known(const Job& job) const {
     const Scenario& scenario = plan_.scenario(job);
@@ -239,12 +241,13 @@ int measure_problems(const MeasureOptions& options) {
     complain("nothing was measured: no method applies, or every run is too long (--full)");
     return kFailed;
   }
-  write_stdout(options.json ? to_json(m) : to_table(m));
+  options.json ? write_stdout(to_json(m)) : print(to_table(m));
   if (interrupted()) {
     say("interrupted; the same command goes on from here");
     return kInterrupted;
   }
   save_pages(folder, m, options);
+  folder.finish();
   say(fmt::format("the report is in {}", options.output));
   return interrupted() ? kInterrupted : kGood;
 }
@@ -256,18 +259,13 @@ int measure_command(const MeasureOptions& options) {
   std::vector<std::string> words = options.problems;
   const std::string first = words.empty() ? "" : words[0];
   if (first == "pictures" || first == "broad_phase") words.erase(words.begin());
-  try {
-    if (first == "pictures")
-      return measure_pictures_command(
-          {words, options.output, options.theme, options.full, options.json});
-    if (first == "broad_phase")
-      return measure_broad_phase_command(
-          {words, options.output, options.theme, options.full, options.json});
-    return measure_problems(options);
-  } catch (const Refused& refused) {
-    complain(refused.what());
-    return kBadScenario;
-  }
+  if (first == "pictures")
+    return measure_pictures_command(
+        {words, options.output, options.theme, options.full, options.json});
+  if (first == "broad_phase")
+    return measure_broad_phase_command(
+        {words, options.output, options.theme, options.full, options.json});
+  return measure_problems(options);
 }
 
 }  // namespace lantern

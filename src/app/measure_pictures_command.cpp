@@ -70,7 +70,8 @@ int measure_pictures_command(const MeasurePicturesOptions& options) {
   for (const std::string& scene : report.scenes)
     pages.push_back({"pictures_" + scene, draw_picture_page(report, scene, circumstances)});
   folder.draw(pages, options.theme);
-  write_stdout(options.json ? json : table);
+  folder.finish();
+  options.json ? write_stdout(json) : print(table);
   return kGood;
 }
 

@@ -15,6 +15,10 @@ class ReportFolder {
  public:
   // Makes the folder and tries to write into it, before there is anything to lose. Throws IoError.
   explicit ReportFolder(const std::string& path);
+  // Takes away what folders it made and nothing was written into.
+  ~ReportFolder();
+  ReportFolder(const ReportFolder&) = delete;
+  ReportFolder& operator=(const ReportFolder&) = delete;
 
   bool wanted() const { return !path_.empty(); }
   const std::filesystem::path& path() const { return path_; }
@@ -23,9 +27,12 @@ class ReportFolder {
   // As SVG and PNG; throws BackendError, when the SVG files are there, if there is no OpenGL.
   void draw(const std::vector<ReportPage>& pages, const std::string& theme,
             const std::string& backend = "auto") const;
+  // The report is whole: on return it would outlast a power cut. Throws IoError.
+  void finish() const;
 
  private:
   std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  // folders, the innermost first
 };
 
 }  // namespace lantern

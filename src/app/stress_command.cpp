@@ -80,12 +80,13 @@ int stress_command(const StressOptions& options) {
   const StressReport report = run_all(cases);
   folder.write("stress.csv", to_csv(report));
   folder.write("stress.json", to_json(report));
-  write_stdout(options.json ? to_json(report) : to_table(report));
+  options.json ? write_stdout(to_json(report)) : print(to_table(report));
   if (folder.wanted() && report.finished) draw_map(folder, options);
   if (interrupted()) {
     say("interrupted; what is finished has been reported");
     return kInterrupted;
   }
+  folder.finish();
   const bool good = std::all_of(report.outcomes.begin(), report.outcomes.end(),
                                 [](const StressOutcome& o) { return o.result.good; });
   return good ? kGood : kFailed;

@@ -144,8 +144,8 @@ BoxScene box_scene_of(const Scenario& scenario) {
     return fullest.bodies.empty() || !passes_time(scenario.steps[frame.step].verb);
   });
   if (fullest.bodies.size() < 2)
-    throw Refused(fmt::format(
-        "scenario {}: fewer than two of its bodies enter, so there is no pair", scenario.name));
+    throw ScenarioError(diagnose(scenario, {scenario.file, 0, 0},
+                                 "fewer than two of its bodies enter, so there is no pair"));
   BoxScene scene{
       scenario.name, fmt::format("the {} boxes of {}", fullest.bodies.size(), scenario.name), {}};
   if (scenario.world.dimension == 2)

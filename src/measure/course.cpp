@@ -62,20 +62,22 @@ Course script_of(const Scenario& scenario) {
     course.legs.push_back(std::move(leg));
     leg = {};
   };
-  for (const Step& step : scenario.steps) {
-    if (const auto* run = std::get_if<Run>(&step.verb)) {
-      if (own) own->act(step.verb);
-      pass(static_cast<std::uint64_t>(std::llround(run->seconds / h)));
-    } else if (const auto* wait = std::get_if<Wait>(&step.verb)) {
-      pass(own->wait(*wait));
-    } else if (std::holds_alternative<Phases>(step.verb)) {
-      if (own) own->act(step.verb);
-      pass(1);
-    } else {
-      if (own) own->act(step.verb);
-      leg.before.push_back(step.verb);
+  for (const Step& step : scenario.steps) try {
+      if (const auto* run = std::get_if<Run>(&step.verb)) {
+        if (own) own->act(step.verb);
+        pass(static_cast<std::uint64_t>(std::llround(run->seconds / h)));
+      } else if (const auto* wait = std::get_if<Wait>(&step.verb)) {
+        pass(own->wait(*wait));
+      } else if (std::holds_alternative<Phases>(step.verb)) {
+        if (own) own->act(step.verb);
+        pass(1);
+      } else {
+        if (own) own->act(step.verb);
+        leg.before.push_back(step.verb);
+      }
+    } catch (const Refused& refused) {
+      throw ScenarioError(diagnose(scenario, step.where, refused.what()));
     }
-  }
   return course;
 }
 

@@ -22,6 +22,18 @@ constexpr TimingRule kQuick{3, 0.002};
 constexpr TimingRule kGood{15, 0.05};
 constexpr TimingRule kOnce{1, 0};
 
+// What is refused of a scenario gets a place in its file: its [problem], if it has one.
+template <class Act>
+auto with_place(const Scenario& scenario, const Act& act) {
+  try {
+    return act();
+  } catch (const Refused& refused) {
+    const auto where =
+        scenario.problem ? scenario.problem->where : SourcePosition{scenario.file, 0, 0};
+    throw ScenarioError(diagnose(scenario, where, refused.what()));
+  }
+}
+
 }  // namespace
 
 bool can_be_measured_by(std::string_view name) {
@@ -36,11 +48,7 @@ Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told
   contestants_.push_back(std::make_unique<DormandPrinceContestant>());
   for (std::size_t i = 0; i < options_.scenarios.size(); ++i) {
     told(options_.scenarios[i]);
-    try {
-      prepare(i);
-    } catch (const Refused& refused) {
-      throw Refused(fmt::format("{}: {}", options_.scenarios[i].file, refused.what()));
-    }
+    with_place(options_.scenarios[i], [&] { prepare(i); });
   }
 }
 
@@ -130,8 +138,9 @@ double Plan::seconds_with_repeats(const Job& job) const {
 std::optional<Row> Plan::run(const Job& job, const std::function<bool()>& stop) {
   Prepared& prepared = prepared_[job.scenario];
   if (!prepared.reference)
-    prepared.reference =
-        reference_for(scenario(job), prepared.course, prepared.finest / kFinerReference);
+    prepared.reference = with_place(scenario(job), [&] {
+      return reference_for(scenario(job), prepared.course, prepared.finest / kFinerReference);
+    });
   std::optional<Row> row = measure(scenario(job), prepared.course, contestant(job), job.step,
                                    *prepared.reference, *prepared.invariants, timing(job), stop);
   if (row && row->timing.repeats > 0)

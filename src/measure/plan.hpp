@@ -39,8 +39,8 @@ struct Job {
 class Plan {
  public:
   // Estimates every run, for which each contestant runs for some milliseconds; `told` is called
-  // before each scenario. Throws Refused, naming the scenario, for one that cannot be measured and
-  // for a step that is not allowed.
+  // before each scenario. Throws ScenarioError, pointing at the [problem] if there is one, for a
+  // scenario that cannot be measured and for a step that is not allowed.
   Plan(PlanOptions options, const std::function<void(const Scenario&)>& told);
 
   const std::vector<Job>& jobs() const { return jobs_; }
@@ -54,7 +54,7 @@ class Plan {
   const Scenario& scenario(const Job& job) const { return options_.scenarios[job.scenario]; }
   const Contestant& contestant(const Job& job) const { return *contestants_[job.contestant]; }
 
-  // Nothing if `stop` said so.
+  // Nothing if `stop` said so. Throws ScenarioError if there is nothing to hold it against.
   std::optional<Row> run(const Job& job, const std::function<bool()>& stop);
 
  private:
