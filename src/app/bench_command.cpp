@@ -52,7 +52,7 @@ int bench_frames_command(const BenchOptions& options) {
                   config.frames, config.width, config.height));
   const ScratchFolder folder;
   const FrameBenchResult result = bench_frames(lists, folder.path(), config);
-  write_stdout(options.json ? to_json(result) : to_table(result));
+  options.json ? write_stdout(to_json(result)) : print(to_table(result));
   return kGood;
 }
 

@@ -10,7 +10,7 @@ namespace lantern {
 // What a run of the program ends with.
 enum ExitCode {
   kGood = 0,
-  kFailed = 1,  // an expectation, a comparison, a file
+  kFailed = 1,  // an expectation, a comparison, a file; silently, if nobody reads the output
   kUsage = 2,
   kBadScenario = 3,
   kNoBackend = 4,

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/printable.hpp"
 #include "embedded/version.hpp"
 #include "measure/peers.hpp"
 #include "render/context.hpp"
@@ -74,7 +76,8 @@ int doctor_command(const DoctorOptions& options) {
   json.end_array().key("missing_peers").begin_array();
   for (const std::string& peer : peers.missing) json.value(peer);
   json.end_array().end_object();
-  write_stdout(options.json ? json.text() + "\n" : as_text(reports, ffmpeg, peers));
+  options.json ? write_stdout(json.text() + "\n")
+               : print(as_text(reports, printable(ffmpeg), peers));
   return any ? kGood : kNoBackend;
 }
 

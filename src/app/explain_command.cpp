@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "app/table.hpp"
+#include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "scenario/needs.hpp"
@@ -15,7 +16,7 @@ int explain_command(const ExplainOptions& options) {
     std::vector<std::vector<std::string>> rows;
     for (const Need& need : needs.listed)
       rows.push_back({need.used ? "uses" : "leaves out", need.stage, need.reason});
-    write_stdout(fmt::format("{}: {}\n\n{}", scenario.name, scenario.title, table(rows)));
+    print(fmt::format("{}: {}\n\n{}", scenario.name, scenario.title, table(rows)));
     return kGood;
   }
   JsonWriter json;

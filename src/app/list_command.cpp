@@ -57,7 +57,7 @@ int list_command(const ListOptions& options) {
         code = std::max<int>(code, kFailed);
       }
   json.line().end_array();
-  write_stdout(options.json ? json.text() + "\n" : table(rows));
+  options.json ? write_stdout(json.text() + "\n") : print(table(rows));
   return code;
 }
 

@@ -1,6 +1,7 @@
 // The command line of Lantern: words to options, errors to exit codes.
 #include <functional>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -203,7 +204,8 @@ std::string usage_hint(int argc, char** argv) {
   return "there is no command '" + std::string(word) + "'; " + hint;
 }
 
-int run_and_report(const Run& run) {
+// What a run throws is told, and becomes its exit code.
+int run_and_report(const Run& run) noexcept {
   try {
     return run();
   } catch (const UsageError& e) {
@@ -213,20 +215,26 @@ int run_and_report(const Run& run) {
     complain(e);
     return kBadScenario;
   } catch (const BackendError& e) {
-    complain(e.what());
+    complain(e);
     return kNoBackend;
+  } catch (const ReaderGone&) {
+    return kFailed;
   } catch (const Stopped&) {
     return kInterrupted;
   } catch (const std::bad_alloc&) {
-    complain("out of memory");
+    write_stderr("lantern: error: out of memory\n");  // and needs none
     return kFailed;
   } catch (const std::exception& e) {
     complain(e.what());
     return kFailed;
+  } catch (...) {
+    complain("something that is no std::exception was thrown");
+    return kFailed;
   }
 }
 
-int lantern_main(int argc, char** argv) {
+// Reads the command line and runs what it asks for.
+int run_words(int argc, char** argv) {
   CLI::App app{"Lantern renders lecture scenarios about spatial partitioning to pictures."};
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string(kVersion));
@@ -256,15 +264,21 @@ int lantern_main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    complain(std::string(e.what()) + "; " + usage_hint(argc, argv));
-    return kUsage;
+    if (e.get_exit_code() != 0)
+      throw UsageError(std::string(e.what()) + "; " + usage_hint(argc, argv));
+    std::ostringstream text;  // --help, --version
+    app.exit(e, text, text);
+    print(text.str());
+    return kGood;
   }
-  catch_interrupts();
-  return run_and_report(run);
+  return run();
 }
 
 }  // namespace
 }  // namespace lantern
 
-int main(int argc, char** argv) { return lantern::lantern_main(argc, argv); }
+int main(int argc, char** argv) {
+  lantern::hold_standard_streams();
+  lantern::catch_interrupts();
+  return lantern::run_and_report([&] { return lantern::run_words(argc, argv); });
+}

@@ -5,21 +5,26 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
+#include "base/printable.hpp"
+#include "base/utf8.hpp"
 
 namespace lantern {
 
-// Rows of equally many cells, padded to columns; the last column is left as it is.
-inline std::string table(const std::vector<std::vector<std::string>>& rows) {
+// Rows of equally many cells, each a printable line, padded to columns.
+inline std::string table(std::vector<std::vector<std::string>> rows) {
   std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
+  for (auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      row[i] = printable(row[i]);
+      widths[i] = std::max(widths[i], letters(row[i]));
+    }
   }
   std::string text;
   for (const auto& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i)
-      text += i + 1 < row.size() ? fmt::format("{:<{}}  ", row[i], widths[i]) : row[i];
+      text += row[i] + (i + 1 < row.size() ? std::string(widths[i] - letters(row[i]) + 2, ' ')
+                                           : std::string());
     text += '\n';
   }
   return text;

@@ -1,12 +1,13 @@
 #include "app/terminal.hpp"
 
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/file.hpp"
+#include "base/printable.hpp"
 #include "base/stop.hpp"
 
 namespace lantern {
@@ -14,6 +15,19 @@ namespace {
 
 constexpr double kRedraw = 0.1;     // seconds between two drawings on a terminal
 constexpr double kPlainLine = 5.0;  // and between two plain lines elsewhere
+
+constexpr std::string_view kError = "error:";
+
+std::string_view error_word() { return colourful() ? "\033[1;31merror:\033[0m" : kError; }
+
+// What there is no memory to say, or nobody to hear, is lost: the work goes on.
+template <class Make>
+void write(const Make& make_text) noexcept {
+  try {
+    write_stderr(make_text());
+  } catch (const std::exception&) {
+  }
+}
 
 }  // namespace
 
@@ -24,26 +38,35 @@ bool colourful() {
   return animated() && (no_color == nullptr || *no_color == '\0');
 }
 
-void say(std::string_view message) { fmt::print(stderr, "{}\n", message); }
-
-void complain(std::string_view message) {
-  say(fmt::format("lantern: {} {}", colourful() ? "\033[1;31merror:\033[0m" : "error:", message));
+void say(std::string_view message) noexcept {
+  write([&] { return printable(message) + '\n'; });
 }
 
-void complain(const ScenarioError& error) {
-  for (const Diagnostic& diagnostic : error.diagnostics()) {
-    std::string text = to_string(diagnostic);
-    if (const auto at = text.find("error:"); colourful() && at != std::string::npos)
-      text.replace(at, 6, "\033[1;31merror:\033[0m");
-    say(text);
-  }
+void complain(std::string_view message) noexcept {
+  write([&] { return fmt::format("lantern: {} {}\n", error_word(), printable(message)); });
 }
+
+void complain(const BackendError& error) noexcept {
+  write(
+      [&] { return fmt::format("lantern: {} {}\n", error_word(), printable_lines(error.what())); });
+}
+
+void complain(const ScenarioError& error) noexcept {
+  for (const Diagnostic& diagnostic : error.diagnostics())
+    write([&] {
+      std::string text = to_string(diagnostic) + '\n';
+      const auto at = text.find(kError);
+      return at == std::string::npos ? text : text.replace(at, kError.size(), error_word());
+    });
+}
+
+void print(std::string_view text) { write_stdout(printable_lines(text)); }
 
 Progress::Progress(std::string name, std::uint64_t total, std::string unit)
     : name_(std::move(name)), total_(total), unit_(std::move(unit)) {}
 
 Progress::~Progress() {
-  if (shown_ && animated()) fmt::print(stderr, "\r\033[K");
+  if (shown_ && animated()) write_stderr("\r\033[K");
 }
 
 void Progress::done(std::uint64_t count) {
@@ -60,10 +83,9 @@ void Progress::tell(const std::string& words) {
   last_shown_ = now;
   const std::string line = fmt::format("{}: {}", name_, words);
   if (animated())
-    fmt::print(stderr, "\r{}\033[K", line);
+    write([&] { return fmt::format("\r{}\033[K", printable(line)); });
   else
     say(line);
-  std::fflush(stderr);
   shown_ = true;
 }
 

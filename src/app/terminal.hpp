@@ -1,4 +1,6 @@
-// Messages to a person, on standard error.
+// Messages to a person, on standard error. None of them throws: one that cannot be said is lost,
+// and the work goes on. Whatever stands in them, a terminal gets printable text
+// (base/printable.hpp).
 #pragma once
 
 #include <cstdint>
@@ -16,9 +18,13 @@ bool colourful();
 // Standard error is a terminal.
 bool animated();
 
-void say(std::string_view message);         // a line
-void complain(std::string_view message);    // "lantern: error: ..."
-void complain(const ScenarioError& error);  // each of its diagnostics
+void say(std::string_view message) noexcept;         // a line
+void complain(std::string_view message) noexcept;    // a line "lantern: error: ..."
+void complain(const BackendError& error) noexcept;   // the same, and a line for each backend
+void complain(const ScenarioError& error) noexcept;  // each of its diagnostics
+
+// Lines for a person on standard output, printable, too. Throws IoError as write_stdout does.
+void print(std::string_view text);
 
 // What a bad word on the command line gets. Exit code 2.
 class UsageError : public std::runtime_error {
