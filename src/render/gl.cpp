@@ -11,8 +11,9 @@ template <class Function>
 void load(const Context& context, Function& function, const char* name) {
   function = reinterpret_cast<Function>(context.function(name));
   if (!function)
-    throw BackendError(
-        fmt::format("the backend {} lacks the function {} of OpenGL 3.3; install a newer package of it", context.backend(), name));
+    throw BackendError(fmt::format(
+        "the backend {} lacks the function {} of OpenGL 3.3; install a newer package of it",
+        context.backend(), name));
 }
 
 }  // namespace
