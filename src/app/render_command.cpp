@@ -188,6 +188,7 @@ class FolderRun {
     manifest_.expectations = report.expectations;
     manifest_.unmet = report.unmet.size();
     write_manifest();
+    make_durable(path_);  // before anybody is told that it is finished
     return report;
   }
 
