@@ -35,7 +35,7 @@ std::vector<ReportPage> pages_of(const std::vector<BroadPhaseCost>& rows,
 }  // namespace
 
 int measure_broad_phase_command(const MeasureBroadPhaseOptions& options) {
-  const ReportFolder folder(options.output);
+  ReportFolder folder(options.output, "broad_phase");
   const std::vector<BoxScene> scenes = scenes_of(options);
   BroadPhaseCostConfig config;
   if (options.full) config.timing = {15, 0.05};

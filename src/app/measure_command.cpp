@@ -123,7 +123,7 @@ std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& 
 // A measurement while it is made. What is finished is on the disk every few seconds.
 class Measuring {
  public:
-  Measuring(Plan& plan, const ReportFolder& folder, const MeasureOptions& options)
+  Measuring(Plan& plan, ReportFolder& folder, const MeasureOptions& options)
       : plan_(plan), folder_(folder), progress_("measure", plan.jobs().size(), "runs") {
     measurement_.circumstances = here(kVersion, kSourceHash);
     measurement_.circumstances.effort = options.quick ? "quick" : options.full ? "full" : "normal";
@@ -152,7 +152,7 @@ class Measuring {
   const Measurement& measurement() const { return measurement_; }
 
  private:
-  void save() const {
+  void save() {
     if (!measurement_.rows.empty()) folder_.write("measure.json", to_json(measurement_));
   }
 
@@ -207,14 +207,14 @@ class Measuring {
   }
 
   Plan& plan_;
-  const ReportFolder& folder_;
+  ReportFolder& folder_;
   Measurement measurement_;
   std::vector<Row> known_;
   Progress progress_;
 };
 
 // The tables of all, a page of plots for each problem, and the overview.
-void save_pages(const ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
+void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
   folder.write("measure.csv", to_csv(m));
   folder.write("circumstances.csv", to_csv(m.circumstances));
   std::vector<ReportPage> pages;
@@ -228,7 +228,7 @@ void save_pages(const ReportFolder& folder, const Measurement& m, const MeasureO
 
 int measure_problems(const MeasureOptions& options) {
   PlanOptions planned = plan_options(options);
-  const ReportFolder folder(options.output);
+  ReportFolder folder(options.output, "measure");
   // Of all problems some suit nobody: only who asks for a few is told.
   const bool with_peers = planned.peers && !options.problems.empty();
   for (const std::string& line : unsuited(planned.scenarios, planned.methods, with_peers))

@@ -33,7 +33,7 @@ PictureScene scene_of(const std::string& file, const PictureConfig& config) {
 }  // namespace
 
 int measure_pictures_command(const MeasurePicturesOptions& options) {
-  const ReportFolder folder(options.output);
+  ReportFolder folder(options.output, "pictures");
   PictureConfig config;
   config.theme = *theme_named("light");
   if (options.full) {

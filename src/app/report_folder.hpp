@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/folder_lock.hpp"
 #include "report/pictures.hpp"
 
 namespace lantern {
@@ -13,8 +15,9 @@ namespace lantern {
 // Without a path everything is dropped.
 class ReportFolder {
  public:
-  // Makes the folder and tries to write into it, before there is anything to lose. Throws IoError.
-  explicit ReportFolder(const std::string& path);
+  // Makes the folder, keeps other processes out of it, and tries to write into it, before there is
+  // anything to lose. `report` names the kind of report: "measure". Throws IoError.
+  ReportFolder(const std::string& path, std::string_view report);
   // Takes away what folders it made and nothing was written into.
   ~ReportFolder();
   ReportFolder(const ReportFolder&) = delete;
@@ -23,7 +26,9 @@ class ReportFolder {
   bool wanted() const { return !path_.empty(); }
   const std::filesystem::path& path() const { return path_; }
 
-  void write(std::string_view name, std::string_view bytes) const;
+  // With the first file of a new report, the pages of an older one of its kind go: they would tell
+  // of other numbers.
+  void write(std::string_view name, std::string_view bytes);
   // As SVG and PNG; throws BackendError, when the SVG files are there, if there is no OpenGL.
   void draw(const std::vector<ReportPage>& pages, const std::string& theme,
             const std::string& backend = "auto") const;
@@ -31,7 +36,12 @@ class ReportFolder {
   void finish() const;
 
  private:
+  void remove_old_pages();
+
   std::filesystem::path path_;
+  std::string report_;
+  std::optional<FolderLock> lock_;
+  bool begun_ = false;
   std::vector<std::filesystem::path> made_;  // folders, the innermost first
 };
 

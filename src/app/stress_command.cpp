@@ -76,7 +76,7 @@ int stress_command(const StressOptions& options) {
     return kGood;
   }
   const std::vector<StressCase> cases = chosen_cases(options);
-  const ReportFolder folder(options.output);
+  ReportFolder folder(options.output, "stress");
   const StressReport report = run_all(cases);
   folder.write("stress.csv", to_csv(report));
   folder.write("stress.json", to_json(report));

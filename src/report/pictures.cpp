@@ -3,9 +3,14 @@
 #include <cmath>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/hash.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
+#include "render/seal.hpp"
 #include "render/svg.hpp"
 
 namespace lantern {
@@ -20,14 +25,22 @@ Pixels pixels_of(const DrawList& list) {
   return {static_cast<int>(std::lround(list.page.x)), static_cast<int>(std::lround(list.page.y))};
 }
 
+MadeFrom page_from(std::string_view report, std::string_view page) {
+  const auto key = [](std::string_view text) {
+    return fmt::format("{:016x}", Hash().add(text).value());
+  };
+  return {key(report), key(page)};
+}
+
 }  // namespace
 
-void save_pictures(const std::filesystem::path& folder, std::span<const ReportPage> pages,
-                   const Theme& theme, Backend backend) {
+void save_pictures(const std::filesystem::path& folder, std::string_view report,
+                   std::span<const ReportPage> pages, const Theme& theme, Backend backend) {
   for (const ReportPage& page : pages) {
     const Pixels size = pixels_of(page.list);
     write_file(folder / (page.name + ".svg"),
-               to_svg(page.list, theme, false, size.width, size.height));
+               sealed(FileKind::svg, to_svg(page.list, theme, false, size.width, size.height),
+                      page_from(report, page.name)));
   }
   std::optional<Renderer> renderer;
   Pixels rendered;
@@ -40,7 +53,21 @@ void save_pictures(const std::filesystem::path& folder, std::span<const ReportPa
       rendered = size;
     }
     renderer->draw(page.list, theme, false, image);
-    write_file(folder / (page.name + ".png"), encode_png(image, PngEffort::small, {}, 0));
+    write_file(folder / (page.name + ".png"),
+               sealed(FileKind::png, encode_png(image, PngEffort::small, {}, 0),
+                      page_from(report, page.name)));
+  }
+}
+
+bool is_page_of(std::string_view report, const std::filesystem::path& file) {
+  const bool png = file.extension() == ".png";
+  if (!png && file.extension() != ".svg") return false;
+  try {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+    return made_from(png ? FileKind::png : FileKind::svg, read_file(file, kMostBytes)) ==
+           page_from(report, file.stem().string());
+  } catch (const IoError&) {
+    return false;
   }
 }
 

@@ -17,8 +17,12 @@ struct ReportPage {
 };
 
 // NAME.svg and NAME.png for each page, a pixel a page unit. The SVG files come first: they need no
-// OpenGL. Throws IoError, and BackendError if there is none.
-void save_pictures(const std::filesystem::path& folder, std::span<const ReportPage> pages,
-                   const Theme& theme, Backend backend);
+// OpenGL. Each says of which `report` it is a page. Throws IoError, and BackendError if there is
+// none.
+void save_pictures(const std::filesystem::path& folder, std::string_view report,
+                   std::span<const ReportPage> pages, const Theme& theme, Backend backend);
+
+// Is the file a page that save_pictures wrote for such a report, and that nobody has changed since?
+bool is_page_of(std::string_view report, const std::filesystem::path& file);
 
 }  // namespace lantern

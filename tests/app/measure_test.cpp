@@ -48,6 +48,25 @@ TEST(MeasureCommand, CountedWorkIsTheSameInEveryRun) {
   EXPECT_EQ(rows[0], rows[1]);
 }
 
+// What is in the folder is of this build, and of this report.
+TEST(MeasureCommand, NothingOfAnotherBuildOrReportStands) {
+  const fs::path out = fresh_folder("measure_older");
+  ASSERT_EQ(shell(kShort + out.string()).code, 0);
+  std::string text = read_text(out / "measure.json");
+  text.replace(text.find("\"sources\": \"") + 12, 4, "xxxx");
+  write_text(out / "measure.json", text);
+  write_text(out / "mine.png", "not a page of Lantern's");
+  std::string other = kShort;
+  other.replace(other.find("kepler"), 6, "oscillator");
+  const Outcome o = shell(other + out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.err.find("finished from before"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("4 pages of an earlier report are removed"), std::string::npos) << o.err;
+  EXPECT_FALSE(fs::exists(out / "kepler.png")) << "it tells of a run that is no longer there";
+  EXPECT_TRUE(fs::exists(out / "oscillator.png"));
+  EXPECT_EQ(read_text(out / "mine.png"), "not a page of Lantern's");
+}
+
 TEST(MeasureCommand, GoesOnWithWhatIsFinished) {
   const fs::path out = fresh_folder("measure_again");
   ASSERT_EQ(shell(kShort + out.string()).code, 0);
