@@ -1,0 +1,129 @@
+#include "base/memory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "base/error.hpp"
+
+namespace lantern {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
+constexpr std::array<char, 4> kUnits = {'K', 'M', 'G', 'T'};
+
+// The number that a file begins with; endless for "max" and for what cannot be read.
+std::uint64_t number_in(const fs::path& path) {
+  std::ifstream file(path);
+  std::uint64_t number = 0;
+  return file >> number ? number : kEndless;
+}
+
+// Of the group and all above it. In a container the group's own path may not be there, its root is.
+std::uint64_t group_limit(const fs::path& root, fs::path group, const char* name) {
+  std::uint64_t least = number_in(root / name);
+  for (group = group.relative_path(); !group.empty(); group = group.parent_path())
+    least = std::min(least, number_in(root / group / name));
+  return least;
+}
+
+// Lines such as "0::/user.slice" (version 2) and "4:cpu,memory:/docker/1" (version 1).
+std::uint64_t control_group_limit() {
+  std::uint64_t least = kEndless;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string kinds = ',' + line.substr(first + 1, second - first - 1) + ',';
+    const std::string group = line.substr(second + 1);
+    if (kinds == ",,") least = std::min(least, group_limit("/sys/fs/cgroup", group, "memory.max"));
+    if (kinds.find(",memory,") != std::string::npos)
+      least = std::min(least, group_limit("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
+  }
+  return least;
+}
+
+std::uint64_t own_limit(int resource) {
+  rlimit limit{};
+  if (::getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) return kEndless;
+  return limit.rlim_cur == RLIM_INFINITY ? kEndless : std::uint64_t{limit.rlim_cur};
+}
+
+// Pages that count against RLIMIT_DATA, in bytes.
+std::uint64_t data_in_use() {
+  std::ifstream file("/proc/self/statm");
+  std::array<std::uint64_t, 6> pages{};
+  for (std::uint64_t& n : pages) file >> n;
+  return file ? pages[5] * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+std::atomic<std::uint64_t> budget{0};  // 0: not yet known
+
+}  // namespace
+
+std::uint64_t machine_memory() {
+  const auto pages = static_cast<std::uint64_t>(std::max(::sysconf(_SC_PHYS_PAGES), 1L));
+  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return std::min(
+      {pages * page, control_group_limit(), own_limit(RLIMIT_AS), own_limit(RLIMIT_DATA)});
+}
+
+std::uint64_t memory_budget() {
+  if (budget == 0) budget = machine_memory() / 2;
+  return budget;
+}
+
+void set_memory_budget(std::uint64_t bytes) { budget = bytes; }
+
+void enforce_memory_budget() {
+#if !defined(__SANITIZE_ADDRESS__)
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, memory_budget() + data_in_use());
+  ::setrlimit(RLIMIT_DATA, &limit);
+#endif
+}
+
+std::optional<std::uint64_t> memory_size(std::string_view words) {
+  double number = 0;
+  const char* const last = words.data() + words.size();
+  const auto [end, error] = std::from_chars(words.data(), last, number);
+  if (error != std::errc() || last - end != 1 || !std::isfinite(number)) return std::nullopt;
+  const auto unit = std::find(kUnits.begin(), kUnits.end(), *end);
+  if (unit == kUnits.end()) return std::nullopt;
+  const double bytes = std::ldexp(number, 10 * static_cast<int>(unit - kUnits.begin() + 1));
+  if (!(bytes >= static_cast<double>(kLeastBudget)) || bytes >= 0x1p60) return std::nullopt;
+  return static_cast<std::uint64_t>(bytes);
+}
+
+std::string memory_text(std::uint64_t bytes) {
+  auto size = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (size /= 1024; size >= 1000 && unit + 1 < kUnits.size(); ++unit) size /= 1024;
+  const bool round = size >= 10 || size == std::floor(size);
+  return fmt::format("{:.{}f} {}B", size, round ? 0 : 1, kUnits[unit]);
+}
+
+void require_memory(std::uint64_t bytes, std::string_view what, std::string_view advice) {
+  if (bytes <= memory_budget()) return;
+  // Some room for all else, in whole numbers of the largest unit.
+  const double wanted = 1.2 * static_cast<double>(bytes);
+  const bool gigabytes = wanted > 0x1p30;
+  throw Refused(fmt::format("{} need about {}, the budget is {}; {}, or --memory {:.0f}{}", what,
+                            memory_text(bytes), memory_text(memory_budget()), advice,
+                            std::ceil(std::ldexp(wanted, gigabytes ? -30 : -20)),
+                            gigabytes ? 'G' : 'M'));
+}
+
+}  // namespace lantern
