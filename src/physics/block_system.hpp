@@ -11,9 +11,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
+
+#include "base/stop.hpp"
 
 namespace lantern {
 
@@ -25,9 +28,12 @@ class BlockSystem {
   using Link = std::pair<std::size_t, std::size_t>;
 
   // `count` groups of B unknowns, of which the linked ones (different, in any order, perhaps named
-  // more than once) share entries.
-  BlockSystem(std::size_t count, const std::vector<Link>& links) : diagonal_(count) {
-    plan(count, links);
+  // more than once) share entries. Nothing if the factor would take more than `most_bytes`.
+  static std::optional<BlockSystem> planned(std::size_t count, const std::vector<Link>& links,
+                                            std::size_t most_bytes) {
+    BlockSystem system;
+    if (!system.plan(count, links, most_bytes / sizeof(Entry))) return std::nullopt;
+    return system;
   }
 
   void clear() {
@@ -53,10 +59,12 @@ class BlockSystem {
   // Replaces the matrix by its factor. False if it is not positive definite.
   bool factor() {
     for (std::size_t j = 0; j < columns_.size(); ++j) {
+      stop_if_asked();
       if (!factor_diagonal(diagonal_[j])) return false;
       auto& column = columns_[j];
       for (auto& [row, block] : column) divide(block, diagonal_[j]);
       for (std::size_t r = 0; r < column.size(); ++r) {
+        stop_if_asked();
         for (std::size_t s = 0; s < r; ++s)
           subtract_product(entry(column[s].first, column[r].first), column[r].second,
                            column[s].second);
@@ -91,12 +99,31 @@ class BlockSystem {
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = x[place_[i]];
   }
 
+  // Cholesky's factor in the lower half; false if there is none.
+  static bool factor_diagonal(Block& m) {
+    for (int i = 0; i < B; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        double sum = m[i * B + j];
+        for (int k = 0; k < j; ++k) sum -= m[i * B + k] * m[j * B + k];
+        if (i == j && !(sum > 0)) return false;
+        m[i * B + j] = i == j ? std::sqrt(sum) : sum / m[j * B + j];
+      }
+    }
+    return true;
+  }
+
  private:
+  using Entry = std::pair<std::size_t, Block>;
+
+  BlockSystem() = default;
+
   // Finds the order, and which entries the elimination fills: all that were linked to a group are
-  // linked to each other when it goes.
-  void plan(std::size_t count, const std::vector<Link>& links) {
+  // linked to each other when it goes. False if they are more than `most`.
+  bool plan(std::size_t count, const std::vector<Link>& links, std::size_t most) {
+    diagonal_.resize(count);
     std::vector<std::set<std::size_t>> near(count);
     for (const auto& [a, b] : links) {
+      stop_if_asked();
       near[a].insert(b);
       near[b].insert(a);
     }
@@ -105,7 +132,23 @@ class BlockSystem {
     place_.resize(count);
     columns_.resize(count);
     std::vector<std::vector<std::size_t>> linked(count);
+    std::size_t entries = 0;
     for (std::size_t j = 0; j < count; ++j) {
+      stop_if_asked();
+      entries += waiting.begin()->first;
+      if (entries > most) return false;
+      // Where all that are left are linked to each other, they go in the order of their numbers.
+      if (const std::size_t left = count - j; waiting.begin()->first + 1 == left) {
+        entries += left * (left - 1) / 2 - (left - 1);
+        if (entries > most) return false;
+        std::vector<std::size_t> rest;
+        for (const auto& entry : waiting) rest.push_back(entry.second);
+        for (std::size_t k = 0; k < left; ++k) {
+          place_[rest[k]] = j + k;
+          linked[j + k].assign(rest.begin() + static_cast<std::ptrdiff_t>(k) + 1, rest.end());
+        }
+        break;
+      }
       const std::size_t gone = waiting.begin()->second;
       waiting.erase(waiting.begin());
       place_[gone] = j;
@@ -122,25 +165,13 @@ class BlockSystem {
       for (const std::size_t i : linked[j]) columns_[j].push_back({place_[i], Block{}});
       std::sort(columns_[j].begin(), columns_[j].end());
     }
+    return true;
   }
 
   Block& entry(std::size_t column, std::size_t row) {
     return std::lower_bound(columns_[column].begin(), columns_[column].end(), row,
                             [](const auto& e, std::size_t r) { return e.first < r; })
         ->second;
-  }
-
-  // Cholesky's factor in the lower half; false if there is none.
-  static bool factor_diagonal(Block& m) {
-    for (int i = 0; i < B; ++i) {
-      for (int j = 0; j <= i; ++j) {
-        double sum = m[i * B + j];
-        for (int k = 0; k < j; ++k) sum -= m[i * B + k] * m[j * B + k];
-        if (i == j && !(sum > 0)) return false;
-        m[i * B + j] = i == j ? std::sqrt(sum) : sum / m[j * B + j];
-      }
-    }
-    return true;
   }
 
   // block := block * (transposed factor)^-1
@@ -163,7 +194,7 @@ class BlockSystem {
 
   std::vector<std::size_t> place_;  // of a group in the order of elimination; all below is by place
   std::vector<Block> diagonal_;
-  std::vector<std::vector<std::pair<std::size_t, Block>>> columns_;  // below the diagonal, by row
+  std::vector<std::vector<Entry>> columns_;  // below the diagonal, by row
 };
 
 }  // namespace lantern

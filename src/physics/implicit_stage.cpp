@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kEpsilon = 0x1p-52;
 constexpr double kNothing = 0x1p-430;  // N s; of less, squares are beyond numbers
+constexpr double kShare = 1e-9;        // of what is missing, that an iteration may leave so
 constexpr int kMostSteps = 200;
 constexpr int kWholeSteps = 10;  // tried before as many searches
 
@@ -34,7 +35,8 @@ class Newton {
  public:
   using Row = std::array<double, B>;
 
-  Newton(SmoothSystem<D>& system, double time) : system_(system), matrix_(system), time_(time) {}
+  Newton(SmoothSystem<D>& system, double time, LinearSolver solver)
+      : system_(system), matrix_(system, solver), time_(time) {}
 
   // False if it does not converge.
   bool run(SmoothState<D>& state) {
@@ -51,9 +53,10 @@ class Newton {
         state = before;
         look(state);
       }
-      if (!factor(state, time_ * time_)) return false;
-      std::vector<Row> direction = missing_;
-      matrix_.solve(direction);
+      std::vector<Row> direction;
+      if (!solve(
+              state, time_ * time_, kShare, [&] { return missing_; }, direction))
+        return false;
       if (phase < kWholeSteps) {
         go(state, SmoothState<D>(state), direction, 1);
         look(state);
@@ -67,14 +70,15 @@ class Newton {
   // One solution with places as they are. False if there is none.
   bool kick(SmoothState<D>& state) {
     pull_ = system_.evaluate(state);
-    std::vector<Row> step(system_.movers().size());
-    for (std::size_t n = 0; n < step.size(); ++n) {
+    std::vector<Row> momenta(system_.movers().size()), step;
+    for (std::size_t n = 0; n < momenta.size(); ++n) {
       const std::size_t i = system_.movers()[n];
-      put(step[n], time_ / system_.bodies()[i].inverse_mass * pull_.acceleration[i],
+      put(momenta[n], time_ / system_.bodies()[i].inverse_mass * pull_.acceleration[i],
           time_ * pull_.torque[i]);
     }
-    if (!factor(state, 0)) return false;
-    matrix_.solve(step);
+    if (!solve(
+            state, 0, kEpsilon, [&] { return momenta; }, step))
+      return false;
     go(state, SmoothState<D>(state), step, 1);
     return true;
   }
@@ -87,11 +91,18 @@ class Newton {
       for (int c = 0; c < 3; ++c) row[D + c] = angular[c];
   }
 
-  // False if numbers fail.
-  bool factor(const SmoothState<D>& state, double time_squared) {
-    if (matrix_.factor(state, time_squared, time_, true, 1)) return true;
+  // The velocities for the momenta rows(), which may depend on the matrix. False if numbers fail.
+  template <class Rows>
+  bool solve(const SmoothState<D>& state, double time_squared, double tolerance, Rows&& rows,
+             std::vector<Row>& solution) {
+    const auto attempt = [&](bool buckling, double heavier) {
+      if (!matrix_.factor(state, time_squared, time_, buckling, heavier)) return false;
+      solution = rows();
+      return matrix_.solve(solution, tolerance);
+    };
+    if (attempt(true, 1)) return true;
     for (double heavier = 1; heavier < 1e18; heavier *= 8)
-      if (matrix_.factor(state, time_squared, time_, false, heavier)) return true;
+      if (attempt(false, heavier)) return true;
     return false;
   }
 
@@ -101,10 +112,14 @@ class Newton {
   bool guess(SmoothState<D>& state) {
     pull_ = system_.evaluate(state);
     find_missing(state);
-    if (!factor(state, time_ * time_)) return false;
-    matrix_.subtract_stretching(state, time_, missing_);
-    matrix_.solve(missing_);
-    go(state, SmoothState<D>(state), missing_, 1);
+    const auto linear = [&] {
+      std::vector<Row> rows = missing_;
+      matrix_.subtract_stretching(state, time_, rows);
+      return rows;
+    };
+    std::vector<Row> step;
+    if (!solve(state, time_ * time_, kShare, linear, step)) return false;
+    go(state, SmoothState<D>(state), step, 1);
     look(state);
     return true;
   }
@@ -210,10 +225,8 @@ class Newton {
       linear[i] += momentum;
       angular[i] += arm * momentum;
     };
-    for (std::size_t k = 0; k < system_.ends().size(); ++k) {
-      const auto [a, b] = system_.ends()[k];
-      const double rest = k < forces.springs.size() ? forces.springs[k].rest_length : 0;
-      const Stretch<D> s = system_.stretch(state, k);
+    system_.each_stretch(state, [&](const Ends& ends, const Stretch<D>& s, double rest) {
+      const auto [a, b] = ends;
       const double arm_a = size_of<D>(s.arm_a), arm_b = size_of<D>(s.arm_b);
       const double speeds = speed(a) + speed(b);
       const double lengths = s.length + rest + arm_a + arm_b + size_of<D>(state.shift[a]) +
@@ -221,7 +234,7 @@ class Newton {
       const double momentum = time_ * (std::abs(s.stiffness) * lengths + s.damping * speeds);
       add(a, arm_a, momentum);
       add(b, arm_b, momentum);
-    }
+    });
     for (std::size_t k = 0; k < forces.pushes.size(); ++k) {
       const Push<D>& push = forces.pushes[k];
       add(system_.pushed()[k], size_of<D>(push.at), time_ * size_of<D>(push.force));
@@ -262,10 +275,10 @@ const std::string& culprit(const SmoothSystem<D>& system, const SmoothState<D>& 
 
 template <int D>
 SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_view method,
-                              double h) {
+                              double h, LinearSolver solver) {
   SmoothState<D> state = system.start();
-  const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time).run(state)
-                                        : Newton<D, D>(system, time).run(state);
+  const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time, solver).run(state)
+                                        : Newton<D, D>(system, time, solver).run(state);
   if (!found)
     throw Refused(fmt::format("body '{}': {} does not converge at a step of {} s",
                               culprit(system, state), method, h));
@@ -273,17 +286,19 @@ SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_
 }
 
 template <int D>
-void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time) {
-  const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time).kick(state)
-                                        : Newton<D, D>(system, time).kick(state);
+void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time, LinearSolver solver) {
+  const bool found = system.any_turns() ? Newton<D, kTurning<D>>(system, time, solver).kick(state)
+                                        : Newton<D, D>(system, time, solver).kick(state);
   if (!found)
     throw Refused(
         fmt::format("body '{}': damping has no solution over {} s", culprit(system, state), time));
 }
 
-template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double);
-template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double);
-template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double);
-template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double);
+template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double,
+                                       LinearSolver);
+template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double,
+                                       LinearSolver);
+template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double, LinearSolver);
+template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double, LinearSolver);
 
 }  // namespace lantern

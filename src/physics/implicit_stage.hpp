@@ -3,26 +3,30 @@
 
 #include <string_view>
 
+#include "physics/motion_matrix.hpp"
 #include "physics/smooth_system.hpp"
 
 namespace lantern {
 
 // The state `time` after the start whose own forces lead to it: v = v0 + time a(x0 + time v, v), an
 // implicit Euler step, solved to rounding. Throws Refused, naming the method and the step `h`, if
-// that does not converge.
+// that does not converge. The solver is chosen by the size; tests hold them against each other.
 template <int D>
 SmoothState<D> implicit_stage(SmoothSystem<D>& system, double time, std::string_view method,
-                              double h);
+                              double h, LinearSolver solver = LinearSolver::by_size);
 
 // Kicks `state`, whose places stay, for `time` by forces that use the velocities after the kick:
 // v := v + time a(x, v_new). One evaluation and one linear solution. Throws Refused if numbers fail
 // (damping beyond 1e16 times mass / time).
 template <int D>
-void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time);
+void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time,
+                 LinearSolver solver = LinearSolver::by_size);
 
-extern template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double);
-extern template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double);
-extern template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double);
-extern template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double);
+extern template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double,
+                                              LinearSolver);
+extern template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double,
+                                              LinearSolver);
+extern template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double, LinearSolver);
+extern template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double, LinearSolver);
 
 }  // namespace lantern

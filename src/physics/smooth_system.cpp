@@ -54,20 +54,9 @@ SmoothSystem<D>::SmoothSystem(std::span<const Body<D>> bodies, const Forces<D>& 
     }
     for (const Push<D>& push : forces.pushes) pushed_.push_back(lookup.index_of(push.body, "push"));
   }
-  if (forces.gravitation > 0) find_what_attracts();
+  if (forces.gravitation > 0)
+    for (const Body<D>& body : bodies) masses_.push_back(attracting_mass(body));
   find_what_turns();
-}
-
-template <int D>
-void SmoothSystem<D>::find_what_attracts() {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
-      const double strength =
-          forces_.gravitation * attracting_mass(bodies_[i]) * attracting_mass(bodies_[j]);
-      if (!(strength > 0) || !(moves(i) || moves(j))) continue;
-      ends_.push_back({i, j});
-      strengths_.push_back(strength);
-    }
 }
 
 template <int D>
@@ -148,20 +137,22 @@ Spin<D> SmoothSystem<D>::inertia_times(const SmoothState<D>& state, std::size_t 
   }
 }
 
+// The difference of the places at the start first: far from the origin it is the exact part.
 template <int D>
-Stretch<D> SmoothSystem<D>::stretch(const SmoothState<D>& state, std::size_t end) const {
-  const auto [a, b] = ends_[end];
-  // The difference of the places at the start first: far from the origin it is the exact part.
-  const Vec<D> between =
-      (bodies_[b].position - bodies_[a].position) + (state.shift[b] - state.shift[a]);
-  if (end >= forces_.springs.size())
-    return attracted<D>(strengths_[end - forces_.springs.size()], between);
-  const Spring<D>& s = forces_.springs[end];
+Vec<D> SmoothSystem<D>::between(const SmoothState<D>& state, const Ends& ends) const {
+  return (bodies_[ends.b].position - bodies_[ends.a].position) +
+         (state.shift[ends.b] - state.shift[ends.a]);
+}
+
+template <int D>
+Stretch<D> SmoothSystem<D>::stretch(const SmoothState<D>& state, std::size_t spring) const {
+  const auto [a, b] = ends_[spring];
+  const Spring<D>& s = forces_.springs[spring];
   const auto motion = [&](std::size_t i, bool off_centre) -> EndMotion<D> {
     const Spin<D> spin = off_centre ? angular_velocity(state, i) : Spin<D>(0.0);
     return {state.orientation[i], velocity(state, i), spin};
   };
-  return stretched<D>(s, between, motion(a, s.at_a != Vec<D>(0.0)),
+  return stretched<D>(s, between(state, ends_[spring]), motion(a, s.at_a != Vec<D>(0.0)),
                       motion(b, s.at_b != Vec<D>(0.0)));
 }
 
@@ -182,12 +173,11 @@ Pull<D> SmoothSystem<D>::evaluate(const SmoothState<D>& state) {
     if (moves(i)) pull.acceleration[i] += bodies_[i].inverse_mass * force;
     if (turns(i)) pull.torque[i] += cross(arm, force);
   };
-  for (std::size_t k = 0; k < ends_.size(); ++k) {
-    const Stretch<D> s = stretch(state, k);
+  each_stretch(state, [&](const Ends& ends, const Stretch<D>& s, double) {
     const Vec<D> force = s.tension * s.direction;
-    apply(ends_[k].a, s.arm_a, force);
-    apply(ends_[k].b, s.arm_b, -force);
-  }
+    apply(ends.a, s.arm_a, force);
+    apply(ends.b, s.arm_b, -force);
+  });
   for (std::size_t k = 0; k < pushed_.size(); ++k)
     apply(pushed_[k], forces_.pushes[k].at, forces_.pushes[k].force);
   return pull;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "physics/body.hpp"
 #include "physics/forces.hpp"
 #include "physics/integrator.hpp"
@@ -55,8 +56,17 @@ class SmoothSystem {
 
   std::span<const Body<D>> bodies() const { return bodies_; }
   const Forces<D>& forces() const { return forces_; }
-  // One a spring, then one for every two bodies that attract each other.
+  // One a spring.
   const std::vector<Ends>& ends() const { return ends_; }
+  // Whether every two bodies attract each other.
+  bool any_attraction() const { return !masses_.empty(); }
+  // f(ends) for each spring, then for every two bodies that attract each other and of which one
+  // moves. There may be millions of these: they are kept nowhere, and Stopped is thrown between.
+  template <class F>
+  void each_two(F&& f) const;
+  // f(ends, stretch as it is in the state, rest length) for the same.
+  template <class F>
+  void each_stretch(const SmoothState<D>& state, F&& f) const;
   const std::vector<std::size_t>& pushed() const { return pushed_; }  // bodies, one a push
 
   SmoothState<D> start() const;
@@ -71,14 +81,15 @@ class SmoothSystem {
 
   Vec<D> velocity(const SmoothState<D>& state, std::size_t i) const;
   Spin<D> angular_velocity(const SmoothState<D>& state, std::size_t i) const;
-  // Of one of the ends, as it is in the state.
-  Stretch<D> stretch(const SmoothState<D>& state, std::size_t end) const;
   // Inertia of a body that turns, in the world's axes: angular velocity to angular momentum.
   Spin<D> inertia_times(const SmoothState<D>& state, std::size_t i, const Spin<D>& spin) const;
 
  private:
-  void find_what_attracts();
   void find_what_turns();
+  Vec<D> between(const SmoothState<D>& state, const Ends& ends) const;
+  Stretch<D> stretch(const SmoothState<D>& state, std::size_t spring) const;
+  template <class F>
+  void each_attraction(F&& f) const;  // f(ends, strength)
 
   std::span<const Body<D>> bodies_;
   const Forces<D>& forces_;
@@ -87,11 +98,43 @@ class SmoothSystem {
   std::vector<char> moves_;
   std::vector<char> turns_;
   std::vector<Ends> ends_;
-  std::vector<double> strengths_;    // of attraction, after the springs
+  std::vector<double> masses_;       // by which bodies attract; none if they do not
   std::vector<std::size_t> pushed_;  // one a push
   bool any_turns_ = false;
   bool any_damping_ = false;
 };
+
+// The two of lower places first, in their order.
+template <int D>
+template <class F>
+void SmoothSystem<D>::each_attraction(F&& f) const {
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    stop_if_asked();
+    for (std::size_t j = i + 1; j < masses_.size(); ++j) {
+      const double strength = forces_.gravitation * masses_[i] * masses_[j];
+      if (strength > 0 && (moves(i) || moves(j))) f(Ends{i, j}, strength);
+    }
+  }
+}
+
+template <int D>
+template <class F>
+void SmoothSystem<D>::each_two(F&& f) const {
+  for (const Ends& ends : ends_) f(ends);
+  each_attraction([&](const Ends& ends, double) { f(ends); });
+}
+
+template <int D>
+template <class F>
+void SmoothSystem<D>::each_stretch(const SmoothState<D>& state, F&& f) const {
+  for (std::size_t k = 0; k < ends_.size(); ++k) {
+    stop_if_asked();
+    f(ends_[k], stretch(state, k), forces_.springs[k].rest_length);
+  }
+  each_attraction([&](const Ends& ends, double strength) {
+    f(ends, attracted<D>(strength, between(state, ends)), 0.0);
+  });
+}
 
 extern template class SmoothSystem<2>;
 extern template class SmoothSystem<3>;
