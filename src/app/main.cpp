@@ -5,10 +5,12 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
@@ -25,6 +27,23 @@ const CLI::Validator kNotEmpty(
 
 void add_json(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "print JSON instead of a table");
+}
+
+// Before a command, and after one that runs a scenario.
+void add_memory(CLI::App& command) {
+  command
+      .add_option_function<std::string>(
+          "--memory",
+          [](const std::string& words) {
+            const auto bytes = memory_size(words);
+            if (!bytes)
+              throw CLI::ValidationError(
+                  fmt::format("--memory: '{}' is no size from {} on; write 800M or 4G", words,
+                              memory_text(kLeastBudget)));
+            set_memory_budget(*bytes);
+          },
+          "take no more than this, as 800M or 4G; the default is half of the machine's")
+      ->type_name("SIZE");
 }
 
 void add_render(CLI::App& app, RenderOptions& o, Run& run) {
@@ -63,6 +82,7 @@ void add_render(CLI::App& app, RenderOptions& o, Run& run) {
   c->add_option("-j,--threads", o.threads, "threads that encode; the default is one a core")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
+  add_memory(*c);
   add_json(*c, o.json);
   c->callback([&] { run = [&] { return render_command(o); }; });
 }
@@ -71,6 +91,7 @@ void add_check(CLI::App& app, CheckOptions& o, Run& run) {
   CLI::App* c = app.add_subcommand("check", "Run scenarios without pixels, verify expectations");
   c->add_option("FILE", o.files, "scenario files")->required();
   c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
+  add_memory(*c);
   add_json(*c, o.json);
   c->callback([&] { run = [&] { return check_command(o); }; });
 }
@@ -142,6 +163,7 @@ void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
       ->capture_default_str();
   c->add_flag("--list", o.list, "name the problems, measure nothing");
+  add_memory(*c);
   add_json(*c, o.json);
   c->callback([&] { run = [&] { return measure_command(o); }; });
 }
@@ -154,6 +176,7 @@ void add_bench(CLI::App& app, BenchOptions& o, Run& run) {
   frames->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  add_memory(*frames);
   add_json(*frames, o.json);
   frames->callback([&] { run = [&] { return bench_frames_command(o); }; });
 }
@@ -174,6 +197,7 @@ void add_stress(CLI::App& app, StressOptions& o, Run& run) {
       ->capture_default_str();
   c->add_flag("--list", o.list, "list the cases and end");
   c->add_flag("--full", o.full, "run the slow cases, too");
+  add_memory(*c);
   add_json(*c, o.json);
   c->callback([&] { run = [&] { return stress_command(o); }; });
 }
@@ -204,6 +228,9 @@ std::string usage_hint(int argc, char** argv) {
   return "there is no command '" + std::string(word) + "'; " + hint;
 }
 
+// Made before it is needed, when there may be no room for it.
+std::string out_of_memory = "lantern: error: out of memory\n";
+
 // What a run throws is told, and becomes its exit code.
 int run_and_report(const Run& run) noexcept {
   try {
@@ -220,9 +247,10 @@ int run_and_report(const Run& run) noexcept {
   } catch (const ReaderGone&) {
     return kFailed;
   } catch (const Stopped&) {
+    say("interrupted");
     return kInterrupted;
   } catch (const std::bad_alloc&) {
-    write_stderr("lantern: error: out of memory\n");  // and needs none
+    write_stderr(out_of_memory);  // and needs none
     return kFailed;
   } catch (const std::exception& e) {
     complain(e.what());
@@ -241,6 +269,7 @@ int run_words(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 good, 1 failed, 2 usage, 3 scenario error, 4 no graphics backend, "
       "130 interrupted.\nStart with: lantern render scenarios/ghost_quadtree.toml");
+  add_memory(app);
   RenderOptions render;
   CheckOptions check;
   ListOptions list;
@@ -271,6 +300,9 @@ int run_words(int argc, char** argv) {
     print(text.str());
     return kGood;
   }
+  enforce_memory_budget();
+  out_of_memory = fmt::format("lantern: error: out of memory: the budget is {}; --memory sets it\n",
+                              memory_text(memory_budget()));
   return run();
 }
 

@@ -10,6 +10,7 @@
 #include "app/table.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
 #include "measure/plan.hpp"
@@ -135,16 +136,20 @@ class Measuring {
     for (const Job& job : plan_.jobs()) left += expected(job);
     announce(left);
     Stopwatch since_saved;
-    std::size_t done = 0;
-    for (const Job& job : plan_.jobs()) {
-      if (interrupted()) break;
-      left -= expected(job);
-      progress_.tell(fmt::format("{} of {} runs, {}, about {} left", ++done, plan_.jobs().size(),
-                                 plan_.scenario(job).name, duration_text(left)));
-      if (!add_row(job)) continue;
-      if (since_saved.seconds() < kSaveEvery) continue;
-      save();
-      since_saved = {};
+    try {
+      for (const Job& job : plan_.jobs()) {
+        stop_if_asked();
+        left -= expected(job);
+        progress_.tell(fmt::format("{} of {} runs, {}, about {} left", ++done_, plan_.jobs().size(),
+                                   plan_.scenario(job).name, duration_text(left)));
+        if (!add_row(job)) continue;
+        if (since_saved.seconds() < kSaveEvery) continue;
+        save();
+        since_saved = {};
+      }
+    } catch (const Stopped&) {
+      give_time_to_save();
+      keep_what_was_known();
     }
     save();
   }
@@ -154,6 +159,12 @@ class Measuring {
  private:
   void save() {
     if (!measurement_.rows.empty()) folder_.write("measure.json", to_json(measurement_));
+  }
+
+  // Rows of an earlier run that this one did not come to.
+  void keep_what_was_known() {
+    for (std::size_t i = done_; i < plan_.jobs().size(); ++i)
+      if (const Row* old = known(plan_.jobs()[i])) measurement_.rows.push_back(*old);
   }
 
   const Row* known(const Job& job) const {
@@ -176,10 +187,8 @@ class Measuring {
       measurement_.rows.push_back(*old);
     } else if (plan_.is_too_long(job)) {
       return false;
-    } else if (std::optional<Row> row = plan_.run(job, interrupted)) {
-      measurement_.rows.push_back(std::move(*row));
     } else {
-      return false;
+      measurement_.rows.push_back(plan_.run(job));
     }
     return true;
   }
@@ -210,6 +219,7 @@ class Measuring {
   ReportFolder& folder_;
   Measurement measurement_;
   std::vector<Row> known_;
+  std::size_t done_ = 0;  // jobs begun
   Progress progress_;
 };
 
@@ -219,8 +229,7 @@ void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions
   folder.write("circumstances.csv", to_csv(m.circumstances));
   std::vector<ReportPage> pages;
   const bool all = options.problems.empty();  // the bars belong to the whole
-  pages.push_back(
-      {"overview", draw_overview(m, all ? measured_bars(interrupted) : std::vector<Bar>())});
+  pages.push_back({"overview", draw_overview(m, all ? measured_bars() : std::vector<Bar>())});
   for (const ProblemRows& problem : by_problem(m.rows))
     pages.push_back({problem.problem, draw_problem(problem, m)});
   folder.draw(pages, options.theme, options.backend);
@@ -249,7 +258,7 @@ int measure_problems(const MeasureOptions& options) {
   save_pages(folder, m, options);
   folder.finish();
   say(fmt::format("the report is in {}", options.output));
-  return interrupted() ? kInterrupted : kGood;
+  return kGood;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ PictureScene scene_of(const std::string& file, const PictureConfig& config) {
   direct(scenario, Pace::step, work, [&](const Frame& frame) {
     DrawList list = draw_frame(frame, page_for(config.width, config.height), work);
     if (list.shapes.size() >= scene.list.shapes.size()) scene.list = std::move(list);
-    return !interrupted();
+    return true;
   });
   return scene;
 }
@@ -45,22 +45,15 @@ int measure_pictures_command(const MeasurePicturesOptions& options) {
   std::vector<std::string> files = options.files;
   if (files.empty()) files.assign(std::begin(kDefaults), std::end(kDefaults));
   std::vector<PictureScene> scenes;
-  for (const std::string& file : files) {
-    scenes.push_back(scene_of(file, config));
-    if (interrupted()) return kInterrupted;
-  }
+  for (const std::string& file : files) scenes.push_back(scene_of(file, config));
   say(fmt::format("{} pictures of {} x {}, each against one of 16 x 16 times as many pixels",
                   scenes.size(), config.width, config.height));
   PictureReport report;
   {
     Progress progress("measure pictures", kPictureRows * scenes.size(), "rows");
     std::uint64_t done = 0;
-    report = measure_pictures(scenes, config, [&] {
-      progress.done(++done);
-      return !interrupted();
-    });
+    report = measure_pictures(scenes, config, [&] { progress.done(++done); });
   }
-  if (interrupted()) return kInterrupted;
   const std::string table = to_table(report), json = to_json(report);
   folder.write("pictures.txt", table);
   folder.write("pictures.csv", to_csv(report));

@@ -240,7 +240,11 @@ class FolderRun {
     config.effort = job_.effort;
     config.pixels_per_metre = kPixelsPerMetre;
     config.threads = job_.threads;
-    pipeline_ = std::make_unique<Pipeline>(Context::create(job_.backend), config, work_);
+    try {
+      pipeline_ = std::make_unique<Pipeline>(Context::create(job_.backend), config, work_);
+    } catch (const Refused& too_large) {  // by the command line, not by the scenario
+      throw UsageError(too_large.what());
+    }
     return *pipeline_;
   }
 

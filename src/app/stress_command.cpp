@@ -8,6 +8,7 @@
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
 #include "measure/stability_map.hpp"
@@ -53,18 +54,22 @@ std::string list_text(bool as_json) {
 StressReport run_all(const std::vector<StressCase>& cases) {
   StressReport report{std::string(kVersion), {}, true};
   Progress progress("stress", cases.size(), "cases");
-  for (const StressCase& one : cases) {
-    if (interrupted()) break;
-    progress.tell(fmt::format("{} of {}, {}", report.outcomes.size() + 1, cases.size(), one.name));
-    report.outcomes.push_back(run_case(one));
+  try {
+    for (const StressCase& one : cases) {
+      stop_if_asked();
+      progress.tell(
+          fmt::format("{} of {}, {}", report.outcomes.size() + 1, cases.size(), one.name));
+      report.outcomes.push_back(run_case(one));
+    }
+  } catch (const Stopped&) {
+    give_time_to_save();  // what is finished is reported
   }
   report.finished = report.outcomes.size() == cases.size();
   return report;
 }
 
 void draw_map(const ReportFolder& folder, const StressOptions& options) {
-  const StabilityMap map = make_stability_map([] { return !interrupted(); });
-  if (interrupted()) return;
+  const StabilityMap map = make_stability_map();
   folder.draw({{"stability_map", draw_stability_map(map)}}, options.theme, options.backend);
 }
 

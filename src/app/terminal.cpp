@@ -1,6 +1,5 @@
 #include "app/terminal.hpp"
 
-#include <csignal>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 
 #include "base/file.hpp"
 #include "base/printable.hpp"
-#include "base/stop.hpp"
 
 namespace lantern {
 namespace {
@@ -88,17 +86,5 @@ void Progress::tell(const std::string& words) {
     say(line);
   shown_ = true;
 }
-
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { ask_to_stop(); };
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-  // A closed pipe and a file that may not grow are failed writes like any other.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
-bool interrupted() { return stop_asked(); }
 
 }  // namespace lantern

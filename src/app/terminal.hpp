@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/interrupts.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
 
@@ -53,9 +54,5 @@ class Progress {
   bool shown_ = false;
   Stopwatch watch_;
 };
-
-// Ctrl-C asks the run to end after the current frame.
-void catch_interrupts();
-bool interrupted();
 
 }  // namespace lantern

@@ -22,6 +22,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 
 using TextureId = std::uint32_t;
@@ -137,6 +139,7 @@ class Atlas {
   template <class Passed>
   std::uint32_t first_fit(int width, int height, Passed&& passed) const {
     for (std::uint32_t node = 0; node != kNoNode;) {
+      stop_if_asked();
       leaf_tests_ += nodes_[node].is_leaf();
       if (!may_fit(node, width, height)) {
         passed(node);
@@ -155,6 +158,7 @@ class Atlas {
     if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoAtlasObserver>) {
       const std::uint32_t end = after_branch(top);
       for (std::uint32_t node = top; node != end;) {
+        stop_if_asked();
         const Node& n = nodes_[node];
         if (n.is_leaf())
           observer(AtlasEvent{n.texture ? AtlasEvent::Kind::used : AtlasEvent::Kind::too_small,
@@ -175,6 +179,7 @@ void Atlas::visit(F&& f) const {
   std::vector<std::uint32_t> ids;  // of the inner nodes on the way from the root
   std::uint32_t next_id = 0;
   for (std::uint32_t handle = 0; handle != kNoNode;) {
+    stop_if_asked();
     const Node& node = nodes_[handle];
     AtlasNodeView view;
     view.handle = handle;

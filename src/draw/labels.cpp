@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop.hpp"
 #include "draw/font.hpp"
 
 namespace lantern {
@@ -56,6 +57,7 @@ Box<2> Labels::extent(std::string_view text, const Anchor& anchor, const TextSty
 }
 
 bool Labels::is_free(const Box<2>& box, const Box<2>& panel) const {
+  stop_if_asked();
   if (!holds(panel, box)) return false;
   for (const LabelBox& other : list_.labels)
     if (cover(box, other.box, kGap)) return false;

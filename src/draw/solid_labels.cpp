@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/stop.hpp"
 #include "draw/font.hpp"
 #include "draw/solid_parts.hpp"
 
@@ -24,6 +25,7 @@ void name_body(const SolidBody& b, const std::vector<SolidBody>& bodies, const S
        {Anchor{{c.x, below}, 0.5}, Anchor{{c.x, above}, 0.5}, Anchor{{right, c.y + 6}, 0},
         Anchor{{left, c.y + 6}, 1}, Anchor{{b.box.lo.x, below}, 0}, Anchor{{b.box.hi.x, below}, 1},
         Anchor{{b.box.lo.x, above}, 0}, Anchor{{b.box.hi.x, above}, 1}}) {
+    stop_if_asked();
     const Box<2> extent = Labels::extent(text, anchor, style);
     const bool covers = std::any_of(bodies.begin(), bodies.end(), [&](const SolidBody& other) {
       return cover_each_other(

@@ -4,6 +4,8 @@
 #include <set>
 #include <type_traits>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 namespace {
 
@@ -213,7 +215,8 @@ void paint(std::vector<Piece> pieces, const SolidView& view, DrawList& list) {
   std::vector<std::vector<std::size_t>> later(n);  // who waits for whom
   std::vector<std::size_t> waits(n);
   std::vector<std::vector<std::pair<double, double>>> over(n);  // of lines that yield
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i) {
+    stop_if_asked();
     for (std::size_t j = i + 1; j < n; ++j) {
       if ((pieces[i].is_line && pieces[j].is_line) || !overlap(boxes[i], boxes[j]) ||
           !cover_each_other(pieces[i].outline, pieces[j].outline))
@@ -227,6 +230,7 @@ void paint(std::vector<Piece> pieces, const SolidView& view, DrawList& list) {
       if (const auto part = inside_of(pieces[behind].outline, line.from, line.to))
         over[before].push_back(*part);
     }
+  }
   for (std::size_t i = 0; i < n; ++i)
     if (!over[i].empty()) thin(pieces[i], std::move(over[i]));
   // By distance, then by their place in the list.

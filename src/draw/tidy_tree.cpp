@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 namespace {
 
@@ -59,6 +61,7 @@ class Tidy {
   }
 
   void first_walk(Index v, Index left_sibling) {
+    stop_if_asked();
     Index default_ancestor = at_[v].children.empty() ? kNobody : at_[v].children.front();
     Index last = kNobody;
     for (const Index child : at_[v].children) {

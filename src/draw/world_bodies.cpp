@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop.hpp"
 #include "draw/characters.hpp"
 #include "draw/clip.hpp"
 
@@ -192,6 +193,7 @@ bool is_lit(const Stand& stand) {
 std::vector<Stand> stands_of(const Frame& frame, const WorldMap& map) {
   std::vector<Stand> stands;
   for (const FrameBody& body : frame.bodies) {
+    stop_if_asked();
     if (is_half_space(body)) continue;
     Stand mine = stand_of(body, frame, map);
     const auto same = std::find_if(stands.begin(), stands.end(), [&](const Stand& other) {

@@ -3,13 +3,23 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
+
+#include "base/memory.hpp"
+#include "base/stop.hpp"
+#include "spatial/pairs.hpp"
+
 namespace lantern {
 namespace {
 
 // Pairs of n bodies, each a bit.
 class PairSet {
  public:
-  explicit PairSet(std::size_t bodies) : bodies_(bodies), bits_(bodies * bodies) {}
+  explicit PairSet(std::size_t bodies) : bodies_(bodies) {
+    require_memory(bodies * bodies / 8, fmt::format("the pairs of {} bodies", bodies),
+                   "take fewer bodies");
+    bits_.resize(bodies * bodies);
+  }
   void add(BodyId a, BodyId b) {
     std::vector<bool>::reference bit = bits_[std::min(a, b) * bodies_ + std::max(a, b)];
     size_ += bit ? 0 : 1;
@@ -31,10 +41,12 @@ std::uint64_t count_candidates(const BroadPhase<D>& broad_phase, std::span<const
     return broad_phase.counters().pair_tests;
   PairSet met(boxes.size());
   broad_phase.visit_dynamic([&](const NodeView<D>& node) {
-    for (std::size_t i = 0; i < node.bodies.size(); ++i)
+    for (std::size_t i = 0; i < node.bodies.size(); ++i) {
+      stop_if_asked();
       for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
         if (!boxes[node.bodies[i]].is_static || !boxes[node.bodies[j]].is_static)
           met.add(node.bodies[i], node.bodies[j]);
+    }
     return true;
   });
   return met.size();
@@ -166,11 +178,13 @@ std::vector<BroadPhaseCost> planned(const BoxScene& scene, const BroadPhaseCostC
 template <int D>
 std::vector<Pair> pairs_by_force(std::span<const Proxy<D>> boxes) {
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    stop_if_asked();
     for (std::size_t j = i + 1; j < boxes.size(); ++j)
       if (!(boxes[i].is_static && boxes[j].is_static) && overlap(boxes[i].box, boxes[j].box))
         pairs.push_back({std::min(boxes[i].id, boxes[j].id), std::max(boxes[i].id, boxes[j].id)});
-  std::sort(pairs.begin(), pairs.end());
+  }
+  sort_pairs(pairs);
   return pairs;
 }
 template std::vector<Pair> pairs_by_force<2>(std::span<const Proxy<2>>);
@@ -192,7 +206,7 @@ std::size_t broad_phase_rows(const BoxScene& scene, const BroadPhaseCostConfig& 
 
 std::vector<BroadPhaseCost> measure_broad_phases(const BoxScene& scene,
                                                  const BroadPhaseCostConfig& config,
-                                                 const std::function<bool()>& progress) {
+                                                 const std::function<void()>& told) {
   std::vector<BroadPhaseCost> rows;
   std::visit(
       [&]<int D>(const BoxUpdates<D>& boxes) {
@@ -200,7 +214,7 @@ std::vector<BroadPhaseCost> measure_broad_phases(const BoxScene& scene,
         for (const auto& frame : boxes.frames) truth.push_back(pairs_by_force<D>(frame));
         for (const BroadPhaseCost& what : planned(scene, config)) {
           rows.push_back(measure_one(boxes, truth, what, config.timing));
-          if (!progress()) return;
+          told();
         }
       },
       scene.boxes);

@@ -67,13 +67,13 @@ struct BroadPhaseCostConfig {
   TimingRule timing{5, 0.002};
 };
 
-// Rows of a scene in order of kinds, capacities and depth limits; brute force first. `progress` is
-// told after each row, and may end it all by returning false: what is measured by then is given.
-// BSP planes lie at the medians of the bodies' centres, as deep as capacity and limit ask for; they
-// are given to it, as a level's designer would, so to choose them is not timed.
+// Rows of a scene in order of kinds, capacities and depth limits; brute force first. `told` is
+// called after each row. BSP planes lie at the medians of the bodies' centres, as deep as capacity
+// and limit ask for; they are given to it, as a level's designer would, so to choose them is not
+// timed.
 std::vector<BroadPhaseCost> measure_broad_phases(const BoxScene& scene,
                                                  const BroadPhaseCostConfig& config,
-                                                 const std::function<bool()>& progress);
+                                                 const std::function<void()>& told);
 
 // How many rows the above gives.
 std::size_t broad_phase_rows(const BoxScene& scene, const BroadPhaseCostConfig& config);

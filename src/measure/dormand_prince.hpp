@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 
 namespace lantern {
 
@@ -31,6 +32,7 @@ class DormandPrince {
     if (!(step_ > 0)) step_ = first_step(y, end - time);
     const Real least = (end - time) * Real(1e-9);
     while (time < end) {
+      stop_if_asked();
       const bool last = step_ >= end - time;
       const Real h = last ? end - time : step_;
       if (!(time + h > time) || (step_ < least && !last))

@@ -135,17 +135,17 @@ double Plan::seconds_with_repeats(const Job& job) const {
   return seconds(job) + rule.repeats * std::max(seconds(job), rule.least_seconds);
 }
 
-std::optional<Row> Plan::run(const Job& job, const std::function<bool()>& stop) {
+Row Plan::run(const Job& job) {
   Prepared& prepared = prepared_[job.scenario];
   if (!prepared.reference)
     prepared.reference = with_place(scenario(job), [&] {
       return reference_for(scenario(job), prepared.course, prepared.finest / kFinerReference);
     });
-  std::optional<Row> row = measure(scenario(job), prepared.course, contestant(job), job.step,
-                                   *prepared.reference, *prepared.invariants, timing(job), stop);
-  if (row && row->timing.repeats > 0)
+  Row row = measure(scenario(job), prepared.course, contestant(job), job.step, *prepared.reference,
+                    *prepared.invariants, timing(job));
+  if (row.timing.repeats > 0)
     per_step_[{job.scenario, job.contestant}] =
-        row->timing.median / static_cast<double>(prepared.course.steps(job.step));
+        row.timing.median / static_cast<double>(prepared.course.steps(job.step));
   return row;
 }
 

@@ -54,8 +54,8 @@ class Plan {
   const Scenario& scenario(const Job& job) const { return options_.scenarios[job.scenario]; }
   const Contestant& contestant(const Job& job) const { return *contestants_[job.contestant]; }
 
-  // Nothing if `stop` said so. Throws ScenarioError if there is nothing to hold it against.
-  std::optional<Row> run(const Job& job, const std::function<bool()>& stop);
+  // After Stopped it can be run again. Throws ScenarioError if there is nothing to hold it against.
+  Row run(const Job& job);
 
  private:
   struct Prepared {

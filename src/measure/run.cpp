@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/check.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/lantern_contestant.hpp"
 #include "measure/own_run.hpp"
@@ -17,6 +20,10 @@ namespace lantern {
 namespace {
 
 constexpr double kBeyondSense = 100;  // times the scale: the run has diverged
+
+// Other engines do not hear the wish to stop, so they are asked for few steps at a time.
+constexpr std::uint64_t kStepsOfPeers = 64;
+constexpr std::uint64_t kAllSteps = std::numeric_limits<std::uint64_t>::max();
 
 bool all_finite(const BodyState& s) {
   const glm::dquat& q = s.orientation.q;
@@ -30,7 +37,10 @@ struct NotANumber {};
 class Runner {
  public:
   Runner(const Scenario& scenario, const Course& course, const Contestant& contestant, double h)
-      : course_(course), h_(h), simulation_(contestant.start(scenario, h)) {}
+      : course_(course),
+        h_(h),
+        at_once_(contestant.version().empty() ? kAllSteps : kStepsOfPeers),
+        simulation_(contestant.start(scenario, h)) {}
 
   template <class Look>
   void run(Yardstick& yardstick, Look&& look) {
@@ -42,7 +52,12 @@ class Runner {
       const std::uint64_t steps = course_.steps_in_part(leg, h_);
       for (std::uint32_t i = 0; i < leg.looks; ++i) {
         const Stopwatch watch;
-        simulation_->advance(steps);
+        for (std::uint64_t left = steps; left > 0;) {
+          const std::uint64_t now = std::min(left, at_once_);
+          stop_if_asked();
+          simulation_->advance(now);
+          left -= now;
+        }
         seconds_ += watch.seconds();
         steps_ += steps;
         observe(yardstick, look);
@@ -67,6 +82,7 @@ class Runner {
 
   const Course& course_;
   double h_;
+  std::uint64_t at_once_;
   std::unique_ptr<Simulation> simulation_;
   Observation now_;
   double seconds_ = 0;
@@ -126,6 +142,11 @@ Reference reference_for(const Scenario& scenario, const Course& course, double s
   method.name = "as written";
   if (scenario.world.contacts == ContactMethod::none) method = *method_named("runge_kutta_4");
   const double h = course.fitted_step(step);
+  std::uint64_t looks = 1;
+  for (const Leg& leg : course.legs) looks += leg.looks;
+  require_memory(looks * scenario.bodies.size() * sizeof(BodyState),
+                 fmt::format("the states of {} bodies at {} times", scenario.bodies.size(), looks),
+                 "take fewer bodies, or fewer steps that wait or run");
   auto record = std::make_shared<std::vector<Observation>>();
   Recorder recorder(*record);
   try {
@@ -137,10 +158,8 @@ Reference reference_for(const Scenario& scenario, const Course& course, double s
           [record] { return std::make_unique<OwnRun>(record); }};
 }
 
-std::optional<Row> measure(const Scenario& scenario, const Course& course,
-                           const Contestant& contestant, double h, const Reference& reference,
-                           const Invariants& invariants, const TimingRule& rule,
-                           const std::function<bool()>& stop) {
+Row measure(const Scenario& scenario, const Course& course, const Contestant& contestant, double h,
+            const Reference& reference, const Invariants& invariants, const TimingRule& rule) {
   Row row;
   row.problem = scenario.name;
   row.file = scenario.file;
@@ -153,7 +172,6 @@ std::optional<Row> measure(const Scenario& scenario, const Course& course,
   row.reference = reference.text;
   evaluate(scenario, course, contestant, h, reference, invariants, row);
   judge(row);
-  if (stop()) return std::nullopt;
   if (row.status != Status::ok) return row;
   std::vector<double> repeats;
   for (int i = 0; i < rule.repeats; ++i) {
@@ -165,7 +183,6 @@ std::optional<Row> measure(const Scenario& scenario, const Course& course,
       runner.run(*yardstick, [](const Observation&) {});
       if (!row.is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row.hash);
       spent += runner.seconds();
-      if (stop()) return std::nullopt;
     }
     repeats.push_back(spent / runs);
   }

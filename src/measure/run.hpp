@@ -29,12 +29,9 @@ struct Reference {
 Reference reference_for(const Scenario& scenario, const Course& course, double step);
 
 // `h` must be fitted to the course. Whatever goes wrong in the run is the row's status; nothing is
-// thrown but a broken invariant: two runs of Lantern that differ. `stop` is asked between repeats;
-// once it says so, nothing is given.
-std::optional<Row> measure(const Scenario& scenario, const Course& course,
-                           const Contestant& contestant, double h, const Reference& reference,
-                           const Invariants& invariants, const TimingRule& rule,
-                           const std::function<bool()>& stop);
+// thrown but Stopped. Two runs of Lantern that differ are a broken invariant.
+Row measure(const Scenario& scenario, const Course& course, const Contestant& contestant, double h,
+            const Reference& reference, const Invariants& invariants, const TimingRule& rule);
 
 // Seconds that one run would take, from its first few milliseconds. 0 if it fails at once.
 double estimated_seconds(const Scenario& scenario, const Course& course,

@@ -90,7 +90,7 @@ double stability_limit(Integrator method, double zeta) {
   return std::numeric_limits<double>::infinity();
 }
 
-StabilityMap make_stability_map(const std::function<bool()>& go_on) {
+StabilityMap make_stability_map() {
   StabilityMap map;
   map.omega_low = 1e-2;
   map.omega_high = 1e2;
@@ -105,7 +105,6 @@ StabilityMap make_stability_map(const std::function<bool()>& go_on) {
       for (const double omega_h : map.omega_h)
         panel.growth.push_back(measured_growth(method, omega_h, zeta));
     map.panels.push_back(std::move(panel));
-    if (!go_on()) break;
   }
   return map;
 }

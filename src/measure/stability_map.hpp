@@ -2,7 +2,6 @@
 // with the real engine, over the step (omega h) and the damping ratio (zeta).
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "physics/integrator.hpp"
@@ -36,8 +35,7 @@ struct StabilityMap {
   }
 };
 
-// From 0.01 to 100 in omega h, 0.001 to 1000 in zeta. `go_on` is asked after each method; false
-// ends the map there.
-StabilityMap make_stability_map(const std::function<bool()>& go_on);
+// From 0.01 to 100 in omega h, 0.001 to 1000 in zeta.
+StabilityMap make_stability_map();
 
 }  // namespace lantern

@@ -3,6 +3,8 @@
 #include <exception>
 #include <utility>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 
 StressResult at_most(double bound, double figure, std::string unit, std::string detail) {
@@ -35,6 +37,8 @@ StressOutcome run_case(const StressCase& stress_case) {
   StressOutcome outcome{stress_case, {}};
   try {
     outcome.result = stress_case.run();
+  } catch (const Stopped&) {
+    throw;
   } catch (const std::exception& error) {
     outcome.result.detail = error.what();
   }

@@ -41,7 +41,7 @@ struct StressOutcome {
 // All cases, group by group. Names differ.
 std::span<const StressCase> stress_cases();
 
-// Never throws: a case that does has failed, and the message is its detail.
+// A case that throws has failed, and the message is its detail. Nothing is thrown but Stopped.
 StressOutcome run_case(const StressCase& stress_case);
 
 // The tables of the topics, a file each (stress_<topic>.cpp), in the order of the whole table.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/stress.hpp"
@@ -45,9 +46,11 @@ BroadPhaseConfig<D> config_of(BroadPhaseKind kind) {
 template <int D>
 std::vector<Pair> true_pairs(const std::vector<Proxy<D>>& proxies) {
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < proxies.size(); ++i)
+  for (std::size_t i = 0; i < proxies.size(); ++i) {
+    stop_if_asked();
     for (std::size_t j = i + 1; j < proxies.size(); ++j)
       if (overlap(proxies[i].box, proxies[j].box)) pairs.push_back({proxies[i].id, proxies[j].id});
+  }
   return pairs;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/clock.hpp"
+#include "base/stop.hpp"
 #include "measure/run.hpp"
 
 namespace lantern {
@@ -44,7 +45,10 @@ Timing timed(const TimingRule& rule, F&& work) {
   std::vector<double> seconds;
   for (int i = 0; i < rule.repeats; ++i) {
     const Stopwatch watch;
-    for (std::uint64_t call = 0; call < calls; ++call) work();
+    for (std::uint64_t call = 0; call < calls; ++call) {
+      stop_if_asked();
+      work();
+    }
     seconds.push_back(watch.seconds() / static_cast<double>(calls));
   }
   return timing_of(seconds);

@@ -63,12 +63,16 @@ class BlockSystem {
       if (!factor_diagonal(diagonal_[j])) return false;
       auto& column = columns_[j];
       for (auto& [row, block] : column) divide(block, diagonal_[j]);
-      for (std::size_t r = 0; r < column.size(); ++r) {
+      // Of the column of each row, the entries at the rows below it, which stand there in the same
+      // order.
+      for (std::size_t s = 0; s < column.size(); ++s) {
         stop_if_asked();
-        for (std::size_t s = 0; s < r; ++s)
-          subtract_product(entry(column[s].first, column[r].first), column[r].second,
-                           column[s].second);
-        subtract_product(diagonal_[column[r].first], column[r].second, column[r].second);
+        subtract_product(diagonal_[column[s].first], column[s].second, column[s].second);
+        auto entry = columns_[column[s].first].begin();
+        for (std::size_t r = s + 1; r < column.size(); ++r) {
+          while (entry->first != column[r].first) ++entry;
+          subtract_product(entry->second, column[r].second, column[s].second);
+        }
       }
     }
     return true;

@@ -1,5 +1,6 @@
 #include "physics/energy.hpp"
 
+#include "base/stop.hpp"
 #include "physics/body_lookup.hpp"
 
 namespace lantern {
@@ -62,14 +63,17 @@ Energy energy(std::span<const Body<D>> bodies, const Forces<D>& forces) {
     sum.springs += energy_of_spring(spring, bodies[lookup.index_of(spring.a, "spring")],
                                     bodies[lookup.index_of(spring.b, "spring")]);
   if (forces.gravitation > 0)
-    for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      stop_if_asked();
       for (std::size_t j = i + 1; j < bodies.size(); ++j)
         sum.attraction += energy_of_attraction(bodies[i], bodies[j], forces.gravitation);
+    }
   return sum;
 }
 
 template <int D>
 Energy energy_of(const Body<D>& body, std::span<const Body<D>> bodies, const Forces<D>& forces) {
+  stop_if_asked();
   Energy sum;
   if (!counts(body)) return sum;
   add_own(body, forces, sum);

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 
 class EnvelopeSystem {
@@ -37,6 +39,7 @@ class EnvelopeSystem {
   template <class Matrix>
   bool factor(Matrix&& matrix) {
     for (std::size_t i = 0; i < lines(); ++i) {
+      stop_if_asked();
       double* line_i = &entries_[start_[i]];
       for (std::size_t j = first_[i]; j <= i; ++j) {
         const double* line_j = &entries_[start_[j]];
@@ -53,6 +56,7 @@ class EnvelopeSystem {
   // Replaces the right-hand side by the solution. After `factor`.
   void solve(std::vector<double>& values) const {
     for (std::size_t i = 0; i < lines(); ++i) {
+      stop_if_asked();
       const double* line = &entries_[start_[i]];
       double value = values[i];
       for (std::size_t j = first_[i]; j < i; ++j) value -= line[j - first_[i]] * values[j];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 namespace {
 
@@ -115,6 +117,7 @@ template <int D>
 std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
   std::vector<std::size_t> touching;
   for (std::size_t i = 0; i < island.pairs.size(); ++i) {
+    stop_if_asked();
     IslandPair<D>& pair = island.pairs[i];
     const Body<D>& a = island.bodies[pair.rows.a];
     const Body<D>& b = island.bodies[pair.rows.b];
@@ -147,6 +150,7 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
     // A blow that does not come to its end is ended without restitution.
     const bool tired = round >= kBouncingRounds;
     for (const std::size_t i : touching) {
+      stop_if_asked();
       IslandPair<D>& pair = island.pairs[i];
       const double restitution = tired ? 0 : pair.rows.restitution;
       if (!resolve(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b], restitution,
@@ -207,6 +211,7 @@ std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& co
   const std::vector<Course<D>> flying = courses(island, config, within);
   std::optional<Impact<D>> first;
   for (IslandPair<D>& pair : island.pairs) {
+    stop_if_asked();
     const Course<D>& a = flying[pair.rows.a];
     const Course<D>& b = flying[pair.rows.b];
     pair.slow = slowest_impact(a, b, step);

@@ -1,5 +1,5 @@
 // One step of the world while it is made. It works on copies, so that a step that is refused half
-// way leaves the world as it was.
+// way, or stopped (base/stop.hpp), leaves the world as it was.
 #pragma once
 
 #include "physics/impact.hpp"
@@ -11,6 +11,17 @@ namespace lantern {
 
 template <int D>
 struct World<D>::Step {
+  // Two bodies that may touch. Of what an IslandPair holds only what is known before the island is
+  // moved: there may be millions.
+  struct NearPair {
+    std::uint32_t a = 0, b = 0;  // places among all bodies
+    double restitution = 0;
+    double friction = 0;
+    double reach = 0;
+    const Touch* touch = nullptr;  // of the step before, if they touched in it
+    bool located = false;
+  };
+
   World& world;
   double h;
   std::vector<double> reach;  // of each body: how far its surface may come; at least as given
@@ -21,8 +32,8 @@ struct World<D>::Step {
   std::vector<TimedPush> pushes = {};
   std::vector<Increment<D>> increments = {};  // over the whole step, if nothing touches
   std::vector<Pair> pairs = {};               // of the broad phase
-  std::vector<IslandPair<D>> near = {};       // pairs that may touch; places are among all bodies
-  std::vector<std::uint32_t> root = {};       // of each body's island; static ones have their own
+  std::vector<NearPair> near = {};
+  std::vector<std::uint32_t> root = {};  // of each body's island; static ones have their own
   std::vector<Touch> touching = {};
   std::vector<Contact<D>> contacts = {};
   std::vector<ContactEvent> events = {};
@@ -46,7 +57,9 @@ struct World<D>::Step {
 
   void find_reach();
   bool look_for_near_pairs();
-  std::optional<IslandPair<D>> nearing(const Pair& pair) const;
+  std::optional<NearPair> nearing(const Pair& pair) const;
+  void require_room_for_near_pairs() const;
+  IslandPair<D> island_pair(const NearPair& from) const;
   bool wake_what_is_touched();
   void wake(std::vector<std::uint32_t> places);
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "physics/step.hpp"
 
@@ -16,8 +17,7 @@ void World<D>::Step::move() {
   const auto owner = [&](std::uint32_t a, std::uint32_t b) {
     return root[moved[a].kind == BodyKind::dynamic_body ? a : b];
   };
-  for (std::size_t i = 0; i < near.size(); ++i)
-    pairs_of[owner(near[i].rows.a, near[i].rows.b)].push_back(i);
+  for (std::size_t i = 0; i < near.size(); ++i) pairs_of[owner(near[i].a, near[i].b)].push_back(i);
   for (std::size_t i = 0; i < world.joints_.size(); ++i) {
     const Joint<D>& joint = world.joints_[i].second;
     joints_of[owner(place_of(joint.a), place_of(joint.b))].push_back(i);
@@ -34,6 +34,7 @@ void World<D>::Step::move() {
     const bool dynamic = moved[i].kind == BodyKind::dynamic_body;
     if (!dynamic || !bound || moved[i].asleep) flying.push_back(i);
     if (!dynamic || !bound || moved[i].asleep || root[i] != i) continue;
+    stop_if_asked();
     Island<D> island = gather(members[i], pairs_of[i], joints_of[i]);
     advance_island(island, world.config_, h, budget, world.work_);
     bring_back(island);
@@ -54,8 +55,8 @@ Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
   };
   const auto add = [&](BodyId id) { island.places.push_back(place_of(id)); };
   for (const std::size_t i : near_pairs) {
-    island.places.push_back(near[i].rows.a);
-    island.places.push_back(near[i].rows.b);
+    island.places.push_back(near[i].a);
+    island.places.push_back(near[i].b);
   }
   for (const std::size_t i : joints) {
     add(world.joints_[i].second.a);
@@ -81,8 +82,10 @@ Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
     const auto found = std::lower_bound(island.places.begin(), island.places.end(), place);
     return static_cast<std::uint32_t>(found - island.places.begin());
   };
+  island.pairs.reserve(near_pairs.size());
   for (const std::size_t i : near_pairs) {
-    island.pairs.push_back(near[i]);
+    stop_if_asked();
+    island.pairs.push_back(island_pair(near[i]));
     ContactRows<D>& rows = island.pairs.back().rows;
     rows.a = local(rows.a);
     rows.b = local(rows.b);
@@ -113,6 +116,7 @@ void World<D>::Step::bring_back(Island<D>& island) {
   for (const JointRows<D>& rows : island.joints)
     joint_memories[rows.place] = {rows.impulse, island.joint_seconds};
   for (const IslandPair<D>& pair : island.pairs) {
+    stop_if_asked();
     if (!pair.touched) continue;
     Touch touch;
     touch.record = pair.record;
@@ -212,6 +216,7 @@ void World<D>::Step::tell() {
     if (rests(touch.record.a) && rests(touch.record.b)) touching.push_back(touch);
   const auto pair_of = [](const Contact<D>& c) { return Pair{c.a, c.b}; };
   const auto less = [&](const Touch& x, const Touch& y) {
+    stop_if_asked();
     return pair_of(x.record) < pair_of(y.record);
   };
   const auto same = [&](const Touch& x, const Touch& y) {
@@ -224,6 +229,7 @@ void World<D>::Step::tell() {
   const std::vector<Contact<D>>& old = world.contacts_;
   std::size_t i = 0, j = 0;
   while (i < old.size() || j < contacts.size()) {
+    stop_if_asked();
     const bool ends =
         j == contacts.size() || (i < old.size() && pair_of(old[i]) < pair_of(contacts[j]));
     const bool stays = !ends && i < old.size() && pair_of(old[i]) == pair_of(contacts[j]);

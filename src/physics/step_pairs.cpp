@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/memory.hpp"
+#include "base/stop.hpp"
 #include "physics/step.hpp"
 
 namespace lantern {
@@ -101,41 +103,66 @@ bool World<D>::Step::look_for_near_pairs() {
   world.work_.pair_tests += world.broad_phase_->counters().pair_tests;
   world.work_.candidate_pairs += pairs.size();
   near.clear();
-  for (const Pair& pair : pairs)
-    if (auto found = nearing(pair)) near.push_back(std::move(*found));
+  for (const Pair& pair : pairs) {
+    stop_if_asked();
+    if (const auto found = nearing(pair)) near.push_back(*found);
+  }
+  require_room_for_near_pairs();
   return wake_what_is_touched();
 }
 
 // The pair, if the two may come to touch in this step.
 template <int D>
-std::optional<IslandPair<D>> World<D>::Step::nearing(const Pair& pair) const {
-  IslandPair<D> found;
-  found.rows.a = place_of(pair.a);
-  found.rows.b = place_of(pair.b);
-  const Body<D>& a = moved[found.rows.a];
-  const Body<D>& b = moved[found.rows.b];
+auto World<D>::Step::nearing(const Pair& pair) const -> std::optional<NearPair> {
+  NearPair found;
+  found.a = place_of(pair.a);
+  found.b = place_of(pair.b);
+  const Body<D>& a = moved[found.a];
+  const Body<D>& b = moved[found.b];
   if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
   if (world.joined(a.id, b.id)) return std::nullopt;
   const double way = glm::length(velocity_of(b) - velocity_of(a)) * h;
   // An impact with a third body may turn either of them towards the other.
-  found.reach = reach[found.rows.a] + reach[found.rows.b];
+  found.reach = reach[found.a] + reach[found.b];
   ++world.work_.narrow_tests;
   const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
                                 Placed<D>{b.shape, b.position, b.orientation}, found.reach);
   if (!manifold) return std::nullopt;
-  found.rows.restitution = std::max(a.material.restitution, b.material.restitution);
-  found.rows.friction = std::sqrt(a.material.friction * b.material.friction);
+  found.restitution = std::max(a.material.restitution, b.material.restitution);
+  found.friction = std::sqrt(a.material.friction * b.material.friction);
   const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-  found.located = world.config_.continuous && (found.rows.restitution > 0 || way > kFast * thin);
-  found.pressed = !found.located;
-  found.record.a = found.memory.a = pair.a;
-  found.record.b = found.memory.b = pair.b;
-  if (const Touch* touch = remembered(pair.a, pair.b)) {
-    found.remembered = touch->seconds > 0;
-    found.memory = touch->memory;
-    found.seconds = touch->seconds;
-  }
+  found.located = world.config_.continuous && (found.restitution > 0 || way > kFast * thin);
+  found.touch = remembered(pair.a, pair.b);
   return found;
+}
+
+// They are made when their islands are moved, and remembered for the next step.
+template <int D>
+void World<D>::Step::require_room_for_near_pairs() const {
+  constexpr std::uint64_t kEach =
+      sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch) + sizeof(Contact<D>));
+  require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
+                 "take fewer bodies that overlap");
+}
+
+template <int D>
+IslandPair<D> World<D>::Step::island_pair(const NearPair& from) const {
+  IslandPair<D> pair;
+  pair.rows.a = from.a;
+  pair.rows.b = from.b;
+  pair.rows.restitution = from.restitution;
+  pair.rows.friction = from.friction;
+  pair.reach = from.reach;
+  pair.located = from.located;
+  pair.pressed = !from.located;
+  pair.record.a = pair.memory.a = moved[from.a].id;
+  pair.record.b = pair.memory.b = moved[from.b].id;
+  if (from.touch != nullptr) {
+    pair.remembered = from.touch->seconds > 0;
+    pair.memory = from.touch->memory;
+    pair.seconds = from.touch->seconds;
+  }
+  return pair;
 }
 
 template <int D>
@@ -152,9 +179,9 @@ const typename World<D>::Touch* World<D>::Step::remembered(BodyId a, BodyId b) c
 template <int D>
 bool World<D>::Step::wake_what_is_touched() {
   std::vector<std::uint32_t> woken;
-  for (const IslandPair<D>& pair : near) {
-    if (moved[pair.rows.a].asleep) woken.push_back(pair.rows.a);
-    if (moved[pair.rows.b].asleep) woken.push_back(pair.rows.b);
+  for (const NearPair& pair : near) {
+    if (moved[pair.a].asleep) woken.push_back(pair.a);
+    if (moved[pair.b].asleep) woken.push_back(pair.b);
   }
   const auto tied = [&](BodyId first, BodyId second) {
     const std::uint32_t a = place_of(first), b = place_of(second);
@@ -174,6 +201,7 @@ bool World<D>::Step::wake_what_is_touched() {
 template <int D>
 void World<D>::Step::wake(std::vector<std::uint32_t> places) {
   while (!places.empty()) {
+    stop_if_asked();
     Body<D>& body = moved[places.back()];
     places.pop_back();
     if (!body.asleep) continue;
@@ -197,7 +225,7 @@ void World<D>::Step::make_islands() {
     if (moved[a].kind == BodyKind::dynamic_body && moved[b].kind == BodyKind::dynamic_body)
       sets.unite(a, b);
   };
-  for (const IslandPair<D>& pair : near) unite(pair.rows.a, pair.rows.b);
+  for (const NearPair& pair : near) unite(pair.a, pair.b);
   for (const auto& entry : world.joints_) unite(place_of(entry.second.a), place_of(entry.second.b));
   for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
   // What attracts hangs together over any distance.
@@ -216,10 +244,11 @@ void World<D>::Step::make_islands() {
         root[i] == i && moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
 }
 
-#define LANTERN_INSTANTIATE(D)                     \
-  template void World<D>::Step::find_forces();     \
-  template void World<D>::Step::find_near_pairs(); \
-  template void World<D>::Step::make_islands();    \
+#define LANTERN_INSTANTIATE(D)                                               \
+  template void World<D>::Step::find_forces();                               \
+  template void World<D>::Step::find_near_pairs();                           \
+  template void World<D>::Step::make_islands();                              \
+  template IslandPair<D> World<D>::Step::island_pair(const NearPair&) const; \
   template bool World<D>::Step::stirs(const Body<D>&) const;
 
 LANTERN_INSTANTIATE(2)

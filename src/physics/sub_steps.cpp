@@ -16,6 +16,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/stop.hpp"
 #include "physics/direct_solve.hpp"
 #include "physics/free_rotation.hpp"
 #include "physics/island.hpp"
@@ -56,6 +57,7 @@ template <int D>
 void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
   for (IslandPair<D>& pair : island.pairs) {
     ContactRows<D>& rows = pair.rows;
+    stop_if_asked();
     rows.count = 0;
     if (!pair.pressed) continue;
     const Body<D>& a = island.bodies[rows.a];
@@ -90,21 +92,27 @@ struct SubStep {
 
   template <class F>
   void each_pair(F&& f) {
-    for (IslandPair<D>& pair : island.pairs)
+    for (IslandPair<D>& pair : island.pairs) {
+      stop_if_asked();
       if (pair.rows.count > 0) f(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b]);
+    }
   }
   // Every other sweep goes backwards, so that neither end of a stack, nor side of a box, is
   // preferred.
   template <class F>
   void each_pair_in_turn(int turn, F&& f) {
     for (std::size_t i = 0; i < island.pairs.size(); ++i) {
+      stop_if_asked();
       ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
       if (rows.count > 0) f(rows, island.movers[rows.a], island.movers[rows.b]);
     }
   }
   template <class F>
   void each_joint(F&& f) {
-    for (JointRows<D>& rows : island.joints) f(rows, island.movers[rows.a], island.movers[rows.b]);
+    for (JointRows<D>& rows : island.joints) {
+      stop_if_asked();
+      f(rows, island.movers[rows.a], island.movers[rows.b]);
+    }
   }
 
   void refresh_rows() {
@@ -223,6 +231,7 @@ struct SubStep {
 
   void record() {
     for (IslandPair<D>& pair : island.pairs) {
+      stop_if_asked();
       for (int i = 0; i < pair.rows.count; ++i) {
         const auto at = static_cast<std::size_t>(i);
         const ContactPoint<D>& p = pair.rows.room[at];
@@ -234,6 +243,7 @@ struct SubStep {
   }
 
   void run() {
+    stop_if_asked();
     find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
     refresh_rows();
     apply_forces();
@@ -248,6 +258,7 @@ struct SubStep {
 template <int D>
 void remember(Island<D>& island, double h) {
   for (IslandPair<D>& pair : island.pairs) {
+    stop_if_asked();
     pair.remembered = pair.rows.count > 0;
     if (!pair.remembered) continue;
     pair.seconds = h;

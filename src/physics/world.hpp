@@ -81,8 +81,8 @@ class World {
   void switch_contacts(ContactMethod method, int sub_steps, int iterations);
 
   // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when
-  // a position or velocity would overflow, and for a step that is negative or not finite; the world
-  // stays as it was.
+  // a position or velocity would overflow, for a step that is negative or not finite, and for more
+  // memory than the budget. Throws Stopped as soon as that is wished. The world stays as it was.
   void step(double h);
   double time() const { return time_; }
 

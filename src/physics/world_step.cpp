@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop.hpp"
 #include "physics/step.hpp"
 
 namespace lantern {
@@ -11,6 +12,7 @@ namespace lantern {
 template <int D>
 void World<D>::step(double h) {
   if (!std::isfinite(h) || h < 0) throw Refused(fmt::format("time step {} is not allowed", h));
+  stop_if_asked();
   if (h == 0) return;  // else -0.0 + 0.0 would change the sign of a zero
   // An impact may send a body farther than it was looked for. Then the step is made anew, looking
   // farther.

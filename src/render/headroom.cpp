@@ -14,7 +14,7 @@
 namespace lantern {
 namespace {
 
-// Measured with Mesa 22.3 and LLVM 15: 300 MB with libraries and shaders, of these 100 MB once
+// Measured with the Mesa of Debian 12: 300 MB with libraries and shaders, of these 100 MB once
 // there is a context, and two threads a core, of at most 32. The rest is for other versions.
 constexpr std::uint64_t kContext = 400'000'000, kShaders = 160'000'000;  // bytes
 constexpr std::uint64_t kMostCores = 32;
@@ -22,10 +22,11 @@ constexpr std::uint64_t kMostCores = 32;
 // A picture is there three times (drawn, read back, encoded) while shaders are compiled.
 constexpr std::uint64_t kBytesPerPixel = 12;
 
+// Is there so little that the allocator must save?
 bool is_limited() {
+  constexpr rlim_t kPlenty = rlim_t{4} << 30;
   for (const auto which : {RLIMIT_AS, RLIMIT_DATA})
-    if (rlimit limit{}; ::getrlimit(which, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-      return true;
+    if (rlimit limit{}; ::getrlimit(which, &limit) == 0 && limit.rlim_cur < kPlenty) return true;
   return false;
 }
 

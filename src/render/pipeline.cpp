@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/memory.hpp"
 #include "render/png_parts.hpp"
 
 namespace lantern {
@@ -34,7 +35,12 @@ Pipeline::Pipeline(std::unique_ptr<Context> context, Config config, Work& work)
   const auto threads = static_cast<std::size_t>(std::max(1, config_.threads));
   // One being drawn, the last one to compare with, one or two for each thread.
   const std::size_t bytes = std::size_t{4} * config_.width * config_.height;
-  most_pictures_ = std::clamp<std::size_t>(kMostBytes / bytes, 2, 2 + 2 * threads);
+  const std::uint64_t most = std::min<std::uint64_t>(kMostBytes, memory_budget() / 4);
+  most_pictures_ = std::clamp<std::size_t>(most / bytes, 2, 2 + 2 * threads);
+  // The driver's own, and for each thread that has one to encode the filtered and the packed bytes.
+  require_memory(bytes * (1 + most_pictures_ + 2 * std::min(threads, most_pictures_ - 1)),
+                 fmt::format("pictures of {} x {} pixels under way", config_.width, config_.height),
+                 "draw smaller ones (--size)");
   for (std::size_t i = 0; i < threads; ++i) try {
       threads_.emplace_back([this](const std::stop_token& stop) { encode_jobs(stop); });
     } catch (const std::system_error& error) {

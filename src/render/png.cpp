@@ -8,6 +8,7 @@
 #include <libdeflate.h>
 
 #include "base/check.hpp"
+#include "base/stop.hpp"
 #include "render/png_parts.hpp"
 #include "render/run_deflate.hpp"
 
@@ -101,6 +102,7 @@ namespace {
 
 // By stb_image_write, with libdeflate in place of its own compressor.
 PngBody compress_small(const Image& image) {
+  stop_if_asked();
   const bool opaque = is_opaque(image);
   const std::vector<std::uint8_t> rgb = opaque ? without_alpha(image) : std::vector<std::uint8_t>();
   int size = 0;

@@ -7,6 +7,8 @@
 
 #include "base/check.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/stop.hpp"
 #include "embedded/shaders.hpp"
 #include "render/gl.hpp"
 #include "render/headroom.hpp"
@@ -212,6 +214,7 @@ void Renderer::State::draw_batches(const BatchList& list) {
     gl.VertexAttribPointer(4, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride, at(offsetof(Instance, fill)));
     gl.VertexAttribPointer(5, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
                            at(offsetof(Instance, stroke)));
+    stop_if_asked();
     use(batch.program);
     gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.instances.size()));
     first += batch.instances.size();
@@ -223,12 +226,17 @@ Renderer::Renderer(std::unique_ptr<Context> context, int width, int height) {
   if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels)
     throw Refused(fmt::format("an image of {} x {} pixels: each side must be 1 ... {}", width,
                               height, kMostPixels));
+  // What the driver draws to, and what it is read into.
+  require_memory(std::uint64_t{8} * width * height,
+                 fmt::format("the pixels of a picture of {} x {}", width, height),
+                 "make it smaller (--size, or the atlas's size)");
   state_ = std::make_unique<State>(std::move(context), width, height);
 }
 
 Renderer::~Renderer() = default;
 
 void Renderer::draw(const DrawList& list, const Theme& theme, bool transparent, Image& image) {
+  stop_if_asked();
   State& s = *state_;
   s.builder.build(list, theme);
   s.upload(s.builder.masks());

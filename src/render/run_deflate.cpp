@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "render/huffman.hpp"
 
 namespace lantern {
@@ -179,6 +180,7 @@ std::optional<std::string> run_deflate(const Image& image, int channels) {
   if (channels == 3)
     for (std::size_t i = 3; i < stride; i += 4) zeros[i] = 255;
   for (int y = 0; y < image.height; ++y) {
+    stop_if_asked();
     const std::uint8_t* row = image.rgba.data() + stride * y;
     const Row filtered(row, y == 0 ? zeros.data() : row - stride, image.width);
     deflater.byte(2);  // the filter "Up"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "draw/font.hpp"
 #include "render/check_list.hpp"
 
@@ -32,7 +33,10 @@ class SvgWriter {
   SvgWriter(const DrawList& list, const Theme& theme) : list_(list), theme_(theme) {}
 
   std::string write(bool transparent, int width, int height) {
-    for (const DrawShape& shape : list_.shapes) std::visit([&](const auto& s) { add(s); }, shape);
+    for (const DrawShape& shape : list_.shapes) {
+      stop_if_asked();
+      std::visit([&](const auto& s) { add(s); }, shape);
+    }
     const std::string w = number(list_.page.x), h = number(list_.page.y);
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "render/renderer.hpp"
 #include "report/cairo_peer.hpp"
 #include "report/settled.hpp"
@@ -111,34 +112,30 @@ class Measurer {
   ReferencePicture reference_;
 };
 
-// True if all of the scene's rows were wanted.
-bool measure_scene(Measurer& scene, bool with_cairo, const std::function<bool()>& progress,
+void measure_scene(Measurer& scene, bool with_cairo, const std::function<void()>& told,
                    std::vector<PictureRow>& rows) {
   const auto add = [&](PictureRow row) {
     rows.push_back(std::move(row));
-    return progress();
+    told();
+    stop_if_asked();
   };
-  for (const int times : {1, 2, 4})
-    if (!add(scene.coverage(times))) return false;
+  for (const int times : {1, 2, 4}) add(scene.coverage(times));
   constexpr std::array<std::pair<CairoAntialias, const char*>, 4> kCairo = {
       {{CairoAntialias::none, "none"},
        {CairoAntialias::fast, "fast"},
        {CairoAntialias::standard, "default"},
        {CairoAntialias::best, "best"}}};
   for (const auto& [antialias, choice] : kCairo)
-    if (with_cairo && !add(scene.cairo(antialias, choice))) return false;
-  for (std::size_t i = 0; i < std::size(kSampleCounts); ++i)
-    if (!add(scene.samples(i))) return false;
+    if (with_cairo) add(scene.cairo(antialias, choice));
+  for (std::size_t i = 0; i < std::size(kSampleCounts); ++i) add(scene.samples(i));
   for (std::size_t kind = 0; kind < kParts.size(); ++kind)
-    for (PictureRow& row : scene.part(kind, with_cairo))
-      if (!add(std::move(row))) return false;
-  return true;
+    for (PictureRow& row : scene.part(kind, with_cairo)) add(std::move(row));
 }
 
 }  // namespace
 
 PictureReport measure_pictures(std::span<const PictureScene> scenes, const PictureConfig& config,
-                               const std::function<bool()>& progress) {
+                               const std::function<void()>& told) {
   constexpr int kLargest = Renderer::kMostPixels / 4;
   if (config.width < 1 || config.height < 1 || config.width > kLargest || config.height > kLargest)
     throw Refused(
@@ -159,7 +156,7 @@ PictureReport measure_pictures(std::span<const PictureScene> scenes, const Pictu
   for (const PictureScene& scene : scenes) {
     report.scenes.push_back(scene.name);
     Measurer measurer(scene, config, config.theme);
-    if (!measure_scene(measurer, with_cairo, progress, report.rows)) break;
+    measure_scene(measurer, with_cairo, told, report.rows);
   }
   return report;
 }

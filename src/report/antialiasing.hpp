@@ -61,11 +61,10 @@ struct PictureReport {
 // rects, lines, polygons and texts of the scene, each against a reference of its own.
 //
 // Timed frames have every polygon moved by a little, as in a film, so that none of its masks is
-// found again; texts stand still. `progress` is told after each row and may end it all by returning
-// false: what is measured by then is given. Throws BackendError; Refused for a size that cannot be
-// supersampled.
+// found again; texts stand still. `told` is called after each row. Throws BackendError; Refused for
+// a size that cannot be supersampled.
 PictureReport measure_pictures(std::span<const PictureScene> scenes, const PictureConfig& config,
-                               const std::function<bool()>& progress);
+                               const std::function<void()>& told);
 inline constexpr std::size_t kPictureRows = 18;  // of a scene, at most
 
 // Error (root mean square, levels) against milliseconds: a line for each family that is timed, a

@@ -9,6 +9,6 @@
 namespace lantern {
 
 // Runs the stress cases that are bars and not slow. `stop` is asked before each.
-std::vector<Bar> measured_bars(const std::function<bool()>& stop);
+std::vector<Bar> measured_bars();
 
 }  // namespace lantern

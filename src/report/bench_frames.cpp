@@ -11,6 +11,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/json_writer.hpp"
+#include "base/stop.hpp"
 #include "render/pipeline.hpp"
 #include "report/cairo_peer.hpp"
 #include "report/start_time.hpp"
@@ -65,6 +66,7 @@ class Bench {
     const auto work = [&](int t) {
       try {
         for (int i = t; i < config_.frames; i += threads) {
+          stop_if_asked();
           peers[static_cast<std::size_t>(t)]->draw(list(i), config_.theme);
           peers[static_cast<std::size_t>(t)]->write_png(file(i));
         }

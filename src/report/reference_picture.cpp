@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/check.hpp"
+#include "base/stop.hpp"
 #include "render/canvas.hpp"
 #include "render/renderer.hpp"
 #include "report/settled.hpp"
@@ -97,6 +98,7 @@ ReferencePicture reference_picture(const DrawList& list, const Theme& theme, int
   Image tile;
   for (int top = 0; top < height; top += kTileHeight)
     for (int left = 0; left < width; left += kTileWidth) {
+      stop_if_asked();
       const Vec<2> corner = (Vec<2>(left, top) - canvas.origin) / canvas.scale;
       renderer.draw(window_of(list, {corner, corner + size}), theme, false, tile);
       take(tile, left, top, picture);
@@ -114,6 +116,7 @@ void box_filter(const Image& large, int times, Image& small) {
   const std::uint8_t* from = large.rgba.data();
   std::uint8_t* to = small.rgba.data();
   for (int y = 0; y < small.height; ++y) {
+    stop_if_asked();
     std::fill(sums.begin(), sums.end(), 0);
     for (int row = 0; row < times; ++row) {
       int* sum = sums.data();

@@ -1,6 +1,8 @@
 #include "report/start_time.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -12,6 +14,7 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/stop.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 
@@ -39,9 +42,15 @@ double seconds_in_new_process(const std::function<void()>& work) {
   }
   double seconds = -1;
   ::close(ends[1]);
-  const bool told = ::read(ends[0], &seconds, sizeof seconds) == sizeof seconds;
+  ssize_t got = 0;
+  do got = ::read(ends[0], &seconds, sizeof seconds);
+  while (got < 0 && errno == EINTR && !stop_asked());
+  const bool told = got == sizeof seconds;
   ::close(ends[0]);
-  ::waitpid(child, nullptr, 0);
+  if (stop_asked()) ::kill(child, SIGKILL);
+  while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  stop_if_asked();
   if (!told || seconds < 0) throw BackendError("a new process could not draw");
   return seconds;
 }

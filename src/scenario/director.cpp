@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop.hpp"
 #include "scenario/event_text.hpp"
 #include "scenario/frame_maker.hpp"
 #include "scenario/stage.hpp"
@@ -22,6 +23,7 @@ class Director {
   DirectorReport run() {
     std::uint32_t index = 0;
     for (const Step& step : scenario_.steps) {
+      stop_if_asked();
       frames_.begin(step, index++);
       if (stage_.engine) stage_.engine->forget_events();
       try {
@@ -50,7 +52,10 @@ class Director {
   }
 
   void act(const Remove& remove) {
-    for (const std::size_t body : remove.bodies) stage_.engine->leave(body);
+    for (const std::size_t body : remove.bodies) {
+      stop_if_asked();
+      stage_.engine->leave(body);
+    }
     stage_.engine->rebuild();
     frames_.settle("remove");
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/json_writer.hpp"
+#include "base/stop.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern {
@@ -74,6 +75,7 @@ class FrameWriter {
   void write_list(std::string_view name, const std::vector<T>& elements) {
     json_.line().key(name).begin_array();
     for (const T& element : elements) {
+      stop_if_asked();
       json_.line();
       write(element);
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/stop.hpp"
 #include "scenario/caption.hpp"
 #include "scenario/expectations.hpp"
 
@@ -48,6 +49,7 @@ void FrameMaker::show_finding(Finding finding) {
 }
 
 Frame FrameMaker::picture(const Touched& now, std::string_view event) {
+  stop_if_asked();
   const WorldSpec& world = scenario_.world;
   Frame frame;
   frame.scenario = scenario_.name;

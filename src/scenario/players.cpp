@@ -1,5 +1,7 @@
 #include "scenario/players.hpp"
 
+#include "base/stop.hpp"
+
 namespace lantern {
 namespace {
 
@@ -56,6 +58,7 @@ void Players<D>::enter(std::size_t index) {
   ids_[index] = id;
   index_of_.push_back(index);
   if (spec.spin != 0) world_.set_angular_velocity(id, spin_about<D>(spec.axis, spec.spin));
+  stop_if_asked();
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const LinkSpec& link = scenario_.links[i];
     if (!links_[i].there && ids_[link.a] && (!link.b || ids_[*link.b])) make_link(link, links_[i]);

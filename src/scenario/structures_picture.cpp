@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "scenario/structures.hpp"
 #include "spatial/awake.hpp"
 #include "spatial/pairs.hpp"
@@ -52,6 +53,7 @@ class TreePicture {
   void add(const Tree& tree, const Touched& touched, bool of_static) {
     first_ = static_cast<std::uint32_t>(frame_.nodes.size());
     tree.visit([&](const NodeView<D>& view) {
+      stop_if_asked();
       FrameNode node = frame_node(view);
       node.mark = touched.mark_of(view.handle);
       node.of_static = of_static;
@@ -188,12 +190,14 @@ void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>>
     using T = std::decay_t<decltype(tree)>;
     if (is_static) {
       // Who moves asks the structure of what does not.
-      for (const Resident<D>& r : residents)
+      for (const Resident<D>& r : residents) {
+        stop_if_asked();
         if (!r.is_static && r.awake)
           tree.query(r.item.box, [&](BodyId id) {
             add_pair(candidates, {std::min(id, r.item.id), std::max(id, r.item.id)});
             ++candidates.pair_tests;
           });
+      }
     } else if constexpr (std::is_same_v<T, SortAndSweep<D>>) {
       candidates = swept_pairs(tree, bodies, only_awake_);
     } else {
@@ -204,7 +208,7 @@ void Structures<D>::picture(const Touched& touched, std::span<const Resident<D>>
         stale += is_for_static(r) == is_static && !tree.fits(r.item);
     is_static = true;
   });
-  std::sort(candidates.pairs.begin(), candidates.pairs.end());
+  sort_pairs(candidates.pairs);
   std::uint64_t overlaps = 0;
   for (const Pair& pair : candidates.pairs) {
     frame.pairs.push_back({pair, false});

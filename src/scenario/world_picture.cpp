@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/stop.hpp"
 #include "physics/energy.hpp"
 
 namespace lantern {
@@ -38,9 +39,13 @@ FrameContact frame_contact(const Contact<D>& contact, const std::vector<ContactE
   FrameContact c;
   c.pair = {contact.a, contact.b};
   c.normal = solid(contact.manifold.normal);
-  c.begins = std::any_of(events.begin(), events.end(), [&](const ContactEvent& e) {
-    return e.kind == ContactEvent::Kind::begin && e.a == contact.a && e.b == contact.b;
-  });
+  // Events come in the order of their pairs, one a pair.
+  const auto event = std::lower_bound(events.begin(), events.end(), c.pair,
+                                      [](const ContactEvent& e, const Pair& pair) {
+                                        return Pair{e.a, e.b} < pair;
+                                      });
+  c.begins = event != events.end() && Pair{event->a, event->b} == c.pair &&
+             event->kind == ContactEvent::Kind::begin;
   for (std::size_t i = 0; i < contact.manifold.points().size(); ++i) {
     const auto& point = contact.manifold.room[i];
     c.points.push_back({solid(point.position), point.separation, contact.normal_impulses[i]});
@@ -56,10 +61,12 @@ void picture_world(const Players<D>& players, Frame& frame) {
   for (const Body<D>& body : world.bodies())
     if (const BodySpec* spec = players.spec_of(body.id))
       frame.bodies.push_back(frame_body(body, *spec));
-  for (const Contact<D>& contact : world.contacts())
+  for (const Contact<D>& contact : world.contacts()) {
+    stop_if_asked();
     if (players.spec_of(contact.a) && players.spec_of(contact.b) && world.find(contact.a) &&
         world.find(contact.b))  // one may have left since the step
       frame.contacts.push_back(frame_contact(contact, world.events()));
+  }
   players.for_each_link(
       [&](const LinkSpec& spec, const Vec<D>& from, const Vec<D>& to, double rest) {
         const bool has_length = spec.kind != LinkSpec::Kind::pin && rest > 0;

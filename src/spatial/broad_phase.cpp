@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/stop.hpp"
 
 namespace lantern {
 namespace {
@@ -78,6 +80,18 @@ void BroadPhase<D>::update(std::span<const Proxy<D>> proxies) {
   deal_out();
   counters_.pair_tests = counters_.nodes_visited = 0;
   counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
+  try {
+    find_pairs();
+  } catch (...) {
+    forget();
+    throw;
+  }
+  own_allocations_ += own_places() != places;
+  counters_.allocations = own_allocations_ + past_allocations_ + structure_allocations();
+}
+
+template <int D>
+void BroadPhase<D>::find_pairs() {
   if (!same_boxes(fresh_static_, static_.bodies)) {
     static_.bodies.swap(fresh_static_);
     build(static_);
@@ -96,8 +110,17 @@ void BroadPhase<D>::update(std::span<const Proxy<D>> proxies) {
   } else if (moved) {
     empty(dynamic_);
   }
-  own_allocations_ += own_places() != places;
-  counters_.allocations = own_allocations_ + past_allocations_ + structure_allocations();
+}
+
+// A structure that was not finished must not be taken for that of its bodies.
+template <int D>
+void BroadPhase<D>::forget() {
+  pairs_.clear();
+  for (Store* store : {&static_, &dynamic_}) {
+    store->bodies.clear();
+    store->ranks.clear();
+    empty(*store);
+  }
 }
 
 template <int D>
@@ -245,6 +268,7 @@ void BroadPhase<D>::find_awake_nodes(const Tree& tree) {
 template <int D>
 void BroadPhase<D>::pair_bodies(std::span<const BodyId> bodies) {
   for (const BodyId i : bodies) {
+    stop_if_asked();
     const Proxy<D>& a = dynamic_.bodies[i];
     if (!stirs(a)) continue;
     for (const BodyId j : bodies) {
@@ -263,6 +287,7 @@ void BroadPhase<D>::pair_static() {
   std::visit(
       [&](const auto& structure) {
         for (std::size_t i = 0; i < dynamic_.bodies.size(); ++i) {
+          stop_if_asked();
           const Proxy<D>& body = dynamic_.bodies[i];
           if (!stirs(body)) continue;
           ids_.clear();
@@ -283,6 +308,17 @@ void BroadPhase<D>::refuse_pair(BodyId body) const {
                   body, config_.most_pairs));
 }
 
+// Before the list of pairs grows: twice as many places, each copied once, and what `sort_pairs`
+// will need.
+template <int D>
+void BroadPhase<D>::require_room(BodyId body) const {
+  const std::uint64_t pairs = 2 * std::max<std::uint64_t>(found_.size(), 512);
+  require_memory(
+      pairs * (3 * sizeof(RankPair) / 2 + sizeof(std::uint32_t) + sizeof(Pair)),
+      fmt::format("body {}: with it {} or more pairs of boxes that overlap", body, found_.size()),
+      "take fewer bodies, or part them");
+}
+
 // Counted into one row for each lower rank; rows are short, and in them copies stand side by side.
 template <int D>
 void BroadPhase<D>::sort_pairs() {
@@ -293,6 +329,7 @@ void BroadPhase<D>::sort_pairs() {
   for (const RankPair& pair : found_) partners_[first_[pair.a]++] = pair.b;
   std::uint32_t begin = 0;  // first_[a] is the end of its row now
   for (std::uint32_t a = 0; a < sorted_.size(); begin = first_[a++]) {
+    stop_if_asked();
     const auto from = partners_.begin() + begin, to = partners_.begin() + first_[a];
     std::sort(from, to);
     std::for_each(from, std::unique(from, to), [&](std::uint32_t b) {

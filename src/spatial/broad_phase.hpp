@@ -128,8 +128,9 @@ class BroadPhase {
 
   // Finds the pairs. Proxies may come in any order. Throws Refused, naming the body, for a box that
   // is not valid and for two proxies of one id; nothing changes then. Throws Refused, too, when
-  // more than `most_pairs` meet (coincident bodies have n(n-1)/2 pairs): there are no pairs then,
-  // and the next update begins as ever.
+  // more than `most_pairs` meet (coincident bodies have n(n-1)/2 pairs), or when they need more
+  // memory than the budget. Whatever is thrown half way, Stopped too: there are no pairs and no
+  // structures then, and the next update begins as the first.
   void update(std::span<const Proxy<D>> proxies);
 
   // Of the last update.
@@ -191,6 +192,8 @@ class BroadPhase {
 
   Structure made(std::uint32_t depth, std::uint64_t room) const;
   void sort_and_check(std::span<const Proxy<D>> proxies);
+  void find_pairs();
+  void forget();
   void deal_out();
   void build(Store& store);
   void fill(Store& store);
@@ -203,10 +206,12 @@ class BroadPhase {
   void find_awake_nodes(const Tree& tree);
   void pair_bodies(std::span<const BodyId> bodies);
   void add_pair(std::uint32_t rank_a, std::uint32_t rank_b) {
+    if (found_.size() == found_.capacity()) require_room(sorted_[rank_a].id);
     if (found_.size() == config_.most_pairs) refuse_pair(sorted_[rank_a].id);
     found_.push_back(rank_a < rank_b ? RankPair{rank_a, rank_b} : RankPair{rank_b, rank_a});
   }
   [[noreturn]] void refuse_pair(BodyId body) const;
+  void require_room(BodyId body) const;
   void sort_pairs();
   std::uint64_t structure_allocations() const;
   std::size_t own_places() const;

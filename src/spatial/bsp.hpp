@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "spatial/ids.hpp"
 #include "spatial/leaf_array.hpp"
 #include "spatial/structure.hpp"
@@ -55,7 +56,8 @@ class Bsp {
 
   // Stores the item in every leaf that its box reaches. Throws Refused for a box that is not valid;
   // nothing changes then. Throws Refused, too, when the leaves would hold more than `most_entries`
-  // together: some may then lack the body, and the tree must be cleared before further use.
+  // together, and Stopped: some may then lack the body, and the tree must be cleared before further
+  // use.
   template <class Observer = NoObserver>
   void insert(const Item<D>& item, Observer&& observer = {}) {
     require_valid(item);
@@ -153,6 +155,7 @@ class Bsp {
   // The item reaches this node.
   template <class Observer>
   void put(NodeHandle handle, const Item<D>& item, Observer& observer) {
+    stop_if_asked();
     observer(Event{Event::Kind::test, handle, item.id, 0, 0});
     Node& node = nodes_[handle];
     if (node.is_leaf()) {
@@ -182,6 +185,7 @@ class Bsp {
 
   template <class F>
   void visit_from(NodeHandle handle, std::uint32_t parent, Tour& tour, F& f) const {
+    stop_if_asked();
     const Node& node = nodes_[handle];
     NodeView<D> view;
     view.handle = handle;

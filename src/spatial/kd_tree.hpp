@@ -27,6 +27,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "spatial/ids.hpp"
 #include "spatial/kd_cut.hpp"
 #include "spatial/structure.hpp"
@@ -55,7 +56,8 @@ class KdTree {
   }
 
   // The tree of these items, instead of what was there; memory is used again. Throws Refused for a
-  // box that is not valid; nothing changes then. Tells make_child, split, store, and why a leaf
+  // box that is not valid; nothing changes then. After Stopped the tree must be built again before
+  // further use. Tells make_child, split, store, and why a leaf
   // that is too full stays one. Time: O(n log n) where planes part well.
   template <class Observer = NoObserver>
   void build(std::span<const Item<D>> items, Observer&& observer = {}) {
@@ -190,6 +192,7 @@ class KdTree {
 
   template <class Observer>
   void split(const Spot& at, std::size_t begin, const KdCut& cut, Observer& observer) {
+    stop_if_asked();
     const std::size_t end = work_.size();
     const BodyId last = items_[work_.back()].id;
     observer(Event{Event::Kind::split, at.node, last, static_cast<std::uint32_t>(end - begin),
@@ -250,6 +253,7 @@ class KdTree {
   template <class F>
   void visit_from(NodeHandle handle, std::uint32_t parent, std::uint32_t slot, std::uint32_t depth,
                   Tour& tour, F& f) const {
+    stop_if_asked();
     const Node& node = nodes_[handle];
     NodeView<D> view;
     view.handle = handle;

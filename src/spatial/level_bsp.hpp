@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "spatial/bsp.hpp"
 #include "spatial/wall.hpp"
 
@@ -189,6 +190,7 @@ class LevelBsp {
 
   template <class F>
   void visit_from(NodeHandle handle, std::uint32_t parent, std::uint32_t& next_id, F& f) const {
+    stop_if_asked();
     const LevelNode& node = nodes_[handle];
     LevelNodeView view;
     view.handle = handle;

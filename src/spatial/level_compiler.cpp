@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/stop.hpp"
 #include "spatial/level_bsp.hpp"
 
 namespace lantern {
@@ -96,6 +97,7 @@ class LevelCompiler {
 
   // Tries the line of piece `at`. Walls on the same line are marked as tried, too.
   LineChoice try_line(const LevelNode& node, std::size_t at, std::vector<char>& tried) {
+    stop_if_asked();
     LineChoice line;
     line.wall = level_.pieces_[node.pieces[at]].wall;
     ++level_.candidates_;
@@ -177,6 +179,7 @@ class LevelCompiler {
                                 level_.nodes_[handle].chosen.wall, config_.most_depth));
     const std::vector<std::uint32_t> pieces = std::move(level_.nodes_[handle].pieces);
     level_.nodes_[handle].pieces.clear();
+    stop_if_asked();
     for (const std::uint32_t p : pieces) deal(handle, p, children[0].pieces, children[1].pieces);
     level_.nodes_[handle].first_child = static_cast<NodeHandle>(level_.nodes_.size());
     for (LevelNode& child : children) level_.nodes_.push_back(std::move(child));

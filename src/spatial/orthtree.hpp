@@ -31,6 +31,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "spatial/halving.hpp"
 #include "spatial/ids.hpp"
 #include "spatial/leaf_array.hpp"
@@ -67,6 +68,7 @@ class Orthtree {
   // Stores the item in every leaf that its box reaches. Throws Refused for a box that is not valid;
   // nothing changes then. Throws Refused, too, when the tree would pass `most_entries`: it can then
   // still be visited, but lacks some bodies in some leaves, and must be cleared before further use.
+  // So it must after Stopped.
   //
   // Time: one test at the root and one for each child, made or not, of each inner node reached; n
   // bodies at one place cost n such ways down and no more. Memory: a few words for each body, node
@@ -187,6 +189,7 @@ class Orthtree {
   // The item reaches this node.
   template <class Observer>
   void put(const Spot& at, std::uint32_t item, Observer& observer) {
+    stop_if_asked();
     const BodyId body = items_[item].id;
     observer(Event{Event::Kind::test, at.node, body, 0, 0});
     if (!nodes_[at.node].is_leaf()) return hand_down(at, item, observer);
@@ -316,6 +319,7 @@ class Orthtree {
   template <class F>
   void visit_from(const Spot& at, std::uint32_t parent, std::uint32_t slot, Tour& tour,
                   F& f) const {
+    stop_if_asked();
     const Node& node = nodes_[at.node];
     NodeView<D> view;
     view.handle = at.node;

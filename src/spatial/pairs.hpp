@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern {
@@ -15,6 +16,14 @@ struct CandidatePairs {
   std::vector<Pair> pairs;       // each once, in order of ids
   std::uint64_t pair_tests = 0;  // pairs met, leaf by leaf, before duplicates fell out
 };
+
+// Millions of them take seconds: the wish to stop is heard.
+inline void sort_pairs(std::vector<Pair>& pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+    stop_if_asked();
+    return x < y;
+  });
+}
 
 // n(n-1)/2: what brute force would test.
 constexpr std::uint64_t all_pairs(std::uint64_t n) { return n < 2 ? 0 : n * (n - 1) / 2; }
@@ -43,13 +52,15 @@ CandidatePairs pairs_where(const Structure& structure, std::uint64_t budget, Wan
         "parts them better",
         found.pair_tests, budget));
   structure.visit([&](const auto& node) {
-    for (std::size_t i = 0; i < node.bodies.size(); ++i)
+    for (std::size_t i = 0; i < node.bodies.size(); ++i) {
+      stop_if_asked();
       for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
         if (const Pair pair{node.bodies[i], node.bodies[j]}; wanted(pair))
           found.pairs.push_back(pair);
+    }
     return true;
   });
-  std::sort(found.pairs.begin(), found.pairs.end());
+  sort_pairs(found.pairs);
   found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
   return found;
 }

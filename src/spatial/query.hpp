@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "spatial/structure.hpp"
 
@@ -156,6 +157,7 @@ QueryCounts walk(const Structure& structure, const Probe& probe, const Vec<D>& t
     ++counts.nodes_visited;
     told(QueryEvent{QueryEvent::Kind::visit, node.handle, 0});
     for (const BodyId id : node.bodies) {
+      stop_if_asked();
       if (!met.insert(id)) continue;
       ++counts.objects_tested;
       told(QueryEvent{QueryEvent::Kind::test, node.handle, id});

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "geometry/shape.hpp"
 #include "spatial/ids.hpp"
 #include "spatial/structure.hpp"
@@ -87,6 +88,7 @@ class SortAndSweep {
     };
     std::size_t next = 0;  // the first of the watchful that stands behind `at`
     for (std::uint32_t at = 0; at < order_.size(); ++at) {
+      stop_if_asked();
       const Item<D>& a = items_[order_[at]];
       if (next < watchful_.size() && watchful_[next] == at) {
         ++next;

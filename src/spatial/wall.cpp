@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 
 namespace lantern {
 
@@ -112,6 +113,7 @@ std::vector<Wall> walls_of_loops(std::span<const std::vector<Vec<2>>> loops) {
   for (std::size_t i = 0; i < loops.size(); ++i) require_loop(loops[i], i);
   std::vector<Wall> walls;
   for (std::size_t i = 0; i < loops.size(); ++i) {
+    stop_if_asked();  // each loop is held against all others
     const auto& loop = loops[i];
     const Segment<2> first{loop[0], loop[1]};
     const Vec<2> along = first.b - first.a;

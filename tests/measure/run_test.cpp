@@ -4,14 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "base/stop.hpp"
 #include "measure/lantern_contestant.hpp"
 #include "measure/plan.hpp"
 #include "measure/scenes.hpp"
 
 namespace lantern {
 namespace {
-
-const auto kGoOn = [] { return false; };
 
 std::vector<Row> rows_of(Scenario scenario, std::vector<std::string> methods,
                          std::vector<double> steps) {
@@ -24,7 +23,7 @@ std::vector<Row> rows_of(Scenario scenario, std::vector<std::string> methods,
   options.peers = false;
   Plan plan(std::move(options), [](const Scenario&) {});
   std::vector<Row> rows;
-  for (const Job& job : plan.jobs()) rows.push_back(*plan.run(job, kGoOn));
+  for (const Job& job : plan.jobs()) rows.push_back(plan.run(job));
   return rows;
 }
 
@@ -84,12 +83,17 @@ seconds = 40
   EXPECT_EQ(row.timing.repeats, 0) << "what has diverged is not timed";
 }
 
-TEST(Run, OneThatIsStoppedGivesNothing) {
+TEST(Run, OneThatIsStoppedCanBeRunAgain) {
   PlanOptions options;
   options.scenarios = {thrown()};
   options.peers = false;
   Plan plan(std::move(options), [](const Scenario&) {});
-  EXPECT_FALSE(plan.run(plan.jobs()[0], [] { return true; }).has_value());
+  ask_to_stop();
+  EXPECT_THROW(plan.run(plan.jobs()[0]), Stopped);
+  forget_stop();
+  const Row row = plan.run(plan.jobs()[0]);
+  EXPECT_EQ(row.status, Status::ok) << row.reason;
+  EXPECT_GT(row.timing.repeats, 0);
 }
 
 TEST(Run, LongOnesAreFoundOutBefore) {

@@ -19,8 +19,8 @@ namespace {
 Row run(const Scenario& scenario, const Contestant& contestant, double step) {
   const Course course = Course::of(scenario);
   const Reference reference = reference_for(scenario, course, step);
-  return *measure(scenario, course, contestant, course.fitted_step(step), reference,
-                  Invariants(scenario), {0, 0}, [] { return false; });
+  return measure(scenario, course, contestant, course.fitted_step(step), reference,
+                 Invariants(scenario), {0, 0});
 }
 
 struct Run {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/stop.hpp"
+
 namespace lantern {
 namespace {
 
@@ -74,7 +76,7 @@ TEST(StabilityMap, MeasuredAndTheoreticalLimitsAreOne) {
 }
 
 TEST(StabilityMap, EveryCellIsOnItsSideOfTheLimit) {
-  const StabilityMap map = make_stability_map([] { return true; });
+  const StabilityMap map = make_stability_map();
   ASSERT_EQ(map.panels.size(), 6u);
   std::size_t growing = 0;
   for (const StabilityMap::Panel& panel : map.panels) {
@@ -95,8 +97,9 @@ TEST(StabilityMap, EveryCellIsOnItsSideOfTheLimit) {
 }
 
 TEST(StabilityMap, EndsWhenToldTo) {
-  int asked = 0;
-  EXPECT_EQ(make_stability_map([&] { return ++asked < 2; }).panels.size(), 2u);
+  ask_to_stop();
+  EXPECT_THROW(make_stability_map(), Stopped);
+  forget_stop();
 }
 
 }  // namespace

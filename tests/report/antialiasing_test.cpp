@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "base/stop.hpp"
 #include "draw/layout_check.hpp"
 #include "draw/page.hpp"
 #include "render/renderer.hpp"
@@ -205,7 +206,7 @@ TEST(Antialiasing, IdenticalInputGivesIdenticalErrors) {
   config.height = kHeight;
   config.theme = plain_theme();
   config.timing.repeats = 0;
-  const auto measure_it = [&] { return measure_pictures(scenes, config, [] { return true; }); };
+  const auto measure_it = [&] { return measure_pictures(scenes, config, [] {}); };
   const PictureReport first = measure_it(), second = measure_it();
   ASSERT_GE(first.rows.size(), 7u) << "three of coverage, three of samples, the polygon alone";
   ASSERT_EQ(first.rows.size(), second.rows.size());
@@ -223,8 +224,12 @@ TEST(Antialiasing, IdenticalInputGivesIdenticalErrors) {
   EXPECT_NE(to_json(first).find("\"lantern.measure.pictures/1\""), std::string::npos);
   EXPECT_NE(to_table(first).find("samples 8"), std::string::npos);
   int rows = 0;
-  EXPECT_EQ(measure_pictures(scenes, config, [&] { return ++rows < 2; }).rows.size(), 2u)
-      << "progress could not end it";
+  const auto told = [&] {
+    if (++rows == 2) ask_to_stop();
+  };
+  EXPECT_THROW(measure_pictures(scenes, config, told), Stopped);
+  forget_stop();
+  EXPECT_EQ(rows, 2) << "the wish to stop was not heard";
 }
 
 TEST(Antialiasing, APlotHasAPointForEachTimedRow) {
@@ -291,7 +296,7 @@ TEST(Antialiasing, ThePageSaysItsSentence) {
 TEST(Antialiasing, SizesThatCannotBeSupersampledAreRefused) {
   PictureConfig config;
   config.width = 4000;
-  EXPECT_THROW(measure_pictures({}, config, [] { return true; }), Refused);
+  EXPECT_THROW(measure_pictures({}, config, [] {}), Refused);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ void expect_readable(const DrawList& list, const std::string& what) {
 TEST(BroadPhasePage, NothingCoversAnything) {
   for (const BoxScene& scene : seeded_box_scenes(120, 1))
     for (const int repeats : {0, 1}) {
-      const auto rows = measure_broad_phases(scene, config_of(repeats), [] { return true; });
+      const auto rows = measure_broad_phases(scene, config_of(repeats), [] {});
       for (const BroadPhaseKind kind :
            {BroadPhaseKind::quadtree, BroadPhaseKind::octree, BroadPhaseKind::kd_tree})
         expect_readable(draw_broad_phase_page(rows, scene, kind), scene.name);
@@ -49,7 +49,7 @@ TEST(BroadPhasePage, NothingCoversAnything) {
 
 TEST(BroadPhasePage, TheCheapestCellIsNamed) {
   const BoxScene scene = seeded_box_scenes(120, 2)[1];
-  const auto rows = measure_broad_phases(scene, config_of(0), [] { return true; });
+  const auto rows = measure_broad_phases(scene, config_of(0), [] {});
   const BroadPhaseCost* best = cheapest(rows, scene.name, BroadPhaseKind::quadtree, CostBy::work);
   const DrawList list = draw_broad_phase_page(rows, scene, BroadPhaseKind::quadtree);
   const auto numbers =

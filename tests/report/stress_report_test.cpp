@@ -70,7 +70,7 @@ TEST(StressTables, JsonHasNullForWhatIsNoNumber) {
 }
 
 TEST(StabilityPicture, NoLabelCoversAnotherOrLeavesThePage) {
-  const DrawList list = draw_stability_map(make_stability_map([] { return true; }));
+  const DrawList list = draw_stability_map(make_stability_map());
   const Box<2> page{Vec<2>(0.0), list.page};
   EXPECT_GE(list.labels.size(), 40u) << "names, limits, ticks and the legend";
   for (std::size_t i = 0; i < list.labels.size(); ++i) {
@@ -93,7 +93,9 @@ TEST(StabilityPicture, NoLabelCoversAnotherOrLeavesThePage) {
 }
 
 TEST(StabilityPicture, AMapThatEndedEarlyIsDrawnAsFarAsItGoes) {
-  EXPECT_NO_THROW(draw_stability_map(make_stability_map([] { return false; })));
+  StabilityMap map = make_stability_map();
+  map.panels.resize(1);
+  EXPECT_NO_THROW(draw_stability_map(map));
   EXPECT_NO_THROW(draw_stability_map(StabilityMap{}));
 }
 

@@ -1,0 +1,95 @@
+// Ctrl-C in the midst of work that takes minutes, and the budget of memory, from outside.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+
+namespace lantern::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string case_file(const std::string& name) {
+  return repository("tests/cases/" + name + ".toml").string();
+}
+
+// Not timed closely: who does not hear within half a minute is killed, which gives another code.
+Outcome interrupted_after(const std::string& seconds, const std::string& words) {
+  return shell("timeout --preserve-status -k 30 -s INT " + seconds + " " LANTERN_BINARY " " +
+               words);
+}
+
+TEST(Interrupt, EndsWhatWouldTakeHours) {
+  for (const char* name : {"nostruct20k", "events_bomb", "gravitation20k", "walls300ev"}) {
+    const Outcome o = interrupted_after("1.5", "check " + case_file(name));
+    EXPECT_EQ(o.code, 130) << name << ": " << o.err;
+    EXPECT_NE(o.err.find("interrupted"), std::string::npos) << name << ": " << o.err;
+  }
+}
+
+// A measurement that goes on from an earlier one, and is cut before it comes to its rows.
+TEST(Interrupt, LosesNoRowThatWasMeasured) {
+  const fs::path out = fresh_folder("measure-cut-again");
+  const std::string words = "measure projectile --quick --no-peers -o " + out.string();
+  ASSERT_EQ(shell("lantern " + words).code, 0);
+  const auto rows = [&] { return json::parse(read_text(out / "measure.json"))["rows"].size(); };
+  const std::size_t before = rows();
+  ASSERT_GT(before, 3u);
+  for (const char* seconds : {"0.02", "0.05", "0.1", "0.2", "0.4"}) {
+    interrupted_after(seconds, words);
+    EXPECT_EQ(rows(), before) << "cut after " << seconds << " s";
+  }
+}
+
+TEST(Memory, WhatNeedsMoreThanTheBudgetIsRefusedAtItsLine) {
+  const fs::path file = fresh_folder("memory") / "crowd.toml";
+  write_text(file, R"(title = "All in one place"
+[world]
+size = [64, 64]
+contacts = "impulse"
+gravity = [0, -10]
+[structure]
+kind = "sort_and_sweep"
+[[pattern]]
+name = "b"
+count = 400
+radius = 30
+[[step]]
+do = "insert"
+bodies = ["b"]
+[[step]]
+do = "run"
+seconds = 0.1
+)");
+  const Outcome o = shell("lantern check " + file.string() + " --memory 64M");
+  EXPECT_EQ(o.code, 3) << o.err;
+  EXPECT_NE(o.err.find("crowd.toml:15:1: error: 79800 pairs that may touch need about"),
+            std::string::npos)
+      << o.err;
+  EXPECT_NE(o.err.find("the budget is 64 MB; take fewer bodies that overlap, or --memory"),
+            std::string::npos)
+      << o.err;
+  EXPECT_EQ(shell("lantern --memory 2G check " + file.string()).code, 0);
+}
+
+TEST(Memory, BehindAllElseThereIsAWall) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer maps more than any budget";
+#endif
+  const Outcome o = shell("lantern check --memory 16M " + case_file("nostruct20k"));
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_NE(o.err.find("out of memory: the budget is 16 MB; --memory sets it"), std::string::npos)
+      << o.err;
+}
+
+TEST(Memory, ASizeThatIsNoneIsAUsageError) {
+  for (const char* words : {"5", "1Q", "-4G", "4k", "''"}) {
+    const Outcome o = shell(std::string("lantern check x.toml --memory ") + words);
+    EXPECT_EQ(o.code, 2) << words << ": " << o.err;
+    EXPECT_NE(o.err.find("--memory"), std::string::npos) << words << ": " << o.err;
+  }
+}
+
+}  // namespace
+}  // namespace lantern::test
