@@ -50,10 +50,14 @@ std::string with_caret(std::string_view line, std::size_t column) {
 
 }  // namespace
 
+std::string_view to_string(Severity severity) {
+  return severity == Severity::error ? "error:" : "warning:";
+}
+
 std::string to_string(const Diagnostic& d) {
   std::string text = printable(d.where.file);
   if (d.where.line > 0) text += fmt::format(":{}:{}", d.where.line, d.where.column);
-  text += ": error: " + printable(d.message);
+  text += fmt::format(": {} {}", to_string(d.severity), printable(d.message));
   if (!d.source_line.empty() && d.where.line > 0)
     text += with_caret(d.source_line, static_cast<std::size_t>(std::max(d.where.column, 1)) - 1);
   if (!d.suggestion.empty()) text += "\n  " + printable(d.suggestion);

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lantern {
@@ -14,16 +15,23 @@ struct SourcePosition {
   int column = 0;
 };
 
+// An error is in the way; a warning is about what is allowed and surely not meant.
+enum class Severity { error, warning };
+
 // One mistake in a user's file, with what is needed to mend it.
 struct Diagnostic {
   SourcePosition where;
   std::string message;      // "unknown key 'capcity'"
   std::string source_line;  // the offending line as written; may be empty
   std::string suggestion;   // "did you mean 'capacity'?"; may be empty
+  Severity severity = Severity::error;
 };
 
-// `file:line:column: error: message`, the line, a caret under the column, and the suggestion. All
-// of them printable (see printable.hpp); only the line breaks between them are left.
+// "error:", "warning:"
+std::string_view to_string(Severity severity);
+
+// `file:line:column: error: message`, or `warning:`, the line, a caret under the column, and the
+// suggestion. All of them printable (see printable.hpp); only the line breaks between them are left.
 std::string to_string(const Diagnostic& diagnostic);
 
 // The user's scenario is wrong: every mistake found in one pass. Exit code 3.

@@ -10,6 +10,7 @@
 #include "scenario/event_text.hpp"
 #include "scenario/frame_maker.hpp"
 #include "scenario/stage.hpp"
+#include "scenario/warnings.hpp"
 
 namespace lantern {
 namespace {
@@ -17,14 +18,18 @@ namespace {
 class Director {
  public:
   Director(const Scenario& scenario, Pace pace, Work& work,
-           const std::function<bool(const Frame&)>& sink)
-      : scenario_(scenario), stage_(scenario, work), frames_(scenario, pace, stage_, sink) {}
+           const std::function<bool(const Frame&)>& sink, RunWatch* watch)
+      : scenario_(scenario),
+        stage_(scenario, work),
+        frames_(scenario, pace, stage_, sink),
+        watch_(watch) {}
 
   DirectorReport run() {
     std::uint32_t index = 0;
     for (const Step& step : scenario_.steps) {
       stop_if_asked();
       frames_.begin(step, index++);
+      if (watch_) watch_->begin(step);
       if (stage_.engine) stage_.engine->forget_events();
       try {
         std::visit([&](const auto& verb) { act(verb); }, step.verb);
@@ -256,6 +261,7 @@ class Director {
   void let_time_pass() {
     if (stage_.engine) {
       stage_.engine->step();
+      if (watch_) watch_->passed(*stage_.engine);
       stage_.engine->rebuild();
     }
     stage_.time += scenario_.world.time_step;
@@ -312,13 +318,19 @@ class Director {
   const Scenario& scenario_;
   Stage stage_;
   FrameMaker frames_;
+  RunWatch* watch_;
 };
 
 }  // namespace
 
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
-                      const std::function<bool(const Frame&)>& sink) {
-  return Director(scenario, pace, work, sink).run();
+                      const std::function<bool(const Frame&)>& sink, RunWatch* watch) {
+  if (!watch) return Director(scenario, pace, work, sink, nullptr).run();
+  const std::function<bool(const Frame&)> both = [&](const Frame& frame) {
+    watch->see(frame);
+    return sink(frame);
+  };
+  return Director(scenario, pace, work, both, watch).run();
 }
 
 }  // namespace lantern

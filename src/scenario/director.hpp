@@ -12,14 +12,16 @@ namespace lantern {
 
 struct DirectorReport {
   std::uint32_t frames = 0;
-  std::uint64_t expectations = 0;       // verified
-  std::vector<Diagnostic> unmet;        // one for each that did not hold
+  std::uint64_t expectations = 0;  // verified
+  std::vector<Diagnostic> unmet;   // one for each that did not hold
 };
 
+class RunWatch;
+
 // Calls `sink` with each frame in order; it returns false to end the run early. The frames depend
-// on the scenario and the pace only. Throws ScenarioError, at the step's place, when the engine
-// refuses what the step asks for.
+// on the scenario and the pace only, whether or not somebody watches. Throws ScenarioError, at the
+// step's place, when the engine refuses what the step asks for.
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
-                      const std::function<bool(const Frame&)>& sink);
+                      const std::function<bool(const Frame&)>& sink, RunWatch* watch = nullptr);
 
 }  // namespace lantern

@@ -7,6 +7,7 @@
 #include "scenario/brains.hpp"
 #include "scenario/questions.hpp"
 #include "scenario/world_picture.hpp"
+#include "scenario/world_watch.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern {
@@ -163,6 +164,8 @@ class EngineOf : public Engine {
   }
   const WorldWork& world_work() const override { return players_.world().work(); }
   std::uint64_t world_hash() const override { return players_.world().hash(); }
+
+  void show(WorldWatch& watch) const override { watch.see_world(players_); }
 
   void forget_events() override { begins_ = ends_ = 0; }
 

@@ -27,6 +27,8 @@ struct Finding {
   std::optional<FrameQuery> region;
 };
 
+class WorldWatch;
+
 // Bodies are named by their index in the scenario. Each call throws Refused as world and trees do.
 class Engine {
  public:
@@ -61,6 +63,7 @@ class Engine {
   virtual void observe(std::vector<BodyState>& states) const = 0;
   virtual const WorldWork& world_work() const = 0;  // of the world since it was made
   virtual std::uint64_t world_hash() const = 0;
+  virtual void show(WorldWatch& watch) const = 0;  // the world as it is now
 
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;

@@ -1,6 +1,7 @@
 // Tables of the world: its extent and rules, its structure, its level and its chart.
 #include "scenario/language_key.hpp"
 #include "scenario/language_parts.hpp"
+#include "scenario/scenario.hpp"
 
 namespace lantern {
 
@@ -82,6 +83,13 @@ TableDoc world_table() {
           Key(point, "camera_target", "What is in the middle of the picture.")
               .range(-kFar, kFar)
               .or_else("so that all is seen"),
+          Key(choices_list, "quiet",
+              "What is meant, and not to be warned of: a `view` without any body, a body `outside` "
+              "the world, bodies that fall into each other where `contacts` are off, `joints` that "
+              "part, `energy` that grows though nothing drives it, a body that is pushed `through` "
+              "a static one.")
+              .one_of({kWarnings.begin(), kWarnings.end()})
+              .or_else("nothing"),
       },
       {.groups = {{"size"}, {"min", "max"}}}};
 }

@@ -24,6 +24,14 @@ bool is_large_enough(const Box<3>& bounds, int dimension) {
   return true;
 }
 
+// What the run has to say of the world is said where its keys stand.
+void read_places(const TableReader& world, Draft& draft) {
+  WorldSpec& w = draft.scenario.world;
+  w.where = draft.position(world.where());
+  for (const KeyDoc& key : language_table("world").keys)
+    if (world.has(key.key)) w.keys[key.key] = draft.position(world.key_place(key.key));
+}
+
 Box<3> read_bounds(const TableReader& world, Draft& draft) {
   const int dimension = draft.dimension == 3 ? 3 : 2;
   const Box<3> guess{Vec<3>(0.0), dimension == 3 ? Vec<3>(1.0) : Vec<3>(1, 1, 0)};
@@ -82,6 +90,8 @@ void read_rules(const TableReader& world, Draft& draft) {
   w.show_boxes = world.truth("show_boxes");
   w.show_velocities = world.truth("show_velocities");
   w.show_depths = world.truth("show_depths");
+  for (const std::size_t kind : world.choices("quiet"))
+    w.quiet.push_back(static_cast<Warning>(kind));
   if (w.show_depths && w.contacts == ContactMethod::none)
     draft.problems.add(world.key_place("show_depths"), "in this world nothing touches",
                        "give [world] contacts = \"impulse\" or \"soft\"");
@@ -96,6 +106,7 @@ void read_world(const TableReader& file, Draft& draft) {
     const TableReader world = open(*value, language_table("world"), draft);
     draft.scenario.world.dimension = draft.dimension == 3 ? 3 : 2;
     draft.scenario.world.bounds = read_bounds(world, draft);
+    read_places(world, draft);
     read_rules(world, draft);
     read_camera(world, draft);
   }

@@ -2,6 +2,7 @@
 // its keys, ranges and texts, is in language.cpp; reading it is in parse.cpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -25,6 +26,18 @@ enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box };
 enum class Brain { none, follow, wander };  // who steers a body
 
+// What is legal in a scenario and surely not meant; found while it runs (see warnings.hpp).
+enum class Warning {
+  view,      // a picture that shows no body
+  outside,   // a body beyond the world's bounds
+  contacts,  // contacts are off, and bodies fall into each other
+  joints,    // a joint's ends part
+  energy,    // grows, and nothing drives it
+  through,   // a body is pushed through one that never moves
+};
+inline constexpr std::array<std::string_view, 6> kWarnings = {"view",   "outside", "contacts",
+                                                              "joints", "energy",  "through"};
+
 // A point has three coordinates; in a flat world the third is 0.
 struct WorldSpec {
   int dimension = 2;
@@ -46,6 +59,16 @@ struct WorldSpec {
   Vec<3> camera_eye{0.0};    // of a solid world
   Vec<3> camera_target{0.0};
   bool has_camera = false;
+  std::vector<Warning> quiet;  // kinds of warning whose cause is meant
+  SourcePosition where;
+  std::map<std::string_view, SourcePosition> keys;  // where those stand that the file gives
+
+  // Of the first of these keys that the file gives; of the table if it gives none.
+  const SourcePosition& place_of(std::initializer_list<std::string_view> names) const {
+    for (const std::string_view name : names)
+      if (const auto found = keys.find(name); found != keys.end()) return found->second;
+    return where;
+  }
 };
 
 struct PlaneSpec {
@@ -361,8 +384,8 @@ struct ScenarioSpec {
   std::vector<BodyMeasureSpec> body_measures;  // that chart, promises and captions ask for
   std::vector<TextureSpec> textures;
   std::vector<Step> steps;
-  std::uint64_t text_hash = 0;  // of the file's bytes
-  std::string text;             // the file's bytes, for diagnostics of the run
+  std::uint64_t text_hash = 0;    // of the file's bytes
+  std::string text;               // the file's bytes, for diagnostics of the run
   std::uint64_t most_frames = 0;  // in step pace; a step that waits may give fewer
   std::uint64_t world_steps = 0;  // at most, for the same reason
 };

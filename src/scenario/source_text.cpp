@@ -66,7 +66,8 @@ std::string_view without_mark(std::string_view text) {
 
 Diagnostic diagnose(const Scenario& scenario, const SourcePosition& where, std::string message,
                     std::string suggestion) {
-  return {where, std::move(message), line_of(scenario.text, where.line), std::move(suggestion)};
+  return {where, std::move(message), line_of(scenario.text, where.line), std::move(suggestion),
+          Severity::error};
 }
 
 }  // namespace lantern

@@ -1,0 +1,87 @@
+#include "scenario/warnings.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenario/watcher.hpp"
+
+namespace lantern {
+
+RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body) {
+  const std::vector<Warning>& quiet = scenario.world.quiet;
+  const auto add = [&](Warning kind, Watching watcher) {
+    if (watcher && std::find(quiet.begin(), quiet.end(), kind) == quiet.end())
+      watchers_.emplace_back(kind, std::move(watcher));
+  };
+  if (scenario.bodies.empty()) return;
+  add(Warning::view, watch_view(scenario, std::move(shows_a_body)));
+  add(Warning::outside, watch_outside(scenario));
+  add(Warning::contacts, watch_contacts(scenario));
+  add(Warning::joints, watch_joints(scenario));
+  add(Warning::energy, watch_energy(scenario));
+  add(Warning::through, watch_through(scenario));
+}
+
+RunWatch::~RunWatch() = default;
+
+void RunWatch::begin(const Step& step) {
+  for (const auto& [kind, watcher] : watchers_) watcher->begin(step);
+}
+
+void RunWatch::passed(const Engine& engine) {
+  for (const auto& [kind, watcher] : watchers_)
+    if (watcher->sees_worlds()) engine.show(*watcher);
+}
+
+void RunWatch::see(const Frame& frame) {
+  for (const auto& [kind, watcher] : watchers_) watcher->see_frame(frame);
+}
+
+std::vector<Diagnostic> RunWatch::warnings() const {
+  std::vector<Diagnostic> all;
+  for (const auto& [kind, watcher] : watchers_)
+    for (Diagnostic& found : watcher->warnings()) all.push_back(std::move(found));
+  return all;
+}
+
+std::vector<Warning> RunWatch::kinds() const {
+  std::vector<Warning> kinds;
+  for (const auto& [kind, watcher] : watchers_) kinds.push_back(kind);
+  return kinds;
+}
+
+Diagnostic warning(const Scenario& scenario, const SourcePosition& where, std::string message,
+                   std::string suggestion) {
+  Diagnostic found = diagnose(scenario, where, std::move(message), std::move(suggestion));
+  found.severity = Severity::warning;
+  return found;
+}
+
+std::vector<Diagnostic> Warnings::list(std::string_view others) const {
+  std::vector<Diagnostic> all = told_;
+  if (more_ > 0)
+    all.push_back(
+        warning(scenario_, {scenario_.file, 0, 0}, fmt::format("{} more {}", more_, others), {}));
+  return all;
+}
+
+std::unordered_map<std::string_view, const BodySpec*> bodies_by_name(const Scenario& scenario) {
+  std::unordered_map<std::string_view, const BodySpec*> found;
+  for (const BodySpec& body : scenario.bodies) found.emplace(body.name, &body);
+  return found;
+}
+
+std::string firmer(const WorldSpec& world) {
+  const bool sweeps = world.contacts == ContactMethod::impulse;
+  return fmt::format("give [world] more {} than {}, or a time_step below {:.3g} s",
+                     sweeps ? "iterations" : "sub_steps",
+                     sweeps ? world.iterations : world.sub_steps, world.time_step);
+}
+
+const SourcePosition& place_of_firmness(const WorldSpec& world) {
+  return world.contacts == ContactMethod::impulse ? world.place_of({"iterations", "time_step"})
+                                                  : world.place_of({"sub_steps", "time_step"});
+}
+
+}  // namespace lantern

@@ -1,0 +1,38 @@
+// Warnings of what is legal in a scenario and surely not meant. Each is told from what the run did:
+// nothing is guessed from the file. Watching changes nothing of the run, and what a scene cannot
+// show is not watched for.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "scenario/engine.hpp"
+
+namespace lantern {
+
+class Watcher;
+
+// Looks on while one scenario runs (see `direct`).
+class RunWatch {
+ public:
+  // `shows_a_body` says whether the picture of a frame shows any of its bodies. The scenario must
+  // outlive the watch.
+  RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body);
+  ~RunWatch();
+
+  void begin(const Step& step);       // what follows belongs to this step
+  void passed(const Engine& engine);  // a world step was made
+  void see(const Frame& frame);
+
+  // What has been found so far, by kind; of each kind only the first, and how many more there are.
+  std::vector<Diagnostic> warnings() const;
+
+  // What is watched for, in the order of the kinds.
+  std::vector<Warning> kinds() const;
+
+ private:
+  std::vector<std::pair<Warning, std::unique_ptr<Watcher>>> watchers_;
+};
+
+}  // namespace lantern
