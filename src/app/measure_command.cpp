@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/measure_unsuited.hpp"
+#include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/table.hpp"
 #include "app/terminal.hpp"
@@ -25,13 +26,6 @@ namespace {
 
 constexpr double kSaveEvery = 5;                                   // seconds
 constexpr std::size_t kMostMeasureBytes = std::size_t{256} << 20;  // of an earlier measure.json
-
-std::string duration_text(double seconds) {
-  if (seconds < 100) return fmt::format("{:.0f} s", std::max(1.0, seconds));
-  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
-  if (seconds < 100 * 3600) return fmt::format("{:.0f} h", seconds / 3600);
-  return fmt::format("{:.0f} days", seconds / 86400);
-}
 
 bool is_file(const std::string& word) {
   return word.ends_with(".toml") || word.find('/') != std::string::npos;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"

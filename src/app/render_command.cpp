@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "app/frame_folder.hpp"
 #include "app/manifest.hpp"
+#include "app/progress.hpp"
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
 #include "atlas/atlas.hpp"

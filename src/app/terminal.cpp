@@ -1,6 +1,7 @@
 #include "app/terminal.hpp"
 
 #include <cstdlib>
+#include <mutex>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,20 +12,33 @@
 namespace lantern {
 namespace {
 
-constexpr double kRedraw = 0.1;     // seconds between two drawings on a terminal
-constexpr double kPlainLine = 5.0;  // and between two plain lines elsewhere
+constexpr std::string_view kClear = "\r\033[K";  // the line that the cursor is in
 
-constexpr std::string_view kError = "error:";
-
-std::string_view error_word() { return colourful() ? "\033[1;31merror:\033[0m" : kError; }
+std::mutex writing;  // who holds it may write to standard error
+bool status_shown = false;
 
 // What there is no memory to say, or nobody to hear, is lost: the work goes on.
 template <class Make>
-void write(const Make& make_text) noexcept {
+void write_line(const Make& make_text) noexcept {
   try {
-    write_stderr(make_text());
+    const std::string text = make_text() + '\n';
+    const std::lock_guard guard(writing);
+    if (status_shown) write_stderr(kClear);
+    status_shown = false;
+    write_stderr(text);
   } catch (const std::exception&) {
   }
+}
+
+// The word in the colour of its severity.
+std::string coloured(Severity severity) {
+  const std::string_view word = to_string(severity);
+  if (!colourful()) return std::string(word);
+  return fmt::format("\033[1;{}m{}\033[0m", severity == Severity::error ? 31 : 33, word);
+}
+
+std::string with_prefix(std::string_view printable_text) {
+  return fmt::format("lantern: {} {}", coloured(Severity::error), printable_text);
 }
 
 }  // namespace
@@ -37,54 +51,47 @@ bool colourful() {
 }
 
 void say(std::string_view message) noexcept {
-  write([&] { return printable(message) + '\n'; });
+  write_line([&] { return printable(message); });
 }
 
 void complain(std::string_view message) noexcept {
-  write([&] { return fmt::format("lantern: {} {}\n", error_word(), printable(message)); });
+  write_line([&] { return with_prefix(printable(message)); });
 }
 
 void complain(const BackendError& error) noexcept {
-  write(
-      [&] { return fmt::format("lantern: {} {}\n", error_word(), printable_lines(error.what())); });
+  write_line([&] { return with_prefix(printable_lines(error.what())); });
 }
 
-void complain(const ScenarioError& error) noexcept {
-  for (const Diagnostic& diagnostic : error.diagnostics())
-    write([&] {
-      std::string text = to_string(diagnostic) + '\n';
-      const auto at = text.find(kError);
-      return at == std::string::npos ? text : text.replace(at, kError.size(), error_word());
+void complain(const ScenarioError& error) noexcept { complain(error.diagnostics()); }
+
+void complain(const std::vector<Diagnostic>& diagnostics) noexcept {
+  for (const Diagnostic& diagnostic : diagnostics)
+    write_line([&] {
+      std::string text = to_string(diagnostic);
+      const std::string_view word = to_string(diagnostic.severity);
+      if (const auto at = text.find(word); at != std::string::npos)
+        text.replace(at, word.size(), coloured(diagnostic.severity));
+      return text;
     });
 }
 
 void print(std::string_view text) { write_stdout(printable_lines(text)); }
 
-Progress::Progress(std::string name, std::uint64_t total, std::string unit)
-    : name_(std::move(name)), total_(total), unit_(std::move(unit)) {}
-
-Progress::~Progress() {
-  if (shown_ && animated()) write_stderr("\r\033[K");
+void show_status(std::string_view line) noexcept {
+  if (!animated()) return;
+  try {
+    const std::string text = fmt::format("\r{}\033[K", printable(line));
+    const std::lock_guard guard(writing);
+    write_stderr(text);
+    status_shown = true;
+  } catch (const std::exception&) {
+  }
 }
 
-void Progress::done(std::uint64_t count) {
-  count_ = count;
-  const double rate = static_cast<double>(count_) / watch_.seconds();
-  const double left = rate > 0 ? static_cast<double>(total_ - count_) / rate : 0;
-  tell(fmt::format("{} of {} {}, {:.0f} a second, {:.1f} s left", count_, total_, unit_, rate,
-                   left));
-}
-
-void Progress::tell(const std::string& words) {
-  const double now = watch_.seconds();
-  if (now - last_shown_ < (animated() ? kRedraw : kPlainLine)) return;
-  last_shown_ = now;
-  const std::string line = fmt::format("{}: {}", name_, words);
-  if (animated())
-    write([&] { return fmt::format("\r{}\033[K", printable(line)); });
-  else
-    say(line);
-  shown_ = true;
+void clear_status() noexcept {
+  const std::lock_guard guard(writing);
+  if (status_shown) write_stderr(kClear);
+  status_shown = false;
 }
 
 }  // namespace lantern

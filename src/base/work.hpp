@@ -21,6 +21,11 @@ struct Work {
   std::atomic<std::uint64_t> frames_drawn{0};
   std::atomic<std::uint64_t> frames_encoded{0};
 
+  // How much of it stands on the disk, for whoever tells of a long run; not listed, since it
+  // depends on what was there before.
+  std::atomic<std::uint64_t> frames_written{0};
+  std::atomic<std::uint64_t> bytes_written{0};
+
   // Name and count of each stage, in the order of a run.
   std::array<std::pair<std::string_view, std::uint64_t>, 9> listed() const {
     return {{{"worlds_created", worlds_created},

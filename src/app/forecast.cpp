@@ -1,0 +1,90 @@
+#include "app/forecast.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/grouped.hpp"
+
+namespace lantern {
+namespace {
+
+std::string grouped_plainly(std::uint64_t number) {
+  return grouped(static_cast<std::int64_t>(number), " ");
+}
+
+std::string left_text(const std::optional<TimeLeft>& left) {
+  if (!left) return "";
+  return fmt::format(", {} {} left", left->at_least ? "more than" : "about",
+                     duration_text(left->seconds));
+}
+
+}  // namespace
+
+RunExtent extent_of(const Scenario& scenario, Pace pace) {
+  const bool by_event =
+      pace == Pace::event || std::any_of(scenario.steps.begin(), scenario.steps.end(),
+                                         [](const Step& s) { return s.pace == Pace::event; });
+  return {by_event ? std::nullopt : std::optional(scenario.most_frames), scenario.world_steps};
+}
+
+// World steps take the time where there are any.
+std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state) {
+  const auto left = [](std::uint64_t all, std::uint64_t done, double seconds) {
+    return static_cast<double>(all - std::min(all, done)) * seconds / static_cast<double>(done);
+  };
+  if (extent.world_steps > 0) {
+    if (state.world_steps > 0)
+      return TimeLeft{left(extent.world_steps, state.world_steps, state.step_seconds), false};
+    // Something is being inserted or compiled; only after a frame can it be a world step.
+    if (state.frames == 0) return std::nullopt;
+    const double least = state.step_seconds * static_cast<double>(extent.world_steps);
+    return least < 1 ? std::nullopt : std::optional(TimeLeft{least, true});
+  }
+  if (!extent.frames || state.frames == 0) return std::nullopt;
+  return TimeLeft{left(*extent.frames, state.frames, state.seconds), false};
+}
+
+std::string forecast_text(const RunExtent& extent, const RunState& state) {
+  std::string text = extent.frames ? fmt::format("up to {} frames", grouped_plainly(*extent.frames))
+                                   : "as many frames as there are events, not known beforehand";
+  if (extent.world_steps > 0)
+    text += fmt::format("{} {} world steps", extent.frames ? " of" : "; up to",
+                        grouped_plainly(extent.world_steps));
+  text += left_text(time_left(extent, state));
+  if (state.files > 0 && extent.frames)
+    text += fmt::format("; about {} on the disk",
+                        size_text(static_cast<std::uint64_t>(static_cast<double>(state.bytes) /
+                                                             static_cast<double>(state.files) *
+                                                             static_cast<double>(*extent.frames))));
+  if (state.memory) text += fmt::format("; {} of memory", size_text(*state.memory));
+  if (state.memory && state.budget) text += fmt::format(" (budget {})", size_text(*state.budget));
+  return text;
+}
+
+std::string progress_text(const RunExtent& extent, const RunState& state) {
+  std::string text =
+      extent.frames ? fmt::format("{} of {} frames", state.frames, grouped_plainly(*extent.frames))
+                    : fmt::format("{} frames", state.frames);
+  if (extent.world_steps > 0)
+    text += fmt::format(", {} of {} world steps", grouped_plainly(state.world_steps),
+                        grouped_plainly(extent.world_steps));
+  if (state.files > 0) text += fmt::format(", {} on the disk", size_text(state.bytes));
+  return text + left_text(time_left(extent, state));
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+  if (seconds < 100 * 3600) return fmt::format("{:.0f} h", seconds / 3600);
+  return fmt::format("{:.0f} days", seconds / 86400);
+}
+
+std::string size_text(std::uint64_t bytes) {
+  const auto b = static_cast<double>(bytes);
+  if (b < 999.5e3) return fmt::format("{:.0f} kB", std::max(1.0, b / 1e3));
+  if (b < 999.5e6) return fmt::format("{:.0f} MB", b / 1e6);
+  return fmt::format("{:.1f} GB", b / 1e9);
+}
+
+}  // namespace lantern

@@ -1,0 +1,129 @@
+#include "app/progress.hpp"
+
+#include <chrono>
+#include <fstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/terminal.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kRedraw = 0.1;     // seconds between two drawings on a terminal
+constexpr double kPlainLine = 5.0;  // and between two plain lines elsewhere
+constexpr double kForecast = 0.5;   // seconds of work after which it is told what is to come,
+constexpr double kMoment = 2.0;     // unless it ends so soon
+
+bool has_listener() { return ::fcntl(STDERR_FILENO, F_GETFD) != -1; }
+
+// The second number of statm counts pages that are in memory.
+std::optional<std::size_t> memory_in_use() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  if (!(file >> all >> resident)) return std::nullopt;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+Progress::Progress(std::string name, const RunExtent& extent, const Work& work,
+                   std::optional<std::size_t> memory_budget)
+    : name_(std::move(name)),
+      extent_(extent),
+      work_(&work),
+      steps_before_(work.world_steps),
+      files_before_(work.frames_written),
+      bytes_before_(work.bytes_written),
+      budget_(memory_budget) {
+  start();
+}
+
+Progress::Progress(std::string name, std::uint64_t total, std::string unit)
+    : name_(std::move(name)), total_(total), unit_(std::move(unit)) {
+  start();
+}
+
+// A system that gives no thread gets no progress; the work goes on.
+void Progress::start() {
+  if (!has_listener()) return;
+  try {
+    thread_ = std::thread([this] { watch(); });
+  } catch (const std::system_error&) {
+  }
+}
+
+Progress::~Progress() {
+  {
+    const std::lock_guard guard(lock_);
+    ended_ = true;
+  }
+  end_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Progress::tell(std::string words) {
+  const std::lock_guard guard(lock_);
+  told_ = std::move(words);
+}
+
+void Progress::watch() try {
+  const bool on_terminal = animated();
+  double last_line = 0;
+  bool forecast = false;
+  std::unique_lock guard(lock_);
+  while (!end_.wait_for(guard, std::chrono::duration<double>(kRedraw), [&] { return ended_; })) {
+    RunState state;
+    look(state);
+    if (extent_ && !forecast && state.seconds >= kForecast) {
+      const auto left = time_left(*extent_, state);
+      if (!left || left->at_least || left->seconds > kMoment) {
+        say(fmt::format("{}: {}", name_, forecast_text(*extent_, state)));
+        forecast = true;
+      }
+    }
+    if (!on_terminal && state.seconds - last_line < kPlainLine) continue;
+    last_line = state.seconds;
+    const std::string line = extent_          ? progress_text(*extent_, state)
+                             : !told_.empty() ? told_
+                                              : words();
+    if (line.empty()) continue;
+    if (on_terminal)
+      show_status(fmt::format("{}: {}", name_, line));
+    else
+      say(fmt::format("{}: {}", name_, line));
+  }
+  clear_status();
+} catch (const std::exception&) {
+  // No memory for words: none are said.
+}
+
+// What can be read of the work from another thread.
+void Progress::look(RunState& state) {
+  state.seconds = watch_.seconds();
+  if (!extent_) return;
+  state.frames = count_;
+  state.world_steps = work_->world_steps - steps_before_;
+  state.files = work_->frames_written - files_before_;
+  state.bytes = work_->bytes_written - bytes_before_;
+  state.memory = memory_in_use();
+  state.budget = budget_;
+  if (state.world_steps == 0 && state.frames != last_frames_) {
+    last_frames_ = state.frames;
+    last_change_ = state.seconds;
+  }
+  state.step_seconds = state.seconds - last_change_;
+}
+
+std::string Progress::words() {
+  const std::uint64_t count = count_;
+  if (count == 0) return fmt::format("0 of {} {}", total_, unit_);
+  const double rate = static_cast<double>(count) / watch_.seconds();
+  return fmt::format("{} of {} {}, {:.3g} a second, about {} left", count, total_, unit_, rate,
+                     duration_text(static_cast<double>(total_ - count) / rate));
+}
+
+}  // namespace lantern

@@ -1,0 +1,83 @@
+// The words in which a long run is told of.
+#include "app/forecast.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lantern::test {
+namespace {
+
+constexpr RunExtent kBomb{1001, 600'000};
+
+RunState after(double seconds, std::uint64_t frames, std::uint64_t steps, double step_seconds) {
+  RunState state;
+  state.seconds = seconds;
+  state.frames = frames;
+  state.world_steps = steps;
+  state.step_seconds = step_seconds;
+  return state;
+}
+
+TEST(Forecast, SaysAllThatIsKnown) {
+  RunState state = after(2, 3, 100, 1.8);
+  state.files = 2;
+  state.bytes = 2'400'000;
+  state.memory = 400'000'000;
+  state.budget = 12'000'000'000;
+  EXPECT_EQ(forecast_text(kBomb, state),
+            "up to 1001 frames of 600 000 world steps, about 3 h left; about 1.2 GB on the disk; "
+            "400 MB of memory (budget 12.0 GB)");
+}
+
+TEST(Forecast, LeavesOutWhatIsNot) {
+  EXPECT_EQ(forecast_text(kBomb, after(0.5, 0, 0, 0.5)),
+            "up to 1001 frames of 600 000 world steps");
+  EXPECT_EQ(forecast_text({std::nullopt, 0}, after(1, 7, 0, 1)),
+            "as many frames as there are events, not known beforehand");
+  EXPECT_EQ(forecast_text({std::nullopt, 60}, after(1, 7, 0, 0.001)),
+            "as many frames as there are events, not known beforehand; up to 60 world steps");
+}
+
+TEST(Forecast, OfAStepThatIsNotDoneIsALeast) {
+  // Frames have been given, so a step is under way: it takes 0.4 s at least.
+  const auto left = time_left(kBomb, after(0.5, 1, 0, 0.4));
+  ASSERT_TRUE(left);
+  EXPECT_TRUE(left->at_least);
+  EXPECT_DOUBLE_EQ(left->seconds, 240'000);
+  EXPECT_EQ(forecast_text(kBomb, after(0.5, 1, 0, 0.4)),
+            "up to 1001 frames of 600 000 world steps, more than 67 h left");
+  EXPECT_FALSE(time_left(kBomb, after(0.5, 0, 0, 0.5))) << "it may still be inserting";
+}
+
+TEST(Forecast, IsMeasuredFromWhatIsDone) {
+  EXPECT_DOUBLE_EQ(time_left({100, 0}, after(2, 25, 0, 2))->seconds, 6);
+  EXPECT_DOUBLE_EQ(time_left({10, 400}, after(50, 3, 100, 10))->seconds, 30)
+      << "what came before the first step does not come again";
+  EXPECT_DOUBLE_EQ(time_left({100, 0}, after(2, 100, 0, 2))->seconds, 0);
+  EXPECT_FALSE(time_left({100, 0}, after(2, 0, 0, 2)));
+  EXPECT_FALSE(time_left({std::nullopt, 0}, after(2, 50, 0, 2)));
+}
+
+TEST(Forecast, ProgressCounts) {
+  RunState state = after(10, 7, 212, 10);
+  EXPECT_EQ(progress_text({70, 2120}, state),
+            "7 of 70 frames, 212 of 2120 world steps, about 90 s left");
+  state.files = 7;
+  state.bytes = 70'000;
+  EXPECT_EQ(progress_text({70, 0}, state), "7 of 70 frames, 70 kB on the disk, about 90 s left");
+  EXPECT_EQ(progress_text({std::nullopt, 0}, after(10, 7, 0, 10)), "7 frames");
+}
+
+TEST(Forecast, UnitsFitTheSize) {
+  EXPECT_EQ(duration_text(0.2), "1 s");
+  EXPECT_EQ(duration_text(99), "99 s");
+  EXPECT_EQ(duration_text(120), "2 min");
+  EXPECT_EQ(duration_text(3 * 3600), "3 h");
+  EXPECT_EQ(duration_text(200 * 3600), "8 days");
+  EXPECT_EQ(size_text(10), "1 kB");
+  EXPECT_EQ(size_text(52'300), "52 kB");
+  EXPECT_EQ(size_text(999'700), "1 MB");
+  EXPECT_EQ(size_text(1'230'000'000), "1.2 GB");
+}
+
+}  // namespace
+}  // namespace lantern::test
