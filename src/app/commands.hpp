@@ -37,6 +37,7 @@ int render_command(const RenderOptions& options);
 struct CheckOptions {
   std::vector<std::string> files;
   std::string pace;
+  bool strict = false;  // a warning is an error
   bool json = false;
 };
 int check_command(const CheckOptions& options);

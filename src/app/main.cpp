@@ -92,6 +92,7 @@ void add_check(CLI::App& app, CheckOptions& o, Run& run) {
   c->add_option("FILE", o.files, "scenario files")->required();
   c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
   add_memory(*c);
+  c->add_flag("--strict", o.strict, "what is warned of is an error of the scenario (exit code 3)");
   add_json(*c, o.json);
   c->callback([&] { run = [&] { return check_command(o); }; });
 }
