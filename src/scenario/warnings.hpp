@@ -16,8 +16,8 @@ class Watcher;
 // Looks on while one scenario runs (see `direct`).
 class RunWatch {
  public:
-  // `shows_a_body` says whether the picture of a frame shows any of its bodies. The scenario must
-  // outlive the watch.
+  // `shows_a_body` says whether the picture of a frame shows any of its bodies. The scenario is
+  // the very one that runs, and must outlive the watch.
   RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body);
   ~RunWatch();
 

@@ -1,6 +1,5 @@
 // A warning of bodies that fall into each other, in a world in which nothing touches.
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -66,7 +65,7 @@ class ContactsWatch : public Watcher {
   void see_frame(const Frame& frame) override {
     if (!(frame.time > time_)) return;
     time_ = frame.time;
-    std::map<Pair, double> depths;
+    Depths depths;
     const auto look = [&](BodyId first, BodyId second) {
       const FrameBody& a = body(frame, first);
       const FrameBody& b = body(frame, second);
@@ -74,9 +73,8 @@ class ContactsWatch : public Watcher {
       const Overlapping now = frame.dimension == 2 ? overlapping<2>(a, b) : overlapping<3>(a, b);
       if (!(now.depth > 0)) return;
       const Pair pair{std::min(first, second), std::max(first, second)};
-      depths[pair] = now.depth;
-      const auto before = depths_.find(pair);
-      const double grown = now.depth - (before == depths_.end() ? 0 : before->second);
+      depths.emplace_back(pair, now.depth);
+      const double grown = now.depth - depth_before(pair);
       if (put_ || !(grown > kDeep * now.width) || told_.contains(pair)) return;
       if (linked_.contains(std::minmax(a.name, b.name))) return;
       told_.insert(pair);
@@ -86,6 +84,7 @@ class ContactsWatch : public Watcher {
       for (const FramePair& p : frame.pairs) look(p.pair.a, p.pair.b);
     else
       sweep(frame, look);
+    std::sort(depths.begin(), depths.end());
     depths_ = std::move(depths);
     put_ = false;
   }
@@ -95,6 +94,16 @@ class ContactsWatch : public Watcher {
   }
 
  private:
+  using Depths = std::vector<std::pair<Pair, double>>;
+
+  // 0 if they did not overlap.
+  double depth_before(const Pair& pair) const {
+    const auto found = std::lower_bound(
+        depths_.begin(), depths_.end(), pair,
+        [](const auto& entry, const Pair& wanted) { return entry.first < wanted; });
+    return found == depths_.end() || found->first != pair ? 0 : found->second;
+  }
+
   static bool falls(const FrameBody& body) { return !body.is_static && !body.asleep; }
 
   // They lie in order of their ids.
@@ -106,8 +115,14 @@ class ContactsWatch : public Watcher {
   template <class F>
   void sweep(const Frame& frame, F&& look) {
     boxes_.clear();
-    for (const FrameBody& b : frame.bodies) boxes_.insert({b.id, b.box});
+    for (const FrameBody& b : frame.bodies)
+      if (!std::holds_alternative<HalfSpace<3>>(b.shape)) boxes_.insert({b.id, b.box});
     boxes_.sweep(look);
+    // A half-space's box has no end, and would let no axis part anything.
+    for (const FrameBody& ground : frame.bodies)
+      if (std::holds_alternative<HalfSpace<3>>(ground.shape))
+        for (const FrameBody& b : frame.bodies)
+          if (b.id != ground.id && overlap(b.box, ground.box)) look(b.id, ground.id);
   }
 
   Diagnostic falling(const FrameBody& a, const FrameBody& b, double depth, const Frame& frame) {
@@ -123,7 +138,7 @@ class ContactsWatch : public Watcher {
   const Scenario& scenario_;
   std::set<std::pair<std::string, std::string>> linked_;
   SortAndSweep<3> boxes_;
-  std::map<Pair, double> depths_;  // of the frame before
+  Depths depths_;  // of the frame before, by pair
   std::set<Pair> told_;
   Warnings found_;
   double time_ = 0;

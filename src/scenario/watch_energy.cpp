@@ -71,6 +71,8 @@ class EnergyWatch : public Watcher {
   void see_frame(const Frame& frame) override {
     frame_ = frame.index;
     if (free_) return;
+    if (frame.bodies.size() != bodies_) motion_.forget();  // in the midst of an insertion
+    bodies_ = frame.bodies.size();
     const auto kinetic = frame.measure("kinetic_energy");
     const auto potential = frame.measure("potential_energy");
     if (kinetic && potential) add(*kinetic, *potential, frame.time);
@@ -165,6 +167,7 @@ class EnergyWatch : public Watcher {
   std::set<std::size_t> drivers_;  // bodies that move as they like
   Motion motion_;
   std::uint32_t frame_ = 0;
+  std::size_t bodies_ = 0;
   std::optional<Growth> grown_;
 };
 

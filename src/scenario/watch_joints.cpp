@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/check.hpp"
 #include "scenario/watcher.hpp"
 
 namespace lantern {
@@ -71,6 +72,7 @@ class JointWatch : public Watcher {
           const double apart = glm::length(to - from);
           const double gap = link.kind == LinkSpec::Kind::pin ? apart : std::abs(apart - rest);
           const auto i = static_cast<std::size_t>(&link - scenario_.links.data());
+          LANTERN_CHECK(i, <, worst_.size());
           if (!(gap > worst_[i].size)) return;
           const double length = lengths_[i] > 0 ? lengths_[i] : rest;
           worst_[i] = {gap, length > 0 ? gap / length : 0, players.world().time()};

@@ -64,9 +64,11 @@ TEST(Warnings, AreAListOfTheirOwnInJson) {
 
 TEST(Warnings, AreGivenOfNothingThatComesWithLantern) {
   const std::string root = repository("scenarios");
-  const Outcome o =
-      shell("lantern check --strict " + root + "/*.toml " + root + "/problems/*.toml");
-  EXPECT_EQ(o.code, 0) << o.err;
+  for (const char* pace : {"step", "event"}) {
+    const Outcome o = shell(std::string("lantern check --strict --pace ") + pace + " " + root +
+                            "/*.toml " + root + "/problems/*.toml");
+    EXPECT_EQ(o.code, 0) << o.err;
+  }
 }
 
 }  // namespace

@@ -256,6 +256,15 @@ TEST(Warnings, OfEnergyAreForTheTurningOfFreeBodies) {
   expect_quiet(box("splitting_2"));
 }
 
+TEST(Warnings, OfEnergyAreNotForBodiesThatEnterOneByOne) {
+  expect_quiet("pace = \"event\"\n" +
+               world_text("size = [8, 8]\ngravity = [0, -10]",
+                          kTree + disc("one", "position = [2, 7]") +
+                              disc("two", "position = [4, 7]") +
+                              disc("three", "position = [6, 7]") +
+                              insert_and_run("[\"one\", \"two\", \"three\"]", "0.5")));
+}
+
 TEST(Warnings, OfEnergyAreNotForARestingPile) {
   expect_quiet(world_text("min = [-8, -1]\nmax = [8, 8]\ngravity = [0, -10]\ncontacts = \"soft\"",
                           "[[body]]\nname = \"ground\"\nground = [0, 1]\nposition = [0, -0.5]\n" +
