@@ -51,12 +51,13 @@ std::string forecast_text(const RunExtent& extent, const RunState& state) {
   if (extent.world_steps > 0)
     text += fmt::format("{} {} world steps", extent.frames ? " of" : "; up to",
                         grouped_plainly(extent.world_steps));
-  text += left_text(time_left(extent, state));
+  const auto left = time_left(extent, state);
+  text += left ? left_text(left) : ", how long cannot be told yet";
   if (state.files > 0 && extent.frames)
     text += fmt::format("; about {} on the disk",
-                        size_text(static_cast<std::uint64_t>(static_cast<double>(state.bytes) /
-                                                             static_cast<double>(state.files) *
-                                                             static_cast<double>(*extent.frames))));
+                        size_text(static_cast<std::uint64_t>(
+                            static_cast<double>(state.bytes) / static_cast<double>(state.files) *
+                            static_cast<double>(extent.chosen.value_or(*extent.frames)))));
   if (state.memory) text += fmt::format("; {} of memory", size_text(*state.memory));
   if (state.memory && state.budget) text += fmt::format(" (budget {})", size_text(*state.budget));
   return text;

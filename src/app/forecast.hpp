@@ -11,8 +11,11 @@ namespace lantern {
 
 // How much a run has to do, as far as it is known beforehand.
 struct RunExtent {
-  std::optional<std::uint64_t> frames;  // at most; none in event pace: only the run can tell
-  std::uint64_t world_steps = 0;        // at most
+  // At most; none in event pace: only the run can tell.
+  std::optional<std::uint64_t> frames = std::nullopt;
+  std::uint64_t world_steps = 0;  // at most
+  // Of the frames, how many are chosen to be written; none: all.
+  std::optional<std::uint64_t> chosen = std::nullopt;
 };
 RunExtent extent_of(const Scenario& scenario, Pace pace);
 

@@ -1,5 +1,7 @@
 // A warning of bodies that are pushed into or through one that never moves.
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>

@@ -28,13 +28,23 @@ TEST(Forecast, SaysAllThatIsKnown) {
             "400 MB of memory (budget 12.0 GB)");
 }
 
+TEST(Forecast, OfTheDiskIsForTheFramesThatAreWritten) {
+  RunState state = after(2, 3, 0, 2);
+  state.files = 2;
+  state.bytes = 2'000'000;
+  EXPECT_EQ(forecast_text({100, 0, 7}, state),
+            "up to 100 frames, about 65 s left; about 7 MB on the disk");
+}
+
 TEST(Forecast, LeavesOutWhatIsNot) {
   EXPECT_EQ(forecast_text(kBomb, after(0.5, 0, 0, 0.5)),
-            "up to 1001 frames of 600 000 world steps");
-  EXPECT_EQ(forecast_text({std::nullopt, 0}, after(1, 7, 0, 1)),
-            "as many frames as there are events, not known beforehand");
+            "up to 1001 frames of 600 000 world steps, how long cannot be told yet");
+  EXPECT_EQ(
+      forecast_text({std::nullopt, 0}, after(1, 7, 0, 1)),
+      "as many frames as there are events, not known beforehand, how long cannot be told yet");
   EXPECT_EQ(forecast_text({std::nullopt, 60}, after(1, 7, 0, 0.001)),
-            "as many frames as there are events, not known beforehand; up to 60 world steps");
+            "as many frames as there are events, not known beforehand; up to 60 world steps, "
+            "how long cannot be told yet");
 }
 
 TEST(Forecast, OfAStepThatIsNotDoneIsALeast) {
