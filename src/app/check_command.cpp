@@ -6,6 +6,7 @@
 #include "app/warned.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/memory.hpp"
 #include "draw/in_sight.hpp"
 #include "scenario/director.hpp"
 #include "scenario/warnings.hpp"
@@ -22,13 +23,13 @@ struct Verdict {
 };
 
 DirectorReport run(const Scenario& scenario, Pace pace, Work& work, RunWatch& watch) {
-  Progress progress(scenario.name, extent_of(scenario, pace), work);
+  Progress progress(scenario.name, extent_of(scenario, pace), work, memory_budget());
   std::uint64_t frames = 0;
   return direct(
       scenario, pace, work,
       [&](const Frame&) {
         progress.done(++frames);
-        return !interrupted();
+        return true;
       },
       &watch);
 }

@@ -29,6 +29,7 @@ struct RenderOptions {
   std::string png = "fast";      // fast, small
   std::string backend = "auto";  // auto, osmesa, egl
   bool transparent = false;
+  bool strict = false;  // warnings are errors
   int threads = 0;  // that encode; 0 for one a core
   bool json = false;
 };

@@ -79,6 +79,7 @@ void add_render(CLI::App& app, RenderOptions& o, Run& run) {
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
       ->capture_default_str();
   c->add_flag("--transparent", o.transparent, "leave out the paper");
+  c->add_flag("--strict", o.strict, "what is warned of is an error of the scenario (exit code 3)");
   c->add_option("-j,--threads", o.threads, "threads that encode; the default is one a core")
       ->check(CLI::Range(1, 256))
       ->type_name("N");

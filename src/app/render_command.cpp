@@ -13,15 +13,19 @@
 #include "app/progress.hpp"
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
+#include "app/warned.hpp"
 #include "atlas/atlas.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/memory.hpp"
 #include "base/stop.hpp"
+#include "draw/in_sight.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "render/pipeline.hpp"
 #include "render/svg.hpp"
 #include "scenario/director.hpp"
+#include "scenario/warnings.hpp"
 
 namespace lantern {
 namespace {
@@ -109,11 +113,11 @@ std::string png_of(const RenderJob& job, const DrawList& list, int width, int he
 // --- one frame to standard output ---
 
 DirectorReport draw_to_stdout(const RenderJob& job, const Scenario& scenario, Pace pace,
-                              Selection& selection, Work& work) {
+                              Selection& selection, RunWatch& watch, Work& work) {
   const Manifest manifest = manifest_of(job, scenario, pace);
   std::size_t chosen = 0;
   std::string bytes;
-  DirectorReport report = direct(scenario, pace, work, [&](const Frame& frame) {
+  const auto draw = [&](const Frame& frame) {
     if (!selection.takes(frame) || ++chosen > 1) return true;
     const DrawList list = draw_frame(frame, page_for(job.width, job.height), work);
     const MadeFrom from = manifest.frame_from(frame.index);
@@ -122,7 +126,9 @@ DirectorReport draw_to_stdout(const RenderJob& job, const Scenario& scenario, Pa
                       : png_of(job, list, job.width, job.height, transparent, kPixelsPerMetre,
                                frame, from, work);
     return true;
-  });
+  };
+  Progress progress(scenario.name, extent_of(scenario, pace), work, memory_budget());
+  const DirectorReport report = direct(scenario, pace, work, draw, &watch);
   selection.require_some();
   if (chosen != 1)
     throw UsageError(fmt::format(
@@ -168,19 +174,21 @@ class FolderRun {
         work_(work) {}
 
   // Throws UsageError, and leaves the disk as it was, if no frame is chosen.
-  DirectorReport run() {
-    DirectorReport report;
-    {
-      Progress progress(scenario_.name, scenario_.most_frames);
-      report = direct(scenario_, pace_, work_, [&](const Frame& frame) {
-        stop_if_asked();
-        all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
-        if (selection_.takes(frame)) take(frame);
-        if (scenario_.atlas) last_ = frame;
-        progress.done(all_.size());
-        return true;
-      });
-    }
+  DirectorReport run(RunWatch& watch) {
+    RunExtent extent = extent_of(scenario_, pace_);
+    extent.chosen = selection_.most();
+    Progress progress(scenario_.name, extent, work_, memory_budget());
+    const DirectorReport report = direct(
+        scenario_, pace_, work_,
+        [&](const Frame& frame) {
+          stop_if_asked();
+          all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
+          if (selection_.takes(frame)) take(frame);
+          if (scenario_.atlas) last_ = frame;
+          progress.done(all_.size());
+          return true;
+        },
+        &watch);
     selection_.require_some();
     if (pipeline_) pipeline_->finish();
     list_frames();
@@ -293,7 +301,7 @@ class FolderRun {
   Work& work_;
   std::optional<FrameFolder> folder_;
   std::unique_ptr<Pipeline> pipeline_;
-  std::vector<ListedFrame> all_;  // of the run so far
+  std::vector<ListedFrame> all_;   // of the run so far
   std::set<std::uint32_t> taken_;  // of these, chosen
   std::size_t drawn_ = 0, kept_ = 0;
   std::optional<Frame> last_;  // of an atlas
@@ -338,10 +346,12 @@ int render_one(const RenderJob& job, const Scenario& scenario, Work& work, JsonW
                       by_step ? std::optional(scenario.most_frames) : std::nullopt);
   std::optional<FolderRun> run;
   if (!job.to_stdout()) run.emplace(job, scenario, pace, selection, work);
+  RunWatch watch(scenario, shows_a_body);
   const DirectorReport report =
-      run ? run->run() : draw_to_stdout(job, scenario, pace, selection, work);
-  if (!report.unmet.empty()) complain(ScenarioError(report.unmet));
-  const int code = report.unmet.empty() ? kGood : kFailed;
+      run ? run->run(watch) : draw_to_stdout(job, scenario, pace, selection, watch, work);
+  complain(report.unmet);
+  const int code = std::max<int>(report.unmet.empty() ? kGood : kFailed,
+                                 tell_warnings(watch.warnings(), job.options.strict));
   if (!run) return code;
   json.line().begin_object().member("scenario", scenario.name);
   json.member("folder", run->path().string()).member("drawn", run->drawn());

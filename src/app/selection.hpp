@@ -25,6 +25,11 @@ class Selection {
 
   bool takes_all() const { return frames_.empty() && at_.empty(); }
 
+  // How many frames it can take, if a range says so.
+  std::optional<std::uint64_t> most() const {
+    return last_ ? std::optional(*last_ - first_ + 1) : std::nullopt;
+  }
+
   // Asked once for each frame, in order.
   bool takes(const Frame& frame);
 

@@ -18,10 +18,10 @@ bool colourful();
 // Standard error is a terminal.
 bool animated();
 
-void say(std::string_view message) noexcept;                         // a line
-void complain(std::string_view message) noexcept;                    // a line "lantern: error: ..."
-void complain(const BackendError& error) noexcept;                   // the same, and a line a backend
-void complain(const ScenarioError& error) noexcept;                  // each of its diagnostics
+void say(std::string_view message) noexcept;         // a line
+void complain(std::string_view message) noexcept;    // a line "lantern: error: ..."
+void complain(const BackendError& error) noexcept;   // the same, and a line a backend
+void complain(const ScenarioError& error) noexcept;  // each of its diagnostics
 void complain(const std::vector<Diagnostic>& diagnostics) noexcept;  // errors and warnings
 
 // Lines for a person on standard output, printable, too. Throws IoError as write_stdout does.
