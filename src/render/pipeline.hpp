@@ -1,25 +1,18 @@
 // From draw lists to PNG files: the caller's thread draws, others encode and write meanwhile.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <stop_token>
-#include <string>
-#include <thread>
+#include <optional>
 #include <vector>
 
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
 #include "render/context.hpp"
-#include "render/png.hpp"
+#include "render/encode_pool.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 
 namespace lantern {
 
@@ -43,9 +36,6 @@ class Pipeline {
   // Belongs to the calling thread, like the context.
   Pipeline(std::unique_ptr<Context> context, Config config, Work& work);
 
-  // Without finish(): gives up what is not yet begun, and waits for the rest.
-  ~Pipeline();
-
   // Draws at once; the file appears later. Waits while too many pictures are under way. An error of
   // an earlier file is thrown here or by finish(), as it was; after it nothing more is written.
   // The file is sealed if it says what it was made `from`.
@@ -53,37 +43,13 @@ class Pipeline {
               std::optional<MadeFrom> from = std::nullopt);
 
   // Waits until every file is in place.
-  void finish();
+  void finish() { pool_.finish(); }
 
  private:
-  struct Picture;
-  struct Job {
-    std::shared_ptr<Picture> picture;
-    std::vector<PngText> texts;
-    std::filesystem::path path;
-    std::optional<MadeFrom> from;
-  };
-
-  std::shared_ptr<Picture> free_picture();
-  void encode_jobs(const std::stop_token& stop);
-  void encode(const Job& job);
-  void rethrow_locked();
-
   Config config_;
   Work& work_;
   Renderer renderer_;
-  std::shared_ptr<Picture> last_;  // the picture submitted last
-
-  std::mutex mutex_;
-  std::mutex written_mutex_;  // held while `written` is called
-  std::condition_variable_any job_ready_;
-  std::condition_variable job_done_;  // a job ended: a picture may be free, or all may be done
-  std::deque<Job> jobs_;
-  int busy_ = 0;  // jobs taken from the queue and not yet ended
-  std::exception_ptr error_;
-  std::size_t most_pictures_ = 0;
-  std::vector<std::shared_ptr<Picture>> pictures_;  // one that only this list holds is free
-  std::vector<std::jthread> threads_;
+  EncodePool pool_;
 };
 
 }  // namespace lantern

@@ -1,0 +1,112 @@
+// The threads that encode, fed with images by hand, so that the thread sanitizer sees them without
+// a graphics driver: see threads.sh.
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/random.hpp"
+#include "base/stop.hpp"
+#include "render/encode_pool.hpp"
+
+namespace lantern {
+namespace {
+
+namespace fs = std::filesystem;
+
+int failures = 0;
+
+void expect(bool holds, const std::string& what) {
+  if (!holds) fmt::print("FAILED: {}\n", what);
+  failures += !holds;
+}
+
+// Every third one equals the one before.
+void paint(Image& image, int number, int side) {
+  image.width = image.height = side;
+  image.rgba.resize(std::size_t{4} * side * side);
+  Random random(static_cast<std::uint64_t>(number - (number % 3 == 2)));
+  for (std::uint8_t& byte : image.rgba)
+    byte = static_cast<std::uint8_t>(random.bits() % 4 == 0 ? random.bits() : 255);
+}
+
+std::vector<PngText> texts(int number) { return {{"Frame", std::to_string(number)}}; }
+
+EncodePool::Config config(int threads, int side) {
+  EncodePool::Config c;
+  c.width = c.height = side;
+  c.effort = threads % 2 == 0 ? PngEffort::small : PngEffort::fast;
+  c.threads = threads;
+  return c;
+}
+
+void writes_what_one_thread_writes(const fs::path& folder, int threads) {
+  constexpr int kFrames = 90, kSide = 40;
+  Work work;
+  std::vector<fs::path> told;  // one thread at a time
+  EncodePool::Config c = config(threads, kSide);
+  c.written = [&](const fs::path& path) { told.push_back(path); };
+  EncodePool pool(c, work);
+  for (int i = 0; i < kFrames; ++i) {
+    paint(pool.blank(), i, kSide);
+    pool.submit(texts(i), folder / std::to_string(i));
+  }
+  pool.finish();
+  expect(told.size() == kFrames, "each file is told once");
+  expect(work.frames_encoded == 2 * kFrames / 3, "equal images are encoded once");
+  for (int i = 0; i < kFrames; ++i) {
+    Image image;
+    paint(image, i, kSide);
+    expect(
+        read_file(folder / std::to_string(i), 1 << 20) == encode_png(image, c.effort, texts(i), 0),
+        fmt::format("file {} of {} threads", i, threads));
+  }
+}
+
+void an_error_ends_it(const fs::path& folder, int threads) {
+  Work work;
+  EncodePool pool(config(threads, 16), work);
+  bool thrown = false;
+  try {
+    for (int i = 0; i < 200; ++i) {
+      paint(pool.blank(), i, 16);
+      pool.submit(texts(i), i < 20 ? folder / std::to_string(i) : folder / "none" / "x");
+    }
+    pool.finish();
+  } catch (const IoError&) {
+    thrown = true;
+  }
+  expect(thrown, "a file that cannot be written is told");
+}
+
+// A signal's wish, and the end without finish().
+void may_be_given_up(const fs::path& folder, int threads) {
+  Work work;
+  std::jthread signal([] { ask_to_stop(); });
+  EncodePool pool(config(threads, 64), work);
+  for (int i = 0; i < 30 && !stop_asked(); ++i) {
+    paint(pool.blank(), i, 64);
+    pool.submit(texts(i), folder / std::to_string(i));
+  }
+  signal.join();
+  forget_stop();
+}
+
+int run(const fs::path& folder) {
+  for (int threads = 1; threads <= 8; ++threads) {
+    writes_what_one_thread_writes(folder, threads);
+    an_error_ends_it(folder, threads);
+    may_be_given_up(folder, threads);
+  }
+  fmt::print("{} threads and fewer, {} failures\n", 8, failures);
+  return failures == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace lantern
+
+int main(int argc, char** argv) { return argc == 2 ? lantern::run(argv[1]) : 2; }
