@@ -99,12 +99,13 @@ void LevelStage::picture_walls(Frame& frame) const {
 }
 
 void LevelStage::picture_nodes(const LevelBsp& level, Frame& frame) const {
-  std::vector<std::uint32_t> node_of(level.nodes().size(), kNone);  // in the order of visiting
+  const auto first = static_cast<std::uint32_t>(frame.nodes.size());  // after the bodies' tree
+  std::vector<std::uint32_t> node_of(level.nodes().size(), kNone);
   level.visit([&](const LevelNodeView& view) {
-    node_of[view.handle] = view.id;
+    node_of[view.handle] = first + view.id;
     FrameNode node;
-    node.id = view.id;
-    node.parent = view.parent;
+    node.id = first + view.id;
+    node.parent = view.parent == kNone ? kNone : first + view.parent;
     node.slot = view.slot;
     node.depth = view.depth;
     node.leaf = view.leaf;
@@ -130,7 +131,7 @@ void LevelStage::picture_nodes(const LevelBsp& level, Frame& frame) const {
     return true;
   });
   // The way down to a place.
-  for (std::size_t i = frame.nodes.size(); place_ && i-- > 1;)
+  for (std::size_t i = frame.nodes.size(); place_ && i-- > first + 1;)
     if (frame.nodes[i].mark != Mark::quiet) frame.nodes[frame.nodes[i].parent].mark = Mark::passed;
   for (const WallPiece& piece : level.pieces()) {
     const NodeHandle node = piece.sector != kNone ? level.sectors()[piece.sector].node : piece.node;
@@ -145,11 +146,13 @@ void LevelStage::picture_counts(const LevelBsp& level, Frame& frame) const {
   const auto count = [&](const char* name, std::uint64_t n) {
     frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
   };
-  std::uint64_t leaves = 0;
-  for (const FrameNode& node : frame.nodes) leaves += node.leaf;
-  count("nodes", c.nodes);
-  count("leaves", leaves);
-  count("depth", c.depth);
+  if (!frame.count("nodes")) {  // of the bodies' tree, if there is one
+    std::uint64_t leaves = 0;
+    for (const FrameNode& node : frame.nodes) leaves += node.leaf;
+    count("nodes", c.nodes);
+    count("leaves", leaves);
+    count("depth", c.depth);
+  }
   count("walls", c.walls);
   count("wall_pieces", c.pieces);
   count("sectors", c.sectors);
