@@ -17,7 +17,8 @@ void label_planes(const Frame& frame, const WorldMap& map, const std::vector<Box
     if (!node.plane || node.plane_name.empty()) continue;
     const auto line = dividing_line(node);
     if (!line) continue;
-    Vec<2> a = map.to_page(line->first), b = map.to_page(line->second);
+    Vec<2> a = map.in_reach(map.to_page(line->first));
+    Vec<2> b = map.in_reach(map.to_page(line->second));
     if (b.y < a.y) std::swap(a, b);
     const double half = text_width(node.plane_name, style) / 2;
     // Near the end of the first line; the others end on a line, where it would not be clear whose

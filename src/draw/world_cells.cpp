@@ -145,7 +145,8 @@ void draw_planes(const Frame& frame, const WorldMap& map, DrawList& list) {
     if (!node.plane) continue;
     const auto line = dividing_line(node);
     if (!line) continue;
-    const Vec<2> a = map.to_page(line->first), b = map.to_page(line->second);
+    const Vec<2> a = map.in_reach(map.to_page(line->first));
+    const Vec<2> b = map.in_reach(map.to_page(line->second));
     const bool upright = a.x == b.x || a.y == b.y;
     list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
   }

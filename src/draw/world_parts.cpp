@@ -8,7 +8,7 @@ namespace lantern {
 Polygon page_region(const FrameNode& node, const WorldMap& map) {
   Polygon region;
   for (const Vec<2>& corner : node.region.empty() ? polygon_of(flat(node.box)) : node.region)
-    region.push_back(map.to_page(corner));
+    region.push_back(map.in_reach(map.to_page(corner)));
   return region;
 }
 

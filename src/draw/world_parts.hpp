@@ -1,6 +1,7 @@
 // What the parts of the world panel share.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -32,7 +33,15 @@ struct WorldMap {
   Vec<2> to_page(const Vec<3>& p) const { return to_page(flat(p)); }
   Box<2> to_page(const Box<3>& box) const { return to_page(flat(box)); }
   Box<2> to_page(const Box<2>& box) const {
-    return {to_page(Vec<2>(box.lo.x, box.hi.y)), to_page(Vec<2>(box.hi.x, box.lo.y))};
+    return {in_reach(to_page(Vec<2>(box.lo.x, box.hi.y))),
+            in_reach(to_page(Vec<2>(box.hi.x, box.lo.y)))};
+  }
+
+  // The cells that hold a half-space reach to the end of the numbers, far beyond what a renderer
+  // takes: what lies out of all sight ends nearer.
+  static Vec<2> in_reach(const Vec<2>& p) {
+    constexpr double kReach = 4e5;
+    return {std::clamp(p.x, -kReach, kReach), std::clamp(p.y, -kReach, kReach)};
   }
 };
 
