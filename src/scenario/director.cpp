@@ -204,7 +204,7 @@ class Director {
 
   void act(const CompileLevel&) {
     stage_.level->compile([&](const LevelMoment& moment) {
-      if (frames_.by_event() && frames_.wanted(moment.event))
+      if (!frames_.stopped() && frames_.by_event() && frames_.wanted(moment.event))
         frames_.emit({}, moment.event, moment.text);
     });
     frames_.settle("compile");
@@ -274,7 +274,9 @@ class Director {
 
   // --- watching the algorithms ---
 
+  // Once nobody looks any more, the rest of an insertion goes on without words and pictures.
   void witness(const Event& event) {
+    if (frames_.stopped()) return;
     using Kind = Event::Kind;
     if (event.kind == Kind::test) frames_.touched.passed.insert(event.node);
     if (event.kind == Kind::store || event.kind == Kind::split || event.kind == Kind::depth_limit ||
@@ -293,6 +295,7 @@ class Director {
   }
 
   void witness(const AtlasEvent& event, const TextureSpec& texture) {
+    if (frames_.stopped()) return;
     using Kind = AtlasEvent::Kind;
     (event.kind == Kind::cut || event.kind == Kind::store ? frames_.touched.lit
                                                           : frames_.touched.passed)

@@ -95,7 +95,6 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
 
 void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
                       std::optional<BodyId> about) {
-  if (stopped_) return;  // the rest of an insertion goes on unseen
   Frame frame = picture(now, event);
   frame.caption = std::move(caption);
   for (FrameBody& body : frame.bodies) body.lit = body.id == about;

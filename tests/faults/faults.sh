@@ -32,7 +32,7 @@ run() {
     resumed) "$@" "$lantern" render "$ghosts" --format svg --size 160x90 -o "$work/out" ;;
     check) "$@" "$lantern" check --json "$ghosts" ;;
     measure) "$@" "$lantern" measure oscillator --quick --no-peers --method velocity_verlet \
-      --method runge_kutta_4 --longest 0.01 -o "$work/out" ;;
+      --method runge_kutta_4 --step 0.2 --step 0.1 -o "$work/out" ;;
   esac >"$work/said" 2>"$work/err"
 }
 

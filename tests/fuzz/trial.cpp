@@ -42,6 +42,7 @@ void require_sound(const std::vector<Diagnostic>& mistakes, std::string_view tex
   for (const Diagnostic& d : mistakes) {
     for (const std::string* part : {&d.message, &d.source_line, &d.suggestion})
       require_utf8("a diagnostic", *part);
+    if (d.where.line == 0 && d.where.column == 0) continue;  // of the file as a whole
     const auto width = static_cast<int>(letters(line_of(text, d.where.line)));
     // A line break, CR LF, may be what is wrong.
     if (d.where.line < 1 || d.where.line > lines || d.where.column < 1 ||
@@ -284,6 +285,8 @@ void Trial::measure_it(Dice& dice) {
       if (!plan.jobs().empty() && !plan.is_too_long(plan.jobs().front()))
         plan.run(plan.jobs().front(), [] { return stop_asked(); });
     });
+  } catch (const ScenarioError& error) {
+    require_sound(error.diagnostics(), scenario_->text);
   } catch (const Refused& refused) {
     require_utf8("a refusal", refused.what());
     result_.features.insert(feature("refused", kind_of(refused.what())));
