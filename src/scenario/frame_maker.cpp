@@ -1,6 +1,7 @@
 #include "scenario/frame_maker.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -69,6 +70,9 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   frame.show_depths = world.show_depths;
   if (world.has_camera) frame.camera = Camera{world.camera_eye, world.camera_target};
   if (stage_.engine) stage_.engine->picture(now, frame);
+  // Speeds that numbers still hold may have squares that they do not.
+  for (const auto& [name, number] : frame.measures)
+    if (!std::isfinite(number)) throw Refused(fmt::format("the measure '{}' overflows", name));
   if (stage_.level) stage_.level->picture(frame);
   if (stage_.atlas) stage_.atlas->picture(now, frame);
   frame.hash = state_hash(frame);

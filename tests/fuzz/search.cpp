@@ -9,13 +9,13 @@
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/clock.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/memory.hpp"
 #include "fuzz/desk.hpp"
 #include "fuzz/generate.hpp"
 #include "fuzz/trial.hpp"
@@ -36,7 +36,7 @@ constexpr bool kSanitized = false;
 
 constexpr auto kPatience = kSanitized ? 300ms : 50ms;  // of a stage, before the wish to stop
 constexpr auto kGrace = kSanitized ? 10s : 1s;         // from the wish to its end
-constexpr std::uint64_t kMostMemory = 2u << 30;        // bytes more than at the start
+constexpr std::uint64_t kMostMemory = 1u << 30;        // bytes that a file may take
 constexpr double kEnergyGrowth = 0.1;                  // from which it is told
 constexpr std::size_t kMostKept = 6000;                // bytes of an interesting file
 constexpr int kMostMendings = 8;
@@ -75,17 +75,6 @@ void catch_crashes() {
   ::backtrace(warm, 1);  // loads what it needs
 }
 
-// A file that asks for more memory than this is told, not served.
-void bound_memory() {
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  unsigned long pages = 0;
-  if (!file || std::fscanf(file, "%lu", &pages) != 1) pages = 0;
-  if (file) std::fclose(file);
-  const rlim_t most = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kMostMemory;
-  const rlimit limit{most, most};
-  if (pages > 0) ::setrlimit(RLIMIT_AS, &limit);
-}
-
 void save(const fs::path& folder, const std::string& name, std::string_view text) {
   if (folder.empty()) return;
   make_folder(folder);
@@ -119,11 +108,12 @@ class Worker {
         trial_(
             watch_, [](Stage stage) { desk->stage = static_cast<int>(stage); },
             [](std::string_view use) { note_use(use); }) {
+    set_memory_budget(kMostMemory);
     for (const fs::path& folder : {fs::path(LANTERN_ROOT "/scenarios"), options.keep})
       for (std::string& text : files_in(folder)) seeds_.push_back(std::move(text));
     if (!kSanitized) {
       catch_crashes();
-      bound_memory();
+      enforce_memory_budget();
     }
   }
 

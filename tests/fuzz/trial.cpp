@@ -25,6 +25,7 @@ constexpr double kRepeated = 0.1;            // of the scenarios that ran are ru
 constexpr double kMeasured = 0.05;           // are measured
 constexpr double kQuickRun = 0.02;           // seconds: what is run twice
 constexpr std::uint32_t kMostFrames = 3000;  // that are looked at
+constexpr std::size_t kMostJson = 1u << 20;  // bytes that are read again
 constexpr std::size_t kMostShapes = 20'000;  // of a picture that is drawn
 
 std::uint64_t feature(std::string_view kind, std::string_view what) {
@@ -97,6 +98,7 @@ class KeyWalk {
 
 void require_json(const Frame& frame) {
   const std::string text = to_json(frame);
+  if (text.size() > kMostJson) return;  // the reader is what would take long
   try {
     if (nlohmann::json::parse(text).at("format") != "lantern.frame/1")
       throw Finding("a frame's JSON without its format");
