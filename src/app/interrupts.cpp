@@ -19,7 +19,7 @@ constexpr long kSlower = 20;
 #else
 constexpr long kSlower = 1;
 #endif
-constexpr long kPatience = 100'000'000 * kSlower;      // nanoseconds from the signal to the end
+constexpr long kPatience = 60'000'000 * kSlower;       // nanoseconds from the signal to the end
 constexpr long kTimeToSave = 3'000'000'000 * kSlower;  // the same, once it was heard
 constexpr long kSameSignal = 50'000'000;  // `timeout` sends its signal twice, a person does not
 
@@ -68,6 +68,10 @@ void catch_interrupts() {
   sigevent event{};
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGALRM;
+  sigset_t alarm{};  // may have been blocked by whoever has started us
+  ::sigemptyset(&alarm);
+  ::sigaddset(&alarm, SIGALRM);
+  ::sigprocmask(SIG_UNBLOCK, &alarm, nullptr);
   has_backstop = ::timer_create(CLOCK_MONOTONIC, &event, &backstop) == 0;
   action.sa_handler = on_signal;
   ::sigaction(SIGINT, &action, nullptr);

@@ -22,8 +22,8 @@ void set_memory_budget(std::uint64_t bytes);
 // there is.
 void enforce_memory_budget();
 
-// "800M", "4G", "1.5G": powers of 1024, down to a million bytes or so (kLeastBudget). Nothing for
-// other words.
+// "800M", "4G", "1.5G": powers of 1024. Nothing for other words, and for less than kLeastBudget, in
+// which not even the program itself has room.
 inline constexpr std::uint64_t kLeastBudget = std::uint64_t{16} << 20;
 std::optional<std::uint64_t> memory_size(std::string_view words);
 // "3.3 GB": powers of 1024.

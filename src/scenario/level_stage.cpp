@@ -36,8 +36,13 @@ void LevelStage::compile(const std::function<void(const LevelMoment&)>& watch) {
     watch({kNames[static_cast<int>(event.kind)], told(level, event)});
   };
   level_.reset();
-  LevelBsp made = compile_level(walls_, bounds_, config, observer);
-  level_.emplace(std::move(made));
+  try {
+    LevelBsp made = compile_level(walls_, bounds_, config, observer);
+    level_.emplace(std::move(made));
+  } catch (...) {
+    current_ = nullptr;  // what it has looked at is gone
+    throw;
+  }
   current_ = &*level_;
   lit_node_ = lit_wall_ = kNone;
 }

@@ -23,7 +23,8 @@ class LevelStage {
   // The scenario must have a level, and a flat world.
   explicit LevelStage(const Scenario& scenario);
 
-  // `watch` may picture what stands so far. Throws Refused as compile_level does.
+  // `watch` may picture what stands so far. Throws Refused as compile_level does; there
+  // is no level then, nor after Stopped.
   void compile(const std::function<void(const LevelMoment&)>& watch);
   // In which sector? Throws Refused before the level is compiled, as `order_from` does.
   void locate(const Vec<2>& point);

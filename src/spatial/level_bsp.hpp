@@ -223,7 +223,8 @@ class LevelBsp {
 
 // Compiles a level. No walls give a single sector. Throws Refused for walls and bounds as
 // checked_walls and LevelGrid do, for weights that are negative or not finite, and for a level that
-// needs more depth or pieces than the config allows.
+// needs more depth or pieces than the config allows. What the observer was shown is gone then, as
+// after Stopped.
 LevelBsp compile_level(std::span<const Wall> walls, const Box<2>& bounds,
                        const LevelConfig& config = {}, const LevelObserver& observer = {});
 

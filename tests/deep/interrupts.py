@@ -1,4 +1,7 @@
-"""Sends signals to the program at seeded moments, and measures how long it takes to end."""
+"""Sends signals to the program at seeded moments, and measures how long it takes to end.
+
+Words behind the program choose: only commands whose names hold all of them.
+"""
 import glob
 import os
 import random
@@ -13,8 +16,7 @@ LANTERN = os.path.abspath(sys.argv[1])
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MOMENTS = int(os.environ.get("MOMENTS", "6"))
 ALLOWED = 0.2  # seconds
-LONGEST = 4.0  # seconds until a signal
-FIRST = 0.05  # before, the process may not have come to its own first line
+LONGEST = float(os.environ.get("LONGEST", "4"))  # seconds until a signal
 
 chance = random.Random(int(os.environ.get("SEED", "1")))
 
@@ -48,10 +50,29 @@ class Run:
         self.folder = tempfile.mkdtemp(prefix="lantern-interrupts-")
         self.said = open(os.path.join(self.folder, "said"), "w+b")
         words = [self.folder if word == "OUT" else word for word in words]
-        self.began = time.monotonic()
         self.process = subprocess.Popen(
             [LANTERN] + words, stdout=subprocess.DEVNULL, stderr=self.said, stdin=subprocess.DEVNULL
         )
+        while self.process.poll() is None and not self.hears():
+            pass
+        self.began = time.monotonic()
+
+    def hears(self):
+        """Whether it has come so far as to handle SIGINT and SIGTERM."""
+        wanted = 1 << (signal.SIGINT - 1) | 1 << (signal.SIGTERM - 1)
+        with open(f"/proc/{self.process.pid}/status") as status:
+            for line in status:
+                if line.startswith("SigCgt:"):
+                    return int(line.split()[1], 16) & wanted == wanted
+        return False
+
+    def resident(self):
+        """Megabytes: the system needs its time to take them back."""
+        try:
+            with open(f"/proc/{self.process.pid}/statm") as sizes:
+                return int(sizes.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") >> 20
+        except (OSError, IndexError):
+            return 0
 
     def ended_within(self, seconds):
         try:
@@ -80,7 +101,7 @@ class Run:
 
 class Figures:
     def __init__(self):
-        self.times = []  # seconds, command
+        self.times = []  # seconds, command, megabytes resident
         self.at_once = {}  # ended by the timer, by command
         self.wrong = []
         self.finished = 0
@@ -93,15 +114,16 @@ class Figures:
         whole.end()
         for _ in range(MOMENTS):
             run = Run(words)
-            if run.ended_within(chance.uniform(min(FIRST, length), length)):
+            if run.ended_within(chance.uniform(0, length)):
                 self.finished += 1
                 run.end()
                 continue
+            resident = run.resident()
             seconds = run.interrupt(chance.choice([signal.SIGINT, signal.SIGTERM]))
             got = run.process.returncode
             said = run.end()
             if got == 130:
-                self.times.append((seconds, name))
+                self.times.append((seconds, name, resident))
             elif got == code:
                 self.finished += 1  # it was about to end
             else:
@@ -119,8 +141,8 @@ class Figures:
         for name, count in sorted(self.at_once.items()):
             print(f"  {count} of {name}")
         print("the slowest:")
-        for seconds, name in times[-8:]:
-            print(f"  {seconds:.3f} {name}")
+        for seconds, name, resident in times[-8:]:
+            print(f"  {seconds:.3f} {name}, {resident} MB")
         for line in self.wrong:
             print("wrong:", line)
         return share(0.99) <= ALLOWED and not self.wrong
