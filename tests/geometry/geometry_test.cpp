@@ -151,6 +151,19 @@ TEST(Polygon, ClippingKeepsTheArea) {
   }
 }
 
+TEST(Polygon, CutThroughItsCornersEachHalfHasThemOnce) {
+  const Polygon square = polygon_of({{0, 0}, {2, 2}});
+  const Plane<2> diagonal{{-1, 1}, 0};
+  EXPECT_EQ(clipped(square, diagonal, true), (Polygon{{0, 0}, {2, 2}, {0, 2}}));
+  EXPECT_EQ(clipped(square, diagonal, false), (Polygon{{0, 0}, {2, 0}, {2, 2}}));
+  const Plane<2> slanted{{-2, 1}, 0};  // through a corner and the middle of a side
+  EXPECT_EQ(clipped(square, slanted, true), (Polygon{{0, 0}, {1, 2}, {0, 2}}));
+  EXPECT_EQ(clipped(square, slanted, false), (Polygon{{0, 0}, {2, 0}, {2, 2}, {1, 2}}));
+  const Plane<2> edge{{0, 1}, 0};  // along a side
+  EXPECT_EQ(clipped(square, edge, true), square);
+  EXPECT_TRUE(clipped(square, edge, false).empty());
+}
+
 TEST(Polygon, ClippingOutsideGivesAllOrNothing) {
   const Polygon square = polygon_of({{0, 0}, {1, 1}});
   EXPECT_EQ(area(square), 1.0) << "corners are not counter-clockwise";

@@ -86,6 +86,14 @@ TEST(Shape, AHalfSpaceEndsOnlyAlongAnAxis) {
   EXPECT_EQ(floor.hi.y, 4);
   EXPECT_EQ(floor.lo.y, -kEndless);
   EXPECT_EQ(floor.hi.x, kEndless);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      Vec<3> normal(0.0);
+      normal[axis] = sign;
+      Box<3> expected = Box<3>::around(Vec<3>(0.0), Vec<3>(kEndless));
+      (sign > 0 ? expected.hi : expected.lo)[axis] = 5.0 + axis;
+      EXPECT_EQ(bounding_box<3>(HalfSpace<3>{normal}, {5, 6, 7}), expected) << axis << sign;
+    }
   EXPECT_EQ(bounding_box<2>(HalfSpace<2>{{0.6, 0.8}}, {3, 4}),
             Box<2>::around(Vec<2>(0.0), Vec<2>(kEndless)));
 }
@@ -97,9 +105,23 @@ TEST(Direction, HasUnitLengthAtEveryScale) {
     EXPECT_EQ(found.unit, -up) << scale;
     EXPECT_EQ(found.length, scale);
   }
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec<3> v(0.0);
+    v[axis] = 1e-300;
+    EXPECT_EQ(direction_of(v, -up).unit[axis], 1);
+  }
   EXPECT_EQ(direction_of(Vec<3>(0.0), up).unit, up);
   EXPECT_EQ(direction_of(Vec<3>(0.0), up).length, 0);
-  EXPECT_DOUBLE_EQ(direction_of(Vec<2>(3e-200, 4e-200), Vec<2>(0, 1)).length, 5e-200);
+  for (const double scale : {1e-300, 1e-200, 1.0, 1e200})
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec<3> v(0.0);
+      v[axis] = 4 * scale;
+      v[(axis + 1) % 3] = -3 * scale;
+      const Direction<3> found = direction_of(v, up);
+      EXPECT_DOUBLE_EQ(found.length, 5 * scale);
+      EXPECT_DOUBLE_EQ(found.unit[axis], 0.8) << scale;
+      EXPECT_DOUBLE_EQ(found.unit[(axis + 1) % 3], -0.6) << scale;
+    }
 }
 
 // No pair of points of the segments is closer, on a fine grid around the ones found and all along.
@@ -134,6 +156,15 @@ void expect_closest_of_random_segments() {
 TEST(Segment, ClosestPointsAreCloserThanAllOthers) {
   expect_closest_of_random_segments<2>();
   expect_closest_of_random_segments<3>();
+}
+
+TEST(Segment, ParallelOnesMeetSomewhereOnBoth) {
+  const Segment<2> a{{0, 0}, {4, 0}}, b{{1, 1}, {3, 1}};
+  const PointPair<2> found = crossing_points(a, b);
+  EXPECT_EQ(found.a.y, 0);
+  EXPECT_EQ(found.b.y, 1);
+  EXPECT_EQ(found.a.x, found.b.x);
+  EXPECT_EQ(found.square(), 1);
 }
 
 }  // namespace

@@ -65,6 +65,8 @@ TEST(Ray, ClosedFormsOfShapes) {
   const Ray<3> up{{0, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(entry<3>(up, Capsule{1, 3}, {0, 10, 0}), 6);
   EXPECT_EQ(entry<3>(up, Capsule{1, 3}, {1, 10, 0}), 7) << "along the rim of its cylinder";
+  EXPECT_EQ(entry<3>(up, Capsule{1, 3}, {0, 1, 0}), 0) << "begins inside, between its ends";
+  EXPECT_EQ(entry<3>(up, Capsule{1, 3}, {2, 1, 0}), std::nullopt) << "beside it";
   EXPECT_EQ(entry<3>(up, Sphere{1}, {0, 5, 0}), 4);
   EXPECT_EQ(entry<3>(up, HalfSpace<3>{{0, -1, 0}}, {0, 5, 0}), 5);
 }
