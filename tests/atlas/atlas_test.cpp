@@ -129,6 +129,8 @@ TEST(Atlas, TheLecturesExample) {
   EXPECT_FALSE(nodes[6].texture.has_value());
 }
 
+TEST(Atlas, ARectOfNothingIsEmpty) { EXPECT_EQ(Rect{}, (Rect{0, 0, 0, 0})); }
+
 TEST(Atlas, AnExactFitIsNotCut) {
   Atlas atlas(64, 32);
   EXPECT_EQ(atlas.insert(7, 64, 32), (Rect{0, 0, 64, 32}));
@@ -148,6 +150,9 @@ TEST(Atlas, ARefusalIsToldAndHandlesStay) {
   std::vector<Kind> told;
   EXPECT_FALSE(atlas.insert(1, 70, 70, [&](const AtlasEvent& e) {
     EXPECT_EQ(e.texture, 1u);
+    if (e.kind == Kind::refuse) {
+      EXPECT_EQ(e.node, 0u) << "the whole atlas refuses";
+    }
     EXPECT_EQ(text_of(atlas), before) << "an event before the refusal already shows a change";
     told.push_back(e.kind);
   }));
@@ -193,6 +198,52 @@ TEST(Atlas, WatchingChangesNeitherPlacesNorCounts) {
   EXPECT_LT(watched.leaf_tests(), leaves_told) << "no branch without room was passed by";
 }
 
+TEST(Atlas, AsMuchToSpareOnBothAxesIsCutAcross) {
+  Atlas atlas(10, 10);
+  atlas.insert(0, 4, 4);
+  const auto nodes = nodes_of(atlas);
+  EXPECT_FALSE(nodes[0].cut_vertically);
+  EXPECT_EQ(nodes[1].rect, (Rect{0, 0, 10, 4}));
+}
+
+// Leaves that a search looks at which knows, of each node, the widest and the highest free leaf
+// below it: by the same descent over nodes whose free sizes are gathered anew.
+std::uint64_t least_leaf_tests(const Atlas& atlas, int width, int height) {
+  const auto nodes = nodes_of(atlas);
+  std::vector<std::pair<int, int>> free(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    const AtlasNodeView& n = nodes[i];
+    if (n.leaf && !n.texture) free[i] = {n.rect.width, n.rect.height};
+    if (i == 0) break;
+    free[n.parent].first = std::max(free[n.parent].first, free[i].first);
+    free[n.parent].second = std::max(free[n.parent].second, free[i].second);
+  }
+  std::uint64_t tests = 0;
+  std::vector<bool> entered(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i > 0 && !entered[nodes[i].parent]) continue;
+    tests += nodes[i].leaf;
+    entered[i] = width <= free[i].first && height <= free[i].second;
+    if (entered[i] && nodes[i].leaf) break;
+  }
+  return tests;
+}
+
+TEST(Atlas, LooksOnlyWhereThereMayBeRoom) {
+  Atlas atlas(200, 200);
+  EXPECT_EQ(atlas.leaf_tests(), 0u);
+  Random random(3);
+  for (TextureId id = 0; id < 120; ++id) {
+    const int width = static_cast<int>(random.whole(1, 60));
+    const int height = static_cast<int>(random.whole(1, 60));
+    const std::uint64_t before = atlas.leaf_tests(), least = least_leaf_tests(atlas, width, height);
+    atlas.has_room(width, height);
+    ASSERT_EQ(atlas.leaf_tests() - before, least) << "texture " << id;
+    atlas.insert(id, width, height);
+    ASSERT_EQ(atlas.leaf_tests() - before, 2 * least) << "texture " << id;
+  }
+}
+
 TEST(Atlas, AVetoSkipsTheBranch) {
   Atlas atlas(512, 512);
   atlas.insert(0, 200, 300);
@@ -207,9 +258,12 @@ TEST(Atlas, AVetoSkipsTheBranch) {
 TEST(Atlas, BadSizesAreRefused) {
   for (const auto& [width, height] : {std::pair{0, 5}, {5, 0}, {-1, 5}, {65537, 5}, {5, 65537}})
     EXPECT_THROW(Atlas(width, height), Refused) << width << " x " << height;
+  for (const auto& [width, height] : {std::pair{1, 5}, {5, 1}, {1, 1}, {65536, 1}, {1, 65536}})
+    EXPECT_TRUE(Atlas(width, height).insert(0, width, height)) << width << " x " << height;
   Atlas atlas(65536, 65536);
   EXPECT_EQ(atlas.free_area(), std::int64_t{1} << 32) << "areas need more than 32 bits";
   EXPECT_THROW(atlas.insert(0, 0, 5), Refused);
+  EXPECT_THROW(atlas.insert(0, 5, 0), Refused);
   EXPECT_THROW(atlas.insert(0, 5, -1), Refused);
   EXPECT_EQ(nodes_of(atlas).size(), 1u);
 }
