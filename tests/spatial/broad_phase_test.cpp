@@ -70,6 +70,56 @@ BroadPhaseConfig<D> config_of(BroadPhaseKind kind, Sort sort, Random& random) {
   return config;
 }
 
+// What the counters of an update must be, seen from outside: a node is visited if a body below it
+// is awake, else it is skipped where its parent was not; in a leaf, the awake bodies are compared
+// with each other and with those that sleep.
+template <int D>
+void expect_counted(const BroadPhase<D>& phase, const std::vector<Proxy<D>>& proxies) {
+  const bool sweeps = phase.config().kind == BroadPhaseKind::sort_and_sweep;
+  std::set<BodyId> stirs;
+  bool has_static = false;
+  for (const Proxy<D>& p : proxies) {
+    if (p.awake && !p.is_static) stirs.insert(p.id);
+    has_static |= p.is_static;
+  }
+  const BroadPhaseCounters c = phase.counters();
+  if (stirs.empty()) {
+    EXPECT_EQ(c.nodes_visited + c.nodes_skipped_asleep + c.pair_tests + c.nodes_reused, 0u);
+    return;
+  }
+  struct Node {
+    std::uint32_t parent = 0;
+    bool awake = false;
+  };
+  std::vector<Node> nodes;
+  std::uint64_t tests = 0;
+  phase.visit_dynamic([&](const NodeView<D>& view) {
+    std::uint64_t awake = 0;
+    for (const BodyId id : view.bodies) awake += stirs.count(id);
+    nodes.push_back({view.parent, awake > 0});
+    tests += awake * (view.bodies.size() - awake) + awake * (awake - 1) / 2;
+    return true;
+  });
+  for (std::size_t i = nodes.size(); i-- > 1;)
+    if (nodes[i].awake) nodes[nodes[i].parent].awake = true;
+  const std::vector<bool> told = phase.awake_dynamic_nodes();
+  ASSERT_EQ(told.size(), nodes.size());
+  std::uint64_t visited = 0, skipped = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    EXPECT_EQ(told[i], nodes[i].awake) << "node " << i;
+    visited += nodes[i].awake;
+    skipped += !nodes[i].awake && nodes[nodes[i].parent].awake;
+  }
+  EXPECT_EQ(c.nodes_visited, sweeps ? 1 : visited);
+  EXPECT_EQ(c.nodes_skipped_asleep, sweeps ? 0 : skipped);
+  if (sweeps) return;
+  if (phase.config().split_static && has_static) {
+    EXPECT_GE(c.pair_tests, tests) << "besides those with static bodies";
+  } else {
+    EXPECT_EQ(c.pair_tests, tests);
+  }
+}
+
 template <int D>
 void every_kind_is_exact(std::size_t bodies, std::uint64_t seeds) {
   for (const Sort sort : kSorts)
@@ -86,6 +136,7 @@ void every_kind_is_exact(std::size_t bodies, std::uint64_t seeds) {
           ASSERT_EQ(phase.pairs(), expected)
               << name_of(phase.config().kind) << " in " << D << "D, sort " << static_cast<int>(sort)
               << ", seed " << seed << ", update " << update;
+          expect_counted(phase, proxies);
         }
         move(sort, proxies, random);
       }
@@ -172,6 +223,28 @@ TEST(BroadPhase, TheStaticStructureIsBuiltOnceAndAgainOnlyWhenStaticBodiesChange
   }
 }
 
+// A row of walls, and one body that touches two of them.
+TEST(BroadPhase, ABodyIsComparedOnlyWithStaticOnesThatAreNear) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhase<2> phase(grid_config(kind, 100));
+    std::vector<Proxy<2>> proxies;
+    for (BodyId id = 0; id < 100; ++id)
+      proxies.push_back({id, Box<2>::around({4.0 * id + 2, 2}, Vec<2>(2.0)), true});
+    proxies.push_back({100, Box<2>::around({350.5, 2}, Vec<2>(2.0))});
+    phase.update(proxies);
+    EXPECT_EQ(phase.pairs(), (std::vector<Pair>{{87, 100}, {88, 100}})) << name_of(kind);
+    const std::uint64_t tests = phase.counters().pair_tests;
+    if (kind == BroadPhaseKind::brute_force) {
+      EXPECT_EQ(tests, 100u);
+    } else if (kind == BroadPhaseKind::sort_and_sweep) {
+      EXPECT_EQ(tests, 2u);
+    } else {
+      EXPECT_GE(tests, 2u) << name_of(kind);
+      EXPECT_LE(tests, kind == BroadPhaseKind::bsp ? 60u : 14u) << name_of(kind);
+    }
+  }
+}
+
 TEST(BroadPhase, WhereNothingIsAwakeNothingIsBuilt) {
   for (const BroadPhaseKind kind : kinds<2>()) {
     BroadPhase<2> phase(grid_config(kind, 8));
@@ -248,6 +321,72 @@ TEST(BroadPhase, ASteadyStateAsksForNoMemoryAndReusesNodes) {
     const bool has_nodes = kind == BroadPhaseKind::quadtree || kind == BroadPhaseKind::kd_tree;
     EXPECT_TRUE(!has_nodes || phase.counters().nodes_reused > 100) << name_of(kind);
   }
+}
+
+TEST(BroadPhase, CallsForMemoryAreNeverForgotten) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhase<2> phase(grid_config(kind, 16));
+    std::uint64_t before = 0, grown = 0;
+    for (int side = 1; side <= 16; ++side) {
+      auto proxies = grid(side);
+      for (Proxy<2>& p : proxies) p.is_static = p.id % 3 == 0;
+      phase.update(proxies);
+      EXPECT_GE(phase.counters().allocations, before) << name_of(kind) << ", side " << side;
+      grown += phase.counters().allocations > before;
+      before = phase.counters().allocations;
+    }
+    EXPECT_GE(grown, 8u) << name_of(kind) << ": 256 bodies were given room for nothing";
+  }
+}
+
+// The nodes of the dynamic structure of these bodies, or of the static one.
+std::vector<std::pair<std::uint32_t, std::vector<BodyId>>> nodes_shown(
+    std::vector<Proxy<2>> proxies, bool as_static, const BroadPhaseConfig<2>& config) {
+  BroadPhase<2> phase(config);
+  for (Proxy<2>& p : proxies) p.is_static = as_static;
+  phase.update(proxies);
+  std::vector<std::pair<std::uint32_t, std::vector<BodyId>>> nodes;
+  const auto look = [&](const NodeView<2>& node) {
+    nodes.push_back({node.depth, {node.bodies.begin(), node.bodies.end()}});
+    return true;
+  };
+  as_static ? phase.visit_static(look) : phase.visit_dynamic(look);
+  return nodes;
+}
+
+TEST(BroadPhase, StaticBodiesHaveTheSameTreeAsMovingOnes) {
+  for (const BroadPhaseKind kind : kinds<2>()) {
+    BroadPhaseConfig<2> config = grid_config(kind, 48);
+    config.capacity = 1;
+    const auto proxies = grid(48);  // of more entries than a tree may have that is made for none
+    EXPECT_EQ(nodes_shown(proxies, true, config), nodes_shown(proxies, false, config))
+        << name_of(kind);
+  }
+}
+
+TEST(BroadPhase, ATreeThatHadToBeShallowerIsDeepAgainWhenThereIsRoom) {
+  BroadPhaseConfig<2> config;
+  config.bounds = {Vec<2>(0.0), Vec<2>(64.0)};
+  config.capacity = 1;
+  config.max_depth = 8;
+  config.no_progress_stop = false;
+  const auto deepest_of = [](const BroadPhase<2>& phase) {
+    std::uint32_t deepest = 0;
+    phase.visit_dynamic([&](const NodeView<2>& node) {
+      deepest = std::max(deepest, node.depth);
+      return true;
+    });
+    return deepest;
+  };
+  BroadPhase<2> phase(config);
+  std::vector<Proxy<2>> proxies;
+  for (BodyId id = 0; id < 4; ++id) proxies.push_back({id, Box<2>{Vec<2>(0.0), Vec<2>(64.0)}});
+  phase.update(proxies);
+  EXPECT_EQ(deepest_of(phase), 4u) << "4 * 4^8 entries were too many: half of the depth";
+  proxies.clear();
+  for (BodyId id = 0; id < 9; ++id) proxies.push_back({id, Box<2>{Vec<2>(0.1), Vec<2>(0.2)}});
+  phase.update(proxies);
+  EXPECT_EQ(deepest_of(phase), 8u) << "a tree for more bodies begins with all of its depth";
 }
 
 TEST(BroadPhase, BodiesOutsideTheBoundsAndFarAwayKeepTheirPairs) {

@@ -179,5 +179,57 @@ TEST(Bsp, KeepsItsBudget) {
   EXPECT_NO_THROW(bsp.insert({1, {{30, 0}, {34, 1}}}));
 }
 
+// A leaf's zone is what lies on its sides of the planes above it.
+TEST(Bsp, CountsWhatStandsAndWhatWasTested) {
+  Random random(12);
+  for (int round = 0; round < 20; ++round) {
+    const Box<2> bounds = testing::bounds_of<2>(Sort::uniform);
+    const auto planes =
+        random_planes<2>(static_cast<std::size_t>(random.whole(0, 9)), bounds, random);
+    Bsp<2> bsp(planes, bounds);
+    for (int again = 0; again < 2; ++again) {
+      const auto items = testing::random_world<2>(Sort::uniform, 20, random);
+      Counters expected;
+      std::vector<std::vector<BodyId>> leaves;
+      for (const Item<2>& item : items)
+        bsp.insert(item, [&](const Event& event) {
+          expected.entries += event.kind == Event::Kind::store;
+        });
+      bsp.visit([&](const NodeView<2>& node) {
+        ++expected.nodes;
+        expected.leaves += node.leaf;
+        expected.depth = std::max<std::uint64_t>(expected.depth, node.depth);
+        EXPECT_EQ(node.leaf, node.plane == nullptr);
+        if (node.leaf) leaves.emplace_back(node.bodies.begin(), node.bodies.end());
+        return true;
+      });
+      std::size_t shown = 0;
+      for (const auto& leaf : leaves) shown += leaf.size();
+      // A body is tested against the plane of each inner node that it reaches.
+      std::uint64_t tests = 0;
+      Bsp<2> alone(planes, bounds);
+      for (const Item<2>& item : items) {
+        std::uint64_t reached = 0, stored = 0;
+        alone.insert(item, [&](const Event& event) {
+          reached += event.kind == Event::Kind::test;
+          stored += event.kind == Event::Kind::store;
+        });
+        tests += reached - stored;
+      }
+      const Counters c = bsp.counters();
+      EXPECT_EQ(c.nodes, expected.nodes);
+      EXPECT_EQ(c.nodes, 2 * planes.size() + 1);
+      EXPECT_EQ(c.leaves, expected.leaves);
+      EXPECT_EQ(c.depth, expected.depth);
+      EXPECT_EQ(c.entries, expected.entries);
+      EXPECT_EQ(c.entries, shown);
+      EXPECT_EQ(c.box_tests, tests);
+      bsp.clear();
+      EXPECT_EQ(bsp.counters().entries, 0u);
+      EXPECT_EQ(bsp.counters().box_tests, 0u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lantern

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/not_finite.hpp"
 #include "spatial/level_oracles.hpp"
 
 namespace lantern {
@@ -192,9 +193,40 @@ TEST(LevelBsp, PointsThatAreNowhereAreNotLocated) {
   EXPECT_TRUE(bsp.locate({1, 1})->floor) << "a corner of the walls is floor";
   EXPECT_FALSE(bsp.locate({15.5, 12})->floor) << "the middle of a pillar is stone";
   EXPECT_THROW(bsp.front_to_back({4, std::nan("")}, [](std::uint32_t) { return true; }), Refused);
+  EXPECT_THROW(bsp.front_to_back({kNan, 4}, [](std::uint32_t) { return true; }), Refused);
   int walked = 0;
   bsp.front_to_back({4, 4}, [&](std::uint32_t) { return ++walked < 3; });
   EXPECT_EQ(walked, 3) << "the walk does not end when it is told to";
+}
+
+// Each corner lies on a dividing line or at the end of one.
+TEST(LevelBsp, AnEyeOnALineSeesTheSectorInFrontOfItFirst) {
+  const std::vector<Wall> walls =
+      walls_of_loops(testing::Loops{{{1, 1}, {4, 1}, {4, 4}, {7, 4}, {7, 7}, {1, 7}}});
+  const LevelBsp bsp = compile_level(walls, {{0, 0}, {8, 8}});
+  ASSERT_EQ(bsp.sectors().size(), 2u);
+  for (const Vec<2> eye : {Vec<2>(4, 5), Vec<2>(4, 6), Vec<2>(2, 4), Vec<2>(3, 4), Vec<2>(2, 2)}) {
+    std::vector<std::uint32_t> near_first, far_first;
+    bsp.front_to_back(eye, [&](std::uint32_t s) { return near_first.push_back(s), true; });
+    bsp.back_to_front(eye, [&](std::uint32_t s) { return far_first.push_back(s), true; });
+    EXPECT_EQ(near_first.front(), bsp.locate(eye)->sector);
+    EXPECT_EQ(near_first, (std::vector<std::uint32_t>{far_first[1], far_first[0]}));
+  }
+}
+
+// A square of two walls a side: four lines, each tried once, against each of the eight.
+TEST(LevelBsp, WallsOnOneLineAreTriedOnce) {
+  const std::vector<Wall> walls = walls_of_loops(
+      testing::Loops{{{1, 1}, {4, 1}, {7, 1}, {7, 4}, {7, 7}, {4, 7}, {1, 7}, {1, 4}}});
+  const LevelCounters c = compile_level(walls, {{0, 0}, {8, 8}}).counters();
+  EXPECT_EQ(c.walls, 8u);
+  EXPECT_EQ(c.pieces, 8u);
+  EXPECT_EQ(c.candidates, 4u);
+  EXPECT_EQ(c.side_tests, 32u);
+  EXPECT_EQ(c.nodes, 1u);
+  EXPECT_EQ(c.sectors, 1u);
+  EXPECT_EQ(c.cuts, 0u);
+  EXPECT_EQ(c.depth, 0u);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "spatial/orthtree.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
+#include "spatial/sort_and_sweep.hpp"
 
 namespace lantern {
 namespace {
@@ -86,6 +87,7 @@ TEST(Limits, ABadBoxIsRefusedByNameAndNothingChanges) {
   expect_refuses_bad_boxes(Quadtree(config_for(world)));
   expect_refuses_bad_boxes(BruteForce<2>());
   expect_refuses_bad_boxes(Bsp<2>({}, world));
+  expect_refuses_bad_boxes(SortAndSweep<2>());
 }
 
 TEST(Limits, ABadConfigurationIsRefused) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spatial/flat_quadtree.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
 #include "spatial/worlds.hpp"
@@ -183,6 +184,31 @@ TEST(Orthtree, AQueryGivesTheBodiesOfTheLeavesReachedOnceEach) {
       expect_exact_queries<2>(sort, seed);
       expect_exact_queries<3>(sort, seed);
     }
+}
+
+TEST(FlatQuadtree, ShowsTheQuadtreeOfXAndZ) {
+  Random random(8);
+  Quadtree::Config config;
+  config.bounds = {{0, 0}, {64, 64}};
+  Quadtree tree(config);
+  FlatQuadtree tall({{{0, -5, 0}, {64, 5, 64}}, config});
+  for (const Item<3>& item : testing::random_world<3>(Sort::uniform, 40, random)) {
+    tall.insert(item);
+    tree.insert({item.id, {{item.box.lo.x, item.box.lo.z}, {item.box.hi.x, item.box.hi.z}}});
+  }
+  std::vector<std::string> expected, shown;
+  const auto text = [](const auto& n) {
+    return fmt::format("{} {} {} {} {} {} {} {} {}", n.handle, n.id, n.parent, n.slot, n.depth,
+                       n.leaf, fmt::join(n.bodies, ","), n.first, n.room);
+  };
+  tree.visit([&](const NodeView<2>& node) { return expected.push_back(text(node)), true; });
+  tall.visit([&](const NodeView<3>& node) {
+    EXPECT_EQ(node.box.lo.y, -5);
+    EXPECT_EQ(node.box.hi.y, 5);
+    return shown.push_back(text(node)), true;
+  });
+  EXPECT_GT(shown.size(), 9u);
+  EXPECT_EQ(shown, expected);
 }
 
 }  // namespace

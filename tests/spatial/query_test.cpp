@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/random_vec.hpp"
 #include "geometry/shape.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/frustum_cull.hpp"
@@ -181,6 +182,8 @@ void overlaps_equal_brute_force(Sort sort, std::uint64_t seed) {
     Tally told;
     const Found odd = query(is_odd, told);
     ASSERT_EQ(odd.ids, expected(what, true)) << of << " in " << name;
+    EXPECT_EQ(std::vector(told.hit.begin(), told.hit.end()), odd.ids) << "hits as told";
+    told.expect_agrees(odd.counts);
   };
   scene.with_each([&](const auto& structure, const char* name) {
     for (int round = 0; round < 8; ++round) {
@@ -188,12 +191,12 @@ void overlaps_equal_brute_force(Sort sort, std::uint64_t seed) {
       const Box<D> box{glm::min(a, b), glm::max(a, b)};
       const Ball<D> ball{a, round % 4 == 0 ? 0.0 : scene.random().between(0, 30)};
       const Frustum<D> view = scene.view();
-      check([&](auto e, auto t) { return overlap_query(structure, box, box_of, e, t); }, box, name,
-            "box");
-      check([&](auto e, auto t) { return overlap_query(structure, ball, box_of, e, t); }, ball,
+      check([&](auto e, auto&& t) { return overlap_query(structure, box, box_of, e, t); }, box,
+            name, "box");
+      check([&](auto e, auto&& t) { return overlap_query(structure, ball, box_of, e, t); }, ball,
             name, "ball");
-      check([&](auto e, auto t) { return frustum_cull(structure, view, box_of, e, t); }, view, name,
-            "view");
+      check([&](auto e, auto&& t) { return frustum_cull(structure, view, box_of, e, t); }, view,
+            name, "view");
     }
   });
 }
@@ -236,6 +239,60 @@ TEST(Query, TheNearestHitEndsTheSearch) {
     EXPECT_EQ(all.counts.objects_tested, 12u);
     EXPECT_LT(nearest.counts.nodes_visited, all.counts.nodes_visited);
     EXPECT_GT(nearest.counts.nodes_skipped, 0u);
+  }
+}
+
+// Of two siblings that differ along some axes, the first one met is not behind on all of these.
+template <int D, class Structure>
+void expect_order_of_ray(const Structure& structure, const Vec<D>& toward, const char* name) {
+  std::map<std::uint32_t, std::vector<std::pair<Box<D>, std::uint32_t>>> children;
+  std::map<std::uint32_t, bool> back_first;
+  structure.visit_toward(toward, [&](const NodeView<D>& node) {
+    children[node.parent].push_back({node.box, node.slot});
+    if (node.plane != nullptr) back_first[node.id] = glm::dot(node.plane->normal, toward) >= 0;
+    return true;
+  });
+  EXPECT_GT(children.size(), 4u) << name;
+  for (const auto& [parent, met] : children)
+    for (std::size_t i = 0; i < met.size(); ++i)
+      for (std::size_t j = i + 1; j < met.size(); ++j) {
+        if (back_first.contains(parent)) {
+          EXPECT_EQ(met[i].second, back_first[parent] ? 0u : 1u) << name;
+          continue;
+        }
+        bool all_behind = true;
+        const Vec<D> way = met[j].first.center() - met[i].first.center();
+        for (int axis = 0; axis < D; ++axis) all_behind &= way[axis] * toward[axis] <= 0;
+        EXPECT_FALSE(all_behind) << name << ", siblings " << met[i].second << ", " << met[j].second;
+      }
+}
+
+template <int D>
+void siblings_are_in_order(std::uint64_t seed) {
+  Scene<D> scene(Sort::uniform, 60, seed);
+  Vec<D> toward = random_direction<D>(scene.random());
+  const Box<D> bounds = testing::bounds_of<D>(Sort::uniform);
+  typename Orthtree<D>::Config config;
+  config.bounds = bounds;
+  Orthtree<D> orthtree(config);
+  Bsp<D> bsp(testing::random_planes<D>(Sort::uniform, 12, scene.random()), bounds);
+  KdTree<D> kd({2, 6});
+  kd.build(scene.items());
+  for (const Item<D>& item : scene.items()) orthtree.insert(item);
+  expect_order_of_ray<D>(orthtree, toward, "orthtree");
+  expect_order_of_ray<D>(kd, toward, "kd-tree");
+  expect_order_of_ray<D>(bsp, toward, "bsp");
+  if constexpr (D == 3) {
+    FlatQuadtree flat({bounds, {{}, 2, 6}});
+    for (const Item<D>& item : scene.items()) flat.insert(item);
+    expect_order_of_ray<D>(flat, toward, "flat quadtree");
+  }
+}
+
+TEST(Query, SiblingsAreMetInTheOrderOfTheRay) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    siblings_are_in_order<2>(seed);
+    siblings_are_in_order<3>(seed);
   }
 }
 

@@ -55,6 +55,26 @@ TEST(SortAndSweep, SweepsAlongTheAxisOnWhichCentresVaryTheMost) {
   }
 }
 
+TEST(SortAndSweep, ShowsOneLeafHoweverOftenItIsVisited) {
+  SortAndSweep<2> sweep;
+  sweep.insert({7, {{0, 0}, {9, 1}}});
+  sweep.insert({3, {{4, -2}, {13, 1}}});
+  std::vector<BodyId> room;
+  for (int round = 0; round < 2; ++round)
+    sweep.visit(
+        [&](const NodeView<2>& node) {
+          EXPECT_TRUE(node.leaf);
+          EXPECT_EQ(node.box, (Box<2>{{0, -2}, {13, 1}}));
+          EXPECT_EQ(std::vector<BodyId>(node.bodies.begin(), node.bodies.end()),
+                    (std::vector<BodyId>{3, 7}));
+          return true;
+        },
+        room);
+  EXPECT_EQ(sweep.counters().entries, 2u);
+  EXPECT_EQ(sweep.counters().nodes, 1u);
+  EXPECT_EQ(sweep.counters().leaves, 1u);
+}
+
 TEST(SortAndSweep, ComparesOnlyWhatOverlapsOnTheAxisAndWhereOneIsAwake) {
   SortAndSweep<2> sweep;
   //  0 |--------|
