@@ -94,6 +94,10 @@ TEST(Refusals, OfScripts) {
   expect_refused(world, "no body 7", [&] { world.push(7, {0, 0}, {0, 0}); });
   expect_refused(world, "no body 7", [&] { world.sleep(7); });
   expect_refused(world, "no body 7", [&] { world.wake(7); });
+  const BodyId far = world.add(ball_at<2>({-1.5e308, 0}));
+  expect_refused(world, "lever", [&] { world.push(far, {1, 0}, {1.5e308, 0}); });
+  for (const double bad : {kNan, kInfinity})
+    expect_refused(world, "point", [&] { world.push(1, {1, 0}, {bad, 0}); });
 }
 
 TEST(Refusals, OfSpringsAndJoints) {

@@ -1,0 +1,229 @@
+// Small random worlds with all that there is: every shape, kind of body, force, joint, method and
+// script. What they do is pinned to the last bit, and so is the work that they count, over all
+// compilers and build types. To be renewed when a method changes, and only then.
+#include <gtest/gtest.h>
+
+#include "base/hash.hpp"
+#include "base/random.hpp"
+#include "world_scene.hpp"
+
+namespace lantern {
+namespace {
+
+template <int D>
+Vec<D> any_vec(Random& random, double lo, double hi) {
+  Vec<D> v;
+  for (int i = 0; i < D; ++i) v[i] = random.between(lo, hi);
+  return v;
+}
+
+Rotation<2> any_rotation(Random& random, Rotation<2>) { return {random.between(-3, 3)}; }
+Rotation<3> any_rotation(Random& random, Rotation<3> r) {
+  return turned(r, any_vec<3>(random, -2, 2));
+}
+double any_spin(Random& random, double most) { return random.between(-most, most); }
+Vec<3> any_spin(Random& random, const Vec<3>& most) { return any_vec<3>(random, -most.x, most.x); }
+
+template <int D>
+void add_to(Hash& hash, const glm::vec<D, double>& value) {
+  for (int i = 0; i < D; ++i) hash.add(value[i]);
+}
+
+template <int D>
+class AnyWorld {
+ public:
+  explicit AnyWorld(std::uint64_t seed) : random_(seed), seed_(seed), world_(config()) {
+    world_.add(floor_at<D>(0, 0.4));
+    for (int i = 0; i < 12; ++i) add_body(i);
+    for (int i = 0; i < 3; ++i) attempt([&] { add_spring(); });
+    for (int i = 0; i < 3; ++i) attempt([&] { add_joint(); });
+  }
+
+  std::uint64_t hash_of_run() {
+    for (int step = 0; step < 36; ++step) {
+      if (step % 9 == 5) attempt([&] { meddle(step / 9); });
+      attempt([&] { world_.step(step % 7 == 6 ? kStep / 3 : kStep); });
+      tell();
+    }
+    return hash_.value();
+  }
+
+ private:
+  // What a world refuses leaves it as it was; that it does so is a part of what it does.
+  template <class F>
+  void attempt(F&& f) {
+    try {
+      f();
+    } catch (const Refused&) {
+      hash_.add(std::uint64_t{1});
+    }
+  }
+
+  bool chance(int of) { return random_.whole(1, of) == 1; }
+
+  WorldConfig<D> config() {
+    WorldConfig<D> config = falling<D>();
+    if (chance(5)) config.gravity = Vec<D>(0.0);
+    if (chance(3)) config.gravitation = random_.between(0, 3);
+    config.integrator = static_cast<Integrator>(seed_ % 6);
+    config.rotation = static_cast<RotationMethod>(random_.whole(0, 2));
+    config.contacts = chance(6)   ? ContactMethod::none
+                      : chance(3) ? ContactMethod::impulse
+                                  : ContactMethod::soft;
+    do config.broad_phase.kind = static_cast<BroadPhaseKind>(random_.whole(0, 5));
+    while (D == 2 && config.broad_phase.kind == BroadPhaseKind::octree);
+    config.sub_steps = static_cast<int>(random_.whole(1, 8));
+    config.iterations = static_cast<int>(random_.whole(1, 12));
+    config.warm_start = !chance(4);
+    config.may_sleep = !chance(4);
+    config.continuous = !chance(3);
+    if (chance(3)) config.impact_budget = static_cast<int>(random_.whole(0, 4));
+    if (chance(2)) {
+      config.sleep_after = 0.05;
+      config.sleep_speed = config.sleep_spin = 0.5;
+    }
+    return config;
+  }
+
+  Shape<D> any_shape() {
+    const Vec<D> half = any_vec<D>(random_, 0.1, 0.6);
+    switch (random_.whole(0, 4)) {
+      case 0:
+        return AxisBox<D>{half};
+      case 1:
+        return Capsule{half.x, half.y};
+      case 2:
+        return Sphere{half.x};
+      default:
+        return OrientedBox<D>{half};
+    }
+  }
+
+  void add_body(int i) {
+    Body<D> body;
+    body.name = fmt::format("body {}", i);
+    body.shape = any_shape();
+    if (chance(8)) body.kind = BodyKind::kinematic_body;
+    if (chance(8)) body.kind = BodyKind::static_body;
+    body.position = any_vec<D>(random_, -2, 2);
+    body.position.y = 0.3 + 0.35 * i;
+    if (!std::holds_alternative<AxisBox<D>>(body.shape))
+      body.orientation = any_rotation(random_, Rotation<D>{});
+    if (body.moves()) body.velocity = any_vec<D>(random_, -3, 3);
+    if (chance(5)) body.velocity.x = 60;
+    if (body.kind == BodyKind::static_body) body.velocity = Vec<D>(0.0);
+    body.density = random_.between(0.5, 3);
+    if (chance(3)) body.mass = random_.between(0.2, 4);
+    body.material.restitution = chance(2) ? 0 : random_.between(0, 1);
+    body.material.friction = chance(4) ? 0 : random_.between(0, 1);
+    if (chance(3)) body.linear_drag = random_.between(0, 1);
+    if (chance(3)) body.angular_drag = random_.between(0, 0.2);
+    body.may_turn = !chance(6);
+    if (chance(4)) body.rotation = static_cast<RotationMethod>(random_.whole(0, 2));
+    const bool turns = body.moves();
+    const BodyId id = world_.add(body);
+    if (turns) world_.set_angular_velocity(id, any_spin(random_, Spin<D>(4.0)));
+  }
+
+  const Body<D>& any_body() {
+    return world_.bodies()[static_cast<std::size_t>(
+        random_.whole(0, static_cast<std::int64_t>(world_.bodies().size()) - 1))];
+  }
+
+  void add_spring() {
+    Spring<D> spring;
+    spring.a = any_body().id;
+    do spring.b = any_body().id;
+    while (spring.b == spring.a);
+    spring.at_a = any_vec<D>(random_, -0.3, 0.3);
+    if (chance(2)) spring.at_b = any_vec<D>(random_, -0.3, 0.3);
+    spring.rest_length = random_.between(0, 2);
+    spring.stiffness = random_.between(1, 60);
+    spring.damping = chance(2) ? 0 : random_.between(0, 2);
+    world_.add_spring(spring);
+  }
+
+  void add_joint() {
+    const Body<D>& a = any_body();
+    const Body<D>* b = &any_body();
+    while (b->id == a.id) b = &any_body();
+    Joint<D> joint;
+    joint.kind = chance(2) ? JointKind::pin : JointKind::distance;
+    joint.a = a.id;
+    joint.b = b->id;
+    joint.at_a = any_vec<D>(random_, -0.3, 0.3);
+    const Vec<D> at = a.position + matrix(a.orientation) * joint.at_a;
+    if (joint.kind == JointKind::pin)
+      joint.at_b = glm::transpose(matrix(b->orientation)) * (at - b->position);
+    else
+      joint.length = glm::distance(at, b->position) + 1e-3;
+    joint.collide = chance(2);
+    world_.add_joint(joint);
+  }
+
+  void meddle(int round) {
+    const BodyId id = any_body().id, other = any_body().id;
+    const Vec<D> at = any_body().position, some = any_vec<D>(random_, -2, 2);
+    if (round == 0) {
+      world_.apply_impulse(id, some, at);
+      world_.push(other, some * 3.0, at, 0.1);
+      world_.sleep(id);
+    } else if (round == 1) {
+      world_.push(id, some, at);
+      if (world_.config().contacts != ContactMethod::none)
+        world_.switch_contacts(chance(2) ? ContactMethod::impulse : ContactMethod::soft, 3, 5);
+      world_.place(other, up<D>(3), some);
+    } else if (round == 2) {
+      world_.set_velocity(id, some);
+      world_.set_gravity(up<D>(-6));
+      if (!world_.joints().empty()) world_.remove_joint(world_.joints().front().first);
+      world_.remove_spring(1);
+    } else {
+      world_.clear_pushes();
+      world_.remove(other);
+      world_.place(0, up<D>(0.1), up<D>(0), Rotation<D>{});
+    }
+  }
+
+  void tell() {
+    hash_.add(world_.hash()).add(world_.time());
+    for (const Contact<D>& contact : world_.contacts()) {
+      hash_.add(std::uint64_t{contact.a}).add(std::uint64_t{contact.b});
+      for (const ManifoldPoint<D>& point : contact.manifold.points()) {
+        add_to(hash_, point.position);
+        hash_.add(point.separation);
+      }
+    }
+    for (const ContactEvent& event : world_.events())
+      hash_.add(static_cast<std::uint64_t>(event.kind))
+          .add(std::uint64_t{event.a})
+          .add(std::uint64_t{event.b});
+    for (const Pair& pair : world_.pairs()) hash_.add(std::uint64_t{pair.a} << 32 | pair.b);
+    const WorldWork& w = world_.work();
+    for (const std::uint64_t count :
+         {w.steps, w.force_evaluations, w.pair_tests, w.candidate_pairs, w.narrow_tests,
+          w.contact_points, w.constraint_rows, w.friction_rows, w.rotations_integrated,
+          w.impacts_located, w.islands, w.asleep})
+      hash_.add(count);
+  }
+
+  Hash hash_;
+  Random random_;
+  std::uint64_t seed_;
+  World<D> world_;
+};
+
+template <int D>
+std::uint64_t hash_of_worlds(std::uint64_t from, std::uint64_t to) {
+  Hash hash;
+  for (std::uint64_t seed = from; seed < to; ++seed) hash.add(AnyWorld<D>(seed).hash_of_run());
+  return hash.value();
+}
+
+TEST(Pinned, FewWorldsIn2D) { EXPECT_EQ(hash_of_worlds<2>(0, 6), 17713748519897389428u); }
+TEST(Pinned, FewWorldsIn3D) { EXPECT_EQ(hash_of_worlds<3>(0, 6), 369664649510206150u); }
+TEST(Pinned, ManyWorldsIn2D) { EXPECT_EQ(hash_of_worlds<2>(6, 60), 153941907549471641u); }
+TEST(Pinned, ManyWorldsIn3D) { EXPECT_EQ(hash_of_worlds<3>(6, 60), 7649407014668869733u); }
+
+}  // namespace
+}  // namespace lantern
