@@ -224,18 +224,26 @@ class FolderRun {
     taken_.insert(index);
     const MadeFrom from = manifest_.frame_from(index);
     if (!folder_->stands(index, "json"))
-      write_file(folder_->file(index, "json"), facts_of(frame, from));
+      write_counted(folder_->file(index, "json"), facts_of(frame, from));
     if (folder_->stands(index, job_.options.format)) {
       ++kept_;
       return;
     }
     const DrawList list = draw_frame(frame, page_for(job_.width, job_.height), work_);
     const fs::path file = folder_->file(index, job_.options.format);
-    if (job_.svg())
-      write_file(file, svg_of(job_, list, job_.width, job_.height, job_.options.transparent, from));
-    else
+    if (job_.svg()) {
+      write_counted(file,
+                    svg_of(job_, list, job_.width, job_.height, job_.options.transparent, from));
+      ++work_.frames_written;
+    } else {
       pipeline().submit(list, texts_of(frame), file, from);
+    }
     ++drawn_;
+  }
+
+  void write_counted(const fs::path& file, const std::string& bytes) {
+    write_file(file, bytes);
+    work_.bytes_written += bytes.size();
   }
 
   // Made when there is something to draw.

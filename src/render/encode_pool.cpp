@@ -130,7 +130,10 @@ void EncodePool::encode(const Job& job) {
   Picture& picture = *job.picture;
   std::call_once(*picture.encoded, [&] { picture.body = compress(picture.image, config_.effort); });
   std::string png = assemble(picture.body, job.texts, config_.pixels_per_metre);
-  write_file(job.path, job.from ? sealed(FileKind::png, std::move(png), *job.from) : png);
+  if (job.from) png = sealed(FileKind::png, std::move(png), *job.from);
+  write_file(job.path, png);
+  work_.bytes_written += png.size();
+  ++work_.frames_written;
   if (!config_.written) return;
   const std::lock_guard lock(written_mutex_);
   config_.written(job.path);
