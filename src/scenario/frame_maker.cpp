@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "base/stop.hpp"
 #include "scenario/caption.hpp"
 #include "scenario/expectations.hpp"

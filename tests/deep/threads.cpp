@@ -83,14 +83,18 @@ void an_error_ends_it(const fs::path& folder, int threads) {
   expect(thrown, "a file that cannot be written is told");
 }
 
-// A signal's wish, and the end without finish().
+// A signal's wish, heard while pictures are under way, and the end without finish().
 void may_be_given_up(const fs::path& folder, int threads) {
   Work work;
   std::jthread signal([] { ask_to_stop(); });
-  EncodePool pool(config(threads, 64), work);
-  for (int i = 0; i < 30 && !stop_asked(); ++i) {
-    paint(pool.blank(), i, 64);
-    pool.submit(texts(i), folder / std::to_string(i));
+  try {
+    EncodePool pool(config(threads, 64), work);
+    for (int i = 0; i < 30; ++i) {
+      paint(pool.blank(), i, 64);
+      pool.submit(texts(i), folder / std::to_string(i));
+    }
+  } catch (const Stopped&) {
+    // where it was heard
   }
   signal.join();
   forget_stop();
