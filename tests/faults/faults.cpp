@@ -1,5 +1,5 @@
 // A library to be preloaded: the n-th call of a kind fails, as on a full disk or without memory.
-//   FAULT_KIND  open, write, rename, link, unlink, mkdir, sync, or new (an allocation)
+//   FAULT_KIND  open, write, rename, link, unlink, mkdir, sync, or new (an allocation in main())
 //   FAULT_AT    which of them, from 1; 0 or more than there are: none
 //   FAULT_ERRNO what it fails with; ENOSPC is 28
 //   FAULT_DIR   only calls for paths below this folder count; allocations always do
@@ -21,6 +21,16 @@
 namespace {
 
 std::atomic<long> calls{0};
+
+// Who asks for memory before main() cannot be told that there is none.
+std::atomic<bool> begun{false};
+using Main = int (*)(int, char**, char**);
+Main real_main = nullptr;
+
+int begin(int argc, char** argv, char** environment) {
+  begun = true;
+  return real_main(argc, argv, environment);
+}
 
 const char* wish(const char* name, const char* otherwise) {
   const char* value = std::getenv(name);
@@ -65,7 +75,7 @@ F real(const char* name) {
 #define REAL(name) (*real<decltype(&::name)>(#name))
 
 void* allocated(std::size_t size, std::size_t alignment = 0) {
-  if (counts("new") && is_the_one()) throw std::bad_alloc();
+  if (begun && counts("new") && is_the_one()) throw std::bad_alloc();
   if (size == 0) size = 1;
   void* memory = nullptr;
   if (alignment > sizeof(void*)) {
@@ -93,6 +103,13 @@ int mode_of(int flags, va_list list) {
 }  // namespace
 
 extern "C" {
+
+int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(),
+                      void (*loader_fini)(), void* stack_end) {
+  using Start = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);
+  real_main = main;
+  return real<Start>("__libc_start_main")(begin, argc, argv, init, fini, loader_fini, stack_end);
+}
 
 int open(const char* path, int flags, ...) {
   va_list list;
