@@ -34,7 +34,7 @@ TEST(Limits, ANodeWithoutAMiddleIsNotSplit) {
   for (const Box<2>& bounds :
        {Box<2>{{0, 0}, {kTiny, kTiny}}, Box<2>{{one, one}, {next, next}},
         Box<2>{Vec<2>(2 * kTiny), Vec<2>(3 * kTiny)}, Box<2>{{next, next}, {after, after}},
-        Box<2>{{0, one}, {64, next}}}) {
+        Box<2>{{0, one}, {64, next}}, Box<2>{{one, 0}, {next, 64}}}) {
     Quadtree tree(config_for(bounds));
     bool told = false;
     for (BodyId id = 0; id < 3; ++id)

@@ -201,7 +201,11 @@ TEST(FlatQuadtree, ShowsTheQuadtreeOfXAndZ) {
     return fmt::format("{} {} {} {} {} {} {} {} {}", n.handle, n.id, n.parent, n.slot, n.depth,
                        n.leaf, fmt::join(n.bodies, ","), n.first, n.room);
   };
-  tree.visit([&](const NodeView<2>& node) { return expected.push_back(text(node)), true; });
+  tree.visit([&](const NodeView<2>& node) {
+    EXPECT_EQ(node.first == kNone, node.bodies.empty()) << "an empty leaf has no place";
+    EXPECT_EQ(node.room == 0, node.bodies.empty());
+    return expected.push_back(text(node)), true;
+  });
   tall.visit([&](const NodeView<3>& node) {
     EXPECT_EQ(node.box.lo.y, -5);
     EXPECT_EQ(node.box.hi.y, 5);

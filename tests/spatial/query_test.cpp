@@ -247,7 +247,9 @@ template <int D, class Structure>
 void expect_order_of_ray(const Structure& structure, const Vec<D>& toward, const char* name) {
   std::map<std::uint32_t, std::vector<std::pair<Box<D>, std::uint32_t>>> children;
   std::map<std::uint32_t, bool> back_first;
+  std::uint32_t visited = 0;
   structure.visit_toward(toward, [&](const NodeView<D>& node) {
+    EXPECT_EQ(node.id, visited++) << name;
     children[node.parent].push_back({node.box, node.slot});
     if (node.plane != nullptr) back_first[node.id] = glm::dot(node.plane->normal, toward) >= 0;
     return true;
