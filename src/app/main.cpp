@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/interrupts.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"

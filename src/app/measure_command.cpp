@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/interrupts.hpp"
 #include "app/measure_unsuited.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
@@ -99,8 +100,8 @@ int list_problems() {
 }
 
 bool same(const Circumstances& a, const Circumstances& b) {
-  return a.version == b.version && a.sources == b.sources && a.compiler == b.compiler && a.flags == b.flags &&
-         a.processor == b.processor && a.effort == b.effort;
+  return a.version == b.version && a.sources == b.sources && a.compiler == b.compiler &&
+         a.flags == b.flags && a.processor == b.processor && a.effort == b.effort;
 }
 
 // Rows of an earlier run under the same circumstances; none if there are none, or if its file is

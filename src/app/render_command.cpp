@@ -193,6 +193,7 @@ class FolderRun {
     if (pipeline_) pipeline_->finish();
     list_frames();
     if (last_ && manifest_.frames.size() == all_.size()) write_atlas(*last_);
+    tell_of_strange_files();
     manifest_.finished = true;
     manifest_.expectations = report.expectations;
     manifest_.unmet = report.unmet.size();
@@ -212,9 +213,6 @@ class FolderRun {
     if (!folder_->removed().empty())
       say(fmt::format("{}: removed what an earlier run has left: {}", scenario_.name,
                       some_of(folder_->removed())));
-    if (!folder_->strange().empty())
-      say(fmt::format("{}: left alone, since it is not as Lantern made it: {}", scenario_.name,
-                      some_of(folder_->strange())));
     write_manifest();
   }
 
@@ -237,13 +235,27 @@ class FolderRun {
       ++work_.frames_written;
     } else {
       pipeline().submit(list, texts_of(frame), file, from);
+      written_.insert(file.filename().string());
     }
     ++drawn_;
   }
 
   void write_counted(const fs::path& file, const std::string& bytes) {
     write_file(file, bytes);
+    written_.insert(file.filename().string());
     work_.bytes_written += bytes.size();
+  }
+
+  void tell_of_strange_files() const {
+    std::vector<std::string> left, replaced;
+    for (const std::string& name : folder_->strange())
+      (written_.contains(name) ? replaced : left).push_back(name);
+    if (!left.empty())
+      say(fmt::format("{}: left alone, since it is not as Lantern made it: {}", scenario_.name,
+                      some_of(left)));
+    if (!replaced.empty())
+      say(fmt::format("{}: replaced, though it was not as Lantern made it: {}", scenario_.name,
+                      some_of(replaced)));
   }
 
   // Made when there is something to draw.
@@ -280,12 +292,12 @@ class FolderRun {
     const MadeFrom from = manifest_.atlas_from();
     const std::string& format = job_.options.format;
     if (!folder_->atlas_stands(format))
-      write_file(folder_->atlas(format),
-                 job_.svg() ? svg_of(job_, list, width, height, true, from)
-                            : png_of(job_, list, width, height, true, 0, frame, from, work_));
+      write_counted(folder_->atlas(format),
+                    job_.svg() ? svg_of(job_, list, width, height, true, from)
+                               : png_of(job_, list, width, height, true, 0, frame, from, work_));
     if (!folder_->atlas_stands("json"))
-      write_file(folder_->atlas("json"),
-                 sealed(FileKind::json, atlas_facts(job_, frame, list), from));
+      write_counted(folder_->atlas("json"),
+                    sealed(FileKind::json, atlas_facts(job_, frame, list), from));
   }
 
   void write_manifest() { write_file(path_ / "manifest.json", to_json(manifest_)); }
@@ -311,6 +323,7 @@ class FolderRun {
   std::unique_ptr<Pipeline> pipeline_;
   std::vector<ListedFrame> all_;   // of the run so far
   std::set<std::uint32_t> taken_;  // of these, chosen
+  std::set<std::string> written_;  // names of files
   std::size_t drawn_ = 0, kept_ = 0;
   std::optional<Frame> last_;  // of an atlas
 };

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/interrupts.hpp"
 #include "base/error.hpp"
 
 namespace lantern {

@@ -186,13 +186,19 @@ TEST_F(OlderFolder, OnlyWhatLanternMadeIsRemovedAndItIsNamed) {
   write_text(folder / "ghosts_0020_copy.png", frame);
   write_text(folder / "ghosts_0099.png", "no picture at all");
   write_text(folder / "ghosts_0021.png", frame + "changed");
+  write_text(folder / "ghosts_0003.png", "in the way");
   fs::create_directory(folder / "ghosts_0098.png");
   const Outcome o = render(now, out);
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.err.find("removed what an earlier run has left: ghosts_0000.json"), std::string::npos)
       << o.err;
-  for (const std::string file : {"ghosts_0021.png", "ghosts_0098.png", "ghosts_0099.png"})
-    EXPECT_NE(o.err.find(file), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("left alone, since it is not as Lantern made it: ghosts_0021.png, "
+                       "ghosts_0098.png, ghosts_0099.png\n"),
+            std::string::npos)
+      << o.err;
+  EXPECT_NE(o.err.find("replaced, though it was not as Lantern made it: ghosts_0003.png\n"),
+            std::string::npos)
+      << o.err;
   EXPECT_EQ(read_text(folder / "notes.txt"), "mine");
   EXPECT_TRUE(read_text(folder / "ghosts_0020_copy.png") == frame);
   EXPECT_EQ(read_text(folder / "ghosts_0099.png"), "no picture at all");
