@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "base/stop.hpp"
@@ -67,13 +68,14 @@ void picture_world(const Players<D>& players, Frame& frame) {
         world.find(contact.b))  // one may have left since the step
       frame.contacts.push_back(frame_contact(contact, world.events()));
   }
-  players.for_each_link(
-      [&](const LinkSpec& spec, const Vec<D>& from, const Vec<D>& to, double rest) {
-        const bool has_length = spec.kind != LinkSpec::Kind::pin && rest > 0;
-        const double strain = has_length ? (glm::length(to - from) - rest) / rest : 0;
-        frame.links.push_back(
-            {static_cast<FrameLink::Kind>(spec.kind), solid(from), solid(to), strain});
-      });
+  players.for_each_link([&](const LinkSpec& spec, const Vec<D>& from, const Vec<D>& to,
+                            double rest) {
+    const bool has_length = spec.kind != LinkSpec::Kind::pin && rest > 0;
+    constexpr double kMost = std::numeric_limits<double>::max();  // of next to no length
+    const double strain = has_length ? std::min((glm::length(to - from) - rest) / rest, kMost) : 0;
+    frame.links.push_back(
+        {static_cast<FrameLink::Kind>(spec.kind), solid(from), solid(to), strain});
+  });
 }
 
 template <int D>

@@ -98,6 +98,10 @@ while [ "$i" -le "$kills" ]; do
   new=$(nth $((1 + $(dice "$i" 2 5))) $newer)
   signal=$(nth $((1 + $(dice "$i" 3 3))) KILL INT TERM)
   clean_of "$scenario" "$new"
+  # Frames of the same pictures that an older range left belong to the whole: both ranges stand.
+  case $(field "$old" 1):$(field "$new" 1) in
+    range:range) clean_of "$scenario" "both:--size_160x90_--frames_1-4" ;;
+  esac
   older_of "$scenario" "$old" "$new" "$i"
   moment=$(awk -v t="$time" -v d="$(dice "$i" 4 100)" 'BEGIN { print t * d / 1e5 }')
   options=$(words "$(field "$new" 2)")

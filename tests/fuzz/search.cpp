@@ -1,6 +1,7 @@
 #include "fuzz/search.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -135,6 +136,7 @@ class Worker {
 
  private:
   bool is_over() const {
+    if (desk->finished) return true;  // Ctrl-C
     if (options_.rounds > 0 && desk->files >= options_.rounds && desk->number >= corpus_.size())
       return true;
     return options_.minutes > 0 && clock_.seconds() > seconds_left_;
@@ -309,6 +311,7 @@ SearchReport search(const SearchOptions& options) {
   static Desk& shared = shared_desk();
   desk = new (&shared) Desk;
   desk->number = options.first;
+  std::signal(SIGINT, [](int) { desk->finished = true; });  // what was found until then is told
   const Stopwatch clock;
   while (!desk->finished) {
     const double left = 60 * options.minutes - clock.seconds();
@@ -325,9 +328,10 @@ SearchReport search(const SearchOptions& options) {
       if (__gcov_dump) __gcov_dump();  // _exit does not
       ::_exit(0);
     }
+    if (worker < 0) throw std::runtime_error("cannot start a process");
     int status = 0;
-    if (worker < 0 || ::waitpid(worker, &status, 0) != worker)
-      throw std::runtime_error("cannot start a process");
+    while (::waitpid(worker, &status, 0) < 0 && errno == EINTR) {
+    }
     if (desk->finished) break;
     note_death(options, status);
     ++desk->number;
