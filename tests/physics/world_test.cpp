@@ -1,4 +1,3 @@
-#include "geometry/not_finite.hpp"
 #include "physics/world.hpp"
 
 #include <limits>
@@ -6,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
@@ -152,6 +152,35 @@ TEST(World, HasThreeDimensionsToo) {
   world.add(body);
   world.step(2);
   EXPECT_EQ(world.bodies()[0].box(), (Box<3>{{1, 2, 3}, {3, 6, 9}}));
+}
+
+TEST(World, RemovingASpringThatIsNotThereDoesNothing) {
+  World<2> world;
+  world.remove_spring(0);
+  const BodyId a = world.add(ball("a", {0, 0}, {0, 0})), b = world.add(ball("b", {9, 0}, {0, 0}));
+  const SpringId spring = world.add_spring({a, b, {}, {}, 9, 1, 0});
+  world.remove_spring(spring + 1);
+  EXPECT_EQ(world.forces().springs.size(), 1u);
+  world.remove_spring(spring);
+  EXPECT_TRUE(world.forces().springs.empty());
+  world.remove_spring(spring);
+}
+
+TEST(World, KeepsTheBroadPhaseThatItWasSwitchedTo) {
+  WorldConfig<2> config;
+  config.contacts = ContactMethod::soft;
+  World<2> world(config);
+  BroadPhaseConfig<2> other = config.broad_phase;
+  other.kind = BroadPhaseKind::sort_and_sweep;
+  world.switch_broad_phase(other);
+  EXPECT_EQ(world.config().broad_phase.kind, BroadPhaseKind::sort_and_sweep);
+}
+
+TEST(World, ContactMethodsHaveNames) {
+  for (const ContactMethod method :
+       {ContactMethod::none, ContactMethod::impulse, ContactMethod::soft})
+    EXPECT_EQ(contact_method_named(to_string(method)), method);
+  EXPECT_EQ(contact_method_named("hard"), std::nullopt);
 }
 
 }  // namespace

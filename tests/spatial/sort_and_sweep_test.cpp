@@ -95,5 +95,17 @@ TEST(SortAndSweep, ComparesOnlyWhatOverlapsOnTheAxisAndWhereOneIsAwake) {
   EXPECT_EQ(sweep.sweep([](BodyId) { return false; }, keep), 0u);
 }
 
+TEST(SortAndSweep, TellsEachBodyThatItStores) {
+  SortAndSweep<2> sweep;
+  for (BodyId id = 5; id < 8; ++id) {
+    std::vector<Event> told;
+    sweep.insert({id, {{0, 0}, {1, 1}}}, [&](const Event& event) { told.push_back(event); });
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_EQ(told[0].kind, Event::Kind::store);
+    EXPECT_EQ(told[0].body, id);
+    EXPECT_EQ(told[0].count, id - 4) << "how many it holds by then";
+  }
+}
+
 }  // namespace
 }  // namespace lantern
