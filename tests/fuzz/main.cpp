@@ -39,7 +39,7 @@ int replay(const std::vector<std::string>& files) {
   return 0;
 }
 
-// The one that adds most, again and again; of equals the smallest.
+// The one that adds most for its size, again and again.
 int distil(const std::filesystem::path& from, const std::filesystem::path& to) {
   using namespace std::chrono_literals;
   constexpr std::size_t kMostFiles = 180;
@@ -62,8 +62,9 @@ int distil(const std::filesystem::path& from, const std::filesystem::path& to) {
   make_folder(to);
   std::set<std::uint64_t> reached;
   const auto gain = [&](const File& file) {
-    return std::ranges::count_if(file.features,
-                                 [&](std::uint64_t feature) { return !reached.contains(feature); });
+    const auto fresh = std::ranges::count_if(
+        file.features, [&](std::uint64_t feature) { return !reached.contains(feature); });
+    return static_cast<double>(fresh) / static_cast<double>(file.text.size() + 500);
   };
   std::size_t kept = 0;
   for (; kept < kMostFiles && !files.empty(); ++kept) {
