@@ -10,7 +10,7 @@ namespace lantern::fuzz {
 namespace {
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t kRounds = 500;
+constexpr std::uint64_t kRounds = 1500;
 #else
 constexpr std::uint64_t kRounds = 5000;
 #endif
