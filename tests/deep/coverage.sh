@@ -5,7 +5,8 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${BUILD:-$root/build}/coverage
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS="--coverage -fprofile-update=atomic" -DCMAKE_CXX_FLAGS_RELEASE=-O0 >/dev/null
+  -DCMAKE_CXX_FLAGS="--coverage -fprofile-update=atomic" -DCMAKE_CXX_FLAGS_RELEASE=-O0 \
+  -DCMAKE_EXE_LINKER_FLAGS=-Wl,-u,__gcov_dump >/dev/null
 cmake --build "$build" --target tests_fuzz >"$build/build.log" || { tail -n 20 "$build/build.log"; exit 1; }
 find "$build" -name '*.gcda' -exec rm {} +
 "$build/tests/tests_fuzz" --rounds "${1:-20000}" --findings "$build/findings" >"$build/report.txt" ||
