@@ -78,7 +78,7 @@ std::optional<std::pair<Vec<2>, Vec<2>>> cut_line(const Vec<2>& from, const Vec<
       p[axis] = std::clamp(p[axis], rect.lo[axis], rect.hi[axis]);
     return p;
   };
-  return std::pair{first == 0 ? from : at(first), last == 1 ? to : at(last)};
+  return std::pair{contains(rect, from) ? from : at(first), contains(rect, to) ? to : at(last)};
 }
 
 }  // namespace lantern

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/characters.hpp"
 #include "draw/clip.hpp"
@@ -45,6 +46,16 @@ TEST(Clip, LinesAreCutToTheRectangle) {
   EXPECT_FALSE(cut_line({-5, 0}, {0, 20}, rect)) << "it passes the corner by";
   EXPECT_FALSE(cut_line({std::nan(""), 0}, {5, 5}, rect));
   EXPECT_FALSE(cut_line({0, 0}, {HUGE_VAL, 5}, rect));
+  // Ends that are far away, where doubles skip whole pages.
+  Random random(1);
+  for (int i = 0; i < 200'000; ++i) {
+    const auto far = [&] { return random.between(-1, 1) * std::pow(10, random.between(0, 17)); };
+    const Vec<2> from(far(), far());
+    const Vec<2> to = random.unit() < 0.5 ? Vec<2>(far(), far()) : -from + Vec<2>(far(), far());
+    if (const auto part = cut_line(from, to, rect)) {
+      ASSERT_TRUE(contains(rect, part->first) && contains(rect, part->second));
+    }
+  }
   const auto point = cut_line({3, 3}, {3, 3}, rect);
   ASSERT_TRUE(point);
   EXPECT_EQ(point->first, Vec<2>(3, 3));
