@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.hpp"
+#include "draw/in_sight.hpp"
 #include "draw/page.hpp"
 #include "fuzz/energy.hpp"
 #include "measure/plan.hpp"
@@ -16,6 +17,7 @@
 #include "scenario/needs.hpp"
 #include "scenario/source_text.hpp"
 #include "scenario/toml_tree.hpp"
+#include "scenario/warnings.hpp"
 
 namespace lantern::fuzz {
 namespace {
@@ -213,15 +215,17 @@ void Trial::run_it(Pace pace, Dice& dice) {
   std::vector<std::uint64_t> hashes;
   const Watch::Clock::time_point start = Watch::Clock::now();
   Work work;
-  const auto bounded_run = [&](const std::function<void(const Frame&)>& look) {
+  RunWatch warner(*scenario_, shows_a_body);
+  const auto bounded_run = [&](RunWatch* warned, const std::function<void(const Frame&)>& look) {
     return watch_.bounded([&] {
-      direct(*scenario_, pace, work, [&](const Frame& frame) {
+      const auto see = [&](const Frame& frame) {
         look(frame);
         return !stop_asked() && frame.index + 1 < kMostFrames;
-      });
+      };
+      direct(*scenario_, pace, work, see, warned);
     });
   };
-  const bool whole = bounded_run([&](const Frame& frame) {
+  const bool whole = bounded_run(&warner, [&](const Frame& frame) {
     hashes.push_back(frame.hash);
     energy.look(frame);
     const Step& step = scenario_->steps[frame.step];
@@ -233,15 +237,20 @@ void Trial::run_it(Pace pace, Dice& dice) {
     else if (std::has_single_bit(frame.index) || dice.chance(0.1))
       shots_[dice.index(2)] = frame;
   });
+  if (const std::vector<Diagnostic> warnings = warner.warnings(); !warnings.empty()) {
+    require_sound(warnings, scenario_->text);
+    for (const Diagnostic& d : warnings)
+      result_.features.insert(feature("warning", kind_of(d.message)));
+  }
   result_.frames = static_cast<std::uint32_t>(hashes.size());
   result_.energy_growth = energy.growth();
   result_.ran = whole;
   result_.stopped = result_.stopped || !whole;
   const std::chrono::duration<double> seconds = Watch::Clock::now() - start;
   if (!whole || seconds.count() > kQuickRun || !dice.chance(kRepeated)) return;
-  entered_(Stage::repeating);
+  entered_(Stage::repeating);  // unwatched: who looks changes nothing
   std::size_t next = 0;
-  const bool again = bounded_run([&](const Frame& frame) {
+  const bool again = bounded_run(nullptr, [&](const Frame& frame) {
     if (next >= hashes.size() || frame.hash != hashes[next++])
       throw Finding(fmt::format("frame {} is another one the second time", frame.index));
   });
