@@ -121,7 +121,7 @@ TEST(MeasureCommand, AMethodThatDoesNotSuitIsNamedWithTheReason) {
             std::string::npos)
       << alone.err;
   const Outcome beside = shell(
-      "lantern measure projectile kepler --quick --no-peers --method impulse "
+      "lantern measure projectile kepler --quick --longest 600 --no-peers --method impulse "
       "--method velocity_verlet --step 0.1 -o " +
       out.string());
   EXPECT_EQ(beside.code, 0);
