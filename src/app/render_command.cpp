@@ -359,12 +359,7 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 // Draws one scenario; the exit code that it deserves.
 int render_one(const RenderJob& job, const Scenario& scenario, Work& work, JsonWriter& json) {
   const Pace pace = pace_of(job, scenario);
-  // In event pace, how many frames there are is known only after the run.
-  const bool by_step =
-      pace == Pace::step && std::none_of(scenario.steps.begin(), scenario.steps.end(),
-                                         [](const Step& s) { return s.pace == Pace::event; });
-  Selection selection(job.options.frames, job.options.at,
-                      by_step ? std::optional(scenario.most_frames) : std::nullopt);
+  Selection selection(job.options.frames, job.options.at, extent_of(scenario, pace).frames);
   std::optional<FolderRun> run;
   if (!job.to_stdout()) run.emplace(job, scenario, pace, selection, work);
   RunWatch watch(scenario, shows_a_body);
