@@ -40,6 +40,7 @@ struct Body {
   double angular_drag = 0;        // torque = -angular_drag * angular velocity
   bool may_turn = true;           // false: contacts and forces never turn it
   bool asleep = false;
+  bool collides = true;           // false: nothing meets it, no structure holds it
   std::optional<Integrator> integrator;    // of this body; none: the world's
   std::optional<RotationMethod> rotation;  // the same
 
@@ -49,6 +50,11 @@ struct Body {
   Spin<D> inverse_inertia{0.0};
 
   bool moves() const { return kind != BodyKind::static_body; }
+  // Moves now, so that it may meet or wake others: is not at rest.
+  bool stirs() const {
+    if (kind == BodyKind::dynamic_body) return !asleep;
+    return moves() && (velocity != Vec<D>(0.0) || kinematic_spin != Spin<D>(0.0));
+  }
   Box<D> box() const { return bounding_box(shape, position, orientation); }
 };
 

@@ -39,6 +39,8 @@ struct World<D>::Step {
   std::vector<ContactEvent> events = {};
 
   void find_forces();
+  void require_boxes() const;
+  std::vector<Proxy<D>> enlarged_boxes() const;
   void find_near_pairs();
   void make_islands();
   void move();
@@ -51,11 +53,12 @@ struct World<D>::Step {
  private:
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
   std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
-  bool stirs(const Body<D>& body) const;
   bool is_slow(std::size_t place) const;
   const Touch* remembered(BodyId a, BodyId b) const;
 
+  void find_increments();
   void find_reach();
+  Box<D> enlarged_box(std::size_t place) const;
   bool look_for_near_pairs();
   std::optional<NearPair> nearing(const Pair& pair) const;
   void require_room_for_near_pairs() const;

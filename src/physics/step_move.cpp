@@ -180,7 +180,7 @@ void World<D>::Step::fall_asleep() {
       for (const BodyId id : {touch.record.a, touch.record.b}) {
         held[root[place_of(id)]] = true;
         const BodyId other = id == touch.record.a ? touch.record.b : touch.record.a;
-        if (moved[place_of(id)].kind != BodyKind::dynamic_body && stirs(moved[place_of(id)]))
+        if (moved[place_of(id)].kind != BodyKind::dynamic_body && moved[place_of(id)].stirs())
           restless[root[place_of(other)]] = true;
       }
     for (const auto& entry : world.joints_)
@@ -210,7 +210,7 @@ void World<D>::Step::fall_asleep() {
 template <int D>
 void World<D>::Step::tell() {
   const auto rests = [&](BodyId id) {
-    return !stirs(world.bodies_[place_of(id)]) && !stirs(moved[place_of(id)]);
+    return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
   };
   for (const Touch& touch : world.touching_)
     if (rests(touch.record.a) && rests(touch.record.b)) touching.push_back(touch);
@@ -254,6 +254,7 @@ void World<D>::Step::commit() {
   world.contacts_ = std::move(contacts);
   world.events_ = std::move(events);
   world.pairs_ = std::move(pairs);
+  world.ahead_.reset();
   world.time_ += h;
   ++world.work_.steps;
 }

@@ -38,14 +38,6 @@ Vec<D> velocity_of(const Body<D>& body) {
 
 }  // namespace
 
-// Moves now: what may wake others.
-template <int D>
-bool World<D>::Step::stirs(const Body<D>& body) const {
-  if (body.kind == BodyKind::dynamic_body) return !body.asleep;
-  return body.kind == BodyKind::kinematic_body &&
-         (body.velocity != Vec<D>(0.0) || body.kinematic_spin != Spin<D>(0.0));
-}
-
 template <int D>
 void World<D>::Step::find_forces() {
   std::vector<std::uint32_t> released;
@@ -58,8 +50,19 @@ void World<D>::Step::find_forces() {
   forces.pushes.clear();
   for (const TimedPush& push : pushes) forces.pushes.push_back(push.push);
   wake(std::move(released));
-  find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
+  find_increments();
   find_reach();
+}
+
+// Unless looking ahead has found them.
+template <int D>
+void World<D>::Step::find_increments() {
+  if (world.ahead_ && world.ahead_->h == h) {
+    increments = world.ahead_->increments;
+    world.work_.force_evaluations += world.ahead_->force_evaluations;
+    return;
+  }
+  find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
 }
 
 template <int D>
@@ -71,17 +74,58 @@ void World<D>::Step::find_reach() {
     way += glm::length(velocity_of(body)) * h + glm::length(increments[i].kick) * h +
            glm::length(increments[i].drift);
     reach[i] = std::max(reach[i], way);
-    const Box<D> box = body.box();
-    if (!is_valid(Box<D>{box.lo - Vec<D>(reach[i]), box.hi + Vec<D>(reach[i])}))
-      throw Refused(fmt::format("body '{}': position overflows in step {}", body.name,
-                                world.work_.steps + 1));
   }
 }
 
 template <int D>
+Box<D> World<D>::Step::enlarged_box(std::size_t place) const {
+  const Box<D> box = moved[place].box();
+  return {box.lo - Vec<D>(reach[place]), box.hi + Vec<D>(reach[place])};
+}
+
+template <int D>
+void World<D>::Step::require_boxes() const {
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (!is_valid(enlarged_box(i)))
+      throw Refused(fmt::format("body '{}': position overflows in step {}", moved[i].name,
+                                world.work_.steps + 1));
+}
+
+template <int D>
+std::vector<Proxy<D>> World<D>::Step::enlarged_boxes() const {
+  std::vector<Proxy<D>> proxies;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (moved[i].collides)
+      proxies.push_back({moved[i].id, enlarged_box(i), !moved[i].moves(), moved[i].stirs()});
+  return proxies;
+}
+
+// How all would fly on, and the structure in which the next step looks for pairs. A step that would
+// be refused is not foreseen: it will say so itself.
+template <int D>
+void World<D>::look_ahead(double h) {
+  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  Step step{*this, h, {}};
+  step.reach.resize(bodies_.size());
+  if (config_.contacts == ContactMethod::none) return broad_phase_->build(step.enlarged_boxes());
+  const WorldWork before = work_;
+  try {
+    step.find_forces();
+    step.require_boxes();
+    const std::uint64_t evaluations = work_.force_evaluations - before.force_evaluations;
+    ahead_ = Ahead{h, step.increments, evaluations};
+  } catch (const Refused&) {
+    step.reach.assign(bodies_.size(), 0);
+  }
+  work_ = before;
+  broad_phase_->build(step.enlarged_boxes());
+}
+
+template <int D>
 void World<D>::Step::find_near_pairs() {
+  require_boxes();
   if (!collides()) return;
-  const auto awake = [&](const Body<D>& body) { return stirs(body); };
+  const auto awake = [](const Body<D>& body) { return body.stirs(); };
   while (std::any_of(moved.begin(), moved.end(), awake))
     if (!look_for_near_pairs()) break;
 }
@@ -89,16 +133,8 @@ void World<D>::Step::find_near_pairs() {
 // Broad phase and narrow phase. Returns whether bodies woke, so that it must be done again.
 template <int D>
 bool World<D>::Step::look_for_near_pairs() {
-  std::vector<Proxy<D>> proxies;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const Box<D> box = moved[i].box();
-    proxies.push_back({moved[i].id,
-                       {box.lo - Vec<D>(reach[i]), box.hi + Vec<D>(reach[i])},
-                       moved[i].kind == BodyKind::static_body,
-                       stirs(moved[i])});
-  }
   if (!world.broad_phase_) world.broad_phase_.emplace(world.config_.broad_phase);
-  world.broad_phase_->update(proxies);
+  world.broad_phase_->update(enlarged_boxes());
   pairs = world.broad_phase_->pairs();
   world.work_.pair_tests += world.broad_phase_->counters().pair_tests;
   world.work_.candidate_pairs += pairs.size();
@@ -185,8 +221,8 @@ bool World<D>::Step::wake_what_is_touched() {
   }
   const auto tied = [&](BodyId first, BodyId second) {
     const std::uint32_t a = place_of(first), b = place_of(second);
-    if (moved[a].asleep && stirs(moved[b])) woken.push_back(a);
-    if (moved[b].asleep && stirs(moved[a])) woken.push_back(b);
+    if (moved[a].asleep && moved[b].stirs()) woken.push_back(a);
+    if (moved[b].asleep && moved[a].stirs()) woken.push_back(b);
   };
   for (const auto& entry : world.joints_) tied(entry.second.a, entry.second.b);
   for (const Spring<D>& spring : forces.springs) tied(spring.a, spring.b);
@@ -194,6 +230,7 @@ bool World<D>::Step::wake_what_is_touched() {
   wake(std::move(woken));
   find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
   find_reach();
+  require_boxes();
   return true;
 }
 
@@ -249,7 +286,7 @@ void World<D>::Step::make_islands() {
   template void World<D>::Step::find_near_pairs();                           \
   template void World<D>::Step::make_islands();                              \
   template IslandPair<D> World<D>::Step::island_pair(const NearPair&) const; \
-  template bool World<D>::Step::stirs(const Body<D>&) const;
+  template void World<D>::look_ahead(double);
 
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)

@@ -121,6 +121,7 @@ BodyId World<D>::add(Body<D> body) {
     body.angular_momentum = Spin<D>(0.0);
   }
   body.id = next_id_;
+  ahead_.reset();
   bodies_.push_back(std::move(body));
   rested_.push_back(0);
   return next_id_++;
@@ -331,6 +332,7 @@ bool World<D>::joined(BodyId a, BodyId b) const {
 // and kinematic bodies pass nothing on, but those that touch the named ones wake.
 template <int D>
 void World<D>::rouse(std::vector<BodyId> ids) {
+  ahead_.reset();
   std::vector<bool> seen(bodies_.size());
   std::vector<std::size_t> open;
   const auto reach = [&](BodyId id, bool named) {
@@ -366,6 +368,7 @@ template <int D>
 void World<D>::sleep(BodyId id) {
   Body<D>& body = bodies_[index_of(id)];
   if (body.kind != BodyKind::dynamic_body) return;
+  ahead_.reset();
   body.asleep = true;
   body.velocity = Vec<D>(0.0);
   body.angular_momentum = Spin<D>(0.0);
@@ -375,6 +378,13 @@ template <int D>
 void World<D>::wake(BodyId id) {
   index_of(id);
   rouse({id});
+}
+
+template <int D>
+void World<D>::store(BodyId id, const typename BroadPhase<D>::Watch& watch) {
+  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  const Body<D>& body = bodies_[index_of(id)];
+  broad_phase_->insert({id, body.box(), !body.moves(), body.stirs()}, watch);
 }
 
 template <int D>

@@ -15,6 +15,7 @@
 #include "physics/body.hpp"
 #include "physics/contacts.hpp"
 #include "physics/forces.hpp"
+#include "physics/integrator.hpp"
 #include "physics/joint.hpp"
 #include "physics/world_config.hpp"
 
@@ -80,6 +81,14 @@ class World {
   // out of its range. What presses goes on pressing: the next step begins with the old impulses.
   void switch_contacts(ContactMethod method, int sub_steps, int iterations);
 
+  // The structure (broad phase) as it will be used: with contacts that of the next step, if it is one
+  // of `h` seconds, in which boxes are enlarged by how far bodies may come in it; without contacts
+  // that of the bodies as they are, which no step needs. Built once: the step finds it standing.
+  void look_ahead(double h);
+  // Puts this body into the structure as it lies, after all others (the lecture's Insert). Throws
+  // Refused for ids that are not ascending, and as BroadPhase does.
+  void store(BodyId id, const typename BroadPhase<D>::Watch& watch);
+
   // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when
   // a position or velocity would overflow, for a step that is negative or not finite, and for more
   // memory than the budget. Throws Stopped as soon as that is wished. The world stays as it was.
@@ -90,7 +99,7 @@ class World {
   const std::vector<Contact<D>>& contacts() const { return contacts_; }
   const std::vector<ContactEvent>& events() const { return events_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
-  // The structures of the last step; null if no step has needed one.
+  // Null if nobody has needed one.
   const BroadPhase<D>* broad_phase() const { return broad_phase_ ? &*broad_phase_ : nullptr; }
 
   const WorldWork& work() const { return work_; }
@@ -114,6 +123,12 @@ class World {
     double seconds = 0;   // of that sub-step
   };
   struct Step;  // one step while it is made (world_step.cpp)
+  // What looking ahead found out for the next step.
+  struct Ahead {
+    double h = 0;
+    std::vector<Increment<D>> increments;
+    std::uint64_t force_evaluations = 0;
+  };
 
   std::size_t index_of(BodyId id) const;
   bool joined(BodyId a, BodyId b) const;
@@ -139,6 +154,7 @@ class World {
   std::vector<ContactEvent> events_;
   std::vector<Pair> pairs_;
   std::optional<BroadPhase<D>> broad_phase_;
+  std::optional<Ahead> ahead_;  // until anything changes
   WorldWork work_;
 };
 

@@ -6,9 +6,9 @@
 #include "scenario/body_measure.hpp"
 #include "scenario/brains.hpp"
 #include "scenario/questions.hpp"
+#include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
 #include "scenario/world_watch.hpp"
-#include "spatial/pairs.hpp"
 
 namespace lantern {
 namespace {
@@ -55,9 +55,10 @@ class EngineOf : public Engine {
       : scenario_(scenario),
         work_(work),
         players_(scenario),
-        structures_(made(scenario.structure)),
+        structure_(scenario.structure),
         brains_(scenario) {
     ++work_.worlds_created;
+    count_structures();
   }
 
   void enter(std::size_t body) override { players_.enter(body); }
@@ -66,7 +67,10 @@ class EngineOf : public Engine {
   void store(std::size_t index, const Watch& watch) override {
     const Body<D>* body = players_.body(index);
     LANTERN_CHECK(body != nullptr, ==, true);
-    structures_.insert(players_.resident(*body), watch);
+    if (!has_structure()) return;
+    being_stored_ = true;
+    world().store(body->id, watch);
+    being_stored_ = false;
   }
 
   void move(const Move& move) override {
@@ -118,19 +122,20 @@ class EngineOf : public Engine {
   }
 
   void rebuild() override {
-    if (structures_.any()) structures_.rebuild(players_.residents());
+    if (has_structure() && !has_contacts()) look_ahead();
   }
 
   void rebuild_as(const StructureSpec& structure) override {
-    structures_ = made(structure);
+    structure_ = structure;
+    count_structures();
     world().switch_broad_phase(
         broad_phase_of<D>(structure, in_dimension<D>(scenario_.world.bounds)));
     rebuild();
   }
 
-  Finding ask(const CastRay& ray) const override { return answer(ray); }
-  Finding ask(const Cull& view) const override { return answer(view); }
-  Finding ask(const Query& region) const override { return answer(region); }
+  Finding ask(const CastRay& ray) override { return answer(ray); }
+  Finding ask(const Cull& view) override { return answer(view); }
+  Finding ask(const Query& region) override { return answer(region); }
 
   std::optional<BodyId> id_of(std::size_t body) const override { return players_.id_of(body); }
 
@@ -153,8 +158,10 @@ class EngineOf : public Engine {
     return std::find(events.begin(), events.end(), wanted) != events.end();
   }
 
-  std::string label_of(NodeHandle node) const override { return structures_.label_of(node); }
-  const StructureSpec& structure() const override { return structures_.spec(); }
+  std::string label_of(NodeHandle node) const override {
+    return lantern::label_of(structure_, *players_.world().broad_phase(), node);
+  }
+  const StructureSpec& structure() const override { return structure_; }
   void observe(std::vector<BodyState>& states) const override {
     states.resize(scenario_.bodies.size());
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -169,13 +176,12 @@ class EngineOf : public Engine {
 
   void forget_events() override { begins_ = ends_ = 0; }
 
-  void picture(const Touched& touched, Frame& frame) const override {
+  void picture(const Touched& touched, Frame& frame) override {
+    if (has_structure() && (has_contacts() || !world().broad_phase()) && !being_stored_)
+      look_ahead();
     picture_world(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
-    structures_.picture(touched, players_.residents(), frame);
-    if (!structures_.any())
-      frame.counts.emplace_back("all_pairs",
-                                static_cast<std::int64_t>(all_pairs(frame.bodies.size())));
+    picture_structure(structure_, players_.world(), tells_sleepers(), touched, frame);
     count(frame);
     if (has_physics()) measure_world(players_, has_contacts(), frame);
     measure_bodies(players_, scenario_, frame);
@@ -184,20 +190,25 @@ class EngineOf : public Engine {
  private:
   World<D>& world() { return players_.world(); }
 
-  Structures<D> made(const StructureSpec& spec) const {
-    return Structures<D>(spec, in_dimension<D>(scenario_.world.bounds), only_awake(), work_);
+  bool has_structure() const { return structure_.kind != StructureKind::none; }
+
+  void count_structures() {
+    if (has_structure()) work_.structures_created += structure_.split_static ? 2 : 1;
   }
 
+  void look_ahead() { world().look_ahead(scenario_.world.time_step); }
+
+  // Of a world without a structure of its own every body is asked.
   template <class Verb>
-  Finding answer(const Verb& verb) const {
-    const std::vector<Resident<D>> residents = players_.residents();
-    return asked<D>(verb, structures_, players_.world(), residents);
+  Finding answer(const Verb& verb) {
+    if (!has_structure() || has_contacts() || !world().broad_phase()) look_ahead();
+    return asked<D>(verb, players_.world());
   }
 
   bool has_contacts() const { return scenario_.world.contacts != ContactMethod::none; }
 
-  // Where bodies collide or sleep, pairs of two that rest are of no interest.
-  bool only_awake() const {
+  // Where bodies may rest, those that do are told from those that do not.
+  bool tells_sleepers() const {
     return has_contacts() || scenario_.world.may_sleep || scenario_.structure.split_static;
   }
 
@@ -212,17 +223,22 @@ class EngineOf : public Engine {
       frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
     };
     if (has_contacts()) {
-      std::uint64_t points = 0;
-      for (const FrameContact& c : frame.contacts) points += c.points.size();
-      if (!structures_.any()) add("contacts", frame.contacts.size());
+      std::uint64_t points = 0, impulses = 0;
+      for (const FrameContact& c : frame.contacts) {
+        points += c.points.size();
+        impulses += static_cast<std::uint64_t>(std::ranges::count_if(
+            c.points, [](const FrameContact::Point& p) { return p.impulse != 0; }));
+      }
+      add("contacts", frame.contacts.size());
       add("contact_points", points);
+      add("impulses", impulses);
       add("begins", begins_);
       add("ends", ends_);
       add("narrow_tests", last_.narrow_tests);
       add("constraint_rows", last_.constraint_rows);
       add("friction_rows", last_.friction_rows);
     }
-    if (only_awake()) {
+    if (tells_sleepers()) {
       std::uint64_t asleep = 0, awake = 0;
       for (const FrameBody& body : frame.bodies)
         if (!body.is_static) ++(body.asleep ? asleep : awake);
@@ -237,7 +253,8 @@ class EngineOf : public Engine {
   const Scenario& scenario_;
   Work& work_;
   Players<D> players_;
-  Structures<D> structures_;
+  StructureSpec structure_;
+  bool being_stored_ = false;  // a body is on its way down the structure
   Brains<D> brains_;
   StepWork last_;
   std::uint64_t begins_ = 0;

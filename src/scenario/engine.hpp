@@ -45,13 +45,15 @@ class Engine {
   virtual void wake(std::size_t body) = 0;
   virtual void solve_by(const SolveBy& method) = 0;
   virtual void step() = 0;     // one world step
-  virtual void rebuild() = 0;  // the structure anew, its memory reused
+  // The structure of the bodies as they are, its memory reused. With contacts this is left to the
+  // world, whose next step needs it: it is built when a frame or a query asks for it, or else then.
+  virtual void rebuild() = 0;
   // Another structure, all bodies anew; the world's broad phase becomes the same kind.
   virtual void rebuild_as(const StructureSpec& structure) = 0;
 
-  virtual Finding ask(const CastRay& ray) const = 0;
-  virtual Finding ask(const Cull& view) const = 0;
-  virtual Finding ask(const Query& region) const = 0;
+  virtual Finding ask(const CastRay& ray) = 0;
+  virtual Finding ask(const Cull& view) = 0;
+  virtual Finding ask(const Query& region) = 0;
 
   virtual std::optional<BodyId> id_of(std::size_t body) const = 0;
   virtual bool is_moving(std::size_t body) const = 0;
@@ -68,7 +70,7 @@ class Engine {
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;
   // Bodies, nodes, pairs, contacts, links, counts and measures as they are.
-  virtual void picture(const Touched& touched, Frame& frame) const = 0;
+  virtual void picture(const Touched& touched, Frame& frame) = 0;
 };
 
 std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work);

@@ -31,7 +31,10 @@ struct FrameBody {
   double angle = 0;             // of a flat world: radians, counter-clockwise
   Rotation<3> orientation;      // the same turn about z, or a solid body's
   Vec<3> angular_momentum{0.0}; // about z in a flat world
-  Box<3> box;                   // in the broad phase
+  Box<3> box;                   // the smallest one around it
+  std::optional<Box<3>> stored_box;  // that the structure holds: with contacts enlarged by how far
+                                     // it may come in the next step; of a tree that was not
+                                     // rebuilt, the old one
   bool is_static = false;
   bool asleep = false;
   bool lit = false;             // the step is about it
@@ -76,6 +79,7 @@ struct FrameTexture {
 struct FramePair {
   Pair pair;
   bool lit = false;             // new since the frame before
+  bool overlaps = false;        // their stored boxes do: the narrow phase will test them
 };
 
 // Two bodies that touch, as the narrow phase says, and what the solver did about it.
@@ -165,6 +169,17 @@ struct Camera {
   double field_of_view = 0.7;   // radians, from bottom to top
 };
 
+// What the world's steps did between two frames, summed up.
+struct FrameWork {
+  std::uint64_t steps = 0;
+  std::uint64_t pairs_met = 0;       // in leaves, as often as they were met
+  std::uint64_t overlaps = 0;        // of their boxes, each once a search: handed to the narrow phase
+  std::uint64_t pairs_tested = 0;    // by the narrow phase, each once a step
+  std::uint64_t narrow_tests = 0;    // that it made: it may look at a pair several times a step
+  std::uint64_t contact_points = 0;  // that it found, and that were solved
+  std::uint64_t impulses = 0;        // rows of contacts and joints that were solved, once a sweep
+};
+
 struct Frame {
   int dimension = 2;
   std::optional<Camera> camera;  // of a solid world
@@ -196,6 +211,7 @@ struct Frame {
   std::vector<BodyId> hits;      // what the ray, view or query found; of a ray in order along it
   std::vector<FrameWall> walls;
   std::optional<Vec<2>> eye;     // where a level is looked at from
+  std::optional<FrameWork> since_last_frame;  // of a world with contacts or forces
   FrameChart chart;
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
   std::vector<FrameTexture> textures;
@@ -213,7 +229,7 @@ struct Frame {
 // Of time, bodies, nodes, pairs and textures; not of the counts of work.
 std::uint64_t state_hash(const Frame& frame);
 
-// The frame as `lantern.frame/1`, one line a body, node and pair.
+// The frame as `lantern.frame/2`, one line a body, node and pair.
 std::string to_json(const Frame& frame);
 
 }  // namespace lantern

@@ -1,4 +1,4 @@
-// The frame as `lantern.frame/1`.
+// The frame as `lantern.frame/2`.
 #include <fmt/format.h>
 
 #include "base/json_writer.hpp"
@@ -14,7 +14,7 @@ class FrameWriter {
   explicit FrameWriter(const Frame& frame) : frame_(frame) {}
 
   std::string written() {
-    json_.begin_object().line().member("format", "lantern.frame/1");
+    json_.begin_object().line().member("format", "lantern.frame/2");
     json_.line().member("scenario", frame_.scenario);
     json_.line().member("frame", frame_.index);
     json_.line().member("time", frame_.time);
@@ -26,6 +26,10 @@ class FrameWriter {
     write_list("nodes", frame_.nodes);
     json_.line().key("pairs").begin_array();
     for (const FramePair& p : frame_.pairs) write(p.pair);
+    json_.end_array();
+    json_.line().key("overlaps").begin_array();
+    for (const FramePair& p : frame_.pairs)
+      if (p.overlaps) write(p.pair);
     json_.end_array();
     write_list("contacts", frame_.contacts);
     if (!frame_.links.empty()) write_list("links", frame_.links);
@@ -43,6 +47,7 @@ class FrameWriter {
       for (const auto& [name, number] : frame_.measures) json_.line().member(name, number);
       json_.line().end_object();
     }
+    if (frame_.since_last_frame) write(*frame_.since_last_frame);
     json_.line().member("hash", fmt::format("{:016x}", frame_.hash));
     json_.line().end_object();
     return json_.text() + "\n";
@@ -90,6 +95,15 @@ class FrameWriter {
     json_.end_object();
   }
 
+  void write(const FrameWork& work) {
+    json_.line().key("since_last_frame").begin_object();
+    json_.member("steps", work.steps).member("pairs_met", work.pairs_met);
+    json_.member("overlaps", work.overlaps).member("pairs_tested", work.pairs_tested);
+    json_.member("narrow_tests", work.narrow_tests);
+    json_.member("contact_points", work.contact_points).member("impulses", work.impulses);
+    json_.end_object();
+  }
+
   void write(const Pair& pair) { json_.begin_array().value(pair.a).value(pair.b).end_array(); }
   void write(BodyId id) { json_.value(id); }
 
@@ -130,6 +144,7 @@ class FrameWriter {
     else
       member("angular_momentum", body.angular_momentum);
     member("box", body.box);
+    if (body.stored_box && !(*body.stored_box == body.box)) member("stored_box", *body.stored_box);
     json_.member("static", body.is_static).member("asleep", body.asleep).end_object();
   }
 

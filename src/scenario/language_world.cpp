@@ -106,8 +106,8 @@ TableDoc structure_table() {
               "`quadtree` cuts a solid world along x and z, an `octree` along all three. On one "
               "frame, 2000000 pairs may meet.")
               .must()
-              .one_of({"none", "brute_force", "quadtree", "bsp", "octree", "kd_tree",
-                       "sort_and_sweep"}),
+              .one_of({"none", "brute_force", "sort_and_sweep", "quadtree", "octree", "bsp",
+                       "kd_tree"}),
           Key(whole, "capacity", "A leaf that holds more splits, if depth is left.")
               .range(1, 1000)
               .in("bodies")

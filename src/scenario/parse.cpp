@@ -140,10 +140,6 @@ Scenario load_scenario(const std::string& path) {
   return parse_scenario(read_file(path, kMostFileBytes), path);
 }
 
-std::string_view to_string(StructureKind kind) {
-  return language_table("structure").find("kind")->choices[static_cast<std::size_t>(kind)];
-}
-
 std::string_view to_string(Children children) {
   return children == Children::eager ? "eager" : "lazy";
 }

@@ -75,14 +75,6 @@ void Players<D>::leave(std::size_t index) {
 }
 
 template <int D>
-std::vector<Resident<D>> Players<D>::residents() const {
-  std::vector<Resident<D>> all;
-  for (const Body<D>& body : world_.bodies())
-    if (spec_of(body.id)) all.push_back(resident(body));
-  return all;
-}
-
-template <int D>
 std::pair<Vec<D>, Vec<D>> Players<D>::ends_of(const LinkSpec& link) const {
   const auto point = [&](std::size_t index, const Vec<3>& at) {
     const Body<D>& b = *body(index);
@@ -122,14 +114,14 @@ Vec<D> Players<D>::out_of_the_way() const {
   return bounds.lo - bounds.size();
 }
 
-// A point of the world is fixed to a static body without size. That body would be an obstacle, so
-// it does not lie at the point itself.
+// A point of the world is fixed to a static body without size, which nothing meets.
 template <int D>
 BodyId Players<D>::add_anchor(const Vec<D>& at) {
   Body<D> anchor;
   anchor.name = "anchor";
   anchor.shape = Sphere{0};
   anchor.kind = BodyKind::static_body;
+  anchor.collides = false;
   anchor.position = at;
   index_of_.push_back(kAnchor);
   return world_.add(std::move(anchor));

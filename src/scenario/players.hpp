@@ -9,7 +9,7 @@
 
 #include "physics/world.hpp"
 #include "scenario/scenario.hpp"
-#include "scenario/structures.hpp"
+#include "scenario/structure_picture.hpp"
 
 namespace lantern {
 
@@ -40,12 +40,6 @@ class Players {
   // Its index in the scenario; nothing for an anchor.
   std::optional<std::size_t> index_of(BodyId id) const {
     return index_of_[id] == kAnchor ? std::nullopt : std::optional(index_of_[id]);
-  }
-
-  // All bodies but anchors, in order of ids.
-  std::vector<Resident<D>> residents() const;
-  static Resident<D> resident(const Body<D>& body) {
-    return {{body.id, body.box()}, !body.moves(), body.moves() && !body.asleep};
   }
 
   // f(spec, from, to, rest length) for each spring and joint that is there; its ends in the world.

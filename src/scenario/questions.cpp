@@ -13,9 +13,7 @@ namespace {
 template <int D>
 class Question {
  public:
-  Question(const Structures<D>& structures, const World<D>& world,
-           std::span<const Resident<D>> residents)
-      : structures_(structures), world_(world), residents_(residents) {}
+  explicit Question(const World<D>& world) : world_(world) {}
 
   Finding cast(const CastRay& cast) {
     Ray<D> ray;
@@ -76,16 +74,12 @@ class Question {
   void look(F&& f) {
     auto told = [&](const QueryEvent& event) { found_.walk.push_back(event); };
     auto box_of = [&](BodyId id) { return world_.find(id)->box(); };
-    const auto walk = [&](const auto& tree) {
+    world_.broad_phase()->with_each([&](const auto& tree) {
       const QueryCounts counts = f(tree, box_of, told);
       found_.counts.nodes_visited += counts.nodes_visited;
       found_.counts.nodes_skipped += counts.nodes_skipped;
       found_.counts.objects_tested += counts.objects_tested;
-    };
-    if (structures_.any()) return structures_.with_each(walk);
-    BruteForce<D> all;
-    for (const Resident<D>& r : residents_) all.insert(r.item);
-    walk(all);
+    });
   }
 
   const QueryCounts& add(const Found& found) {
@@ -123,9 +117,7 @@ class Question {
     return corners;
   }
 
-  const Structures<D>& structures_;
   const World<D>& world_;
-  std::span<const Resident<D>> residents_;
   QueryCounts counts_;
   Finding found_;
 };
@@ -133,32 +125,25 @@ class Question {
 }  // namespace
 
 template <int D>
-Finding asked(const CastRay& ray, const Structures<D>& structures, const World<D>& world,
-              std::span<const Resident<D>> residents) {
-  return Question<D>(structures, world, residents).cast(ray);
+Finding asked(const CastRay& ray, const World<D>& world) {
+  return Question<D>(world).cast(ray);
 }
 
 template <int D>
-Finding asked(const Cull& view, const Structures<D>& structures, const World<D>& world,
-              std::span<const Resident<D>> residents) {
-  return Question<D>(structures, world, residents).cull(view);
+Finding asked(const Cull& view, const World<D>& world) {
+  return Question<D>(world).cull(view);
 }
 
 template <int D>
-Finding asked(const Query& region, const Structures<D>& structures, const World<D>& world,
-              std::span<const Resident<D>> residents) {
-  return Question<D>(structures, world, residents).query(region);
+Finding asked(const Query& region, const World<D>& world) {
+  return Question<D>(world).query(region);
 }
 
-#define LANTERN_ASKED(VERB, D)                                               \
-  template Finding asked(const VERB&, const Structures<D>&, const World<D>&, \
-                         std::span<const Resident<D>>);
-LANTERN_ASKED(CastRay, 2)
-LANTERN_ASKED(CastRay, 3)
-LANTERN_ASKED(Cull, 2)
-LANTERN_ASKED(Cull, 3)
-LANTERN_ASKED(Query, 2)
-LANTERN_ASKED(Query, 3)
-#undef LANTERN_ASKED
+template Finding asked(const CastRay&, const World<2>&);
+template Finding asked(const CastRay&, const World<3>&);
+template Finding asked(const Cull&, const World<2>&);
+template Finding asked(const Cull&, const World<3>&);
+template Finding asked(const Query&, const World<2>&);
+template Finding asked(const Query&, const World<3>&);
 
 }  // namespace lantern

@@ -3,20 +3,16 @@
 
 #include "physics/world.hpp"
 #include "scenario/engine.hpp"
-#include "scenario/structures.hpp"
 
 namespace lantern {
 
-// Walks every structure there is; without one, `residents` are asked one by one. Throws Refused for
+// Walks the world's structure, which has looked ahead. Throws Refused for
 // a ray, view or region that is not valid.
 template <int D>
-Finding asked(const CastRay& ray, const Structures<D>& structures, const World<D>& world,
-              std::span<const Resident<D>> residents);
+Finding asked(const CastRay& ray, const World<D>& world);
 template <int D>
-Finding asked(const Cull& view, const Structures<D>& structures, const World<D>& world,
-              std::span<const Resident<D>> residents);
+Finding asked(const Cull& view, const World<D>& world);
 template <int D>
-Finding asked(const Query& region, const Structures<D>& structures, const World<D>& world,
-              std::span<const Resident<D>> residents);
+Finding asked(const Query& region, const World<D>& world);
 
 }  // namespace lantern

@@ -17,10 +17,10 @@
 #include "physics/body.hpp"
 #include "physics/contact_method.hpp"
 #include "physics/motion_method.hpp"
+#include "spatial/structure_kinds.hpp"
 
 namespace lantern {
 
-enum class StructureKind { none, brute_force, quadtree, bsp, octree, kd_tree, sort_and_sweep };
 enum class Children { eager, lazy };  // all made at a split, or each when something enters it
 enum class Panel { world, tree, atlas, chart, memory };
 enum class Pace { step, event };
@@ -410,7 +410,6 @@ Scenario parse_scenario(std::string_view text, const std::string& path);
 Diagnostic diagnose(const Scenario& scenario, const SourcePosition& where, std::string message,
                     std::string suggestion = {});
 
-std::string_view to_string(StructureKind kind);
 std::string_view to_string(Children children);
 std::string_view to_string(Solution solution);
 std::string_view to_string(ProblemVariant variant);

@@ -13,21 +13,20 @@
 namespace lantern {
 namespace {
 
-constexpr std::array<std::string_view, kBroadPhaseKinds.size()> kNames = {
-    "brute_force", "sort_and_sweep", "quadtree", "octree", "bsp", "kd_tree"};
+// One that must be sorted before it is asked, and into which was inserted since.
+template <class Structure>
+void sort(Structure& structure) {
+  std::visit(
+      [](auto& s) {
+        if constexpr (requires { s.sort(); }) s.sort();
+      },
+      structure);
+}
 
 // More entries or nodes than this are out of proportion.
 std::uint64_t most_entries(std::uint64_t room) { return 4096 + 64 * room; }
 
 }  // namespace
-
-std::string_view name_of(BroadPhaseKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
-
-std::optional<BroadPhaseKind> broad_phase_named(std::string_view name) {
-  for (const BroadPhaseKind kind : kBroadPhaseKinds)
-    if (name_of(kind) == name) return kind;
-  return std::nullopt;
-}
 
 template <int D>
 BroadPhase<D>::BroadPhase(const Config& config)
@@ -37,51 +36,20 @@ BroadPhase<D>::BroadPhase(const Config& config)
 
 template <int D>
 auto BroadPhase<D>::made(std::uint32_t depth, std::uint64_t room) const -> Structure {
-  typename Orthtree<D>::Config tree;
-  tree.bounds = config_.bounds;
-  tree.capacity = config_.capacity;
-  tree.max_depth = depth;
-  tree.eager_children = config_.eager_children;
-  tree.no_progress_stop = config_.no_progress_stop;
-  tree.most_entries = std::min(most_entries(room), Orthtree<D>::kMost);
-  switch (config_.kind) {
-    case BroadPhaseKind::brute_force:
-      return BruteForce<D>();
-    case BroadPhaseKind::sort_and_sweep:
-      return SortAndSweep<D>();
-    case BroadPhaseKind::quadtree:
-      if constexpr (D == 2) return Quadtree(tree);
-      if constexpr (D == 3)
-        return FlatQuadtree({config_.bounds,
-                             {{},
-                              tree.capacity,
-                              depth,
-                              tree.eager_children,
-                              tree.no_progress_stop,
-                              tree.most_entries}});
-      break;
-    case BroadPhaseKind::octree:
-      if constexpr (D == 3) return Octree(tree);
-      break;
-    case BroadPhaseKind::bsp:
-      return Bsp<D>(config_.planes, config_.bounds, Orthtree<D>::kMost);
-    case BroadPhaseKind::kd_tree:
-      return KdTree<D>({config_.capacity, depth, most_entries(room)});
-  }
-  throw Refused(fmt::format("broad phase: {} needs three dimensions", name_of(config_.kind)));
+  StructureConfig<D> structure = config_;
+  structure.max_depth = depth;
+  if (config_.in_proportion) structure.most_entries = most_entries(room);
+  return make_structure<D>(config_.kind, structure);
 }
 
 // --- an update ---
 
 template <int D>
-void BroadPhase<D>::update(std::span<const Proxy<D>> proxies) {
+template <class F>
+void BroadPhase<D>::all_or_nothing(F&& change) {
   const std::size_t places = own_places();
-  sort_and_check(proxies);
-  deal_out();
-  counters_.pair_tests = counters_.nodes_visited = 0;
-  counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   try {
-    find_pairs();
+    change();
   } catch (...) {
     forget();
     throw;
@@ -91,35 +59,75 @@ void BroadPhase<D>::update(std::span<const Proxy<D>> proxies) {
 }
 
 template <int D>
+void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
+  sort_and_check(proxies);
+  deal_out();
+}
+
+template <int D>
+void BroadPhase<D>::update(std::span<const Proxy<D>> proxies) {
+  take(proxies);
+  all_or_nothing([&] { find_pairs(); });
+}
+
+template <int D>
+void BroadPhase<D>::build(std::span<const Proxy<D>> proxies) {
+  take(proxies);
+  all_or_nothing([&] {
+    const bool changed_static = take_static(), changed_dynamic = take_dynamic();
+    found_all_ = found_all_ && !changed_static && !changed_dynamic;
+    if (!dynamic_.stands) build(dynamic_, counters_.dynamic_builds);
+  });
+}
+
+template <int D>
 void BroadPhase<D>::find_pairs() {
-  if (!same_boxes(fresh_static_, static_.bodies)) {
-    static_.bodies.swap(fresh_static_);
-    build(static_);
-    ++counters_.static_builds;
-  }
-  const bool moved = !same_boxes(fresh_dynamic_, dynamic_.bodies);
-  dynamic_.bodies.swap(fresh_dynamic_);
+  const bool changed_static = take_static(), changed_dynamic = take_dynamic();
+  if (found_all_ && !changed_static && !changed_dynamic) return;
+  counters_.pair_tests = counters_.nodes_visited = 0;
+  counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   pairs_.clear();
   if (std::any_of(dynamic_.bodies.begin(), dynamic_.bodies.end(), stirs)) {
-    build(dynamic_);
-    ++counters_.dynamic_builds;
+    if (!dynamic_.stands) build(dynamic_, counters_.dynamic_builds);
+    for (Store* store : {&static_, &dynamic_}) sort(store->structure);
     found_.clear();
     pair_dynamic();
     pair_static();
     sort_pairs();
-  } else if (moved) {
+  } else if (!dynamic_.stands) {
     empty(dynamic_);
   }
+  found_all_ = true;
+}
+
+// Whether anything about the static bodies has changed; their structure stands afterwards.
+template <int D>
+bool BroadPhase<D>::take_static() {
+  const bool changed = fresh_static_ != static_.bodies;
+  if (!same_boxes(fresh_static_, static_.bodies)) static_.stands = false;
+  static_.bodies.swap(fresh_static_);
+  if (!static_.stands) build(static_, counters_.static_builds);
+  return changed;
+}
+
+template <int D>
+bool BroadPhase<D>::take_dynamic() {
+  const bool changed = fresh_dynamic_ != dynamic_.bodies;
+  if (!same_boxes(fresh_dynamic_, dynamic_.bodies)) dynamic_.stands = false;
+  dynamic_.bodies.swap(fresh_dynamic_);
+  return changed;
 }
 
 // A structure that was not finished must not be taken for that of its bodies.
 template <int D>
 void BroadPhase<D>::forget() {
   pairs_.clear();
+  found_all_ = false;
   for (Store* store : {&static_, &dynamic_}) {
     store->bodies.clear();
     store->ranks.clear();
     empty(*store);
+    store->stands = true;
   }
 }
 
@@ -148,7 +156,7 @@ void BroadPhase<D>::deal_out() {
   static_.ranks.clear();
   dynamic_.ranks.clear();
   for (std::uint32_t rank = 0; rank < sorted_.size(); ++rank) {
-    const bool apart = config_.split_static && sorted_[rank].is_static;
+    const bool apart = is_for_static(sorted_[rank]);
     (apart ? fresh_static_ : fresh_dynamic_).push_back(sorted_[rank]);
     (apart ? static_ : dynamic_).ranks.push_back(rank);
   }
@@ -157,7 +165,7 @@ void BroadPhase<D>::deal_out() {
 // --- building ---
 
 template <int D>
-void BroadPhase<D>::build(Store& store) {
+void BroadPhase<D>::build(Store& store, std::uint64_t& builds) {
   store.names.clear();
   for (const Proxy<D>& body : store.bodies) store.names.push_back(body.id);
   const auto make_anew = [&] {
@@ -165,20 +173,23 @@ void BroadPhase<D>::build(Store& store) {
     past_allocations_ += std::visit(count, store.structure);
     store.structure = made(store.depth, store.room);
   };
-  if (store.bodies.size() > store.room) {
+  if (config_.in_proportion && store.bodies.size() > store.room) {
     store.room = std::bit_ceil(store.bodies.size());
     store.depth = config_.max_depth;
     make_anew();
   }
   for (;;) {
     try {
-      return fill(store);
+      fill(store);
+      break;
     } catch (const Refused&) {
-      if (store.depth == 0) throw;
+      if (!config_.in_proportion || store.depth == 0) throw;
     }
     store.depth /= 2;
     make_anew();
   }
+  store.stands = true;
+  ++builds;
 }
 
 template <int D>
@@ -186,23 +197,44 @@ void BroadPhase<D>::fill(Store& store) {
   items_.clear();
   for (std::uint32_t i = 0; i < store.bodies.size(); ++i)
     items_.push_back({i, store.bodies[i].box});
-  std::visit(
-      [&](auto& structure) {
-        using S = std::remove_cvref_t<decltype(structure)>;
-        if constexpr (std::is_same_v<S, KdTree<D>>) {
-          structure.build(items_);
-        } else {
-          structure.clear();
-          for (const Item<D>& item : items_) structure.insert(item);
-        }
-        if constexpr (std::is_same_v<S, SortAndSweep<D>>) structure.sort();
-      },
-      store.structure);
+  build_structure<D>(store.structure, items_);
+}
+
+template <int D>
+void BroadPhase<D>::insert(const Proxy<D>& proxy, const Watch& watch) {
+  require_valid(Item<D>{proxy.id, proxy.box});
+  Store& store = is_for_static(proxy) ? static_ : dynamic_;
+  std::uint64_t& builds = is_for_static(proxy) ? counters_.static_builds : counters_.dynamic_builds;
+  for (const Store* other : {&static_, &dynamic_})
+    if (!other->bodies.empty() && other->bodies.back().id >= proxy.id)
+      throw Refused(fmt::format("body {}: ids must come in ascending order", proxy.id));
+  const auto number = static_cast<BodyId>(store.bodies.size());
+  const auto told = [&](Event event) {
+    event.body = store.names[event.body];
+    if (watch) watch(event);
+  };
+  found_all_ = false;
+  all_or_nothing([&] {
+    if (!store.stands) build(store, builds);
+    store.bodies.push_back(proxy);
+    store.names.push_back(proxy.id);
+    std::visit(
+        [&](auto& structure) {
+          if constexpr (requires { structure.insert(Item<D>{}, told); }) {
+            builds += number == 0;
+            structure.insert(Item<D>{number, proxy.box}, told);
+          } else {
+            build(store, builds);
+          }
+        },
+        store.structure);
+  });
 }
 
 template <int D>
 void BroadPhase<D>::empty(Store& store) {
   store.names.clear();
+  store.stands = store.bodies.empty();
   std::visit([](auto& structure) { structure.clear(); }, store.structure);
 }
 
@@ -338,6 +370,86 @@ void BroadPhase<D>::sort_pairs() {
   }
 }
 
+// --- the chain of pairs ---
+
+namespace {
+
+void require_within(std::uint64_t met, std::uint64_t most) {
+  if (met > most)
+    throw Refused(fmt::format(
+        "{} pairs meet in the leaves, the limit is {}; take fewer bodies, or a structure that "
+        "parts them better",
+        met, most));
+}
+
+// f(place, place) for each pair met in the leaves of which at least one stirs.
+template <int D, class Tree, class F>
+void each_met(const Tree& tree, const std::vector<bool>& stirring, F&& f) {
+  tree.visit([&](const NodeView<D>& node) {
+    for (std::size_t i = 0; i < node.bodies.size(); ++i) {
+      stop_if_asked();
+      for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
+        if (stirring[node.bodies[i]] || stirring[node.bodies[j]]) f(node.bodies[i], node.bodies[j]);
+    }
+    return true;
+  });
+}
+template <int D, class F>
+void each_met(SortAndSweep<D> sweep, const std::vector<bool>& stirring, F&& f) {
+  sweep.compare([&](BodyId i) { return stirring[i]; },
+                [&](const Item<D>& a, const Item<D>& b) { f(a.id, b.id); });
+}
+
+}  // namespace
+
+template <int D>
+PairChain BroadPhase<D>::pair_chain(const std::function<bool(BodyId)>& awake,
+                                    std::uint64_t most) const {
+  std::vector<bool> stirring;
+  for (const Proxy<D>& body : dynamic_.bodies)
+    stirring.push_back(!body.is_static && awake(body.id));
+  std::vector<std::pair<const Proxy<D>*, const Proxy<D>*>> met;
+  PairChain chain;
+  const auto meet = [&](const Proxy<D>& a, const Proxy<D>& b) {
+    require_within(++chain.met, most);
+    met.push_back(a.id < b.id ? std::pair(&a, &b) : std::pair(&b, &a));
+  };
+  std::visit(
+      [&](const auto& tree) {
+        each_met<D>(tree, stirring,
+                    [&](BodyId i, BodyId j) { meet(dynamic_.bodies[i], dynamic_.bodies[j]); });
+      },
+      dynamic_.structure);
+  const auto ask = [&](const auto& of_static) {
+    for (std::size_t i = 0; i < stirring.size() && !static_.bodies.empty(); ++i) {
+      std::vector<BodyId> near;
+      if (stirring[i]) of_static.near(dynamic_.bodies[i].box, near);
+      for (const BodyId j : near) meet(dynamic_.bodies[i], static_.bodies[j]);
+    }
+  };
+  std::visit(
+      [&](const auto& structure) {
+        if constexpr (requires(std::remove_cvref_t<decltype(structure)> s) { s.sort(); }) {
+          auto sorted = structure;
+          sorted.sort();
+          ask(sorted);
+        } else {
+          ask(structure);
+        }
+      },
+      static_.structure);
+  std::sort(met.begin(), met.end(), [](const auto& x, const auto& y) {
+    stop_if_asked();
+    return Pair{x.first->id, x.second->id} < Pair{y.first->id, y.second->id};
+  });
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  for (const auto& [a, b] : met) {
+    chain.pairs.push_back({a->id, b->id});
+    if (overlap(a->box, b->box)) chain.overlapping.push_back({a->id, b->id});
+  }
+  return chain;
+}
+
 // --- looking ---
 
 template <int D>
@@ -347,6 +459,39 @@ std::vector<bool> BroadPhase<D>::awake_dynamic_nodes() const {
         return awake_nodes(structure, [&](BodyId i) { return stirs(dynamic_.bodies[i]); });
       },
       dynamic_.structure);
+}
+
+template <int D>
+auto BroadPhase<D>::store_of(BodyId id, std::size_t& place) const -> const Store* {
+  for (const Store* store : {&static_, &dynamic_}) {
+    const auto found = std::lower_bound(store->names.begin(), store->names.end(), id);
+    if (found == store->names.end() || *found != id) continue;
+    place = static_cast<std::size_t>(found - store->names.begin());
+    return store;
+  }
+  return nullptr;
+}
+
+template <int D>
+std::optional<Box<D>> BroadPhase<D>::box_of(BodyId id) const {
+  std::size_t place = 0;
+  const Store* store = store_of(id, place);
+  return store ? std::optional(store->bodies[place].box) : std::nullopt;
+}
+
+template <int D>
+bool BroadPhase<D>::is_stale(const Item<D>& item) const {
+  std::size_t place = 0;
+  const Store* store = store_of(item.id, place);
+  if (store == nullptr) return false;
+  return std::visit(
+      [&](const auto& structure) {
+        if constexpr (requires { structure.fits(item); })
+          return !structure.fits({static_cast<BodyId>(place), item.box});
+        else
+          return false;
+      },
+      store->structure);
 }
 
 template <int D>

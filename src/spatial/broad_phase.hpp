@@ -1,47 +1,28 @@
-// The broad phase: which boxes overlap. One interface, six ways, the same pairs.
+// The broad phase: which boxes overlap. One interface, many structures, the same pairs.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "spatial/awake.hpp"
-#include "spatial/brute_force.hpp"
-#include "spatial/bsp.hpp"
-#include "spatial/flat_quadtree.hpp"
-#include "spatial/kd_tree.hpp"
-#include "spatial/orthtree.hpp"
-#include "spatial/sort_and_sweep.hpp"
+#include "spatial/structure_kinds.hpp"
 
 namespace lantern {
 
-enum class BroadPhaseKind { brute_force, sort_and_sweep, quadtree, octree, bsp, kd_tree };
-
-inline constexpr std::array kBroadPhaseKinds = {
-    BroadPhaseKind::brute_force, BroadPhaseKind::sort_and_sweep,
-    BroadPhaseKind::quadtree,    BroadPhaseKind::octree,
-    BroadPhaseKind::bsp,         BroadPhaseKind::kd_tree};
-
-// "brute_force", "sort_and_sweep", ...: as the enumerators are written.
-std::string_view name_of(BroadPhaseKind kind);
-std::optional<BroadPhaseKind> broad_phase_named(std::string_view name);
-
 template <int D>
-struct BroadPhaseConfig {
-  BroadPhaseKind kind = D == 3 ? BroadPhaseKind::octree : BroadPhaseKind::quadtree;
-  Box<D> bounds{Vec<D>(-512.0), Vec<D>(512.0)};  // of trees' roots; bodies outside are found, too
-  std::uint32_t capacity = 6;                    // of a leaf
-  std::uint32_t max_depth = 7;
-  bool eager_children = false;
-  bool no_progress_stop = true;
-  std::vector<BspPlane<D>> planes;  // of a BSP
-  bool split_static = true;         // static bodies in a structure of their own
+struct BroadPhaseConfig : StructureConfig<D> {
+  StructureKind kind = D == 3 ? StructureKind::octree : StructureKind::quadtree;
+  bool split_static = true;  // static bodies in a structure of their own
+  // Whether a tree that would grow out of proportion (more than 64 entries a body: many bodies
+  // larger than most cells) is built with half of its depth instead, again and again until it does
+  // not. Else the depth is as configured, and a tree of more than `most_entries` is refused.
+  bool in_proportion = true;
   // Of overlaps met, each once for each leaf that both bodies share.
   std::uint64_t most_pairs = std::uint64_t{1} << 26;
 };
@@ -62,7 +43,7 @@ struct BroadPhaseCounters {
   std::uint64_t dynamic_builds = 0;
   std::uint64_t allocations = 0;  // calls for memory
   // Of the last update.
-  std::uint64_t pair_tests = 0;            // boxes compared with boxes
+  std::uint64_t pair_tests = 0;            // pairs met in leaves: boxes compared with boxes
   std::uint64_t nodes_visited = 0;         // of the dynamic structure, while pairing
   std::uint64_t nodes_skipped_asleep = 0;  // whole branches in which all sleep, each counted once
   std::uint64_t nodes_reused = 0;          // of the dynamic structure
@@ -104,45 +85,67 @@ class WithIds {
   std::span<const BodyId> names_;
 };
 
+// The way from nodes to candidate pairs, for who shows or checks it: what an update of the same
+// bodies finds, step by step.
+struct PairChain {
+  std::uint64_t met = 0;          // pairs met in leaves, as often as they were met
+  std::vector<Pair> pairs;        // each once, in order of ids
+  std::vector<Pair> overlapping;  // of these, those whose boxes overlap: the narrow phase's work
+};
+
 // Pairs are those bodies whose boxes overlap (touching does), of which at least one is awake and
 // not static; each once, in order of ids. All kinds give the same pairs.
 //
 // Static bodies have a structure of their own, which is built once and only asked later (the
-// lecture, "Static and dynamic objects"). The one for all others is built anew at each update, in
-// the memory of the one before; when none of them is awake there is nothing to pair, and nothing is
-// built (the lecture, "Sleeping Objects").
-//
-// A tree that would grow out of proportion (more than 64 entries a body: many bodies larger than
-// most cells) is built with half of its depth instead, again and again until it does not.
+// lecture, "Static and dynamic objects"). The one for all others is built anew when a box in it has
+// changed, in the memory of the one before; when none of them is awake there is nothing to pair (the
+// lecture, "Sleeping Objects").
 template <int D>
 class BroadPhase {
  public:
   using Config = BroadPhaseConfig<D>;
-  using Structure = std::conditional_t<
-      D == 2, std::variant<BruteForce<D>, SortAndSweep<D>, Orthtree<2>, Bsp<D>, KdTree<D>>,
-      std::variant<BruteForce<D>, SortAndSweep<D>, FlatQuadtree, Bsp<D>, KdTree<D>, Orthtree<3>>>;
+  using Structure = AnyStructure<D>;
+  using Watch = std::function<void(const Event&)>;
 
-  // Throws Refused for what the structures refuse, and for an octree in two dimensions. In three, a
-  // quadtree looks at x and z only.
+  // Throws Refused for what the structures refuse.
   explicit BroadPhase(const Config& config);
 
-  // Finds the pairs. Proxies may come in any order. Throws Refused, naming the body, for a box that
-  // is not valid and for two proxies of one id; nothing changes then. Throws Refused, too, when
-  // more than `most_pairs` meet (coincident bodies have n(n-1)/2 pairs), or when they need more
-  // memory than the budget. Whatever is thrown half way, Stopped too: there are no pairs and no
-  // structures then, and the next update begins as the first.
+  // Finds the pairs. Proxies may come in any order. Nothing is done if they are those of the last
+  // update; nothing is built for bodies of which none is awake. Throws Refused, naming the body,
+  // for a box that is not valid and for two proxies of one id; nothing changes then. Throws
+  // Refused, too, when more than `most_pairs` meet (coincident bodies have n(n-1)/2 pairs), or when
+  // they need more memory than the budget. Whatever is thrown half way, Stopped too: there are no
+  // pairs and no structures then, and the next update begins as the first.
   void update(std::span<const Proxy<D>> proxies);
+
+  // The structures of these bodies, awake or not; no pairs are looked for. Throws as `update` does.
+  // An update of the same bodies then builds nothing.
+  void build(std::span<const Proxy<D>> proxies);
+
+  // One body more, as the lecture inserts it; a structure that is fitted to its bodies is built
+  // anew. Ids must come in ascending order. `watch`, if there is one, is told what happens; it may
+  // look at the structures, but not change them. Throws as `update` does.
+  void insert(const Proxy<D>& proxy, const Watch& watch);
+
+  // What an update would find in the structures as they stand, bodies with `awake(id)` moving. At
+  // most `most` pairs of each kind: throws Refused beyond.
+  PairChain pair_chain(const std::function<bool(BodyId)>& awake, std::uint64_t most) const;
 
   // Of the last update.
   const std::vector<Pair>& pairs() const { return pairs_; }
   const BroadPhaseCounters& counters() const { return counters_; }
   const Config& config() const { return config_; }
 
+  // The box that the structures hold of the body; nothing if they do not hold it.
+  std::optional<Box<D>> box_of(BodyId id) const;
+  // Of these, which no longer lies where a structure that is fitted to its bodies has it.
+  bool is_stale(const Item<D>& item) const;
+
   // f(structure) with the real type of structure (see structure.hpp for what it offers: visit,
   // visit_toward, kZones, counters), its bodies named by their ids: for views and queries. The
-  // structures of the last update; if all slept, the dynamic one as it was last built, or empty if
-  // bodies have come, gone or moved in their sleep since. Without split_static, the dynamic one
-  // holds all.
+  // structures of the last update or build; if all slept, the dynamic one as it was last built, or
+  // empty if bodies have come, gone or moved in their sleep since. Without split_static, the
+  // dynamic one holds all.
   template <class F>
   decltype(auto) with_static(F&& f) const {
     return with(static_, f);
@@ -150,6 +153,12 @@ class BroadPhase {
   template <class F>
   decltype(auto) with_dynamic(F&& f) const {
     return with(dynamic_, f);
+  }
+  // f for the dynamic structure and then, if static bodies have one of their own, for that.
+  template <class F>
+  void with_each(F&& f) const {
+    with(dynamic_, f);
+    if (config_.split_static) with(static_, f);
   }
 
   template <class F>
@@ -173,6 +182,7 @@ class BroadPhase {
     std::vector<BodyId> names;         // of the bodies that the structure holds
     std::uint32_t depth = 0;           // of a tree; at most as configured
     std::uint64_t room = 0;            // how many bodies its limits were made for
+    bool stands = true;                // the structure holds these bodies, ready to be asked
   };
   struct RankPair {
     std::uint32_t a = 0, b = 0;
@@ -188,14 +198,21 @@ class BroadPhase {
   }
 
   static bool stirs(const Proxy<D>& proxy) { return proxy.awake && !proxy.is_static; }
+  bool is_for_static(const Proxy<D>& proxy) const { return config_.split_static && proxy.is_static; }
+  const Store* store_of(BodyId id, std::size_t& place) const;
   static bool same_boxes(const std::vector<Proxy<D>>& a, const std::vector<Proxy<D>>& b);
 
   Structure made(std::uint32_t depth, std::uint64_t room) const;
+  template <class F>
+  void all_or_nothing(F&& change);
+  void take(std::span<const Proxy<D>> proxies);
   void sort_and_check(std::span<const Proxy<D>> proxies);
   void find_pairs();
   void forget();
   void deal_out();
-  void build(Store& store);
+  bool take_static();
+  bool take_dynamic();
+  void build(Store& store, std::uint64_t& builds);
   void fill(Store& store);
   void empty(Store& store);
   void pair_dynamic();
@@ -219,6 +236,7 @@ class BroadPhase {
   Config config_;
   Store static_, dynamic_;
   std::vector<Pair> pairs_;
+  bool found_all_ = false;  // pairs_ are those of the bodies as they are
   BroadPhaseCounters counters_;
   std::uint64_t own_allocations_ = 0;
   std::uint64_t past_allocations_ = 0;  // of structures that were made anew

@@ -13,6 +13,9 @@ template <int D>
 class BruteForce {
  public:
   static constexpr Zones kZones = Zones::fitted;
+  static constexpr StructureTraits kTraits{.is_tree = false, .splits = false};
+
+  static BruteForce made(const StructureConfig<D>&) { return {}; }
 
   // Throws Refused for a box that is not valid; nothing changes then. Tells `store` only: there is
   // no node to be tested against.

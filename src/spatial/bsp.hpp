@@ -28,17 +28,15 @@
 namespace lantern {
 
 template <int D>
-struct BspPlane {
-  Plane<D> plane;
-  std::uint32_t parent = kNone;  // position in the list of the plane above it; kNone for the root
-  bool front = false;            // it divides what lies in front of its parent
-};
-
-template <int D>
 class Bsp {
  public:
   static constexpr Zones kZones = Zones::half_spaces;
+  static constexpr StructureTraits kTraits{.splits = false};
   static constexpr std::uint32_t kDeepest = 1000;
+
+  static Bsp made(const StructureConfig<D>& config) {
+    return Bsp(config.planes, config.bounds, config.most_entries);
+  }
 
   // The first plane is the root's; parents stand before their children. Throws Refused for a list
   // in another order, two planes in one place, a normal that is zero or not finite, more than

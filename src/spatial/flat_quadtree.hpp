@@ -2,6 +2,7 @@
 // is enough where the world is flat. Bodies above each other share a leaf.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "spatial/orthtree.hpp"
@@ -11,6 +12,17 @@ namespace lantern {
 class FlatQuadtree {
  public:
   static constexpr Zones kZones = Zones::endless_rim;  // on y every node reaches from rim to rim
+  static constexpr StructureTraits kTraits = Quadtree::kTraits;
+
+  static FlatQuadtree made(const StructureConfig<3>& config) {
+    return FlatQuadtree({config.bounds,
+                         {{},
+                          config.capacity,
+                          config.max_depth,
+                          config.eager_children,
+                          config.no_progress_stop,
+                          std::min(config.most_entries, Quadtree::kMost)}});
+  }
 
   struct Config {
     Box<3> bounds;

@@ -38,6 +38,7 @@ template <int D>
 class KdTree {
  public:
   static constexpr Zones kZones = Zones::fitted;
+  static constexpr StructureTraits kTraits{.is_fitted = true};
   static constexpr std::uint32_t kDeepest = 64;
 
   struct Config {
@@ -45,6 +46,10 @@ class KdTree {
     std::uint32_t max_depth = 16;  // 0: the root is never split
     std::uint64_t most_entries = std::uint64_t{1} << 22;
   };
+
+  static KdTree made(const StructureConfig<D>& config) {
+    return KdTree(Config{config.capacity, config.max_depth, config.most_entries});
+  }
 
   // Throws Refused for a capacity of 0 and a max_depth above kDeepest.
   explicit KdTree(const Config& config = {}) : config_(config) {

@@ -46,6 +46,7 @@ class Orthtree {
  public:
   static constexpr std::uint32_t kChildren = Halves::kChildren;
   static constexpr Zones kZones = Zones::endless_rim;
+  static constexpr StructureTraits kTraits{.shares_array = true};
   static constexpr std::uint32_t kDeepest = 32;
   static constexpr std::uint64_t kMost = 0xffff'fffe;  // nodes and entries have 32-bit numbers
 
@@ -57,6 +58,11 @@ class Orthtree {
     bool no_progress_stop = false;  // no split of bodies that all share one point
     std::uint64_t most_entries = std::uint64_t{1} << 22;  // of entries, and of nodes
   };
+
+  static Orthtree made(const StructureConfig<D>& config) {
+    return Orthtree(Config{config.bounds, config.capacity, config.max_depth, config.eager_children,
+                           config.no_progress_stop, std::min(config.most_entries, kMost)});
+  }
 
   // Throws Refused for bounds that are not finite or have no extent, a capacity of 0 and a
   // max_depth or most_entries above kDeepest or kMost.

@@ -30,6 +30,9 @@ template <int D>
 class SortAndSweep {
  public:
   static constexpr Zones kZones = Zones::fitted;
+  static constexpr StructureTraits kTraits{.is_tree = false, .splits = false};
+
+  static SortAndSweep made(const StructureConfig<D>&) { return {}; }
 
   // Throws Refused for a box that is not valid; nothing changes then. Tells `store` only.
   template <class Observer = NoObserver>
@@ -70,20 +73,21 @@ class SortAndSweep {
     sorted_ = true;
   }
 
-  // f(id, id) for each overlapping pair of which at least one is awake, once, in the order of the
-  // sweep; returns how many pairs were compared. Two that sleep are never compared. Sorts first.
+  // f(item, item) for each pair that is compared: they overlap on the axis, and at least one is
+  // awake; once, in the order of the sweep. Returns how many. Two that sleep are never compared.
+  // Sorts first.
   template <class Awake, class F>
-  std::uint64_t sweep(Awake&& awake, F&& f) {
+  std::uint64_t compare(Awake&& awake, F&& f) {
     sort();
     watchful_.clear();
     for (std::uint32_t at = 0; at < order_.size(); ++at)
       if (awake(items_[order_[at]].id)) append(watchful_, at);
     std::uint64_t tests = 0;
-    const auto compare = [&](const Item<D>& a, std::uint32_t other) {
+    const auto meet = [&](const Item<D>& a, std::uint32_t other) {
       const Item<D>& b = items_[order_[other]];
       if (b.box.lo[axis_] > a.box.hi[axis_]) return false;
       ++tests;
-      if (overlap(a.box, b.box)) f(a.id, b.id);
+      f(a, b);
       return true;
     };
     std::size_t next = 0;  // the first of the watchful that stands behind `at`
@@ -92,15 +96,23 @@ class SortAndSweep {
       const Item<D>& a = items_[order_[at]];
       if (next < watchful_.size() && watchful_[next] == at) {
         ++next;
-        for (std::uint32_t i = at + 1; i < order_.size() && compare(a, i); ++i) {
+        for (std::uint32_t i = at + 1; i < order_.size() && meet(a, i); ++i) {
         }
       } else {
-        for (std::size_t i = next; i < watchful_.size() && compare(a, watchful_[i]); ++i) {
+        for (std::size_t i = next; i < watchful_.size() && meet(a, watchful_[i]); ++i) {
         }
       }
     }
     pair_tests_ += tests;
     return tests;
+  }
+
+  // f(id, id) for those whose boxes overlap; returns how many pairs were compared.
+  template <class Awake, class F>
+  std::uint64_t sweep(Awake&& awake, F&& f) {
+    return compare(awake, [&](const Item<D>& a, const Item<D>& b) {
+      if (overlap(a.box, b.box)) f(a.id, b.id);
+    });
   }
 
   template <class F>

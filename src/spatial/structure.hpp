@@ -11,7 +11,11 @@
 //   query(box, f)            f(id) for each body in a leaf that the box reaches, once, ascending
 //   near(box, ids)           appends what `query` tells, but in any order and perhaps repeated
 //   kZones                   where a node's bodies may be, see Zones
+//   kTraits                  what kind of structure it is, see StructureTraits
+//   made(config)             an empty one; throws Refused for settings that it does not allow
 //   counters()               exact counts of the work done and the tree that stands
+//
+// structure_kinds.hpp lists them all.
 //
 // Ids may be any numbers, but no two items of a structure may have the same one. An observer may
 // call `visit` and `counters` while it is told something, but must not change the structure. While
@@ -22,6 +26,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -85,6 +90,34 @@ enum class Zones {
   fitted,       // within its box
   endless_rim,  // within its box, but without end where that box lies at the root's rim
   half_spaces,  // on the node's sides of all planes above it; its box says nothing
+};
+
+// A dividing plane of a BSP.
+template <int D>
+struct BspPlane {
+  Plane<D> plane;
+  std::uint32_t parent = kNone;  // position in the list of the plane above it; kNone for the root
+  bool front = false;            // it divides what lies in front of its parent
+};
+
+// What a structure is told when it is made; each reads what concerns it.
+template <int D>
+struct StructureConfig {
+  Box<D> bounds{Vec<D>(-512.0), Vec<D>(512.0)};  // of trees' roots; bodies outside are found, too
+  std::uint32_t capacity = 6;                    // of a leaf
+  std::uint32_t max_depth = 7;
+  bool eager_children = false;
+  bool no_progress_stop = true;
+  std::vector<BspPlane<D>> planes;                      // of a BSP
+  std::uint64_t most_entries = std::uint64_t{1} << 22;  // of a tree: entries, and nodes
+};
+
+// What tells kinds of structures apart for whoever shows or describes them.
+struct StructureTraits {
+  bool is_tree = true;        // else one list of all bodies
+  bool splits = true;         // leaves above capacity, down to the depth limit
+  bool is_fitted = false;     // to its bodies: built of all of them at once, stale when they move
+  bool shares_array = false;  // all leaves' contents lie in one array
 };
 
 // What an algorithm does, told while it does it.

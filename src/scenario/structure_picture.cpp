@@ -1,0 +1,291 @@
+#include "scenario/structure_picture.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "base/stop.hpp"
+#include "spatial/pairs.hpp"
+
+namespace lantern {
+namespace {
+
+template <int D>
+std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
+  std::vector<BspPlane<D>> planes;
+  std::map<std::string, std::uint32_t> node_at;  // way from the root -> index
+  for (const PlaneSpec& p : spec.planes) {
+    BspPlane<D> plane{Plane<D>::through(in_dimension<D>(p.point), in_dimension<D>(p.normal)), kNone,
+                      false};
+    if (p.at != "root") {
+      const std::size_t dot = p.at.rfind('.');
+      const std::string parent = dot == std::string::npos ? "root" : p.at.substr(0, dot);
+      plane.parent = node_at.at(parent);
+      plane.front = p.at.substr(dot == std::string::npos ? 0 : dot + 1) == "front";
+    }
+    node_at[p.at] = static_cast<std::uint32_t>(planes.size());
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+// Of a child of the node `parent`: "1.3", or in a BSP "front.back"; children of the root have no
+// prefix.
+std::string child_label(StructureKind kind, const std::string& parent, std::uint32_t slot) {
+  std::string way = fmt::format("{}", slot + 1);
+  if (kind == StructureKind::bsp) way = slot == 0 ? "back" : "front";
+  return parent == "root" ? way : parent + "." + way;
+}
+
+// "capacity 2, depth limit 4, all children made"
+std::string settings_text(const StructureSpec& s) {
+  const std::string split = s.split_static ? ", static bodies apart" : "";
+  const StructureTraits traits = traits_of(s.kind);
+  if (s.kind == StructureKind::none) return "";
+  if (s.kind == StructureKind::brute_force) return "every body with every other" + split;
+  if (s.kind == StructureKind::sort_and_sweep) return "sorted along one axis, then swept" + split;
+  if (s.kind == StructureKind::bsp)
+    return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
+                       split);
+  const std::string limits =
+      fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
+  if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
+  return fmt::format("{}, {}{}{}", limits,
+                     s.children == Children::eager ? "all children made" : "children on demand",
+                     s.no_progress_stop ? ", stops without progress" : "", split);
+}
+
+Box<2> bounding_box_of(const Polygon& region, const Box<2>& fallback) {
+  if (region.empty()) return fallback;
+  Box<2> box{region[0], region[0]};
+  for (const Vec<2>& corner : region) box = united(box, Box<2>{corner, corner});
+  return box;
+}
+
+// Fills a frame with the nodes of one structure after another.
+template <int D>
+class NodePicture {
+ public:
+  NodePicture(const StructureSpec& spec, const Touched& touched, Frame& frame)
+      : spec_(spec),
+        traits_(traits_of(spec.kind)),
+        touched_(touched),
+        shows_memory_(std::ranges::find(frame.panels, Panel::memory) != frame.panels.end()),
+        frame_(frame) {}
+
+  // `awake`: of each node, in the order of visiting; empty if nothing sleeps.
+  template <class Structure>
+  void add(const Structure& structure, const std::vector<bool>& awake, bool of_static) {
+    first_ = static_cast<std::uint32_t>(frame_.nodes.size());
+    structure.visit([&](const NodeView<D>& view) {
+      stop_if_asked();
+      FrameNode node = frame_node(view);
+      node.of_static = of_static;
+      if (!of_static) node.mark = touched_.mark_of(view.handle);
+      // The array of what moves is pictured; that of what does not is another one.
+      if (shows_memory_ && !of_static) {
+        node.first = view.first;
+        node.room = view.room;
+      }
+      if (!awake.empty()) node.awake = awake[view.id];
+      most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
+      frame_.nodes.push_back(std::move(node));
+      return true;
+    });
+    const Counters c = structure.counters();
+    counters.nodes += c.nodes;
+    counters.leaves += c.leaves;
+    counters.depth = std::max(counters.depth, c.depth);
+    counters.entries += c.entries;
+    counters.box_tests += c.box_tests;
+    counters.splits += c.splits;
+    counters.nodes_reused += c.nodes_reused;
+    counters.allocations += c.allocations;
+    counters.places += c.places;
+    counters.node_bytes += c.node_bytes;
+    if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
+  }
+
+  Counters counters;  // of all structures together
+  std::uint64_t most_in_leaf = 0;
+
+ private:
+  FrameNode frame_node(const NodeView<D>& view) const {
+    FrameNode node;
+    node.id = first_ + view.id;
+    node.parent = view.parent == kNone ? kNone : first_ + view.parent;
+    node.slot = view.slot;
+    node.depth = view.depth;
+    node.leaf = view.leaf;
+    node.box = solid(view.box);
+    node.bodies.assign(view.bodies.begin(), view.bodies.end());
+    node.label = "root";
+    const FrameNode* parent = node.parent == kNone ? nullptr : &frame_.nodes[node.parent];
+    if (parent) node.label = child_label(spec_.kind, parent->label, view.slot);
+    if (view.plane) node.plane = solid(*view.plane);
+    if (spec_.kind == StructureKind::bsp) place_in_bsp(node, parent);
+    // What is no tree has no cells: its one node is the whole world.
+    if (!traits_.is_tree) node.box = frame_.bounds;
+    node.over_capacity = traits_.splits && node.bodies.size() > spec_.capacity;
+    return node;
+  }
+
+  // A flat BSP's region is cut from its parent's.
+  void place_in_bsp(FrameNode& node, const FrameNode* parent) const {
+    for (const PlaneSpec& p : spec_.planes)
+      if (node.plane && p.at == node.label) node.plane_name = p.name;
+    if constexpr (D == 2) {
+      node.region = parent ? clipped(parent->region, flat(*parent->plane), node.slot == 1)
+                           : polygon_of(flat(frame_.bounds));
+      node.box = solid(bounding_box_of(node.region, flat(node.box)));
+    }
+  }
+
+  const StructureSpec& spec_;
+  StructureTraits traits_;
+  const Touched& touched_;
+  bool shows_memory_;
+  Frame& frame_;
+  std::uint32_t first_ = 0;  // node of the structure that is being added
+};
+
+// Nodes below which nothing is awake, and how many branches a walk for pairs leaves out for it.
+struct Sleepers {
+  std::uint64_t nodes = 0;
+  std::uint64_t leaves = 0;
+  std::uint64_t branches = 0;
+};
+
+Sleepers count_sleepers(const Frame& frame) {
+  Sleepers asleep;
+  for (const FrameNode& node : frame.nodes) {
+    if (node.awake || node.of_static) continue;
+    ++asleep.nodes;
+    asleep.leaves += node.leaf;
+    asleep.branches += node.parent == kNone || frame.nodes[node.parent].awake;
+  }
+  return asleep;
+}
+
+template <int D>
+std::uint64_t count_stale(const World<D>& world) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(world.bodies(), [&](const Body<D>& body) {
+        return world.broad_phase()->is_stale({body.id, body.box()});
+      }));
+}
+
+// Pairs of which a broad phase would test one: not both never move.
+std::uint64_t testable_pairs(const Frame& frame) {
+  const auto never_move = static_cast<std::uint64_t>(
+      std::ranges::count_if(frame.bodies, [](const FrameBody& body) { return body.is_static; }));
+  return all_pairs(frame.bodies.size()) - all_pairs(never_move);
+}
+
+}  // namespace
+
+template <int D>
+BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds) {
+  BroadPhaseConfig<D> config;
+  const bool any = spec.kind != StructureKind::none;
+  config.kind = any ? spec.kind : StructureKind::brute_force;
+  config.bounds = bounds;
+  config.capacity = spec.capacity;
+  config.max_depth = spec.max_depth;
+  config.eager_children = spec.children == Children::eager;
+  config.no_progress_stop = spec.no_progress_stop;
+  config.planes = planes_of<D>(spec);
+  config.split_static = spec.split_static;
+  config.in_proportion = false;
+  config.most_entries = kMostEntries;
+  return config;
+}
+
+template <int D>
+std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, NodeHandle handle) {
+  std::vector<std::string> labels;
+  std::string found;
+  structure.with_each([&](const auto& tree) {
+    labels.clear();
+    if (found.empty()) tree.visit([&](const NodeView<D>& node) {
+      labels.push_back(
+          node.parent == kNone ? "root" : child_label(spec.kind, labels[node.parent], node.slot));
+      if (node.handle == handle && found.empty()) found = labels.back();
+      return found.empty();
+    });
+  });
+  return found;
+}
+
+template <int D>
+void picture_structure(const StructureSpec& spec, const World<D>& world, bool tells_sleepers,
+                       const Touched& touched, Frame& frame) {
+  const auto count = [&](const char* name, std::uint64_t n) {
+    frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
+  };
+  frame.structure = spec.kind;
+  frame.settings = settings_text(spec);
+  if (spec.kind == StructureKind::none) {
+    count("all_pairs", all_pairs(frame.bodies.size()));
+    count("testable_pairs", testable_pairs(frame));
+    return;
+  }
+  const BroadPhase<D>& structure = *world.broad_phase();
+  const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
+  NodePicture<D> picture(spec, touched, frame);
+  structure.with_dynamic([&](const auto& tree) {
+    picture.add(tree, tells_sleepers ? awake_nodes(tree, awake) : std::vector<bool>(), false);
+  });
+  if (spec.split_static)
+    structure.with_static([&](const auto& tree) { picture.add(tree, {}, true); });
+
+  const PairChain chain = structure.pair_chain(awake, kMostPairs);
+  for (const Pair& pair : chain.pairs)
+    frame.pairs.push_back({pair, false, std::ranges::binary_search(chain.overlapping, pair)});
+  for (FrameBody& body : frame.bodies)
+    if (const auto stored = structure.box_of(body.id)) body.stored_box = solid(*stored);
+
+  const Counters& c = picture.counters;
+  count("nodes", c.nodes);
+  count("leaves", c.leaves);
+  count("depth", c.depth);
+  count("entries", c.entries);
+  count("most_in_leaf", picture.most_in_leaf);
+  count("pairs", chain.pairs.size());
+  count("pair_tests", chain.met);
+  count("all_pairs", all_pairs(frame.bodies.size()));
+  count("testable_pairs", testable_pairs(frame));
+  count("overlaps", chain.overlapping.size());
+  count("box_tests", c.box_tests);
+  count("splits", c.splits);
+  count("nodes_reused", c.nodes_reused);
+  count("allocations", c.allocations);
+  if (c.node_bytes > 0) {
+    count("slots", c.places);
+    count("node_bytes", c.node_bytes);
+    count("node_bytes_with_bounds", c.node_bytes + c.nodes * sizeof(Box<D>));
+  }
+  if (tells_sleepers) {
+    const Sleepers asleep = count_sleepers(frame);
+    count("nodes_asleep", asleep.nodes);
+    count("leaves_asleep", asleep.leaves);
+    count("branches_asleep", asleep.branches);
+  }
+  if (spec.split_static) {
+    count("static_builds", structure.counters().static_builds);
+    count("dynamic_builds", structure.counters().dynamic_builds);
+  }
+  if (traits_of(spec.kind).is_fitted) count("stale", count_stale(world));
+}
+
+template BroadPhaseConfig<2> broad_phase_of(const StructureSpec&, const Box<2>&);
+template BroadPhaseConfig<3> broad_phase_of(const StructureSpec&, const Box<3>&);
+template std::string label_of(const StructureSpec&, const BroadPhase<2>&, NodeHandle);
+template std::string label_of(const StructureSpec&, const BroadPhase<3>&, NodeHandle);
+template void picture_structure(const StructureSpec&, const World<2>&, bool, const Touched&,
+                                Frame&);
+template void picture_structure(const StructureSpec&, const World<3>&, bool, const Touched&,
+                                Frame&);
+
+}  // namespace lantern

@@ -1,0 +1,98 @@
+// The list of structures: a new kind is its own file, one line here, and its picture.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+#include "spatial/brute_force.hpp"
+#include "spatial/bsp.hpp"
+#include "spatial/flat_quadtree.hpp"
+#include "spatial/kd_tree.hpp"
+#include "spatial/orthtree.hpp"
+#include "spatial/sort_and_sweep.hpp"
+
+namespace lantern {
+
+// In three dimensions a quadtree looks at x and z only.
+template <int D>
+using QuadtreeIn = std::conditional_t<D == 2, Quadtree, FlatQuadtree>;
+
+// In two dimensions there is none.
+struct NoOctree : BruteForce<2> {
+  static NoOctree made(const StructureConfig<2>&) {
+    throw Refused("broad phase: octree needs three dimensions");
+  }
+};
+template <int D>
+using OctreeIn = std::conditional_t<D == 3, Octree, NoOctree>;
+
+// Name, as users write it, and class template.
+#define LANTERN_STRUCTURES(KIND)     \
+  KIND(brute_force, BruteForce)      \
+  KIND(sort_and_sweep, SortAndSweep) \
+  KIND(quadtree, QuadtreeIn)         \
+  KIND(octree, OctreeIn)             \
+  KIND(bsp, Bsp)                     \
+  KIND(kd_tree, KdTree)
+
+enum class StructureKind {
+  none,  // nobody asks for one
+#define LANTERN_KIND(name, Type) name,
+  LANTERN_STRUCTURES(LANTERN_KIND)
+#undef LANTERN_KIND
+};
+
+// All but `none`.
+inline constexpr std::array kStructureKinds = {
+#define LANTERN_KIND(name, Type) StructureKind::name,
+    LANTERN_STRUCTURES(LANTERN_KIND)
+#undef LANTERN_KIND
+};
+
+constexpr bool is_possible(StructureKind kind, int dimension) {
+  return kind != StructureKind::octree || dimension == 3;
+}
+
+namespace structure_list {
+template <int D, class... Types>
+struct Of {
+  using Any = std::variant<Types...>;
+};
+template <int D, class First, class... Rest>
+struct Of<D, First, Rest...> {
+  using Any = std::variant<Rest...>;
+};
+#define LANTERN_KIND(name, Type) , Type<D>
+template <int D>
+using Any = typename Of<D, void LANTERN_STRUCTURES(LANTERN_KIND)>::Any;
+#undef LANTERN_KIND
+}  // namespace structure_list
+
+template <int D>
+using AnyStructure = structure_list::Any<D>;
+
+// "none", "brute_force", "sort_and_sweep", ...: as the enumerators are written.
+std::string_view to_string(StructureKind kind);
+std::optional<StructureKind> structure_named(std::string_view name);
+
+StructureTraits traits_of(StructureKind kind);
+
+using BroadPhaseKind = StructureKind;
+inline constexpr auto kBroadPhaseKinds = kStructureKinds;
+inline std::string_view name_of(StructureKind kind) { return to_string(kind); }
+
+// An empty structure. Throws Refused for settings that it does not allow, for an octree in two
+// dimensions, and for `none`.
+template <int D>
+AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& config);
+
+// The tree of these items, instead of what was there; memory is used again.
+template <int D>
+void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items);
+
+}  // namespace lantern
