@@ -29,22 +29,49 @@ Box<D> box_of_half_space(const Vec<D>& normal, const Vec<D>& position) {
 
 template <int D>
 Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position, const Rotation<D>& orientation) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    return Box<D>::around(position, Vec<D>(sphere->radius));
-  if (const auto* box = std::get_if<AxisBox<D>>(&shape))
-    return Box<D>::around(position, box->half_size);
-  if (const auto* box = std::get_if<OrientedBox<D>>(&shape))
-    return Box<D>::around(position, enveloping_half_size(orientation, box->half_size));
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    Vec<D> segment{0.0};
-    segment.y = capsule->half_length;
-    return Box<D>::around(position,
-                          enveloping_half_size(orientation, segment) + Vec<D>(capsule->radius));
-  }
-  return box_of_half_space(std::get<HalfSpace<D>>(shape).normal, position);
+  return visit_shape<D>(
+      shape,
+      [&](const Core<D>& core) {
+        const bool turned = core.turns && core.half != Vec<D>(0.0);
+        const Vec<D> half = turned ? enveloping_half_size(orientation, core.half) : core.half;
+        return Box<D>::around(position, half + Vec<D>(core.radius));
+      },
+      [&](const HalfSpace<D>& space) { return box_of_half_space(space.normal, position); });
 }
 
-template Box<2> bounding_box(const Shape<2>&, const Vec<2>&, const Rotation<2>&);
-template Box<3> bounding_box(const Shape<3>&, const Vec<3>&, const Rotation<3>&);
+template <int D>
+double turning_reach(const Shape<D>& shape) {
+  return visit_shape<D>(
+      shape,
+      [](const Core<D>& core) {
+        if (!core.turns) return 0.0;
+        double most = core.half[0];
+        for (int i = 1; i < D; ++i) most = std::max(most, core.half[i]);
+        // Of a segment exactly so, however small its square.
+        return glm::dot(core.half, core.half) == most * most ? most : glm::length(core.half);
+      },
+      [](const HalfSpace<D>&) { return 0.0; });
+}
+
+template <int D>
+double thickness(const Shape<D>& shape) {
+  return visit_shape<D>(
+      shape,
+      [](const Core<D>& core) {
+        double least = core.half[0];
+        for (int i = 1; i < D; ++i) least = std::min(least, core.half[i]);
+        return least + core.radius;
+      },
+      [](const HalfSpace<D>&) { return kEndless; });
+}
+
+#define LANTERN_INSTANTIATE(D)                                                      \
+  template Box<D> bounding_box(const Shape<D>&, const Vec<D>&, const Rotation<D>&); \
+  template double turning_reach<D>(const Shape<D>&);                                \
+  template double thickness<D>(const Shape<D>&);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
 
 }  // namespace lantern

@@ -42,6 +42,55 @@ struct HalfSpace {
 template <int D>
 using Shape = std::variant<Sphere, AxisBox<D>, OrientedBox<D>, Capsule, HalfSpace<D>>;
 
+// Every shape but the half-space is all that lies within `radius` of its core: a point, a segment
+// or a box, which is a box of half sizes 0, of one that is not 0, or of all.
+template <int D>
+struct Core {
+  Vec<D> half{0.0};  // along the body's own axes, or the world's if it does not turn
+  double radius = 0;
+  bool turns = true;  // with its body
+};
+
+// One function for each shape: std::visit(EachShape{...}, shape) does not compile if one is
+// forgotten.
+template <class... F>
+struct EachShape : F... {
+  using F::operator()...;
+};
+template <class... F>
+EachShape(F...) -> EachShape<F...>;
+
+// f(core), or g(half_space).
+template <int D, class F, class G>
+auto visit_shape(const Shape<D>& shape, F&& f, G&& g) {
+  return std::visit(EachShape{
+                        [&](const Sphere& s) {
+                          return f(Core<D>{Vec<D>(0.0), s.radius, true});
+                        },
+                        [&](const AxisBox<D>& s) {
+                          return f(Core<D>{s.half_size, 0, false});
+                        },
+                        [&](const OrientedBox<D>& s) {
+                          return f(Core<D>{s.half_size, 0, true});
+                        },
+                        [&](const Capsule& s) {
+                          Vec<D> half{0.0};
+                          half.y = s.half_length;
+                          return f(Core<D>{half, s.radius, true});
+                        },
+                        [&](const HalfSpace<D>& s) { return g(s); },
+                    },
+                    shape);
+}
+
+// Whether it turns with its body. An axis-aligned box and a half-space never do.
+template <int D>
+bool turns(const Shape<D>& shape) {
+  return visit_shape<D>(
+      shape, [](const Core<D>& core) { return core.turns; },
+      [](const HalfSpace<D>&) { return false; });
+}
+
 // A half-space reaches this far: boxes must be finite.
 inline constexpr double kEndless = 1e150;
 
@@ -51,6 +100,15 @@ inline constexpr double kEndless = 1e150;
 template <int D>
 Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position,
                     const Rotation<D>& orientation = {});
+
+// How far the surface of a body can be from its centre, as far as turning moves it: how fast it can
+// move because the body turns, per radian. 0 for what does not turn, and for spheres.
+template <int D>
+double turning_reach(const Shape<D>& shape);
+
+// Half of the smallest width; endless for a half-space.
+template <int D>
+double thickness(const Shape<D>& shape);
 
 extern template Box<2> bounding_box(const Shape<2>&, const Vec<2>&, const Rotation<2>&);
 extern template Box<3> bounding_box(const Shape<3>&, const Vec<3>&, const Rotation<3>&);

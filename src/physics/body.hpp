@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/shape.hpp"
+#include "physics/manifold.hpp"
 #include "physics/motion_method.hpp"
 #include "spatial/structure.hpp"
 
@@ -36,9 +37,9 @@ struct Body {
   double density = 1;             // mass a unit of area (2D) or volume (3D)
   double mass = 0;                // 0: from shape and density
   Material material;
-  double linear_drag = 0;         // force = -linear_drag * velocity
-  double angular_drag = 0;        // torque = -angular_drag * angular velocity
-  bool may_turn = true;           // false: contacts and forces never turn it
+  double linear_drag = 0;   // force = -linear_drag * velocity
+  double angular_drag = 0;  // torque = -angular_drag * angular velocity
+  bool may_turn = true;     // false: contacts and forces never turn it
   bool asleep = false;
   bool collides = true;           // false: nothing meets it, no structure holds it
   std::optional<Integrator> integrator;    // of this body; none: the world's
@@ -57,6 +58,12 @@ struct Body {
   }
   Box<D> box() const { return bounding_box(shape, position, orientation); }
 };
+
+// As the narrow phase sees it.
+template <int D>
+Placed<D> placed(const Body<D>& body) {
+  return {body.shape, body.position, body.orientation};
+}
 
 // Inverse inertia in the world's axes: a number in 2D, a matrix in 3D.
 inline double world_inverse_inertia(const Body<2>& body) { return body.inverse_inertia; }

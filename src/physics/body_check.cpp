@@ -23,20 +23,22 @@ void check_shape(const Shape<D>& shape, const std::string& who) {
   const auto sizes = [&](const Vec<D>& half) {
     for (int i = 0; i < D; ++i) require_not_negative(half[i], who, "half_size");
   };
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    require_not_negative(sphere->radius, who, "radius");
-  } else if (const auto* box = std::get_if<AxisBox<D>>(&shape)) {
-    sizes(box->half_size);
-  } else if (const auto* turning = std::get_if<OrientedBox<D>>(&shape)) {
-    sizes(turning->half_size);
-  } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    require_not_negative(capsule->radius, who, "radius");
-    require_not_negative(capsule->half_length, who, "half_length");
-  } else {
-    const double length = glm::length(std::get<HalfSpace<D>>(shape).normal);
-    if (!(std::abs(length - 1) <= 1e-9))
-      throw Refused(fmt::format("{}: normal has length {}, must have 1", who, length));
-  }
+  std::visit(
+      EachShape{
+          [&](const Sphere& s) { require_not_negative(s.radius, who, "radius"); },
+          [&](const AxisBox<D>& s) { sizes(s.half_size); },
+          [&](const OrientedBox<D>& s) { sizes(s.half_size); },
+          [&](const Capsule& s) {
+            require_not_negative(s.radius, who, "radius");
+            require_not_negative(s.half_length, who, "half_length");
+          },
+          [&](const HalfSpace<D>& s) {
+            const double length = glm::length(s.normal);
+            if (!(std::abs(length - 1) <= 1e-9))
+              throw Refused(fmt::format("{}: normal has length {}, must have 1", who, length));
+          },
+      },
+      shape);
 }
 
 void check_rotation(const Rotation<2>& r, const std::string& who) {
@@ -102,8 +104,7 @@ void derive_mass(Body<D>& body) {
     throw Refused(fmt::format("{}: mass or inertia is out of range", who));
   body.mass = properties.mass;
   body.inverse_mass = 1 / properties.mass;
-  if (body.may_turn && !std::holds_alternative<AxisBox<D>>(body.shape))
-    body.inverse_inertia = inverse(properties.inertia);
+  if (body.may_turn && turns<D>(body.shape)) body.inverse_inertia = inverse(properties.inertia);
   if (!is_finite(body.inverse_inertia))
     throw Refused(fmt::format("{}: inertia is out of range", who));
 }

@@ -1,4 +1,5 @@
-// How bodies that touch are parted.
+// How bodies that touch are parted: the names of the methods. What they do is in
+// contact_solver.hpp.
 #pragma once
 
 #include <optional>
@@ -7,12 +8,13 @@
 namespace lantern {
 
 enum class ContactMethod {
-  none,     // bodies pass through each other
-  impulse,  // the lecture's impulses, iterated
-  soft,     // the step is cut into sub-steps, and penetration is pushed out softly in each
+  none,     // bodies pass through each other; joints are held as by `soft`
+  impulse,  // sequential impulses, swept over a few times a step
+  soft,     // sub-steps, in each of which all rows are solved at once; penetration is eased out
+  direct,   // the same without sub-steps
 };
 
-// "none", "impulse", "soft"; nothing for a name that is none of them.
+// "none", "impulse", "soft", "direct"; nothing for a name that is none of them.
 std::string_view to_string(ContactMethod method);
 std::optional<ContactMethod> contact_method_named(std::string_view name);
 

@@ -16,17 +16,15 @@ constexpr double kSlipByRounding = 1e-6;
 
 template <int D>
 Mat<D> axes_of(const Body<D>& body) {
-  const bool turns = !std::holds_alternative<AxisBox<D>>(body.shape) &&
-                     !std::holds_alternative<HalfSpace<D>>(body.shape);
-  return turns ? matrix(body.orientation) : Mat<D>(1.0);
+  return turns<D>(body.shape) ? matrix(body.orientation) : Mat<D>(1.0);
 }
 
 // How far the surface is from the part of the body that turns.
 template <int D>
 double roundness(const Shape<D>& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
-  return 0;
+  return visit_shape<D>(
+      shape, [](const Core<D>& core) { return core.radius; },
+      [](const HalfSpace<D>&) { return 0.0; });
 }
 
 template <int D>
@@ -34,15 +32,17 @@ Vec<D> across(const Vec<D>& v, const Vec<D>& normal) {
   return v - normal * glm::dot(v, normal);
 }
 
-// The largest compliance across the normal. With it a sweep never overshoots, and where it stops,
-// friction points exactly against the slip.
-double softest(const Mover<2>& a, const Mover<2>& b, const ContactPoint<2>& p, const Vec<2>& n) {
-  return compliance<2>(a, p.arm_a, b, p.arm_b, {-n.y, n.x});
+// The inverse of the least effective mass across the normal. With it a sweep never overshoots, and
+// where it stops, friction points exactly against the slip.
+double softest(const SolverBody<2>& a, const SolverBody<2>& b, const ContactPoint<2>& p,
+               const Vec<2>& n) {
+  return inverse_effective_mass<2>(a, p.arm_a, b, p.arm_b, {-n.y, n.x});
 }
-double softest(const Mover<3>& a, const Mover<3>& b, const ContactPoint<3>& p, const Vec<3>& n) {
+double softest(const SolverBody<3>& a, const SolverBody<3>& b, const ContactPoint<3>& p,
+               const Vec<3>& n) {
   const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
   const Vec<3> s = glm::normalize(glm::cross(n, other)), t = glm::cross(n, s);
-  const auto turned_by = [&](const Mover<3>& m, const Vec<3>& arm, const Vec<3>& direction) {
+  const auto turned_by = [&](const SolverBody<3>& m, const Vec<3>& arm, const Vec<3>& direction) {
     return cross(m.inverse_inertia * cross(arm, direction), arm);
   };
   const Vec<3> by_s = turned_by(a, p.arm_a, s) + turned_by(b, p.arm_b, s);
@@ -86,8 +86,9 @@ void set_points(ContactRows<D>& rows, const Manifold<D>& manifold, const Body<D>
 }
 
 template <int D>
-void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mover<D>& mover_a,
-             const Mover<D>& mover_b, double threshold, double touching) {
+void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b,
+             const SolverBody<D>& solver_a, const SolverBody<D>& solver_b, double threshold,
+             double touching) {
   const Mat<D> axes_a = axes_of(a), axes_b = axes_of(b);
   for (ContactPoint<D>& p : rows.points()) {
     const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
@@ -96,9 +97,10 @@ void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mov
     p.gap = p.separation > touching ? p.separation : 0;
     p.arm_a = to_a + gap * rows.share;
     p.arm_b = to_b - gap * (1 - rows.share);
-    p.normal_compliance = compliance(mover_a, p.arm_a, mover_b, p.arm_b, rows.normal);
-    if (rows.friction > 0) p.tangent_compliance = softest(mover_a, mover_b, p, rows.normal);
-    const Vec<D> velocity = relative_velocity(mover_a, p.arm_a, mover_b, p.arm_b);
+    p.inverse_normal_mass =
+        inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, rows.normal);
+    if (rows.friction > 0) p.inverse_tangent_mass = softest(solver_a, solver_b, p, rows.normal);
+    const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
     const double parting = glm::dot(velocity, rows.normal);
     p.bounce = p.gap == 0 && parting < -threshold ? -rows.restitution * parting : 0;
     p.slip = across(velocity, rows.normal);
@@ -106,7 +108,7 @@ void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mov
 }
 
 template <int D>
-void warm_start(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b) {
+void warm_start(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
   for (ContactPoint<D>& p : rows.points())
     p.kicked_slip = across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
   for (ContactPoint<D>& p : rows.points()) {
@@ -117,27 +119,28 @@ void warm_start(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b) {
 }
 
 template <int D>
-void sweep_velocities(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep) {
+void solve_velocities(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
+                      Sweep& sweep) {
   for (ContactPoint<D>& p : rows.points()) {
-    if (p.normal_compliance == 0) continue;
+    if (p.inverse_normal_mass == 0) continue;
     const double parting =
         glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal) - p.bounce;
     // Bodies that are still apart may come as close as to touch.
     const double before = p.pn;
-    p.pn = std::max(before - (parting + p.gap / h) / p.normal_compliance, 0.0);
+    p.pn = std::max(before - (parting + p.gap / h) / p.inverse_normal_mass, 0.0);
     const Vec<D> impulse = rows.normal * (p.pn - before);
     a.apply(-impulse, p.arm_a);
     b.apply(impulse, p.arm_b);
     sweep.change = std::max(sweep.change, std::abs(p.pn - before));
     sweep.largest = std::max(sweep.largest, p.pn);
-    ++sweep.rows;
+    ++sweep.normal_rows;
   }
   if (rows.friction == 0) return;
   for (ContactPoint<D>& p : rows.points()) {
-    if (p.tangent_compliance == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
+    if (p.inverse_tangent_mass == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
     const Vec<D> slip = across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
     const Vec<D> before = p.pt;
-    p.pt -= slip / p.tangent_compliance;
+    p.pt -= slip / p.inverse_tangent_mass;
     const double most = rows.friction * p.pn, length = glm::length(p.pt);
     p.sticks = length <= most * (1 + kSlipByRounding);
     if (length > most) p.pt *= most / length;
@@ -145,7 +148,6 @@ void sweep_velocities(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, 
     a.apply(-impulse, p.arm_a);
     b.apply(impulse, p.arm_b);
     sweep.change = std::max(sweep.change, glm::length(impulse));
-    sweep.rows += D - 1;
     sweep.friction_rows += D - 1;
   }
 }
@@ -165,17 +167,18 @@ double sliding_share(const ContactPoint<D>& p, double friction) {
 }  // namespace
 
 template <int D>
-void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a, double lag_b) {
+void begin_correction(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double lag_a,
+                      double lag_b) {
   const ContactPoint<D>* firmest = nullptr;
   for (const ContactPoint<D>& p : rows.points())
     if (firmest == nullptr || p.pn > firmest->pn) firmest = &p;
   for (ContactPoint<D>& p : rows.points()) {
-    p.carried = 0;
+    p.correction = 0;
     if (rows.friction == 0 || p.pn == 0) continue;
     if (!p.sticks) {
       // Slips through the whole sub-step, slowed evenly: the mean is half way.
-      a.carry(p.pt * (0.5 - lag_a), p.arm_a);
-      b.carry(p.pt * (lag_b - 0.5), p.arm_b);
+      a.correct(p.pt * (0.5 - lag_a), p.arm_a);
+      b.correct(p.pt * (lag_b - 0.5), p.arm_b);
       continue;
     }
     // A point that presses by rounding only stops when the firmest does.
@@ -187,49 +190,49 @@ void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a
 }
 
 template <int D>
-double wanted_carriage(const ContactPoint<D>& point, double h) {
+double wanted_mean_speed(const ContactPoint<D>& point, double h) {
   if (point.gap > 0) return -point.gap / h;
   return std::min(-point.separation * kPushedOut / h, kFastestPush);
 }
 
 template <int D>
-void sweep_carriage(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep) {
+void correct_positions(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
+                       Sweep& sweep) {
   for (ContactPoint<D>& p : rows.points()) {
-    if (p.normal_compliance == 0) continue;
-    const double parting = glm::dot(relative_carriage(a, p.arm_a, b, p.arm_b), rows.normal);
-    const double wanted = wanted_carriage(p, h);
-    const double before = p.carried;
+    if (p.inverse_normal_mass == 0) continue;
+    const double parting = glm::dot(relative_mean_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
+    const double wanted = wanted_mean_speed(p, h);
+    const double before = p.correction;
     // Together with the impulse that is there already, it may push but not pull.
     const double least = p.bounce > 0 ? 0 : -p.pn;
-    p.carried = std::max(before + (wanted - parting) / p.normal_compliance, least);
-    const Vec<D> impulse = rows.normal * (p.carried - before);
-    a.carry(-impulse, p.arm_a);
-    b.carry(impulse, p.arm_b);
-    sweep.change = std::max(sweep.change, std::abs(p.carried - before));
-    ++sweep.rows;
+    p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
+    const Vec<D> impulse = rows.normal * (p.correction - before);
+    a.correct(-impulse, p.arm_a);
+    b.correct(impulse, p.arm_b);
+    sweep.change = std::max(sweep.change, std::abs(p.correction - before));
+    ++sweep.normal_rows;
   }
   for (ContactPoint<D>& p : rows.points()) {
-    if (!p.sticks || p.pn == 0 || p.tangent_compliance == 0) continue;
-    const Vec<D> slip = across(relative_carriage(a, p.arm_a, b, p.arm_b), rows.normal);
-    const Vec<D> impulse = (p.wanted_slip - slip) / p.tangent_compliance;
-    a.carry(-impulse, p.arm_a);
-    b.carry(impulse, p.arm_b);
+    if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
+    const Vec<D> slip = across(relative_mean_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
+    const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
+    a.correct(-impulse, p.arm_a);
+    b.correct(impulse, p.arm_b);
     sweep.change = std::max(sweep.change, glm::length(impulse));
-    sweep.rows += D - 1;
     sweep.friction_rows += D - 1;
   }
 }
 
-#define LANTERN_INSTANTIATE(D)                                                                  \
-  template void set_points(ContactRows<D>&, const Manifold<D>&, const Body<D>&, const Body<D>&, \
-                           const Contact<D>*, double);                                          \
-  template void refresh(ContactRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&,       \
-                        const Mover<D>&, double, double);                                       \
-  template void warm_start(ContactRows<D>&, Mover<D>&, Mover<D>&);                              \
-  template void sweep_velocities(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);        \
-  template void begin_carrying(ContactRows<D>&, Mover<D>&, Mover<D>&, double, double);          \
-  template double wanted_carriage(const ContactPoint<D>&, double);                              \
-  template void sweep_carriage(ContactRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);
+#define LANTERN_INSTANTIATE(D)                                                                     \
+  template void set_points(ContactRows<D>&, const Manifold<D>&, const Body<D>&, const Body<D>&,    \
+                           const Contact<D>*, double);                                             \
+  template void refresh(ContactRows<D>&, const Body<D>&, const Body<D>&, const SolverBody<D>&,     \
+                        const SolverBody<D>&, double, double);                                     \
+  template void warm_start(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&);                       \
+  template void solve_velocities(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&, double, Sweep&); \
+  template void begin_correction(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&, double, double); \
+  template double wanted_mean_speed(const ContactPoint<D>&, double);                               \
+  template void correct_positions(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&, double, Sweep&);
 
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)

@@ -13,7 +13,7 @@
 #include <span>
 
 #include "physics/contacts.hpp"
-#include "physics/mover.hpp"
+#include "physics/solver_body.hpp"
 
 namespace lantern {
 
@@ -26,16 +26,16 @@ struct ContactPoint {
   Vec<D> arm_a{0.0}, arm_b{0.0};  // to the point where impulses act, in the world's axes
   double offset = 0;              // of the separation, against what the arms say
   double separation = 0;
-  double gap = 0;  // the same while they do not touch, else 0
-  double normal_compliance = 0;
-  double tangent_compliance = 0;  // in the softest direction
-  double pn = 0;                  // normal impulse of this sub-step, N s
-  Vec<D> pt{0.0};                 // friction impulse of this sub-step
-  double bounce = 0;              // wanted speed of parting
-  Vec<D> slip{0.0};               // across the normal, before this sub-step's forces
-  Vec<D> kicked_slip{0.0};        // and after them
-  Vec<D> wanted_slip{0.0};        // mean over this sub-step, if it sticks
-  double carried = 0;             // impulse that pushes out penetration, along the normal
+  double gap = 0;                   // the same while they do not touch, else 0
+  double inverse_normal_mass = 0;   // effective
+  double inverse_tangent_mass = 0;  // in the direction in which it is largest
+  double pn = 0;                    // normal impulse of this sub-step, N s
+  Vec<D> pt{0.0};                   // friction impulse of this sub-step
+  double bounce = 0;                // wanted speed of parting
+  Vec<D> slip{0.0};                 // across the normal, before this sub-step's forces
+  Vec<D> kicked_slip{0.0};          // and after them
+  Vec<D> wanted_slip{0.0};          // mean over this sub-step, if it sticks
+  double correction = 0;            // impulse that pushes out penetration, along the normal
   bool sticks = false;
 };
 
@@ -60,8 +60,10 @@ struct ContactRows {
 struct Sweep {
   double change = 0;   // largest change of an impulse
   double largest = 0;  // largest impulse
-  std::uint64_t rows = 0;
+  // How many were solved.
+  std::uint64_t normal_rows = 0;
   std::uint64_t friction_rows = 0;
+  std::uint64_t joint_rows = 0;
 };
 
 // Points from the narrow phase, with the impulses per second of points of the same feature.
@@ -69,34 +71,38 @@ template <int D>
 void set_points(ContactRows<D>& rows, const Manifold<D>& manifold, const Body<D>& a,
                 const Body<D>& b, const Contact<D>* remembered, double scale);
 
-// Arms, separations and compliances where the bodies are now; velocities are those before the
+// Arms, separations and effective masses where the bodies are now; velocities are those before the
 // sub-step's forces. Points that approach faster than `threshold` bounce; those no farther apart
 // than `touching` have no gap. (A gap must be closed by a velocity, which the next sub-step must
 // stop again: of gaps that are mere rounding that would make noise in all the impulses of a stack.)
 template <int D>
-void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mover<D>& mover_a,
-             const Mover<D>& mover_b, double threshold, double touching);
+void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b,
+             const SolverBody<D>& solver_a, const SolverBody<D>& solver_b, double threshold,
+             double touching);
 
 template <int D>
-void warm_start(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b);
+void warm_start(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b);
 
 // One sweep over velocities, for a sub-step of `h` seconds.
 template <int D>
-void sweep_velocities(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep);
+void solve_velocities(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
+                      Sweep& sweep);
 
 // What follows from the velocities found: the way that slipping points lag behind (see
 // sub_steps.cpp), and how far sticking ones may still slide. `lag_a` and `lag_b` are the lags that
 // the integrator has already.
 template <int D>
-void begin_carrying(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double lag_a, double lag_b);
+void begin_correction(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double lag_a,
+                      double lag_b);
 
 // The mean speed of parting, over `h` seconds, that a point which presses should have.
 template <int D>
-double wanted_carriage(const ContactPoint<D>& point, double h);
+double wanted_mean_speed(const ContactPoint<D>& point, double h);
 
 // One sweep over mean velocities: after `h` seconds, points that press touch without penetration,
 // or with a part of it.
 template <int D>
-void sweep_carriage(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep);
+void correct_positions(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
+                       Sweep& sweep);
 
 }  // namespace lantern

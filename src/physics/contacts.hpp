@@ -20,6 +20,24 @@ struct Contact {
   std::array<Vec<D>, Manifold<D>::kMostPoints> friction_impulses{};
 };
 
+// The record of a pair, which holds impulses already, gets a new manifold: impulses stay with their
+// features, and those of points that are gone go to the first one.
+template <int D>
+void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
+  Contact<D> renewed;
+  renewed.a = record.a;
+  renewed.b = record.b;
+  renewed.manifold = manifold;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(record.manifold.count); ++i) {
+    std::size_t to = 0;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(manifold.count); ++j)
+      if (manifold.room[j].feature == record.manifold.room[i].feature) to = j;
+    renewed.normal_impulses[to] += record.normal_impulses[i];
+    renewed.friction_impulses[to] += record.friction_impulses[i];
+  }
+  record = renewed;
+}
+
 struct ContactEvent {
   enum class Kind {
     begin,  // touch in this step, did not in the last one

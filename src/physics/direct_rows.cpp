@@ -41,7 +41,7 @@ Vec<D> axis_of(int axis) {
 // About every axis.
 template <int D>
 bool turns(const Island<D>& island, std::uint32_t body) {
-  if (island.movers[body].inverse_mass == 0) return false;
+  if (island.solver_bodies[body].inverse_mass == 0) return false;
   for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
     if (!(part_of(island.bodies[body].inverse_inertia, i) > 0)) return false;
   return true;
@@ -83,8 +83,8 @@ std::array<double, N> solved(const Small<N>& factor, std::array<double, N> x) {
 
 template <int D>
 void DirectSolve<D>::add_row(const Island<D>& island, Row row) {
-  row.gained_a = island.movers[row.a].inverse_inertia * row.turn_a;
-  row.gained_b = island.movers[row.b].inverse_inertia * row.turn_b;
+  row.gained_a = island.solver_bodies[row.a].inverse_inertia * row.turn_a;
+  row.gained_b = island.solver_bodies[row.b].inverse_inertia * row.turn_b;
   rows_.push_back(row);
 }
 
@@ -158,7 +158,7 @@ void DirectSolve<D>::list_joint(const Island<D>& island, JointRows<D>& joint) {
       part.direction = axis_of<D>(axis);
       parts_.push_back(part);
     }
-  } else if (joint.compliance > 0) {
+  } else if (joint.inverse_mass > 0) {
     part.direction = joint.direction;
     parts_.push_back(part);
   }
@@ -170,7 +170,7 @@ void DirectSolve<D>::list_contact(const Island<D>& island, ContactRows<D>& conta
   const auto across = tangents(contact.normal);
   const std::size_t first = parts_.size();
   for (ContactPoint<D>& point : contact.points()) {
-    if (!(point.pn > 0) || !(point.normal_compliance > 0)) continue;
+    if (!(point.pn > 0) || !(point.inverse_normal_mass > 0)) continue;
     Part part;
     part.a = contact.a;
     part.b = contact.b;

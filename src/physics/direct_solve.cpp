@@ -1,16 +1,27 @@
 #include "physics/direct_solve.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace lantern {
 namespace {
 
-constexpr int kMostGuesses = 6;
-constexpr double kMostWork = 4e6;  // products, for one factor
-// Rows that say the same twice have no factor without a little compliance. What it leaves undone is
-// so small a part of the impulses.
-constexpr double kCompliance = 1e-10;
+struct Limits {
+  // Sweeps of a sub-step, if they do not end earlier: more for small islands, which are cheap.
+  int fewest_sweeps = 24, most_sweeps = 256;
+  int most_solved = 2048;  // pairs times sweeps
+  // What slips or presses must be known before all is solved at once. A guess whose last change was
+  // less than this part of the largest impulse is good; and what presses less counts for nothing.
+  double good_guess = 0.05;
+  double presses = 0.01;
+  int most_guesses = 6;    // each lets go of what the last one found to pull or to slip
+  double most_work = 4e6;  // products, for one factor: a few milliseconds
+  // Rows that say the same twice have no factor without a little compliance. What it leaves undone
+  // is so small a part of the impulses.
+  double compliance = 1e-10;
+};
+constexpr Limits kLimits;
 
 }  // namespace
 
@@ -19,7 +30,9 @@ template <int D>
 double DirectSolve<D>::link(const Island<D>& island, const Row& x, const Row& y) const {
   double sum = 0;
   const double along = glm::dot(x.direction, y.direction);
-  const auto mass = [&](std::uint32_t body) { return island.movers[body].inverse_mass * along; };
+  const auto mass = [&](std::uint32_t body) {
+    return island.solver_bodies[body].inverse_mass * along;
+  };
   if (x.a == y.a) sum += mass(x.a) + dot(x.turn_a, y.gained_a);
   if (x.b == y.b) sum += mass(x.b) + dot(x.turn_b, y.gained_b);
   if (x.a == y.b) sum -= mass(x.a) + dot(x.turn_a, y.gained_b);
@@ -29,22 +42,29 @@ double DirectSolve<D>::link(const Island<D>& island, const Row& x, const Row& y)
 
 template <int D>
 bool DirectSolve<D>::factor(const Island<D>& island) {
-  std::vector<std::size_t> first_of(island.movers.size(), rows_.size());  // row of each body
+  std::vector<std::size_t> first_of(island.solver_bodies.size(), rows_.size());  // row of each body
   system_.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     std::size_t first = i;
     for (const std::uint32_t body : {rows_[i].a, rows_[i].b}) {
-      if (island.movers[body].inverse_mass == 0) continue;
+      if (island.solver_bodies[body].inverse_mass == 0) continue;
       first_of[body] = std::min(first_of[body], i);
       first = std::min(first, first_of[body]);
     }
     system_.add_line(first);
-    if (system_.work() > kMostWork) return false;
+    if (system_.work() > kLimits.most_work) return false;
   }
   return system_.factor([&](std::size_t i, std::size_t j) {
     const double value = link(island, rows_[i], rows_[j]);
-    return i == j ? value * (1 + kCompliance) : value;
+    return i == j ? value * (1 + kLimits.compliance) : value;
   });
+}
+
+template <int D>
+void DirectSolve<D>::count(WorldWork& work) const {
+  ++work.direct_solves;
+  work.direct_rows += rows_.size();
+  work.constraint_rows += rows_.size();
 }
 
 // The gains of all parts after which nothing is missing; missing(part) is the velocity along it.
@@ -86,8 +106,8 @@ bool DirectSolve<D>::let_go(Island<D>& island) {
     }
     if (!(pn > 0)) {
       const Vec<D> impulse = part.direction * p.pn + p.pt;
-      island.movers[part.a].apply(impulse, part.arm_a);
-      island.movers[part.b].apply(-impulse, part.arm_b);
+      island.solver_bodies[part.a].apply(impulse, part.arm_a);
+      island.solver_bodies[part.b].apply(-impulse, part.arm_b);
       p.pn = 0;
       p.pt = Vec<D>(0.0);
       any = true;
@@ -102,7 +122,7 @@ bool DirectSolve<D>::let_go(Island<D>& island) {
 
 template <int D>
 void DirectSolve<D>::keep_guess(Island<D>& island) {
-  kept_movers_ = island.movers;
+  kept_bodies_ = island.solver_bodies;
   kept_.clear();
   for (const IslandPair<D>& pair : island.pairs)
     for (const ContactPoint<D>& p : pair.rows.points()) kept_.push_back({p.pn, p.pt, p.sticks});
@@ -110,7 +130,7 @@ void DirectSolve<D>::keep_guess(Island<D>& island) {
 
 template <int D>
 void DirectSolve<D>::take_guess_back(Island<D>& island) {
-  island.movers = kept_movers_;
+  island.solver_bodies = kept_bodies_;
   auto kept = kept_.begin();
   for (IslandPair<D>& pair : island.pairs)
     for (ContactPoint<D>& p : pair.rows.points()) {
@@ -122,25 +142,26 @@ void DirectSolve<D>::take_guess_back(Island<D>& island) {
 }
 
 template <int D>
-bool DirectSolve<D>::settle_velocities(Island<D>& island, double h, Sweep& sweep) {
+bool DirectSolve<D>::solve_velocities(SubStep<D>& step) {
+  Island<D>& island = step.island;
   keep_guess(island);
-  for (int round = 0; round < kMostGuesses; ++round) {
+  for (int round = 0; round < kLimits.most_guesses; ++round) {
     list_rows(island);
     if (rows_.empty() || !factor(island)) break;
-    sweep.rows += rows_.size();
+    count(step.work);
     find_gains([&](const Part& part) {
-      const Vec<D> u =
-          relative_velocity(island.movers[part.a], part.arm_a, island.movers[part.b], part.arm_b);
+      const Vec<D> u = relative_velocity(island.solver_bodies[part.a], part.arm_a,
+                                         island.solver_bodies[part.b], part.arm_b);
       double wanted = 0;
       if (part.point != nullptr && part.tangent < 0)
-        wanted = part.point->bounce - part.point->gap / h;
+        wanted = part.point->bounce - part.point->gap / step.h;
       return wanted - glm::dot(u, part.direction);
     });
     if (let_go(island)) continue;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const Row& row = rows_[i];
-      island.movers[row.a].gain(row.direction, row.turn_a, row.gained_a, -values_[i]);
-      island.movers[row.b].gain(row.direction, row.turn_b, row.gained_b, values_[i]);
+      island.solver_bodies[row.a].apply_along(row.direction, row.turn_a, row.gained_a, -values_[i]);
+      island.solver_bodies[row.b].apply_along(row.direction, row.turn_b, row.gained_b, values_[i]);
     }
     for (const Part& part : parts_) {
       const Vec<D> impulse = part.direction * part.gain;
@@ -158,37 +179,87 @@ bool DirectSolve<D>::settle_velocities(Island<D>& island, double h, Sweep& sweep
 }
 
 template <int D>
-bool DirectSolve<D>::settle_carriage(Island<D>& island, double h, bool factored, Sweep& sweep) {
+bool DirectSolve<D>::correct_positions(SubStep<D>& step, bool factored) {
+  Island<D>& island = step.island;
   if (!factored) {
     list_rows(island);
     if (rows_.empty() || !factor(island)) return false;
   }
-  sweep.rows += rows_.size();
+  count(step.work);
   find_gains([&](const Part& part) {
-    const Vec<D> u =
-        relative_carriage(island.movers[part.a], part.arm_a, island.movers[part.b], part.arm_b);
-    const double wanted = part.joint != nullptr ? wanted_carriage(*part.joint, part.direction, h)
-                          : part.tangent < 0    ? wanted_carriage(*part.point, h)
-                                                : glm::dot(part.point->wanted_slip, part.direction);
+    const Vec<D> u = relative_mean_velocity(island.solver_bodies[part.a], part.arm_a,
+                                            island.solver_bodies[part.b], part.arm_b);
+    const double wanted = part.joint != nullptr
+                              ? wanted_mean_speed(*part.joint, part.direction, step.h)
+                          : part.tangent < 0 ? wanted_mean_speed(*part.point, step.h)
+                                             : glm::dot(part.point->wanted_slip, part.direction);
     return wanted - glm::dot(u, part.direction);
   });
   for (const Part& part : parts_)
     if (part.point != nullptr && part.tangent < 0 &&
-        part.point->carried + part.gain < -part.point->pn)
+        part.point->correction + part.gain < -part.point->pn)
       return false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
-    island.movers[row.a].gain_mean(row.direction, row.gained_a, -values_[i]);
-    island.movers[row.b].gain_mean(row.direction, row.gained_b, values_[i]);
+    island.solver_bodies[row.a].correct_along(row.direction, row.gained_a, -values_[i]);
+    island.solver_bodies[row.b].correct_along(row.direction, row.gained_b, values_[i]);
   }
   for (const Part& part : parts_)
-    if (part.point != nullptr && part.tangent < 0) part.point->carried += part.gain;
+    if (part.point != nullptr && part.tangent < 0) part.point->correction += part.gain;
   return true;
 }
 
-template bool DirectSolve<2>::settle_velocities(Island<2>&, double, Sweep&);
-template bool DirectSolve<3>::settle_velocities(Island<3>&, double, Sweep&);
-template bool DirectSolve<2>::settle_carriage(Island<2>&, double, bool, Sweep&);
-template bool DirectSolve<3>::settle_carriage(Island<3>&, double, bool, Sweep&);
+// All at once after 2, 4, 8 ... sweeps, never last. Where something slips, a guess that is good
+// already is left alone: friction that lags behind would only spoil it. Of four corners of a face
+// three are enough, so that one may press next to nothing and slip: that does not count.
+template <int D>
+bool DirectSolve<D>::is_due(SubStep<D>& step, int sweeps, int most, const Sweep& last) const {
+  if (sweeps < 2 || sweeps >= most || !std::has_single_bit(static_cast<unsigned>(sweeps)))
+    return false;
+  bool slips = false;
+  step.each_pair([&](const ContactRows<D>& rows, auto&, auto&) {
+    for (const ContactPoint<D>& p : rows.points())
+      slips |= rows.friction > 0 && p.pn > kLimits.presses * last.largest && !p.sticks;
+  });
+  return !slips || last.change > kLimits.good_guess * last.largest;
+}
+
+template <int D>
+void DirectSolve<D>::settle(SubStep<D>& step) {
+  const auto pairs = static_cast<int>(step.island.pairs.size() + step.island.joints.size());
+  const int most =
+      std::clamp(kLimits.most_solved / pairs, kLimits.fewest_sweeps, kLimits.most_sweeps);
+  bool settled = false;
+  Sweep sweep;
+  for (int i = 0; i < most; ++i) {
+    sweep = step.sweep_velocities(i);
+    const double enough = settled ? kSweepTolerance.no_matter : kSweepTolerance.change;
+    if (sweep.change <= enough * sweep.largest) break;
+    if (is_due(step, i + 1, most, sweep)) settled = solve_velocities(step);
+  }
+  step.begin_position_correction();
+  if (settled && correct_positions(step, true)) return;
+  for (int i = 0; i < most; ++i) {
+    if (step.is_corrected(step.sweep_positions(), sweep.largest)) return;
+    // Two did not do: all at once. What slips is done with already and does not matter here.
+    if (i == 1 && correct_positions(step, false)) return;
+  }
+}
+
+template <int D>
+void direct_solve(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
+                  WorldWork& work) {
+  DirectSolve<D> direct;
+  in_sub_steps<D>(island, config, h, whole, 1, work,
+                  [&](SubStep<D>& step) { direct.settle(step); });
+}
+
+#define LANTERN_INSTANTIATE(D)                       \
+  template void DirectSolve<D>::settle(SubStep<D>&); \
+  template void direct_solve(Island<D>&, const WorldConfig<D>&, double, double, WorldWork&);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
 
 }  // namespace lantern

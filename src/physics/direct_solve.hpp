@@ -1,7 +1,8 @@
 // All rows of an island at once, by Cholesky factors. Sweeps need about n^2 rounds for a stack of n
 // boxes and about r for a mass ratio of r; this needs one, if it knows which contacts press and
 // which of them stick. A few sweeps make a guess at that; what turns out to pull or to slip is let
-// go, and the rest is solved again.
+// go, and the rest is solved again (an active set, as in Dantzig's method: Baraff, "Fast Contact
+// Force Computation for Nonpenetrating Rigid Bodies", 1994).
 //
 //   K dp = wanted - u     K = J M^-1 J^T: how relative velocities u answer to impulses dp
 //
@@ -16,21 +17,15 @@
 #include <vector>
 
 #include "physics/envelope_system.hpp"
-#include "physics/island.hpp"
+#include "physics/sub_step.hpp"
 
 namespace lantern {
 
 template <int D>
 class DirectSolve {
  public:
-  // Finds impulses for velocities that satisfy the rows that press, and applies them. False, with
-  // nothing changed, if there are none, if it would take too much work, or if no set of rows is
-  // found that holds together.
-  bool settle_velocities(Island<D>& island, double h, Sweep& sweep);
-
-  // The same rows for mean velocities, after they were settled for velocities. If they were not
-  // (not `factored`), all rows that press. False, with nothing changed, if some would pull.
-  bool settle_carriage(Island<D>& island, double h, bool factored, Sweep& sweep);
+  // Finds the impulses of a sub-step that has begun, and corrects its positions.
+  void settle(SubStep<D>& step);
 
  private:
   static constexpr int kFreedoms = D == 2 ? 3 : 6;
@@ -63,6 +58,16 @@ class DirectSolve {
     bool sticks = false;
   };
 
+  // Impulses for velocities that satisfy the rows that press, applied. False, with nothing changed,
+  // if there are none, if it would take too much work, or if no set of rows is found that holds
+  // together.
+  bool solve_velocities(SubStep<D>& step);
+  // The same rows for mean velocities, after they were solved for velocities. If they were not (not
+  // `factored`), all rows that press. False, with nothing changed, if some would pull.
+  bool correct_positions(SubStep<D>& step, bool factored);
+  bool is_due(SubStep<D>& step, int sweeps, int most, const Sweep& last) const;
+  void count(WorldWork& work) const;
+
   void list_rows(Island<D>& island);
   void list_joint(const Island<D>& island, JointRows<D>& joint);
   void list_contact(const Island<D>& island, ContactRows<D>& contact);
@@ -81,7 +86,7 @@ class DirectSolve {
   std::vector<Part> parts_;
   EnvelopeSystem system_;
   std::vector<double> values_;  // wanted, then impulses
-  std::vector<Mover<D>> kept_movers_;
+  std::vector<SolverBody<D>> kept_bodies_;
   std::vector<Guess> kept_;
 };
 

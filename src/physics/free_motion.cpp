@@ -1,5 +1,5 @@
-// Bodies under forces alone: their state as movers, what their motion would be, and so how they fly
-// where nothing touches them.
+// Bodies under forces alone: their state as solver bodies, what their motion would be, and so how
+// they fly where nothing touches them.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -10,12 +10,6 @@
 
 namespace lantern {
 namespace {
-
-template <int D>
-bool may_turn(const Body<D>& body) {
-  return !std::holds_alternative<AxisBox<D>>(body.shape) &&
-         !std::holds_alternative<HalfSpace<D>>(body.shape);
-}
 
 // Those of the dynamic bodies, each once; the world's own if there are none.
 template <int D>
@@ -45,15 +39,15 @@ void find_increments_in_step(Integrator integrator, std::span<const Body<D>> bod
 }  // namespace
 
 template <int D>
-Mover<D> mover_of(const Body<D>& body) {
-  Mover<D> mover;
-  mover.velocity = body.moves() ? body.velocity : Vec<D>(0.0);
-  if (body.asleep) mover.velocity = Vec<D>(0.0);
-  if (may_turn(body) && body.moves()) mover.spin = angular_velocity(body);
-  if (body.kind != BodyKind::dynamic_body || body.asleep) return mover;
-  mover.inverse_mass = body.inverse_mass;
-  if (body.inverse_inertia != Spin<D>(0.0)) mover.inverse_inertia = world_inverse_inertia(body);
-  return mover;
+SolverBody<D> solver_body_of(const Body<D>& body) {
+  SolverBody<D> solved;
+  solved.velocity = body.moves() ? body.velocity : Vec<D>(0.0);
+  if (body.asleep) solved.velocity = Vec<D>(0.0);
+  if (turns<D>(body.shape) && body.moves()) solved.spin = angular_velocity(body);
+  if (body.kind != BodyKind::dynamic_body || body.asleep) return solved;
+  solved.inverse_mass = body.inverse_mass;
+  if (body.inverse_inertia != Spin<D>(0.0)) solved.inverse_inertia = world_inverse_inertia(body);
+  return solved;
 }
 
 template <int D>
@@ -113,7 +107,7 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
 }
 
 #define LANTERN_INSTANTIATE(D)                                                               \
-  template Mover<D> mover_of(const Body<D>&);                                                \
+  template SolverBody<D> solver_body_of(const Body<D>&);                                     \
   template void fly(Body<D>&, const Increment<D>&, double, RotationMethod, WorldWork&);      \
   template bool any_force(std::span<const Body<D>>, const Forces<D>&);                       \
   template void find_increments_if_any(const WorldConfig<D>&, std::span<const Body<D>>,      \

@@ -33,18 +33,19 @@ struct Island {
   Forces<D> forces;                   // those that act among them
   std::vector<IslandPair<D>> pairs;   // by ids
   std::vector<JointRows<D>> joints;   // by ids
-  double joint_seconds = 0;           // of the sub-step that the joints' impulses are from
+  double joint_seconds = 0;           // of the sub-step that the joints' impulses are from; 0: of
+                                      // those that the step before has left, see JointRows
 
   // Scratch, kept for its memory.
-  std::vector<Mover<D>> movers;
+  std::vector<SolverBody<D>> solver_bodies;
   std::vector<Increment<D>> increments;
   std::vector<Vec<D>> kicked;  // velocities after the forces, before the constraints
 };
 
-// The state of an island's bodies as movers. (This and what follows, up to increments:
+// The state of a body as constraints see it. (This and what follows, up to increments:
 // free_motion.cpp)
 template <int D>
-Mover<D> mover_of(const Body<D>& body);
+SolverBody<D> solver_body_of(const Body<D>& body);
 
 // What the bodies' free motion would be: x += h (v + kick) + drift, and so on. Static and kinematic
 // bodies, too. Turned by the body's own method, or by the world's.
@@ -61,22 +62,5 @@ template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                             WorldWork& work);
-
-// Moves the island by `h` of the step's `whole` seconds under forces, joints and those pairs that
-// are pressed, in as many sub-steps as the config gives this part of the step. (sub_steps.cpp)
-template <int D>
-void move_island(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
-                 WorldWork& work);
-
-// Moves the island by a whole step: from impact to impact, and on to the end. At most `budget`
-// impacts are located; it shrinks by those that were. (impact.cpp)
-template <int D>
-void advance_island(Island<D>& island, const WorldConfig<D>& config, double h, int& budget,
-                    WorldWork& work);
-
-// The record of a pair, which holds impulses already, gets a new manifold: impulses stay with their
-// features, and those of points that are gone go to the first one.
-template <int D>
-void renew_record(Contact<D>& record, const Manifold<D>& manifold);
 
 }  // namespace lantern

@@ -9,7 +9,7 @@ namespace {
 
 // Column j is the relative velocity that an impulse of 1 along axis j gives.
 template <int D>
-Mat<D> response(const JointRows<D>& rows, const Mover<D>& a, const Mover<D>& b) {
+Mat<D> response(const JointRows<D>& rows, const SolverBody<D>& a, const SolverBody<D>& b) {
   Mat<D> k(a.inverse_mass + b.inverse_mass);
   for (int j = 0; j < D; ++j) {
     Vec<D> axis{0.0};
@@ -25,8 +25,8 @@ Mat<D> response(const JointRows<D>& rows, const Mover<D>& a, const Mover<D>& b) 
 template <int D>
 Vec<D> impulse_for(const JointRows<D>& rows, const Vec<D>& wanted) {
   if (rows.joint.kind == JointKind::pin) return rows.solve * wanted;
-  if (rows.compliance == 0) return Vec<D>(0.0);
-  return rows.direction * (glm::dot(rows.direction, wanted) / rows.compliance);
+  if (rows.inverse_mass == 0) return Vec<D>(0.0);
+  return rows.direction * (glm::dot(rows.direction, wanted) / rows.inverse_mass);
 }
 
 template <int D>
@@ -38,60 +38,62 @@ Vec<D> error(const JointRows<D>& rows) {
 }  // namespace
 
 template <int D>
-void refresh(JointRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mover<D>& mover_a,
-             const Mover<D>& mover_b) {
+void refresh(JointRows<D>& rows, const Body<D>& a, const Body<D>& b, const SolverBody<D>& solver_a,
+             const SolverBody<D>& solver_b) {
   rows.arm_a = matrix(a.orientation) * rows.joint.at_a;
   rows.arm_b = matrix(b.orientation) * rows.joint.at_b;
   rows.gap = (b.position - a.position) + rows.arm_b - rows.arm_a;
   if (rows.joint.kind == JointKind::pin) {
-    rows.solve = glm::inverse(response(rows, mover_a, mover_b));
+    rows.solve = glm::inverse(response(rows, solver_a, solver_b));
     return;
   }
   const double length = glm::length(rows.gap);
   rows.direction = length > 0 ? rows.gap / length : Vec<D>(0.0);
-  rows.compliance = compliance(mover_a, rows.arm_a, mover_b, rows.arm_b, rows.direction);
+  rows.inverse_mass =
+      inverse_effective_mass(solver_a, rows.arm_a, solver_b, rows.arm_b, rows.direction);
   rows.impulse = rows.direction * glm::dot(rows.direction, rows.impulse);
 }
 
 template <int D>
-void warm_start(JointRows<D>& rows, Mover<D>& a, Mover<D>& b) {
+void warm_start(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
   a.apply(-rows.impulse, rows.arm_a);
   b.apply(rows.impulse, rows.arm_b);
 }
 
 template <int D>
-void sweep_velocities(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, Sweep& sweep) {
+void solve_velocities(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, Sweep& sweep) {
   const Vec<D> impulse = impulse_for(rows, -relative_velocity(a, rows.arm_a, b, rows.arm_b));
   rows.impulse += impulse;
   a.apply(-impulse, rows.arm_a);
   b.apply(impulse, rows.arm_b);
   sweep.change = std::max(sweep.change, glm::length(impulse));
   sweep.largest = std::max(sweep.largest, glm::length(rows.impulse));
-  sweep.rows += rows.joint.kind == JointKind::pin ? D : 1;
+  sweep.joint_rows += rows.joint.kind == JointKind::pin ? D : 1;
 }
 
 template <int D>
-double wanted_carriage(const JointRows<D>& rows, const Vec<D>& direction, double h) {
+double wanted_mean_speed(const JointRows<D>& rows, const Vec<D>& direction, double h) {
   return -glm::dot(error(rows), direction) / h;
 }
 
 template <int D>
-void sweep_carriage(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep) {
+void correct_positions(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
+                       Sweep& sweep) {
   const Vec<D> impulse =
-      impulse_for(rows, -error(rows) / h - relative_carriage(a, rows.arm_a, b, rows.arm_b));
-  a.carry(-impulse, rows.arm_a);
-  b.carry(impulse, rows.arm_b);
+      impulse_for(rows, -error(rows) / h - relative_mean_velocity(a, rows.arm_a, b, rows.arm_b));
+  a.correct(-impulse, rows.arm_a);
+  b.correct(impulse, rows.arm_b);
   sweep.change = std::max(sweep.change, glm::length(impulse));
-  sweep.rows += rows.joint.kind == JointKind::pin ? D : 1;
+  sweep.joint_rows += rows.joint.kind == JointKind::pin ? D : 1;
 }
 
-#define LANTERN_INSTANTIATE(D)                                                          \
-  template void refresh(JointRows<D>&, const Body<D>&, const Body<D>&, const Mover<D>&, \
-                        const Mover<D>&);                                               \
-  template void warm_start(JointRows<D>&, Mover<D>&, Mover<D>&);                        \
-  template void sweep_velocities(JointRows<D>&, Mover<D>&, Mover<D>&, Sweep&);          \
-  template double wanted_carriage(const JointRows<D>&, const Vec<D>&, double);          \
-  template void sweep_carriage(JointRows<D>&, Mover<D>&, Mover<D>&, double, Sweep&);
+#define LANTERN_INSTANTIATE(D)                                                               \
+  template void refresh(JointRows<D>&, const Body<D>&, const Body<D>&, const SolverBody<D>&, \
+                        const SolverBody<D>&);                                               \
+  template void warm_start(JointRows<D>&, SolverBody<D>&, SolverBody<D>&);                   \
+  template void solve_velocities(JointRows<D>&, SolverBody<D>&, SolverBody<D>&, Sweep&);     \
+  template double wanted_mean_speed(const JointRows<D>&, const Vec<D>&, double);             \
+  template void correct_positions(JointRows<D>&, SolverBody<D>&, SolverBody<D>&, double, Sweep&);
 
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)

@@ -3,7 +3,7 @@
 
 #include "physics/contact_rows.hpp"
 #include "physics/joint.hpp"
-#include "physics/mover.hpp"
+#include "physics/solver_body.hpp"
 
 namespace lantern {
 
@@ -13,29 +13,31 @@ struct JointRows {
   std::uint32_t place = 0;     // among the world's joints
   std::uint32_t a = 0, b = 0;  // places among the island's bodies
   Vec<D> arm_a{0.0}, arm_b{0.0};
-  Vec<D> gap{0.0};        // from a's point to b's
-  Vec<D> direction{0.0};  // of a rod, from a's point to b's
-  Mat<D> solve{0.0};      // from an error of velocity to the impulse that mends it
-  double compliance = 0;  // of a rod
-  Vec<D> impulse{0.0};    // upon b, of this sub-step, N s
+  Vec<D> gap{0.0};          // from a's point to b's
+  Vec<D> direction{0.0};    // of a rod, from a's point to b's
+  Mat<D> solve{0.0};        // from an error of velocity to the impulse that mends it
+  double inverse_mass = 0;  // effective, of a rod
+  Vec<D> impulse{0.0};      // upon b, of this sub-step, N s
+  double seconds = 0;       // of the sub-step of the last step that it is from; 0: there was none
 };
 
 template <int D>
-void refresh(JointRows<D>& rows, const Body<D>& a, const Body<D>& b, const Mover<D>& mover_a,
-             const Mover<D>& mover_b);
+void refresh(JointRows<D>& rows, const Body<D>& a, const Body<D>& b, const SolverBody<D>& solver_a,
+             const SolverBody<D>& solver_b);
 
 template <int D>
-void warm_start(JointRows<D>& rows, Mover<D>& a, Mover<D>& b);
+void warm_start(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b);
 
 template <int D>
-void sweep_velocities(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, Sweep& sweep);
+void solve_velocities(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, Sweep& sweep);
 
 // The mean relative velocity along `direction` that mends the joint in `h` seconds.
 template <int D>
-double wanted_carriage(const JointRows<D>& rows, const Vec<D>& direction, double h);
+double wanted_mean_speed(const JointRows<D>& rows, const Vec<D>& direction, double h);
 
 // After `h` seconds the points are where the joint wants them.
 template <int D>
-void sweep_carriage(JointRows<D>& rows, Mover<D>& a, Mover<D>& b, double h, Sweep& sweep);
+void correct_positions(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
+                       Sweep& sweep);
 
 }  // namespace lantern

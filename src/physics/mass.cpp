@@ -55,13 +55,14 @@ MassProperties<3> of_capsule(const Capsule& capsule, Vec<3>, double density) {
 
 template <int D>
 MassProperties<D> mass_of(const Shape<D>& shape, double density) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    return of_sphere(*sphere, Vec<D>(0.0), density);
-  if (const auto* box = std::get_if<AxisBox<D>>(&shape)) return of_box(box->half_size, density);
-  if (const auto* box = std::get_if<OrientedBox<D>>(&shape)) return of_box(box->half_size, density);
-  if (const auto* capsule = std::get_if<Capsule>(&shape))
-    return of_capsule(*capsule, Vec<D>(0.0), density);
-  return {};
+  return std::visit(EachShape{
+                        [&](const Sphere& s) { return of_sphere(s, Vec<D>(0.0), density); },
+                        [&](const AxisBox<D>& s) { return of_box(s.half_size, density); },
+                        [&](const OrientedBox<D>& s) { return of_box(s.half_size, density); },
+                        [&](const Capsule& s) { return of_capsule(s, Vec<D>(0.0), density); },
+                        [](const HalfSpace<D>&) { return MassProperties<D>{}; },
+                    },
+                    shape);
 }
 
 template <int D>

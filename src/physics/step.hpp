@@ -2,7 +2,6 @@
 // way, or stopped (base/stop.hpp), leaves the world as it was.
 #pragma once
 
-#include "physics/impact.hpp"
 #include "physics/island.hpp"
 #include "physics/islands.hpp"
 #include "physics/world.hpp"
@@ -20,6 +19,11 @@ struct World<D>::Step {
     double reach = 0;
     const Touch* touch = nullptr;  // of the step before, if they touched in it
     bool located = false;
+  };
+  // What a solver is given together: places of bodies, of near pairs, of joints; all ascending.
+  struct Group {
+    std::vector<std::uint32_t> bodies;
+    std::vector<std::size_t> pairs, joints;
   };
 
   World& world;
@@ -43,7 +47,7 @@ struct World<D>::Step {
   std::vector<Proxy<D>> enlarged_boxes() const;
   void find_near_pairs();
   void make_islands();
-  void move();
+  void solve_and_integrate();
   void require_no_overflow() const;
   bool stayed_within_reach();
   void fall_asleep();
@@ -66,9 +70,8 @@ struct World<D>::Step {
   bool wake_what_is_touched();
   void wake(std::vector<std::uint32_t> places);
 
-  Island<D> gather(const std::vector<std::uint32_t>& members,
-                   const std::vector<std::size_t>& near_pairs,
-                   const std::vector<std::size_t>& joints) const;
+  std::vector<Group> groups_to_solve(bool whole_world) const;
+  Island<D> gather(const Group& group) const;
   void bring_back(Island<D>& island);
 };
 

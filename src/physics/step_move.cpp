@@ -6,59 +6,76 @@
 
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
+#include "physics/contact_solver.hpp"
+#include "physics/impacts.hpp"
 #include "physics/step.hpp"
 
 namespace lantern {
 
-// What hangs together by contacts or joints is moved island by island, all others fly.
+// Which bodies, pairs and joints the solver is given together: those of each island, or of the
+// whole world. What neither touches nor is joined is in none of them, but flies.
 template <int D>
-void World<D>::Step::move() {
-  std::vector<std::vector<std::size_t>> pairs_of(moved.size()), joints_of(moved.size());
-  const auto owner = [&](std::uint32_t a, std::uint32_t b) {
-    return root[moved[a].kind == BodyKind::dynamic_body ? a : b];
+auto World<D>::Step::groups_to_solve(bool whole_world) const -> std::vector<Group> {
+  std::vector<Group> groups(moved.size());
+  const auto dynamic = [&](std::uint32_t i) { return moved[i].kind == BodyKind::dynamic_body; };
+  const auto group_of = [&](std::uint32_t i) -> Group& {
+    return groups[whole_world ? 0 : root[i]];
   };
-  for (std::size_t i = 0; i < near.size(); ++i) pairs_of[owner(near[i].a, near[i].b)].push_back(i);
+  const auto owner = [&](std::uint32_t a, std::uint32_t b) -> Group& {
+    return group_of(dynamic(a) ? a : b);
+  };
+  for (std::size_t i = 0; i < near.size(); ++i) owner(near[i].a, near[i].b).pairs.push_back(i);
   for (std::size_t i = 0; i < world.joints_.size(); ++i) {
     const Joint<D>& joint = world.joints_[i].second;
-    joints_of[owner(place_of(joint.a), place_of(joint.b))].push_back(i);
+    owner(place_of(joint.a), place_of(joint.b)).joints.push_back(i);
   }
-  std::vector<std::vector<std::uint32_t>> members(moved.size());
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    if (moved[i].kind == BodyKind::dynamic_body)
-      members[root[i]].push_back(static_cast<std::uint32_t>(i));
-
-  int budget = world.config_.impact_budget;
-  std::vector<std::size_t> flying;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const bool bound = !pairs_of[root[i]].empty() || !joints_of[root[i]].empty();
-    const bool dynamic = moved[i].kind == BodyKind::dynamic_body;
-    if (!dynamic || !bound || moved[i].asleep) flying.push_back(i);
-    if (!dynamic || !bound || moved[i].asleep || root[i] != i) continue;
-    stop_if_asked();
-    Island<D> island = gather(members[i], pairs_of[i], joints_of[i]);
-    advance_island(island, world.config_, h, budget, world.work_);
-    bring_back(island);
-  }
-  for (const std::size_t i : flying)
-    fly(moved[i], increments[i], h, world.config_.rotation, world.work_);
+  for (std::uint32_t i = 0; i < moved.size(); ++i)
+    if (whole_world || dynamic(i)) group_of(i).bodies.push_back(i);
+  std::erase_if(groups, [&](const Group& group) {
+    return group.bodies.empty() || (group.pairs.empty() && group.joints.empty());
+  });
+  return groups;
 }
 
 template <int D>
-Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
-                                 const std::vector<std::size_t>& near_pairs,
-                                 const std::vector<std::size_t>& joints) const {
+void World<D>::Step::solve_and_integrate() {
+  const ContactSolver<D>& solver = contact_solver<D>(world.config_.contacts);
+  std::vector<std::uint8_t> solved(moved.size());
+  int budget = world.config_.impact_budget;
+  for (const Group& group : groups_to_solve(solver.whole_world)) {
+    stop_if_asked();
+    if (!solver.whole_world && moved[group.bodies[0]].asleep) {
+      for (const std::uint32_t i : group.bodies)
+        solved[i] = moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
+      continue;
+    }
+    Island<D> island = gather(group);
+    ++world.work_.islands_solved;
+    if (solver.whole_world)
+      solver.solve(island, world.config_, h, h, world.work_);
+    else
+      move_through_impacts(island, solver, world.config_, h, budget, world.work_);
+    bring_back(island);
+    for (const std::uint32_t i : group.bodies)
+      solved[i] = moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
+  }
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (!solved[i]) fly(moved[i], increments[i], h, world.config_.rotation, world.work_);
+}
+
+template <int D>
+Island<D> World<D>::Step::gather(const Group& group) const {
   Island<D> island;
-  island.places = members;
+  island.places = group.bodies;
   const auto belongs = [&](BodyId id) {
-    const std::uint32_t place = place_of(id);
-    return moved[place].kind == BodyKind::dynamic_body && root[place] == root[members.front()];
+    return std::ranges::binary_search(group.bodies, place_of(id));
   };
   const auto add = [&](BodyId id) { island.places.push_back(place_of(id)); };
-  for (const std::size_t i : near_pairs) {
+  for (const std::size_t i : group.pairs) {
     island.places.push_back(near[i].a);
     island.places.push_back(near[i].b);
   }
-  for (const std::size_t i : joints) {
+  for (const std::size_t i : group.joints) {
     add(world.joints_[i].second.a);
     add(world.joints_[i].second.b);
   }
@@ -82,29 +99,25 @@ Island<D> World<D>::Step::gather(const std::vector<std::uint32_t>& members,
     const auto found = std::lower_bound(island.places.begin(), island.places.end(), place);
     return static_cast<std::uint32_t>(found - island.places.begin());
   };
-  island.pairs.reserve(near_pairs.size());
-  for (const std::size_t i : near_pairs) {
+  island.pairs.reserve(group.pairs.size());
+  for (const std::size_t i : group.pairs) {
     stop_if_asked();
     island.pairs.push_back(island_pair(near[i]));
     ContactRows<D>& rows = island.pairs.back().rows;
     rows.a = local(rows.a);
     rows.b = local(rows.b);
   }
-  const bool soft = world.config_.contacts != ContactMethod::impulse;
-  const double whole_sub_step = soft ? h / world.config_.sub_steps : h;
-  for (const std::size_t i : joints) {
+  for (const std::size_t i : group.joints) {
     JointRows<D> rows;
     rows.joint = world.joints_[i].second;
     rows.place = static_cast<std::uint32_t>(i);
     rows.a = local(place_of(rows.joint.a));
     rows.b = local(place_of(rows.joint.b));
     const JointMemory& memory = world.joint_memories_[i];
-    // Of one second. A blow in a shorter sub-step is not taken for a force (see sub_steps.cpp).
-    if (memory.seconds > 0)
-      rows.impulse = memory.impulse / std::max(memory.seconds, whole_sub_step);
+    rows.seconds = memory.seconds;
+    if (memory.seconds > 0) rows.impulse = memory.impulse;
     island.joints.push_back(rows);
   }
-  island.joint_seconds = 1;
   return island;
 }
 
@@ -260,7 +273,7 @@ void World<D>::Step::commit() {
 }
 
 #define LANTERN_INSTANTIATE(D)                               \
-  template void World<D>::Step::move();                      \
+  template void World<D>::Step::solve_and_integrate();       \
   template void World<D>::Step::require_no_overflow() const; \
   template bool World<D>::Step::stayed_within_reach();       \
   template void World<D>::Step::fall_asleep();               \

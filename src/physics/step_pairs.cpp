@@ -161,8 +161,7 @@ auto World<D>::Step::nearing(const Pair& pair) const -> std::optional<NearPair> 
   // An impact with a third body may turn either of them towards the other.
   found.reach = reach[found.a] + reach[found.b];
   ++world.work_.narrow_tests;
-  const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
-                                Placed<D>{b.shape, b.position, b.orientation}, found.reach);
+  const auto manifold = collide(placed(a), placed(b), found.reach);
   if (!manifold) return std::nullopt;
   found.restitution = std::max(a.material.restitution, b.material.restitution);
   found.friction = std::sqrt(a.material.friction * b.material.friction);

@@ -11,11 +11,6 @@
 namespace lantern {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ContactMethod>, 3> kMethods = {
-    {{"none", ContactMethod::none},
-     {"impulse", ContactMethod::impulse},
-     {"soft", ContactMethod::soft}}};
-
 template <int D>
 WorldConfig<D> without_contacts() {
   WorldConfig<D> config;
@@ -87,18 +82,6 @@ void check_same_integrator(const Body<D>& a, const Body<D>& b, const WorldConfig
 }
 
 }  // namespace
-
-std::string_view to_string(ContactMethod method) {
-  for (const auto& [name, value] : kMethods)
-    if (value == method) return name;
-  return "";
-}
-
-std::optional<ContactMethod> contact_method_named(std::string_view name) {
-  for (const auto& [known, value] : kMethods)
-    if (known == name) return value;
-  return std::nullopt;
-}
 
 template <int D>
 World<D>::World() : World(without_contacts<D>()) {}

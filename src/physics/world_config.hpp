@@ -1,7 +1,9 @@
 // What a world is told when it is made, and what it counts.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "physics/contact_method.hpp"
 #include "physics/motion_method.hpp"
@@ -17,7 +19,7 @@ struct WorldConfig {
   RotationMethod rotation = RotationMethod::splitting_2;  // where nothing holds a body
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase;
-  int sub_steps = 8;          // of soft contacts and of joints, 1 ... 1000
+  int sub_steps = 8;          // of soft contacts, and of joints where nothing collides, 1 ... 1000
   int iterations = 10;        // of impulse contacts: sweeps a step, 1 ... 100000
   bool warm_start = true;     // begin with the impulses of the step before
   bool may_sleep = true;      // islands that rest are left out until something wakes them
@@ -28,20 +30,64 @@ struct WorldConfig {
   double sleep_spin = 0.02;   // radians a second
 };
 
-// What the world really did since it was made.
+// What the world really did since it was made, each counted where it is done: 0 is not at all.
 struct WorldWork {
   std::uint64_t steps = 0;
+  std::uint64_t retries = 0;  // steps made anew because a body went farther than looked for
   std::uint64_t force_evaluations = 0;  // of all forces of the bodies that move together
+  std::uint64_t broad_phases = 0;       // more than one in a step that is retried or wakes bodies
   std::uint64_t pair_tests = 0;         // boxes compared with boxes, in the broad phase
   std::uint64_t candidate_pairs = 0;    // that the broad phase handed on
-  std::uint64_t narrow_tests = 0;       // contacts asked of the narrow phase
-  std::uint64_t contact_points = 0;     // that it found, and that were solved
-  std::uint64_t constraint_rows = 0;    // normal, friction and joint rows, times sweeps
-  std::uint64_t friction_rows = 0;      // of those, friction
+  std::uint64_t narrow_pairs = 0;       // of those, tested by the narrow phase, each once a step
+  std::uint64_t narrow_tests = 0;    // made: a pair may be looked at again in each part of a step
+  std::uint64_t contact_points = 0;  // that it found, and that were solved
+  std::uint64_t islands_solved = 0;  // groups of bodies that the contact solver was given
+  std::uint64_t sub_steps = 0;       // of islands whose rows were solved; at least one a solve
+  // Rows solved: one by one in a sweep, each as often as it was; or all of an island at once.
+  std::uint64_t constraint_rows = 0;  // the sum of the next four
+  std::uint64_t normal_rows = 0;
+  std::uint64_t friction_rows = 0;
+  std::uint64_t joint_rows = 0;
+  std::uint64_t direct_rows = 0;
+  std::uint64_t direct_solves = 0;  // of all rows at once
   std::uint64_t rotations_integrated = 0;
   std::uint64_t impacts_located = 0;
-  std::uint64_t islands = 0;  // of awake bodies, in the last step
-  std::uint64_t asleep = 0;   // bodies, after the last step
+  // Of the last step alone.
+  std::uint64_t islands = 0;  // of awake bodies
+  std::uint64_t asleep = 0;   // bodies
 };
+
+// Every counter that only grows, by name: what ran between two moments is the difference of each.
+struct WorldCounter {
+  std::string_view name;
+  std::uint64_t WorldWork::*count;
+};
+inline constexpr std::array kWorldCounters = {
+    WorldCounter{"steps", &WorldWork::steps},
+    WorldCounter{"retries", &WorldWork::retries},
+    WorldCounter{"force_evaluations", &WorldWork::force_evaluations},
+    WorldCounter{"broad_phases", &WorldWork::broad_phases},
+    WorldCounter{"pair_tests", &WorldWork::pair_tests},
+    WorldCounter{"candidate_pairs", &WorldWork::candidate_pairs},
+    WorldCounter{"narrow_pairs", &WorldWork::narrow_pairs},
+    WorldCounter{"narrow_tests", &WorldWork::narrow_tests},
+    WorldCounter{"contact_points", &WorldWork::contact_points},
+    WorldCounter{"islands_solved", &WorldWork::islands_solved},
+    WorldCounter{"sub_steps", &WorldWork::sub_steps},
+    WorldCounter{"constraint_rows", &WorldWork::constraint_rows},
+    WorldCounter{"normal_rows", &WorldWork::normal_rows},
+    WorldCounter{"friction_rows", &WorldWork::friction_rows},
+    WorldCounter{"joint_rows", &WorldWork::joint_rows},
+    WorldCounter{"direct_rows", &WorldWork::direct_rows},
+    WorldCounter{"direct_solves", &WorldWork::direct_solves},
+    WorldCounter{"rotations_integrated", &WorldWork::rotations_integrated},
+    WorldCounter{"impacts_located", &WorldWork::impacts_located},
+};
+
+// What was done between two moments of one world; `islands` and `asleep` are those of the later.
+inline WorldWork work_between(const WorldWork& before, WorldWork after) {
+  for (const WorldCounter& counter : kWorldCounters) after.*counter.count -= before.*counter.count;
+  return after;
+}
 
 }  // namespace lantern

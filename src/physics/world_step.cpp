@@ -25,7 +25,7 @@ void World<D>::step(double h) {
       step.find_forces();      // how all would fly on
       step.find_near_pairs();  // broad and narrow phase: what may touch on the way
       step.make_islands();     // what must be moved together
-      step.move();             // from impact to impact, in sub-steps where bodies press
+      step.solve_and_integrate();
       step.require_no_overflow();
       if (tries == kMostTries || step.stayed_within_reach()) {
         step.fall_asleep();

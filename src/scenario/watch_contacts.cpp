@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "physics/impact.hpp"
+#include "geometry/shape.hpp"
 #include "physics/manifold.hpp"
 #include "scenario/watcher.hpp"
 #include "spatial/sort_and_sweep.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "physics/impact.hpp"
+#include "geometry/shape.hpp"
 #include "scenario/watcher.hpp"
 
 namespace lantern {

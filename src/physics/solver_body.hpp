@@ -15,13 +15,13 @@ inline double dot(double a, double b) { return a * b; }
 inline double dot(const Vec<3>& a, const Vec<3>& b) { return glm::dot(a, b); }
 
 template <int D>
-struct Mover {
+struct SolverBody {
   double inverse_mass = 0;
   Inertia<D> inverse_inertia{0.0};
   Vec<D> velocity{0.0};
   Spin<D> spin{0.0};
   Spin<D> twist{0.0};  // angular momentum gained from constraints
-  // How the body is really carried over the sub-step: its mean velocities. They differ from the
+  // How the body really moves over the sub-step: its mean velocities. They differ from the
   // above by what pushes out penetration, which must not become motion (split impulses).
   Vec<D> mean_velocity{0.0};
   Spin<D> mean_spin{0.0};
@@ -33,29 +33,30 @@ struct Mover {
     twist += turn;
   }
   // The same for an impulse of `size` along `direction`, of which is known how it turns the body.
-  void gain(const Vec<D>& direction, const Spin<D>& turn, const Spin<D>& gained, double size) {
+  void apply_along(const Vec<D>& direction, const Spin<D>& turn, const Spin<D>& gained,
+                   double size) {
     velocity += direction * (size * inverse_mass);
     spin += gained * size;
     twist += turn * size;
   }
-  void gain_mean(const Vec<D>& direction, const Spin<D>& gained, double size) {
+  void correct_along(const Vec<D>& direction, const Spin<D>& gained, double size) {
     mean_velocity += direction * (size * inverse_mass);
     mean_spin += gained * size;
   }
-  void carry(const Vec<D>& impulse, const Vec<D>& arm) {
+  void correct(const Vec<D>& impulse, const Vec<D>& arm) {
     mean_velocity += impulse * inverse_mass;
     mean_spin += inverse_inertia * cross(arm, impulse);
   }
 };
 
 template <int D>
-Vec<D> relative_velocity(const Mover<D>& a, const Vec<D>& arm_a, const Mover<D>& b,
+Vec<D> relative_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
                          const Vec<D>& arm_b) {
   return (b.velocity + cross(b.spin, arm_b)) - (a.velocity + cross(a.spin, arm_a));
 }
 template <int D>
-Vec<D> relative_carriage(const Mover<D>& a, const Vec<D>& arm_a, const Mover<D>& b,
-                         const Vec<D>& arm_b) {
+Vec<D> relative_mean_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
+                              const Vec<D>& arm_b) {
   return (b.mean_velocity + cross(b.mean_spin, arm_b)) -
          (a.mean_velocity + cross(a.mean_spin, arm_a));
 }
@@ -63,8 +64,8 @@ Vec<D> relative_carriage(const Mover<D>& a, const Vec<D>& arm_a, const Mover<D>&
 // How much relative velocity along `direction` an impulse of 1 along it gives: the inverse of the
 // effective mass.
 template <int D>
-double compliance(const Mover<D>& a, const Vec<D>& arm_a, const Mover<D>& b, const Vec<D>& arm_b,
-                  const Vec<D>& direction) {
+double inverse_effective_mass(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
+                              const Vec<D>& arm_b, const Vec<D>& direction) {
   const Spin<D> turn_a = cross(arm_a, direction);
   const Spin<D> turn_b = cross(arm_b, direction);
   const Spin<D> gained_a = a.inverse_inertia * turn_a;

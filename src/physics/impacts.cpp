@@ -1,9 +1,10 @@
-#include "physics/impact.hpp"
+#include "physics/impacts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/stop.hpp"
+#include "physics/time_of_impact.hpp"
 
 namespace lantern {
 namespace {
@@ -17,7 +18,8 @@ constexpr double kGainByRounding = 1e-12;
 // Newton's law of restitution at all points of a pair at once: those that approach will part with
 // the given part of their speed.
 template <int D>
-void strike(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, WorldWork& work) {
+void strike(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double restitution,
+            WorldWork& work) {
   for (ContactPoint<D>& p : rows.points()) {
     const double parting = glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
     p.bounce = parting < 0 ? -restitution * parting : 0;
@@ -27,8 +29,9 @@ void strike(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, 
   }
   for (int i = 0; i < kMostPointSweeps; ++i) {
     Sweep sweep;
-    sweep_velocities(rows, a, b, 1, sweep);
-    work.constraint_rows += sweep.rows;
+    solve_velocities(rows, a, b, 1, sweep);
+    work.constraint_rows += sweep.normal_rows + sweep.friction_rows;
+    work.normal_rows += sweep.normal_rows;
     work.friction_rows += sweep.friction_rows;
     if (rows.count == 1 && rows.friction == 0) break;
     if (sweep.change <= 1e-15 * sweep.largest) break;
@@ -37,7 +40,7 @@ void strike(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, 
 
 // The sum of impulse times relative velocity.
 template <int D>
-double power(const ContactRows<D>& rows, const Mover<D>& a, const Mover<D>& b) {
+double power(const ContactRows<D>& rows, const SolverBody<D>& a, const SolverBody<D>& b) {
   double sum = 0;
   for (const ContactPoint<D>& p : rows.points())
     sum += glm::dot(rows.normal * p.pn + p.pt, relative_velocity(a, p.arm_a, b, p.arm_b));
@@ -45,7 +48,7 @@ double power(const ContactRows<D>& rows, const Mover<D>& a, const Mover<D>& b) {
 }
 
 template <int D>
-void blend(Mover<D>& to, const Mover<D>& from, double share) {
+void blend(SolverBody<D>& to, const SolverBody<D>& from, double share) {
   to.velocity = from.velocity + (to.velocity - from.velocity) * share;
   to.spin = from.spin + (to.spin - from.spin) * share;
   to.twist = from.twist + (to.twist - from.twist) * share;
@@ -60,13 +63,14 @@ void blend(Mover<D>& to, const Mover<D>& from, double share) {
 // and the pair gets as much of its restitution as leaves E no higher than before the blow. Impulses
 // stay within the cone of friction, which is convex.
 template <int D>
-void take_back_gained_energy(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, const Mover<D>& old_a,
-                             const Mover<D>& old_b, WorldWork& work) {
+void take_back_gained_energy(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b,
+                             const SolverBody<D>& old_a, const SolverBody<D>& old_b,
+                             WorldWork& work) {
   const double size = std::abs(power(rows, old_a, old_b));
   const double gained = (power(rows, old_a, old_b) + power(rows, a, b)) / 2;
   if (!(gained > kGainByRounding * size)) return;
   ContactRows<D> dead_rows = rows;
-  Mover<D> dead_a = old_a, dead_b = old_b;
+  SolverBody<D> dead_a = old_a, dead_b = old_b;
   strike(dead_rows, dead_a, dead_b, 0, work);
   const double lost = -(power(dead_rows, old_a, old_b) + power(dead_rows, dead_a, dead_b)) / 2;
   ContactRows<D> more = rows;
@@ -90,13 +94,13 @@ void take_back_gained_energy(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, con
 
 // Returns whether there was a blow: points that approach.
 template <int D>
-bool resolve(ContactRows<D>& rows, Mover<D>& a, Mover<D>& b, double restitution, double slow,
-             WorldWork& work) {
+bool resolve(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double restitution,
+             double slow, WorldWork& work) {
   bool approaches = false;
   for (const ContactPoint<D>& p : rows.points())
     approaches |= glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal) < -slow;
   if (!approaches) return false;
-  const Mover<D> old_a = a, old_b = b;
+  const SolverBody<D> old_a = a, old_b = b;
   strike(rows, a, b, restitution, work);
   if (restitution > 0 && rows.friction > 0) take_back_gained_energy(rows, a, b, old_a, old_b, work);
   return true;
@@ -124,11 +128,11 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     const double size = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
     pair.rows.count = 0;
     ++work.narrow_tests;
-    const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
-                                  Placed<D>{b.shape, b.position, b.orientation}, kTouching * size);
+    const auto manifold = collide(placed(a), placed(b), kTouching * size);
     if (!manifold) continue;
     set_points<D>(pair.rows, *manifold, a, b, nullptr, 0);
-    refresh(pair.rows, a, b, island.movers[pair.rows.a], island.movers[pair.rows.b], 0, 0);
+    refresh(pair.rows, a, b, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b],
+            0, 0);
     renew_record(pair.record, *manifold);
     work.contact_points += static_cast<std::uint64_t>(pair.rows.count);
     touching.push_back(i);
@@ -136,12 +140,13 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
   return touching;
 }
 
-}  // namespace
-
+// All pairs that touch and approach get the impulses of an impact, one pair after another until
+// none approaches: so the blow runs through a row of balls. Pairs between which it does not come to
+// an end become contacts. Returns how many impacts there were.
 template <int D>
 int resolve_impacts(Island<D>& island, WorldWork& work) {
-  island.movers.clear();
-  for (const Body<D>& body : island.bodies) island.movers.push_back(mover_of(body));
+  island.solver_bodies.clear();
+  for (const Body<D>& body : island.bodies) island.solver_bodies.push_back(solver_body_of(body));
   const std::vector<std::size_t> touching = touching_pairs(island, work);
   int impacts = 0;
   bool any = true;
@@ -153,8 +158,8 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
       stop_if_asked();
       IslandPair<D>& pair = island.pairs[i];
       const double restitution = tired ? 0 : pair.rows.restitution;
-      if (!resolve(pair.rows, island.movers[pair.rows.a], island.movers[pair.rows.b], restitution,
-                   pair.slow, work))
+      if (!resolve(pair.rows, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b],
+                   restitution, pair.slow, work))
         continue;
       record_impulses(pair);
       if (tired) {  // squeezed: nor may it bounce in the sub-steps that follow
@@ -167,27 +172,25 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
   }
   for (std::size_t i = 0; i < island.bodies.size(); ++i) {
     if (island.bodies[i].kind != BodyKind::dynamic_body) continue;
-    island.bodies[i].velocity = island.movers[i].velocity;
-    island.bodies[i].angular_momentum += island.movers[i].twist;
+    island.bodies[i].velocity = island.solver_bodies[i].velocity;
+    island.bodies[i].angular_momentum += island.solver_bodies[i].twist;
   }
   return impacts;
 }
 
-namespace {
-
 // Bodies that rest on others do not fall while something comes: only the free ones are accelerated.
 template <int D>
-std::vector<Course<D>> courses(const Island<D>& island, const WorldConfig<D>& config,
-                               double within) {
-  std::vector<Course<D>> all;
+std::vector<Trajectory<D>> trajectories(const Island<D>& island, const WorldConfig<D>& config,
+                                        double within) {
+  std::vector<Trajectory<D>> all;
   for (std::size_t i = 0; i < island.bodies.size(); ++i) {
     const Body<D>& body = island.bodies[i];
     const Increment<D>& free = island.increments[i];
-    Course<D> course{&body, body.moves() ? body.velocity : Vec<D>(0.0), Vec<D>(0.0)};
-    course.rotation = body.rotation.value_or(config.rotation);
-    if (body.asleep) course.velocity = Vec<D>(0.0);
-    course.bend = free.kick / within + free.drift / (within * within);
-    all.push_back(course);
+    Trajectory<D> path{&body, body.moves() ? body.velocity : Vec<D>(0.0), Vec<D>(0.0)};
+    path.rotation = body.rotation.value_or(config.rotation);
+    if (body.asleep) path.velocity = Vec<D>(0.0);
+    path.bend = free.kick / within + free.drift / (within * within);
+    all.push_back(path);
   }
   for (const IslandPair<D>& pair : island.pairs)
     if (pair.pressed)
@@ -208,20 +211,20 @@ struct Impact {
 template <int D>
 std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& config, double within,
                                      double step, WorldWork& work) {
-  const std::vector<Course<D>> flying = courses(island, config, within);
+  const std::vector<Trajectory<D>> flying = trajectories(island, config, within);
   std::optional<Impact<D>> first;
   for (IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
-    const Course<D>& a = flying[pair.rows.a];
-    const Course<D>& b = flying[pair.rows.b];
+    const Trajectory<D>& a = flying[pair.rows.a];
+    const Trajectory<D>& b = flying[pair.rows.b];
     pair.slow = slowest_impact(a, b, step);
     if (!pair.located || pair.pressed) continue;
-    const auto met = meeting(a, b, within, pair.slow, pair.reach, work.narrow_tests);
+    const auto met = time_of_impact(a, b, within, pair.slow, pair.reach, work.narrow_tests);
     if (!met) continue;
     if (met->rests)
       pair.pressed = true;
-    else if (!first || met->time < first->time)
-      first = Impact<D>{met->time, &pair};
+    else if (!first || met->seconds < first->time)
+      first = Impact<D>{met->seconds, &pair};
   }
   return first;
 }
@@ -229,8 +232,8 @@ std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& co
 }  // namespace
 
 template <int D>
-void advance_island(Island<D>& island, const WorldConfig<D>& config, double h, int& budget,
-                    WorldWork& work) {
+void move_through_impacts(Island<D>& island, const ContactSolver<D>& solver,
+                          const WorldConfig<D>& config, double h, int& budget, WorldWork& work) {
   double left = h;
   const bool any_located = std::any_of(island.pairs.begin(), island.pairs.end(),
                                        [](const auto& pair) { return pair.located; });
@@ -242,25 +245,22 @@ void advance_island(Island<D>& island, const WorldConfig<D>& config, double h, i
       for (IslandPair<D>& pair : island.pairs) pair.pressed = true;
       break;
     }
-    if (next->time > 0) move_island(island, config, next->time, h, work);
+    if (next->time > 0) solver.solve(island, config, next->time, h, work);
     left -= next->time;
     const int impacts = resolve_impacts(island, work);
     work.impacts_located += static_cast<std::uint64_t>(impacts);
     budget -= std::max(impacts, 1);
-    if (impacts == 0) next->pair->pressed = true;  // others have moved its bodies off their course
+    if (impacts == 0) next->pair->pressed = true;  // others have moved its bodies off their way
     for (IslandPair<D>& pair : island.pairs)       // what does not bounce stays
       if (pair.touched && pair.rows.restitution == 0) pair.pressed = true;
     if (!(left > 0)) return;
   }
-  move_island(island, config, left, h, work);
+  solver.solve(island, config, left, h, work);
 }
 
-#define LANTERN_INSTANTIATE(D)                          \
-  template int resolve_impacts(Island<D>&, WorldWork&); \
-  template void advance_island(Island<D>&, const WorldConfig<D>&, double, int&, WorldWork&);
-
-LANTERN_INSTANTIATE(2)
-LANTERN_INSTANTIATE(3)
-#undef LANTERN_INSTANTIATE
+template void move_through_impacts(Island<2>&, const ContactSolver<2>&, const WorldConfig<2>&,
+                                   double, int&, WorldWork&);
+template void move_through_impacts(Island<3>&, const ContactSolver<3>&, const WorldConfig<3>&,
+                                   double, int&, WorldWork&);
 
 }  // namespace lantern

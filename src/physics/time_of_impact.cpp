@@ -1,8 +1,9 @@
+#include "physics/time_of_impact.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "physics/free_rotation.hpp"
-#include "physics/impact.hpp"
 
 namespace lantern {
 namespace {
@@ -11,7 +12,7 @@ constexpr int kMostAdvances = 200;
 constexpr double kShortestBounce = 1.0 / 32;  // of a step
 
 template <int D>
-struct Look {
+struct Gap {
   double gap = 0;
   double closing = 0;  // the fastest of the points that touch, by the points' own velocities
   double bound = 0;    // the surfaces cannot close faster, whatever turns
@@ -20,31 +21,31 @@ struct Look {
 template <int D>
 class Approach {
  public:
-  Approach(const Course<D>& a, const Course<D>& b, double within, double slow, double reach,
-           std::uint64_t& counted)
-      : a_(a), b_(b), within_(within), reach_(reach), counted_(counted) {
+  Approach(const Trajectory<D>& a, const Trajectory<D>& b, double within, double slow, double reach,
+           std::uint64_t& narrow_tests)
+      : a_(a), b_(b), within_(within), reach_(reach), narrow_tests_(narrow_tests) {
     turn_a_ = turning(a);
     turn_b_ = turning(b);
     const double spin = spin_of(a) + spin_of(b);
     bend_ = 2 * glm::length(b.bend - a.bend) + spin * (turn_a_ + turn_b_);
     slow_ = slow;
     size_ = glm::length(a.body->position) + glm::length(b.body->position);
-    for (const Course<D>* course : {&a, &b})
-      if (const double t = thickness<D>(course->body->shape); t < kEndless) size_ += t;
+    for (const Trajectory<D>* path : {&a, &b})
+      if (const double t = thickness<D>(path->body->shape); t < kEndless) size_ += t;
   }
 
-  std::optional<Meeting<D>> find() const {
+  std::optional<TimeOfImpact> find() const {
     double t = 0;
     for (int i = 0; i < kMostAdvances; ++i) {
-      const auto seen = look(t);
+      const auto seen = gap_at(t);
       if (!seen) return std::nullopt;
       double next = t;
       if (seen->gap <= size_ * 1e-15) {
-        if (seen->closing > slow_) return Meeting<D>{t, false};
+        if (seen->closing > slow_) return TimeOfImpact{t, false};
         if (seen->closing > -slow_) {
           // They glide along each other, unless something presses them.
           if (bend_ == 0 && a_.held + b_.held == 0) return std::nullopt;
-          return Meeting<D>{t, true};
+          return TimeOfImpact{t, true};
         }
         // They part, and cannot be back before this.
         if (bend_ == 0) return std::nullopt;
@@ -57,8 +58,8 @@ class Approach {
       if (!(next < within_)) return std::nullopt;
       // No nearer in numbers, or so slowly that it is as good as there.
       if (next == t || (i > kMostAdvances / 2 && seen->gap < size_ * 1e-9))
-        return seen->closing > slow_    ? std::optional(Meeting<D>{t, false})
-               : seen->closing > -slow_ ? std::optional(Meeting<D>{t, true})
+        return seen->closing > slow_    ? std::optional(TimeOfImpact{t, false})
+               : seen->closing > -slow_ ? std::optional(TimeOfImpact{t, true})
                                         : std::nullopt;
       t = next;
     }
@@ -66,29 +67,28 @@ class Approach {
   }
 
  private:
-  double turning(const Course<D>& course) const {
-    return spin_of(course) * turning_reach<D>(course.body->shape);
+  double turning(const Trajectory<D>& path) const {
+    return spin_of(path) * turning_reach<D>(path.body->shape);
   }
-  double spin_of(const Course<D>& course) const {
-    if (turning_reach<D>(course.body->shape) == 0 || !course.body->moves()) return 0;
-    const Spin<D> spin = angular_velocity(*course.body);
+  double spin_of(const Trajectory<D>& path) const {
+    if (turning_reach<D>(path.body->shape) == 0 || !path.body->moves()) return 0;
+    const Spin<D> spin = angular_velocity(*path.body);
     return std::sqrt(dot(spin, spin));
   }
-  Body<D> placed_at(const Course<D>& course, double t) const {
-    Body<D> body = *course.body;
-    body.position += t * (course.velocity + t * course.bend);
-    body.velocity = course.velocity + 2 * t * course.bend;
-    turn_freely(body, t, course.rotation);
+  Body<D> placed_at(const Trajectory<D>& path, double t) const {
+    Body<D> body = *path.body;
+    body.position += t * (path.velocity + t * path.bend);
+    body.velocity = path.velocity + 2 * t * path.bend;
+    turn_freely(body, t, path.rotation);
     return body;
   }
 
-  std::optional<Look<D>> look(double t) const {
+  std::optional<Gap<D>> gap_at(double t) const {
     const Body<D> a = placed_at(a_, t), b = placed_at(b_, t);
-    ++counted_;
-    const auto manifold = collide(Placed<D>{a.shape, a.position, a.orientation},
-                                  Placed<D>{b.shape, b.position, b.orientation}, reach_);
+    ++narrow_tests_;
+    const auto manifold = collide(placed(a), placed(b), reach_);
     if (!manifold) return std::nullopt;
-    Look<D> seen;
+    Gap<D> seen;
     seen.gap = manifold->room[0].separation;
     for (const ManifoldPoint<D>& p : manifold->points())
       seen.gap = std::min(seen.gap, p.separation);
@@ -106,10 +106,10 @@ class Approach {
     return seen;
   }
 
-  const Course<D>& a_;
-  const Course<D>& b_;
+  const Trajectory<D>& a_;
+  const Trajectory<D>& b_;
   double within_, reach_;
-  std::uint64_t& counted_;
+  std::uint64_t& narrow_tests_;
   double turn_a_ = 0, turn_b_ = 0;  // how fast surfaces can move by turning
   double bend_ = 0;                 // the gap's second derivative is at least minus this
   double slow_ = 0;
@@ -119,45 +119,23 @@ class Approach {
 }  // namespace
 
 template <int D>
-std::optional<Meeting<D>> meeting(const Course<D>& a, const Course<D>& b, double within,
-                                  double slow, double reach, std::uint64_t& counted) {
-  return Approach<D>(a, b, within, slow, reach, counted).find();
+std::optional<TimeOfImpact> time_of_impact(const Trajectory<D>& a, const Trajectory<D>& b,
+                                           double within, double slow, double reach,
+                                           std::uint64_t& narrow_tests) {
+  return Approach<D>(a, b, within, slow, reach, narrow_tests).find();
 }
 
 template <int D>
-double slowest_impact(const Course<D>& a, const Course<D>& b, double step) {
+double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
   const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
   return std::max(pull * step * kShortestBounce,
                   1e-12 * (glm::length(a.velocity) + glm::length(b.velocity)));
 }
 
-template <int D>
-double turning_reach(const Shape<D>& shape) {
-  if (const auto* box = std::get_if<OrientedBox<D>>(&shape)) return glm::length(box->half_size);
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->half_length;
-  return 0;
-}
-
-template <int D>
-double thickness(const Shape<D>& shape) {
-  const auto least = [](const Vec<D>& half) {
-    double value = half[0];
-    for (int i = 1; i < D; ++i) value = std::min(value, half[i]);
-    return value;
-  };
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius;
-  if (const auto* box = std::get_if<AxisBox<D>>(&shape)) return least(box->half_size);
-  if (const auto* box = std::get_if<OrientedBox<D>>(&shape)) return least(box->half_size);
-  return kEndless;
-}
-
-#define LANTERN_INSTANTIATE(D)                                                                   \
-  template std::optional<Meeting<D>> meeting(const Course<D>&, const Course<D>&, double, double, \
-                                             double, std::uint64_t&);                            \
-  template double slowest_impact(const Course<D>&, const Course<D>&, double);                    \
-  template double turning_reach<D>(const Shape<D>&);                                             \
-  template double thickness<D>(const Shape<D>&);
+#define LANTERN_INSTANTIATE(D)                                                                    \
+  template std::optional<TimeOfImpact> time_of_impact(const Trajectory<D>&, const Trajectory<D>&, \
+                                                      double, double, double, std::uint64_t&);    \
+  template double slowest_impact(const Trajectory<D>&, const Trajectory<D>&, double);
 
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)

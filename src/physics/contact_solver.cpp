@@ -1,0 +1,48 @@
+#include "physics/contact_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "base/check.hpp"
+
+namespace lantern {
+
+template <int D>
+void sequential_impulses(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
+template <int D>
+void soft_sub_steps(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
+template <int D>
+void direct_solve(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
+
+namespace {
+
+template <int D>
+constexpr std::array<ContactSolver<D>, 4> kSolvers = {{
+    {ContactMethod::none, "none", soft_sub_steps<D>},  // of joints alone
+    {ContactMethod::impulse, "impulse", sequential_impulses<D>},
+    {ContactMethod::soft, "soft", soft_sub_steps<D>},
+    {ContactMethod::direct, "direct", direct_solve<D>},
+}};
+
+}  // namespace
+
+template <int D>
+const ContactSolver<D>& contact_solver(ContactMethod method) {
+  const auto solver = std::ranges::find(kSolvers<D>, method, &ContactSolver<D>::method);
+  LANTERN_CHECK(solver - kSolvers<D>.begin(), <, std::ssize(kSolvers<D>));
+  return *solver;
+}
+
+std::string_view to_string(ContactMethod method) { return contact_solver<2>(method).name; }
+
+std::optional<ContactMethod> contact_method_named(std::string_view name) {
+  const auto solver = std::ranges::find(kSolvers<2>, name, &ContactSolver<2>::name);
+  if (solver == kSolvers<2>.end()) return std::nullopt;
+  return solver->method;
+}
+
+template const ContactSolver<2>& contact_solver(ContactMethod);
+template const ContactSolver<3>& contact_solver(ContactMethod);
+
+}  // namespace lantern

@@ -1,0 +1,23 @@
+// A step cut into sub-steps. Each one is a whole small step, with few sweeps over the constraints,
+// whose impulses begin where the sub-step before has left them; penetration is eased out a part at
+// a time. For the same work this mends far more than many sweeps in one large step (Macklin et al.,
+// "Small Steps in Physics Simulation", 2019; Catto, "Solver2D", 2024: soft step).
+//
+// Small steps alone do not hold a heavy body on a light one: what the sweeps cannot, the direct
+// solve of all rows at once does in each sub-step (direct_solve.hpp).
+#include "physics/direct_solve.hpp"
+
+namespace lantern {
+
+template <int D>
+void soft_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
+                    WorldWork& work) {
+  DirectSolve<D> direct;
+  in_sub_steps<D>(island, config, h, whole, config.sub_steps, work,
+                  [&](SubStep<D>& step) { direct.settle(step); });
+}
+
+template void soft_sub_steps(Island<2>&, const WorldConfig<2>&, double, double, WorldWork&);
+template void soft_sub_steps(Island<3>&, const WorldConfig<3>&, double, double, WorldWork&);
+
+}  // namespace lantern

@@ -1,0 +1,256 @@
+#include "physics/sub_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/stop.hpp"
+#include "physics/free_rotation.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kBounceSteps = 2;     // slower than gravity makes in so many sub-steps: no bounce
+constexpr double kTouchingWay = 1e-4;  // of the way that forces make in a sub-step: so near touches
+
+// Which part of the new velocity's change the mean velocity lags behind: 0 for semi-implicit
+// Euler, 1/2 for velocity Verlet.
+template <int D>
+double lag_of(const Increment<D>& increment, double h) {
+  const double kick = glm::dot(increment.kick, increment.kick);
+  if (kick == 0) return 0;
+  return std::clamp(-glm::dot(increment.drift, increment.kick) / (h * kick), 0.0, 1.0);
+}
+
+// Impulses of what presses go with time, those of a blow do not. A blow in the shortest of
+// sub-steps must not be taken for a force, so a guess is only ever made smaller.
+double rescaled(double seconds, double old) { return std::min(seconds / old, 1.0); }
+
+template <int D>
+void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
+  for (IslandPair<D>& pair : island.pairs) {
+    ContactRows<D>& rows = pair.rows;
+    stop_if_asked();
+    rows.count = 0;
+    if (!pair.pressed) continue;
+    const Body<D>& a = island.bodies[rows.a];
+    const Body<D>& b = island.bodies[rows.b];
+    ++work.narrow_tests;
+    const auto manifold = collide(placed(a), placed(b), pair.reach);
+    if (!manifold) continue;
+    const double scale = pair.seconds > 0 ? rescaled(scale_to, pair.seconds) : 0;
+    set_points(rows, *manifold, a, b, pair.remembered ? &pair.memory : nullptr, scale);
+    renew_record(pair.record, *manifold);
+    work.contact_points += static_cast<std::uint64_t>(rows.count);
+  }
+}
+
+// Joints begin with impulses of the step's last sub-step, or else with those remembered from the
+// step before, as if these were from none shorter than this step has.
+template <int D>
+void scale_joint_impulses(Island<D>& island, double sub_step, double longest, bool warm_start) {
+  const bool first = island.joint_seconds == 0;
+  const double scale = warm_start ? rescaled(sub_step, first ? 1 : island.joint_seconds) : 0;
+  for (JointRows<D>& rows : island.joints) {
+    if (first && rows.seconds > 0) rows.impulse /= std::max(rows.seconds, longest);
+    rows.impulse *= scale;
+  }
+}
+
+// What the next sub-step, perhaps of another step, begins with.
+template <int D>
+void remember(Island<D>& island, double h) {
+  for (IslandPair<D>& pair : island.pairs) {
+    stop_if_asked();
+    pair.remembered = pair.rows.count > 0;
+    if (!pair.remembered) continue;
+    pair.seconds = h;
+    pair.memory.manifold = pair.record.manifold;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(pair.rows.count); ++i) {
+      pair.memory.normal_impulses[i] = pair.rows.room[i].pn;
+      pair.memory.friction_impulses[i] = pair.rows.room[i].pt;
+    }
+  }
+  island.joint_seconds = h;
+}
+
+}  // namespace
+
+template <int D>
+template <class F>
+void SubStep<D>::each_joint(F&& f) {
+  for (JointRows<D>& rows : island.joints) {
+    stop_if_asked();
+    f(rows, island.solver_bodies[rows.a], island.solver_bodies[rows.b]);
+  }
+}
+
+template <int D>
+void SubStep<D>::begin() {
+  stop_if_asked();
+  ++work.sub_steps;
+  find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
+  refresh_rows();
+  apply_forces();
+  each_joint([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
+  each_pair([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
+}
+
+template <int D>
+void SubStep<D>::refresh_rows() {
+  island.solver_bodies.clear();
+  for (const Body<D>& body : island.bodies) island.solver_bodies.push_back(solver_body_of(body));
+  const auto& kicks = island.increments;
+  each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
+    const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
+    const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
+    refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b,
+            kBounceSteps * glm::length(kick_b - kick_a), kTouchingWay * way);
+  });
+  each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
+    refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b);
+  });
+}
+
+template <int D>
+void SubStep<D>::apply_forces() {
+  for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+    SolverBody<D>& body = island.solver_bodies[i];
+    body.velocity += island.increments[i].kick;
+    body.spin += body.inverse_inertia * island.increments[i].twist;
+  }
+  island.kicked.clear();
+  for (const SolverBody<D>& body : island.solver_bodies) island.kicked.push_back(body.velocity);
+}
+
+template <int D>
+void SubStep<D>::count(const Sweep& sweep) {
+  work.normal_rows += sweep.normal_rows;
+  work.friction_rows += sweep.friction_rows;
+  work.joint_rows += sweep.joint_rows;
+  work.constraint_rows += sweep.normal_rows + sweep.friction_rows + sweep.joint_rows;
+}
+
+template <int D>
+Sweep SubStep<D>::sweep_velocities(int turn) {
+  Sweep sweep;
+  each_joint([&](auto& rows, auto& a, auto& b) { solve_velocities(rows, a, b, sweep); });
+  for (std::size_t i = 0; i < island.pairs.size(); ++i) {
+    stop_if_asked();
+    ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
+    if (rows.count > 0)
+      solve_velocities(rows, island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
+  }
+  count(sweep);
+  return sweep;
+}
+
+template <int D>
+void SubStep<D>::begin_position_correction() {
+  const auto& increments = island.increments;
+  for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+    SolverBody<D>& body = island.solver_bodies[i];
+    const Vec<D> pressed = body.velocity - island.kicked[i];
+    body.mean_velocity =
+        body.velocity + increments[i].drift / h - pressed * lag_of(increments[i], h);
+    body.mean_spin = body.spin;
+  }
+  each_pair([&](auto& rows, auto& a, auto& b) {
+    begin_correction(rows, a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
+  });
+}
+
+template <int D>
+Sweep SubStep<D>::sweep_positions() {
+  Sweep sweep;
+  each_joint([&](auto& rows, auto& a, auto& b) { correct_positions(rows, a, b, h, sweep); });
+  each_pair([&](auto& rows, auto& a, auto& b) { correct_positions(rows, a, b, h, sweep); });
+  count(sweep);
+  return sweep;
+}
+
+template <int D>
+bool SubStep<D>::is_corrected(const Sweep& sweep, double largest) {
+  largest_push_ = std::max(largest_push_, sweep.change);
+  return sweep.change <=
+         std::max(kSweepTolerance.push * largest_push_, kSweepTolerance.no_matter * largest);
+}
+
+template <int D>
+void SubStep<D>::move_bodies() {
+  for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+    Body<D>& body = island.bodies[i];
+    const SolverBody<D>& solved = island.solver_bodies[i];
+    const Increment<D>& increment = island.increments[i];
+    if (body.kind != BodyKind::dynamic_body) {
+      fly(body, increment, h, config.rotation, work);
+      continue;
+    }
+    body.velocity = solved.velocity;
+    body.angular_momentum += increment.twist + solved.twist;
+    body.position += solved.mean_velocity * h;
+    if (body.inverse_inertia == Spin<D>(0.0)) continue;
+    const Spin<D> turning = body.angular_momentum + increment.lag;
+    const Spin<D> pushed = solved.mean_spin - solved.spin;
+    if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
+    turn_freely(body, increment.lag, h, body.rotation.value_or(config.rotation));
+    if (pushed != Spin<D>(0.0)) body.orientation = turned(body.orientation, pushed * h);
+    ++work.rotations_integrated;
+  }
+}
+
+template <int D>
+void SubStep<D>::record() {
+  for (IslandPair<D>& pair : island.pairs) {
+    stop_if_asked();
+    for (int i = 0; i < pair.rows.count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const ContactPoint<D>& p = pair.rows.room[at];
+      pair.record.normal_impulses[at] += p.pn;
+      pair.record.friction_impulses[at] += p.pt;
+      if (p.pn > 0 || p.separation <= 0) pair.touched = true;
+    }
+  }
+}
+
+template <int D>
+void SubStep<D>::end() {
+  move_bodies();
+  record();
+}
+
+template <int D>
+void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
+                  int sub_steps, WorldWork& work, const std::function<void(SubStep<D>&)>& solve) {
+  const int count = std::max(1, static_cast<int>(std::ceil(h / whole * sub_steps - 1e-9)));
+  const double seconds = h / count;
+  look_for_contacts(island, config.warm_start ? seconds : 0, work);
+  const bool bound =
+      !island.joints.empty() || std::any_of(island.pairs.begin(), island.pairs.end(),
+                                            [](const auto& pair) { return pair.rows.count > 0; });
+  if (!bound) {
+    find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
+    for (std::size_t i = 0; i < island.bodies.size(); ++i)
+      fly(island.bodies[i], island.increments[i], h, config.rotation, work);
+    remember(island, h);
+    return;
+  }
+  scale_joint_impulses(island, seconds, whole / sub_steps, config.warm_start);
+  for (int i = 0; i < count; ++i) {
+    SubStep<D> part(island, config, seconds, work);
+    part.begin();
+    solve(part);
+    part.end();
+  }
+  remember(island, seconds);
+}
+
+#define LANTERN_INSTANTIATE(D)                                                                   \
+  template class SubStep<D>;                                                                     \
+  template void in_sub_steps(Island<D>&, const WorldConfig<D>&, double, double, int, WorldWork&, \
+                             const std::function<void(SubStep<D>&)>&);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern

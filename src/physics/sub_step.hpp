@@ -1,0 +1,97 @@
+// A part of a step in which the rows of an island are solved once: what solvers share that solve
+// rows.
+//
+//   v += kick            forces
+//   v += J p / m         impulses: begin with the old ones, then sweep until they hold
+//   u  = v + drift / h   mean velocity, in which penetration is pushed out
+//   x += h u             v knows nothing of that: no energy comes from it
+//
+// The integrator's drift says how far the mean velocity of a sub-step is from the new one: for
+// velocity Verlet -h kick / 2. Impulses of constraints act through the sub-step just as forces do,
+// so they lag by the same share; a block at rest then has no drift at all, and friction stops a
+// block where the closed form says.
+#pragma once
+
+#include <functional>
+
+#include "base/stop.hpp"
+#include "physics/island.hpp"
+
+namespace lantern {
+
+// When sweeps have done enough.
+struct SweepTolerance {
+  // Of the largest impulse: so small a change of any ends the sweeps. In a stack of n boxes the
+  // last change stands for an error of (2n / pi)^2 times as much; the motion that it leaves is a
+  // blow to the next direct solve, which would push as much the other way, and so on.
+  double change = 1e-12;
+  double push = 1e-3;       // of the largest push out of penetration, and
+  double no_matter = 1e-7;  // of the largest impulse: what is less than either is enough
+};
+inline constexpr SweepTolerance kSweepTolerance;
+
+template <int D>
+class SubStep {
+ public:
+  SubStep(Island<D>& moved, const WorldConfig<D>& settings, double seconds, WorldWork& counted)
+      : island(moved), config(settings), h(seconds), work(counted) {}
+
+  Island<D>& island;
+  const WorldConfig<D>& config;
+  const double h;
+  WorldWork& work;
+
+  // Forces act, rows are made where bodies are, and begin with the impulses that they have.
+  void begin();
+  // Once over all rows. Every other `turn` goes backwards, so that neither end of a stack, nor side
+  // of a box, is preferred.
+  Sweep sweep_velocities(int turn);
+  // From the velocities found follow mean velocities, and what is wanted of them.
+  void begin_position_correction();
+  Sweep sweep_positions();
+  // Whether a sweep over positions was the last that is needed; `largest` impulse of velocities.
+  bool is_corrected(const Sweep& sweep, double largest);
+  // Moves the bodies, and notes what touched and how hard.
+  void end();
+
+  template <class F>
+  void each_pair(F&& f);  // f(rows, a, b) of those that may press
+
+ private:
+  template <class F>
+  void each_joint(F&& f);
+  void refresh_rows();
+  void apply_forces();
+  void count(const Sweep& sweep);
+  void move_bodies();
+  void record();
+
+  double largest_push_ = 0;
+};
+
+template <int D>
+template <class F>
+void SubStep<D>::each_pair(F&& f) {
+  for (IslandPair<D>& pair : island.pairs) {
+    stop_if_asked();
+    if (pair.rows.count > 0)
+      f(pair.rows, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b]);
+  }
+}
+
+// Moves the island by `h` of the step's `whole` seconds, in parts of which `sub_steps` make a whole
+// step. Contacts are looked at once; `solve` finds the impulses of a part and corrects positions,
+// between its begin and its end. If nothing touches and no joint holds, all fly, and there are no
+// parts.
+template <int D>
+void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
+                  int sub_steps, WorldWork& work, const std::function<void(SubStep<D>&)>& solve);
+
+extern template class SubStep<2>;
+extern template class SubStep<3>;
+extern template void in_sub_steps(Island<2>&, const WorldConfig<2>&, double, double, int,
+                                  WorldWork&, const std::function<void(SubStep<2>&)>&);
+extern template void in_sub_steps(Island<3>&, const WorldConfig<3>&, double, double, int,
+                                  WorldWork&, const std::function<void(SubStep<3>&)>&);
+
+}  // namespace lantern

@@ -1,0 +1,41 @@
+// When two bodies meet.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "physics/body.hpp"
+
+namespace lantern {
+
+// How a body flies for a while: x(t) = position + t velocity + t^2 bend.
+template <int D>
+struct Trajectory {
+  const Body<D>* body = nullptr;
+  Vec<D> velocity{0.0};
+  Vec<D> bend{0.0};
+  RotationMethod rotation = RotationMethod::splitting_2;
+  double held = 0;  // acceleration that forces would give it, if it did not rest on something
+};
+
+struct TimeOfImpact {
+  double seconds = 0;
+  bool rests = false;  // too slow for an impact: from then on it is a contact
+};
+
+// The first moment within `within` seconds at which the two bodies touch and approach; nothing if
+// there is none. By conservative advancement (Mirtich, "Impulse-based Dynamic Simulation", 1996):
+// go on for as long as they surely cannot touch. What approaches more slowly than `slow` is said to
+// rest. Farther apart than `reach` they are not looked at. `narrow_tests` grows by the narrow
+// phase's calls.
+template <int D>
+std::optional<TimeOfImpact> time_of_impact(const Trajectory<D>& a, const Trajectory<D>& b,
+                                           double within, double slow, double reach,
+                                           std::uint64_t& narrow_tests);
+
+// A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
+// lower and lower comes to rest after finitely many impacts. This is the speed of such a bounce.
+template <int D>
+double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step);
+
+}  // namespace lantern
