@@ -36,6 +36,12 @@ Vec<D> velocity_of(const Body<D>& body) {
   return body.moves() && !body.asleep ? body.velocity : Vec<D>(0.0);
 }
 
+// How far a surface may come if no force acts.
+template <int D>
+double coasting_reach(const Body<D>& body, double h) {
+  return slack(body) + turning_way(body, h) + glm::length(velocity_of(body)) * h;
+}
+
 }  // namespace
 
 template <int D>
@@ -70,9 +76,8 @@ void World<D>::Step::find_reach() {
   reach.resize(moved.size());
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Body<D>& body = moved[i];
-    double way = slack(body) + turning_way(body, h);
-    way += glm::length(velocity_of(body)) * h + glm::length(increments[i].kick) * h +
-           glm::length(increments[i].drift);
+    const double way = coasting_reach(body, h) + glm::length(increments[i].kick) * h +
+                       glm::length(increments[i].drift);
     reach[i] = std::max(reach[i], way);
   }
 }
@@ -98,6 +103,15 @@ std::vector<Proxy<D>> World<D>::Step::enlarged_boxes() const {
     if (moved[i].collides)
       proxies.push_back({moved[i].id, enlarged_box(i), !moved[i].moves(), moved[i].stirs()});
   return proxies;
+}
+
+template <int D>
+void World<D>::store(BodyId id, double h, const typename BroadPhase<D>::Watch& watch) {
+  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  const Body<D>& body = bodies_[index_of(id)];
+  const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
+  const Box<D> box = body.box();
+  broad_phase_->insert({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()}, watch);
 }
 
 // How all would fly on, and the structure in which the next step looks for pairs. A step that would
@@ -285,7 +299,8 @@ void World<D>::Step::make_islands() {
   template void World<D>::Step::find_near_pairs();                           \
   template void World<D>::Step::make_islands();                              \
   template IslandPair<D> World<D>::Step::island_pair(const NearPair&) const; \
-  template void World<D>::look_ahead(double);
+  template void World<D>::look_ahead(double);                                \
+  template void World<D>::store(BodyId, double, const typename BroadPhase<D>::Watch&);
 
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)

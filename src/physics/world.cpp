@@ -364,13 +364,6 @@ void World<D>::wake(BodyId id) {
 }
 
 template <int D>
-void World<D>::store(BodyId id, const typename BroadPhase<D>::Watch& watch) {
-  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
-  const Body<D>& body = bodies_[index_of(id)];
-  broad_phase_->insert({id, body.box(), !body.moves(), body.stirs()}, watch);
-}
-
-template <int D>
 void World<D>::switch_broad_phase(const BroadPhaseConfig<D>& config) {
   broad_phase_.emplace(config);
   config_.broad_phase = config;

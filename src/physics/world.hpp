@@ -85,9 +85,9 @@ class World {
   // of `h` seconds, in which boxes are enlarged by how far bodies may come in it; without contacts
   // that of the bodies as they are, which no step needs. Built once: the step finds it standing.
   void look_ahead(double h);
-  // Puts this body into the structure as it lies, after all others (the lecture's Insert). Throws
-  // Refused for ids that are not ascending, and as BroadPhase does.
-  void store(BodyId id, const typename BroadPhase<D>::Watch& watch);
+  // Puts this body into the structure, after all others (the lecture's Insert), as it will be used
+  // if no force acts. Throws Refused for ids that are not ascending, and as BroadPhase does.
+  void store(BodyId id, double h, const typename BroadPhase<D>::Watch& watch);
 
   // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when
   // a position or velocity would overflow, for a step that is negative or not finite, and for more

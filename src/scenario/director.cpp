@@ -140,6 +140,8 @@ class Director {
     Frame narrow = meeting;
     for (FrameContact& contact : narrow.contacts)
       for (FrameContact::Point& point : contact.points) point.impulse = 0;
+    for (auto& [name, number] : narrow.counts)
+      if (name == "impulses") number = 0;
     show("narrow_phase", narrow);
     show("solve", meeting);
     frames_.settle("integrate");
@@ -153,7 +155,8 @@ class Director {
   // Bodies and structure as they were before the step, contacts as it found them.
   static Frame met(const Frame& before, const Frame& after) {
     static constexpr std::string_view kOfTheStep[] = {
-        "contacts",      "contact_points",    "begins",   "ends", "narrow_tests", "constraint_rows",
+        "contacts",      "contact_points",    "impulses",     "begins",
+        "ends",          "pairs_tested",      "narrow_tests", "constraint_rows",
         "friction_rows", "force_evaluations", "rotations"};
     Frame frame = before;
     frame.contacts = after.contacts;

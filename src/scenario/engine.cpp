@@ -13,22 +13,6 @@
 namespace lantern {
 namespace {
 
-// What one world step did.
-struct StepWork {
-  std::uint64_t narrow_tests = 0;
-  std::uint64_t constraint_rows = 0;
-  std::uint64_t friction_rows = 0;
-  std::uint64_t force_evaluations = 0;
-  std::uint64_t rotations = 0;
-};
-
-StepWork difference(const WorldWork& after, const WorldWork& before) {
-  return {after.narrow_tests - before.narrow_tests, after.constraint_rows - before.constraint_rows,
-          after.friction_rows - before.friction_rows,
-          after.force_evaluations - before.force_evaluations,
-          after.rotations_integrated - before.rotations_integrated};
-}
-
 template <int D>
 BodyState state_of(const Body<D>& body) {
   BodyState state;
@@ -61,7 +45,10 @@ class EngineOf : public Engine {
     count_structures();
   }
 
-  void enter(std::size_t body) override { players_.enter(body); }
+  void enter(std::size_t body) override {
+    players_.enter(body);
+    steered_ = false;
+  }
   void leave(std::size_t body) override { players_.leave(body); }
 
   void store(std::size_t index, const Watch& watch) override {
@@ -69,7 +56,7 @@ class EngineOf : public Engine {
     LANTERN_CHECK(body != nullptr, ==, true);
     if (!has_structure()) return;
     being_stored_ = true;
-    world().store(body->id, watch);
+    world().store(body->id, scenario_.world.time_step, watch);
     being_stored_ = false;
   }
 
@@ -110,10 +97,11 @@ class EngineOf : public Engine {
 
   void step() override {
     const double h = scenario_.world.time_step;
-    brains_.steer(world(), h, [&](std::size_t i) { return players_.id_of(i); });
+    if (!steered_) steer();
     const WorldWork before = world().work();
     world().step(h);
-    last_ = difference(world().work(), before);
+    steer();
+    last_ = work_between(before, world().work());
     ++work_.world_steps;
     for (const ContactEvent& event : world().events()) {
       begins_ += event.kind == ContactEvent::Kind::begin;
@@ -196,7 +184,17 @@ class EngineOf : public Engine {
     if (has_structure()) work_.structures_created += structure_.split_static ? 2 : 1;
   }
 
-  void look_ahead() { world().look_ahead(scenario_.world.time_step); }
+  // For the next step; what looks ahead must know where bodies are going.
+  void steer() {
+    brains_.steer(world(), scenario_.world.time_step,
+                  [&](std::size_t i) { return players_.id_of(i); });
+    steered_ = true;
+  }
+
+  void look_ahead() {
+    if (!steered_) steer();
+    world().look_ahead(scenario_.world.time_step);
+  }
 
   // Of a world without a structure of its own every body is asked.
   template <class Verb>
@@ -234,6 +232,7 @@ class EngineOf : public Engine {
       add("impulses", impulses);
       add("begins", begins_);
       add("ends", ends_);
+      add("pairs_tested", last_.narrow_pairs);
       add("narrow_tests", last_.narrow_tests);
       add("constraint_rows", last_.constraint_rows);
       add("friction_rows", last_.friction_rows);
@@ -247,16 +246,17 @@ class EngineOf : public Engine {
     }
     if (!has_physics()) return;
     add("force_evaluations", last_.force_evaluations);
-    add("rotations", last_.rotations);
+    add("rotations", last_.rotations_integrated);
   }
 
   const Scenario& scenario_;
   Work& work_;
   Players<D> players_;
   StructureSpec structure_;
+  bool steered_ = false;       // who has a brain has made up its mind about the next step
   bool being_stored_ = false;  // a body is on its way down the structure
   Brains<D> brains_;
-  StepWork last_;
+  WorldWork last_;  // what the last step did
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
 };

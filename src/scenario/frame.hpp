@@ -11,6 +11,7 @@
 
 #include "geometry/flat.hpp"
 #include "geometry/polygon.hpp"
+#include "physics/world_config.hpp"
 #include "scenario/scenario.hpp"
 #include "spatial/structure.hpp"
 
@@ -169,17 +170,6 @@ struct Camera {
   double field_of_view = 0.7;   // radians, from bottom to top
 };
 
-// What the world's steps did between two frames, summed up.
-struct FrameWork {
-  std::uint64_t steps = 0;
-  std::uint64_t pairs_met = 0;       // in leaves, as often as they were met
-  std::uint64_t overlaps = 0;        // of their boxes, each once a search: handed to the narrow phase
-  std::uint64_t pairs_tested = 0;    // by the narrow phase, each once a step
-  std::uint64_t narrow_tests = 0;    // that it made: it may look at a pair several times a step
-  std::uint64_t contact_points = 0;  // that it found, and that were solved
-  std::uint64_t impulses = 0;        // rows of contacts and joints that were solved, once a sweep
-};
-
 struct Frame {
   int dimension = 2;
   std::optional<Camera> camera;  // of a solid world
@@ -211,7 +201,7 @@ struct Frame {
   std::vector<BodyId> hits;      // what the ray, view or query found; of a ray in order along it
   std::vector<FrameWall> walls;
   std::optional<Vec<2>> eye;     // where a level is looked at from
-  std::optional<FrameWork> since_last_frame;  // of a world with contacts or forces
+  std::optional<WorldWork> since_last_frame;  // of its steps, summed up; none if there was none
   FrameChart chart;
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
   std::vector<FrameTexture> textures;

@@ -95,12 +95,10 @@ class FrameWriter {
     json_.end_object();
   }
 
-  void write(const FrameWork& work) {
+  void write(const WorldWork& work) {
     json_.line().key("since_last_frame").begin_object();
-    json_.member("steps", work.steps).member("pairs_met", work.pairs_met);
-    json_.member("overlaps", work.overlaps).member("pairs_tested", work.pairs_tested);
-    json_.member("narrow_tests", work.narrow_tests);
-    json_.member("contact_points", work.contact_points).member("impulses", work.impulses);
+    for (const WorldCounter& counter : kWorldCounters)
+      json_.member(counter.name, work.*counter.count);
     json_.end_object();
   }
 

@@ -113,6 +113,11 @@ void FrameMaker::give(Frame frame) {
                                  fmt::format("more than {} frames", kMostFrames),
                                  "run for a shorter time, or choose fewer events"));
   frame.index = report_.frames++;
+  if (stage_.engine) {
+    const WorldWork& now = stage_.engine->world_work();
+    if (now.steps > last_work_.steps) frame.since_last_frame = work_between(last_work_, now);
+    last_work_ = now;
+  }
   stopped_ = !sink_(frame);
 }
 

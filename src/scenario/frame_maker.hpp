@@ -74,6 +74,7 @@ class FrameMaker {
   std::string part_;
   std::string refused_names_;
   std::vector<Pair> last_pairs_;
+  WorldWork last_work_;                    // at the last frame that was given
   std::optional<Finding> finding_;         // of this step
   std::optional<QueryNumbers> counted_;    // of the last ray, view or region
   std::set<const Expectation*> reported_;  // an unmet one is reported once

@@ -48,8 +48,7 @@ std::string settings_text(const StructureSpec& s) {
   if (s.kind == StructureKind::bsp)
     return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
                        split);
-  const std::string limits =
-      fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
+  const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
   if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
   return fmt::format("{}, {}{}{}", limits,
                      s.children == Children::eager ? "all children made" : "children on demand",
@@ -170,10 +169,9 @@ Sleepers count_sleepers(const Frame& frame) {
 
 template <int D>
 std::uint64_t count_stale(const World<D>& world) {
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(world.bodies(), [&](const Body<D>& body) {
-        return world.broad_phase()->is_stale({body.id, body.box()});
-      }));
+  return static_cast<std::uint64_t>(std::ranges::count_if(world.bodies(), [&](const Body<D>& body) {
+    return world.broad_phase()->is_stale({body.id, body.box()});
+  }));
 }
 
 // Pairs of which a broad phase would test one: not both never move.
@@ -208,12 +206,13 @@ std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, 
   std::string found;
   structure.with_each([&](const auto& tree) {
     labels.clear();
-    if (found.empty()) tree.visit([&](const NodeView<D>& node) {
-      labels.push_back(
-          node.parent == kNone ? "root" : child_label(spec.kind, labels[node.parent], node.slot));
-      if (node.handle == handle && found.empty()) found = labels.back();
-      return found.empty();
-    });
+    if (found.empty())
+      tree.visit([&](const NodeView<D>& node) {
+        labels.push_back(
+            node.parent == kNone ? "root" : child_label(spec.kind, labels[node.parent], node.slot));
+        if (node.handle == handle && found.empty()) found = labels.back();
+        return found.empty();
+      });
   });
   return found;
 }

@@ -98,8 +98,8 @@ struct PairChain {
 //
 // Static bodies have a structure of their own, which is built once and only asked later (the
 // lecture, "Static and dynamic objects"). The one for all others is built anew when a box in it has
-// changed, in the memory of the one before; when none of them is awake there is nothing to pair (the
-// lecture, "Sleeping Objects").
+// changed, in the memory of the one before; when none of them is awake there is nothing to pair
+// (the lecture, "Sleeping Objects").
 template <int D>
 class BroadPhase {
  public:
@@ -198,7 +198,9 @@ class BroadPhase {
   }
 
   static bool stirs(const Proxy<D>& proxy) { return proxy.awake && !proxy.is_static; }
-  bool is_for_static(const Proxy<D>& proxy) const { return config_.split_static && proxy.is_static; }
+  bool is_for_static(const Proxy<D>& proxy) const {
+    return config_.split_static && proxy.is_static;
+  }
   const Store* store_of(BodyId id, std::size_t& place) const;
   static bool same_boxes(const std::vector<Proxy<D>>& a, const std::vector<Proxy<D>>& b);
 

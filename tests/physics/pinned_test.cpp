@@ -76,7 +76,7 @@ class AnyWorld {
     config.contacts = chance(6)   ? ContactMethod::none
                       : chance(3) ? ContactMethod::impulse
                                   : ContactMethod::soft;
-    do config.broad_phase.kind = static_cast<BroadPhaseKind>(random_.whole(0, 5));
+    do config.broad_phase.kind = kStructureKinds[static_cast<std::size_t>(random_.whole(0, 5))];
     while (D == 2 && config.broad_phase.kind == BroadPhaseKind::octree);
     config.sub_steps = static_cast<int>(random_.whole(1, 8));
     config.iterations = static_cast<int>(random_.whole(1, 12));

@@ -148,8 +148,8 @@ TEST(BroadPhase, EveryKindEqualsBruteForceIn3D) { every_kind_is_exact<3>(70, 8);
 
 TEST(BroadPhase, NamesAreReadBack) {
   for (const BroadPhaseKind kind : kBroadPhaseKinds)
-    EXPECT_EQ(broad_phase_named(name_of(kind)), kind) << name_of(kind);
-  EXPECT_EQ(broad_phase_named("quad tree"), std::nullopt);
+    EXPECT_EQ(structure_named(name_of(kind)), kind) << name_of(kind);
+  EXPECT_EQ(structure_named("quad tree"), std::nullopt);
 }
 
 TEST(BroadPhase, RefusesWhatItCannotDoAndStaysAsItWas) {

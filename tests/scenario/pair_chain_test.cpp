@@ -1,0 +1,231 @@
+// The whole way of a step, from pairs met in leaves to impulses, worked out again from what each
+// frame shows, bodies and nodes, and held against what the engine counted.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "scenario/directing.hpp"
+#include "spatial/query.hpp"
+
+namespace lantern::test {
+namespace {
+
+constexpr std::uint32_t kMostFrames = 150;
+
+// The same scenario with a frame after every step, so that each step's work can be foreseen.
+Scenario frame_by_frame(const Scenario& scenario) {
+  ScenarioSpec spec = scenario;
+  spec.world.frame_every = 1;
+  for (Step& step : spec.steps) {
+    if (auto* run = std::get_if<Run>(&step.verb)) run->every = 1;
+    if (auto* wait = std::get_if<Wait>(&step.verb)) wait->every = 1;
+  }
+  return Scenario(std::move(spec));
+}
+
+struct Expected {
+  std::set<std::int64_t> met;  // of the sweep one of several: the frame does not say its axis
+  std::vector<Pair> pairs;
+  std::vector<Pair> overlapping;
+};
+
+class Chain {
+ public:
+  Chain(const Scenario& scenario, const Frame& frame) : frame_(frame) {
+    for (const BodySpec& spec : scenario.bodies) spec_of_[spec.name] = &spec;
+    for (const FrameBody& body : frame.bodies) by_id_[body.id] = &body;
+    for (const LinkSpec& link : scenario.links)
+      if (link.kind != LinkSpec::Kind::spring && link.b)
+        joined_.insert(std::minmax(scenario.bodies[link.a].name, scenario.bodies[*link.b].name));
+  }
+
+  const FrameBody& body(BodyId id) const { return *by_id_.at(id); }
+  bool knows(BodyId id) const { return by_id_.contains(id); }
+
+  // Moves now.
+  bool stirs(BodyId id) const {
+    const FrameBody& b = body(id);
+    if (b.is_static) return false;
+    if (kind(id) == BodyKind::dynamic_body) return !b.asleep;
+    return b.velocity != Vec<3>(0.0) || spec_of_.at(b.name)->spin != 0;
+  }
+
+  // Does the narrow phase look at such a pair at all?
+  bool is_tested(const Pair& pair) const {
+    const bool dynamic =
+        kind(pair.a) == BodyKind::dynamic_body || kind(pair.b) == BodyKind::dynamic_body;
+    return dynamic && !joined_.contains(std::minmax(body(pair.a).name, body(pair.b).name));
+  }
+
+  Box<3> stored(BodyId id) const { return body(id).stored_box.value_or(body(id).box); }
+
+  Expected expected() const {
+    std::map<Pair, std::int64_t> met;
+    const auto meet = [&](BodyId a, BodyId b) { ++met[{std::min(a, b), std::max(a, b)}]; };
+    std::set<BodyId> of_static;
+    for (const FrameNode& node : frame_.nodes)
+      if (node.of_static) of_static.insert(node.bodies.begin(), node.bodies.end());
+    for (const FrameNode& node : frame_.nodes)
+      if (node.leaf && node.of_static) {
+        for (const FrameBody& b : frame_.bodies)
+          if (!of_static.contains(b.id) && stirs(b.id) && reaches(stored(b.id), node))
+            for (const BodyId id : node.bodies) meet(b.id, id);
+      } else if (node.leaf) {
+        for (std::size_t i = 0; i < node.bodies.size(); ++i)
+          for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
+            if (stirs(node.bodies[i]) || stirs(node.bodies[j]))
+              meet(node.bodies[i], node.bodies[j]);
+      }
+    return summed(met);
+  }
+
+ private:
+  BodyKind kind(BodyId id) const { return spec_of_.at(body(id).name)->kind; }
+
+  // A cell at the rim of a quadtree or octree reaches outward without end.
+  bool reaches(const Box<3>& box, const FrameNode& leaf) const {
+    const FrameNode* root = &leaf;
+    while (root->parent != kNone) root = &frame_.nodes[root->parent];
+    if (frame_.structure == StructureKind::kd_tree) return overlap(box, leaf.box);
+    return overlap(box, endless_at_rim(leaf.box, root->box));
+  }
+
+  Expected summed(const std::map<Pair, std::int64_t>& met) const {
+    Expected all;
+    if (frame_.structure == StructureKind::sort_and_sweep) return swept(met);
+    std::int64_t times = 0;
+    for (const auto& [pair, n] : met) {
+      times += n;
+      add(all, pair);
+    }
+    all.met = {times};
+    return all;
+  }
+
+  // The sweep compares those that overlap on one axis.
+  Expected swept(const std::map<Pair, std::int64_t>& met) const {
+    Expected best;
+    for (int axis = 0; axis < frame_.dimension; ++axis) {
+      Expected all;
+      for (const auto& entry : met) {
+        const Box<3> a = stored(entry.first.a), b = stored(entry.first.b);
+        if (a.lo[axis] <= b.hi[axis] && b.lo[axis] <= a.hi[axis]) add(all, entry.first);
+      }
+      all.met = {std::int64_t(all.pairs.size())};
+      std::set<Pair> shown;
+      for (const FramePair& p : frame_.pairs) shown.insert(p.pair);
+      if (axis == 0 || std::set<Pair>(all.pairs.begin(), all.pairs.end()) == shown) best = all;
+    }
+    return best;
+  }
+
+  void add(Expected& all, const Pair& pair) const {
+    all.pairs.push_back(pair);
+    Box<3> a = stored(pair.a), b = stored(pair.b);
+    if (frame_.dimension == 2) a.lo.z = a.hi.z = b.lo.z = b.hi.z = 0;
+    if (overlap(a, b)) all.overlapping.push_back(pair);
+  }
+
+  const Frame& frame_;
+  std::map<std::string, const BodySpec*> spec_of_;
+  std::map<BodyId, const FrameBody*> by_id_;
+  std::set<std::pair<std::string, std::string>> joined_;
+};
+
+std::vector<Pair> pairs_of(const Frame& frame, bool overlapping) {
+  std::vector<Pair> pairs;
+  for (const FramePair& p : frame.pairs)
+    if (p.overlaps || !overlapping) pairs.push_back(p.pair);
+  return pairs;
+}
+
+// The frame's own chain: leaves, pairs, overlaps; contacts, points, impulses.
+void expect_chain_of(const Frame& frame, const Chain& chain) {
+  if (frame.structure != StructureKind::none) {
+    const Expected expected = chain.expected();
+    EXPECT_TRUE(expected.met.contains(*frame.count("pair_tests"))) << *frame.count("pair_tests");
+    EXPECT_EQ(pairs_of(frame, false), expected.pairs);
+    EXPECT_EQ(pairs_of(frame, true), expected.overlapping);
+    EXPECT_EQ(frame.count("pairs"), std::int64_t(expected.pairs.size()));
+    EXPECT_EQ(frame.count("overlaps"), std::int64_t(expected.overlapping.size()));
+    for (const FrameBody& b : frame.bodies)
+      if (b.stored_box && frame.count("contacts"))
+        EXPECT_EQ(united(*b.stored_box, b.box), *b.stored_box)
+            << b.name << " sticks out of its box";
+  }
+  if (!frame.count("contacts")) return;
+  std::int64_t points = 0, impulses = 0;
+  for (const FrameContact& contact : frame.contacts)
+    for (const FrameContact::Point& point : contact.points) {
+      ++points;
+      impulses += point.impulse != 0;
+    }
+  EXPECT_EQ(frame.count("contacts"), std::int64_t(frame.contacts.size()));
+  EXPECT_EQ(frame.count("contact_points"), points);
+  EXPECT_EQ(frame.count("impulses"), impulses);
+  EXPECT_LE(frame.count("pairs_tested"), frame.count("narrow_tests"));
+}
+
+// What the frame before foresaw is what the step did, if it searched once.
+void expect_step_from(const Frame& before, const Frame& after, const Chain& chain) {
+  if (!after.since_last_frame) return;
+  const WorldWork& did = *after.since_last_frame;
+  if (!after.count("contacts")) {
+    EXPECT_EQ(did.broad_phases + did.pair_tests + did.candidate_pairs + did.narrow_tests, 0u)
+        << "nobody collides, so nobody may look for pairs";
+    return;
+  }
+  if (did.steps != 1 || did.broad_phases != 1 || before.structure == StructureKind::none) return;
+  EXPECT_EQ(std::int64_t(did.pair_tests), before.count("pair_tests"));
+  EXPECT_EQ(std::int64_t(did.candidate_pairs), before.count("overlaps"));
+  const std::vector<Pair> overlapping = pairs_of(before, true);
+  const auto tested = std::count_if(overlapping.begin(), overlapping.end(),
+                                    [&](const Pair& pair) { return chain.is_tested(pair); });
+  EXPECT_EQ(std::int64_t(did.narrow_pairs), tested);
+  EXPECT_EQ(after.count("pairs_tested"), tested);
+  for (const FrameContact& contact : after.contacts)
+    if (chain.stirs(contact.pair.a) || chain.stirs(contact.pair.b))
+      EXPECT_TRUE(std::ranges::binary_search(overlapping, contact.pair))
+          << chain.body(contact.pair.a).name << " touches what the broad phase did not hand on";
+}
+
+class EveryPairChain : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryPairChain, IsTheEngines) {
+  const Scenario scenario = frame_by_frame(shipped(GetParam()));
+  Work work;
+  std::optional<Frame> before;
+  direct(scenario, Pace::step, work, [&](const Frame& frame) {
+    SCOPED_TRACE("frame " + std::to_string(frame.index) + ", " + frame.event);
+    const Chain chain(scenario, frame);
+    expect_chain_of(frame, chain);
+    if (before && before->bodies.size() == frame.bodies.size())
+      expect_step_from(*before, frame, Chain(scenario, *before));
+    before = frame;
+    return !HasFailure() && frame.index + 1 < kMostFrames;
+  });
+}
+
+std::vector<std::string> all_files() {
+  std::vector<std::string> names = all_scenarios();
+  for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios/problems"))
+    if (entry.path().extension() == ".toml")
+      names.push_back("problems/" + entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string name_of_test(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::ranges::replace(name, '/', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, EveryPairChain, testing::ValuesIn(all_files()), name_of_test);
+
+}  // namespace
+}  // namespace lantern::test
