@@ -70,8 +70,10 @@ class TreeView {
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
 
-  // What never moves is not said to sleep.
-  static bool is_asleep(const FrameNode& node) { return !node.awake && !node.of_static; }
+  // What never moves, and a leaf that holds nothing, is not said to sleep.
+  static bool is_asleep(const FrameNode& node) {
+    return !node.awake && !node.of_static && !(node.leaf && node.bodies.empty());
+  }
 
   static Role ground_of(Mark mark, bool asleep) {
     if (asleep && mark == Mark::quiet) return Role::free_space;
