@@ -152,11 +152,6 @@ void draw_planes(const Frame& frame, const WorldMap& map, DrawList& list) {
   }
 }
 
-// What never moves, and a leaf that holds nothing, is not said to sleep.
-bool sleeps(const FrameNode& node) {
-  return !node.awake && !node.of_static && !(node.leaf && node.bodies.empty());
-}
-
 // Branches that sleep, each from its highest node on, are hatched against the grain of what is
 // not made.
 void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
@@ -164,7 +159,7 @@ void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
   Pen pen(list, map.rect);
   for (const FrameNode& node : frame.nodes) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
-    if (!sleeps(node) || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (!node.sleeps() || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
     pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1, 0}, 60);
   }
