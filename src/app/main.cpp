@@ -43,7 +43,7 @@ void add_memory(CLI::App& command) {
                               memory_text(kLeastBudget)));
             set_memory_budget(*bytes);
           },
-          "take no more than this, as 800M or 4G; the default is half of the machine's")
+          "memory to take at most, such as 800M or 4G; the default is half of the machine's")
       ->type_name("SIZE");
 }
 
@@ -71,17 +71,17 @@ void add_render(CLI::App& app, RenderOptions& o, Run& run) {
   c->add_option("--theme", o.theme, "colours")
       ->check(CLI::IsMember({"light", "dark", "print"}))
       ->capture_default_str();
-  c->add_option("--pace", o.pace, "one frame a step, or one for each thing the algorithm does")
+  c->add_option("--pace", o.pace, "one frame per step, or one for each thing the algorithm does")
       ->check(CLI::IsMember({"step", "event"}));
-  c->add_option("--png", o.png, "quick to write, or few bytes")
+  c->add_option("--png", o.png, "fast to write, or small")
       ->check(CLI::IsMember({"fast", "small"}))
       ->capture_default_str();
   c->add_option("--backend", o.backend, "off-screen OpenGL")
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
       ->capture_default_str();
-  c->add_flag("--transparent", o.transparent, "leave out the paper");
-  c->add_flag("--strict", o.strict, "what is warned of is an error of the scenario (exit code 3)");
-  c->add_option("-j,--threads", o.threads, "threads that encode; the default is one a core")
+  c->add_flag("--transparent", o.transparent, "draw no background");
+  c->add_flag("--strict", o.strict, "turn warnings into errors (exit code 3)");
+  c->add_option("-j,--threads", o.threads, "encoding threads; the default is one per core")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
   add_memory(*c);
@@ -90,11 +90,11 @@ void add_render(CLI::App& app, RenderOptions& o, Run& run) {
 }
 
 void add_check(CLI::App& app, CheckOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("check", "Run scenarios without pixels, verify expectations");
+  CLI::App* c = app.add_subcommand("check", "Run scenarios without drawing, verify expectations");
   c->add_option("FILE", o.files, "scenario files")->required();
   c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
   add_memory(*c);
-  c->add_flag("--strict", o.strict, "what is warned of is an error of the scenario (exit code 3)");
+  c->add_flag("--strict", o.strict, "turn warnings into errors (exit code 3)");
   add_json(*c, o.json);
   c->callback([&] { run = [&] { return check_command(o); }; });
 }
@@ -127,10 +127,10 @@ void add_compare(CLI::App& app, CompareOptions& o, Run& run) {
   c->add_option("-o,--output", o.output,
                 "where the difference picture goes (a folder when folders are compared)")
       ->type_name("PATH");
-  c->add_option("--tolerance", o.tolerance, "levels of a channel that count as equal")
+  c->add_option("--tolerance", o.tolerance, "by how many levels a channel may differ")
       ->check(CLI::Range(0, 255))
       ->capture_default_str();
-  c->add_option("--fraction", o.fraction, "part of the pixels that may differ")
+  c->add_option("--fraction", o.fraction, "fraction of the pixels that may differ")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   add_json(*c, o.json);
@@ -153,12 +153,12 @@ void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
   c->add_option("--step", o.steps, "only these time steps, seconds")
       ->allow_extra_args(false)
       ->type_name("H");
-  CLI::Option* quick = c->add_flag("--quick", o.quick, "a minute: plain problems, few repeats");
-  c->add_flag("--full", o.full, "all runs, however long")->excludes(quick);
+  CLI::Option* quick = c->add_flag("--quick", o.quick, "about a minute: plain problems, few repeats");
+  c->add_flag("--full", o.full, "every run, however long it takes")->excludes(quick);
   c->add_option("--longest", o.longest, "leave out runs that would take more seconds than this")
       ->check(CLI::PositiveNumber)
       ->type_name("S");
-  c->add_flag("!--no-peers", o.peers, "without other engines beside");
+  c->add_flag("!--no-peers", o.peers, "without other engines");
   c->add_option("--theme", o.theme, "colours of the plots")
       ->check(CLI::IsMember({"light", "dark", "print"}))
       ->capture_default_str();
@@ -174,7 +174,7 @@ void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
 void add_bench(CLI::App& app, BenchOptions& o, Run& run) {
   CLI::App* c = app.add_subcommand("bench", "Measure speed against named peers");
   c->require_subcommand(1);
-  CLI::App* frames = c->add_subcommand("frames", "Frames a second to disk, beside cairo");
+  CLI::App* frames = c->add_subcommand("frames", "Frames per second written to disk, beside cairo");
   frames->add_option("FILE", o.scenario, "scenario file")->capture_default_str();
   frames->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
@@ -186,7 +186,7 @@ void add_bench(CLI::App& app, BenchOptions& o, Run& run) {
 
 void add_stress(CLI::App& app, StressOptions& o, Run& run) {
   CLI::App* c = app.add_subcommand(
-      "stress", "What must hold on extreme input, stiff springs and at the limits of stability");
+      "stress", "Check extreme input, stiff springs and the limits of stability");
   c->add_option("CASE", o.cases, "names of cases; the default is all that are not slow");
   c->add_option("-o,--output", o.output,
                 "folder for stress.csv, stress.json, stability_map.png and .svg")
@@ -198,7 +198,7 @@ void add_stress(CLI::App& app, StressOptions& o, Run& run) {
   c->add_option("--backend", o.backend, "off-screen OpenGL")
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
       ->capture_default_str();
-  c->add_flag("--list", o.list, "list the cases and end");
+  c->add_flag("--list", o.list, "list the cases and exit");
   c->add_flag("--full", o.full, "run the slow cases, too");
   add_memory(*c);
   add_json(*c, o.json);
@@ -266,7 +266,7 @@ int run_and_report(const Run& run) noexcept {
 
 // Reads the command line and runs what it asks for.
 int run_words(int argc, char** argv) {
-  CLI::App app{"Lantern renders lecture scenarios about spatial partitioning to pictures."};
+  CLI::App app{"Lantern renders lecture scenarios about spatial partitioning as pictures."};
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string(kVersion));
   app.footer(

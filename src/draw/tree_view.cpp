@@ -66,12 +66,9 @@ class TreeView {
     const bool dashed = is_empty_leaf(branch);
     if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
     if (node.over_capacity) return {Role::warning, 2.6, 0};
-    if (is_asleep(node)) return {Role::quiet_ink, 2.0, 2.6};
+    if (node.sleeps()) return {Role::quiet_ink, 2.0, 2.6};
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
-
-  // What never moves is not said to sleep.
-  static bool is_asleep(const FrameNode& node) { return !node.awake && !node.of_static; }
 
   static Role ground_of(Mark mark, bool asleep) {
     if (asleep && mark == Mark::quiet) return Role::free_space;
@@ -85,7 +82,7 @@ class TreeView {
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
-    const Role ground = ground_of(branch.mark, is_asleep(node));
+    const Role ground = ground_of(branch.mark, node.sleeps());
     // What never moves has sharp corners.
     const double radius = node.of_static ? 1.5 : layout_.scale.radius;
     const bool pile = branch.kind == Branch::Kind::folded ||
@@ -100,7 +97,7 @@ class TreeView {
     else
       draw_content(branch, box);
     if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
-    if (is_asleep(node)) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
+    if (node.sleeps()) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
   }
 
   // A dashed line where levels are left out.

@@ -159,7 +159,7 @@ void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
   Pen pen(list, map.rect);
   for (const FrameNode& node : frame.nodes) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
-    if (node.awake || node.of_static || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (!node.sleeps() || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
     pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1, 0}, 60);
   }

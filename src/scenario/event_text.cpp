@@ -80,7 +80,7 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
           name, e.count, e.limit, depth_limit);
     case Event::Kind::no_progress:
       return fmt::format(
-          "{} holds {}, its limit is {}. But all share one point, so a split would part no pair.",
+          "{} holds {}, its limit is {}. But all share one point, so a split would separate no pair.",
           name, e.count, e.limit);
   }
   return {};
@@ -127,8 +127,8 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
     return fmt::format("Narrow phase: the true shapes are tested. {} of {} really {}.",
                        counted(contacts, "pair", "pairs"), pairs,
                        contacts == 1 ? "touches" : "touch");
-  return fmt::format("Resolution: impulses at {} part the bodies. The arrows show how strong.",
-                     counted(frame.count("contact_points").value_or(0), "point", "points"));
+  return fmt::format("Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
+                     counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));
 }
 
 }  // namespace lantern

@@ -63,6 +63,9 @@ struct FrameNode {
   std::uint32_t first = kNone;  // a leaf's contents in the array that all leaves share
   std::uint32_t room = 0;       // slots kept for it there, `bodies.size()` of them in use
   Mark mark = Mark::quiet;
+
+  // To be drawn so: what never moves, or holds nothing, is not said to sleep.
+  bool sleeps() const { return !awake && !of_static && !(leaf && bodies.empty()); }
 };
 
 struct FrameTexture {

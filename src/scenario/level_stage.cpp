@@ -52,18 +52,18 @@ std::string LevelStage::told(const LevelBsp& level, const LevelEvent& event) {
   const LevelNode& node = level.nodes()[event.node];
   switch (event.kind) {
     case Kind::consider:
-      return fmt::format("A region with {}. Is one of them behind another?",
+      return fmt::format("A region with {}. Does one of them lie behind another?",
                          counted(event.line.front, "wall piece"));
     case Kind::choose:
       return fmt::format(
           "Wall {} has the best line: {} in front, {} behind, {} cut. Score {:.4g}; the first "
-          "wall's line would have {:.4g}.",
+          "line that divides them at all would score {:.4g}.",
           event.line.wall + 1, event.line.front, event.line.back, event.line.cuts, event.line.score,
           node.first.score);
     case Kind::cut:
       return fmt::format("The line cuts wall {} in two.", event.line.wall + 1);
     case Kind::sector:
-      return fmt::format("No wall is behind another: the region is convex. It becomes sector {}.",
+      return fmt::format("No wall lies behind another: the region is convex. It becomes sector {}.",
                          event.sector + 1);
     case Kind::candidate:
     case Kind::divide:

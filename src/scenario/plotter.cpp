@@ -30,7 +30,10 @@ Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenari
   chart_.least = spec_.least;
   chart_.most = spec_.most;
   if (over_time()) chart_.seconds = seconds_of(scenario, spec_.each_part ? &part_ : nullptr);
-  if (!spec_.x.empty()) name_series(scenario);
+  if (spec_.x.empty())
+    chart_.y_name = spec_.y[0];
+  else
+    name_series(scenario);
 }
 
 // Where all lines tell the same of different bodies, each has its body's name and colour.
