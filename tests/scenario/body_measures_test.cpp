@@ -42,10 +42,11 @@ const std::string kBobWorld = "size = [8, 8]\ntime_step = 0.05\n";
 
 TEST(BodyMeasures, AreThoseOfTheBodyAndStandOnEveryFrame) {
   const auto frames = frames_of(good(world_text(
-      kBobWorld, kBobs + kInsertBobs + kHalfSecond +
-                  "caption = \"{energy.bob} J\"\n"
-                  "expect = { at_least = { \"energy.ann\" = 24.999, \"x.bob\" = -9 }, at_most = { "
-                  "\"energy.ann\" = 25.001, \"speed.bob\" = 99, \"spin.bob\" = 0 } }\n")));
+      kBobWorld,
+      kBobs + kInsertBobs + kHalfSecond +
+          "caption = \"{energy.bob} J\"\n"
+          "expect = { at_least = { \"energy.ann\" = 24.999, \"x.bob\" = -9 }, at_most = { "
+          "\"energy.ann\" = 25.001, \"speed.bob\" = 99, \"spin.bob\" = 0 } }\n")));
   ASSERT_EQ(frames.size(), 11u);
   for (const Frame& frame : frames) {
     const FrameBody& bob = body(frame, "bob");
@@ -89,21 +90,22 @@ expect = { at_least = { "penetration.low" = 0.001 }, at_most = { "penetration.hi
 
 TEST(BodyMeasures, MistakesAreToldByName) {
   const auto with = [](const std::string& promise) {
-    return world_text(kBobWorld,
-                      kBobs + kInsertBobs + kHalfSecond + "expect = { at_most = { " + promise + " } }");
+    return world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "expect = { at_most = { " +
+                                     promise + " } }");
   };
   expect_mistakes(with("@\"enrgy.bob\" = 1"), {"there is no measure 'enrgy' of a body"});
   expect_mistakes(with("@\"energy.bib\" = 1"), {"there is no body 'bib'"});
   expect_mistakes(with("@\"penetration.bob\" = 1"), {"this world has no contacts"});
   expect_mistakes(with("@\"own_spin_y.bob\" = 1"), {"this world is flat"});
-  expect_mistakes(world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "caption = @\"{energy.bib}\"\n"),
-                  {"there is no body 'bib'"});
+  expect_mistakes(
+      world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "caption = @\"{energy.bib}\"\n"),
+      {"there is no body 'bib'"});
 }
 
 TEST(ChartOverTime, AddsAPointOnEveryFrameByItself) {
   const auto frames = frames_of(
       good(world_text(kBobWorld, "[chart]\nx = \"time\"\ny = [\"energy.bob\", \"energy.ann\"]\n" +
-                                  kBobs + kInsertBobs + kHalfSecond)));
+                                     kBobs + kInsertBobs + kHalfSecond)));
   const FrameChart& chart = frames.back().chart;
   EXPECT_TRUE(chart.over_time);
   EXPECT_EQ(chart.y_name, "energy") << "the same measure of different bodies";
@@ -125,7 +127,8 @@ TEST(ChartOverTime, EachPartMayBeginAnew) {
   const std::string chart = "[chart]\nx = \"time\"\ny = [\"energy\"]\neach_part = true\n";
   const std::string longer =
       "[[step]]\ndo = \"run\"\nseconds = 0.75\npart = \"two\"\n[[step]]\ndo = \"show\"\n";
-  const auto frames = frames_of(good(world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + longer)));
+  const auto frames =
+      frames_of(good(world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + longer)));
   const FrameChart& last = frames.back().chart;
   EXPECT_EQ(last.seconds, 0.75);
   EXPECT_EQ(last.series[0].points.size(), 15u) << "what stands still is said once";
@@ -134,24 +137,27 @@ TEST(ChartOverTime, EachPartMayBeginAnew) {
 
 TEST(ChartOverTime, NeedsNoPlotAndTakesNone) {
   const std::string chart = "[chart]\nx = \"time\"\ny = [\"energy\"]\n";
-  expect_mistakes(world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + "@plot = \"here\"\n"),
-                  {"over time every frame is plotted by itself"});
+  expect_mistakes(
+      world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + "@plot = \"here\"\n"),
+      {"over time every frame is plotted by itself"});
   expect_mistakes(world_text(kBobWorld, "[chart]\nbars = \"bodies\"\n@each_part = true\n" + kBobs +
-                                         kInsertBobs + "plot = \"a\"\n"),
+                                            kInsertBobs + "plot = \"a\"\n"),
                   {"'each_part' is of a chart over time"});
-  expect_mistakes(world_text(kBobWorld, chart + "least = 3\nmost = @3\n" + kBobs + kInsertBobs + kHalfSecond),
-                  {"'most' must be above 'least'"});
   expect_mistakes(
-      world_text(kBobWorld, chart + "logarithmic = true\nleast = @0\n" + kBobs + kInsertBobs + kHalfSecond),
-      {"a logarithmic axis begins above 0"});
-  expect_mistakes(
-      world_text(kBobWorld, "[chart]\nx = \"time\"\ny = [@\"enrgy\"]\n" + kBobs + kInsertBobs + kHalfSecond),
-      {"there is no count 'enrgy'"});
+      world_text(kBobWorld, chart + "least = 3\nmost = @3\n" + kBobs + kInsertBobs + kHalfSecond),
+      {"'most' must be above 'least'"});
+  expect_mistakes(world_text(kBobWorld, chart + "logarithmic = true\nleast = @0\n" + kBobs +
+                                            kInsertBobs + kHalfSecond),
+                  {"a logarithmic axis begins above 0"});
+  expect_mistakes(world_text(kBobWorld, "[chart]\nx = \"time\"\ny = [@\"enrgy\"]\n" + kBobs +
+                                            kInsertBobs + kHalfSecond),
+                  {"there is no count 'enrgy'"});
 }
 
 TEST(BodyMethods, AreReadAndHoldForTheBodyAlone) {
-  const Scenario s = good(world_text(
-      kBobWorld + "integrator = \"runge_kutta_4\"\nrotation = \"splitting_4\"\n", kBobs + kInsertBobs));
+  const Scenario s =
+      good(world_text(kBobWorld + "integrator = \"runge_kutta_4\"\nrotation = \"splitting_4\"\n",
+                      kBobs + kInsertBobs));
   EXPECT_EQ(s.world.rotation, RotationMethod::splitting_4);
   EXPECT_EQ(s.bodies[0].integrator, std::nullopt);
   EXPECT_EQ(s.bodies[1].integrator, Integrator::implicit_midpoint);
@@ -214,9 +220,9 @@ TEST(SolveBy, TheWorldGoesOnWithTheOtherMethod) {
 }
 
 TEST(SolveBy, NeedsAWorldWithContacts) {
-  expect_mistakes(
-      world_text(kBobWorld, kBobs + kInsertBobs + "[[step]]\ndo = @\"solve_by\"\ncontacts = \"soft\"\n"),
-      {"in this world nothing touches"});
+  expect_mistakes(world_text(kBobWorld, kBobs + kInsertBobs +
+                                            "[[step]]\ndo = @\"solve_by\"\ncontacts = \"soft\"\n"),
+                  {"in this world nothing touches"});
 }
 
 }  // namespace

@@ -117,7 +117,8 @@ TEST(EngineLeavesOut, RotationsWhereNothingMayTurn) {
 }
 
 TEST(EngineLeavesOut, FrictionWhereNothingIsRough) {
-  const std::string script = steps({kInsertHeap, kQuarterSecond, kQuarterSecond, kQuarterSecond, kQuarterSecond});
+  const std::string script =
+      steps({kInsertHeap, kQuarterSecond, kQuarterSecond, kQuarterSecond, kQuarterSecond});
   for (const std::string contacts : {"impulse", "soft"}) {
     std::int64_t rough = 0, rows = 0;
     for (const Frame& frame : frames_of(good(heap(false, contacts) + script)))
@@ -132,7 +133,8 @@ TEST(EngineLeavesOut, FrictionWhereNothingIsRough) {
 }
 
 TEST(EngineLeavesOut, ContactsWhereBodiesPassThroughEachOther) {
-  for (const Frame& frame : frames_of(good(heap(false, "none") + steps({kInsertHeap, kQuarterSecond})))) {
+  for (const Frame& frame :
+       frames_of(good(heap(false, "none") + steps({kInsertHeap, kQuarterSecond})))) {
     EXPECT_TRUE(frame.contacts.empty());
     EXPECT_FALSE(frame.count("narrow_tests").has_value());
     EXPECT_FALSE(frame.count("constraint_rows").has_value());

@@ -20,6 +20,13 @@ class Rules {
  public:
   explicit Rules(const Scenario& scenario) : scenario_(scenario) {}
 
+  // Static, asleep, or kinematic and standing still.
+  bool rests(const FrameBody& body) const {
+    const auto spec = std::ranges::find(scenario_.bodies, body.name, &BodySpec::name);
+    return body.is_static || body.asleep ||
+           (spec->kind == BodyKind::kinematic_body && body.velocity == Vec<3>(0.0));
+  }
+
   // Is the structure older than the bodies' boxes? A move may leave it as it was.
   bool is_stale(const Frame& frame) const {
     bool stale = false;
@@ -38,12 +45,6 @@ class Rules {
   const Scenario& scenario_;
 };
 
-// What does not move now: of those that no force moves, too (bodies with a mind of their own).
-bool rests(const FrameBody& body) {
-  const bool drifts = body.velocity != Vec<3>(0.0) || body.angular_momentum != Vec<3>(0.0);
-  return body.is_static || body.asleep || (!drifts && body.look == Look::bat);
-}
-
 bool is_midst_of_insertion(const Frame& frame) {
   static const std::set<std::string> kEvents = {"split",      "store",       "test",       "miss",
                                                 "make_child", "depth_limit", "no_progress"};
@@ -59,14 +60,14 @@ void expect_no_pair_missed(const Frame& frame, const Rules& rules) {
   for (const FrameBody& b : frame.bodies) by_id[b.id] = &b;
   for (const Pair& p : listed) {
     ASSERT_TRUE(by_id.contains(p.a) && by_id.contains(p.b)) << "a pair of a body that left";
-    EXPECT_FALSE(rests(*by_id[p.a]) && rests(*by_id[p.b]))
+    EXPECT_FALSE(rules.rests(*by_id[p.a]) && rules.rests(*by_id[p.b]))
         << by_id[p.a]->name << " and " << by_id[p.b]->name << " rest, on " << frame.index;
   }
   if (is_midst_of_insertion(frame) || rules.is_stale(frame)) return;
   for (const FrameBody& a : frame.bodies)
     for (const FrameBody& b : frame.bodies) {
       if (a.id >= b.id || !overlap(a.box, b.box)) continue;
-      if (rests(a) && rests(b)) continue;
+      if (rules.rests(a) && rules.rests(b)) continue;
       EXPECT_TRUE(listed.contains({a.id, b.id}))
           << a.name << " and " << b.name << " overlap, but are no pair on " << frame.index;
     }
@@ -115,10 +116,10 @@ void expect_whole_trees(const Frame& frame) {
   }
 }
 
-void expect_sleepers_below_sleeping_nodes(const Frame& frame) {
+void expect_sleepers_below_sleeping_nodes(const Frame& frame, const Rules& rules) {
   std::set<BodyId> awake;
   for (const FrameBody& b : frame.bodies)
-    if (!rests(b)) awake.insert(b.id);
+    if (!rules.rests(b)) awake.insert(b.id);
   std::vector<bool> holds_awake(frame.nodes.size());
   for (std::size_t i = frame.nodes.size(); i-- > 0;) {
     const FrameNode& n = frame.nodes[i];
@@ -177,7 +178,7 @@ TEST_P(EveryFrame, TellsTheTruth) {
     expect_no_pair_missed(frame, rules);
     expect_counts_of_what_is_listed(frame);
     expect_whole_trees(frame);
-    expect_sleepers_below_sleeping_nodes(frame);
+    expect_sleepers_below_sleeping_nodes(frame, rules);
     expect_memory_in_order(frame);
     expect_finite(frame);
   });

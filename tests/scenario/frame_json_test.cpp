@@ -51,11 +51,14 @@ TEST(FrameJson, OfASolidWorldHasThreeNumbersAPoint) {
   const auto frames = frames_of(parse_scenario(kSolidFrames, "solid.toml"), Pace::step);
   ASSERT_FALSE(frames.empty());
   const json frame = json::parse(to_json(frames.back()));
-  EXPECT_EQ(frame["format"], "lantern.frame/1");
+  EXPECT_EQ(frame["format"], "lantern.frame/2");
   for (const char* key : {"scenario", "frame", "time", "step", "event", "caption", "seed", "bodies",
-                          "nodes", "pairs", "contacts", "counts", "hash"})
+                          "nodes", "pairs", "overlaps", "contacts", "counts", "hash"})
     EXPECT_TRUE(frame.contains(key)) << key << " is promised, but missing";
   ASSERT_EQ(frame["bodies"].size(), 3u) << "the spring's anchor is nobody";
+  EXPECT_FALSE(frame.contains("since_last_frame")) << "no step was made for the ray";
+  const json run = json::parse(to_json(*(frames.end() - 2)));
+  EXPECT_GT(run["since_last_frame"]["narrow_tests"], 0);
   for (const json& body : frame["bodies"]) {
     for (const char* key : {"position", "velocity", "angular_momentum"})
       EXPECT_EQ(body[key].size(), 3u) << key;

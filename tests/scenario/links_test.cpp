@@ -29,13 +29,13 @@ to = [4, 8]
 )";
 
 TEST(Links, ComeAndGoWithTheirBodies) {
-  const auto frames = frames_of(good(
-      world_text("size = [16, 16]\ncontacts = \"impulse\"\ntime_step = 0.0625",
-                 kTiedTwo + steps({"do = \"insert\"\nbodies = [\"a\"]",
-                               "do = \"insert\"\nbodies = [\"b\"]", "do = \"run\"\nseconds = 0.5",
-                               "do = \"remove\"\nbodies = [\"b\"]\nname = \"without_b\"",
-                               "do = \"remove\"\nbodies = [\"a\"]\nname = \"empty\"",
-                               "do = \"insert\"\nbodies = [\"b\", \"a\"]\nname = \"again\""}))));
+  const auto frames = frames_of(good(world_text(
+      "size = [16, 16]\ncontacts = \"impulse\"\ntime_step = 0.0625",
+      kTiedTwo + steps({"do = \"insert\"\nbodies = [\"a\"]", "do = \"insert\"\nbodies = [\"b\"]",
+                        "do = \"run\"\nseconds = 0.5",
+                        "do = \"remove\"\nbodies = [\"b\"]\nname = \"without_b\"",
+                        "do = \"remove\"\nbodies = [\"a\"]\nname = \"empty\"",
+                        "do = \"insert\"\nbodies = [\"b\", \"a\"]\nname = \"again\""}))));
   const auto kinds = [](const Frame& frame) {
     std::vector<FrameLink::Kind> list;
     for (const FrameLink& link : frame.links) list.push_back(link.kind);
@@ -96,8 +96,9 @@ TEST(Links, ASpringToItsOwnPlaceIsAtRest) {
 TEST(Links, KeepTheirEnergyInMind) {
   const auto frames = frames_of(good(world_text(
       "size = [16, 16]\ntime_step = 0.0625",
-      kTiedTwo + steps({"do = \"insert\"\nbodies = [\"a\", \"b\"]\n"
-                    "caption = \"{potential_energy} J in the spring, {bodies:body/bodies}.\""}))));
+      kTiedTwo +
+          steps({"do = \"insert\"\nbodies = [\"a\", \"b\"]\n"
+                 "caption = \"{potential_energy} J in the spring, {bodies:body/bodies}.\""}))));
   EXPECT_DOUBLE_EQ(*frames[0].measure("potential_energy"), 5) << "10 / 2 · 1²";
   EXPECT_EQ(frames[0].caption, "5 J in the spring, 2 bodies.");
 }

@@ -93,7 +93,7 @@ TEST(MotionFacts, OnlyWithImpulsesDepthGrowsWithTheMassRatio) {
   const Frame& pressed = *of_step(frames, "impulses").back();
   for (int i = 1; i < 4; ++i)
     EXPECT_GT(measure(pressed, kUnder[i]), 5 * measure(pressed, kUnder[i - 1])) << kUnder[i];
-  for (const Frame* frame : of_step(frames, "soft"))
+  for (const Frame* frame : of_step(frames, "direct"))
     for (const char* name : kUnder) EXPECT_LT(measure(*frame, name), 1e-6) << name;
   // As if nothing were below it: g t (t + h) / 2, but for what the last sweeps stop.
   const double t = 0.2;

@@ -82,9 +82,9 @@ TEST(PhysicsVerbs, WaitsForWhatCanHappen) {
   const std::string touch = "do = \"wait\"\nevent = \"touch\"\nat_most = 2\nbodies = ";
   expect_mistake(touch + "[\"red\", @\"dot\"]", "'dot1' to 'dot3'");
   expect_mistake(touch + "@[\"red\", \"pink\", \"wall\"]", "it takes two");
-  expect_mistakes(
-      kPhysicsScene + steps({"do = \"insert\"\nbodies = [\"red\"]", touch + "[\"red\", @\"pink\"]"}),
-      {"is not in the world at this step"});
+  expect_mistakes(kPhysicsScene + steps({"do = \"insert\"\nbodies = [\"red\"]",
+                                         touch + "[\"red\", @\"pink\"]"}),
+                  {"is not in the world at this step"});
   const std::string free = kFree + kTree + kBodies + steps({kInsertAll});
   expect_mistakes(
       free +
@@ -102,8 +102,8 @@ TEST(PhysicsVerbs, FramesAndTimeStepsOfAllStepsAreBounded) {
   good(kPhysicsScene + steps({"do = \"run\"\nseconds = 50000"}));
   expect_mistakes(kPhysicsScene + steps({"do = \"run\"\nseconds = @50000.5"}), {"100001 frames"});
   expect_mistakes(kPhysicsScene + steps({kInsertAll,
-                                  "do = \"wait\"\nevent = \"asleep\"\nbodies = [\"dot\"]\n"
-                                  "at_most = @50000.5"}),
+                                         "do = \"wait\"\nevent = \"asleep\"\nbodies = [\"dot\"]\n"
+                                         "at_most = @50000.5"}),
                   {"100002 frames"});
   // 1000 a frame: the time steps are the limit.
   const std::string run = "do = \"run\"\nevery = 1000\nseconds = ";
@@ -136,9 +136,11 @@ TEST(PhysicsVerbs, SleepAndWakeAreOfDynamicBodiesThatMay) {
             (std::vector<std::size_t>{3, 4, 5, 0}));
   EXPECT_EQ(verb<Wake>("do = \"wake\"\nbodies = [\"red\"]").bodies, (std::vector<std::size_t>{0}));
   expect_mistake("do = \"sleep\"\nbodies = [@\"wall\"]", "'wall' is not dynamic");
-  expect_mistakes(kPhysicsScene + steps({"do = \"wake\"\nbodies = [@\"red\"]"}), {"not in the world"});
-  expect_mistakes(kFree + kTree + kBodies + steps({kInsertAll, "do = @\"sleep\"\nbodies = [\"red\"]"}),
-                  {"may_sleep = true"});
+  expect_mistakes(kPhysicsScene + steps({"do = \"wake\"\nbodies = [@\"red\"]"}),
+                  {"not in the world"});
+  expect_mistakes(
+      kFree + kTree + kBodies + steps({kInsertAll, "do = @\"sleep\"\nbodies = [\"red\"]"}),
+      {"may_sleep = true"});
 }
 
 TEST(PhysicsVerbs, QuestionsAreRead) {
@@ -183,8 +185,9 @@ TEST(PhysicsVerbs, AreWatchedByTheirEvents) {
 // --- promises ---
 
 std::vector<Expectation> promises(const std::string& expect) {
-  return good(kPhysicsScene + steps({kInsertAll, "do = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\nexpect = { " +
-                                           expect + " }"}))
+  return good(kPhysicsScene +
+              steps({kInsertAll,
+                     "do = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\nexpect = { " + expect + " }"}))
       .steps.at(1)
       .expect;
 }
@@ -225,7 +228,8 @@ TEST(PhysicsPromises, HaveTheirForms) {
 TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
   const std::string show = "do = \"show\"\nexpect = { ";
   for (const std::string count : {"hits", "nodes_visited", "nodes_skipped", "objects_tested"})
-    expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}), {"no step has sent a ray"});
+    expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}),
+                    {"no step has sent a ray"});
   expect_mistakes(kPhysicsScene + steps({show + "@hits_are = [] }"}), {"no step has sent a ray"});
   const std::string free = kFree + kTree + kBodies;
   for (const std::string count : {"contacts", "contact_points", "begins", "ends", "narrow_tests",
@@ -237,7 +241,8 @@ TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
   good(kPhysicsScene + steps({"do = \"rebuild\"\nkind = \"kd_tree\"\nexpect = { stale = 0 }"}));
   for (const std::string count : {"slots", "node_bytes", "node_bytes_with_bounds", "nodes_asleep",
                                   "static_builds", "dynamic_builds"})
-    expect_mistakes(kPhysicsRules + kBodies + steps({show + "@" + count + " = 1 }"}), {"no structure"});
+    expect_mistakes(kPhysicsRules + kBodies + steps({show + "@" + count + " = 1 }"}),
+                    {"no structure"});
   for (const std::string count : {"walls", "sectors"})
     expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}), {"no [level]"});
   for (const std::string count : {"static_builds", "dynamic_builds"})

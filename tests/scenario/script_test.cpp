@@ -101,9 +101,10 @@ TEST(Script, ARebuildKeepsWhatItDoesNotSay) {
 }
 
 TEST(Script, VerbsOfAnAtlas) {
-  const Scenario s = good(kScriptAtlas + steps({"do = \"pack\"\ntextures = [\"t\", \"A\"]\neach = false\n"
-                                          "free_name = \"C\"\nevents = [\"cut\"]",
-                                          "do = \"ask_room\"\nsize = [7, 9]"}));
+  const Scenario s =
+      good(kScriptAtlas + steps({"do = \"pack\"\ntextures = [\"t\", \"A\"]\neach = false\n"
+                                 "free_name = \"C\"\nevents = [\"cut\"]",
+                                 "do = \"ask_room\"\nsize = [7, 9]"}));
   const Pack pack = verb<Pack>(s, 0);
   EXPECT_EQ(pack.textures, (Indices{1, 2, 3, 0}));
   EXPECT_FALSE(pack.each);
@@ -118,7 +119,8 @@ TEST(Script, BodiesAreWhereTheScriptHasThem) {
   const std::string insert = "do = \"insert\"\nbodies = [\"red\"]";
   expect_mistakes(kScriptScene + steps({insert, "do = \"insert\"\nbodies = [\"wall\", @\"red\"]"}),
                   {"'red' is in the world already"});
-  expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"red\", @\"red\"]"}), {"already"});
+  expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"red\", @\"red\"]"}),
+                  {"already"});
   expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"dot2\", @\"dot\"]"}),
                   {"'dot2' is in the world already"});
   expect_mistakes(kScriptScene + steps({"do = \"remove\"\nbodies = [@\"red\"]"}),
@@ -126,26 +128,26 @@ TEST(Script, BodiesAreWhereTheScriptHasThem) {
   expect_mistakes(kScriptScene + steps({"do = \"move\"\nbody = @\"red\"\nto = [1, 1]"}),
                   {"'red' is not in the world at this step"});
   expect_mistakes(kScriptScene + steps({insert, "do = \"remove\"\nbodies = [\"red\"]",
-                                  "do = \"move\"\nbody = @\"red\"\nto = [1, 1]"}),
+                                        "do = \"move\"\nbody = @\"red\"\nto = [1, 1]"}),
                   {"insert it first"});
   good(kScriptScene + steps({insert, "do = \"remove\"\nbodies = [\"red\"]", insert}));
 }
 
 TEST(Script, ATextureIsPackedOnce) {
   expect_mistakes(kScriptAtlas + steps({"do = \"pack\"\ntextures = [\"A\"]",
-                                  "do = \"pack\"\ntextures = [\"t\", @\"A\"]"}),
+                                        "do = \"pack\"\ntextures = [\"t\", @\"A\"]"}),
                   {"'A' is packed already"});
 }
 
 TEST(Script, AMoveIsOfOneBodyThatCan) {
   expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"dot\"]",
-                                  "do = \"move\"\nbody = @\"dot\"\nto = [1, 1]"}),
+                                        "do = \"move\"\nbody = @\"dot\"\nto = [1, 1]"}),
                   {"its bodies are 'dot1' to 'dot3'"});
   expect_mistakes(kScriptScene + steps({"do = \"insert\"\nbodies = [\"wall\"]",
-                                  "do = \"move\"\nbody = \"wall\"\nvelocity = @[1, 1]"}),
+                                        "do = \"move\"\nbody = \"wall\"\nvelocity = @[1, 1]"}),
                   {"'wall' is static"});
   good(kScriptScene + steps({"do = \"insert\"\nbodies = [\"wall\"]",
-                       "do = \"move\"\nbody = \"wall\"\nto = [1, 1]\nvelocity = [0, 0]"}));
+                             "do = \"move\"\nbody = \"wall\"\nto = [1, 1]\nvelocity = [0, 0]"}));
 }
 
 TEST(Script, ARunIsAWholeNumberOfTimeSteps) {
@@ -163,7 +165,8 @@ TEST(Script, FramesOfAllStepsAreBounded) {
   good(kScriptScene + steps({run, run}));
   expect_mistakes(kScriptScene + steps({run, run, "do = @\"show\"", "do = \"show\""}),
                   {"100001 frames in all, the limit is 100000"});
-  expect_mistakes(kScriptScene + steps({"do = \"run\"\nseconds = @25000.25"}), {"100001 frames in all"});
+  expect_mistakes(kScriptScene + steps({"do = \"run\"\nseconds = @25000.25"}),
+                  {"100001 frames in all"});
 }
 
 TEST(Script, WhatAllStepsNameIsBounded) {
@@ -203,10 +206,11 @@ TEST(Script, PlanesHaveFreePlacesBelowEarlierOnes) {
 
 TEST(Script, ExpectationsKeepTheirPlaces) {
   const Scenario s =
-      good(kScriptScene + steps({"do = \"insert\"\nbodies = [\"red\", \"wall\"]\n"
-                           "expect = { pairs = 1, nodes = 5, in_leaves = { wall = 2 }, pairs_are = "
-                           "[[\"red\", \"wall\"]], position = { red = [1, 2] }, tolerance = 0.5 }\n"
-                           "always = { all_pairs = 1 }"}));
+      good(kScriptScene +
+           steps({"do = \"insert\"\nbodies = [\"red\", \"wall\"]\n"
+                  "expect = { pairs = 1, nodes = 5, in_leaves = { wall = 2 }, pairs_are = "
+                  "[[\"red\", \"wall\"]], position = { red = [1, 2] }, tolerance = 0.5 }\n"
+                  "always = { all_pairs = 1 }"}));
   const auto& expect = s.steps[0].expect;
   ASSERT_EQ(expect.size(), 5u);
   EXPECT_EQ(expect[0].kind, Expectation::Kind::count);
@@ -238,17 +242,20 @@ TEST(Script, NoPairsMayBePromised) {
 }
 
 TEST(Script, OnlyWhatIsCountedCanBePromisedOrQuoted) {
-  expect_mistakes(kScriptScene + steps({"do = \"show\"\nexpect = { @refused = 1 }"}), {"no [atlas]"});
+  expect_mistakes(kScriptScene + steps({"do = \"show\"\nexpect = { @refused = 1 }"}),
+                  {"no [atlas]"});
   expect_mistakes(kScriptAtlas + steps({"do = \"show\"\nexpect = { @pairs = 1, nodes = 1 }"}),
                   {"an atlas has none"});
-  expect_mistakes(kScriptAtlas + steps({"do = \"show\"\nexpect = { @room = 1 }\ncaption = \"@{room}\"",
-                                  "do = \"ask_room\"\nsize = [1, 1]\nexpect = { room = 1 }",
-                                  "do = \"show\"\nexpect = { room = 1 }"}),
-                  {"no step has asked for room yet", "no step has asked for room yet"});
-  expect_mistakes(kScriptScene + steps({"do = \"show\"\ncaption = \"{nodes}\"",
-                                  "do = \"rebuild\"\nkind = \"none\"\ncaption = \"@{nodes} "
-                                  "{bodies} {all_pairs}\"\nexpect = { @in_leaves = { red = 1 } }"}),
-                  {"there is no structure at this step", "there is no structure at this step"});
+  expect_mistakes(
+      kScriptAtlas + steps({"do = \"show\"\nexpect = { @room = 1 }\ncaption = \"@{room}\"",
+                            "do = \"ask_room\"\nsize = [1, 1]\nexpect = { room = 1 }",
+                            "do = \"show\"\nexpect = { room = 1 }"}),
+      {"no step has asked for room yet", "no step has asked for room yet"});
+  expect_mistakes(
+      kScriptScene + steps({"do = \"show\"\ncaption = \"{nodes}\"",
+                            "do = \"rebuild\"\nkind = \"none\"\ncaption = \"@{nodes} "
+                            "{bodies} {all_pairs}\"\nexpect = { @in_leaves = { red = 1 } }"}),
+      {"there is no structure at this step", "there is no structure at this step"});
   expect_mistakes("title = \"x\"\n" + steps({"do = \"show\"\nexpect = { @bodies = 0 }"}),
                   {"no bodies"});
   expect_mistakes(kScriptScene + steps({"do = \"show\"\nexpect = { @pair = 0 }"}),
