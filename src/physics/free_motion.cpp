@@ -69,11 +69,11 @@ void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod 
 
 template <int D>
 bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
-  if (forces.gravity != Vec<D>(0.0) || forces.gravitation > 0 || !forces.springs.empty() ||
-      !forces.pushes.empty())
-    return true;
-  return std::any_of(bodies.begin(), bodies.end(), [](const Body<D>& body) {
-    return body.linear_drag != 0 || body.angular_drag != 0;
+  const bool on_any = forces.gravity != Vec<D>(0.0) || forces.gravitation > 0 ||
+                      !forces.springs.empty() || !forces.pushes.empty();
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Body<D>& body) {
+    if (body.kind != BodyKind::dynamic_body || body.asleep) return false;
+    return on_any || body.linear_drag > 0 || body.angular_drag > 0;
   });
 }
 

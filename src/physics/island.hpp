@@ -53,7 +53,7 @@ template <int D>
 void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod worlds,
          WorldWork& work);
 
-// Whether forces change anything at all; if not, there are no increments to find.
+// Whether there is a force, and a body that it could move; if not, none is evaluated.
 template <int D>
 bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces);
 

@@ -2,6 +2,7 @@
 // way, or stopped (base/stop.hpp), leaves the world as it was.
 #pragma once
 
+#include "physics/contact_solver.hpp"
 #include "physics/island.hpp"
 #include "physics/islands.hpp"
 #include "physics/world.hpp"
@@ -36,6 +37,7 @@ struct World<D>::Step {
   std::vector<TimedPush> pushes = {};
   std::vector<Increment<D>> increments = {};  // over the whole step, if nothing touches
   std::vector<Pair> pairs = {};               // of the broad phase
+  std::uint64_t narrow_pairs = 0;             // of those, looked at by the narrow phase
   std::vector<NearPair> near = {};
   std::vector<std::uint32_t> root = {};  // of each body's island; static ones have their own
   std::vector<Touch> touching = {};
@@ -56,6 +58,10 @@ struct World<D>::Step {
 
  private:
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
+  bool locates_impacts() const {
+    return collides() && world.config_.continuous &&
+           !contact_solver<D>(world.config_.contacts).whole_world;
+  }
   std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
   bool is_slow(std::size_t place) const;
   const Touch* remembered(BodyId a, BodyId b) const;
@@ -64,7 +70,7 @@ struct World<D>::Step {
   void find_reach();
   Box<D> enlarged_box(std::size_t place) const;
   bool look_for_near_pairs();
-  std::optional<NearPair> nearing(const Pair& pair) const;
+  std::optional<NearPair> nearing(const Pair& pair);
   void require_room_for_near_pairs() const;
   IslandPair<D> island_pair(const NearPair& from) const;
   bool wake_what_is_touched();

@@ -32,7 +32,8 @@ auto World<D>::Step::groups_to_solve(bool whole_world) const -> std::vector<Grou
   for (std::uint32_t i = 0; i < moved.size(); ++i)
     if (whole_world || dynamic(i)) group_of(i).bodies.push_back(i);
   std::erase_if(groups, [&](const Group& group) {
-    return group.bodies.empty() || (group.pairs.empty() && group.joints.empty());
+    return (group.pairs.empty() && group.joints.empty()) ||
+           std::ranges::all_of(group.bodies, [&](std::uint32_t i) { return moved[i].asleep; });
   });
   return groups;
 }
@@ -44,11 +45,6 @@ void World<D>::Step::solve_and_integrate() {
   int budget = world.config_.impact_budget;
   for (const Group& group : groups_to_solve(solver.whole_world)) {
     stop_if_asked();
-    if (!solver.whole_world && moved[group.bodies[0]].asleep) {
-      for (const std::uint32_t i : group.bodies)
-        solved[i] = moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
-      continue;
-    }
     Island<D> island = gather(group);
     ++world.work_.islands_solved;
     if (solver.whole_world)
@@ -155,7 +151,7 @@ void World<D>::Step::require_no_overflow() const {
 // Whether all bodies were looked for where they have been; if not, `reach` has grown.
 template <int D>
 bool World<D>::Step::stayed_within_reach() {
-  if (!collides() || !world.config_.continuous) return true;
+  if (!locates_impacts()) return true;
   bool stayed = true;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (moved[i].kind != BodyKind::dynamic_body || moved[i].asleep) continue;
@@ -270,6 +266,7 @@ void World<D>::Step::commit() {
   world.ahead_.reset();
   world.time_ += h;
   ++world.work_.steps;
+  world.work_.narrow_pairs += narrow_pairs;
 }
 
 #define LANTERN_INSTANTIATE(D)                               \

@@ -9,6 +9,7 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "physics/step.hpp"
+#include "physics/waking.hpp"
 
 namespace lantern {
 namespace {
@@ -140,8 +141,11 @@ void World<D>::Step::find_near_pairs() {
   require_boxes();
   if (!collides()) return;
   const auto awake = [](const Body<D>& body) { return body.stirs(); };
-  while (std::any_of(moved.begin(), moved.end(), awake))
+  while (std::any_of(moved.begin(), moved.end(), awake)) {
+    ++world.work_.broad_phases;
+    narrow_pairs = 0;
     if (!look_for_near_pairs()) break;
+  }
 }
 
 // Broad phase and narrow phase. Returns whether bodies woke, so that it must be done again.
@@ -163,7 +167,7 @@ bool World<D>::Step::look_for_near_pairs() {
 
 // The pair, if the two may come to touch in this step.
 template <int D>
-auto World<D>::Step::nearing(const Pair& pair) const -> std::optional<NearPair> {
+auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   NearPair found;
   found.a = place_of(pair.a);
   found.b = place_of(pair.b);
@@ -174,13 +178,14 @@ auto World<D>::Step::nearing(const Pair& pair) const -> std::optional<NearPair> 
   const double way = glm::length(velocity_of(b) - velocity_of(a)) * h;
   // An impact with a third body may turn either of them towards the other.
   found.reach = reach[found.a] + reach[found.b];
+  ++narrow_pairs;
   ++world.work_.narrow_tests;
   const auto manifold = collide(placed(a), placed(b), found.reach);
   if (!manifold) return std::nullopt;
   found.restitution = std::max(a.material.restitution, b.material.restitution);
   found.friction = std::sqrt(a.material.friction * b.material.friction);
   const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-  found.located = world.config_.continuous && (found.restitution > 0 || way > kFast * thin);
+  found.located = locates_impacts() && (found.restitution > 0 || way > kFast * thin);
   found.touch = remembered(pair.a, pair.b);
   return found;
 }
@@ -247,24 +252,9 @@ bool World<D>::Step::wake_what_is_touched() {
   return true;
 }
 
-// These, and all dynamic bodies that hang together with them.
 template <int D>
 void World<D>::Step::wake(std::vector<std::uint32_t> places) {
-  while (!places.empty()) {
-    stop_if_asked();
-    Body<D>& body = moved[places.back()];
-    places.pop_back();
-    if (!body.asleep) continue;
-    body.asleep = false;
-    rested[static_cast<std::size_t>(&body - moved.data())] = 0;
-    const auto pass_on = [&](BodyId a, BodyId b) {
-      if (a == body.id) places.push_back(place_of(b));
-      if (b == body.id) places.push_back(place_of(a));
-    };
-    for (const Touch& touch : world.touching_) pass_on(touch.record.a, touch.record.b);
-    for (const auto& entry : world.joints_) pass_on(entry.second.a, entry.second.b);
-    for (const Spring<D>& spring : forces.springs) pass_on(spring.a, spring.b);
-  }
+  wake_together<D>(moved, rested, std::move(places), world.links(), Disturbed::sleepers);
 }
 
 // Static and kinematic bodies do not join what touches them.

@@ -7,6 +7,7 @@
 
 #include "base/hash.hpp"
 #include "physics/body_check.hpp"
+#include "physics/waking.hpp"
 
 namespace lantern {
 namespace {
@@ -113,16 +114,16 @@ BodyId World<D>::add(Body<D> body) {
 template <int D>
 void World<D>::remove(BodyId id) {
   if (find(id) == nullptr) return;
-  rouse({id});
-  forget_contacts_of(id);
-  const std::size_t index = index_of(id);
-  bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(index));
-  rested_.erase(rested_.begin() + static_cast<std::ptrdiff_t>(index));
+  wake_from({id});
   for (std::size_t i = forces_.springs.size(); i-- > 0;)
     if (forces_.springs[i].a == id || forces_.springs[i].b == id) remove_spring(spring_ids_[i]);
   for (std::size_t i = joints_.size(); i-- > 0;)
     if (joints_[i].second.a == id || joints_[i].second.b == id) remove_joint(joints_[i].first);
   clear_pushes(id);
+  forget_contacts_of(id);
+  const auto index = static_cast<std::ptrdiff_t>(index_of(id));
+  bodies_.erase(bodies_.begin() + index);
+  rested_.erase(rested_.begin() + index);
 }
 
 template <int D>
@@ -153,7 +154,7 @@ void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
   moved.velocity = velocity;
   moved.orientation = orientation;
   check_body(moved);
-  rouse({id});
+  wake_from({id});
   forget_contacts_of(id);
   moved.asleep = false;
   bodies_[index] = std::move(moved);
@@ -163,7 +164,7 @@ template <int D>
 void World<D>::set_velocity(BodyId id, const Vec<D>& velocity) {
   Body<D>& body = bodies_[index_of(id)];
   require_finite<D>(velocity, fmt::format("body '{}'", body.name), "velocity");
-  rouse({id});
+  wake_from({id});
   body.velocity = velocity;
 }
 
@@ -182,7 +183,7 @@ void World<D>::set_angular_velocity(BodyId id, const Spin<D>& spin) {
   else
     require_finite<D>(spin, who, "angular velocity");
   check_body(turning);
-  rouse({id});
+  wake_from({id});
   body.angular_momentum = turning.angular_momentum;
   body.kinematic_spin = turning.kinematic_spin;
 }
@@ -199,7 +200,7 @@ void World<D>::apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at)
   if (body.inverse_inertia != Spin<D>(0.0))
     struck.angular_momentum += cross(Vec<D>(at - body.position), impulse);
   check_body(struck);
-  rouse({id});
+  wake_from({id});
   body.velocity = struck.velocity;
   body.angular_momentum = struck.angular_momentum;
 }
@@ -215,7 +216,7 @@ void World<D>::push(BodyId id, const Vec<D>& force, const Vec<D>& at,
   require_finite<D>(arm, who, "lever of the force");
   if (seconds && !(std::isfinite(*seconds) && *seconds > 0))
     throw Refused(fmt::format("{}: a push of {} seconds is not allowed", who, *seconds));
-  rouse({id});
+  wake_from({id});
   TimedPush push{{id, arm, force}, std::nullopt};
   if (seconds) push.until = time_ + *seconds;
   pushes_.push_back(push);
@@ -232,14 +233,14 @@ template <int D>
 void World<D>::clear_pushes() {
   std::vector<BodyId> pushed;
   for (const TimedPush& push : pushes_) pushed.push_back(push.push.body);
-  rouse(std::move(pushed));
+  wake_from(pushed);
   pushes_.clear();
   list_pushes();
 }
 
 template <int D>
 void World<D>::clear_pushes(BodyId id) {
-  if (find(id) != nullptr) rouse({id});
+  if (find(id) != nullptr) wake_from({id});
   std::erase_if(pushes_, [&](const TimedPush& push) { return push.push.body == id; });
   list_pushes();
 }
@@ -249,7 +250,7 @@ void World<D>::set_gravity(const Vec<D>& gravity) {
   require_finite<D>(gravity, "world", "gravity");
   std::vector<BodyId> all;
   for (const Body<D>& body : bodies_) all.push_back(body.id);
-  rouse(std::move(all));
+  wake_from(all);
   config_.gravity = forces_.gravity = gravity;
 }
 
@@ -257,7 +258,7 @@ template <int D>
 SpringId World<D>::add_spring(const Spring<D>& spring) {
   check_spring<D>(spring, bodies_);
   check_same_integrator(*find(spring.a), *find(spring.b), config_);
-  rouse({spring.a, spring.b});
+  wake_from({spring.a, spring.b});
   forces_.springs.push_back(spring);
   spring_ids_.push_back(next_spring_);
   return next_spring_++;
@@ -275,7 +276,7 @@ JointId World<D>::add_joint(const Joint<D>& joint) {
   require_finite<D>(joint.at_b, who, "at_b");
   if (joint.kind == JointKind::distance && !(std::isfinite(joint.length) && joint.length > 0))
     throw Refused(fmt::format("{}: length is {}, must be above 0", who, joint.length));
-  rouse({joint.a, joint.b});
+  wake_from({joint.a, joint.b});
   joints_.emplace_back(next_joint_, joint);
   joint_memories_.push_back({});
   return next_joint_++;
@@ -285,7 +286,7 @@ template <int D>
 void World<D>::remove_spring(SpringId id) {
   for (std::size_t i = 0; i < spring_ids_.size(); ++i) {
     if (spring_ids_[i] != id) continue;
-    rouse({forces_.springs[i].a, forces_.springs[i].b});
+    wake_from({forces_.springs[i].a, forces_.springs[i].b});
     forces_.springs.erase(forces_.springs.begin() + static_cast<std::ptrdiff_t>(i));
     spring_ids_.erase(spring_ids_.begin() + static_cast<std::ptrdiff_t>(i));
     return;
@@ -296,7 +297,7 @@ template <int D>
 void World<D>::remove_joint(JointId id) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (joints_[i].first != id) continue;
-    rouse({joints_[i].second.a, joints_[i].second.b});
+    wake_from({joints_[i].second.a, joints_[i].second.b});
     joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(i));
     joint_memories_.erase(joint_memories_.begin() + static_cast<std::ptrdiff_t>(i));
     return;
@@ -311,34 +312,21 @@ bool World<D>::joined(BodyId a, BodyId b) const {
   });
 }
 
-// Wakes these bodies and all that hang together with them by contacts, springs and joints. Static
-// and kinematic bodies pass nothing on, but those that touch the named ones wake.
 template <int D>
-void World<D>::rouse(std::vector<BodyId> ids) {
+std::vector<Pair> World<D>::links() const {
+  std::vector<Pair> all;
+  for (const Touch& touch : touching_) all.push_back({touch.record.a, touch.record.b});
+  for (const Spring<D>& spring : forces_.springs) all.push_back({spring.a, spring.b});
+  for (const auto& entry : joints_) all.push_back({entry.second.a, entry.second.b});
+  return all;
+}
+
+template <int D>
+void World<D>::wake_from(const std::vector<BodyId>& ids) {
   ahead_.reset();
-  std::vector<bool> seen(bodies_.size());
-  std::vector<std::size_t> open;
-  const auto reach = [&](BodyId id, bool named) {
-    const Body<D>* body = find(id);
-    if (body == nullptr || (!named && body->kind != BodyKind::dynamic_body)) return;
-    const auto index = static_cast<std::size_t>(body - bodies_.data());
-    if (!seen[index]) open.push_back(index);
-    seen[index] = true;
-  };
-  for (const BodyId id : ids) reach(id, true);
-  while (!open.empty()) {
-    Body<D>& body = bodies_[open.back()];
-    rested_[open.back()] = 0;
-    open.pop_back();
-    body.asleep = false;
-    const auto pass_on = [&](BodyId a, BodyId b) {
-      if (a == body.id) reach(b, false);
-      if (b == body.id) reach(a, false);
-    };
-    for (const Touch& touch : touching_) pass_on(touch.record.a, touch.record.b);
-    for (const Spring<D>& spring : forces_.springs) pass_on(spring.a, spring.b);
-    for (const auto& entry : joints_) pass_on(entry.second.a, entry.second.b);
-  }
+  std::vector<std::uint32_t> places;
+  for (const BodyId id : ids) places.push_back(static_cast<std::uint32_t>(index_of(id)));
+  wake_together<D>(bodies_, rested_, std::move(places), links(), Disturbed::all);
 }
 
 template <int D>
@@ -360,7 +348,7 @@ void World<D>::sleep(BodyId id) {
 template <int D>
 void World<D>::wake(BodyId id) {
   index_of(id);
-  rouse({id});
+  wake_from({id});
 }
 
 template <int D>

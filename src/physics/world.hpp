@@ -132,7 +132,8 @@ class World {
 
   std::size_t index_of(BodyId id) const;
   bool joined(BodyId a, BodyId b) const;
-  void rouse(std::vector<BodyId> ids);
+  std::vector<Pair> links() const;  // of what wakes together
+  void wake_from(const std::vector<BodyId>& ids);
   void forget_contacts_of(BodyId id);
   void list_pushes();
 

@@ -51,7 +51,7 @@ struct WorldWork {
   std::uint64_t direct_rows = 0;
   std::uint64_t direct_solves = 0;  // of all rows at once
   std::uint64_t rotations_integrated = 0;
-  std::uint64_t impacts_located = 0;
+  std::uint64_t impacts_located = 0;  // and struck, in the steps as they were made in the end
   // Of the last step alone.
   std::uint64_t islands = 0;  // of awake bodies
   std::uint64_t asleep = 0;   // bodies

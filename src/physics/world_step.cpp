@@ -34,7 +34,8 @@ void World<D>::step(double h) {
         return;
       }
       reach = std::move(step.reach);
-      work_ = before;
+      ++work_.retries;
+      work_.impacts_located = before.impacts_located;  // they did not take place
     }
   } catch (...) {
     work_ = before;

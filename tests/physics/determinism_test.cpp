@@ -95,17 +95,53 @@ TEST(Determinism, StagesThatAreNotNeededAreLeftOut) {
   free_flight.add(ball_at<2>({0, 0}, {1, 0}));
   free_flight.add(ball_at<2>({0, 0}, {-1, 0}));
   run(free_flight, 1);
-  EXPECT_EQ(free_flight.work().steps, 60u);
-  EXPECT_EQ(free_flight.work().force_evaluations, 0u);
-  EXPECT_EQ(free_flight.work().pair_tests, 0u);
-  EXPECT_EQ(free_flight.work().narrow_tests, 0u);
-  EXPECT_EQ(free_flight.work().rotations_integrated, 0u);
+  for (const WorldCounter& counter : kWorldCounters)
+    EXPECT_EQ(free_flight.work().*counter.count, counter.name == "steps" ? 60u : 0u)
+        << counter.name;
   EXPECT_EQ(free_flight.broad_phase(), nullptr);
 
   World<2> still(falling<2>());  // nothing can move
   still.add(floor_at<2>());
   run(still, 1);
   EXPECT_EQ(still.broad_phase(), nullptr);
+  EXPECT_EQ(still.work().force_evaluations, 0u) << "gravity finds nothing to pull at";
+}
+
+TEST(Determinism, EachCounterIsOfWhatWasDone) {
+  const auto ran = [](ContactMethod method, double friction, bool pinned, double ratio = 1000) {
+    WorldConfig<2> config = falling<2>();
+    config.contacts = method;
+    config.may_sleep = false;
+    World<2> world(config);
+    world.add(floor_at<2>(0, friction));
+    Body<2> box = box_at<2>(up<2>(0.5)), heavy = box_at<2>(up<2>(1.5));
+    heavy.density = ratio;
+    const BodyId low = world.add(box), high = world.add(heavy);
+    if (pinned) world.add_joint({JointKind::pin, low, high, {0.5, 0.5}, {0.5, -0.5}});
+    run(world, 0.5);
+    const WorldWork half = world.work();
+    run(world, 0.5);
+    return work_between(half, world.work());
+  };
+  const WorldWork soft = ran(ContactMethod::soft, 0.5, false);
+  EXPECT_EQ(soft.steps, 30u);
+  EXPECT_EQ(soft.broad_phases, 30u);
+  EXPECT_EQ(soft.islands_solved, 30u);
+  EXPECT_EQ(soft.sub_steps, 30u * 8u);
+  EXPECT_EQ(soft.force_evaluations, 30u * 9u) << "once to know how far all may come";
+  EXPECT_EQ(soft.narrow_pairs, 60u) << "each pair once a step";
+  EXPECT_EQ(soft.narrow_tests, 120u) << "and again where its contact is solved";
+  EXPECT_GT(soft.friction_rows, 0u);
+  EXPECT_EQ(soft.joint_rows, 0u);
+  EXPECT_EQ(soft.impacts_located, 0u);
+  EXPECT_EQ(ran(ContactMethod::soft, 0, false).friction_rows > 0, true) << "between the boxes";
+  EXPECT_GT(ran(ContactMethod::soft, 0.5, true).joint_rows, 0u);
+  const WorldWork direct = ran(ContactMethod::direct, 0.5, false);
+  EXPECT_EQ(direct.sub_steps, 30u) << "one is the whole step";
+  const WorldWork impulse = ran(ContactMethod::impulse, 0.5, false, 1);
+  EXPECT_EQ(impulse.sub_steps, 30u);
+  EXPECT_EQ(impulse.direct_solves + impulse.direct_rows, 0u);
+  EXPECT_EQ(impulse.constraint_rows, impulse.normal_rows + impulse.friction_rows);
 }
 
 TEST(Determinism, FarFromTheOriginItIsTheSame) {

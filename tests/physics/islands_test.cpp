@@ -109,5 +109,24 @@ TEST(Islands, AreAsManyAsThereArePiles) {
   EXPECT_EQ(world.work().islands, 3u) << "the floor must not join them";
 }
 
+// A script may put to sleep one body of several that hang together.
+TEST(Islands, WhatHangsOnASleeperSwingsAboutIt) {
+  WorldConfig<2> config = falling<2>();
+  config.contacts = ContactMethod::none;
+  config.may_sleep = false;
+  for (const bool sleeper_first : {true, false}) {
+    World<2> world(config);
+    const Body<2> nail = ball_at<2>({0, 0}), bob = ball_at<2>({2, 0});
+    const BodyId first = world.add(sleeper_first ? nail : bob);
+    const BodyId second = world.add(sleeper_first ? bob : nail);
+    world.add_joint({JointKind::distance, first, second, {}, {}, 2});
+    world.sleep(sleeper_first ? first : second);
+    run(world, 0.5);
+    const Body<2>& swings = world.bodies()[sleeper_first ? 1 : 0];
+    EXPECT_LT(swings.position.y, -0.5) << "time stands still for it";
+    EXPECT_NEAR(glm::length(swings.position), 2, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace lantern

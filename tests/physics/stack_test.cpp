@@ -80,6 +80,25 @@ TEST(Stack, TheImpulseMethodHoldsALowOne) {
   EXPECT_NEAR(world.bodies()[3].position.y, 2.5, 0.05);
 }
 
+// It is the solve of all rows at once that holds it, not the sub-steps.
+TEST(Stack, WithoutSubStepsTheDirectMethodHoldsHeavyOnLight) {
+  const auto sinks = [](ContactMethod method) {
+    WorldConfig<2> config = falling<2>();
+    config.contacts = method;
+    World<2> world(config);
+    world.add(floor_at<2>());
+    world.add(box_at<2>(up<2>(0.5)));
+    Body<2> heavy = box_at<2>(up<2>(1.5));
+    heavy.density = 1e4;
+    world.add(heavy);
+    run(world, 3);
+    EXPECT_EQ(world.work().direct_solves > 0, method == ContactMethod::direct);
+    return 1.5 - world.bodies()[2].position.y;
+  };
+  EXPECT_LE(sinks(ContactMethod::direct), 1e-4);
+  EXPECT_GT(sinks(ContactMethod::impulse), 0.1);
+}
+
 TEST(Stack, APyramidStands) {
   World<2> world(falling<2>());
   world.add(floor_at<2>());
