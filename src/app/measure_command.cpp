@@ -164,10 +164,10 @@ class Measuring {
 
   const Row* known(const Job& job) const {
     const Scenario& scenario = plan_.scenario(job);
-    const Contestant& contestant = plan_.contestant(job);
+    const Solver& solver = plan_.solver(job);
     const auto found = std::ranges::find_if(known_, [&](const Row& row) {
       return row.problem == scenario.name && row.text_hash == scenario.text_hash &&
-             row.method == contestant.name() && row.version == contestant.version() &&
+             row.method == solver.name() && row.version == solver.version() &&
              row.step == job.step;
     });
     return found == known_.end() ? nullptr : &*found;
@@ -206,7 +206,7 @@ class Measuring {
       say(
           fmt::format("{} runs are left out as too long; the longest ({}, {} at {:.3g} s) would "
                       "take {}. --full runs them all",
-                      long_ones, plan_.scenario(*longest).name, plan_.contestant(*longest).name(),
+                      long_ones, plan_.scenario(*longest).name, plan_.solver(*longest).name(),
                       longest->step, duration_text(plan_.seconds(*longest))));
   }
 

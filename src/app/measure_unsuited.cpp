@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "measure/dormand_prince_contestant.hpp"
-#include "measure/lantern_contestant.hpp"
+#include "measure/dormand_prince_solver.hpp"
+#include "measure/lantern_solver.hpp"
 #include "measure/peers.hpp"
 #include "report/sentences.hpp"
 #include "scenario/method.hpp"
@@ -14,7 +14,7 @@
 namespace lantern {
 namespace {
 
-using Contestants = std::vector<std::unique_ptr<Contestant>>;
+using Solvers = std::vector<std::unique_ptr<Solver>>;
 using Names = std::vector<std::string>;
 
 // Those who cannot do some scenarios, for one and the same reason.
@@ -23,27 +23,27 @@ struct LeftOut {
   std::string reason;
 };
 
-std::unique_ptr<Contestant> contestant_named(const std::string& name) {
-  if (const auto method = method_named(name)) return std::make_unique<LanternContestant>(*method);
-  return std::make_unique<DormandPrinceContestant>();
+std::unique_ptr<Solver> solver_named(const std::string& name) {
+  if (const auto method = method_named(name)) return std::make_unique<LanternSolver>(*method);
+  return std::make_unique<DormandPrinceSolver>();
 }
 
 // Engines are run beside problems only: without a known answer there is nothing to hold them to.
-std::optional<std::string> reason_of(const Contestant& contestant, const Scenario& scenario) {
-  if (contestant.is_peer() && !scenario.problem) return "it has no [problem]";
-  return contestant.cannot(scenario);
+std::optional<std::string> reason_of(const Solver& solver, const Scenario& scenario) {
+  if (solver.is_peer() && !scenario.problem) return "it has no [problem]";
+  return solver.cannot(scenario);
 }
 
-std::vector<LeftOut> left_out_of(const Scenario& scenario, const Contestants& contestants) {
+std::vector<LeftOut> left_out_of(const Scenario& scenario, const Solvers& solvers) {
   std::vector<LeftOut> all;
-  for (const auto& contestant : contestants) {
-    const auto reason = reason_of(*contestant, scenario);
+  for (const auto& solver : solvers) {
+    const auto reason = reason_of(*solver, scenario);
     if (!reason) continue;
     const auto known = std::ranges::find(all, *reason, &LeftOut::reason);
     if (known == all.end())
-      all.push_back({{contestant->name()}, {scenario.name}, *reason});
+      all.push_back({{solver->name()}, {scenario.name}, *reason});
     else
-      known->who.push_back(contestant->name());
+      known->who.push_back(solver->name());
   }
   return all;
 }
@@ -60,14 +60,14 @@ std::string engine_of(const std::string& name) {
 
 std::vector<std::string> unsuited(const std::vector<Scenario>& scenarios,
                                   const std::vector<std::string>& methods, bool with_peers) {
-  Contestants contestants;
-  for (const std::string& name : methods) contestants.push_back(contestant_named(name));
+  Solvers solvers;
+  for (const std::string& name : methods) solvers.push_back(solver_named(name));
   Names missing;
   if (with_peers)
-    for (auto& peer : peers(missing)) contestants.push_back(std::move(peer));
+    for (auto& peer : peers(missing)) solvers.push_back(std::move(peer));
   std::vector<LeftOut> all;
   for (const Scenario& scenario : scenarios)
-    for (LeftOut& one : left_out_of(scenario, contestants)) {
+    for (LeftOut& one : left_out_of(scenario, solvers)) {
       const auto known = std::ranges::find_if(
           all, [&](const LeftOut& l) { return l.who == one.who && l.reason == one.reason; });
       if (known == all.end())
@@ -86,7 +86,7 @@ std::vector<std::string> unsuited(const std::vector<Scenario>& scenarios,
 std::optional<std::string> about_peer(const std::string& name,
                                       const std::vector<Scenario>& scenarios) {
   Names missing;
-  Contestants same = peers(missing);
+  Solvers same = peers(missing);
   std::erase_if(same, [&](const auto& peer) { return engine_of(peer->name()) != engine_of(name); });
   for (const std::string& line : missing)
     if (engine_of(line) == engine_of(name))

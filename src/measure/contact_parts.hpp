@@ -1,4 +1,4 @@
-// What the yardsticks of contact problems share: the scene read as a problem of mechanics.
+// What the metrics of contact problems share: the scene read as a problem of mechanics.
 #pragma once
 
 #include <cmath>

@@ -1,15 +1,15 @@
-// A scenario's own run at a much finer step, as the yardstick of its other runs.
+// A scenario's own run at a much finer step, as the metric of its other runs.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "measure/yardstick.hpp"
+#include "measure/error_metric.hpp"
 
 namespace lantern {
 
 // Keeps every moment.
-class Recorder : public Yardstick {
+class Recorder : public ErrorMetric {
  public:
   explicit Recorder(std::vector<Observation>& record) : record_(record) {}
   void look(const Observation& now) override { record_.push_back(now); }
@@ -21,7 +21,7 @@ class Recorder : public Yardstick {
 
 // "traj": the largest distance from the record over the run, of places against the way that the
 // body that moves most has gone from where it began, of velocities against the largest speed.
-class OwnRun : public Yardstick {
+class OwnRun : public ErrorMetric {
  public:
   explicit OwnRun(std::shared_ptr<const std::vector<Observation>> record);
   void look(const Observation& now) override;

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "measure/dormand_prince_contestant.hpp"
-#include "measure/lantern_contestant.hpp"
+#include "measure/dormand_prince_solver.hpp"
+#include "measure/lantern_solver.hpp"
 #include "measure/peers.hpp"
 
 namespace lantern {
@@ -42,10 +42,10 @@ bool can_be_measured_by(std::string_view name) {
 
 Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
     : options_(std::move(options)), prepared_(options_.scenarios.size()) {
-  if (options_.peers) contestants_ = peers(missing_peers_);
-  peers_ = contestants_.size();
-  adaptive_ = contestants_.size();
-  contestants_.push_back(std::make_unique<DormandPrinceContestant>());
+  if (options_.peers) solvers_ = peers(missing_peers_);
+  peers_ = solvers_.size();
+  adaptive_ = solvers_.size();
+  solvers_.push_back(std::make_unique<DormandPrinceSolver>());
   for (std::size_t i = 0; i < options_.scenarios.size(); ++i) {
     told(options_.scenarios[i]);
     with_place(options_.scenarios[i], [&] { prepare(i); });
@@ -55,24 +55,24 @@ Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told
 void Plan::prepare(std::size_t index) {
   const Scenario& scenario = options_.scenarios[index];
   Prepared& prepared = prepared_[index];
-  prepared.course = Course::of(scenario);
+  prepared.schedule = Schedule::of(scenario);
   prepared.invariants = std::make_unique<Invariants>(scenario);
-  if (scenario.problem) make_yardstick(scenario);  // is it the problem that it claims to be?
-  const std::vector<double> steps = steps_for(scenario, prepared.course);
+  if (scenario.problem) make_error_metric(scenario);  // is it the problem that it claims to be?
+  const std::vector<double> steps = steps_for(scenario, prepared.schedule);
   prepared.finest = steps.front();
-  for (const std::size_t contestant : contestants_for(scenario)) {
+  for (const std::size_t solver : solvers_for(scenario)) {
     const double coarse = steps.front();
-    per_step_[{index, contestant}] =
-        estimated_seconds(scenario, prepared.course, *contestants_[contestant], coarse) /
-        static_cast<double>(prepared.course.steps(coarse));
+    per_step_[{index, solver}] =
+        estimated_seconds(scenario, prepared.schedule, *solvers_[solver], coarse) /
+        static_cast<double>(prepared.schedule.steps(coarse));
     for (const double step : steps) {
-      jobs_.push_back({index, contestant, step});
+      jobs_.push_back({index, solver, step});
       if (!is_too_long(jobs_.back())) prepared.finest = std::min(prepared.finest, step);
     }
   }
 }
 
-std::vector<std::size_t> Plan::contestants_for(const Scenario& scenario) {
+std::vector<std::size_t> Plan::solvers_for(const Scenario& scenario) {
   std::vector<Method> methods;
   bool adaptive = options_.methods.empty();
   for (const std::string& name : options_.methods) {
@@ -83,21 +83,21 @@ std::vector<std::size_t> Plan::contestants_for(const Scenario& scenario) {
   std::vector<std::size_t> chosen;
   for (const Method& method : methods) {
     if (!by_name_.contains(method.name)) {
-      by_name_[method.name] = contestants_.size();
-      contestants_.push_back(std::make_unique<LanternContestant>(method));
+      by_name_[method.name] = solvers_.size();
+      solvers_.push_back(std::make_unique<LanternSolver>(method));
     }
-    const std::size_t contestant = by_name_[method.name];
-    if (!contestants_[contestant]->cannot(scenario)) chosen.push_back(contestant);
+    const std::size_t solver = by_name_[method.name];
+    if (!solvers_[solver]->cannot(scenario)) chosen.push_back(solver);
   }
-  if (adaptive && scenario.problem && !contestants_[adaptive_]->cannot(scenario))
+  if (adaptive && scenario.problem && !solvers_[adaptive_]->cannot(scenario))
     chosen.push_back(adaptive_);
   for (std::size_t peer = 0; peer < peers_; ++peer)
-    if (scenario.problem && !contestants_[peer]->cannot(scenario)) chosen.push_back(peer);
+    if (scenario.problem && !solvers_[peer]->cannot(scenario)) chosen.push_back(peer);
   return chosen;
 }
 
 // The coarsest first.
-std::vector<double> Plan::steps_for(const Scenario& scenario, const Course& course) const {
+std::vector<double> Plan::steps_for(const Scenario& scenario, const Schedule& schedule) const {
   std::vector<double> wished = options_.steps;
   if (wished.empty()) {
     double step = scenario.problem ? scenario.problem->step : scenario.world.time_step;
@@ -107,7 +107,7 @@ std::vector<double> Plan::steps_for(const Scenario& scenario, const Course& cour
   std::ranges::sort(wished, std::greater());
   std::vector<double> steps;
   for (const double step : wished) {
-    const double fitted = course.fitted_step(step);
+    const double fitted = schedule.fitted_step(step);
     if (steps.empty() || fitted < steps.back()) steps.push_back(fitted);
   }
   return steps;
@@ -126,8 +126,8 @@ const TimingRule& Plan::timing(const Job& job) const {
 }
 
 double Plan::seconds(const Job& job) const {
-  return per_step_.at({job.scenario, job.contestant}) *
-         static_cast<double>(prepared_[job.scenario].course.steps(job.step));
+  return per_step_.at({job.scenario, job.solver}) *
+         static_cast<double>(prepared_[job.scenario].schedule.steps(job.step));
 }
 
 double Plan::seconds_with_repeats(const Job& job) const {
@@ -139,13 +139,13 @@ Row Plan::run(const Job& job) {
   Prepared& prepared = prepared_[job.scenario];
   if (!prepared.reference)
     prepared.reference = with_place(scenario(job), [&] {
-      return reference_for(scenario(job), prepared.course, prepared.finest / kFinerReference);
+      return reference_for(scenario(job), prepared.schedule, prepared.finest / kFinerReference);
     });
-  Row row = measure(scenario(job), prepared.course, contestant(job), job.step, *prepared.reference,
+  Row row = measure(scenario(job), prepared.schedule, solver(job), job.step, *prepared.reference,
                     *prepared.invariants, timing(job));
   if (row.timing.repeats > 0)
-    per_step_[{job.scenario, job.contestant}] =
-        row.timing.median / static_cast<double>(prepared.course.steps(job.step));
+    per_step_[{job.scenario, job.solver}] =
+        row.timing.median / static_cast<double>(prepared.schedule.steps(job.step));
   return row;
 }
 

@@ -32,55 +32,55 @@ struct PlanOptions {
 
 struct Job {
   std::size_t scenario = 0;  // of the plan's
-  std::size_t contestant = 0;
+  std::size_t solver = 0;
   double step = 0;  // fitted
 };
 
 class Plan {
  public:
-  // Estimates every run, for which each contestant runs for some milliseconds; `told` is called
+  // Estimates every run, for which each solver runs for some milliseconds; `told` is called
   // before each scenario. Throws ScenarioError, pointing at the [problem] if there is one, for a
   // scenario that cannot be measured and for a step that is not allowed.
   Plan(PlanOptions options, const std::function<void(const Scenario&)>& told);
 
   const std::vector<Job>& jobs() const { return jobs_; }
   // One run of it, estimated: from its first milliseconds, and, once one was run, from the last
-  // run of the same contestant on the same scenario.
+  // run of the same solver on the same scenario.
   double seconds(const Job& job) const;
   double seconds_with_repeats(const Job& job) const;
   bool is_too_long(const Job& job) const { return seconds(job) > longest(); }
   const std::vector<std::string>& missing_peers() const { return missing_peers_; }
 
   const Scenario& scenario(const Job& job) const { return options_.scenarios[job.scenario]; }
-  const Contestant& contestant(const Job& job) const { return *contestants_[job.contestant]; }
+  const Solver& solver(const Job& job) const { return *solvers_[job.solver]; }
 
   // After Stopped it can be run again. Throws ScenarioError if there is nothing to hold it against.
   Row run(const Job& job);
 
  private:
   struct Prepared {
-    Course course;
+    Schedule schedule;
     std::unique_ptr<Invariants> invariants;
     std::optional<Reference> reference;
     double finest = 0;  // step that is run
   };
 
   void prepare(std::size_t scenario);
-  std::vector<std::size_t> contestants_for(const Scenario& scenario);
-  std::vector<double> steps_for(const Scenario& scenario, const Course& course) const;
+  std::vector<std::size_t> solvers_for(const Scenario& scenario);
+  std::vector<double> steps_for(const Scenario& scenario, const Schedule& schedule) const;
   double longest() const;
   const TimingRule& timing(const Job& job) const;
 
   PlanOptions options_;
   std::vector<Prepared> prepared_;
-  std::vector<std::unique_ptr<Contestant>> contestants_;
+  std::vector<std::unique_ptr<Solver>> solvers_;
   std::map<std::string, std::size_t> by_name_;
-  std::size_t peers_ = 0;  // the first contestants
+  std::size_t peers_ = 0;  // the first solvers
   std::size_t adaptive_ = 0;
   std::vector<std::string> missing_peers_;
   std::vector<Job> jobs_;
   std::map<std::pair<std::size_t, std::size_t>, double>
-      per_step_;  // seconds, by scenario, contestant
+      per_step_;  // seconds, by scenario, solver
 };
 
 }  // namespace lantern

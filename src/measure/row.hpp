@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "measure/simulation.hpp"
-#include "measure/yardstick.hpp"
+#include "measure/error_metric.hpp"
 
 namespace lantern {
 
@@ -41,7 +41,7 @@ struct Row {
   std::string variant;  // "plain", "stiff", "extreme"
   std::string file;     // of the scenario, and a hash of its bytes
   std::uint64_t text_hash = 0;
-  std::string method;   // the contestant's name
+  std::string method;   // the solver's name
   std::string version;  // of a peer; empty for Lantern
   double step = 0;      // seconds; of an adaptive method, what its tolerance follows from
   Status status = Status::ok;
@@ -78,7 +78,7 @@ Circumstances here(std::string_view version, std::string_view sources);
 
 struct Measurement {
   Circumstances circumstances;
-  std::vector<Row> rows;  // in order of problems, contestants and steps
+  std::vector<Row> rows;  // in order of problems, solvers and steps
 };
 
 }  // namespace lantern

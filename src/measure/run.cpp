@@ -12,7 +12,7 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
-#include "measure/lantern_contestant.hpp"
+#include "measure/lantern_solver.hpp"
 #include "measure/own_run.hpp"
 #include "measure/timed.hpp"
 
@@ -36,20 +36,20 @@ struct NotANumber {};
 // One run. `look` sees each moment; only the steps between are timed.
 class Runner {
  public:
-  Runner(const Scenario& scenario, const Course& course, const Contestant& contestant, double h)
-      : course_(course),
+  Runner(const Scenario& scenario, const Schedule& schedule, const Solver& solver, double h)
+      : schedule_(schedule),
         h_(h),
-        at_once_(contestant.version().empty() ? kAllSteps : kStepsOfPeers),
-        simulation_(contestant.start(scenario, h)) {}
+        at_once_(solver.version().empty() ? kAllSteps : kStepsOfPeers),
+        simulation_(solver.start(scenario, h)) {}
 
   template <class Look>
-  void run(Yardstick& yardstick, Look&& look) {
+  void run(ErrorMetric& metric, Look&& look) {
     bool begun = false;
-    for (const Leg& leg : course_.legs) {
+    for (const Leg& leg : schedule_.legs) {
       for (const Verb& verb : leg.before) simulation_->act(verb);
-      if (!begun) observe(yardstick, look);
+      if (!begun) observe(metric, look);
       begun = true;
-      const std::uint64_t steps = course_.steps_in_part(leg, h_);
+      const std::uint64_t steps = schedule_.steps_in_part(leg, h_);
       for (std::uint32_t i = 0; i < leg.looks; ++i) {
         const Stopwatch watch;
         for (std::uint64_t left = steps; left > 0;) {
@@ -60,7 +60,7 @@ class Runner {
         }
         seconds_ += watch.seconds();
         steps_ += steps;
-        observe(yardstick, look);
+        observe(metric, look);
       }
     }
   }
@@ -70,17 +70,17 @@ class Runner {
 
  private:
   template <class Look>
-  void observe(Yardstick& yardstick, Look&& look) {
+  void observe(ErrorMetric& metric, Look&& look) {
     now_.time = static_cast<double>(steps_) * h_;
     simulation_->observe(now_.states);
     now_.impacts = simulation_->impacts();
     if (!std::ranges::all_of(now_.states, all_finite)) throw NotANumber();
     look(now_);
-    yardstick.look(now_);
-    yardstick.interfere(now_, *simulation_);
+    metric.look(now_);
+    metric.interfere(now_, *simulation_);
   }
 
-  const Course& course_;
+  const Schedule& schedule_;
   double h_;
   std::uint64_t at_once_;
   std::unique_ptr<Simulation> simulation_;
@@ -90,21 +90,21 @@ class Runner {
 };
 
 // The first run: what it did, and how well.
-void evaluate(const Scenario& scenario, const Course& course, const Contestant& contestant,
+void evaluate(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
               double h, const Reference& reference, const Invariants& invariants, Row& row) {
-  const std::unique_ptr<Yardstick> yardstick = reference.make();
+  const std::unique_ptr<ErrorMetric> metric = reference.make();
   DriftMeter meter(invariants);
   std::optional<Runner> runner;
   try {
-    runner.emplace(scenario, course, contestant, h);
+    runner.emplace(scenario, schedule, solver, h);
   } catch (const Refused& refused) {
     row.status = Status::refused;
     row.reason = refused.what();
     return;
   }
   try {
-    runner->run(*yardstick, [&](const Observation& now) { meter.look(now.states); });
-    row.norms = yardstick->norms();
+    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
+    row.norms = metric->norms();
   } catch (const Refused& refused) {
     row.status = Status::diverged;
     row.reason = refused.what();
@@ -133,24 +133,24 @@ void judge(Row& row) {
 
 }  // namespace
 
-Reference reference_for(const Scenario& scenario, const Course& course, double step) {
+Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step) {
   if (scenario.problem) {
-    make_yardstick(scenario);  // tells at once if it is not that problem
-    return {"closed form", [&scenario] { return make_yardstick(scenario); }};
+    make_error_metric(scenario);  // tells at once if it is not that problem
+    return {"closed form", [&scenario] { return make_error_metric(scenario); }};
   }
   Method method;
   method.name = "as written";
   if (scenario.world.contacts == ContactMethod::none) method = *method_named("runge_kutta_4");
-  const double h = course.fitted_step(step);
+  const double h = schedule.fitted_step(step);
   std::uint64_t looks = 1;
-  for (const Leg& leg : course.legs) looks += leg.looks;
+  for (const Leg& leg : schedule.legs) looks += leg.looks;
   require_memory(looks * scenario.bodies.size() * sizeof(BodyState),
                  fmt::format("the states of {} bodies at {} times", scenario.bodies.size(), looks),
                  "take fewer bodies, or fewer steps that wait or run");
   auto record = std::make_shared<std::vector<Observation>>();
   Recorder recorder(*record);
   try {
-    Runner(scenario, course, LanternContestant(method), h).run(recorder, [](const Observation&) {});
+    Runner(scenario, schedule, LanternSolver(method), h).run(recorder, [](const Observation&) {});
   } catch (const NotANumber&) {
     throw Refused("its own run ends in states that are no numbers");
   }
@@ -158,7 +158,7 @@ Reference reference_for(const Scenario& scenario, const Course& course, double s
           [record] { return std::make_unique<OwnRun>(record); }};
 }
 
-Row measure(const Scenario& scenario, const Course& course, const Contestant& contestant, double h,
+Row measure(const Scenario& scenario, const Schedule& schedule, const Solver& solver, double h,
             const Reference& reference, const Invariants& invariants, const TimingRule& rule) {
   Row row;
   row.problem = scenario.name;
@@ -166,11 +166,11 @@ Row measure(const Scenario& scenario, const Course& course, const Contestant& co
   row.text_hash = scenario.text_hash;
   row.family = scenario.problem ? to_string(scenario.problem->solution) : scenario.name;
   row.variant = scenario.problem ? to_string(scenario.problem->variant) : "own";
-  row.method = contestant.name();
-  row.version = contestant.version();
+  row.method = solver.name();
+  row.version = solver.version();
   row.step = h;
   row.reference = reference.text;
-  evaluate(scenario, course, contestant, h, reference, invariants, row);
+  evaluate(scenario, schedule, solver, h, reference, invariants, row);
   judge(row);
   if (row.status != Status::ok) return row;
   std::vector<double> repeats;
@@ -178,9 +178,9 @@ Row measure(const Scenario& scenario, const Course& course, const Contestant& co
     double spent = 0;
     int runs = 0;
     for (; runs == 0 || spent < rule.least_seconds; ++runs) {
-      Runner runner(scenario, course, contestant, h);
-      const std::unique_ptr<Yardstick> yardstick = reference.make();
-      runner.run(*yardstick, [](const Observation&) {});
+      Runner runner(scenario, schedule, solver, h);
+      const std::unique_ptr<ErrorMetric> metric = reference.make();
+      runner.run(*metric, [](const Observation&) {});
       if (!row.is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row.hash);
       spent += runner.seconds();
     }
@@ -190,13 +190,13 @@ Row measure(const Scenario& scenario, const Course& course, const Contestant& co
   return row;
 }
 
-double estimated_seconds(const Scenario& scenario, const Course& course,
-                         const Contestant& contestant, double h) {
+double estimated_seconds(const Scenario& scenario, const Schedule& schedule,
+                         const Solver& solver, double h) {
   constexpr double kLook = 0.004;  // seconds
-  const auto all = static_cast<double>(course.steps(h));
+  const auto all = static_cast<double>(schedule.steps(h));
   try {
-    const std::unique_ptr<Simulation> simulation = contestant.start(scenario, h);
-    for (const Verb& verb : course.legs.front().before) simulation->act(verb);
+    const std::unique_ptr<Simulation> simulation = solver.start(scenario, h);
+    for (const Verb& verb : schedule.legs.front().before) simulation->act(verb);
     double spent = 0, steps = 0;
     for (double batch = 1; spent < kLook && steps < all; batch *= 2) {
       const double n = std::min(batch, all - steps);

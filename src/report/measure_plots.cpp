@@ -207,7 +207,7 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
   Plot plot;
   std::set<int> orders;
   double least = 1e300, most = 0;
-  for (const ContestantRows& c : by_contestant(problem)) {
+  for (const MethodRows& c : by_method(problem)) {
     PlotSeries series;
     series.name = c.is_peer ? c.method + " " + c.version : method_words(c.method);
     series.look = looks.at(c.method);

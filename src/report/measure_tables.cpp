@@ -37,11 +37,11 @@ std::string line(const std::vector<std::string>& fields) {
   return text + "\n";
 }
 
-std::string name_of(const ContestantRows& c) {
+std::string name_of(const MethodRows& c) {
   return c.is_peer ? c.method + " " + c.version : c.method;
 }
 
-std::string line_for(const ContestantRows& c, const WorkCount& work) {
+std::string line_for(const MethodRows& c, const WorkCount& work) {
   const Row* best = nullptr;
   std::size_t ok = 0, failed[4] = {};
   for (const Row& row : c.rows) {
@@ -96,7 +96,7 @@ std::string to_table(const Measurement& measurement) {
                         problem.family, problem.variant);
     text += line({"method", "runs ok", "order", norm.empty() ? "error" : norm, "at h", "time",
                   short_name(work.name), "failures"});
-    for (const ContestantRows& c : by_contestant(problem)) text += line_for(c, work);
+    for (const MethodRows& c : by_method(problem)) text += line_for(c, work);
     text += folded(sentence(problem));
   }
   return text;

@@ -31,7 +31,7 @@ Plot step_plot(const ProblemRows& problem, const Cost& value,
                const std::map<std::string, int>& looks) {
   Plot plot;
   const bool whole = has_whole_errors(problem);
-  for (const ContestantRows& c : by_contestant(problem)) {
+  for (const MethodRows& c : by_method(problem)) {
     PlotSeries series;
     series.name = c.is_peer ? c.method + " " + c.version : method_words(c.method);
     series.look = looks.at(c.method);

@@ -16,7 +16,7 @@ void put_into_bands(Plot& plot);
 
 // A value of each run against its step: its seconds, say. Nothing is left out, what is not finite
 // goes to the upper edge. Where errors are whole numbers, wrong runs are open marks. `looks` must
-// hold every contestant (looks_of).
+// hold every method (looks_of).
 Plot step_plot(const ProblemRows& problem, const Cost& value,
                const std::map<std::string, int>& looks);
 

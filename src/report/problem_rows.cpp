@@ -80,18 +80,18 @@ std::vector<ProblemRows> by_problem(std::span<const Row> rows) {
   return problems;
 }
 
-std::vector<ContestantRows> by_contestant(const ProblemRows& problem) {
-  std::vector<ContestantRows> all;
+std::vector<MethodRows> by_method(const ProblemRows& problem) {
+  std::vector<MethodRows> all;
   for (const Row& row : problem.rows) {
     auto found = std::find_if(all.begin(), all.end(),
-                              [&](const ContestantRows& c) { return c.method == row.method; });
+                              [&](const MethodRows& c) { return c.method == row.method; });
     if (found == all.end()) {
       all.push_back({row.method, row.is_peer(), row.version, {}});
       found = all.end() - 1;
     }
     found->rows.push_back(row);
   }
-  for (ContestantRows& c : all)
+  for (MethodRows& c : all)
     std::stable_sort(c.rows.begin(), c.rows.end(),
                      [](const Row& a, const Row& b) { return a.step > b.step; });
   return all;

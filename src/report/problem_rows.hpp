@@ -21,14 +21,14 @@ struct ProblemRows {
 };
 std::vector<ProblemRows> by_problem(std::span<const Row> rows);
 
-// The same of one contestant, the largest step first.
-struct ContestantRows {
+// The same of one method, the largest step first.
+struct MethodRows {
   std::string method;
   bool is_peer = false;
   std::string version;
   std::vector<Row> rows;
 };
-std::vector<ContestantRows> by_contestant(const ProblemRows& problem);
+std::vector<MethodRows> by_method(const ProblemRows& problem);
 
 // "explicit Euler" of "explicit_euler", "soft contacts (16 sub-steps)" of "soft:16"; a peer's name
 // stays as it is.
@@ -44,7 +44,7 @@ std::string main_norm(const ProblemRows& problem);
 // between. False if no run has an error.
 bool has_whole_errors(const ProblemRows& problem);
 
-// A look for each contestant: the known methods have always the same, others in order of their
+// A look for each method: the known methods have always the same, others in order of their
 // first row, peers from kFirstPeerLook on.
 std::map<std::string, int> looks_of(std::span<const Row> rows);
 

@@ -51,7 +51,7 @@ class Teller {
   Teller(const ProblemRows& problem, bool brief)
       : work_(work_count(problem)), brief_(brief), counts_wrong_(has_whole_errors(problem)) {
     bound_ = error_bound(problem);
-    for (const ContestantRows& c : by_contestant(problem)) {
+    for (const MethodRows& c : by_method(problem)) {
       if (!c.is_peer) ++methods_;
       bool any = false;
       for (const Row& row : c.rows) any = any || (bound_ && meets(row, *bound_));

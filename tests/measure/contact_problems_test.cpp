@@ -44,7 +44,7 @@ TEST(ContactProblems, RefuseWhatIsAnother) {
   for (const Case& c : cases) {
     SCOPED_TRACE(std::string(c.file) + ", " + c.says);
     try {
-      contact_yardstick(problem(c.file, c.changes));
+      contact_metric(problem(c.file, c.changes));
       ADD_FAILURE() << "it was taken";
     } catch (const Refused& refused) {
       EXPECT_NE(std::string(refused.what()).find(c.says), std::string::npos) << refused.what();
@@ -54,7 +54,7 @@ TEST(ContactProblems, RefuseWhatIsAnother) {
 }
 
 TEST(ContactProblems, LeaveOtherProblemsToOthers) {
-  EXPECT_EQ(contact_yardstick(problem("oscillator")), nullptr);
+  EXPECT_EQ(contact_metric(problem("oscillator")), nullptr);
 }
 
 struct Bar {

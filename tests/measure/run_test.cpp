@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
-#include "measure/lantern_contestant.hpp"
+#include "measure/lantern_solver.hpp"
 #include "measure/plan.hpp"
 #include "measure/scenes.hpp"
 

@@ -1,4 +1,4 @@
-// Each yardstick is held against motion made by hand: right, it must say zero; wrong, by how much.
+// Each metric is held against motion made by hand: right, it must say zero; wrong, by how much.
 #include <cmath>
 #include <limits>
 
@@ -132,12 +132,12 @@ class Noting : public Simulation {
 
 TEST(Billiards, AreTurnedRoundOnceInTheMiddle) {
   const Scenario scenario = problem("billiards");
-  const auto yardstick = contact_yardstick(scenario);
+  const auto metric = contact_metric(scenario);
   Noting simulation;
   for (std::uint32_t i = 0; i <= scenario.problem->samples; ++i) {
     const Observation now = at_start(scenario);
-    yardstick->look(now);
-    yardstick->interfere(now, simulation);
+    metric->look(now);
+    metric->interfere(now, simulation);
     EXPECT_EQ(simulation.moves.size(), i < 10 ? 0 : scenario.bodies.size()) << "after look " << i;
   }
   EXPECT_EQ(simulation.moves[0].velocity.value(), -scenario.bodies[0].velocity);

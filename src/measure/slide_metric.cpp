@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
 
-class Slide : public Yardstick {
+class Slide : public ErrorMetric {
  public:
   explicit Slide(const Scenario& scenario) : ground_(ground_of(scenario)) {
     require_no_links(scenario);
@@ -81,7 +81,7 @@ class Slide : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> slide_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> slide_metric(const Scenario& scenario) {
   return std::make_unique<Slide>(scenario);
 }
 

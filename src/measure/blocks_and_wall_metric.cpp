@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -26,7 +26,7 @@ struct Point {
 Real turning(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
 Real dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
 
-class BlocksAndWall : public Yardstick {
+class BlocksAndWall : public ErrorMetric {
  public:
   explicit BlocksAndWall(const Scenario& scenario) : wall_(ground_of(scenario)) {
     require_no_links(scenario);
@@ -123,7 +123,7 @@ class BlocksAndWall : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> blocks_and_wall_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> blocks_and_wall_metric(const Scenario& scenario) {
   return std::make_unique<BlocksAndWall>(scenario);
 }
 

@@ -1,4 +1,4 @@
-#include "measure/yardstick.hpp"
+#include "measure/error_metric.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,32 +8,32 @@
 
 #include "base/check.hpp"
 #include "base/error.hpp"
-#include "measure/yardsticks_contact.hpp"
-#include "measure/yardsticks_smooth.hpp"
+#include "measure/contact_metrics.hpp"
+#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 
-std::unique_ptr<Yardstick> make_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario) {
   if (!scenario.problem) throw Refused("the scenario has no [problem]");
   switch (scenario.problem->solution) {
     case Solution::projectile:
-      return projectile_yardstick(scenario);
+      return projectile_metric(scenario);
     case Solution::oscillator:
-      return oscillator_yardstick(scenario);
+      return oscillator_metric(scenario);
     case Solution::chain:
-      return chain_yardstick(scenario);
+      return chain_metric(scenario);
     case Solution::kepler:
-      return kepler_yardstick(scenario);
+      return kepler_metric(scenario);
     case Solution::pendulum:
-      return pendulum_yardstick(scenario);
+      return pendulum_metric(scenario);
     case Solution::free_top:
-      return free_top_yardstick(scenario);
+      return free_top_metric(scenario);
     default:
-      return contact_yardstick(scenario);
+      return contact_metric(scenario);
   }
 }
 
-void Trajectory::look(const Observation& now) {
+void TrajectoryMetric::look(const Observation& now) {
   exact_.clear();
   exact(now.time, exact_);
   for (const Exact& e : exact_) {

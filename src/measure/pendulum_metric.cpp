@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "measure/exact_pendulum.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/yardsticks_smooth.hpp"
+#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -23,19 +23,19 @@ struct Pendulum {
   PendulumState start;
 };
 
-class PendulumYardstick : public Trajectory {
+class PendulumMetric : public TrajectoryMetric {
  public:
-  explicit PendulumYardstick(const Pendulum& p)
-      : Trajectory(static_cast<double>(p.length), static_cast<double>(p.length * p.omega)), p_(p) {}
+  explicit PendulumMetric(const Pendulum& p)
+      : TrajectoryMetric(static_cast<double>(p.length), static_cast<double>(p.length * p.omega)), p_(p) {}
 
   void look(const Observation& now) override {
-    Trajectory::look(now);
+    TrajectoryMetric::look(now);
     const LongVec3 rod = LongVec3(now.states[p_.body].position) - p_.anchor;
     const auto off = static_cast<double>(std::abs(glm::length(rod) - p_.length) / p_.length);
     if (off > drift_) drift_ = off;
   }
   std::vector<Norm> norms() const override {
-    std::vector<Norm> all = Trajectory::norms();
+    std::vector<Norm> all = TrajectoryMetric::norms();
     all.push_back({"joint", drift_});
     return all;
   }
@@ -56,7 +56,7 @@ class PendulumYardstick : public Trajectory {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> pendulum_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> pendulum_metric(const Scenario& scenario) {
   Pendulum p;
   p.body = the_body(scenario, "pendulum");
   require_links(scenario, 1, "pendulum");
@@ -87,7 +87,7 @@ std::unique_ptr<Yardstick> pendulum_yardstick(const Scenario& scenario) {
         1e-12L * glm::length(velocity)))
     throw Refused("pendulum: its velocity must be across the rod, in the plane of gravity");
   exact_pendulum(p.omega, p.start, 0);  // refuses
-  return std::make_unique<PendulumYardstick>(p);
+  return std::make_unique<PendulumMetric>(p);
 }
 
 }  // namespace lantern

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
 
-class Billiards : public Yardstick {
+class Billiards : public ErrorMetric {
  public:
   explicit Billiards(const Scenario& scenario)
       : half_(scenario.problem->samples / 2), moving_(moving_bodies(scenario)) {
@@ -92,7 +92,7 @@ class Billiards : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> billiards_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> billiards_metric(const Scenario& scenario) {
   return std::make_unique<Billiards>(scenario);
 }
 

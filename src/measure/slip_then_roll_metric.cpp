@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
 
-class SlipThenRoll : public Yardstick {
+class SlipThenRoll : public ErrorMetric {
  public:
   explicit SlipThenRoll(const Scenario& scenario)
       : ground_(ground_of(scenario)), k_(roundness(scenario)) {
@@ -82,7 +82,7 @@ class SlipThenRoll : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> slip_then_roll_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> slip_then_roll_metric(const Scenario& scenario) {
   return std::make_unique<SlipThenRoll>(scenario);
 }
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -27,7 +27,7 @@ struct Fall {
   bool first = false;
 };
 
-class BouncingBall : public Yardstick {
+class BouncingBall : public ErrorMetric {
  public:
   explicit BouncingBall(const Scenario& scenario) : ground_(ground_of(scenario)) {
     require_no_links(scenario);
@@ -125,7 +125,7 @@ class BouncingBall : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> bouncing_ball_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> bouncing_ball_metric(const Scenario& scenario) {
   return std::make_unique<BouncingBall>(scenario);
 }
 

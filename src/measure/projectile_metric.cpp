@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "measure/exact_projectile.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/yardsticks_smooth.hpp"
+#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -32,10 +32,10 @@ struct Flight {
   }
 };
 
-class ProjectileYardstick : public Trajectory {
+class ProjectileMetric : public TrajectoryMetric {
  public:
-  ProjectileYardstick(Flight flight, double length, double speed)
-      : Trajectory(length, speed), flight_(std::move(flight)) {}
+  ProjectileMetric(Flight flight, double length, double speed)
+      : TrajectoryMetric(length, speed), flight_(std::move(flight)) {}
 
  protected:
   void exact(double time, std::vector<Exact>& states) const override {
@@ -53,7 +53,7 @@ class ProjectileYardstick : public Trajectory {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> projectile_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> projectile_metric(const Scenario& scenario) {
   require_links(scenario, 0, "projectile");
   Flight flight;
   flight.gravity = scenario.world.gravity;
@@ -75,7 +75,7 @@ std::unique_ptr<Yardstick> projectile_yardstick(const Scenario& scenario) {
     }
   }
   if (!(length > 0)) throw Refused("projectile: nothing moves");
-  return std::make_unique<ProjectileYardstick>(std::move(flight), static_cast<double>(length),
+  return std::make_unique<ProjectileMetric>(std::move(flight), static_cast<double>(length),
                                                static_cast<double>(speed));
 }
 

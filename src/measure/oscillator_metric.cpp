@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "measure/exact_oscillator.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/yardsticks_smooth.hpp"
+#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -16,10 +16,10 @@ struct Oscillator {
   LongVec3 velocity{0.0L};
 };
 
-class OscillatorYardstick : public Trajectory {
+class OscillatorMetric : public TrajectoryMetric {
  public:
-  OscillatorYardstick(const Oscillator& oscillator, double length, double speed)
-      : Trajectory(length, speed), o_(oscillator) {}
+  OscillatorMetric(const Oscillator& oscillator, double length, double speed)
+      : TrajectoryMetric(length, speed), o_(oscillator) {}
 
  protected:
   void exact(double time, std::vector<Exact>& states) const override {
@@ -39,7 +39,7 @@ class OscillatorYardstick : public Trajectory {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> oscillator_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> oscillator_metric(const Scenario& scenario) {
   const std::size_t body = the_body(scenario, "oscillator");
   require_links(scenario, 1, "oscillator");
   const LinkSpec& spring = scenario.links.front();
@@ -70,7 +70,7 @@ std::unique_ptr<Yardstick> oscillator_yardstick(const Scenario& scenario) {
       (between == LongVec3(0.0L) || !(amplitude < glm::dot(o.rest - tie.anchor, direction))))
     throw Refused("oscillator: it would pass through the spring's other end");
   if (!(amplitude > 0)) throw Refused("oscillator: nothing moves");
-  return std::make_unique<OscillatorYardstick>(o, static_cast<double>(amplitude),
+  return std::make_unique<OscillatorMetric>(o, static_cast<double>(amplitude),
                                                static_cast<double>(amplitude * omega));
 }
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -22,7 +22,7 @@ struct Ball {
   Real mass = 0, place = 0, speed = 0, reach = 0;
 };
 
-class Collisions : public Yardstick {
+class Collisions : public ErrorMetric {
  public:
   explicit Collisions(const Scenario& scenario) {
     require_no_links(scenario);
@@ -137,7 +137,7 @@ class Collisions : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> collisions_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> collisions_metric(const Scenario& scenario) {
   return std::make_unique<Collisions>(scenario);
 }
 

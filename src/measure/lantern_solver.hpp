@@ -6,9 +6,9 @@
 
 namespace lantern {
 
-class LanternContestant : public Contestant {
+class LanternSolver : public Solver {
  public:
-  explicit LanternContestant(Method method) : method_(std::move(method)) {}
+  explicit LanternSolver(Method method) : method_(std::move(method)) {}
   std::string name() const override { return method_.name; }
   std::string version() const override { return {}; }
   // What the method would not change it leaves to others: no contacts, no method of contacts.

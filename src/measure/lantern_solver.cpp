@@ -1,4 +1,4 @@
-#include "measure/lantern_contestant.hpp"
+#include "measure/lantern_solver.hpp"
 
 #include "scenario/obey.hpp"
 #include "scenario/script_walk.hpp"
@@ -59,14 +59,14 @@ std::vector<Method> named(std::initializer_list<std::string_view> names) {
 
 }  // namespace
 
-std::optional<std::string> LanternContestant::cannot(const Scenario& scenario) const {
+std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
   if (method_.contacts && scenario.world.contacts == ContactMethod::none)
     return "its bodies do not collide";
   if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
   return std::nullopt;
 }
 
-std::unique_ptr<Simulation> LanternContestant::start(const Scenario& scenario, double h) const {
+std::unique_ptr<Simulation> LanternSolver::start(const Scenario& scenario, double h) const {
   return std::make_unique<WorldSimulation>(moved_by(scenario, method_, h));
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -54,7 +54,7 @@ std::vector<std::size_t> lower_ends(const std::vector<LinkSpec>& links) {
   return bodies;
 }
 
-class HangingChain : public Yardstick {
+class HangingChain : public ErrorMetric {
  public:
   explicit HangingChain(const Scenario& scenario)
       : links_(from_above(scenario)), bodies_(lower_ends(links_)), burdens_(scenario, bodies_) {
@@ -122,7 +122,7 @@ class HangingChain : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> hanging_chain_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> hanging_chain_metric(const Scenario& scenario) {
   return std::make_unique<HangingChain>(scenario);
 }
 

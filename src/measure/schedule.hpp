@@ -16,14 +16,14 @@ struct Leg {
   std::uint32_t looks = 0;  // 0: no time passes
 };
 
-struct Course {
+struct Schedule {
   std::vector<Leg> legs;
   double seconds = 0;  // of all legs
 
   // Of a problem its seconds and samples. Of any other scenario its script; a step that waits lasts
   // as long as it does in the file's own run. Throws Refused if no time passes in it, or if a step
   // waits for what does not happen.
-  static Course of(const Scenario& scenario);
+  static Schedule of(const Scenario& scenario);
 
   // The step nearest to `wished` that divides every part of every leg. Throws Refused, saying why,
   // for a step that is not above 0 and finite, that is too small to move the clock, or that a

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
 
-class Incline : public Yardstick {
+class Incline : public ErrorMetric {
  public:
   explicit Incline(const Scenario& scenario)
       : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)), k_(roundness(scenario)) {
@@ -86,7 +86,7 @@ class Incline : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> incline_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> incline_metric(const Scenario& scenario) {
   return std::make_unique<Incline>(scenario);
 }
 

@@ -1,4 +1,4 @@
-// Dormand and Prince's method as a contestant: the reference for smooth problems, at its price.
+// Dormand and Prince's method as a solver: the reference for smooth problems, at its price.
 #pragma once
 
 #include "measure/simulation.hpp"
@@ -8,7 +8,7 @@ namespace lantern {
 // For scenes of points: bodies that neither collide nor are turned, without rods. It chooses its
 // steps itself; what it is given as a step says how exact it is to be: 1e-3 of the scene's size and
 // speed at the problem's largest step, and 32 times better for each halving, down to 1e-14.
-class DormandPrinceContestant : public Contestant {
+class DormandPrinceSolver : public Solver {
  public:
   std::string name() const override { return "dormand_prince"; }
   std::string version() const override { return {}; }

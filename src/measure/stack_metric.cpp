@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -18,7 +18,7 @@ std::vector<std::size_t> from_below(const Scenario& scenario, const Vec<3>& up) 
   return bodies;
 }
 
-class Stack : public Yardstick {
+class Stack : public ErrorMetric {
  public:
   explicit Stack(const Scenario& scenario)
       : ground_(ground_of(scenario)),
@@ -72,7 +72,7 @@ class Stack : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> stack_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> stack_metric(const Scenario& scenario) {
   return std::make_unique<Stack>(scenario);
 }
 

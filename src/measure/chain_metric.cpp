@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "measure/exact_chain.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/yardsticks_smooth.hpp"
+#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -19,10 +19,10 @@ struct Line {
   LongVec3 from{0.0L}, direction{0.0L};
 };
 
-class ChainYardstick : public Trajectory {
+class ChainMetric : public TrajectoryMetric {
  public:
-  ChainYardstick(const Line& row, ChainMotion motion, double length, double speed)
-      : Trajectory(length, speed), row_(row), motion_(std::move(motion)) {}
+  ChainMetric(const Line& row, ChainMotion motion, double length, double speed)
+      : TrajectoryMetric(length, speed), row_(row), motion_(std::move(motion)) {}
 
  protected:
   void exact(double time, std::vector<Exact>& states) const override {
@@ -128,7 +128,7 @@ void require_no_passing(const Line& row) {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> chain_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> chain_metric(const Scenario& scenario) {
   if (scenario.world.gravity != Vec<3>(0.0)) throw Refused("chain: there is no gravity");
   std::vector<Bond> bonds = read_bonds(scenario);
   Line row;
@@ -151,7 +151,7 @@ std::unique_ptr<Yardstick> chain_yardstick(const Scenario& scenario) {
     }
   }
   if (!(length > 0 && speed > 0)) throw Refused("chain: nothing moves");
-  return std::make_unique<ChainYardstick>(row, std::move(motion), static_cast<double>(length),
+  return std::make_unique<ChainMetric>(row, std::move(motion), static_cast<double>(length),
                                           static_cast<double>(speed));
 }
 

@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "measure/exact_kepler.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/yardsticks_smooth.hpp"
+#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -21,10 +21,10 @@ struct Couple {
   Orbit start;  // of b from a
 };
 
-class KeplerYardstick : public Trajectory {
+class KeplerMetric : public TrajectoryMetric {
  public:
-  KeplerYardstick(const Couple& couple, double length, double speed)
-      : Trajectory(length, speed), c_(couple) {}
+  KeplerMetric(const Couple& couple, double length, double speed)
+      : TrajectoryMetric(length, speed), c_(couple) {}
 
  protected:
   void exact(double time, std::vector<Exact>& states) const override {
@@ -44,7 +44,7 @@ class KeplerYardstick : public Trajectory {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> kepler_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> kepler_metric(const Scenario& scenario) {
   require_links(scenario, 0, "kepler");
   if (scenario.world.gravity != Vec<3>(0.0)) throw Refused("kepler: there is no other gravity");
   if (!(scenario.world.gravitation > 0)) throw Refused("kepler: [world] needs a `gravitation`");
@@ -73,7 +73,7 @@ std::unique_ptr<Yardstick> kepler_yardstick(const Scenario& scenario) {
   c.drift = velocity_a + c.share_a * c.start.velocity;
   exact_orbit(c.mu, c.start, 0);  // refuses
   const long double axis = half_axis(c.mu, c.start);
-  return std::make_unique<KeplerYardstick>(c, static_cast<double>(axis),
+  return std::make_unique<KeplerMetric>(c, static_cast<double>(axis),
                                            static_cast<double>(std::sqrt(c.mu / axis)));
 }
 

@@ -1,4 +1,4 @@
-#include "measure/course.hpp"
+#include "measure/schedule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,20 +46,20 @@ class FileRun {
   std::unique_ptr<Engine> engine_;
 };
 
-Course script_of(const Scenario& scenario) {
+Schedule script_of(const Scenario& scenario) {
   const double h = scenario.world.time_step;
   const bool waits = std::ranges::any_of(
       scenario.steps, [](const Step& s) { return std::holds_alternative<Wait>(s.verb); });
   std::optional<FileRun> own;
   if (waits) own.emplace(scenario);
-  Course course;
+  Schedule schedule;
   Leg leg;
   const auto pass = [&](std::uint64_t steps) {
     if (steps == 0) return;
     leg.seconds = static_cast<double>(steps) * h;
     leg.looks = parts_of(steps);
-    course.seconds += leg.seconds;
-    course.legs.push_back(std::move(leg));
+    schedule.seconds += leg.seconds;
+    schedule.legs.push_back(std::move(leg));
     leg = {};
   };
   for (const Step& step : scenario.steps) try {
@@ -78,29 +78,29 @@ Course script_of(const Scenario& scenario) {
     } catch (const Refused& refused) {
       throw ScenarioError(diagnose(scenario, step.where, refused.what()));
     }
-  return course;
+  return schedule;
 }
 
 double part_of(const Leg& leg) { return leg.seconds / leg.looks; }
 
 }  // namespace
 
-Course Course::of(const Scenario& scenario) {
+Schedule Schedule::of(const Scenario& scenario) {
   if (scenario.bodies.empty()) throw Refused("it has no bodies: there is nothing to measure");
-  Course course;
+  Schedule schedule;
   if (const auto& problem = scenario.problem) {
-    course.seconds = problem->seconds;
-    course.legs.push_back({{}, problem->seconds, problem->samples});
+    schedule.seconds = problem->seconds;
+    schedule.legs.push_back({{}, problem->seconds, problem->samples});
   } else {
-    course = script_of(scenario);
+    schedule = script_of(scenario);
   }
-  if (course.legs.empty())
+  if (schedule.legs.empty())
     throw Refused(
         "no time passes in it: there is nothing to measure; a step with do = \"run\" would");
-  return course;
+  return schedule;
 }
 
-double Course::fitted_step(double wished) const {
+double Schedule::fitted_step(double wished) const {
   if (!std::isfinite(wished) || wished <= 0)
     throw Refused(fmt::format("a time step of {} s is not allowed; it must be above 0", wished));
   if (seconds + wished == seconds || seconds / wished > 0x1p53)
@@ -121,11 +121,11 @@ double Course::fitted_step(double wished) const {
   return wished;
 }
 
-std::uint64_t Course::steps_in_part(const Leg& leg, double h) const {
+std::uint64_t Schedule::steps_in_part(const Leg& leg, double h) const {
   return static_cast<std::uint64_t>(std::llround(part_of(leg) / h));
 }
 
-std::uint64_t Course::steps(double h) const {
+std::uint64_t Schedule::steps(double h) const {
   std::uint64_t n = 0;
   for (const Leg& leg : legs) n += leg.looks * steps_in_part(leg, h);
   return n;

@@ -1,4 +1,4 @@
-// The yardsticks of smooth motion: what they read from a scenario, and what they refuse.
+// The metrics of smooth motion: what they read from a scenario, and what they refuse.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "measure/problems.hpp"
-#include "measure/yardstick.hpp"
+#include "measure/error_metric.hpp"
 
 namespace lantern {
 namespace {
@@ -38,7 +38,7 @@ std::string ball(const std::string& more) {
 
 std::string refusal(const Scenario& scenario) {
   try {
-    make_yardstick(scenario);
+    make_error_metric(scenario);
   } catch (const Refused& refused) {
     return refused.what();
   }
@@ -58,12 +58,12 @@ BodyState at(Vec<3> position, Vec<3> velocity) {
 }
 
 double error_at(const Scenario& scenario, double time, const std::vector<BodyState>& states) {
-  const auto yardstick = make_yardstick(scenario);
-  yardstick->look({time, states, 0});
-  return yardstick->norms().front().value;
+  const auto metric = make_error_metric(scenario);
+  metric->look({time, states, 0});
+  return metric->norms().front().value;
 }
 
-TEST(SmoothYardsticks, EveryProblemFileIsItsProblemAndStartsWithoutError) {
+TEST(SmoothMetrics, EveryProblemFileIsItsProblemAndStartsWithoutError) {
   int found = 0;
   for (const std::string_view name : problem_names()) {
     const Scenario scenario = known_problem(name);
@@ -79,7 +79,7 @@ TEST(SmoothYardsticks, EveryProblemFileIsItsProblemAndStartsWithoutError) {
   EXPECT_GE(found, 18);
 }
 
-TEST(SmoothYardsticks, ReadMassesSpringsAndGravity) {
+TEST(SmoothMetrics, ReadMassesSpringsAndGravity) {
   // omega = sqrt(8 / 2) = 2, about a place that is lower by 10 * 2 / 8.
   const Scenario hung = scene("oscillator", "gravity = [0, -10]",
                               ball("position = [0, -3.5]") +
@@ -99,24 +99,24 @@ TEST(SmoothYardsticks, ReadMassesSpringsAndGravity) {
             1e-15);
 }
 
-TEST(SmoothYardsticks, TheWorstMomentCounts) {
+TEST(SmoothMetrics, TheWorstMomentCounts) {
   const Scenario fall = scene("projectile", "gravity = [0, -10]", ball("position = [0, 0]"));
-  const auto yardstick = make_yardstick(fall);
-  yardstick->look({0, {at({0.5, 0, 0}, {0, 0, 0})}, 0});
-  yardstick->look({0, {at({0, 0, 0}, {0, 0, 0})}, 0});
-  EXPECT_NEAR(yardstick->norms().front().value, 0.1, 1e-15) << "it falls by 5 in the second";
+  const auto metric = make_error_metric(fall);
+  metric->look({0, {at({0.5, 0, 0}, {0, 0, 0})}, 0});
+  metric->look({0, {at({0, 0, 0}, {0, 0, 0})}, 0});
+  EXPECT_NEAR(metric->norms().front().value, 0.1, 1e-15) << "it falls by 5 in the second";
 }
 
-TEST(SmoothYardsticks, WhatIsNotANumberStaysSo) {
+TEST(SmoothMetrics, WhatIsNotANumberStaysSo) {
   const Scenario fall = scene("projectile", "gravity = [0, -10]", ball("position = [0, 0]"));
-  const auto yardstick = make_yardstick(fall);
+  const auto metric = make_error_metric(fall);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  yardstick->look({0, {at({nan, 0, 0}, {0, 0, 0})}, 0});
-  yardstick->look({0, {at({0, 0, 0}, {0, 0, 0})}, 0});
-  EXPECT_TRUE(std::isnan(yardstick->norms().front().value));
+  metric->look({0, {at({nan, 0, 0}, {0, 0, 0})}, 0});
+  metric->look({0, {at({0, 0, 0}, {0, 0, 0})}, 0});
+  EXPECT_TRUE(std::isnan(metric->norms().front().value));
 }
 
-TEST(SmoothYardsticks, RefuseWhatIsNotTheProblem) {
+TEST(SmoothMetrics, RefuseWhatIsNotTheProblem) {
   const std::string second = "[[body]]\nname = \"other\"\nradius = 0.1\nposition = [2, 0]\n";
   struct Case {
     const char* what;
@@ -163,11 +163,11 @@ TEST(SmoothYardsticks, RefuseWhatIsNotTheProblem) {
   }
 }
 
-TEST(SmoothYardsticks, TheRodsDriftIsANormOfItsOwn) {
+TEST(SmoothMetrics, TheRodsDriftIsANormOfItsOwn) {
   const Scenario swing = scene("pendulum", "gravity = [0, -10]", kPulled + kRod);
-  const auto yardstick = make_yardstick(swing);
-  yardstick->look({0, {at({1.001, 0, 0}, {0, 0, 0})}, 0});
-  const std::vector<Norm> norms = yardstick->norms();
+  const auto metric = make_error_metric(swing);
+  metric->look({0, {at({1.001, 0, 0}, {0, 0, 0})}, 0});
+  const std::vector<Norm> norms = metric->norms();
   ASSERT_EQ(norms.size(), 2u);
   EXPECT_EQ(norms[1].name, "joint");
   EXPECT_NEAR(norms[1].value, 1e-3, 1e-15);

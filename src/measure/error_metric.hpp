@@ -1,4 +1,4 @@
-// What a run is measured by. A problem with a known answer has a yardstick that knows it; any other
+// What a run is measured by. A problem with a known answer has a metric that knows it; any other
 // scenario is held against its own run at a much finer step.
 #pragma once
 
@@ -18,15 +18,15 @@ struct Observation {
   std::uint64_t impacts = 0;  // so far
 };
 
-// A named error. What it is relative to is said where the yardstick is made.
+// A named error. What it is relative to is said where the metric is made.
 struct Norm {
   std::string name;  // "traj", "att", "times", "apex", "hits", "distance", ...
   double value = 0;
 };
 
-class Yardstick {
+class ErrorMetric {
  public:
-  virtual ~Yardstick() = default;
+  virtual ~ErrorMetric() = default;
   // Called for the start and then once for each of the problem's samples, in order of time.
   virtual void look(const Observation& now) = 0;
   // After each look: a problem may have something done to its bodies at a moment.
@@ -37,14 +37,14 @@ class Yardstick {
 
 // Of a scenario with a [problem]. One a run. Throws Refused, naming what is wrong, if the scenario
 // is not such a problem: two springs where the oscillator has one, say.
-std::unique_ptr<Yardstick> make_yardstick(const Scenario& scenario);
+std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario);
 
-// A yardstick for problems whose bodies are known at every time. The norm "traj" is the largest
+// A metric for problems whose bodies are known at every time. The norm "traj" is the largest
 // distance from the exact state over the run, in phase space: |dx| / length and |dv| / speed,
 // whichever is larger, over the bodies that `exact` gives.
-class Trajectory : public Yardstick {
+class TrajectoryMetric : public ErrorMetric {
  public:
-  Trajectory(double length, double speed) : length_(length), speed_(speed) {}
+  TrajectoryMetric(double length, double speed) : length_(length), speed_(speed) {}
   void look(const Observation& now) override;
   std::vector<Norm> norms() const override { return {{"traj", worst_}}; }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/yardsticks_contact.hpp"
+#include "measure/contact_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 constexpr double kTopples = 0.1;  // radians: one that leans so far does not come back
 constexpr double kIsTold = 0.2;   // radians that it must have turned by the end of the problem
 
-class Topple : public Yardstick {
+class Topple : public ErrorMetric {
  public:
   explicit Topple(const Scenario& scenario)
       : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)) {
@@ -89,7 +89,7 @@ class Topple : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> topple_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> topple_metric(const Scenario& scenario) {
   return std::make_unique<Topple>(scenario);
 }
 

@@ -1,4 +1,4 @@
-#include "measure/dormand_prince_contestant.hpp"
+#include "measure/dormand_prince_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +137,7 @@ class PointSimulation : public Simulation {
 
 }  // namespace
 
-std::optional<std::string> DormandPrinceContestant::cannot(const Scenario& scenario) const {
+std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario) const {
   if (!scenario.problem) return "it has no [problem]";
   if (scenario.world.contacts != ContactMethod::none) return "its bodies collide";
   bool moves = false;
@@ -156,7 +156,7 @@ std::optional<std::string> DormandPrinceContestant::cannot(const Scenario& scena
   return std::nullopt;
 }
 
-std::unique_ptr<Simulation> DormandPrinceContestant::start(const Scenario& scenario,
+std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario,
                                                            double h) const {
   if (const auto reason = cannot(scenario))
     throw Refused(fmt::format("dormand_prince: {}", *reason));

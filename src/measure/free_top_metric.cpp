@@ -4,15 +4,15 @@
 #include "base/error.hpp"
 #include "measure/exact_free_top.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/yardsticks_smooth.hpp"
+#include "measure/smooth_metrics.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern {
 namespace {
 
-class FreeTopYardstick : public Yardstick {
+class FreeTopMetric : public ErrorMetric {
  public:
-  FreeTopYardstick(std::size_t body, const FreeTop& top) : body_(body), top_(top) {}
+  FreeTopMetric(std::size_t body, const FreeTop& top) : body_(body), top_(top) {}
 
   void look(const Observation& now) override {
     const glm::dquat q = now.states[body_].orientation.q;
@@ -33,7 +33,7 @@ class FreeTopYardstick : public Yardstick {
 
 }  // namespace
 
-std::unique_ptr<Yardstick> free_top_yardstick(const Scenario& scenario) {
+std::unique_ptr<ErrorMetric> free_top_metric(const Scenario& scenario) {
   const std::size_t i = the_body(scenario, "free_top");
   require_links(scenario, 0, "free_top");
   const BodySpec& body = scenario.bodies[i];
@@ -53,7 +53,7 @@ std::unique_ptr<Yardstick> free_top_yardstick(const Scenario& scenario) {
     inverse[axis] = 1 / mass.inertia[axis];  // in double, as the engine has it
     momentum[axis] = spin[axis] / inverse[axis];
   }
-  return std::make_unique<FreeTopYardstick>(i, FreeTop(inverse, orientation, momentum));
+  return std::make_unique<FreeTopMetric>(i, FreeTop(inverse, orientation, momentum));
 }
 
 }  // namespace lantern
