@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -66,11 +66,12 @@ class Billiards : public ErrorMetric {
     }
   }
 
-  // "return": at the end, of places in the largest half width of a body, of velocities in the
-  // largest. "E" and "p": largest over the run, relative; "p" only where there are no walls.
   std::vector<Norm> norms() const override {
-    std::vector<Norm> all{{"return", return_}, {"E", energy_error_.value()}};
-    if (!walls_) all.push_back({"p", momentum_error_.value()});
+    std::vector<Norm> all{{"return", return_, "1",
+                           "distance from the start at the end: of places over the largest half "
+                           "width of a body, of velocities over the largest speed"},
+                          {"E", energy_error_.value(), "1", kEnergyMeaning}};
+    if (!walls_) all.push_back({"p", momentum_error_.value(), "1", kMomentumMeaning});
     return all;
   }
 

@@ -13,7 +13,7 @@
 #include <numbers>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -72,10 +72,11 @@ class BlocksAndWall : public ErrorMetric {
     energy_.meet(static_cast<double>((dot(found, found) - energy) / energy));
   }
 
-  // "hits": how many too many or too few, so far. "v": of both velocities, weighted by the roots of
-  // the masses, now. "E": largest over the run, relative.
   std::vector<Norm> norms() const override {
-    return {{"hits", hits_}, {"v", speed_error_}, {"E", energy_.value()}};
+    return {{"hits", hits_, "hits", "how many too many or too few there were by the end"},
+            {"v", speed_error_, "1",
+             "error of both velocities at the end, weighted by the roots of the masses, relative"},
+            {"E", energy_.value(), "1", kEnergyMeaning}};
   }
 
  private:

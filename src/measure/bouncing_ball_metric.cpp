@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -75,10 +75,12 @@ class BouncingBall : public ErrorMetric {
     apex_.meet(least.apex);
   }
 
-  // "times": of the last and the next impact, in flights of the first height. "apex": of the height
-  // it comes from or goes to, in first heights.
   std::vector<Norm> norms() const override {
-    return {{"times", times_.value()}, {"apex", apex_.value()}};
+    return {{"times", times_.value(), "1",
+             "largest error of the moment of an impact over the run, in flights of the first "
+             "height"},
+            {"apex", apex_.value(), "1",
+             "largest error of the height that a flight rises to, in first heights"}};
   }
 
  private:

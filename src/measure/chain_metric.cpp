@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "measure/error_metrics.hpp"
 #include "measure/exact_chain.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -17,25 +17,6 @@ struct Line {
   std::vector<long double> masses, rest, velocities, displacements;  // rest: from the first point
   std::vector<long double> stiffnesses, lengths;                     // of springs, unstretched
   LongVec3 from{0.0L}, direction{0.0L};
-};
-
-class ChainMetric : public TrajectoryMetric {
- public:
-  ChainMetric(const Line& row, ChainMotion motion, double length, double speed)
-      : TrajectoryMetric(length, speed), row_(row), motion_(std::move(motion)) {}
-
- protected:
-  void exact(double time, std::vector<Exact>& states) const override {
-    std::vector<long double> x, v;
-    motion_.at(time, x, v);
-    for (std::size_t i = 0; i < row_.bodies.size(); ++i)
-      states.push_back({row_.bodies[i], Vec<3>(row_.from + (row_.rest[i] + x[i]) * row_.direction),
-                        Vec<3>(v[i] * row_.direction)});
-  }
-
- private:
-  Line row_;
-  ChainMotion motion_;
 };
 
 struct Bond {
@@ -151,8 +132,13 @@ std::unique_ptr<ErrorMetric> chain_metric(const Scenario& scenario) {
     }
   }
   if (!(length > 0 && speed > 0)) throw Refused("chain: nothing moves");
-  return std::make_unique<ChainMetric>(row, std::move(motion), static_cast<double>(length),
-                                          static_cast<double>(speed));
+  return std::make_unique<TrajectoryMetric>(length, speed, [=](double time, auto& states) {
+    std::vector<long double> xs, vs;
+    motion.at(time, xs, vs);
+    for (std::size_t i = 0; i < row.bodies.size(); ++i)
+      states.push_back({row.bodies[i], Vec<3>(row.from + (row.rest[i] + xs[i]) * row.direction),
+                        Vec<3>(vs[i] * row.direction)});
+  });
 }
 
 }  // namespace lantern

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -73,11 +73,11 @@ class Collisions : public ErrorMetric {
     energy_error_.meet(static_cast<double>((energy - energy_) / energy_));
   }
 
-  // "v": of the velocities now, in the largest of them. "p" and "E": largest over the run, in the
-  // sum of m |v| and in the energy at the start; "E" only if all bounces are elastic.
   std::vector<Norm> norms() const override {
-    std::vector<Norm> all{{"v", speeds_}, {"p", momentum_error_.value()}};
-    if (elastic_) all.push_back({"E", energy_error_.value()});
+    std::vector<Norm> all{
+        {"v", speeds_, "1", "error of the velocities at the end, over the largest of them"},
+        {"p", momentum_error_.value(), "1", kMomentumMeaning}};
+    if (elastic_) all.push_back({"E", energy_error_.value(), "1", kEnergyMeaning});
     return all;
   }
 

@@ -9,6 +9,10 @@
 
 namespace lantern {
 
+inline constexpr const char* kEnergyMeaning = "largest change of the energy over the run, relative";
+inline constexpr const char* kMomentumMeaning =
+    "largest change of the momentum over the run, over the sum of m |v| at the start";
+
 // Throws Refused: "'slide' is no problem of kind slide: <why>".
 [[noreturn]] void refuse_problem(const Scenario& scenario, std::string_view why);
 

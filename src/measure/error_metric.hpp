@@ -1,10 +1,10 @@
-// What a run is measured by. A problem with a known answer has a metric that knows it; any other
+// What a run's error is. A problem with a known answer has a metric that knows it; any other
 // scenario is held against its own run at a much finer step.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "measure/simulation.hpp"
@@ -18,10 +18,13 @@ struct Observation {
   std::uint64_t impacts = 0;  // so far
 };
 
-// A named error. What it is relative to is said where the metric is made.
+// A named error, with its unit and its definition: whoever reads the number needs both.
 struct Norm {
   std::string name;  // "traj", "att", "times", "apex", "hits", "distance", ...
   double value = 0;
+  std::string unit = "1";    // "1" of what is relative
+  std::string meaning = {};  // "largest tilt over the run of a box that should stand"
+  bool operator==(const Norm&) const = default;
 };
 
 class ErrorMetric {
@@ -39,26 +42,28 @@ class ErrorMetric {
 // is not such a problem: two springs where the oscillator has one, say.
 std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario);
 
-// A metric for problems whose bodies are known at every time. The norm "traj" is the largest
-// distance from the exact state over the run, in phase space: |dx| / length and |dv| / speed,
-// whichever is larger, over the bodies that `exact` gives.
+// The norm "traj": the largest distance from the exact state over the run, in phase space:
+// |dx| / length or |dv| / speed, whichever is larger.
+Norm trajectory_norm(double value, double length, double speed);
+
+// Of problems whose bodies are known at every time: "traj", over the bodies that `exact` gives.
 class TrajectoryMetric : public ErrorMetric {
  public:
-  TrajectoryMetric(double length, double speed) : length_(length), speed_(speed) {}
-  void look(const Observation& now) override;
-  std::vector<Norm> norms() const override { return {{"traj", worst_}}; }
-
- protected:
   struct Exact {
     std::size_t body = 0;
     Vec<3> position{0.0};
     Vec<3> velocity{0.0};
   };
   // Computed in long double; rounded once.
-  virtual void exact(double time, std::vector<Exact>& states) const = 0;
+  using ExactStates = std::function<void(double time, std::vector<Exact>& states)>;
+
+  TrajectoryMetric(long double length, long double speed, ExactStates exact);
+  void look(const Observation& now) override;
+  std::vector<Norm> norms() const override { return {trajectory_norm(worst_, length_, speed_)}; }
 
  private:
   double length_, speed_;
+  ExactStates exact_at_;
   double worst_ = 0;
   std::vector<Exact> exact_;
 };

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "measure/error_metrics.hpp"
 #include "measure/exact_free_top.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/smooth_metrics.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern {
@@ -23,7 +23,9 @@ class FreeTopMetric : public ErrorMetric {
     const auto error = static_cast<double>(angle);
     if (!std::isnan(worst_) && !(error <= worst_)) worst_ = error;
   }
-  std::vector<Norm> norms() const override { return {{"att", worst_}}; }
+  std::vector<Norm> norms() const override {
+    return {{"att", worst_, "rad", "largest angle over the run by which the orientation is off"}};
+  }
 
  private:
   std::size_t body_;

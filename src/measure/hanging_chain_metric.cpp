@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -88,10 +88,12 @@ class HangingChain : public ErrorMetric {
     burdens_.look(now);
   }
 
-  // Both largest over the run. "stretch": of the whole chain, in units. "tension": of the mean over
-  // the time between two looks, of the worst joint, relative.
   std::vector<Norm> norms() const override {
-    return {{"stretch", stretch_.value()}, {"tension", burdens_.worst()}};
+    return {{"stretch", stretch_.value(), "units",
+             "largest change of the chain's length over the run; it starts at rest with its exact "
+             "length, so 0 means undisturbed"},
+            {"tension", burdens_.worst(), "1",
+             "largest error of the mean pull of a joint between two samples, relative"}};
   }
 
  private:

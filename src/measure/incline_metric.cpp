@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -32,10 +32,13 @@ class Incline : public ErrorMetric {
     wrong_ = wrong;
   }
 
-  // "a": of the mean acceleration from the start until now, in g, the largest of all bodies.
-  // "class": how many stay that should go, go that should stay, roll that should slip, or slip that
-  // should roll.
-  std::vector<Norm> norms() const override { return {{"a", acceleration_}, {"class", wrong_}}; }
+  std::vector<Norm> norms() const override {
+    return {{"a", acceleration_, "1",
+             "error of the mean acceleration from start to end, over that of gravity; of the worst "
+             "body"},
+            {"class", wrong_, "bodies",
+             "how many stay, slide, roll or slip at the end that should do the opposite"}};
+  }
 
  private:
   struct Slider {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "measure/error_metrics.hpp"
 #include "measure/exact_kepler.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -19,27 +19,6 @@ struct Couple {
   long double mu = 1;
   LongVec3 centre{0.0L}, drift{0.0L};
   Orbit start;  // of b from a
-};
-
-class KeplerMetric : public TrajectoryMetric {
- public:
-  KeplerMetric(const Couple& couple, double length, double speed)
-      : TrajectoryMetric(length, speed), c_(couple) {}
-
- protected:
-  void exact(double time, std::vector<Exact>& states) const override {
-    const Orbit now = exact_orbit(c_.mu, c_.start, time);
-    const LongVec3 centre = c_.centre + static_cast<long double>(time) * c_.drift;
-    const auto add = [&](std::size_t body, long double share) {
-      states.push_back(
-          {body, Vec<3>(centre + share * now.position), Vec<3>(c_.drift + share * now.velocity)});
-    };
-    if (c_.a_moves) add(c_.a, -c_.share_a);
-    add(c_.b, c_.share_b);
-  }
-
- private:
-  Couple c_;
 };
 
 }  // namespace
@@ -73,8 +52,17 @@ std::unique_ptr<ErrorMetric> kepler_metric(const Scenario& scenario) {
   c.drift = velocity_a + c.share_a * c.start.velocity;
   exact_orbit(c.mu, c.start, 0);  // refuses
   const long double axis = half_axis(c.mu, c.start);
-  return std::make_unique<KeplerMetric>(c, static_cast<double>(axis),
-                                           static_cast<double>(std::sqrt(c.mu / axis)));
+  return std::make_unique<TrajectoryMetric>(
+      axis, std::sqrt(c.mu / axis), [c](double time, auto& states) {
+        const Orbit now = exact_orbit(c.mu, c.start, time);
+        const LongVec3 centre = c.centre + static_cast<long double>(time) * c.drift;
+        const auto add = [&](std::size_t body, long double share) {
+          states.push_back({body, Vec<3>(centre + share * now.position),
+                            Vec<3>(c.drift + share * now.velocity)});
+        };
+        if (c.a_moves) add(c.a, -c.share_a);
+        add(c.b, c.share_b);
+      });
 }
 
 }  // namespace lantern

@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "measure/error_metrics.hpp"
 #include "measure/exact_oscillator.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -14,27 +14,6 @@ struct Oscillator {
   LongVec3 rest{0.0L};  // where it would come to rest
   LongVec3 away{0.0L};  // from there, at the start
   LongVec3 velocity{0.0L};
-};
-
-class OscillatorMetric : public TrajectoryMetric {
- public:
-  OscillatorMetric(const Oscillator& oscillator, double length, double speed)
-      : TrajectoryMetric(length, speed), o_(oscillator) {}
-
- protected:
-  void exact(double time, std::vector<Exact>& states) const override {
-    LongVec3 x, v;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Swing swing =
-          exact_swing(o_.stiffness, o_.damping, o_.mass, {o_.away[axis], o_.velocity[axis]}, time);
-      x[axis] = o_.rest[axis] + swing.x;
-      v[axis] = swing.v;
-    }
-    states.push_back({o_.body, Vec<3>(x), Vec<3>(v)});
-  }
-
- private:
-  Oscillator o_;
 };
 
 }  // namespace
@@ -70,8 +49,17 @@ std::unique_ptr<ErrorMetric> oscillator_metric(const Scenario& scenario) {
       (between == LongVec3(0.0L) || !(amplitude < glm::dot(o.rest - tie.anchor, direction))))
     throw Refused("oscillator: it would pass through the spring's other end");
   if (!(amplitude > 0)) throw Refused("oscillator: nothing moves");
-  return std::make_unique<OscillatorMetric>(o, static_cast<double>(amplitude),
-                                               static_cast<double>(amplitude * omega));
+  return std::make_unique<TrajectoryMetric>(
+      amplitude, amplitude * omega, [o](double time, auto& states) {
+        LongVec3 x, v;
+        for (int axis = 0; axis < 3; ++axis) {
+          const Swing swing =
+              exact_swing(o.stiffness, o.damping, o.mass, {o.away[axis], o.velocity[axis]}, time);
+          x[axis] = o.rest[axis] + swing.x;
+          v[axis] = swing.v;
+        }
+        states.push_back({o.body, Vec<3>(x), Vec<3>(v)});
+      });
 }
 
 }  // namespace lantern

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "measure/error_metrics.hpp"
 #include "measure/exact_pendulum.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -26,7 +26,7 @@ struct Pendulum {
 class PendulumMetric : public TrajectoryMetric {
  public:
   explicit PendulumMetric(const Pendulum& p)
-      : TrajectoryMetric(static_cast<double>(p.length), static_cast<double>(p.length * p.omega)), p_(p) {}
+      : TrajectoryMetric(p.length, p.length * p.omega, exact_of(p)), p_(p) {}
 
   void look(const Observation& now) override {
     TrajectoryMetric::look(now);
@@ -36,20 +36,21 @@ class PendulumMetric : public TrajectoryMetric {
   }
   std::vector<Norm> norms() const override {
     std::vector<Norm> all = TrajectoryMetric::norms();
-    all.push_back({"joint", drift_});
+    all.push_back({"joint", drift_, "1", "largest change of the rod's length, relative"});
     return all;
   }
 
- protected:
-  void exact(double time, std::vector<Exact>& states) const override {
-    const PendulumState now = exact_pendulum(p_.omega, p_.start, time);
-    const long double c = std::cos(now.angle), s = std::sin(now.angle);
-    const LongVec3 rod = p_.length * (c * p_.down + s * p_.side);
-    const LongVec3 velocity = p_.length * now.speed * (c * p_.side - s * p_.down);
-    states.push_back({p_.body, Vec<3>(p_.anchor + rod), Vec<3>(velocity)});
+ private:
+  static ExactStates exact_of(const Pendulum& p) {
+    return [p](double time, std::vector<Exact>& states) {
+      const PendulumState now = exact_pendulum(p.omega, p.start, time);
+      const long double c = std::cos(now.angle), s = std::sin(now.angle);
+      const LongVec3 rod = p.length * (c * p.down + s * p.side);
+      const LongVec3 velocity = p.length * now.speed * (c * p.side - s * p.down);
+      states.push_back({p.body, Vec<3>(p.anchor + rod), Vec<3>(velocity)});
+    };
   }
 
- private:
   Pendulum p_;
   double drift_ = 0;
 };

@@ -40,6 +40,12 @@ bool can_be_measured_by(std::string_view name) {
   return name == kAdaptive || method_named(name).has_value();
 }
 
+std::optional<std::string> why_not(const Solver& solver, const Scenario& scenario) {
+  if (!scenario.problem && (solver.is_peer() || solver.name() == kAdaptive))
+    return "it has no [problem]";
+  return solver.cannot(scenario);
+}
+
 Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
     : options_(std::move(options)), prepared_(options_.scenarios.size()) {
   if (options_.peers) solvers_ = peers(missing_peers_);
@@ -59,10 +65,10 @@ void Plan::prepare(std::size_t index) {
   prepared.invariants = std::make_unique<Invariants>(scenario);
   if (scenario.problem) make_error_metric(scenario);  // is it the problem that it claims to be?
   const std::vector<double> steps = steps_for(scenario, prepared.schedule);
-  prepared.finest = steps.front();
+  const double coarse = steps.front();
+  prepared.finest = coarse;
   for (const std::size_t solver : solvers_for(scenario)) {
-    const double coarse = steps.front();
-    per_step_[{index, solver}] =
+    per_step({index, solver}) =
         estimated_seconds(scenario, prepared.schedule, *solvers_[solver], coarse) /
         static_cast<double>(prepared.schedule.steps(coarse));
     for (const double step : steps) {
@@ -72,27 +78,30 @@ void Plan::prepare(std::size_t index) {
   }
 }
 
+// Who was asked for and does not suit is remembered with the reason.
 std::vector<std::size_t> Plan::solvers_for(const Scenario& scenario) {
-  std::vector<Method> methods;
-  bool adaptive = options_.methods.empty();
-  for (const std::string& name : options_.methods) {
-    adaptive = adaptive || name == kAdaptive;
-    if (const auto method = method_named(name)) methods.push_back(*method);
-  }
-  if (options_.methods.empty()) methods = methods_for(scenario);
   std::vector<std::size_t> chosen;
-  for (const Method& method : methods) {
-    if (!by_name_.contains(method.name)) {
-      by_name_[method.name] = solvers_.size();
-      solvers_.push_back(std::make_unique<LanternSolver>(method));
-    }
-    const std::size_t solver = by_name_[method.name];
-    if (!solvers_[solver]->cannot(scenario)) chosen.push_back(solver);
+  const auto consider = [&](std::size_t i, bool was_asked) {
+    const Solver& solver = *solvers_[i];
+    if (const auto reason = why_not(solver, scenario); !reason)
+      chosen.push_back(i);
+    else if (was_asked)
+      unsuited_.push_back({scenario.name, solver.name(), *reason, solver.is_peer()});
+  };
+  const auto consider_method = [&](const Method& method) {
+    const auto [known, fresh] = by_name_.try_emplace(method.name, solvers_.size());
+    if (fresh) solvers_.push_back(std::make_unique<LanternSolver>(method));
+    consider(known->second, true);
+  };
+  if (options_.methods.empty()) {
+    for (const Method& method : methods_for(scenario)) consider_method(method);
+    consider(adaptive_, false);
   }
-  if (adaptive && scenario.problem && !solvers_[adaptive_]->cannot(scenario))
-    chosen.push_back(adaptive_);
-  for (std::size_t peer = 0; peer < peers_; ++peer)
-    if (scenario.problem && !solvers_[peer]->cannot(scenario)) chosen.push_back(peer);
+  for (const std::string& name : options_.methods)
+    if (const auto method = method_named(name)) consider_method(*method);
+  if (std::ranges::find(options_.methods, kAdaptive) != options_.methods.end())
+    consider(adaptive_, true);
+  for (std::size_t peer = 0; peer < peers_; ++peer) consider(peer, true);
   return chosen;
 }
 
@@ -120,7 +129,7 @@ double Plan::longest() const {
   return std::numeric_limits<double>::infinity();
 }
 
-const TimingRule& Plan::timing(const Job& job) const {
+TimingRule Plan::timing(const Job& job) const {
   if (seconds(job) > kTooLongToRepeat) return kOnce;
   return options_.effort == Effort::quick ? kQuick : kGood;
 }
@@ -131,22 +140,42 @@ double Plan::seconds(const Job& job) const {
 }
 
 double Plan::seconds_with_repeats(const Job& job) const {
-  const TimingRule& rule = timing(job);
+  const TimingRule rule = timing(job);
   return seconds(job) + rule.repeats * std::max(seconds(job), rule.least_seconds);
 }
 
-Row Plan::run(const Job& job) {
-  Prepared& prepared = prepared_[job.scenario];
+std::vector<Row> Plan::run(std::span<const Job> jobs, const std::function<void(double)>& told) {
+  std::vector<Row> rows;
+  if (jobs.empty()) return rows;
+  const Scenario& s = scenario(jobs.front());
+  Prepared& prepared = prepared_[jobs.front().scenario];
   if (!prepared.reference)
-    prepared.reference = with_place(scenario(job), [&] {
-      return reference_for(scenario(job), prepared.schedule, prepared.finest / kFinerReference);
-    });
-  Row row = measure(scenario(job), prepared.schedule, solver(job), job.step, *prepared.reference,
-                    *prepared.invariants, timing(job));
-  if (row.timing.repeats > 0)
-    per_step_[{job.scenario, job.solver}] =
-        row.timing.median / static_cast<double>(prepared.schedule.steps(job.step));
-  return row;
+    prepared.reference = with_place(
+        s, [&] { return reference_for(s, prepared.schedule, prepared.finest / kFinerReference); });
+  const Trials trials{s, prepared.schedule, *prepared.invariants, *prepared.reference};
+  for (const Job& job : jobs) {
+    const double expected = seconds(job);
+    if (expected > longest()) {
+      rows.push_back(blank_row(s, solver(job), job.step));
+      rows.back().status = Status::left_out;
+      rows.back().reason =
+          fmt::format("would take about {:.2g} s, the limit is {:.2g} s", expected, longest());
+      continue;
+    }
+    double took = expected;
+    rows.push_back(evaluated(trials, solver(job), job.step, &took));
+    per_step(job) = took / static_cast<double>(prepared.schedule.steps(job.step));
+    told(expected);
+  }
+  std::vector<TimedRun> runs;
+  std::vector<double> expected;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (rows[i].status != Status::ok) continue;
+    runs.push_back({&solver(jobs[i]), &rows[i], timing(jobs[i])});
+    expected.push_back(std::max(seconds(jobs[i]), runs.back().rule.least_seconds));
+  }
+  time_in_turn(trials, runs, [&](std::size_t i) { told(expected[i]); });
+  return rows;
 }
 
 }  // namespace lantern

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "measure/error_metrics.hpp"
 #include "measure/exact_projectile.hpp"
 #include "measure/problem_scene.hpp"
-#include "measure/smooth_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -30,25 +30,6 @@ struct Flight {
       velocity[axis] = state.velocity;
     }
   }
-};
-
-class ProjectileMetric : public TrajectoryMetric {
- public:
-  ProjectileMetric(Flight flight, double length, double speed)
-      : TrajectoryMetric(length, speed), flight_(std::move(flight)) {}
-
- protected:
-  void exact(double time, std::vector<Exact>& states) const override {
-    for (std::size_t i = 0; i < flight_.bodies.size(); ++i) {
-      LongVec3 way, velocity;
-      flight_.at(i, time, way, velocity);
-      states.push_back(
-          {flight_.bodies[i].body, Vec<3>(flight_.bodies[i].position + way), Vec<3>(velocity)});
-    }
-  }
-
- private:
-  Flight flight_;
 };
 
 }  // namespace
@@ -75,8 +56,14 @@ std::unique_ptr<ErrorMetric> projectile_metric(const Scenario& scenario) {
     }
   }
   if (!(length > 0)) throw Refused("projectile: nothing moves");
-  return std::make_unique<ProjectileMetric>(std::move(flight), static_cast<double>(length),
-                                               static_cast<double>(speed));
+  return std::make_unique<TrajectoryMetric>(length, speed, [flight](double time, auto& states) {
+    for (std::size_t i = 0; i < flight.bodies.size(); ++i) {
+      LongVec3 way, velocity;
+      flight.at(i, time, way, velocity);
+      states.push_back(
+          {flight.bodies[i].body, Vec<3>(flight.bodies[i].position + way), Vec<3>(velocity)});
+    }
+  });
 }
 
 }  // namespace lantern

@@ -13,8 +13,6 @@
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/lantern_solver.hpp"
-#include "measure/own_run.hpp"
-#include "measure/timed.hpp"
 
 namespace lantern {
 namespace {
@@ -89,35 +87,6 @@ class Runner {
   std::uint64_t steps_ = 0;
 };
 
-// The first run: what it did, and how well.
-void evaluate(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
-              double h, const Reference& reference, const Invariants& invariants, Row& row) {
-  const std::unique_ptr<ErrorMetric> metric = reference.make();
-  DriftMeter meter(invariants);
-  std::optional<Runner> runner;
-  try {
-    runner.emplace(scenario, schedule, solver, h);
-  } catch (const Refused& refused) {
-    row.status = Status::refused;
-    row.reason = refused.what();
-    return;
-  }
-  try {
-    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
-    row.norms = metric->norms();
-  } catch (const Refused& refused) {
-    row.status = Status::diverged;
-    row.reason = refused.what();
-  } catch (const NotANumber&) {
-    row.status = Status::nan;
-    row.reason = "a state is not a number";
-  }
-  row.drift = meter.drift();
-  row.penetration = meter.penetration();
-  row.counted = runner->simulation().counted();
-  row.hash = runner->simulation().hash();
-}
-
 void judge(Row& row) {
   if (row.status != Status::ok) return;
   for (const Norm& norm : row.norms)
@@ -130,6 +99,61 @@ void judge(Row& row) {
     row.reason = fmt::format("the energy changed by {:.3g} times its scale", *row.drift.energy);
   }
 }
+
+// Keeps every moment.
+class Recorder : public ErrorMetric {
+ public:
+  void look(const Observation& now) override { record_->push_back(now); }
+  std::vector<Norm> norms() const override { return {}; }
+  std::shared_ptr<const std::vector<Observation>> record() const { return record_; }
+
+ private:
+  std::shared_ptr<std::vector<Observation>> record_ = std::make_shared<std::vector<Observation>>();
+};
+
+// The distance from a record: of places over the way that the body that moves most has gone from
+// where it began, of velocities over the largest speed.
+class OwnRun : public ErrorMetric {
+ public:
+  explicit OwnRun(std::shared_ptr<const std::vector<Observation>> record)
+      : record_(std::move(record)) {
+    const std::size_t bodies = record_->empty() ? 0 : record_->front().states.size();
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const BodyState* first = nullptr;
+      for (const Observation& moment : *record_) {
+        const BodyState& state = moment.states[i];
+        if (!state.there) continue;
+        if (!first) first = &state;
+        way_ = std::max(way_, glm::length(state.position - first->position));
+        speed_ = std::max(speed_, glm::length(state.velocity));
+      }
+    }
+  }
+
+  void look(const Observation& now) override {
+    LANTERN_CHECK(next_, <, record_->size());
+    const Observation& then = (*record_)[next_++];
+    const auto against = [](double error, double scale) {
+      if (error == 0) return 0.0;
+      return scale > 0 ? error / scale : std::numeric_limits<double>::infinity();
+    };
+    for (std::size_t i = 0; i < now.states.size(); ++i) {
+      const BodyState &a = now.states[i], &b = then.states[i];
+      if (!a.there || !b.there) continue;
+      worst_ = std::max({worst_, against(glm::length(a.position - b.position), way_),
+                         against(glm::length(a.velocity - b.velocity), speed_)});
+    }
+  }
+  std::vector<Norm> norms() const override { return {trajectory_norm(worst_, way_, speed_)}; }
+
+ private:
+  std::shared_ptr<const std::vector<Observation>> record_;
+  double way_ = 0, speed_ = 0;
+  std::size_t next_ = 0;
+  double worst_ = 0;
+};
+
+void ignore(const Observation&) {}
 
 }  // namespace
 
@@ -147,19 +171,23 @@ Reference reference_for(const Scenario& scenario, const Schedule& schedule, doub
   require_memory(looks * scenario.bodies.size() * sizeof(BodyState),
                  fmt::format("the states of {} bodies at {} times", scenario.bodies.size(), looks),
                  "take fewer bodies, or fewer steps that wait or run");
-  auto record = std::make_shared<std::vector<Observation>>();
-  Recorder recorder(*record);
-  try {
-    Runner(scenario, schedule, LanternSolver(method), h).run(recorder, [](const Observation&) {});
-  } catch (const NotANumber&) {
-    throw Refused("its own run ends in states that are no numbers");
-  }
-  return {fmt::format("own run, {} at {:.3g} s", method.name, h),
-          [record] { return std::make_unique<OwnRun>(record); }};
+  const auto run = [&](double of, ErrorMetric& metric) {
+    try {
+      Runner(scenario, schedule, LanternSolver(method), of).run(metric, ignore);
+    } catch (const NotANumber&) {
+      throw Refused("its own run ends in states that are no numbers");
+    }
+  };
+  Recorder fine;
+  run(h, fine);
+  const auto make = [record = fine.record()] { return std::make_unique<OwnRun>(record); };
+  const auto coarser = make();
+  run(schedule.fitted_step(2 * h), *coarser);
+  return {fmt::format("own run, {} at {:.3g} s", method.name, h), make,
+          coarser->norms().front().value};
 }
 
-Row measure(const Scenario& scenario, const Schedule& schedule, const Solver& solver, double h,
-            const Reference& reference, const Invariants& invariants, const TimingRule& rule) {
+Row blank_row(const Scenario& scenario, const Solver& solver, double h) {
   Row row;
   row.problem = scenario.name;
   row.file = scenario.file;
@@ -169,29 +197,66 @@ Row measure(const Scenario& scenario, const Schedule& schedule, const Solver& so
   row.method = solver.name();
   row.version = solver.version();
   row.step = h;
-  row.reference = reference.text;
-  evaluate(scenario, schedule, solver, h, reference, invariants, row);
-  judge(row);
-  if (row.status != Status::ok) return row;
-  std::vector<double> repeats;
-  for (int i = 0; i < rule.repeats; ++i) {
-    double spent = 0;
-    int runs = 0;
-    for (; runs == 0 || spent < rule.least_seconds; ++runs) {
-      Runner runner(scenario, schedule, solver, h);
-      const std::unique_ptr<ErrorMetric> metric = reference.make();
-      runner.run(*metric, [](const Observation&) {});
-      if (!row.is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row.hash);
-      spent += runner.seconds();
-    }
-    repeats.push_back(spent / runs);
-  }
-  row.timing = timing_of(repeats);
   return row;
 }
 
-double estimated_seconds(const Scenario& scenario, const Schedule& schedule,
-                         const Solver& solver, double h) {
+Row evaluated(const Trials& trials, const Solver& solver, double h, double* seconds) {
+  Row row = blank_row(trials.scenario, solver, h);
+  row.reference = trials.reference.text;
+  row.reference_error = trials.reference.error;
+  const std::unique_ptr<ErrorMetric> metric = trials.reference.make();
+  DriftMeter meter(trials.invariants);
+  std::optional<Runner> runner;
+  const auto failed = [&](Status status, const char* reason) {
+    row.status = status;
+    row.reason = reason;
+  };
+  try {
+    runner.emplace(trials.scenario, trials.schedule, solver, h);
+    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
+    row.norms = metric->norms();
+    if (seconds) *seconds = runner->seconds();
+  } catch (const Refused& refused) {
+    failed(runner ? Status::diverged : Status::refused, refused.what());
+  } catch (const NotANumber&) {
+    failed(Status::nan, "a state is not a number");
+  }
+  if (!runner) return row;
+  row.drift = meter.drift();
+  row.penetration = meter.penetration();
+  row.counted = runner->simulation().counted();
+  row.hash = runner->simulation().hash();
+  judge(row);
+  return row;
+}
+
+void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
+                  const std::function<void(std::size_t)>& told) {
+  std::vector<std::vector<double>> repeats(runs.size());
+  bool any = true;
+  for (int round = 0; any; ++round) {
+    any = false;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const auto& [solver, row, rule] = runs[i];
+      if (round >= rule.repeats) continue;
+      any = true;
+      double spent = 0;
+      int times = 0;
+      for (; times == 0 || spent < rule.least_seconds; ++times) {
+        Runner runner(trials.scenario, trials.schedule, *solver, row->step);
+        runner.run(*trials.reference.make(), ignore);
+        if (!row->is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row->hash);
+        spent += runner.seconds();
+      }
+      repeats[i].push_back(spent / times);
+      told(i);
+    }
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].row->timing = timing_of(repeats[i]);
+}
+
+double estimated_seconds(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
+                         double h) {
   constexpr double kLook = 0.004;  // seconds
   const auto all = static_cast<double>(schedule.steps(h));
   try {

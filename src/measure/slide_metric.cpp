@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -54,12 +54,15 @@ class Slide : public ErrorMetric {
     apart_.meet(most - least);
   }
 
-  // All relative, largest over bodies and run. "distance": of the place where it stops, or, while
-  // it slides, would stop. "time": of the moment. "agree": how far the distances of several bodies
-  // are from each other.
   std::vector<Norm> norms() const override {
-    std::vector<Norm> all{{"distance", distance_.value()}, {"time", time_.value()}};
-    if (sliders_.size() > 1) all.push_back({"agree", apart_.value()});
+    std::vector<Norm> all{
+        {"distance", distance_.value(), "1",
+         "largest error of the place where a body stops, or by its speed would stop, over the "
+         "distance to there"},
+        {"time", time_.value(), "1", "largest error of the moment at which it stops, relative"}};
+    if (sliders_.size() > 1)
+      all.push_back({"agree", apart_.value(), "1",
+                     "largest difference between the bodies' distances, relative"});
     return all;
   }
 

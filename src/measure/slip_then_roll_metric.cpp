@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -56,11 +56,12 @@ class SlipThenRoll : public ErrorMetric {
     }
   }
 
-  // All largest over bodies and run. "distance": of places, in the way until it rolls. "time": of
-  // the moment at which it rolls, or, while it slips, would roll; relative. "v": in the first
-  // speed.
   std::vector<Norm> norms() const override {
-    return {{"distance", distance_.value()}, {"time", time_.value()}, {"v", speed_.value()}};
+    return {
+        {"distance", distance_.value(), "1",
+         "largest error of a place over the run, over the distance slipped"},
+        {"time", time_.value(), "1", "largest error of the moment from which it rolls, relative"},
+        {"v", speed_.value(), "1", "largest error of a velocity, over the first speed"}};
   }
 
  private:

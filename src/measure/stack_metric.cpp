@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -55,11 +55,12 @@ class Stack : public ErrorMetric {
     burdens_.look(now);
   }
 
-  // Both largest over all contacts and the run. "depth": how deep one is in the one below, or
-  // how far above it, in units, by the heights of their centres: at rest they touch, no more, no
-  // less. "impulse": of the mean over the time between two looks, relative.
   std::vector<Norm> norms() const override {
-    return {{"depth", depth_.value()}, {"impulse", burdens_.worst()}};
+    return {{"depth", depth_.value(), "units",
+             "deepest overlap or widest gap of a contact over the run, by the heights of the "
+             "centres; it starts at rest with neither, so 0 means undisturbed"},
+            {"impulse", burdens_.worst(), "1",
+             "largest error of a contact's mean impulse between two samples, relative"}};
   }
 
  private:

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "measure/contact_parts.hpp"
-#include "measure/contact_metrics.hpp"
+#include "measure/error_metrics.hpp"
 
 namespace lantern {
 namespace {
@@ -33,9 +33,11 @@ class Topple : public ErrorMetric {
     wrong_ = wrong;
   }
 
-  // "class": how many stand that should have toppled by the end, or topple that should stand.
-  // "tilt": in radians, largest over the run, of those that should stand.
-  std::vector<Norm> norms() const override { return {{"class", wrong_}, {"tilt", tilt_.value()}}; }
+  std::vector<Norm> norms() const override {
+    return {{"class", wrong_, "boxes",
+             "how many stand at the end that should have toppled, or topple that should stand"},
+            {"tilt", tilt_.value(), "rad", "largest tilt over the run of a box that should stand"}};
+  }
 
  private:
   struct Box {

@@ -34,8 +34,8 @@ std::vector<Priced> best_of_each(std::span<const Row* const> rows, const Cost& c
 }  // namespace
 
 bool costs_the_same(const Timing& faster, const Timing& slower) {
-  return slower.median - faster.median <= std::max(faster.spread, slower.spread) &&
-         slower.least <= faster.median + faster.spread;
+  return slower.median - faster.median <= std::max(faster.spread(), slower.spread()) &&
+         slower.least <= faster.median + faster.spread();
 }
 
 std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Cost& cost,

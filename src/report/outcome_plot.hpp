@@ -10,6 +10,9 @@
 
 namespace lantern {
 
+// A method as a line of a plot, without points. `looks` must hold it (looks_of).
+PlotSeries series_of(const MethodRows& method, const std::map<std::string, int>& looks);
+
 // Of a plot whose errors are whole numbers: bands "exact", "off by 1", "off by 2 to 9", ..., as
 // many as its points need, each wrong point with its number beside it.
 void put_into_bands(Plot& plot);

@@ -132,7 +132,7 @@ class Noting : public Simulation {
 
 TEST(Billiards, AreTurnedRoundOnceInTheMiddle) {
   const Scenario scenario = problem("billiards");
-  const auto metric = contact_metric(scenario);
+  const auto metric = make_error_metric(scenario);
   Noting simulation;
   for (std::uint32_t i = 0; i <= scenario.problem->samples; ++i) {
     const Observation now = at_start(scenario);

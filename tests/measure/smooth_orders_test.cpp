@@ -19,8 +19,8 @@ namespace {
 Row run(const Scenario& scenario, const Solver& solver, double step) {
   const Schedule schedule = Schedule::of(scenario);
   const Reference reference = reference_for(scenario, schedule, step);
-  return measure(scenario, schedule, solver, schedule.fitted_step(step), reference,
-                 Invariants(scenario), {0, 0});
+  const Invariants invariants(scenario);
+  return evaluated({scenario, schedule, invariants, reference}, solver, schedule.fitted_step(step));
 }
 
 struct Run {
