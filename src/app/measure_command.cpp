@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -127,17 +129,12 @@ class Measuring {
   }
 
   void run() {
-    double left = 0;
-    for (const Job& job : plan_.jobs()) left += expected(job);
-    announce(left);
+    for (const Job& job : plan_.jobs()) left_ += expected(job);
+    announce();
     Stopwatch since_saved;
     try {
-      for (const Job& job : plan_.jobs()) {
-        stop_if_asked();
-        left -= expected(job);
-        progress_.tell(fmt::format("{} of {} runs, {}, about {} left", ++done_, plan_.jobs().size(),
-                                   plan_.scenario(job).name, duration_text(left)));
-        if (!add_row(job)) continue;
+      while (done_ < plan_.jobs().size()) {
+        measure_next_problem();
         if (since_saved.seconds() < kSaveEvery) continue;
         save();
         since_saved = {};
@@ -164,49 +161,71 @@ class Measuring {
 
   const Row* known(const Job& job) const {
     const Scenario& scenario = plan_.scenario(job);
-    const Contestant& contestant = plan_.contestant(job);
+    const Solver& solver = plan_.solver(job);
     const auto found = std::ranges::find_if(known_, [&](const Row& row) {
       return row.problem == scenario.name && row.text_hash == scenario.text_hash &&
-             row.method == contestant.name() && row.version == contestant.version() &&
-             row.step == job.step;
+             row.method == solver.name() && row.version == solver.version() && row.step == job.step;
     });
     return found == known_.end() ? nullptr : &*found;
   }
 
-  double expected(const Job& job) const {
-    return known(job) || plan_.is_too_long(job) ? 0 : plan_.seconds_with_repeats(job);
+  // What was left out before may have its time now.
+  const Row* finished(const Job& job) const {
+    const Row* row = known(job);
+    return row && row->status != Status::left_out ? row : nullptr;
   }
 
-  bool add_row(const Job& job) {
-    if (const Row* old = known(job)) {
-      measurement_.rows.push_back(*old);
-    } else if (plan_.is_too_long(job)) {
-      return false;
-    } else {
-      measurement_.rows.push_back(plan_.run(job));
+  double expected(const Job& job) const {
+    return finished(job) || plan_.is_too_long(job) ? 0 : plan_.seconds_with_repeats(job);
+  }
+
+  // All of its runs, but for those that are finished: they are timed in turn.
+  void measure_next_problem() {
+    stop_if_asked();
+    const std::span<const Job> rest = std::span(plan_.jobs()).subspan(done_);
+    std::vector<Job> jobs;
+    std::size_t count = 0;
+    for (; count < rest.size() && rest[count].scenario == rest[0].scenario; ++count)
+      if (!finished(rest[count])) jobs.push_back(rest[count]);
+    const std::string& name = plan_.scenario(rest[0]).name;
+    double left = left_;
+    std::vector<Row> rows = plan_.run(jobs, [&](double seconds) {
+      left = std::max(0.0, left - seconds);
+      progress_.tell(fmt::format("{} of {} runs done, now {}, about {} left", done_,
+                                 plan_.jobs().size(), name, duration_text(left)));
+    });
+    auto next = std::make_move_iterator(rows.begin());
+    for (const Job& job : rest.first(count)) {
+      const Row* old = finished(job);
+      measurement_.rows.push_back(old ? *old : Row(*next++));
     }
-    return true;
+    done_ += count;
+    left_ = 0;
+    for (const Job& job : rest.subspan(count)) left_ += expected(job);
   }
 
   // Before it starts: how much there is to do, how long it will take, and what is left out.
-  void announce(double seconds) const {
+  void announce() const {
     std::size_t kept = 0, long_ones = 0;
     const Job* longest = nullptr;
     for (const Job& job : plan_.jobs()) {
-      kept += known(job) != nullptr;
+      if (finished(job)) {
+        ++kept;
+        continue;
+      }
       if (!plan_.is_too_long(job)) continue;
       ++long_ones;
       if (!longest || plan_.seconds(job) > plan_.seconds(*longest)) longest = &job;
     }
     say(fmt::format("{} runs, about {}{}", plan_.jobs().size() - kept - long_ones,
-                    duration_text(seconds),
+                    duration_text(left_),
                     kept ? fmt::format("; {} are finished from before", kept) : ""));
     for (const std::string& missing : plan_.missing_peers()) say(missing);
     if (longest)
       say(
           fmt::format("{} runs are left out as too long; the longest ({}, {} at {:.3g} s) would "
                       "take {}. --full runs them all",
-                      long_ones, plan_.scenario(*longest).name, plan_.contestant(*longest).name(),
+                      long_ones, plan_.scenario(*longest).name, plan_.solver(*longest).name(),
                       longest->step, duration_text(plan_.seconds(*longest))));
   }
 
@@ -214,7 +233,8 @@ class Measuring {
   ReportFolder& folder_;
   Measurement measurement_;
   std::vector<Row> known_;
-  std::size_t done_ = 0;  // jobs begun
+  std::size_t done_ = 0;  // jobs whose rows are there
+  double left_ = 0;       // seconds that the others will take
   Progress progress_;
 };
 
@@ -233,15 +253,14 @@ void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions
 int measure_problems(const MeasureOptions& options) {
   PlanOptions planned = plan_options(options);
   ReportFolder folder(options.output, "measure");
-  // Of all problems some suit nobody: only who asks for a few is told.
-  const bool with_peers = planned.peers && !options.problems.empty();
-  for (const std::string& line : unsuited(planned.scenarios, planned.methods, with_peers))
-    say(line);
   Plan plan(std::move(planned), [](const Scenario&) {});
+  // Of all problems some suit no other engine: only who asks for a few is told.
+  for (const std::string& line : unsuited_words(plan.unsuited(), !options.problems.empty()))
+    say(line);
   Measuring measuring(plan, folder, options);
   measuring.run();
   const Measurement& m = measuring.measurement();
-  if (m.rows.empty() && !interrupted()) {
+  if (std::ranges::none_of(m.rows, &Row::was_run) && !interrupted()) {
     complain("nothing was measured: no method applies, or every run is too long (--full)");
     return kFailed;
   }

@@ -5,47 +5,47 @@
 
 #include <fmt/format.h>
 
-#include "measure/dormand_prince_contestant.hpp"
-#include "measure/lantern_contestant.hpp"
 #include "measure/peers.hpp"
 #include "report/sentences.hpp"
-#include "scenario/method.hpp"
 
 namespace lantern {
 namespace {
 
-using Contestants = std::vector<std::unique_ptr<Contestant>>;
 using Names = std::vector<std::string>;
 
-// Those who cannot do some scenarios, for one and the same reason.
-struct LeftOut {
-  Names who, scenarios;
+// Those who do not run some problems, for one and the same reason.
+struct Group {
+  Names problems, solvers;
   std::string reason;
 };
 
-std::unique_ptr<Contestant> contestant_named(const std::string& name) {
-  if (const auto method = method_named(name)) return std::make_unique<LanternContestant>(*method);
-  return std::make_unique<DormandPrinceContestant>();
-}
-
-// Engines are run beside problems only: without a known answer there is nothing to hold them to.
-std::optional<std::string> reason_of(const Contestant& contestant, const Scenario& scenario) {
-  if (contestant.is_peer() && !scenario.problem) return "it has no [problem]";
-  return contestant.cannot(scenario);
-}
-
-std::vector<LeftOut> left_out_of(const Scenario& scenario, const Contestants& contestants) {
-  std::vector<LeftOut> all;
-  for (const auto& contestant : contestants) {
-    const auto reason = reason_of(*contestant, scenario);
-    if (!reason) continue;
-    const auto known = std::ranges::find(all, *reason, &LeftOut::reason);
-    if (known == all.end())
-      all.push_back({{contestant->name()}, {scenario.name}, *reason});
+// First solvers with one reason for a problem, then problems with the same solvers and reason.
+std::vector<Group> grouped(std::span<const Unsuited> unsuited) {
+  std::vector<Group> of_one, all;
+  for (const Unsuited& one : unsuited) {
+    const auto same = std::ranges::find_if(of_one, [&](const Group& group) {
+      return group.problems[0] == one.problem && group.reason == one.reason;
+    });
+    if (same == of_one.end())
+      of_one.push_back({{one.problem}, {one.solver}, one.reason});
     else
-      known->who.push_back(contestant->name());
+      same->solvers.push_back(one.solver);
+  }
+  for (Group& one : of_one) {
+    const auto same = std::ranges::find_if(all, [&](const Group& group) {
+      return group.solvers == one.solvers && group.reason == one.reason;
+    });
+    if (same == all.end())
+      all.push_back(std::move(one));
+    else
+      same->problems.push_back(one.problems[0]);
   }
   return all;
+}
+
+std::string words_of(const Group& group) {
+  return fmt::format("{} {} not run by {}: {}", listed(group.problems),
+                     group.problems.size() > 1 ? "are" : "is", listed(group.solvers), group.reason);
 }
 
 // What a name is before its colon, in small letters: "bullet" of "Bullet:10".
@@ -58,45 +58,31 @@ std::string engine_of(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> unsuited(const std::vector<Scenario>& scenarios,
-                                  const std::vector<std::string>& methods, bool with_peers) {
-  Contestants contestants;
-  for (const std::string& name : methods) contestants.push_back(contestant_named(name));
-  Names missing;
-  if (with_peers)
-    for (auto& peer : peers(missing)) contestants.push_back(std::move(peer));
-  std::vector<LeftOut> all;
-  for (const Scenario& scenario : scenarios)
-    for (LeftOut& one : left_out_of(scenario, contestants)) {
-      const auto known = std::ranges::find_if(
-          all, [&](const LeftOut& l) { return l.who == one.who && l.reason == one.reason; });
-      if (known == all.end())
-        all.push_back(std::move(one));
-      else
-        known->scenarios.push_back(scenario.name);
-    }
-  std::vector<std::string> lines;
-  for (const LeftOut& one : all)
-    lines.push_back(fmt::format("{} {} not run by {}: {}", listed(one.scenarios),
-                                one.scenarios.size() > 1 ? "are" : "is", listed(one.who),
-                                one.reason));
+std::vector<std::string> unsuited_words(std::span<const Unsuited> unsuited, bool with_peers) {
+  std::vector<Unsuited> told(unsuited.begin(), unsuited.end());
+  if (!with_peers) std::erase_if(told, [](const Unsuited& one) { return one.is_peer; });
+  Names lines;
+  for (const Group& group : grouped(told)) lines.push_back(words_of(group));
   return lines;
 }
 
 std::optional<std::string> about_peer(const std::string& name,
                                       const std::vector<Scenario>& scenarios) {
   Names missing;
-  Contestants same = peers(missing);
+  std::vector<std::unique_ptr<Solver>> same = peers(missing);
   std::erase_if(same, [&](const auto& peer) { return engine_of(peer->name()) != engine_of(name); });
   for (const std::string& line : missing)
     if (engine_of(line) == engine_of(name))
       return fmt::format("'{}' is no method but another engine. {}", name, line);
   if (same.empty()) return std::nullopt;
+  std::vector<Unsuited> unsuited;
+  for (const Scenario& scenario : scenarios)
+    for (const auto& peer : same)
+      if (const auto reason = why_not(*peer, scenario))
+        unsuited.push_back({scenario.name, peer->name(), *reason, true});
   std::string text = fmt::format(
       "'{}' is no method but another engine: it is run beside the methods where it can", name);
-  for (const Scenario& scenario : scenarios)
-    for (const LeftOut& one : left_out_of(scenario, same))
-      text += fmt::format("; {} is not run by {}: {}", scenario.name, listed(one.who), one.reason);
+  for (const Group& group : grouped(unsuited)) text += "; " + words_of(group);
   return text;
 }
 

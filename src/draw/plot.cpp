@@ -33,6 +33,7 @@ struct Placed {
   std::vector<Vec<2>> points;  // that are joined
   std::vector<Vec<2>> beyond;  // at the upper edge
   std::vector<bool> open;      // of the joined ones
+  std::vector<std::pair<Vec<2>, Vec<2>>> spreads;
   std::vector<std::pair<Vec<2>, std::string>> notes;
 };
 
@@ -186,6 +187,12 @@ class Drawing {
         if (is_on_ground(p))
           place.y = area_.hi.y - ground_ + 5 + (ground_row % most_rows() + 0.5) * row_height();
         any_zero = any_zero || is_on_ground(p);
+        if (p.spread) {  // cut to the plot, along the axes that have a place for it
+          Vec<2> lo = at(p.spread->lo), hi = at(p.spread->hi);
+          if (is_on_ground(p)) lo.y = hi.y = place.y;
+          placed.spreads.push_back(
+              {glm::clamp(lo, area_.lo, area_.hi), glm::clamp(hi, area_.lo, area_.hi)});
+        }
         placed.points.push_back(place);
         placed.open.push_back(p.open);
         if (!p.note.empty()) placed.notes.push_back({place, p.note});
@@ -237,6 +244,9 @@ class Drawing {
       draw_plot_mark(placed.series->look, p, size, open, list_);
       namer.mark(p, 1.2 * size);
     };
+    for (const auto& [from, to] : placed.spreads)
+      if (from != to)
+        list_.shapes.emplace_back(LineShape{from, to, {Role::ink, 0.4 * width(), 0}, false});
     for (std::size_t i = 0; i < placed.points.size(); ++i) draw(placed.points[i], placed.open[i]);
     for (const Vec<2>& p : placed.beyond) draw(p, true);
   }

@@ -1,6 +1,7 @@
 // A plot of measured points on two axes: what the reports are made of.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct PlotPoint {
   bool beyond = false;  // diverged: drawn as an open mark at the upper edge, whatever its y
   std::string note;     // written beside it if there is room; mostly empty
   bool open = false;    // drawn as an open mark where it is
+  std::optional<Box<2>> spread = {};  // how far it may be off: a thin line from `lo` to `hi`
 };
 
 // Points of one contestant, joined in their order; those beyond stand alone.

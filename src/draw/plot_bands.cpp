@@ -193,6 +193,13 @@ class BandDrawing {
     for (std::size_t i = 1; i < points.size() && !open; ++i)
       draw_plot_line(series->look, series->is_peer, at(points[i - 1]), at(points[i]),
                      0.44 * radius(), list_);
+    const auto cut = [&](double x) { return std::clamp(x_of(x), area_.lo.x, area_.hi.x); };
+    for (const PlotPoint* p : points)
+      if (p->spread && p->spread->lo.x < p->spread->hi.x)
+        list_.shapes.emplace_back(LineShape{{cut(p->spread->lo.x), lane.y},
+                                            {cut(p->spread->hi.x), lane.y},
+                                            {Role::ink, 0.18 * radius(), 0},
+                                            false});
     for (const PlotPoint* p : points) draw_plot_mark(series->look, at(p), radius(), open, list_);
   }
 

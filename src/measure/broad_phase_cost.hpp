@@ -17,13 +17,16 @@ namespace lantern {
 
 // Sums over the scene's updates.
 struct BroadPhaseCounts {
-  std::uint64_t true_pairs = 0;  // by comparing all boxes with all, without any structure
-  std::uint64_t missed = 0;      // of them; anything but 0 is a bug
-  std::uint64_t invented = 0;    // told, but not there; anything but 0 is a bug
-  std::uint64_t candidates = 0;  // pairs that were compared, each once
-  std::uint64_t pair_tests = 0;  // comparisons, a pair once for each leaf that it shares
-  std::uint64_t entries = 0;     // bodies in leaves, each once a leaf
-  std::uint64_t box_tests = 0;   // of a body against a node, while building; a sort counts none
+  std::uint64_t all_pairs = 0;       // n (n - 1) / 2: brute force compares them all
+  std::uint64_t testable_pairs = 0;  // of them, those in which not both bodies are static: all that
+                                     // an engine would test
+  std::uint64_t true_pairs = 0;      // by comparing all boxes with all, without any structure
+  std::uint64_t missed = 0;          // of them; anything but 0 is a bug
+  std::uint64_t invented = 0;        // told, but not there; anything but 0 is a bug
+  std::uint64_t candidates = 0;      // pairs that were compared, each once
+  std::uint64_t pair_tests = 0;      // comparisons, a pair once for each leaf that it shares
+  std::uint64_t entries = 0;         // bodies in leaves, each once a leaf
+  std::uint64_t box_tests = 0;       // of a body against a node, while building; a sort counts none
   std::uint64_t nodes = 0;
 
   std::uint64_t false_candidates() const {  // a structure that misses pairs has none to spare
@@ -105,7 +108,7 @@ std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene&
                            BroadPhaseKind kind);
 
 std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
-std::string to_csv(std::span<const BroadPhaseCost> rows);
+std::string to_csv(const std::vector<BroadPhaseCost>& rows);
 // lantern.measure.broad_phase/1
 std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
 

@@ -6,8 +6,37 @@
 #include "base/grouped.hpp"
 #include "base/json_writer.hpp"
 #include "measure/broad_phase_cost.hpp"
+#include "measure/records.hpp"
 
 namespace lantern {
+
+template <class Visit>
+void each_field(const BroadPhaseCost& row, Visit&& visit) {
+  const BroadPhaseCounts& c = row.counts;
+  visit(Field("scene"), row.scene);
+  visit(Field("dimension"), row.dimension);
+  visit(Field("structure"), name_of(row.kind));
+  visit(Field("capacity"), row.capacity);
+  visit(Field("depth_limit"), row.depth_limit);
+  visit(Field("bodies"), row.bodies);
+  visit(Field("updates"), row.updates);
+  visit(Field("all_pairs"), c.all_pairs);
+  visit(Field("testable_pairs"), c.testable_pairs);
+  visit(Field("true_pairs"), c.true_pairs);
+  visit(Field("missed"), c.missed);
+  visit(Field("invented"), c.invented);
+  visit(Field("candidates"), c.candidates);
+  visit(Field("false_candidates"), c.false_candidates());
+  visit(Field("false_per_true"), row.false_per_true());
+  visit(Field("pair_tests"), c.pair_tests);
+  visit(Field("entries"), c.entries);
+  visit(Field("entries_per_body"), row.entries_per_body());
+  visit(Field("box_tests"), c.box_tests);
+  visit(Field("nodes"), c.nodes);
+  visit(Field("depth"), row.depth);
+  each_timing(row.timing, "seconds", "iqr", "seconds_iqr", visit);
+}
+
 namespace {
 
 // "quadtree, capacity 8, depth limit 7"
@@ -22,7 +51,7 @@ std::string table_row(const BroadPhaseCost& row) {
       name_of(row.kind), settings_of(row), row.counts.pair_tests, row.counts.box_tests,
       row.counts.entries, row.false_per_true(), row.entries_per_body(), row.counts.nodes,
       row.counts.missed + row.counts.invented, 1e3 * row.timing.median, 1e3 * row.timing.least,
-      1e3 * row.timing.spread);
+      1e3 * row.timing.spread());
 }
 
 // What smallest and largest leaves cost more, if it can be told.
@@ -44,6 +73,16 @@ std::string neighbour_words(std::span<const BroadPhaseCost> rows, const BroadPha
   return text;
 }
 
+// Which pairs brute force counts, where some are of two static bodies.
+std::string brute_force_words(const BroadPhaseCost& row) {
+  const BroadPhaseCounts& c = row.counts;
+  if (c.testable_pairs == c.all_pairs) return "";
+  const std::uint64_t tests = c.pair_tests / row.updates, testable = c.testable_pairs / row.updates;
+  if (tests == testable) return " (pairs of two static bodies left out)";
+  return fmt::format(" (all pairs; {} without those of two static bodies)",
+                     grouped(static_cast<std::int64_t>(testable), " "));
+}
+
 }  // namespace
 
 std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
@@ -51,17 +90,17 @@ std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene&
   const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
   if (best == nullptr) return "";
   const auto work = [](const BroadPhaseCost& row) {
-    return grouped(static_cast<std::int64_t>((row.counts.work() + row.updates / 2) / row.updates), " ");
+    return grouped(static_cast<std::int64_t>((row.counts.work() + row.updates / 2) / row.updates),
+                   " ");
   };
   std::string text = fmt::format("For {}: capacity {}, depth limit {}: {} comparisons", scene.words,
                                  best->capacity, best->depth_limit, work(*best));
   if (best->updates > 1) text += " an update";
   text += neighbour_words(rows, *best);
-  for (const BroadPhaseKind other : {BroadPhaseKind::sort_and_sweep, BroadPhaseKind::brute_force})
-    if (const BroadPhaseCost* row = cheapest(rows, scene.name, other, CostBy::work))
-      text += fmt::format("; {} {}",
-                          other == BroadPhaseKind::brute_force ? "brute force" : "sort and sweep",
-                          work(*row));
+  if (const auto* sweep = cheapest(rows, scene.name, BroadPhaseKind::sort_and_sweep, CostBy::work))
+    text += "; sort and sweep " + work(*sweep);
+  if (const auto* force = cheapest(rows, scene.name, BroadPhaseKind::brute_force, CostBy::work))
+    text += "; brute force " + work(*force) + brute_force_words(*force);
   return text + ".";
 }
 
@@ -85,23 +124,7 @@ std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxSc
   return text;
 }
 
-std::string to_csv(std::span<const BroadPhaseCost> rows) {
-  std::string text =
-      "scene,dimension,structure,capacity,depth_limit,bodies,updates,true_pairs,missed,invented,"
-      "candidates,false_candidates,false_per_true,pair_tests,entries,entries_per_body,box_tests,"
-      "nodes,depth,repeats,seconds_median,seconds_least,seconds_iqr\n";
-  for (const BroadPhaseCost& row : rows) {
-    const BroadPhaseCounts& c = row.counts;
-    text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{},{:.6g},{},{},{},{},{:.6g},"
-        "{:.6g},{:.6g}\n",
-        row.scene, row.dimension, name_of(row.kind), row.capacity, row.depth_limit, row.bodies,
-        row.updates, c.true_pairs, c.missed, c.invented, c.candidates, c.false_candidates(),
-        row.false_per_true(), c.pair_tests, c.entries, row.entries_per_body(), c.box_tests, c.nodes,
-        row.depth, row.timing.repeats, row.timing.median, row.timing.least, row.timing.spread);
-  }
-  return text;
-}
+std::string to_csv(const std::vector<BroadPhaseCost>& rows) { return csv_of(rows); }
 
 std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes) {
   JsonWriter json;
@@ -117,20 +140,7 @@ std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxSce
     json.end_array().end_object();
   }
   json.line().end_array().line().key("rows").begin_array();
-  for (const BroadPhaseCost& row : rows) {
-    const BroadPhaseCounts& c = row.counts;
-    json.line().begin_object().member("scene", row.scene).member("structure", name_of(row.kind));
-    json.member("capacity", row.capacity).member("depth_limit", row.depth_limit);
-    json.member("bodies", row.bodies).member("updates", row.updates);
-    json.member("true_pairs", c.true_pairs).member("missed", c.missed);
-    json.member("invented", c.invented).member("candidates", c.candidates);
-    json.member("false_candidates", c.false_candidates()).member("pair_tests", c.pair_tests);
-    json.member("entries", c.entries).member("box_tests", c.box_tests).member("nodes", c.nodes);
-    json.member("depth", row.depth).key("seconds").begin_object();
-    json.member("repeats", row.timing.repeats).member("median", row.timing.median);
-    json.member("least", row.timing.least).member("iqr", row.timing.spread).end_object();
-    json.end_object();
-  }
+  for (const BroadPhaseCost& row : rows) write_json(row, json.line());
   json.line().end_array().line().end_object();
   return json.text() + "\n";
 }

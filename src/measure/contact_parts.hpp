@@ -1,4 +1,4 @@
-// What the yardsticks of contact problems share: the scene read as a problem of mechanics.
+// What the metrics of contact problems share: the scene read as a problem of mechanics.
 #pragma once
 
 #include <cmath>
@@ -8,6 +8,10 @@
 #include "measure/problem_scene.hpp"
 
 namespace lantern {
+
+inline constexpr const char* kEnergyMeaning = "largest change of the energy over the run, relative";
+inline constexpr const char* kMomentumMeaning =
+    "largest change of the momentum over the run, over the sum of m |v| at the start";
 
 // Throws Refused: "'slide' is no problem of kind slide: <why>".
 [[noreturn]] void refuse_problem(const Scenario& scenario, std::string_view why);

@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PeerContestant : public Contestant {
+class PeerSolver : public Solver {
  public:
-  explicit PeerContestant(std::unique_ptr<Peer> peer) : peer_(std::move(peer)) {}
+  explicit PeerSolver(std::unique_ptr<Peer> peer) : peer_(std::move(peer)) {}
 
   std::string name() const override { return peer_->name(); }
   std::string version() const override { return peer_->version(); }
@@ -58,8 +58,8 @@ fs::path place_of(const Module& module) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Contestant>> peers(std::vector<std::string>& missing) {
-  std::vector<std::unique_ptr<Contestant>> contestants;
+std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
+  std::vector<std::unique_ptr<Solver>> solvers;
   for (const Module& module : kModules) {
     const fs::path path = place_of(module);
     if (path.empty()) {
@@ -76,9 +76,9 @@ std::vector<std::unique_ptr<Contestant>> peers(std::vector<std::string>& missing
     std::vector<std::unique_ptr<Peer>> found;
     add(found);
     for (auto& peer : found)
-      contestants.push_back(std::make_unique<PeerContestant>(std::move(peer)));
+      solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
   }
-  return contestants;
+  return solvers;
 }
 
 }  // namespace lantern

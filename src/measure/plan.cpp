@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "measure/dormand_prince_contestant.hpp"
-#include "measure/lantern_contestant.hpp"
+#include "measure/dormand_prince_solver.hpp"
+#include "measure/lantern_solver.hpp"
 #include "measure/peers.hpp"
 
 namespace lantern {
@@ -40,12 +40,18 @@ bool can_be_measured_by(std::string_view name) {
   return name == kAdaptive || method_named(name).has_value();
 }
 
+std::optional<std::string> why_not(const Solver& solver, const Scenario& scenario) {
+  if (!scenario.problem && (solver.is_peer() || solver.name() == kAdaptive))
+    return "it has no [problem]";
+  return solver.cannot(scenario);
+}
+
 Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
     : options_(std::move(options)), prepared_(options_.scenarios.size()) {
-  if (options_.peers) contestants_ = peers(missing_peers_);
-  peers_ = contestants_.size();
-  adaptive_ = contestants_.size();
-  contestants_.push_back(std::make_unique<DormandPrinceContestant>());
+  if (options_.peers) solvers_ = peers(missing_peers_);
+  peers_ = solvers_.size();
+  adaptive_ = solvers_.size();
+  solvers_.push_back(std::make_unique<DormandPrinceSolver>());
   for (std::size_t i = 0; i < options_.scenarios.size(); ++i) {
     told(options_.scenarios[i]);
     with_place(options_.scenarios[i], [&] { prepare(i); });
@@ -55,49 +61,52 @@ Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told
 void Plan::prepare(std::size_t index) {
   const Scenario& scenario = options_.scenarios[index];
   Prepared& prepared = prepared_[index];
-  prepared.course = Course::of(scenario);
+  prepared.schedule = Schedule::of(scenario);
   prepared.invariants = std::make_unique<Invariants>(scenario);
-  if (scenario.problem) make_yardstick(scenario);  // is it the problem that it claims to be?
-  const std::vector<double> steps = steps_for(scenario, prepared.course);
-  prepared.finest = steps.front();
-  for (const std::size_t contestant : contestants_for(scenario)) {
-    const double coarse = steps.front();
-    per_step_[{index, contestant}] =
-        estimated_seconds(scenario, prepared.course, *contestants_[contestant], coarse) /
-        static_cast<double>(prepared.course.steps(coarse));
+  if (scenario.problem) make_error_metric(scenario);  // is it the problem that it claims to be?
+  const std::vector<double> steps = steps_for(scenario, prepared.schedule);
+  const double coarse = steps.front();
+  prepared.finest = coarse;
+  for (const std::size_t solver : solvers_for(scenario)) {
+    per_step({index, solver}) =
+        estimated_seconds(scenario, prepared.schedule, *solvers_[solver], coarse) /
+        static_cast<double>(prepared.schedule.steps(coarse));
     for (const double step : steps) {
-      jobs_.push_back({index, contestant, step});
+      jobs_.push_back({index, solver, step});
       if (!is_too_long(jobs_.back())) prepared.finest = std::min(prepared.finest, step);
     }
   }
 }
 
-std::vector<std::size_t> Plan::contestants_for(const Scenario& scenario) {
-  std::vector<Method> methods;
-  bool adaptive = options_.methods.empty();
-  for (const std::string& name : options_.methods) {
-    adaptive = adaptive || name == kAdaptive;
-    if (const auto method = method_named(name)) methods.push_back(*method);
-  }
-  if (options_.methods.empty()) methods = methods_for(scenario);
+// Who was asked for and does not suit is remembered with the reason.
+std::vector<std::size_t> Plan::solvers_for(const Scenario& scenario) {
   std::vector<std::size_t> chosen;
-  for (const Method& method : methods) {
-    if (!by_name_.contains(method.name)) {
-      by_name_[method.name] = contestants_.size();
-      contestants_.push_back(std::make_unique<LanternContestant>(method));
-    }
-    const std::size_t contestant = by_name_[method.name];
-    if (!contestants_[contestant]->cannot(scenario)) chosen.push_back(contestant);
+  const auto consider = [&](std::size_t i, bool was_asked) {
+    const Solver& solver = *solvers_[i];
+    if (const auto reason = why_not(solver, scenario); !reason)
+      chosen.push_back(i);
+    else if (was_asked)
+      unsuited_.push_back({scenario.name, solver.name(), *reason, solver.is_peer()});
+  };
+  const auto consider_method = [&](const Method& method) {
+    const auto [known, fresh] = by_name_.try_emplace(method.name, solvers_.size());
+    if (fresh) solvers_.push_back(std::make_unique<LanternSolver>(method));
+    consider(known->second, true);
+  };
+  if (options_.methods.empty()) {
+    for (const Method& method : methods_for(scenario)) consider_method(method);
+    consider(adaptive_, false);
   }
-  if (adaptive && scenario.problem && !contestants_[adaptive_]->cannot(scenario))
-    chosen.push_back(adaptive_);
-  for (std::size_t peer = 0; peer < peers_; ++peer)
-    if (scenario.problem && !contestants_[peer]->cannot(scenario)) chosen.push_back(peer);
+  for (const std::string& name : options_.methods)
+    if (const auto method = method_named(name)) consider_method(*method);
+  if (std::ranges::find(options_.methods, kAdaptive) != options_.methods.end())
+    consider(adaptive_, true);
+  for (std::size_t peer = 0; peer < peers_; ++peer) consider(peer, true);
   return chosen;
 }
 
 // The coarsest first.
-std::vector<double> Plan::steps_for(const Scenario& scenario, const Course& course) const {
+std::vector<double> Plan::steps_for(const Scenario& scenario, const Schedule& schedule) const {
   std::vector<double> wished = options_.steps;
   if (wished.empty()) {
     double step = scenario.problem ? scenario.problem->step : scenario.world.time_step;
@@ -107,7 +116,7 @@ std::vector<double> Plan::steps_for(const Scenario& scenario, const Course& cour
   std::ranges::sort(wished, std::greater());
   std::vector<double> steps;
   for (const double step : wished) {
-    const double fitted = course.fitted_step(step);
+    const double fitted = schedule.fitted_step(step);
     if (steps.empty() || fitted < steps.back()) steps.push_back(fitted);
   }
   return steps;
@@ -120,33 +129,53 @@ double Plan::longest() const {
   return std::numeric_limits<double>::infinity();
 }
 
-const TimingRule& Plan::timing(const Job& job) const {
+TimingRule Plan::timing(const Job& job) const {
   if (seconds(job) > kTooLongToRepeat) return kOnce;
   return options_.effort == Effort::quick ? kQuick : kGood;
 }
 
 double Plan::seconds(const Job& job) const {
-  return per_step_.at({job.scenario, job.contestant}) *
-         static_cast<double>(prepared_[job.scenario].course.steps(job.step));
+  return per_step_.at({job.scenario, job.solver}) *
+         static_cast<double>(prepared_[job.scenario].schedule.steps(job.step));
 }
 
 double Plan::seconds_with_repeats(const Job& job) const {
-  const TimingRule& rule = timing(job);
+  const TimingRule rule = timing(job);
   return seconds(job) + rule.repeats * std::max(seconds(job), rule.least_seconds);
 }
 
-Row Plan::run(const Job& job) {
-  Prepared& prepared = prepared_[job.scenario];
+std::vector<Row> Plan::run(std::span<const Job> jobs, const std::function<void(double)>& told) {
+  std::vector<Row> rows;
+  if (jobs.empty()) return rows;
+  const Scenario& s = scenario(jobs.front());
+  Prepared& prepared = prepared_[jobs.front().scenario];
   if (!prepared.reference)
-    prepared.reference = with_place(scenario(job), [&] {
-      return reference_for(scenario(job), prepared.course, prepared.finest / kFinerReference);
-    });
-  Row row = measure(scenario(job), prepared.course, contestant(job), job.step, *prepared.reference,
-                    *prepared.invariants, timing(job));
-  if (row.timing.repeats > 0)
-    per_step_[{job.scenario, job.contestant}] =
-        row.timing.median / static_cast<double>(prepared.course.steps(job.step));
-  return row;
+    prepared.reference = with_place(
+        s, [&] { return reference_for(s, prepared.schedule, prepared.finest / kFinerReference); });
+  const Trials trials{s, prepared.schedule, *prepared.invariants, *prepared.reference};
+  for (const Job& job : jobs) {
+    const double expected = seconds(job);
+    if (expected > longest()) {
+      rows.push_back(blank_row(s, solver(job), job.step));
+      rows.back().status = Status::left_out;
+      rows.back().reason =
+          fmt::format("would take about {:.2g} s, the limit is {:.2g} s", expected, longest());
+      continue;
+    }
+    double took = expected;
+    rows.push_back(evaluated(trials, solver(job), job.step, &took));
+    per_step(job) = took / static_cast<double>(prepared.schedule.steps(job.step));
+    told(expected);
+  }
+  std::vector<TimedRun> runs;
+  std::vector<double> expected;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (rows[i].status != Status::ok) continue;
+    runs.push_back({&solver(jobs[i]), &rows[i], timing(jobs[i])});
+    expected.push_back(std::max(seconds(jobs[i]), runs.back().rule.least_seconds));
+  }
+  time_in_turn(trials, runs, [&](std::size_t i) { told(expected[i]); });
+  return rows;
 }
 
 }  // namespace lantern

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/flat.hpp"
-#include "measure/yardstick.hpp"
+#include "measure/error_metric.hpp"
 
 namespace lantern {
 

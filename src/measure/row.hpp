@@ -1,14 +1,15 @@
 // One measured run: a line of the table.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "measure/error_metric.hpp"
 #include "measure/simulation.hpp"
-#include "measure/yardstick.hpp"
 
 namespace lantern {
 
@@ -17,15 +18,23 @@ enum class Status {
   diverged,  // its error or energy grew beyond all sense, or the world told of an overflow
   nan,       // a state was not a number; never of Lantern
   refused,   // the method or the peer would not do it
+  left_out,  // not run, as it would have taken too long
 };
-std::string_view to_string(Status status);
+inline constexpr std::array<std::string_view, 5> kStatusNames = {"ok", "diverged", "nan", "refused",
+                                                                 "left out"};
+inline std::string_view to_string(Status status) {
+  return kStatusNames[static_cast<std::size_t>(status)];
+}
 
 // Seconds of a whole run, over repeats. Zero repeats: not timed.
 struct Timing {
   int repeats = 0;
   double median = 0;
   double least = 0;
-  double spread = 0;  // interquartile range
+  double lower_quartile = 0;
+  double upper_quartile = 0;
+  double spread() const { return upper_quartile - lower_quartile; }  // interquartile range
+  bool operator==(const Timing&) const = default;
 };
 
 // Largest relative change over the run; nothing where the scenario does not keep it.
@@ -41,11 +50,13 @@ struct Row {
   std::string variant;  // "plain", "stiff", "extreme"
   std::string file;     // of the scenario, and a hash of its bytes
   std::uint64_t text_hash = 0;
-  std::string method;   // the contestant's name
+  std::string method;   // the solver's name: "soft:16", "Bullet:10"
   std::string version;  // of a peer; empty for Lantern
   double step = 0;      // seconds; of an adaptive method, what its tolerance follows from
   Status status = Status::ok;
-  std::string reference;    // what the error is held against: "closed form", "own run at 1e-4 s"
+  std::string reference;  // what the error is held against: "closed form", "own run at 1e-4 s"
+  double reference_error =
+      0;                    // of that itself, in the main norm, estimated; a closed form has none
   std::string reason;       // of any other status
   std::vector<Norm> norms;  // the main one first; empty if there is none
   Drift drift;
@@ -55,10 +66,14 @@ struct Row {
   std::uint64_t hash = 0;  // of the last state
 
   bool is_peer() const { return !version.empty(); }
-  // The main norm; nothing if the run has none or is not ok.
+  // Whether the method was given the chance: whatever came of it.
+  bool was_run() const { return status != Status::refused && status != Status::left_out; }
+  // The main norm, as far as it can be claimed: no less than the reference's own error. Nothing if
+  // the run has none or is not ok.
   std::optional<double> error() const {
     if (status != Status::ok || norms.empty()) return std::nullopt;
-    return norms.front().value;
+    const double value = norms.front().value;
+    return value < reference_error ? reference_error : value;
   }
 };
 
@@ -78,7 +93,7 @@ Circumstances here(std::string_view version, std::string_view sources);
 
 struct Measurement {
   Circumstances circumstances;
-  std::vector<Row> rows;  // in order of problems, contestants and steps
+  std::vector<Row> rows;  // in order of problems, methods and steps
 };
 
 }  // namespace lantern

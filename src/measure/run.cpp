@@ -12,9 +12,7 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
-#include "measure/lantern_contestant.hpp"
-#include "measure/own_run.hpp"
-#include "measure/timed.hpp"
+#include "measure/lantern_solver.hpp"
 
 namespace lantern {
 namespace {
@@ -36,20 +34,20 @@ struct NotANumber {};
 // One run. `look` sees each moment; only the steps between are timed.
 class Runner {
  public:
-  Runner(const Scenario& scenario, const Course& course, const Contestant& contestant, double h)
-      : course_(course),
+  Runner(const Scenario& scenario, const Schedule& schedule, const Solver& solver, double h)
+      : schedule_(schedule),
         h_(h),
-        at_once_(contestant.version().empty() ? kAllSteps : kStepsOfPeers),
-        simulation_(contestant.start(scenario, h)) {}
+        at_once_(solver.version().empty() ? kAllSteps : kStepsOfPeers),
+        simulation_(solver.start(scenario, h)) {}
 
   template <class Look>
-  void run(Yardstick& yardstick, Look&& look) {
+  void run(ErrorMetric& metric, Look&& look) {
     bool begun = false;
-    for (const Leg& leg : course_.legs) {
+    for (const Leg& leg : schedule_.legs) {
       for (const Verb& verb : leg.before) simulation_->act(verb);
-      if (!begun) observe(yardstick, look);
+      if (!begun) observe(metric, look);
       begun = true;
-      const std::uint64_t steps = course_.steps_in_part(leg, h_);
+      const std::uint64_t steps = schedule_.steps_in_part(leg, h_);
       for (std::uint32_t i = 0; i < leg.looks; ++i) {
         const Stopwatch watch;
         for (std::uint64_t left = steps; left > 0;) {
@@ -60,7 +58,7 @@ class Runner {
         }
         seconds_ += watch.seconds();
         steps_ += steps;
-        observe(yardstick, look);
+        observe(metric, look);
       }
     }
   }
@@ -70,17 +68,17 @@ class Runner {
 
  private:
   template <class Look>
-  void observe(Yardstick& yardstick, Look&& look) {
+  void observe(ErrorMetric& metric, Look&& look) {
     now_.time = static_cast<double>(steps_) * h_;
     simulation_->observe(now_.states);
     now_.impacts = simulation_->impacts();
     if (!std::ranges::all_of(now_.states, all_finite)) throw NotANumber();
     look(now_);
-    yardstick.look(now_);
-    yardstick.interfere(now_, *simulation_);
+    metric.look(now_);
+    metric.interfere(now_, *simulation_);
   }
 
-  const Course& course_;
+  const Schedule& schedule_;
   double h_;
   std::uint64_t at_once_;
   std::unique_ptr<Simulation> simulation_;
@@ -88,35 +86,6 @@ class Runner {
   double seconds_ = 0;
   std::uint64_t steps_ = 0;
 };
-
-// The first run: what it did, and how well.
-void evaluate(const Scenario& scenario, const Course& course, const Contestant& contestant,
-              double h, const Reference& reference, const Invariants& invariants, Row& row) {
-  const std::unique_ptr<Yardstick> yardstick = reference.make();
-  DriftMeter meter(invariants);
-  std::optional<Runner> runner;
-  try {
-    runner.emplace(scenario, course, contestant, h);
-  } catch (const Refused& refused) {
-    row.status = Status::refused;
-    row.reason = refused.what();
-    return;
-  }
-  try {
-    runner->run(*yardstick, [&](const Observation& now) { meter.look(now.states); });
-    row.norms = yardstick->norms();
-  } catch (const Refused& refused) {
-    row.status = Status::diverged;
-    row.reason = refused.what();
-  } catch (const NotANumber&) {
-    row.status = Status::nan;
-    row.reason = "a state is not a number";
-  }
-  row.drift = meter.drift();
-  row.penetration = meter.penetration();
-  row.counted = runner->simulation().counted();
-  row.hash = runner->simulation().hash();
-}
 
 void judge(Row& row) {
   if (row.status != Status::ok) return;
@@ -131,72 +100,168 @@ void judge(Row& row) {
   }
 }
 
+// Keeps every moment.
+class Recorder : public ErrorMetric {
+ public:
+  void look(const Observation& now) override { record_->push_back(now); }
+  std::vector<Norm> norms() const override { return {}; }
+  std::shared_ptr<const std::vector<Observation>> record() const { return record_; }
+
+ private:
+  std::shared_ptr<std::vector<Observation>> record_ = std::make_shared<std::vector<Observation>>();
+};
+
+// The distance from a record: of places over the way that the body that moves most has gone from
+// where it began, of velocities over the largest speed.
+class OwnRun : public ErrorMetric {
+ public:
+  explicit OwnRun(std::shared_ptr<const std::vector<Observation>> record)
+      : record_(std::move(record)) {
+    const std::size_t bodies = record_->empty() ? 0 : record_->front().states.size();
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const BodyState* first = nullptr;
+      for (const Observation& moment : *record_) {
+        const BodyState& state = moment.states[i];
+        if (!state.there) continue;
+        if (!first) first = &state;
+        way_ = std::max(way_, glm::length(state.position - first->position));
+        speed_ = std::max(speed_, glm::length(state.velocity));
+      }
+    }
+  }
+
+  void look(const Observation& now) override {
+    LANTERN_CHECK(next_, <, record_->size());
+    const Observation& then = (*record_)[next_++];
+    const auto against = [](double error, double scale) {
+      if (error == 0) return 0.0;
+      return scale > 0 ? error / scale : std::numeric_limits<double>::infinity();
+    };
+    for (std::size_t i = 0; i < now.states.size(); ++i) {
+      const BodyState &a = now.states[i], &b = then.states[i];
+      if (!a.there || !b.there) continue;
+      worst_ = std::max({worst_, against(glm::length(a.position - b.position), way_),
+                         against(glm::length(a.velocity - b.velocity), speed_)});
+    }
+  }
+  std::vector<Norm> norms() const override { return {trajectory_norm(worst_, way_, speed_)}; }
+
+ private:
+  std::shared_ptr<const std::vector<Observation>> record_;
+  double way_ = 0, speed_ = 0;
+  std::size_t next_ = 0;
+  double worst_ = 0;
+};
+
+void ignore(const Observation&) {}
+
 }  // namespace
 
-Reference reference_for(const Scenario& scenario, const Course& course, double step) {
+Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step) {
   if (scenario.problem) {
-    make_yardstick(scenario);  // tells at once if it is not that problem
-    return {"closed form", [&scenario] { return make_yardstick(scenario); }};
+    make_error_metric(scenario);  // tells at once if it is not that problem
+    return {"closed form", [&scenario] { return make_error_metric(scenario); }};
   }
   Method method;
   method.name = "as written";
   if (scenario.world.contacts == ContactMethod::none) method = *method_named("runge_kutta_4");
-  const double h = course.fitted_step(step);
+  const double h = schedule.fitted_step(step);
   std::uint64_t looks = 1;
-  for (const Leg& leg : course.legs) looks += leg.looks;
+  for (const Leg& leg : schedule.legs) looks += leg.looks;
   require_memory(looks * scenario.bodies.size() * sizeof(BodyState),
                  fmt::format("the states of {} bodies at {} times", scenario.bodies.size(), looks),
                  "take fewer bodies, or fewer steps that wait or run");
-  auto record = std::make_shared<std::vector<Observation>>();
-  Recorder recorder(*record);
-  try {
-    Runner(scenario, course, LanternContestant(method), h).run(recorder, [](const Observation&) {});
-  } catch (const NotANumber&) {
-    throw Refused("its own run ends in states that are no numbers");
-  }
-  return {fmt::format("own run, {} at {:.3g} s", method.name, h),
-          [record] { return std::make_unique<OwnRun>(record); }};
+  const auto run = [&](double of, ErrorMetric& metric) {
+    try {
+      Runner(scenario, schedule, LanternSolver(method), of).run(metric, ignore);
+    } catch (const NotANumber&) {
+      throw Refused("its own run ends in states that are no numbers");
+    }
+  };
+  Recorder fine;
+  run(h, fine);
+  const auto make = [record = fine.record()] { return std::make_unique<OwnRun>(record); };
+  const auto coarser = make();
+  run(schedule.fitted_step(2 * h), *coarser);
+  return {fmt::format("own run, {} at {:.3g} s", method.name, h), make,
+          coarser->norms().front().value};
 }
 
-Row measure(const Scenario& scenario, const Course& course, const Contestant& contestant, double h,
-            const Reference& reference, const Invariants& invariants, const TimingRule& rule) {
+Row blank_row(const Scenario& scenario, const Solver& solver, double h) {
   Row row;
   row.problem = scenario.name;
   row.file = scenario.file;
   row.text_hash = scenario.text_hash;
   row.family = scenario.problem ? to_string(scenario.problem->solution) : scenario.name;
   row.variant = scenario.problem ? to_string(scenario.problem->variant) : "own";
-  row.method = contestant.name();
-  row.version = contestant.version();
+  row.method = solver.name();
+  row.version = solver.version();
   row.step = h;
-  row.reference = reference.text;
-  evaluate(scenario, course, contestant, h, reference, invariants, row);
-  judge(row);
-  if (row.status != Status::ok) return row;
-  std::vector<double> repeats;
-  for (int i = 0; i < rule.repeats; ++i) {
-    double spent = 0;
-    int runs = 0;
-    for (; runs == 0 || spent < rule.least_seconds; ++runs) {
-      Runner runner(scenario, course, contestant, h);
-      const std::unique_ptr<Yardstick> yardstick = reference.make();
-      runner.run(*yardstick, [](const Observation&) {});
-      if (!row.is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row.hash);
-      spent += runner.seconds();
-    }
-    repeats.push_back(spent / runs);
-  }
-  row.timing = timing_of(repeats);
   return row;
 }
 
-double estimated_seconds(const Scenario& scenario, const Course& course,
-                         const Contestant& contestant, double h) {
-  constexpr double kLook = 0.004;  // seconds
-  const auto all = static_cast<double>(course.steps(h));
+Row evaluated(const Trials& trials, const Solver& solver, double h, double* seconds) {
+  Row row = blank_row(trials.scenario, solver, h);
+  row.reference = trials.reference.text;
+  row.reference_error = trials.reference.error;
+  const std::unique_ptr<ErrorMetric> metric = trials.reference.make();
+  DriftMeter meter(trials.invariants);
+  std::optional<Runner> runner;
+  const auto failed = [&](Status status, const char* reason) {
+    row.status = status;
+    row.reason = reason;
+  };
   try {
-    const std::unique_ptr<Simulation> simulation = contestant.start(scenario, h);
-    for (const Verb& verb : course.legs.front().before) simulation->act(verb);
+    runner.emplace(trials.scenario, trials.schedule, solver, h);
+    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
+    row.norms = metric->norms();
+    if (seconds) *seconds = runner->seconds();
+  } catch (const Refused& refused) {
+    failed(runner ? Status::diverged : Status::refused, refused.what());
+  } catch (const NotANumber&) {
+    failed(Status::nan, "a state is not a number");
+  }
+  if (!runner) return row;
+  row.drift = meter.drift();
+  row.penetration = meter.penetration();
+  row.counted = runner->simulation().counted();
+  row.hash = runner->simulation().hash();
+  judge(row);
+  return row;
+}
+
+void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
+                  const std::function<void(std::size_t)>& told) {
+  std::vector<std::vector<double>> repeats(runs.size());
+  bool any = true;
+  for (int round = 0; any; ++round) {
+    any = false;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const auto& [solver, row, rule] = runs[i];
+      if (round >= rule.repeats) continue;
+      any = true;
+      double spent = 0;
+      int times = 0;
+      for (; times == 0 || spent < rule.least_seconds; ++times) {
+        Runner runner(trials.scenario, trials.schedule, *solver, row->step);
+        runner.run(*trials.reference.make(), ignore);
+        if (!row->is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row->hash);
+        spent += runner.seconds();
+      }
+      repeats[i].push_back(spent / times);
+      told(i);
+    }
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].row->timing = timing_of(repeats[i]);
+}
+
+double estimated_seconds(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
+                         double h) {
+  constexpr double kLook = 0.004;  // seconds
+  const auto all = static_cast<double>(schedule.steps(h));
+  try {
+    const std::unique_ptr<Simulation> simulation = solver.start(scenario, h);
+    for (const Verb& verb : schedule.legs.front().before) simulation->act(verb);
     double spent = 0, steps = 0;
     for (double batch = 1; spent < kLook && steps < all; batch *= 2) {
       const double n = std::min(batch, all - steps);

@@ -1,40 +1,63 @@
-// Runs a scenario by a contestant at a step, looks at it with a yardstick, times it, and makes a
-// row of it.
+// Runs a scenario by a solver at a step, holds it against a reference, times it, and makes a row of
+// it.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
 
-#include "measure/course.hpp"
+#include "measure/error_metric.hpp"
 #include "measure/invariants.hpp"
-#include "measure/row.hpp"
+#include "measure/schedule.hpp"
+#include "measure/timed.hpp"
 
 namespace lantern {
-
-// How a run is timed, after a warm-up. A repeat runs as often as it takes to fill `least_seconds`.
-struct TimingRule {
-  int repeats = 15;
-  double least_seconds = 0.05;
-};
 
 // What the runs of one scenario are held against.
 struct Reference {
   std::string text;  // "closed form"
-  std::function<std::unique_ptr<Yardstick>()> make;
+  std::function<std::unique_ptr<ErrorMetric>()> make;
+  double error = 0;  // its own, estimated, in the main norm
 };
 
-// A problem's own yardstick; otherwise the scenario's run at `step`, which should be much finer
-// than those to be measured: by RK4 where nothing collides, else as the file is written. Throws
-// Refused if the scenario is not the problem it claims to be, or if that run fails.
-Reference reference_for(const Scenario& scenario, const Course& course, double step);
+// A problem's own metric; otherwise the scenario's run at `step`, which should be much finer than
+// those to be measured: by RK4 where nothing collides, else as the file is written. The error of
+// that run is taken to be its distance from the same run at twice the step, which is no less as
+// long as halving the step helps. Throws Refused if the scenario is not the problem it claims to
+// be, or if that run fails.
+Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step);
 
-// `h` must be fitted to the course. Whatever goes wrong in the run is the row's status; nothing is
-// thrown but Stopped. Two runs of Lantern that differ are a broken invariant.
-Row measure(const Scenario& scenario, const Course& course, const Contestant& contestant, double h,
-            const Reference& reference, const Invariants& invariants, const TimingRule& rule);
+// The runs of one scenario. It and what it refers to must outlive them.
+struct Trials {
+  const Scenario& scenario;
+  const Schedule& schedule;
+  const Invariants& invariants;
+  const Reference& reference;
+};
+
+// A row of which nothing is known yet but what is to be run. `h` must be fitted to the schedule.
+Row blank_row(const Scenario& scenario, const Solver& solver, double h);
+
+// One run, which is not timed. Whatever goes wrong in it is the row's status; nothing is thrown but
+// Stopped. `seconds`, if given, is what the run took; it is left alone if the run broke off.
+Row evaluated(const Trials& trials, const Solver& solver, double h, double* seconds = nullptr);
+
+// A row that is ok, to be timed.
+struct TimedRun {
+  const Solver* solver = nullptr;
+  Row* row = nullptr;
+  TimingRule rule;
+};
+
+// Times them in turn: one repeat of each, then the next of each, so that what else the machine does
+// meanwhile falls on all alike. `told` is called after each repeat with the place of its run. Two
+// runs of Lantern that differ are a broken invariant.
+void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
+                  const std::function<void(std::size_t)>& told);
 
 // Seconds that one run would take, from its first few milliseconds. 0 if it fails at once.
-double estimated_seconds(const Scenario& scenario, const Course& course,
-                         const Contestant& contestant, double h);
+double estimated_seconds(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
+                         double h);
 
 }  // namespace lantern

@@ -1,6 +1,6 @@
 // One interface for whoever can move the bodies of a scenario: Lantern's engine by any of its
 // methods, and the peers that it is measured beside. All are fed the same scenario and asked for
-// the same states, so that one yardstick fits them all.
+// the same states, so that one metric fits them all.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +42,9 @@ class Simulation {
 };
 
 // Who makes simulations: a method of Lantern, or a peer.
-class Contestant {
+class Solver {
  public:
-  virtual ~Contestant() = default;
+  virtual ~Solver() = default;
   virtual std::string name() const = 0;     // "velocity_verlet", "Bullet"
   virtual std::string version() const = 0;  // of a peer; empty for Lantern itself
   bool is_peer() const { return !version().empty(); }

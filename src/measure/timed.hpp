@@ -8,9 +8,15 @@
 #include "base/check.hpp"
 #include "base/clock.hpp"
 #include "base/stop.hpp"
-#include "measure/run.hpp"
+#include "measure/row.hpp"
 
 namespace lantern {
+
+// How a run is timed, after a warm-up. A repeat runs as often as it takes to fill `least_seconds`.
+struct TimingRule {
+  int repeats = 15;
+  double least_seconds = 0.05;
+};
 
 // The value below which lies `share` (0 ... 1) of the values, between neighbours by their distance;
 // of an empty list a broken invariant.
@@ -27,7 +33,7 @@ inline double quantile(std::vector<double> values, double share) {
 inline Timing timing_of(const std::vector<double>& seconds) {
   if (seconds.empty()) return {};
   return {static_cast<int>(seconds.size()), quantile(seconds, 0.5), quantile(seconds, 0),
-          quantile(seconds, 0.75) - quantile(seconds, 0.25)};
+          quantile(seconds, 0.25), quantile(seconds, 0.75)};
 }
 
 // Seconds of one call of `work`, which is called once before for warmth. Without repeats it is not

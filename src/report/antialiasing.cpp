@@ -85,14 +85,28 @@ class Measurer {
         reference_picture(list, theme_, width, height, config_.backend);
     Image image;
     Renderer(Context::create(config_.backend), width, height).draw(list, theme_, false, image);
-    std::vector<PictureRow> rows = {
-        {name_, "coverage", "1 x 1", "", error_of(image, reference), {}, kParts[kind]}};
+    std::vector<PictureRow> rows = {{name_,
+                                     "coverage",
+                                     "1 x 1",
+                                     "",
+                                     error_of(image, reference),
+                                     {},
+                                     kParts[kind],
+                                     width,
+                                     height}};
     if (!with_cairo) return rows;
     CairoPeer peer(width, height);
     peer.draw(list, theme_);
     peer.read(image);
-    rows.push_back(
-        {name_, "cairo", "default", peer.version(), error_of(image, reference), {}, kParts[kind]});
+    rows.push_back({name_,
+                    "cairo",
+                    "default",
+                    peer.version(),
+                    error_of(image, reference),
+                    {},
+                    kParts[kind],
+                    width,
+                    height});
     return rows;
   }
 
@@ -102,7 +116,8 @@ class Measurer {
 
  private:
   PictureRow made(std::string family, std::string choice, const Image& image) const {
-    return {name_, std::move(family), std::move(choice), "", error_of(image, reference_), {}, ""};
+    return {name_, std::move(family), std::move(choice), "", error_of(image, reference_), {},
+            "",    config_.width,     config_.height};
   }
 
   std::string name_;

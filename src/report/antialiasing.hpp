@@ -31,6 +31,7 @@ struct PictureRow {
   PictureError error;
   Timing timing;     // seconds a frame, from draw list to pixels in memory; of samples no repeats
   std::string part;  // "texts": nothing else was drawn, and not timed; empty for all of the picture
+  int width = 0, height = 0;  // of the picture, pixels
 };
 
 struct PictureConfig {
@@ -75,7 +76,7 @@ Plot picture_plot(const PictureReport& report, const std::string& scene);
 std::string picture_sentence(const PictureReport& report, const std::string& scene);
 
 // "The cheapest way under 10 levels RMS is coverage 1 × 1: 2.1 ms a frame, off by 7.3 levels; cairo
-// none never gets there." Of the scene's timed rows; ways that cost the same within the spread of
+// none is farther off." Of the scene's timed rows; ways that cost the same within the spread of
 // their times (costs_the_same) are told as equals. Where none is under 10, the least of 20, 50, 100
 // and 255 that one is under. Without a timed row it says so.
 std::string cheapest_picture(const PictureReport& report, const std::string& scene);

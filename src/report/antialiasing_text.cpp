@@ -4,12 +4,31 @@
 
 #include "base/json_writer.hpp"
 #include "draw/number_text.hpp"
+#include "measure/records.hpp"
 #include "report/antialiasing.hpp"
 #include "report/cheapest.hpp"
 #include "report/pareto.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern {
+
+template <class Visit>
+void each_field(const PictureRow& row, Visit&& visit) {
+  visit(Field("scene"), row.scene);
+  visit(Field("part"), row.part);
+  visit(Field("family"), row.family);
+  visit(Field("choice"), row.choice);
+  visit(Field("version"), row.version);
+  visit(Field("", "width"), row.width);
+  visit(Field("", "height"), row.height);
+  visit(Field("edge_pixels", "edge_pixels", "error"), row.error.edge_pixels);
+  visit(Field("mean", "error_mean", "error"), row.error.mean);
+  visit(Field("rms", "error_rms", "error"), row.error.rms);
+  visit(Field("worst", "error_worst", "error"), row.error.worst);
+  visit(Field("strays", "strays", "error"), row.error.strays);
+  each_timing(row.timing, "seconds", "iqr", "seconds_iqr", visit);
+}
+
 namespace {
 
 double milliseconds(const PictureRow& row) { return 1e3 * row.timing.median; }
@@ -88,9 +107,9 @@ std::string cheapest_picture(const PictureReport& report, const std::string& sce
   double bound = 255;
   for (const double levels : {100.0, 50.0, 20.0, 10.0})
     if (least <= levels) bound = levels;
-  std::vector<std::string> never;
+  std::vector<std::string> worse;  // each way is one run, so all that can be said of it is known
   for (const PictureRow* row : rows)
-    if (row->error.rms > bound) never.push_back(way(*row));
+    if (row->error.rms > bound) worse.push_back(way(*row));
   std::erase_if(rows, [&](const PictureRow* row) { return row->error.rms > bound; });
   std::ranges::stable_sort(rows, {}, [](const PictureRow* row) { return row->timing.median; });
   const PictureRow* best = rows[0];
@@ -105,8 +124,8 @@ std::string cheapest_picture(const PictureReport& report, const std::string& sce
   std::string text = fmt::format("The cheapest way{} under {} levels RMS {} {}", many ? "s" : "",
                                  bound, many ? "are" : "is", listed(names));
   if (many) text += ", which cost the same within the spread";
-  if (!never.empty())
-    text += fmt::format("; {} never {} there", listed(never), never.size() > 1 ? "get" : "gets");
+  if (!worse.empty())
+    text += fmt::format("; {} {} farther off", listed(worse), worse.size() > 1 ? "are" : "is");
   return text + ".";
 }
 
@@ -149,7 +168,7 @@ std::string to_table(const PictureReport& report) {
       text += fmt::format("  {:<20}{:>8.3f}{:>8.3f}{:>8.1f}{:>8}", name, row.error.mean,
                           row.error.rms, row.error.worst, row.error.strays);
       text += is_timed(row) ? fmt::format("{:>10.2f}{:>10.2f}{:>8.2f}\n", milliseconds(row),
-                                          1e3 * row.timing.least, 1e3 * row.timing.spread)
+                                          1e3 * row.timing.least, 1e3 * row.timing.spread())
                             : fmt::format("{:>10}\n", "not timed");
     }
     text += "  " + cheapest_picture(report, scene) + "\n";
@@ -158,18 +177,7 @@ std::string to_table(const PictureReport& report) {
   return text;
 }
 
-std::string to_csv(const PictureReport& report) {
-  std::string text =
-      "scene,part,family,choice,version,width,height,edge_pixels,error_mean,error_rms,error_worst,"
-      "strays,repeats,seconds_median,seconds_least,seconds_iqr\n";
-  for (const PictureRow& row : report.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6g},{:.6g},{:.6g}\n",
-                        row.scene, row.part, row.family, row.choice, row.version, report.width,
-                        report.height, row.error.edge_pixels, row.error.mean, row.error.rms,
-                        row.error.worst, row.error.strays, row.timing.repeats, row.timing.median,
-                        row.timing.least, row.timing.spread);
-  return text;
-}
+std::string to_csv(const PictureReport& report) { return csv_of(report.rows); }
 
 std::string to_json(const PictureReport& report) {
   JsonWriter json;
@@ -181,25 +189,7 @@ std::string to_json(const PictureReport& report) {
   json.end_array().line().key("cheapest").begin_array();
   for (const std::string& scene : report.scenes) json.value(cheapest_picture(report, scene));
   json.end_array().line().key("rows").begin_array();
-  for (const PictureRow& row : report.rows) {
-    json.line().begin_object().member("scene", row.scene).member("part", row.part);
-    json.member("family", row.family);
-    json.member("choice", row.choice).member("version", row.version);
-    json.key("error").begin_object().member("edge_pixels", row.error.edge_pixels);
-    json.member("mean", row.error.mean).member("rms", row.error.rms);
-    json.member("worst", row.error.worst).member("strays", row.error.strays).end_object();
-    json.key("seconds");
-    if (is_timed(row))
-      json.begin_object()
-          .member("repeats", row.timing.repeats)
-          .member("median", row.timing.median)
-          .member("least", row.timing.least)
-          .member("iqr", row.timing.spread)
-          .end_object();
-    else
-      json.null();
-    json.end_object();
-  }
+  for (const PictureRow& row : report.rows) write_json(row, json.line());
   json.line().end_array().line().end_object();
   return json.text() + "\n";
 }

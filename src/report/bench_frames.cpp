@@ -144,11 +144,11 @@ FrameBenchResult bench_frames(std::span<const DrawList> lists, const fs::path& f
       entry.seconds.push_back(entry.last.seconds);
     }
   for (const Entry& entry : entries)
-    result.contestants.push_back({entry.name, config.frames / median(entry.seconds), 0,
+    result.methods.push_back({entry.name, config.frames / median(entry.seconds), 0,
                                   entry.last.bytes / config.frames, entry.last.encoded});
   if (entries.size() > 2)
-    for (FrameContestant& c : result.contestants)
-      c.against_cairo = c.frames_per_second / result.contestants[2].frames_per_second;
+    for (FrameWriter& c : result.methods)
+      c.against_cairo = c.frames_per_second / result.methods[2].frames_per_second;
   return result;
 }
 
@@ -158,7 +158,7 @@ std::string to_table(const FrameBenchResult& result) {
                                  c.height, c.frames, c.rounds, result.cairo);
   text += fmt::format("{:<18}{:>12}{:>12}{:>14}{:>10}\n", "", "frames/s", "x cairo", "bytes/file",
                       "encoded");
-  for (const FrameContestant& f : result.contestants)
+  for (const FrameWriter& f : result.methods)
     text += fmt::format("{:<18}{:>12.1f}{:>12.2f}{:>14.0f}{:>9.0f}%\n", f.name, f.frames_per_second,
                         f.against_cairo, f.bytes_per_file, 100 * f.pictures_encoded);
   text += "\nfrom the start of a process, ms   bare context   first 1280 x 720 file   ratio\n";
@@ -177,7 +177,7 @@ std::string to_json(const FrameBenchResult& result) {
   json.line().member("rounds", c.rounds).member("threads", c.threads);
   json.line().member("cairo", result.cairo);
   json.line().key("contestants").begin_array();
-  for (const FrameContestant& f : result.contestants)
+  for (const FrameWriter& f : result.methods)
     json.line()
         .begin_object()
         .member("name", f.name)

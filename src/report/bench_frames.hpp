@@ -14,14 +14,14 @@ namespace lantern {
 
 struct FrameBenchConfig {
   int width = 1920, height = 1080;
-  int frames = 60;  // files a contestant writes in a round; the lists are taken in turn
-  int rounds = 5;   // contestants take turns; the median counts
+  int frames = 60;  // files a method writes in a round; the lists are taken in turn
+  int rounds = 5;   // methods take turns; the median counts
   int threads = 2;  // that encode, beside the one that draws
   Backend backend = Backend::automatic;
   Theme theme;
 };
 
-struct FrameContestant {
+struct FrameWriter {
   std::string name;
   double frames_per_second = 0;  // from draw list to file, median of the rounds
   double against_cairo = 0;      // its rate over that of cairo on one thread; 0 without cairo
@@ -39,7 +39,7 @@ struct StartTimes {
 struct FrameBenchResult {
   FrameBenchConfig config;
   std::string cairo;  // version, or why there is none
-  std::vector<FrameContestant> contestants;
+  std::vector<FrameWriter> methods;
   std::vector<StartTimes> starts;
 };
 

@@ -14,7 +14,7 @@ bool is_less(const Priced& a, const Priced& b) {
   return a.cost < b.cost || (a.cost == b.cost && *a.row->error() < *b.row->error());
 }
 
-// Each contestant's cheapest run, in order of their first rows.
+// Each method's cheapest run, in order of their first rows.
 std::vector<Priced> best_of_each(std::span<const Row* const> rows, const Cost& cost) {
   std::vector<Priced> best;
   for (const Row* row : rows) {
@@ -34,8 +34,8 @@ std::vector<Priced> best_of_each(std::span<const Row* const> rows, const Cost& c
 }  // namespace
 
 bool costs_the_same(const Timing& faster, const Timing& slower) {
-  return slower.median - faster.median <= std::max(faster.spread, slower.spread) &&
-         slower.least <= faster.median + faster.spread;
+  return slower.median - faster.median <= std::max(faster.spread(), slower.spread()) &&
+         slower.least <= faster.median + faster.spread();
 }
 
 std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Cost& cost,

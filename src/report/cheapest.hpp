@@ -15,7 +15,7 @@ namespace lantern {
 bool costs_the_same(const Timing& faster, const Timing& slower);
 
 // The cheapest run of each of those that cost as little as the cheapest: it first, then ascending
-// in cost, one a contestant. Empty if no row has a cost. Those that were timed cost the same if
+// in cost, one a method. Empty if no row has a cost. Those that were timed cost the same if
 // costs_the_same; work is counted, so there only equal counts are. Of equal ones that with less
 // error comes first. Rows must have an error.
 std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Cost& cost,

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kPlotMargin = 60;
 constexpr double kTitleLine = 58;
-constexpr const char* kSeconds = "seconds for the whole run, median";
+constexpr const char* kSeconds = "seconds for the whole run: median, quartiles";
 constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
 constexpr double kFarOff =
     1e3;  // errors beyond this are at the edge, or the others would be a line
@@ -30,6 +30,9 @@ PlotPoint point_of(const Row& row, double cost) {
   PlotPoint point;
   point.beyond = !error || !std::isfinite(*error);
   point.at = {cost, point.beyond ? 0 : *error};
+  if (cost == seconds_of(row))
+    point.spread =
+        Box<2>{{row.timing.lower_quartile, point.at.y}, {row.timing.upper_quartile, point.at.y}};
   return point;
 }
 
@@ -105,10 +108,14 @@ void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
   add_rule(list, 78);
 }
 
+// "error: state (“traj”), against: closed form", with the unit of what is not relative.
 std::string error_words(const ProblemRows& problem) {
   const std::string norm = main_norm(problem);
   std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
   if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
+  const auto with_norm = std::ranges::find_if(
+      problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
+  if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
   for (const Row& row : problem.rows)
     if (!row.reference.empty()) return words + ", against: " + row.reference;
   return words;
@@ -207,11 +214,11 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
   Plot plot;
   std::set<int> orders;
   double least = 1e300, most = 0;
-  for (const ContestantRows& c : by_contestant(problem)) {
-    PlotSeries series;
-    series.name = c.is_peer ? c.method + " " + c.version : method_words(c.method);
-    series.look = looks.at(c.method);
-    series.is_peer = c.is_peer;
+  std::map<std::string, std::string> twins;  // to the first method with the same errors
+  for (const std::vector<std::string>& group : equal_methods(problem))
+    for (std::size_t i = 1; i < group.size(); ++i) twins[group[i]] = group[0];
+  for (const MethodRows& c : by_method(problem)) {
+    PlotSeries series = series_of(c, looks);
     const auto of_step = cost_of_step(c.rows, cost);
     for (const Row& row : c.rows)
       if (const auto price = cost_or_estimate(row, of_step, cost);
@@ -220,8 +227,13 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
         least = std::min(least, *price);
         most = std::max(most, *price);
       }
-    if (const auto order = observed_order(c.rows)) {
-      if (with_orders) series.name += fmt::format(": order {:.2f}", *order);
+    const auto order = observed_order(c.rows);
+    const auto twin = twins.find(c.method);
+    if (with_orders && twin != twins.end())
+      series.name += ": errors equal those of " + method_words(twin->second);
+    else if (with_orders && order)
+      series.name += fmt::format(": order {:.2f}", *order);
+    if (order) {
       const int nearest = static_cast<int>(std::lround(*order));
       const bool is_near = std::abs(*order - nearest) <= kNearOrder;
       if (!c.is_peer && is_near && nearest >= 1 && nearest <= 6 && !series.points.empty())
@@ -245,8 +257,8 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
   Labels labels(list);
   draw_title(problem, list, labels);
   const double bottom =
-      draw_page_foot(sentence(problem), circumstances_text(measurement.circumstances), kPlotMargin,
-                     list, labels) -
+      draw_page_foot(sentence(problem), notes_on(problem),
+                     circumstances_text(measurement.circumstances), kPlotMargin, list, labels) -
       18;
   auto [left, right] = plots_of(problem, looks);
   const double width = list.page.x - 2 * kPlotMargin, middle = kPlotMargin + width / 2, gap = 48;

@@ -10,9 +10,9 @@
 
 namespace lantern {
 
-// One plot of a problem: its contestants as series, the observed order behind each name if
+// One plot of a problem: its methods as series, the observed order behind each name if
 // `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
-// front. `looks` must hold every contestant (looks_of).
+// front. `looks` must hold every method (looks_of).
 Plot cost_plot(const ProblemRows& problem, const Cost& cost,
                const std::map<std::string, int>& looks, bool with_orders);
 

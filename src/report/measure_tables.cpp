@@ -1,6 +1,7 @@
 #include "report/measure_tables.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -37,26 +38,21 @@ std::string line(const std::vector<std::string>& fields) {
   return text + "\n";
 }
 
-std::string name_of(const ContestantRows& c) {
-  return c.is_peer ? c.method + " " + c.version : c.method;
-}
-
-std::string line_for(const ContestantRows& c, const WorkCount& work) {
+std::string line_for(const MethodRows& c, const WorkCount& work) {
   const Row* best = nullptr;
-  std::size_t ok = 0, failed[4] = {};
+  std::array<std::size_t, kStatusNames.size()> ended{};
   for (const Row& row : c.rows) {
-    ok += row.status == Status::ok;
-    ++failed[static_cast<std::size_t>(row.status)];
+    ++ended[static_cast<std::size_t>(row.status)];
     const auto error = row.error();
     if (error && (!best || *error < *best->error())) best = &row;
   }
-  std::string status;
-  for (const Status s : {Status::nan, Status::refused, Status::diverged})
-    if (failed[static_cast<std::size_t>(s)] > 0) status = to_string(s);
+  std::string status;  // the worst that happened
+  for (const Status s : {Status::left_out, Status::nan, Status::refused, Status::diverged})
+    if (ended[static_cast<std::size_t>(s)] > 0) status = to_string(s);
   const auto order = c.is_peer && c.rows.size() < 3 ? std::nullopt : observed_order(c.rows);
   const auto seconds = best ? seconds_of(*best) : std::nullopt;
   const auto count = best ? work.of(*best) : std::nullopt;
-  return line({name_of(c), fmt::format("{}/{}", ok, c.rows.size()),
+  return line({c.is_peer ? c.name() : c.method, fmt::format("{}/{}", ended[0], c.rows.size()),
                order ? fmt::format("{:.2f}", *order) : "-", best ? figure(*best->error()) : "-",
                best ? figure(best->step) : "-", seconds ? seconds_text(*seconds) : "-",
                count ? fmt::format("{:.0f}", *count) : "-", status});
@@ -95,9 +91,10 @@ std::string to_table(const Measurement& measurement) {
     text += fmt::format("{}{} ({}, {})\n", text.empty() ? "" : "\n", problem.problem,
                         problem.family, problem.variant);
     text += line({"method", "runs ok", "order", norm.empty() ? "error" : norm, "at h", "time",
-                  short_name(work.name), "failures"});
-    for (const ContestantRows& c : by_contestant(problem)) text += line_for(c, work);
+                  short_name(work.name), "not ok"});
+    for (const MethodRows& c : by_method(problem)) text += line_for(c, work);
     text += folded(sentence(problem));
+    for (const std::string& note : notes_on(problem)) text += folded(note);
   }
   return text;
 }

@@ -27,19 +27,27 @@ void put_into_bands(Plot& plot) {
   plot.front_name = "cheapest";
 }
 
+PlotSeries series_of(const MethodRows& method, const std::map<std::string, int>& looks) {
+  PlotSeries series;
+  series.name = method.name();
+  series.look = looks.at(method.method);
+  series.is_peer = method.is_peer;
+  return series;
+}
+
 Plot step_plot(const ProblemRows& problem, const Cost& value,
                const std::map<std::string, int>& looks) {
   Plot plot;
   const bool whole = has_whole_errors(problem);
-  for (const ContestantRows& c : by_contestant(problem)) {
-    PlotSeries series;
-    series.name = c.is_peer ? c.method + " " + c.version : method_words(c.method);
-    series.look = looks.at(c.method);
-    series.is_peer = c.is_peer;
+  for (const MethodRows& c : by_method(problem)) {
+    PlotSeries series = series_of(c, looks);
     for (const Row& row : c.rows)
       if (const auto y = value(row)) {
-        PlotPoint point{{row.step, *y}, !std::isfinite(*y), "", false};
+        PlotPoint point{{row.step, *y}, !std::isfinite(*y), "", false, {}};
         point.open = whole && row.error() > 0.0;
+        if (y == seconds_of(row))
+          point.spread =
+              Box<2>{{row.step, row.timing.lower_quartile}, {row.step, row.timing.upper_quartile}};
         series.points.push_back(point);
       }
     plot.series.push_back(std::move(series));

@@ -100,20 +100,16 @@ class OverviewPage {
     list_.page = {width_, columns_ > 2 ? std::max(page, needed) : needed};
   }
 
+  // Lantern's methods first.
   std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries;
-    std::vector<std::pair<int, LegendEntry>> found;
-    for (const Row& row : measurement_.rows) {
-      const LegendEntry entry{
-          row.is_peer() ? row.method + " " + row.version : method_words(row.method),
-          looks_.at(row.method), row.is_peer()};
-      if (std::none_of(found.begin(), found.end(),
-                       [&](const auto& f) { return f.second.look == entry.look; }))
-        found.push_back({entry.is_peer, entry});
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto& [_, entry] : found) entries.push_back(std::move(entry));
+    for (const ProblemRows& problem : problems_)
+      for (const MethodRows& method : by_method(problem)) {
+        const LegendEntry entry{method.name(), looks_.at(method.method), method.is_peer};
+        if (std::ranges::find(entries, entry.look, &LegendEntry::look) == entries.end())
+          entries.push_back(entry);
+      }
+    std::ranges::stable_sort(entries, {}, &LegendEntry::is_peer);
     return entries;
   }
 
@@ -127,10 +123,11 @@ class OverviewPage {
     labels_.add("Error against run time", {{kOverviewMargin, 74}, 0},
                 {38, Weight::semibold, Role::ink, Role::none}, place);
     const std::string how = fmt::format(
-        "{} problem{}, {} runs. Each plot: the error of a run (of what is named at its upper "
+        "{} problem{}, {} runs. Each plot: a run's error (of the quantity named at its upper "
         "right) "
-        "upwards, its seconds to the right, both logarithmic; lower left is better.",
-        problems_.size(), problems_.size() == 1 ? "" : "s", measurement_.rows.size());
+        "against its seconds, both logarithmic; lower left is better.",
+        problems_.size(), problems_.size() == 1 ? "" : "s",
+        std::ranges::count_if(measurement_.rows, &Row::was_run));
     labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
                 {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none},
                 place);
@@ -144,9 +141,8 @@ class OverviewPage {
     y += height + 4;
     const std::string rest =
         "Dashed: other engines. Open marks: runs that diverged (placed by their steps if not "
-        "timed) "
-        "or were off. Stairs: no run has both less error and less time. Dashed grey: estimated "
-        "rounding floor.";
+        "timed) or were off. Thin bars: quartiles. Stairs: no run has both less error and less "
+        "time. Dashed grey: estimated rounding floor.";
     labels_.add(shortened(rest, inner(), kSmallPrint), {{kOverviewMargin, y + 17}, 0}, kSmallPrint,
                 band(y, y + 26));
     return y + 44;

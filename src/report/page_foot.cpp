@@ -4,24 +4,48 @@
 
 namespace lantern {
 
-double draw_page_foot(const std::string& sentence, const std::string& small, double margin,
-                      DrawList& list, Labels& labels) {
-  constexpr double kSentence = 25, kLineHeight = 36;
+namespace {
+
+constexpr std::size_t kMostFootLines = 3;
+
+// What has no room ends in dots.
+std::vector<std::string> lines_of(const std::string& text, double width, const TextStyle& style) {
+  std::vector<std::string> lines = wrapped(text, width, style);
+  if (lines.size() <= kMostFootLines) return lines;
+  lines.resize(kMostFootLines);
+  lines.back() = shortened(lines.back() + " …", width, style);
+  return lines;
+}
+
+}  // namespace
+
+double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
+                      const std::string& small, double margin, DrawList& list, Labels& labels) {
+  constexpr double kSentence = 25, kLineHeight = 36, kNoteHeight = 26;
   TextStyle style{kSentence, Weight::regular, Role::ink, Role::none};
   const TextStyle quiet{kLeastLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
   const double width = list.page.x - 2 * margin;
   std::vector<std::string> lines = wrapped(sentence, width, style);
   if (lines.size() > 2) {
     style.size = kLeastCaption;
-    lines = wrapped(sentence, width, style);
+    lines = lines_of(sentence, width, style);
   }
-  if (lines.size() > 3) lines = {lines[0], lines[1], shortened(lines[2] + " …", width, style)};
-  const double top = list.page.y - 62 - kLineHeight * static_cast<double>(lines.size());
+  std::string joined;
+  for (const std::string& note : notes) joined += (joined.empty() ? "" : " ") + note;
+  const std::vector<std::string> told =
+      notes.empty() ? std::vector<std::string>() : lines_of(joined, width, quiet);
+  const double top = list.page.y - 62 - kLineHeight * static_cast<double>(lines.size()) -
+                     kNoteHeight * static_cast<double>(told.size());
   const Box<2> band{{margin, top}, {list.page.x - margin, list.page.y - 14}};
   double y = top + 36;
   for (const std::string& words : lines) {
     labels.add(words, {{margin, y}, 0}, style, band);
     y += kLineHeight;
+  }
+  y = list.page.y - 26 - kNoteHeight * static_cast<double>(told.size());
+  for (const std::string& words : told) {
+    labels.add(words, {{margin, y}, 0}, quiet, band);
+    y += kNoteHeight;
   }
   labels.add(shortened(small, width, quiet), {{margin, list.page.y - 26}, 0}, quiet, band);
   list.shapes.emplace_back(

@@ -21,14 +21,32 @@ struct ProblemRows {
 };
 std::vector<ProblemRows> by_problem(std::span<const Row> rows);
 
-// The same of one contestant, the largest step first.
-struct ContestantRows {
+// The same of one method, the largest step first.
+struct MethodRows {
   std::string method;
   bool is_peer = false;
   std::string version;
   std::vector<Row> rows;
+  std::string name() const;  // "explicit Euler", "Bullet:10 3.24"
 };
-std::vector<ContestantRows> by_contestant(const ProblemRows& problem);
+std::vector<MethodRows> by_method(const ProblemRows& problem);
+
+// Whether the method's run at the problem's finest step was really made, whatever came of it: it
+// was neither refused nor left out for its time. Only then may it be said what the method cannot
+// do.
+bool finest_run_made(const MethodRows& method, const ProblemRows& problem);
+
+// Methods whose errors agree in every run that two of them share, and in two runs at least: in
+// everything that the problem asks of them they are the same. Agreement is to a billionth, since
+// they round differently. Names, two or more a group, in order of their first rows.
+std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
+
+// It chooses its steps itself, and moves the bodies without the world's step.
+inline bool is_adaptive(std::string_view method) { return method == "dormand_prince"; }
+
+// What a reader must know beside the numbers: what the main norm is, how good its reference is, and
+// who is measured otherwise than the rest. A sentence each.
+std::vector<std::string> notes_on(const ProblemRows& problem);
 
 // "explicit Euler" of "explicit_euler", "soft contacts (16 sub-steps)" of "soft:16"; a peer's name
 // stays as it is.
@@ -40,11 +58,11 @@ std::string norm_words(std::string_view norm);
 // The name of the problem's main norm; empty if no row has one.
 std::string main_norm(const ProblemRows& problem);
 
-// Whether every error is a whole number: what is counted is right or wrong, and there is nothing
-// between. False if no run has an error.
+// Whether every error is a whole number of what is counted, not measured: a run is right or wrong,
+// and there is nothing between. False if no run has an error.
 bool has_whole_errors(const ProblemRows& problem);
 
-// A look for each contestant: the known methods have always the same, others in order of their
+// A look for each method: the known methods have always the same, others in order of their
 // first row, peers from kFirstPeerLook on.
 std::map<std::string, int> looks_of(std::span<const Row> rows);
 

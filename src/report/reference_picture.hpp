@@ -30,7 +30,7 @@ struct ReferencePicture {
 // `list` must be settled for this size. It is drawn by Lantern itself, sixteen times as large and
 // in tiles: a sub-pixel on an edge is again antialiased by coverage, whose errors are then a 16th
 // as wide and even out over 16 sub-pixels. Levels are averaged as they are stored, which is how
-// every contestant blends, too; light would be averaged otherwise (gamma), and that is not
+// every method blends, too; light would be averaged otherwise (gamma), and that is not
 // measured.
 ReferencePicture reference_picture(const DrawList& list, const Theme& theme, int width, int height,
                                    Backend backend);

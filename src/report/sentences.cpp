@@ -1,11 +1,13 @@
 #include "report/sentences.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "report/cheapest.hpp"
+#include "report/shortfall.hpp"
 
 namespace lantern {
 namespace {
@@ -25,9 +27,8 @@ std::string count_text(double n, const std::string& name) {
 
 // "0.8 ms at h = 0.005 s, 2060 force evaluations".
 std::string price(const Row& row, const WorkCount& work, bool brief) {
-  const bool adaptive = row.method.starts_with("dormand");
-  const std::string at =
-      adaptive ? "in steps of its own" : fmt::format("at h = {} s", figure(row.step));
+  const std::string at = is_adaptive(row.method) ? "in steps of its own"
+                                                 : fmt::format("at h = {} s", figure(row.step));
   const auto seconds = seconds_of(row);
   const auto count = brief && seconds ? std::nullopt : work.of(row);
   std::string text = seconds ? seconds_text(*seconds) + " " + at : at;
@@ -41,22 +42,23 @@ std::string name_of(const Row& row) {
   return row.is_peer() ? "the peer " + row.method : method_words(row.method);
 }
 
-// Of methods that are named by what they give: "impulses", "soft contacts (16 sub-steps)".
-bool is_plural(const std::string& name) {
-  return name.starts_with("impulses") || name.starts_with("soft contacts");
-}
-
 class Teller {
  public:
   Teller(const ProblemRows& problem, bool brief)
       : work_(work_count(problem)), brief_(brief), counts_wrong_(has_whole_errors(problem)) {
     bound_ = error_bound(problem);
-    for (const ContestantRows& c : by_contestant(problem)) {
+    for (const MethodRows& c : by_method(problem)) {
       if (!c.is_peer) ++methods_;
       bool any = false;
       for (const Row& row : c.rows) any = any || (bound_ && meets(row, *bound_));
-      if (!any && !c.is_peer) never_.push_back(method_words(c.method));
+      if (!any && !c.is_peer) short_.emplace_back(c, problem);
     }
+    if (!brief)
+      for (const std::vector<std::string>& group : equal_methods(problem)) {
+        std::vector<std::string> names;
+        for (const std::string& method : group) names.push_back(method_words(method));
+        equal_ += fmt::format("; {} give equal errors", listed(names));
+      }
     for (const Row& row : problem.rows) {
       ++runs_[static_cast<std::size_t>(row.status)];
       if (bound_ && meets(row, *bound_)) (row.is_peer() ? peers_ : own_).push_back(&row);
@@ -86,7 +88,7 @@ class Teller {
     else
       text = fmt::format("The cheapest method{} {} {}", best.size() > 1 ? "s" : "", limit(),
                          with_verb(best));
-    return text + never() + ".";
+    return text + (brief_ ? "" : shortfall_words(short_)) + equal_ + ".";
   }
 
  private:
@@ -137,31 +139,25 @@ class Teller {
     return fmt::format("{} {} {} with {}", capital(name), gets, there, price_of(row));
   }
 
-  std::string never() const {
-    if (never_.empty() || brief_) return "";
-    if (never_.size() > 3)
-      return fmt::format("; {} of Lantern's methods never get there", never_.size());
-    const bool many = never_.size() > 1 || is_plural(never_[0]);
-    return fmt::format("; {} never {} there", listed(never_), many ? "get" : "gets");
-  }
-
   std::string only_peers() const {
     Rows best = cheapest(peers_, timed_peers_);
     if (best.empty()) best = {peers_.front()};
     const std::string who = methods_ == 0 ? "Only peers were run"
-                                          : fmt::format("No method of Lantern gets {}{}",
-                                                        counts_wrong_ ? "through " : "", limit());
+                                          : fmt::format("No method of Lantern gets {}{}{}",
+                                                        counts_wrong_ ? "through " : "", limit(),
+                                                        within_runs_made(short_));
     const char* s = best.size() > 1 ? "s" : "";
     const std::string which = methods_ == 0 ? limit() : *s ? "that do" : "that does";
     if (best.size() > 1)
-      return fmt::format("{}; the cheapest peers {} are {}.", who, which, with_price(best));
-    return fmt::format("{}; the cheapest peer {} is {}: {}.", who, which, peer(*best[0]),
-                       price_of(*best[0]));
+      return fmt::format("{}; the cheapest peers {} are {}{}.", who, which, with_price(best),
+                         equal_);
+    return fmt::format("{}; the cheapest peer {} is {}: {}{}.", who, which, peer(*best[0]),
+                       price_of(*best[0]), equal_);
   }
 
   std::string nothing() const {
     std::vector<std::string> parts;
-    for (std::size_t s = 1; s < 4; ++s)
+    for (std::size_t s = 1; s < runs_.size(); ++s)
       if (runs_[s] > 0)
         parts.push_back(
             fmt::format("{} {}", runs_[s],
@@ -175,10 +171,11 @@ class Teller {
   bool counts_wrong_ = false;
   std::optional<double> bound_;
   std::size_t methods_ = 0;
-  std::vector<std::string> never_;
+  std::vector<Shortfall> short_;  // methods that miss the bound
+  std::string equal_;             // what is to be said of methods that are
   Rows own_, peers_;
   bool timed_ = false, timed_peers_ = false;
-  std::size_t runs_[4] = {};
+  std::array<std::size_t, kStatusNames.size()> runs_{};
 };
 
 }  // namespace
@@ -199,12 +196,6 @@ std::optional<double> error_bound(const ProblemRows& problem) {
 }
 
 std::string sentence(const ProblemRows& problem) { return Teller(problem, false).text(); }
-
-std::vector<std::string> sentences(const Measurement& measurement) {
-  std::vector<std::string> all;
-  for (const ProblemRows& problem : by_problem(measurement.rows)) all.push_back(sentence(problem));
-  return all;
-}
 
 std::string short_sentence(const ProblemRows& problem) { return Teller(problem, true).text(); }
 

@@ -12,16 +12,14 @@ namespace lantern {
 std::optional<double> error_bound(const ProblemRows& problem);
 
 // "The cheapest method under 1e-6 is velocity Verlet: 0.8 ms at h = 0.005 s, 2060 force
-// evaluations; explicit Euler never gets there." Cheapest in seconds where rows are timed, else in
-// counted work. A peer that is cheaper than all methods is named first. Those that cost the same
-// within the spread of their times (cheapest_rows) are told as equals.
+// evaluations; explicit Euler does not get there even at the finest step." Cheapest in seconds
+// where rows are timed, else in counted work. A peer that is cheaper than all methods is named
+// first. Those that cost the same within the spread of their times (cheapest_rows) are told as
+// equals, and so are methods with equal errors.
 std::string sentence(const ProblemRows& problem);
 
-// The same without counted work and without those that never get there.
+// The same without counted work and without those that fall short.
 std::string short_sentence(const ProblemRows& problem);
-
-// The sentence of each problem, in order.
-std::vector<std::string> sentences(const Measurement& measurement);
 
 // "12 s", "0.8 ms", "41 µs".
 std::string seconds_text(double seconds);

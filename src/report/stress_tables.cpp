@@ -5,14 +5,33 @@
 
 #include <fmt/format.h>
 
-#include "base/json_writer.hpp"
+#include "measure/records.hpp"
 
 namespace lantern {
 namespace {
 
-constexpr std::string_view kGroups[] = {"extreme input", "stiff", "stability", "bars"};
-
 std::string_view verdict_of(const StressResult& result) { return result.good ? "good" : "FAILED"; }
+
+}  // namespace
+
+template <class Visit>
+void each_field(const StressOutcome& outcome, Visit&& visit) {
+  const StressResult& result = outcome.result;
+  visit(Field("name"), outcome.of.name);
+  visit(Field("group"), outcome.of.group);
+  visit(Field("", "verdict"), verdict_of(result));
+  visit(Field("good", ""), result.good);
+  visit(Field("figure"), result.figure);
+  visit(Field("sense"), result.at_least ? "at least" : "at most");
+  visit(Field("bound"), result.bound);
+  visit(Field("unit"), result.unit);
+  visit(Field("what"), outcome.of.what);
+  visit(Field("detail"), result.detail);
+}
+
+namespace {
+
+constexpr std::string_view kGroups[] = {"extreme input", "stiff", "stability", "bars"};
 
 // Whole numbers as such, others with three figures.
 std::string figure_text(double figure) {
@@ -25,27 +44,6 @@ std::string figure_text(double figure) {
 std::string bound_text(const StressResult& result) {
   if (std::isnan(result.figure)) return "-";  // broke off before it knew
   return fmt::format("{} {}", result.at_least ? ">=" : "<=", figure_text(result.bound));
-}
-
-// With quotes where a comma or quote asks for them (RFC 4180).
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-// All digits; nothing if there are none to tell.
-std::string csv_number(double value) {
-  return std::isnan(value) ? std::string() : fmt::format("{:.17g}", value);
-}
-
-void add_number(JsonWriter& json, std::string_view name, double value) {
-  json.key(name);
-  if (std::isfinite(value))
-    json.value(value);
-  else
-    json.null();
 }
 
 std::string row_text(const StressOutcome& outcome, std::size_t name_width) {
@@ -75,30 +73,14 @@ std::string to_table(const StressReport& report) {
   return text + (text.empty() ? "" : "\n") + summary(report) + "\n";
 }
 
-std::string to_csv(const StressReport& report) {
-  std::string text = "name,group,verdict,figure,sense,bound,unit,what,detail\n";
-  for (const auto& [of, result] : report.outcomes)
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", of.name, of.group, verdict_of(result),
-                        csv_number(result.figure), result.at_least ? "at least" : "at most",
-                        csv_number(result.bound), csv_field(result.unit), csv_field(of.what),
-                        csv_field(result.detail));
-  return text;
-}
+std::string to_csv(const StressReport& report) { return csv_of(report.outcomes); }
 
 std::string to_json(const StressReport& report) {
   JsonWriter json;
   json.begin_object().line().member("format", "lantern.stress/1");
   json.line().member("version", report.version).line().member("finished", report.finished);
   json.line().key("cases").begin_array();
-  for (const auto& [of, result] : report.outcomes) {
-    json.line().begin_object().member("name", of.name).member("group", of.group);
-    json.member("good", result.good);
-    add_number(json, "figure", result.figure);
-    json.member("sense", result.at_least ? "at least" : "at most");
-    add_number(json, "bound", result.bound);
-    json.member("unit", result.unit).member("what", of.what).member("detail", result.detail);
-    json.end_object();
-  }
+  for (const StressOutcome& outcome : report.outcomes) write_json(outcome, json.line());
   json.line().end_array().line().end_object();
   return json.text() + "\n";
 }

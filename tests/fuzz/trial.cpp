@@ -294,7 +294,7 @@ void Trial::measure_it(Dice& dice) {
       options.methods = {dice.pick(kMethods)};
       Plan plan(options, [](const Scenario&) {});
       if (!plan.jobs().empty() && !plan.is_too_long(plan.jobs().front()))
-        plan.run(plan.jobs().front());
+        plan.run(std::span(plan.jobs()).first(1));
     });
   } catch (const ScenarioError& error) {
     require_sound(error.diagnostics(), scenario_->text);

@@ -54,9 +54,9 @@ Observation at_start(const Scenario& scenario) {
   return now;
 }
 
-Norms norms_of(const Yardstick& yardstick) {
+Norms norms_of(const ErrorMetric& metric) {
   Norms norms;
-  for (const Norm& norm : yardstick.norms()) norms[norm.name] = norm.value;
+  for (const Norm& norm : metric.norms()) norms[norm.name] = norm.value;
   return norms;
 }
 
@@ -67,17 +67,17 @@ Norms run(const Scenario& scenario, const std::string& method, double step) {
   const double h = between / static_cast<double>(steps);
   const Scenario moved = moved_by(scenario, method_named(method).value(), h);
   EngineRun simulation(moved);
-  const auto yardstick = contact_yardstick(moved);
+  const auto metric = make_error_metric(moved);
   Observation now;
   for (std::uint32_t i = 0; i <= spec.samples; ++i) {
     if (i > 0) simulation.advance(steps);
     now.time = static_cast<double>(i * steps) * h;
     simulation.observe(now.states);
     now.impacts = simulation.impacts();
-    yardstick->look(now);
-    yardstick->interfere(now, simulation);
+    metric->look(now);
+    metric->interfere(now, simulation);
   }
-  return norms_of(*yardstick);
+  return norms_of(*metric);
 }
 
 }  // namespace lantern::test

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/yardsticks_contact.hpp"
+#include "measure/error_metric.hpp"
 
 namespace lantern::test {
 
@@ -20,7 +20,7 @@ Scenario problem(const std::string& name, const Changes& changes = {});
 // As the bodies begin.
 Observation at_start(const Scenario& scenario);
 
-Norms norms_of(const Yardstick& yardstick);
+Norms norms_of(const ErrorMetric& metric);
 
 // By the engine: by `method`, in steps that meet each sample and are no longer than `step`.
 Norms run(const Scenario& scenario, const std::string& method, double step);
@@ -28,16 +28,16 @@ Norms run(const Scenario& scenario, const std::string& method, double step);
 // Looks at the start, and at what `moved` makes of it at each sample.
 template <class F>
 Norms looked_at(const Scenario& scenario, F&& moved) {
-  const auto yardstick = contact_yardstick(scenario);
-  yardstick->look(at_start(scenario));
+  const auto metric = make_error_metric(scenario);
+  metric->look(at_start(scenario));
   const ProblemSpec& spec = *scenario.problem;
   for (std::uint32_t i = 1; i <= spec.samples; ++i) {
     Observation now = at_start(scenario);
     now.time = spec.seconds * i / spec.samples;
     moved(now);
-    yardstick->look(now);
+    metric->look(now);
   }
-  return norms_of(*yardstick);
+  return norms_of(*metric);
 }
 
 }  // namespace lantern::test

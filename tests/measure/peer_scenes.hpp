@@ -39,7 +39,7 @@ inline Scenario scene(int dimension, std::vector<BodySpec> bodies) {
   return Scenario(std::move(s));
 }
 
-inline std::vector<BodyState> after(const Contestant& peer, const Scenario& s, double h,
+inline std::vector<BodyState> after(const Solver& peer, const Scenario& s, double h,
                                     int steps) {
   const auto simulation = peer.start(s, h);
   simulation->advance(static_cast<std::uint64_t>(steps));
@@ -70,7 +70,7 @@ class Peers : public testing::Test {
   }
 
   std::vector<std::string> missing_;
-  std::vector<std::unique_ptr<Contestant>> found_;
+  std::vector<std::unique_ptr<Solver>> found_;
 };
 
 }  // namespace lantern::test

@@ -12,7 +12,7 @@ constexpr double kPi = std::numbers::pi;
 
 // Semi-implicit Euler falls g T h / 2 too far, explicit Euler too little, higher orders nothing.
 TEST_F(Peers, AProjectileMissesByItsFirstOrderError) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     Scenario s = scene(dimension, {ball({-1, 2, 0}, {3, 4, 0})});
     s.world.gravity = {0, -10, 0};
     const double h = 1.0 / 128;
@@ -25,7 +25,7 @@ TEST_F(Peers, AProjectileMissesByItsFirstOrderError) {
 }
 
 TEST_F(Peers, DragSlowsByTheSameLaw) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     BodySpec slowed = ball({0, 0, 0}, {8, 0, 0});
     slowed.linear_drag = 2;  // of a mass of 2: v = 8 exp(-t)
     const Scenario s = scene(dimension, {slowed});
@@ -38,7 +38,7 @@ TEST_F(Peers, DragSlowsByTheSameLaw) {
 }
 
 TEST_F(Peers, TwoEqualBallsSwapTheirVelocities) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     Scenario s = scene(dimension, {ball({-2, 0, 0}, {3, 0, 0}), ball({0, 0, 0})});
     s.world.contacts = ContactMethod::soft;
     s.bodies[0].material.restitution = 1;  // of the pair, the larger
@@ -51,7 +51,7 @@ TEST_F(Peers, TwoEqualBallsSwapTheirVelocities) {
 }
 
 TEST_F(Peers, WithoutContactsBodiesPass) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     const Scenario s = scene(dimension, {ball({-2, 0, 0}, {3, 0, 0}), ball({0, 0, 0})});
     const auto end = after(peer, s, 1.0 / 64, 64);
     EXPECT_NEAR(end[0].velocity.x, 3, 1e-6);
@@ -60,7 +60,7 @@ TEST_F(Peers, WithoutContactsBodiesPass) {
 }
 
 TEST_F(Peers, ABoxComesToRestOnTheGround) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     for (const Vec<3>& up : {Vec<3>(0, 1, 0), Vec<3>(0.6, 0.8, 0)}) {
       BodySpec box = ball(up * 0.55);
       box.shape = OrientedBox<3>{{0.5, 0.5, dimension == 3 ? 0.5 : 0}};
@@ -77,7 +77,7 @@ TEST_F(Peers, ABoxComesToRestOnTheGround) {
 }
 
 TEST_F(Peers, FrictionIsTheGeometricMean) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     BodySpec box = ball({-5, 0.5, 0}, {4, 0, 0});
     box.shape = OrientedBox<3>{{0.5, 0.5, dimension == 3 ? 0.5 : 0}};
     box.material.friction = 0.9;
@@ -92,7 +92,7 @@ TEST_F(Peers, FrictionIsTheGeometricMean) {
 }
 
 TEST_F(Peers, TurnTheRightWayAndCountWholeTurns) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     BodySpec top = ball({0, 0, 0});
     top.angle = 0.25;
     top.spin = 5;
@@ -111,7 +111,7 @@ TEST_F(Peers, TurnTheRightWayAndCountWholeTurns) {
 
 // A disc that is held by a spring off its centre: wrong levers would turn it the other way.
 TEST_F(Peers, SpringsPullAtTheirPoints) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     Scenario s = scene(dimension, {ball({0, 0, 0})});
     LinkSpec spring;
     spring.at_a = {0.5, 0, 0};
@@ -131,7 +131,7 @@ TEST_F(Peers, SpringsPullAtTheirPoints) {
 
 // A circle of radius 2 about a static body at (0, 0): v^2 / r = gravitation M / r^2.
 TEST_F(Peers, BodiesAttractEachOther) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     BodySpec sun = ball({0, 0, 0});
     sun.kind = BodyKind::static_body;
     sun.mass = 8;
@@ -148,7 +148,7 @@ TEST_F(Peers, BodiesAttractEachOther) {
 
 // Soft by a force, stiff by the engine's own joint where it has one: the swing stays bounded.
 TEST_F(Peers, AnOscillatorKeepsItsPeriod) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     Scenario s = scene(dimension, {ball({1, 0, 0})});
     LinkSpec spring;
     spring.rest_length = 0;
@@ -162,7 +162,7 @@ TEST_F(Peers, AnOscillatorKeepsItsPeriod) {
 }
 
 TEST_F(Peers, PinsAndRodsHold) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     for (const auto kind : {LinkSpec::Kind::pin, LinkSpec::Kind::distance}) {
       Scenario s = scene(dimension, {ball({2, 0, 0})});
       s.world.gravity = {0, -10, 0};
@@ -179,7 +179,7 @@ TEST_F(Peers, PinsAndRodsHold) {
 }
 
 TEST_F(Peers, VelocitiesAreTurnedRoundWhenAsked) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     const Scenario s = scene(dimension, {ball({0, 0, 0}, {3, 0, 0})});
     const auto simulation = peer.start(s, 1.0 / 64);
     simulation->advance(64);

@@ -49,7 +49,7 @@ TEST_F(Peers, RefuseWhatTheirStepHasNoRoomFor) {
 
 // Engines that stop the program, or never end, on a state that is not a number.
 TEST_F(Peers, RefuseToGoOnBeyondNumbers) {
-  each([](const Contestant& peer, int dimension) {
+  each([](const Solver& peer, int dimension) {
     Scenario s = scene(dimension, {ball({1, 0, 0}), ball({0, 0, 0})});
     LinkSpec spring;
     spring.rest_length = 0;

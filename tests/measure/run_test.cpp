@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
-#include "measure/lantern_contestant.hpp"
+#include "measure/lantern_solver.hpp"
 #include "measure/plan.hpp"
 #include "measure/scenes.hpp"
 
@@ -22,9 +22,7 @@ std::vector<Row> rows_of(Scenario scenario, std::vector<std::string> methods,
   options.longest = 1e9;
   options.peers = false;
   Plan plan(std::move(options), [](const Scenario&) {});
-  std::vector<Row> rows;
-  for (const Job& job : plan.jobs()) rows.push_back(plan.run(job));
-  return rows;
+  return plan.run(plan.jobs());
 }
 
 TEST(Run, AScenarioIsHeldAgainstItsOwnFinerRun) {
@@ -89,9 +87,9 @@ TEST(Run, OneThatIsStoppedCanBeRunAgain) {
   options.peers = false;
   Plan plan(std::move(options), [](const Scenario&) {});
   ask_to_stop();
-  EXPECT_THROW(plan.run(plan.jobs()[0]), Stopped);
+  EXPECT_THROW(plan.run(plan.jobs()), Stopped);
   forget_stop();
-  const Row row = plan.run(plan.jobs()[0]);
+  const Row row = plan.run(plan.jobs())[0];
   EXPECT_EQ(row.status, Status::ok) << row.reason;
   EXPECT_GT(row.timing.repeats, 0);
 }
@@ -108,6 +106,57 @@ TEST(Run, LongOnesAreFoundOutBefore) {
       EXPECT_GT(plan.seconds(job), 3600) << "a million million steps";
     }
   }
+}
+
+TEST(Run, WhatIsLeftOutIsARowAndSaysWhy) {
+  PlanOptions options;
+  options.scenarios = {thrown()};
+  options.steps = {0.01, 1e-12};
+  options.methods = {"velocity_verlet"};
+  options.peers = false;
+  Plan plan(std::move(options), [](const Scenario&) {});
+  const std::vector<Row> rows = plan.run(plan.jobs());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].status, Status::ok);
+  EXPECT_EQ(rows[1].status, Status::left_out);
+  EXPECT_FALSE(rows[1].was_run());
+  EXPECT_LT(rows[1].step, 1e-9);
+  EXPECT_NE(rows[1].reason.find("the limit is 2 s"), std::string::npos) << rows[1].reason;
+}
+
+TEST(Run, RepeatsTakeTurns) {
+  const Scenario scenario = thrown();
+  const Schedule schedule = Schedule::of(scenario);
+  const Invariants invariants(scenario);
+  const Reference reference = reference_for(scenario, schedule, 0.01);
+  EXPECT_LT(reference.error, 1e-12) << "RK4 follows a parabola exactly";
+  const Trials trials{scenario, schedule, invariants, reference};
+  const LanternSolver euler(*method_named("explicit_euler")), rk4(*method_named("runge_kutta_4"));
+  Row rows[] = {evaluated(trials, euler, 0.1), evaluated(trials, rk4, 0.1)};
+  const TimedRun runs[] = {{&euler, &rows[0], {3, 0}}, {&rk4, &rows[1], {2, 0}}};
+  std::vector<std::size_t> turns;
+  time_in_turn(trials, runs, [&](std::size_t i) { turns.push_back(i); });
+  EXPECT_EQ(turns, (std::vector<std::size_t>{0, 1, 0, 1, 0}));
+  for (const Row& row : rows) {
+    EXPECT_LE(row.timing.least, row.timing.lower_quartile);
+    EXPECT_LE(row.timing.lower_quartile, row.timing.median);
+    EXPECT_LE(row.timing.median, row.timing.upper_quartile);
+  }
+  EXPECT_EQ(rows[0].timing.repeats, 3);
+  EXPECT_EQ(rows[1].timing.repeats, 2);
+}
+
+TEST(Run, WhoDoesNotSuitIsKeptWithTheReason) {
+  PlanOptions options;
+  options.scenarios = {thrown()};
+  options.methods = {"impulse", "dormand_prince", "velocity_verlet"};
+  options.peers = false;
+  const Plan plan(std::move(options), [](const Scenario&) {});
+  ASSERT_EQ(plan.unsuited().size(), 2u);
+  EXPECT_EQ(plan.unsuited()[0].solver, "impulse");
+  EXPECT_EQ(plan.unsuited()[0].reason, "its bodies do not collide");
+  EXPECT_EQ(plan.unsuited()[1].solver, "dormand_prince");
+  EXPECT_EQ(plan.unsuited()[1].reason, "it has no [problem]");
 }
 
 TEST(Run, AWrongStepNamesTheScenario) {

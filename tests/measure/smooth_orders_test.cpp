@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/dormand_prince_contestant.hpp"
+#include "measure/dormand_prince_solver.hpp"
 #include "measure/exact_free_top.hpp"
-#include "measure/lantern_contestant.hpp"
+#include "measure/lantern_solver.hpp"
 #include "measure/problems.hpp"
 #include "measure/run.hpp"
 #include "physics/free_rotation.hpp"
@@ -16,11 +16,11 @@
 namespace lantern {
 namespace {
 
-Row run(const Scenario& scenario, const Contestant& contestant, double step) {
-  const Course course = Course::of(scenario);
-  const Reference reference = reference_for(scenario, course, step);
-  return measure(scenario, course, contestant, course.fitted_step(step), reference,
-                 Invariants(scenario), {0, 0});
+Row run(const Scenario& scenario, const Solver& solver, double step) {
+  const Schedule schedule = Schedule::of(scenario);
+  const Reference reference = reference_for(scenario, schedule, step);
+  const Invariants invariants(scenario);
+  return evaluated({scenario, schedule, invariants, reference}, solver, schedule.fitted_step(step));
 }
 
 struct Run {
@@ -29,7 +29,7 @@ struct Run {
 };
 
 Run run_of(const Scenario& scenario, const std::string& method, double step) {
-  const Row row = run(scenario, LanternContestant(*method_named(method)), step);
+  const Row row = run(scenario, LanternSolver(*method_named(method)), step);
   EXPECT_EQ(row.status, Status::ok) << scenario.name << " by " << method << ": " << row.reason;
   return {row.error().value_or(HUGE_VAL), row.step};
 }
@@ -126,7 +126,7 @@ TEST(SmoothOrders, StiffDragIsRefusedOrRightNeverNonsense) {
   const Scenario feather = known_problem("projectile_stiff");
   for (const char* method : {"implicit_euler", "implicit_midpoint"})
     EXPECT_LT(run_of(feather, method, 1e-5).error, 0.1) << method;
-  const Row row = run(feather, LanternContestant(*method_named("explicit_euler")), 0.01);
+  const Row row = run(feather, LanternSolver(*method_named("explicit_euler")), 0.01);
   EXPECT_EQ(row.status, Status::diverged);
 }
 
@@ -134,17 +134,17 @@ TEST(SmoothOrders, DormandPrinceIsAsExactAsItIsAsked) {
   for (const char* name : {"oscillator", "oscillator_damped", "chain", "kepler", "kepler_pair",
                            "kepler_stiff", "projectile"}) {
     const Scenario scenario = known_problem(name);
-    const DormandPrinceContestant contestant;
+    const DormandPrinceSolver solver;
     const double step = scenario.problem->step;
-    const Row coarse = run(scenario, contestant, step), fine = run(scenario, contestant, step / 64);
+    const Row coarse = run(scenario, solver, step), fine = run(scenario, solver, step / 64);
     ASSERT_EQ(coarse.status, Status::ok) << name << ": " << coarse.reason;
     ASSERT_EQ(fine.status, Status::ok) << name << ": " << fine.reason;
     EXPECT_LT(*fine.error(), 1e-9) << name;
     EXPECT_LE(*fine.error(), *coarse.error()) << name;
     EXPECT_GE(fine.counted.force_evaluations, coarse.counted.force_evaluations) << name;
   }
-  EXPECT_TRUE(DormandPrinceContestant().cannot(known_problem("pendulum"))) << "it has a rod";
-  EXPECT_TRUE(DormandPrinceContestant().cannot(known_problem("free_top"))) << "it turns";
+  EXPECT_TRUE(DormandPrinceSolver().cannot(known_problem("pendulum"))) << "it has a rod";
+  EXPECT_TRUE(DormandPrinceSolver().cannot(known_problem("free_top"))) << "it turns";
 }
 
 }  // namespace

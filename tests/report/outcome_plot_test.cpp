@@ -66,7 +66,7 @@ TEST(OutcomePage, IsLaidOutHoweverManyTakePart) {
         const std::string where =
             fmt::format("{} methods, {} steps, {}", methods, wrong.size(), how);
         expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, where);
-        for (const ContestantRows& c : by_contestant(problem))
+        for (const MethodRows& c : by_method(problem))
           EXPECT_TRUE(methods > 17 || says_part(list, method_words(c.method))) << where;
       };
       draw("timed");

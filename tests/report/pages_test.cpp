@@ -69,7 +69,7 @@ TEST(ProblemPage, SaysItsSentenceItsFileAndItsCircumstances) {
     EXPECT_TRUE(says(list, circumstances_text(m.circumstances)));
     EXPECT_TRUE(says_part(list, sentence(problem).substr(0, 30)));
     EXPECT_TRUE(says_part(list, work_count(problem).name));
-    for (const ContestantRows& c : by_contestant(problem))
+    for (const MethodRows& c : by_method(problem))
       EXPECT_TRUE(says_part(list, c.is_peer ? c.method : method_words(c.method))) << c.method;
   }
 }

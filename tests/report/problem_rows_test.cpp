@@ -74,7 +74,7 @@ TEST(Looks, AreTheSameForAMethodInWhateverOrderRowsCome) {
     EXPECT_EQ(looks.at(name), others.at(name)) << name;
   std::set<int> unlike;
   for (const auto& [name, look] : looks) unlike.insert(look);
-  EXPECT_EQ(unlike.size(), looks.size()) << "two contestants share a look";
+  EXPECT_EQ(unlike.size(), looks.size()) << "two methods share a look";
 }
 
 TEST(Looks, OfPeersAreCrossesAndStars) {
@@ -91,10 +91,10 @@ TEST(WorkCount, IsOfConstraintRowsWhereThereAreSome) {
         << problem.problem;
 }
 
-TEST(ByContestant, SortsTheLargestStepFirst) {
+TEST(ByMethod, SortsTheLargestStepFirst) {
   for (const ProblemRows& problem : by_problem(samples::measurement().rows)) {
     std::size_t rows = 0;
-    for (const ContestantRows& c : by_contestant(problem)) {
+    for (const MethodRows& c : by_method(problem)) {
       rows += c.rows.size();
       for (std::size_t i = 1; i < c.rows.size(); ++i) EXPECT_GE(c.rows[i - 1].step, c.rows[i].step);
     }

@@ -61,7 +61,8 @@ Row run(const Problem& problem, const Method& method, double h, Random& random) 
   row.method = method.name;
   row.version = method.version;
   row.step = h;
-  row.norms = {{problem.kind == 1 ? "depth" : "traj", error + floor * random.unit()}};
+  row.norms = {{problem.kind == 1 ? "depth" : "traj", error + floor * random.unit(),
+                problem.kind == 1 ? "units" : "1", "largest error over the run"}};
   if (problem.kind == 0) row.drift.energy = 0.1 * error;
   const bool contacts = problem.kind == 1;
   const double each = method.evaluations > 0 ? 60e-9 + 25e-9 * method.evaluations : 900e-9;
@@ -71,7 +72,7 @@ Row run(const Problem& problem, const Method& method, double h, Random& random) 
   if (contacts && row.version.empty())
     row.counted.constraint_rows = static_cast<std::uint64_t>(steps * 60 * sweeps);
   const double seconds = steps * each * (contacts ? 60 * sweeps / 10 : 1) * wobble;
-  row.timing = {15, seconds, 0.97 * seconds, 0.02 * seconds};
+  row.timing = {15, seconds, 0.97 * seconds, 0.99 * seconds, 1.01 * seconds};
   row.hash = random.bits();
   if (h * std::sqrt(problem.stiffness) > method.limit) {
     row.status = Status::diverged;
@@ -98,7 +99,7 @@ Row row(const std::string& method, double step, double error, double seconds,
   r.method = method;
   r.step = step;
   r.norms = {{"traj", error}};
-  if (seconds > 0) r.timing = {15, seconds, seconds, 0};
+  if (seconds > 0) r.timing = {15, seconds, seconds, seconds, seconds};
   r.counted.steps = r.counted.force_evaluations = evaluations;
   return r;
 }

@@ -33,7 +33,7 @@ TEST(Sentence, NamesTheCheapestInSecondsAndWhoNeverGetsThere) {
                               row("runge_kutta_4", 0.05, 3e-8, 0.0011, 824),
                               row("explicit_euler", 0.005, 0.2, 0.0007, 2060)})),
             "The cheapest method under 1e-6 is velocity Verlet: 0.8 ms at h = 0.005 s, 2060 force "
-            "evaluations; explicit Euler never gets there.");
+            "evaluations; explicit Euler does not get there even at the finest step.");
 }
 
 TEST(Sentence, CountsWorkWhereNothingWasTimed) {
@@ -47,7 +47,7 @@ TEST(Sentence, TakesTheNextPowerOfTenThatSomebodyMeets) {
   EXPECT_EQ(sentence(problem({row("velocity_verlet", 0.005, 2e-4, 0.001, 2060),
                               row("explicit_euler", 0.005, 0.5, 0.001, 2060)})),
             "The cheapest method under 0.001 is velocity Verlet: 1 ms at h = 0.005 s, 2060 force "
-            "evaluations; explicit Euler never gets there.");
+            "evaluations; explicit Euler does not get there even at the finest step.");
   for (const double least : {1e-9, 1e-6})
     EXPECT_EQ(error_bound(problem({row("a", 1, least, 1, 1)})), 1e-6) << least;
   EXPECT_EQ(error_bound(problem({row("a", 1, 1.0000001e-6, 1, 1)})), 1e-5);
@@ -67,7 +67,8 @@ TEST(Sentence, TellsOfTies) {
 
 Row timed(const std::string& name, double error, double seconds, double spread) {
   Row r = row(name, 0.01, error, seconds, 100);
-  r.timing.spread = spread;
+  r.timing.lower_quartile = seconds - 0.5 * spread;
+  r.timing.upper_quartile = seconds + 0.5 * spread;
   r.timing.least = seconds - spread;
   return r;
 }
@@ -134,11 +135,11 @@ TEST(Sentence, OfOutcomesThatAreCountedSaysWhoIsExact) {
   EXPECT_EQ(sentence(problem({row("impulse", 0.1, 0, 0.002, 10), row("soft", 0.1, 0, 0.004, 10),
                               row("soft:16", 0.1, 2, 0.001, 10)})),
             "The cheapest method without an error is impulses: 2 ms at h = 0.1 s, 10 force "
-            "evaluations; soft contacts (16 sub-steps) never get there.")
+            "evaluations; soft contacts (16 sub-steps) do not get there even at the finest step.")
       << "an outcome that is right is not 'under 1e-6'";
   EXPECT_EQ(sentence(problem({row("impulse", 0.1, 1, 0.002, 10), row("soft", 0.1, 7, 0.001, 10)})),
             "The cheapest method with 1 wrong at most is impulses: 2 ms at h = 0.1 s, 10 force "
-            "evaluations; soft contacts never get there.");
+            "evaluations; soft contacts do not get there even at the finest step.");
 }
 
 TEST(Sentence, SaysItIfAPeerIsCheaper) {
@@ -176,9 +177,69 @@ TEST(Sentence, SaysHowRunsFailedIfAllDid) {
 TEST(Sentence, CountsThoseThatNeverGetThereIfTheyAreMany) {
   std::vector<Row> rows = {row("velocity_verlet", 0.005, 4e-7, 0.002, 2060)};
   for (const char* name : {"a", "b", "c", "d"}) rows.push_back(row(name, 0.1, 1, 1, 1));
-  EXPECT_TRUE(sentence(problem(rows)).ends_with("; 4 of Lantern's methods never get there."));
+  EXPECT_TRUE(sentence(problem(rows))
+                  .ends_with("; 4 of Lantern's methods do not get there within the runs made."))
+      << "they were run at one step of 0.1 s, and another method at 0.005 s";
+  for (const char* name : {"a", "b", "c", "d"}) rows.push_back(row(name, 0.005, 1, 1, 1));
+  EXPECT_NE(sentence(problem(rows))
+                .find("; 4 of Lantern's methods do not get there even at the finest step"),
+            std::string::npos);
   EXPECT_EQ(short_sentence(problem(rows)),
             "The cheapest method under 1e-6 is velocity Verlet: 2 ms at h = 0.005 s.");
+}
+
+TEST(Sentence, ClaimsNothingOfAMethodWhoseFinestRunWasNotMade) {
+  const Row good = row("velocity_verlet", 0.005, 4e-7, 0.002, 2060);
+  Row coarse = row("explicit_euler", 0.01, 0.2, 0.002, 1030), fine = coarse;
+  fine.step = 0.005;
+  for (const auto& [status, words] :
+       {std::pair(Status::left_out, "; explicit Euler does not get there within the runs made."),
+        std::pair(Status::refused, "; explicit Euler does not get there within the runs made."),
+        std::pair(Status::diverged,
+                  "; explicit Euler does not get there even at the finest step.")}) {
+    fine.status = status;
+    EXPECT_TRUE(sentence(problem({good, coarse, fine})).ends_with(words))
+        << to_string(status) << ": " << sentence(problem({good, coarse, fine}));
+  }
+  EXPECT_EQ(sentence(problem({coarse, peer("ODE", 1e-7, 0.001)})).substr(0, 37),
+            "No method of Lantern gets under 1e-6;");
+  fine.status = Status::left_out;
+  EXPECT_TRUE(sentence(problem({coarse, fine, peer("ODE", 1e-7, 0.001)}))
+                  .starts_with("No method of Lantern gets under 1e-6 within the runs made;"));
+}
+
+TEST(Sentence, MethodsWithEqualErrorsAreToldAsEqual) {
+  std::vector<Row> rows;
+  for (const char* name : {"velocity_verlet", "runge_kutta_4", "explicit_euler"})
+    for (const double h : {0.1, 0.05, 0.025}) rows.push_back(row(name, h, h * h, 1e-4 / h, 100));
+  rows[4].norms[0].value *= 1 + 1e-12;  // by rounding
+  rows[7].norms[0].value *= 1.01;
+  EXPECT_TRUE(
+      sentence(problem(rows)).ends_with("; velocity Verlet and Runge–Kutta 4 give equal errors."))
+      << sentence(problem(rows));
+  EXPECT_EQ(equal_methods(problem(rows)),
+            (std::vector<std::vector<std::string>>{{"velocity_verlet", "runge_kutta_4"}}));
+  EXPECT_TRUE(equal_methods(problem({rows[0], rows[3]})).empty()) << "one run says little";
+  rows[5].status = Status::diverged;
+  EXPECT_TRUE(equal_methods(problem(rows)).empty());
+}
+
+TEST(Sentence, NoErrorBelowThatOfTheReferenceIsClaimed) {
+  Row fine = row("velocity_verlet", 0.005, 1e-9, 0.002, 2060);
+  fine.reference_error = 3e-4;
+  EXPECT_EQ(fine.error(), 3e-4);
+  EXPECT_TRUE(sentence(problem({fine})).starts_with("Velocity Verlet gets under 0.001"));
+  EXPECT_NE(notes_on(problem({fine}))[0].find("is itself off by about 3e-4"), std::string::npos);
+}
+
+TEST(Notes, DefineTheNormAndNameWhoIsMeasuredOtherwise) {
+  Row own = row("dormand_prince", 0.1, 1e-9, 1e-3, 100);
+  own.norms[0] = {"depth", 0.1, "units", "deepest overlap"};
+  const std::vector<std::string> notes = notes_on(problem({own}));
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0], "“depth” (units): deepest overlap.");
+  EXPECT_NE(notes[1].find("without the world's step"), std::string::npos);
+  EXPECT_TRUE(notes_on(problem({})).empty());
 }
 
 TEST(Sentence, AnErrorThatIsNotFiniteMeetsNothing) {

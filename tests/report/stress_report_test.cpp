@@ -45,13 +45,13 @@ TEST(StressTables, TheTableTellsVerdictsAndWhyOneFailed) {
 
 TEST(StressTables, CsvQuotesWhatNeedsIt) {
   const std::string text = to_csv(sample());
-  EXPECT_EQ(text.substr(0, text.find('\n')),
+  EXPECT_EQ(text.substr(0, text.find("\r\n")),
             "name,group,verdict,figure,sense,bound,unit,what,detail");
   EXPECT_NE(text.find("first,extreme input,good,2.4999999999999999e-07,at most,"
-                      "9.9999999999999995e-07,m,It holds.,\"one, \"\"two\"\"\"\n"),
+                      "9.9999999999999995e-07,m,It holds.,\"one, \"\"two\"\"\"\r\n"),
             std::string::npos)
       << text;
-  EXPECT_NE(text.find("third,bars,FAILED,,at most,0,,It broke off.,thrown\n"), std::string::npos)
+  EXPECT_NE(text.find("third,bars,FAILED,,at most,0,,It broke off.,thrown\r\n"), std::string::npos)
       << text;
 }
 

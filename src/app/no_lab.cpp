@@ -1,0 +1,30 @@
+// What stands in for the lab in a build without it (LANTERN_LAB=OFF).
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/terminal.hpp"
+#include "measure/peers.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr const char* kNoLab = "this build has no lab; configure it with -DLANTERN_LAB=ON";
+
+int refused(const char* command) {
+  complain(fmt::format("{}: {}", command, kNoLab));
+  return kUsage;
+}
+
+}  // namespace
+
+int measure_command(const MeasureOptions&) { return refused("measure"); }
+int stress_command(const StressOptions&) { return refused("stress"); }
+int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
+
+// As doctor asks for them.
+std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
+  missing.emplace_back(kNoLab);
+  return {};
+}
+
+}  // namespace lantern

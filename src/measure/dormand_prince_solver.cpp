@@ -1,0 +1,167 @@
+#include "measure/dormand_prince_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "base/error.hpp"
+#include "measure/dormand_prince.hpp"
+#include "physics/smooth_system.hpp"
+#include "scenario/players.hpp"
+
+namespace lantern {
+namespace {
+
+double tolerance_of(const Scenario& scenario, double h) {
+  const double ratio = h / scenario.problem->step;
+  return std::clamp(1e-3 * ratio * ratio * ratio * ratio * ratio, 1e-14, 1e-3);
+}
+
+// The forces are the engine's own. The unknowns are how far each body has come and how its velocity
+// has changed, so that nothing is lost far from the origin.
+template <int D>
+class PointSimulation : public Simulation {
+ public:
+  PointSimulation(const Scenario& scenario, double h)
+      : count_(scenario.bodies.size()),
+        h_(h),
+        players_(scenario),
+        system_(entered(scenario), players_.world().forces(), evaluations_),
+        state_(system_.start()),
+        y_(2 * D * system_.movers().size(), 0.0),
+        method_(tolerance_of(scenario, h), scale(scenario)) {}
+
+  void advance(std::uint64_t steps) override {
+    steps_ += steps;
+    const double end = static_cast<double>(steps_) * h_;
+    method_.run(
+        [this](double, const std::vector<double>& y, std::vector<double>& dy) { slope(y, dy); },
+        time_, end, y_);
+    time_ = end;
+    put(y_);
+  }
+
+  void observe(std::vector<BodyState>& states) const override {
+    states.assign(count_, BodyState{});
+    for (std::size_t i = 0; i < system_.bodies().size(); ++i) {
+      const Body<D>& body = system_.bodies()[i];
+      const auto index = players_.index_of(body.id);
+      if (!index) continue;
+      BodyState& state = states[*index];
+      state.there = true;
+      state.position = solid(Vec<D>(body.position + state_.shift[i]));
+      state.velocity = solid(system_.velocity(state_, i));
+    }
+  }
+
+  Counted counted() const override { return {method_.steps(), evaluations_, 0, 0}; }
+
+ private:
+  std::span<const Body<D>> entered(const Scenario& scenario) {
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
+    return players_.world().bodies();
+  }
+
+  // Of places, how far apart the bodies and the ends of springs are; of velocities the greatest
+  // one, or that which the forces give over this length.
+  std::vector<double> scale(const Scenario& scenario) {
+    Box<3> box = empty_box();
+    double speed = 0;
+    for (const BodySpec& body : scenario.bodies) {
+      add(box, body.position);
+      speed = std::max(speed, glm::length(body.velocity));
+    }
+    for (const LinkSpec& link : scenario.links)
+      if (!link.b) add(box, link.at_b);
+    double length = glm::length(box.size());
+    const Pull<D> pull = system_.evaluate(state_);
+    double most = 0;
+    for (const Vec<D>& a : pull.acceleration) most = std::max(most, glm::length(a));
+    const double seconds = scenario.problem->seconds;
+    if (!(length > 0)) length = seconds * (speed + seconds * most);
+    speed = std::max(speed, std::min(std::sqrt(length * most), seconds * most));
+    std::vector<double> all(y_.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double size = k % (2 * D) < D ? length : speed;
+      all[k] = size > 0 ? size : 1;
+    }
+    return all;
+  }
+
+  static Box<3> empty_box() {
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
+    return {Vec<3>(kEndless), Vec<3>(-kEndless)};
+  }
+  static void add(Box<3>& box, const Vec<3>& point) {
+    box.lo = glm::min(box.lo, point);
+    box.hi = glm::max(box.hi, point);
+  }
+
+  void put(const std::vector<double>& y) {
+    for (std::size_t n = 0; n < system_.movers().size(); ++n) {
+      const std::size_t i = system_.movers()[n];
+      for (int c = 0; c < D; ++c) {
+        state_.shift[i][c] = y[2 * D * n + c];
+        state_.kick[i][c] = y[2 * D * n + D + c];
+      }
+    }
+  }
+
+  void slope(const std::vector<double>& y, std::vector<double>& dy) {
+    put(y);
+    const Pull<D> pull = system_.evaluate(state_);
+    for (std::size_t n = 0; n < system_.movers().size(); ++n) {
+      const std::size_t i = system_.movers()[n];
+      const Vec<D> velocity = system_.velocity(state_, i);
+      for (int c = 0; c < D; ++c) {
+        dy[2 * D * n + c] = velocity[c];
+        dy[2 * D * n + D + c] = pull.acceleration[i][c];
+      }
+    }
+  }
+
+  std::size_t count_;
+  double h_;
+  double time_ = 0;
+  std::uint64_t steps_ = 0;
+  std::uint64_t evaluations_ = 0;
+  Players<D> players_;
+  SmoothSystem<D> system_;
+  SmoothState<D> state_;
+  std::vector<double> y_;
+  DormandPrince<double> method_;
+};
+
+}  // namespace
+
+std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario) const {
+  if (!scenario.problem) return "it has no [problem]";
+  if (scenario.world.contacts != ContactMethod::none) return "its bodies collide";
+  bool moves = false;
+  for (const BodySpec& body : scenario.bodies) {
+    moves = moves || body.kind == BodyKind::dynamic_body;
+    if (body.kind == BodyKind::kinematic_body)
+      return fmt::format("body '{}' is kinematic", body.name);
+    if (body.spin != 0) return fmt::format("body '{}' turns", body.name);
+  }
+  if (!moves) return "nothing moves";
+  for (const LinkSpec& link : scenario.links) {
+    if (link.kind != LinkSpec::Kind::spring) return "it has joints";
+    if (link.at_a != Vec<3>(0.0) || (link.b && link.at_b != Vec<3>(0.0)))
+      return "its springs turn bodies";
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario,
+                                                           double h) const {
+  if (const auto reason = cannot(scenario))
+    throw Refused(fmt::format("dormand_prince: {}", *reason));
+  if (scenario.world.dimension == 3) return std::make_unique<PointSimulation<3>>(scenario, h);
+  return std::make_unique<PointSimulation<2>>(scenario, h);
+}
+
+}  // namespace lantern

@@ -1,0 +1,71 @@
+// What a run's error is. A problem with a known answer has a metric that knows it; any other
+// scenario is held against its own run at a much finer step.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "measure/simulation.hpp"
+
+namespace lantern {
+
+// A moment of a run.
+struct Observation {
+  double time = 0;  // seconds since the start: steps taken times step
+  std::vector<BodyState> states;
+  std::uint64_t impacts = 0;  // so far
+};
+
+// A named error, with its unit and its definition: whoever reads the number needs both.
+struct Norm {
+  std::string name;  // "traj", "att", "times", "apex", "hits", "distance", ...
+  double value = 0;
+  std::string unit = "1";    // "1" of what is relative
+  std::string meaning = {};  // "largest tilt over the run of a box that should stand"
+  bool operator==(const Norm&) const = default;
+};
+
+class ErrorMetric {
+ public:
+  virtual ~ErrorMetric() = default;
+  // Called for the start and then once for each of the problem's samples, in order of time.
+  virtual void look(const Observation& now) = 0;
+  // After each look: a problem may have something done to its bodies at a moment.
+  virtual void interfere(const Observation&, Simulation&) {}
+  // The main norm first. Not finite if the run was.
+  virtual std::vector<Norm> norms() const = 0;
+};
+
+// Of a scenario with a [problem]. One a run. Throws Refused, naming what is wrong, if the scenario
+// is not such a problem: two springs where the oscillator has one, say.
+std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario);
+
+// The norm "traj": the largest distance from the exact state over the run, in phase space:
+// |dx| / length or |dv| / speed, whichever is larger.
+Norm trajectory_norm(double value, double length, double speed);
+
+// Of problems whose bodies are known at every time: "traj", over the bodies that `exact` gives.
+class TrajectoryMetric : public ErrorMetric {
+ public:
+  struct Exact {
+    std::size_t body = 0;
+    Vec<3> position{0.0};
+    Vec<3> velocity{0.0};
+  };
+  // Computed in long double; rounded once.
+  using ExactStates = std::function<void(double time, std::vector<Exact>& states)>;
+
+  TrajectoryMetric(long double length, long double speed, ExactStates exact);
+  void look(const Observation& now) override;
+  std::vector<Norm> norms() const override { return {trajectory_norm(worst_, length_, speed_)}; }
+
+ private:
+  double length_, speed_;
+  ExactStates exact_at_;
+  double worst_ = 0;
+  std::vector<Exact> exact_;
+};
+
+}  // namespace lantern

@@ -1,0 +1,91 @@
+#include "measure/lantern_solver.hpp"
+
+#include "scenario/obey.hpp"
+#include "scenario/script_walk.hpp"
+
+namespace lantern {
+namespace {
+
+class WorldSimulation : public Simulation {
+ public:
+  explicit WorldSimulation(Scenario scenario)
+      : scenario_(std::move(scenario)), engine_(make_engine(scenario_, work_)) {
+    if (!scenario_.problem) return;
+    for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) engine_->enter(i);
+  }
+
+  void advance(std::uint64_t steps) override {
+    for (std::uint64_t i = 0; i < steps; ++i) engine_->step();
+  }
+
+  void act(const Verb& verb) override { obey(*engine_, verb, scenario_.world.time_step); }
+
+  void observe(std::vector<BodyState>& states) const override { engine_->observe(states); }
+  std::uint64_t impacts() const override { return engine_->world_work().impacts_located; }
+  std::uint64_t hash() const override { return engine_->world_hash(); }
+  Counted counted() const override {
+    const WorldWork& work = engine_->world_work();
+    return {work.steps, work.force_evaluations, work.constraint_rows, work.pair_tests};
+  }
+
+ private:
+  Scenario scenario_;
+  Work work_;
+  std::unique_ptr<Engine> engine_;
+};
+
+bool has_forces(const Scenario& scenario) {
+  const WorldSpec& world = scenario.world;
+  if (world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !scenario.links.empty()) return true;
+  for (const BodySpec& body : scenario.bodies)
+    if (body.linear_drag > 0 || body.angular_drag > 0) return true;
+  for (const Step& step : scenario.steps)
+    if (std::holds_alternative<ApplyForce>(step.verb)) return true;
+  return false;
+}
+
+bool turns_in_space(const Scenario& scenario) {
+  if (scenario.world.dimension != 3) return false;
+  for (const BodySpec& body : scenario.bodies)
+    if (can_turn(body) && body.spin != 0) return true;
+  return false;
+}
+
+std::vector<Method> named(std::initializer_list<std::string_view> names) {
+  std::vector<Method> methods;
+  for (const std::string_view name : names) methods.push_back(*method_named(name));
+  return methods;
+}
+
+}  // namespace
+
+std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
+  if (method_.contacts && scenario.world.contacts == ContactMethod::none)
+    return "its bodies do not collide";
+  if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
+  return std::nullopt;
+}
+
+std::unique_ptr<Simulation> LanternSolver::start(const Scenario& scenario, double h) const {
+  return std::make_unique<WorldSimulation>(moved_by(scenario, method_, h));
+}
+
+std::vector<Method> methods_for(const Scenario& scenario) {
+  if (scenario.problem && !scenario.problem->methods.empty()) {
+    std::vector<Method> methods;
+    for (const std::string& name : scenario.problem->methods)
+      methods.push_back(*method_named(name));
+    return methods;
+  }
+  if (scenario.world.contacts != ContactMethod::none)
+    return named({"impulse", "impulse:100", "soft", "soft:16"});
+  if (has_forces(scenario))
+    return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
+                  "implicit_midpoint", "implicit_euler"});
+  if (turns_in_space(scenario)) return named({"explicit_gyroscopic", "splitting_2", "splitting_4"});
+  Method as_written;
+  as_written.name = "as written";
+  return {as_written};
+}
+
+}  // namespace lantern

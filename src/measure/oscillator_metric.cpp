@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include "base/error.hpp"
+#include "measure/error_metrics.hpp"
+#include "measure/exact_oscillator.hpp"
+#include "measure/problem_scene.hpp"
+
+namespace lantern {
+namespace {
+
+struct Oscillator {
+  std::size_t body = 0;
+  long double stiffness = 1, damping = 0, mass = 1;
+  LongVec3 rest{0.0L};  // where it would come to rest
+  LongVec3 away{0.0L};  // from there, at the start
+  LongVec3 velocity{0.0L};
+};
+
+}  // namespace
+
+std::unique_ptr<ErrorMetric> oscillator_metric(const Scenario& scenario) {
+  const std::size_t body = the_body(scenario, "oscillator");
+  require_links(scenario, 1, "oscillator");
+  const LinkSpec& spring = scenario.links.front();
+  if (spring.kind != LinkSpec::Kind::spring) throw Refused("oscillator: it hangs on a spring");
+  const Tie tie = read_tie(scenario, spring, "oscillator");
+  const BodySpec& spec = scenario.bodies[body];
+  Oscillator o;
+  o.body = body;
+  o.stiffness = spring.stiffness;
+  o.mass = mass_of_body(scenario, body);
+  o.damping = static_cast<long double>(spring.damping) + spec.linear_drag;
+  o.velocity = spec.velocity;
+  const LongVec3 gravity(scenario.world.gravity), start(spec.position);
+  const LongVec3 between = start - tie.anchor;
+  LongVec3 line = between;
+  if (line == LongVec3(0.0L)) line = o.velocity;
+  if (line == LongVec3(0.0L)) line = gravity;
+  if (line == LongVec3(0.0L)) throw Refused("oscillator: nothing moves");
+  const bool straight = tie.rest_length > 0 || spring.damping > 0;
+  if (straight && !(parallel(line, o.velocity) && parallel(line, gravity)))
+    throw Refused("oscillator: it must move along the line of its spring");
+  const LongVec3 direction = line / glm::length(line);
+  o.rest = tie.anchor + tie.rest_length * direction + gravity * (o.mass / o.stiffness);
+  o.away = start - o.rest;
+  const long double omega = std::sqrt(o.stiffness / o.mass);
+  const long double amplitude = std::hypot(glm::length(o.away), glm::length(o.velocity) / omega);
+  if (tie.rest_length > 0 &&
+      (between == LongVec3(0.0L) || !(amplitude < glm::dot(o.rest - tie.anchor, direction))))
+    throw Refused("oscillator: it would pass through the spring's other end");
+  if (!(amplitude > 0)) throw Refused("oscillator: nothing moves");
+  return std::make_unique<TrajectoryMetric>(
+      amplitude, amplitude * omega, [o](double time, auto& states) {
+        LongVec3 x, v;
+        for (int axis = 0; axis < 3; ++axis) {
+          const Swing swing =
+              exact_swing(o.stiffness, o.damping, o.mass, {o.away[axis], o.velocity[axis]}, time);
+          x[axis] = o.rest[axis] + swing.x;
+          v[axis] = swing.v;
+        }
+        states.push_back({o.body, Vec<3>(x), Vec<3>(v)});
+      });
+}
+
+}  // namespace lantern

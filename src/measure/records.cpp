@@ -1,0 +1,44 @@
+#include "measure/records.hpp"
+
+namespace lantern {
+
+void CsvTable::add(std::string_view field) {
+  if (!fresh_) text_ += ',';
+  fresh_ = false;
+  if (field.find_first_of(",\"\r\n") == std::string_view::npos) {
+    text_ += field;
+    return;
+  }
+  text_ += '"';
+  for (const char c : field) (c == '"' ? text_ += c : text_) += c;
+  text_ += '"';
+}
+
+void CsvTable::end_record() {
+  text_ += "\r\n";
+  fresh_ = true;
+}
+
+void JsonFields::enter(std::string_view group) {
+  if (group == group_) return;
+  if (!group_.empty()) json_.end_object();
+  if (!group.empty()) json_.key(group).begin_object();
+  group_ = group;
+}
+
+void JsonFields::write(std::string_view name, double value) {
+  json_.key(name);
+  std::isfinite(value) ? json_.value(value) : json_.null();
+}
+
+void JsonFields::write(std::string_view name, const std::vector<Norm>& norms) {
+  json_.key(name).begin_array();
+  for (const Norm& norm : norms) {
+    json_.begin_object().member("name", norm.name);
+    write("value", norm.value);
+    json_.member("unit", norm.unit).member("meaning", norm.meaning).end_object();
+  }
+  json_.end_array();
+}
+
+}  // namespace lantern
