@@ -25,10 +25,10 @@ std::vector<ReportPage> pages_of(const std::vector<BroadPhaseCost>& rows,
                                  const std::vector<BoxScene>& scenes) {
   std::vector<ReportPage> pages;
   for (const BoxScene& scene : scenes)
-    for (const BroadPhaseKind kind : kBroadPhaseKinds)
+    for (const StructureKind kind : kStructureKinds)
       if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
           best != nullptr && best->has_settings())
-        pages.push_back({fmt::format("broad_phase_{}_{}", scene.name, name_of(kind)),
+        pages.push_back({fmt::format("broad_phase_{}_{}", scene.name, to_string(kind)),
                          draw_broad_phase_page(rows, scene, kind)});
   return pages;
 }

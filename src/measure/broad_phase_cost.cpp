@@ -37,7 +37,7 @@ class PairSet {
 template <int D>
 std::uint64_t count_candidates(const BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes) {
   // The sweep compares each pair once, and knows no leaves.
-  if (broad_phase.config().kind == BroadPhaseKind::sort_and_sweep)
+  if (broad_phase.config().kind == StructureKind::sort_and_sweep)
     return broad_phase.counters().pair_tests;
   PairSet met(boxes.size());
   broad_phase.visit_dynamic([&](const NodeView<D>& node) {
@@ -119,7 +119,7 @@ void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
       broad_phase.with_dynamic([](const auto& structure) { return structure.counters(); });
   c.entries += tree.entries;
   // What the sweep calls its tests are those of pairs, which are counted above.
-  if (cost.kind != BroadPhaseKind::sort_and_sweep) c.box_tests += tree.box_tests;
+  if (cost.kind != StructureKind::sort_and_sweep) c.box_tests += tree.box_tests;
   c.nodes += tree.nodes;
   cost.depth = std::max(cost.depth, tree.depth);
 }
@@ -135,7 +135,7 @@ BroadPhaseCost measure_one(const BoxUpdates<D>& scene, const std::vector<std::ve
     config.capacity = what.capacity;
     config.max_depth = what.depth_limit;
   }
-  if (what.kind == BroadPhaseKind::bsp)
+  if (what.kind == StructureKind::bsp)
     config.planes = MedianPlanes<D>(scene.frames[0], what.capacity, what.depth_limit).planes();
   BroadPhase<D> broad_phase(config);
   BroadPhaseCost cost = what;
@@ -151,8 +151,8 @@ BroadPhaseCost measure_one(const BoxUpdates<D>& scene, const std::vector<std::ve
 
 std::vector<BroadPhaseCost> planned(const BoxScene& scene, const BroadPhaseCostConfig& config) {
   std::vector<BroadPhaseCost> rows;
-  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
-    if (kind == BroadPhaseKind::octree && scene.dimension() == 2) continue;
+  for (const StructureKind kind : kStructureKinds) {
+    if (!is_possible(kind, scene.dimension())) continue;
     BroadPhaseCost row;
     row.scene = scene.name;
     row.dimension = scene.dimension();
@@ -163,7 +163,7 @@ std::vector<BroadPhaseCost> planned(const BoxScene& scene, const BroadPhaseCostC
           row.updates = boxes.frames.size();
         },
         scene.boxes);
-    if (kind == BroadPhaseKind::brute_force || kind == BroadPhaseKind::sort_and_sweep) {
+    if (kind == StructureKind::brute_force || kind == StructureKind::sort_and_sweep) {
       rows.push_back(row);
       continue;
     }
@@ -226,7 +226,7 @@ std::vector<BroadPhaseCost> measure_broad_phases(const BoxScene& scene,
 }
 
 const BroadPhaseCost* cheapest(std::span<const BroadPhaseCost> rows, const std::string& scene,
-                               BroadPhaseKind kind, CostBy by) {
+                               StructureKind kind, CostBy by) {
   const BroadPhaseCost* best = nullptr;
   const auto cost = [&](const BroadPhaseCost& row) {
     return by == CostBy::work ? static_cast<double>(row.counts.work()) : row.timing.least;
@@ -250,7 +250,7 @@ bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& ro
 }
 
 const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::string& scene,
-                             BroadPhaseKind kind, std::uint32_t capacity,
+                             StructureKind kind, std::uint32_t capacity,
                              std::uint32_t depth_limit) {
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const BroadPhaseCost& row) {
     return row.scene == scene && row.kind == kind && row.capacity == capacity &&

@@ -44,7 +44,7 @@ struct BroadPhaseCounts {
 struct BroadPhaseCost {
   std::string scene;
   int dimension = 2;
-  BroadPhaseKind kind = BroadPhaseKind::quadtree;
+  StructureKind kind = StructureKind::quadtree;
   std::uint32_t capacity = 0;  // 0 and 0 for structures without settings
   std::uint32_t depth_limit = 0;
   std::uint64_t bodies = 0;
@@ -92,12 +92,11 @@ std::uint64_t count_missing(std::span<const Pair> truth, std::span<const Pair> f
 // capacity, among equals. Nothing if there are none.
 enum class CostBy { work, time };
 const BroadPhaseCost* cheapest(std::span<const BroadPhaseCost> rows, const std::string& scene,
-                               BroadPhaseKind kind, CostBy by);
+                               StructureKind kind, CostBy by);
 
 // The row with exactly these settings; nothing if there is none.
 const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::string& scene,
-                             BroadPhaseKind kind, std::uint32_t capacity,
-                             std::uint32_t depth_limit);
+                             StructureKind kind, std::uint32_t capacity, std::uint32_t depth_limit);
 
 // Whether the tree was out of proportion and built with half the depth limit instead: then a lower
 // limit of the same capacity made a deeper one.
@@ -105,7 +104,7 @@ bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& ro
 
 // "For 2000 clustered boxes: capacity 16, depth limit 5: 88 000 comparisons; ..."
 std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
-                           BroadPhaseKind kind);
+                           StructureKind kind);
 
 std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
 std::string to_csv(const std::vector<BroadPhaseCost>& rows);

@@ -15,7 +15,7 @@ void each_field(const BroadPhaseCost& row, Visit&& visit) {
   const BroadPhaseCounts& c = row.counts;
   visit(Field("scene"), row.scene);
   visit(Field("dimension"), row.dimension);
-  visit(Field("structure"), name_of(row.kind));
+  visit(Field("structure"), to_string(row.kind));
   visit(Field("capacity"), row.capacity);
   visit(Field("depth_limit"), row.depth_limit);
   visit(Field("bodies"), row.bodies);
@@ -48,7 +48,7 @@ std::string settings_of(const BroadPhaseCost& row) {
 std::string table_row(const BroadPhaseCost& row) {
   return fmt::format(
       "  {:<15}{:<28}{:>12}{:>12}{:>9}{:>12.2f}{:>10.2f}{:>8}{:>7}{:>10.3f}{:>10.3f}{:>9.3f}\n",
-      name_of(row.kind), settings_of(row), row.counts.pair_tests, row.counts.box_tests,
+      to_string(row.kind), settings_of(row), row.counts.pair_tests, row.counts.box_tests,
       row.counts.entries, row.false_per_true(), row.entries_per_body(), row.counts.nodes,
       row.counts.missed + row.counts.invented, 1e3 * row.timing.median, 1e3 * row.timing.least,
       1e3 * row.timing.spread());
@@ -86,7 +86,7 @@ std::string brute_force_words(const BroadPhaseCost& row) {
 }  // namespace
 
 std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
-                           BroadPhaseKind kind) {
+                           StructureKind kind) {
   const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
   if (best == nullptr) return "";
   const auto work = [](const BroadPhaseCost& row) {
@@ -97,9 +97,9 @@ std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene&
                                  best->capacity, best->depth_limit, work(*best));
   if (best->updates > 1) text += " an update";
   text += neighbour_words(rows, *best);
-  if (const auto* sweep = cheapest(rows, scene.name, BroadPhaseKind::sort_and_sweep, CostBy::work))
+  if (const auto* sweep = cheapest(rows, scene.name, StructureKind::sort_and_sweep, CostBy::work))
     text += "; sort and sweep " + work(*sweep);
-  if (const auto* force = cheapest(rows, scene.name, BroadPhaseKind::brute_force, CostBy::work))
+  if (const auto* force = cheapest(rows, scene.name, StructureKind::brute_force, CostBy::work))
     text += "; brute force " + work(*force) + brute_force_words(*force);
   return text + ".";
 }
@@ -112,14 +112,14 @@ std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxSc
                   "false/true", "ent/body", "nodes", "wrong", "ms", "least", "iqr");
   for (const BoxScene& scene : scenes) {
     std::string lines;
-    for (const BroadPhaseKind kind : kBroadPhaseKinds)
+    for (const StructureKind kind : kStructureKinds)
       if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work))
         lines += table_row(*best);
     if (lines.empty()) continue;
-    const BroadPhaseKind tree =
-        scene.dimension() == 2 ? BroadPhaseKind::quadtree : BroadPhaseKind::octree;
+    const StructureKind tree =
+        scene.dimension() == 2 ? StructureKind::quadtree : StructureKind::octree;
     text += fmt::format("\n{}\n{}", scene.name, lines);
-    text += fmt::format("  {} {}\n", name_of(tree), sentence_about(rows, scene, tree));
+    text += fmt::format("  {} {}\n", to_string(tree), sentence_about(rows, scene, tree));
   }
   return text;
 }
@@ -133,10 +133,10 @@ std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxSce
   for (const BoxScene& scene : scenes) {
     json.line().begin_object().member("name", scene.name).member("words", scene.words);
     json.member("dimension", scene.dimension()).key("sentences").begin_array();
-    for (const BroadPhaseKind kind : kBroadPhaseKinds)
+    for (const StructureKind kind : kStructureKinds)
       if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
           best != nullptr && best->has_settings())
-        json.value(fmt::format("{}: {}", name_of(kind), sentence_about(rows, scene, kind)));
+        json.value(fmt::format("{}: {}", to_string(kind), sentence_about(rows, scene, kind)));
     json.end_array().end_object();
   }
   json.line().end_array().line().key("rows").begin_array();

@@ -193,7 +193,7 @@ StressResult heaviest_chain() {
 // --- determinism ---
 
 template <int D>
-std::uint64_t crowd_hash(BroadPhaseKind kind) {
+std::uint64_t crowd_hash(StructureKind kind) {
   WorldConfig<D> config = with_gravity<D>();
   config.broad_phase.kind = kind;
   World<D> world(config);
@@ -214,8 +214,8 @@ template <int D>
 StressResult one_hash() {
   std::set<std::uint64_t> hashes;
   int kinds = 0;
-  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
-    if (D == 2 && kind == BroadPhaseKind::octree) continue;
+  for (const StructureKind kind : kStructureKinds) {
+    if (!is_possible(kind, D)) continue;
     ++kinds;
     hashes.insert(crowd_hash<D>(kind));
   }

@@ -25,7 +25,7 @@ constexpr double kSide = 64;  // of the world in which boxes lie, from the origi
 
 // The world is cut in half on every axis, and its first quarter again.
 template <int D>
-BroadPhaseConfig<D> config_of(BroadPhaseKind kind) {
+BroadPhaseConfig<D> config_of(StructureKind kind) {
   BroadPhaseConfig<D> config;
   config.kind = kind;
   config.bounds = {Vec<D>(0.0), Vec<D>(kSide)};
@@ -63,8 +63,8 @@ std::size_t wrong_pairs(Make&& make, std::size_t& true_count) {
     Random random(seed);
     std::vector<Proxy<D>> proxies;
     for (BodyId id = 0; id < 150; ++id) proxies.push_back({id, make(random), id % 7 == 0, true});
-    for (const BroadPhaseKind kind : kBroadPhaseKinds) {
-      if (D == 2 && kind == BroadPhaseKind::octree) continue;
+    for (const StructureKind kind : kStructureKinds) {
+      if (!is_possible(kind, D)) continue;
       BroadPhase<D> broad_phase(config_of<D>(kind));
       broad_phase.update(proxies);
       std::vector<Pair> expected = true_pairs(proxies);  // but of two static bodies
@@ -219,8 +219,8 @@ StressResult coincident_pairs_counted() {
 template <int D>
 int silent_kinds(int& tried) {
   int silent = 0;
-  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
-    if (D == 2 && kind == BroadPhaseKind::octree) continue;
+  for (const StructureKind kind : kStructureKinds) {
+    if (!is_possible(kind, D)) continue;
     BroadPhaseConfig<D> config = config_of<D>(kind);
     config.most_pairs = 100'000;
     BroadPhase<D> broad_phase(config);

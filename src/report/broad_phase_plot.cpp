@@ -31,22 +31,9 @@ const GridTone& tone_of(double ratio) {
                        [&](const GridTone& tone) { return ratio <= tone.above; });
 }
 
-std::string words_of(BroadPhaseKind kind) {
-  switch (kind) {
-    case BroadPhaseKind::brute_force:
-      return "brute force";
-    case BroadPhaseKind::sort_and_sweep:
-      return "sort and sweep";
-    case BroadPhaseKind::quadtree:
-      return "quadtree";
-    case BroadPhaseKind::octree:
-      return "octree";
-    case BroadPhaseKind::bsp:
-      return "BSP of medians";
-    case BroadPhaseKind::kd_tree:
-      return "kD-tree";
-  }
-  return "";
+std::string words_of(StructureKind kind) {
+  const std::string words(traits_of(kind).words);
+  return kind == StructureKind::bsp ? words + " of medians" : words;
 }
 
 std::string ratio_text(double ratio) {
@@ -63,7 +50,7 @@ double work_of(const BroadPhaseCost& row) {
 
 class GridPage {
  public:
-  GridPage(std::span<const BroadPhaseCost> rows, const BoxScene& scene, BroadPhaseKind kind)
+  GridPage(std::span<const BroadPhaseCost> rows, const BoxScene& scene, StructureKind kind)
       : rows_(rows), scene_(scene), kind_(kind), labels_(list_) {
     for (const BroadPhaseCost& row : rows) {
       if (row.scene != scene.name || row.kind != kind || !row.has_settings()) continue;
@@ -212,7 +199,7 @@ class GridPage {
     labels_.add("tests", {{middle, y}, 1}, quiet, place);
     if (with_time) labels_.add("time", {{right, y}, 1}, quiet, place);
     y += 34;
-    for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+    for (const StructureKind kind : kStructureKinds) {
       const BroadPhaseCost* row = cheapest(rows_, scene_.name, kind, CostBy::work);
       if (row == nullptr) continue;
       const TextStyle& style = kind == kind_ ? strong : plain;
@@ -254,7 +241,7 @@ class GridPage {
 
   std::span<const BroadPhaseCost> rows_;
   const BoxScene& scene_;
-  BroadPhaseKind kind_;
+  StructureKind kind_;
   std::set<std::uint32_t> capacities_, depths_;
   bool some_cut_back_ = false;
   DrawList list_;
@@ -264,7 +251,7 @@ class GridPage {
 }  // namespace
 
 DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
-                               BroadPhaseKind kind) {
+                               StructureKind kind) {
   return GridPage(rows, scene, kind).drawn();
 }
 

@@ -13,6 +13,6 @@ namespace lantern {
 // the same scene; and a sentence. `kind` is one that has settings. A page that says so if there is
 // no row of it.
 DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
-                               BroadPhaseKind kind);
+                               StructureKind kind);
 
 }  // namespace lantern

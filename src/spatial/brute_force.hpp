@@ -13,7 +13,8 @@ template <int D>
 class BruteForce {
  public:
   static constexpr Zones kZones = Zones::fitted;
-  static constexpr StructureTraits kTraits{.is_tree = false, .splits = false};
+  static constexpr StructureTraits kTraits{
+      .words = "brute force", .is_tree = false, .splits = false};
 
   static BruteForce made(const StructureConfig<D>&) { return {}; }
 

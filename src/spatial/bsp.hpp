@@ -31,7 +31,7 @@ template <int D>
 class Bsp {
  public:
   static constexpr Zones kZones = Zones::half_spaces;
-  static constexpr StructureTraits kTraits{.splits = false};
+  static constexpr StructureTraits kTraits{.words = "BSP", .splits = false};
   static constexpr std::uint32_t kDeepest = 1000;
 
   static Bsp made(const StructureConfig<D>& config) {

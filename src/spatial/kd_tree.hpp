@@ -38,7 +38,7 @@ template <int D>
 class KdTree {
  public:
   static constexpr Zones kZones = Zones::fitted;
-  static constexpr StructureTraits kTraits{.is_fitted = true};
+  static constexpr StructureTraits kTraits{.words = "kD-tree", .is_fitted = true};
   static constexpr std::uint32_t kDeepest = 64;
 
   struct Config {

@@ -30,7 +30,8 @@ template <int D>
 class SortAndSweep {
  public:
   static constexpr Zones kZones = Zones::fitted;
-  static constexpr StructureTraits kTraits{.is_tree = false, .splits = false};
+  static constexpr StructureTraits kTraits{
+      .words = "sort and sweep", .is_tree = false, .splits = false};
 
   static SortAndSweep made(const StructureConfig<D>&) { return {}; }
 

@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -114,6 +115,7 @@ struct StructureConfig {
 
 // What tells kinds of structures apart for whoever shows or describes them.
 struct StructureTraits {
+  std::string_view words;     // "sort and sweep": as one would write it
   bool is_tree = true;        // else one list of all bodies
   bool splits = true;         // leaves above capacity, down to the depth limit
   bool is_fitted = false;     // to its bodies: built of all of them at once, stale when they move

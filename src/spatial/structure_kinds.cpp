@@ -32,7 +32,7 @@ StructureTraits traits_of(StructureKind kind) {
       LANTERN_STRUCTURES(LANTERN_KIND)
 #undef LANTERN_KIND
   }
-  return {.is_tree = false, .splits = false};
+  return {.words = "none", .is_tree = false, .splits = false};
 }
 
 template <int D>

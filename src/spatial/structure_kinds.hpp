@@ -82,10 +82,6 @@ std::optional<StructureKind> structure_named(std::string_view name);
 
 StructureTraits traits_of(StructureKind kind);
 
-using BroadPhaseKind = StructureKind;
-inline constexpr auto kBroadPhaseKinds = kStructureKinds;
-inline std::string_view name_of(StructureKind kind) { return to_string(kind); }
-
 // An empty structure. Throws Refused for settings that it does not allow, for an octree in two
 // dimensions, and for `none`.
 template <int D>

@@ -125,7 +125,7 @@ TEST_P(Golden, FramesAreAsExpected) {
   std::string range;
   if (hashes.size() / 2 > kDrawn) {  // a picture and facts of each frame, in order
     range = fmt::format(" --frames -{}", kDrawn - 1);
-    hashes.erase(std::next(hashes.begin(), 2 * std::ptrdiff_t{kDrawn}), hashes.end());
+    hashes.erase(std::next(hashes.begin(), static_cast<std::ptrdiff_t>(2 * kDrawn)), hashes.end());
   }
   const fs::path out = fresh_folder("golden-" + name);
   const Outcome o = shell("lantern render " + scenario(name) +

@@ -198,8 +198,8 @@ void fuzz_broad_phase(ByteStream& bytes) {
   plane.normal[0] = plane.normal[1] = 1;
   plane.offset = bytes.number();
   if (std::isfinite(plane.offset)) config.planes.push_back({plane});
-  for (const BroadPhaseKind kind : kBroadPhaseKinds)
-    if (config.kind = kind; D == 3 || kind != BroadPhaseKind::octree) phases.emplace_back(config);
+  for (const StructureKind kind : kStructureKinds)
+    if (config.kind = kind; D == 3 || kind != StructureKind::octree) phases.emplace_back(config);
   std::vector<Proxy<D>> proxies;
   for (int update = 0; update < 4; ++update) {
     while (bytes.next() % 8 != 0 && proxies.size() < kMostBodies) {

@@ -29,8 +29,8 @@ TEST(BroadPhaseCost, NoStructureMissesOrInventsAPair) {
   for (const std::uint64_t seed : {1, 2, 3})
     for (const BoxScene& scene : seeded_box_scenes(kBodies, seed))
       for (const BroadPhaseCost& row : measured(scene)) {
-        EXPECT_EQ(row.counts.missed, 0u) << scene.name << ' ' << name_of(row.kind);
-        EXPECT_EQ(row.counts.invented, 0u) << scene.name << ' ' << name_of(row.kind);
+        EXPECT_EQ(row.counts.missed, 0u) << scene.name << ' ' << to_string(row.kind);
+        EXPECT_EQ(row.counts.invented, 0u) << scene.name << ' ' << to_string(row.kind);
         EXPECT_GT(row.counts.true_pairs, 0u) << scene.name << " would test nothing";
       }
 }
@@ -59,10 +59,10 @@ TEST(BroadPhaseCost, CandidatesLieBetweenTruePairsAndTests) {
       EXPECT_LE(row.counts.candidates, row.counts.pair_tests) << scene.name;
       EXPECT_LE(row.counts.candidates, all) << "a pair was counted twice in " << scene.name;
       EXPECT_GE(row.counts.entries, kBodies * row.updates) << "a body lies in no leaf";
-      if (row.kind == BroadPhaseKind::sort_and_sweep) {
+      if (row.kind == StructureKind::sort_and_sweep) {
         EXPECT_EQ(row.counts.work(), row.counts.pair_tests) << "a pair counts twice";
       }
-      if (row.kind == BroadPhaseKind::brute_force) {
+      if (row.kind == StructureKind::brute_force) {
         EXPECT_EQ(row.counts.pair_tests, all);
         EXPECT_EQ(row.counts.work(), all) << "it compares nothing but pairs";
         EXPECT_EQ(row.counts.false_candidates(), all - row.counts.true_pairs);
@@ -96,7 +96,7 @@ TEST(BroadPhaseCost, TheQuadtreesCountsAreThoseOfARecount) {
             }
         return true;
       });
-      const BroadPhaseCost* row = row_of(rows, scene.name, BroadPhaseKind::quadtree, capacity, 5);
+      const BroadPhaseCost* row = row_of(rows, scene.name, StructureKind::quadtree, capacity, 5);
       ASSERT_NE(row, nullptr);
       EXPECT_EQ(row->counts.candidates, candidates.size()) << scene.name << ' ' << capacity;
       EXPECT_EQ(row->counts.pair_tests, tests) << scene.name << ' ' << capacity;
@@ -119,7 +119,7 @@ TEST(BroadPhaseCost, CountsRepeatExactly) {
 TEST(BroadPhaseCost, TheCheapestRowIsNoDearerThanAnyOther) {
   for (const BoxScene& scene : seeded_box_scenes(kBodies, 8)) {
     const std::vector<BroadPhaseCost> rows = measured(scene);
-    for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+    for (const StructureKind kind : kStructureKinds) {
       const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
       for (const BroadPhaseCost& row : rows) {
         if (row.kind != kind) continue;
@@ -193,7 +193,7 @@ TEST(BroadPhaseCost, TextsTellEveryRow) {
   const std::string csv = to_csv(rows);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), rows.size() + 1);
   EXPECT_NE(to_json(rows, scenes).find("\"lantern.measure.broad_phase/1\""), std::string::npos);
-  const std::string sentence = sentence_about(rows, scenes[0], BroadPhaseKind::quadtree);
+  const std::string sentence = sentence_about(rows, scenes[0], StructureKind::quadtree);
   EXPECT_NE(sentence.find("For 150 clustered boxes: capacity "), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("brute force 11 175"), std::string::npos) << sentence;
 }

@@ -77,7 +77,7 @@ class AnyWorld {
                       : chance(3) ? ContactMethod::impulse
                                   : ContactMethod::soft;
     do config.broad_phase.kind = kStructureKinds[static_cast<std::size_t>(random_.whole(0, 5))];
-    while (D == 2 && config.broad_phase.kind == BroadPhaseKind::octree);
+    while (D == 2 && config.broad_phase.kind == StructureKind::octree);
     config.sub_steps = static_cast<int>(random_.whole(1, 8));
     config.iterations = static_cast<int>(random_.whole(1, 12));
     config.warm_start = !chance(4);

@@ -171,9 +171,9 @@ TEST(World, KeepsTheBroadPhaseThatItWasSwitchedTo) {
   config.contacts = ContactMethod::soft;
   World<2> world(config);
   BroadPhaseConfig<2> other = config.broad_phase;
-  other.kind = BroadPhaseKind::sort_and_sweep;
+  other.kind = StructureKind::sort_and_sweep;
   world.switch_broad_phase(other);
-  EXPECT_EQ(world.config().broad_phase.kind, BroadPhaseKind::sort_and_sweep);
+  EXPECT_EQ(world.config().broad_phase.kind, StructureKind::sort_and_sweep);
 }
 
 TEST(World, ContactMethodsHaveNames) {

@@ -1,11 +1,11 @@
 // The page of capacity and depth limit: everything is on it, and nothing covers anything.
-#include "draw/layout_check.hpp"
 #include "report/broad_phase_plot.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
+#include "draw/layout_check.hpp"
 #include "draw/metrics.hpp"
 
 namespace lantern {
@@ -41,8 +41,8 @@ TEST(BroadPhasePage, NothingCoversAnything) {
   for (const BoxScene& scene : seeded_box_scenes(120, 1))
     for (const int repeats : {0, 1}) {
       const auto rows = measure_broad_phases(scene, config_of(repeats), [] {});
-      for (const BroadPhaseKind kind :
-           {BroadPhaseKind::quadtree, BroadPhaseKind::octree, BroadPhaseKind::kd_tree})
+      for (const StructureKind kind :
+           {StructureKind::quadtree, StructureKind::octree, StructureKind::kd_tree})
         expect_readable(draw_broad_phase_page(rows, scene, kind), scene.name);
     }
 }
@@ -50,8 +50,8 @@ TEST(BroadPhasePage, NothingCoversAnything) {
 TEST(BroadPhasePage, TheCheapestCellIsNamed) {
   const BoxScene scene = seeded_box_scenes(120, 2)[1];
   const auto rows = measure_broad_phases(scene, config_of(0), [] {});
-  const BroadPhaseCost* best = cheapest(rows, scene.name, BroadPhaseKind::quadtree, CostBy::work);
-  const DrawList list = draw_broad_phase_page(rows, scene, BroadPhaseKind::quadtree);
+  const BroadPhaseCost* best = cheapest(rows, scene.name, StructureKind::quadtree, CostBy::work);
+  const DrawList list = draw_broad_phase_page(rows, scene, StructureKind::quadtree);
   const auto numbers =
       std::ranges::count(list.labels, std::to_string(best->counts.work()), &LabelBox::text);
   EXPECT_EQ(numbers, 2) << "its cell and its line of the list have its number";
@@ -66,7 +66,7 @@ TEST(BroadPhasePage, TheCheapestCellIsNamed) {
 
 TEST(BroadPhasePage, WithoutRowsItSaysSo) {
   const BoxScene scene = seeded_box_scenes(2, 3)[0];
-  const DrawList list = draw_broad_phase_page({}, scene, BroadPhaseKind::quadtree);
+  const DrawList list = draw_broad_phase_page({}, scene, StructureKind::quadtree);
   EXPECT_TRUE(says_part(list, "Nothing was measured."));
   expect_readable(list, "empty");
 }

@@ -50,14 +50,14 @@ void move(Sort sort, std::vector<Proxy<D>>& proxies, Random& random) {
 }
 
 template <int D>
-std::vector<BroadPhaseKind> kinds() {
-  std::vector<BroadPhaseKind> kinds(kBroadPhaseKinds.begin(), kBroadPhaseKinds.end());
-  if (D == 2) std::erase(kinds, BroadPhaseKind::octree);
+std::vector<StructureKind> kinds() {
+  std::vector<StructureKind> kinds(kStructureKinds.begin(), kStructureKinds.end());
+  if (D == 2) std::erase(kinds, StructureKind::octree);
   return kinds;
 }
 
 template <int D>
-BroadPhaseConfig<D> config_of(BroadPhaseKind kind, Sort sort, Random& random) {
+BroadPhaseConfig<D> config_of(StructureKind kind, Sort sort, Random& random) {
   BroadPhaseConfig<D> config;
   config.kind = kind;
   config.bounds = testing::bounds_of<D>(sort);
@@ -75,7 +75,7 @@ BroadPhaseConfig<D> config_of(BroadPhaseKind kind, Sort sort, Random& random) {
 // with each other and with those that sleep.
 template <int D>
 void expect_counted(const BroadPhase<D>& phase, const std::vector<Proxy<D>>& proxies) {
-  const bool sweeps = phase.config().kind == BroadPhaseKind::sort_and_sweep;
+  const bool sweeps = phase.config().kind == StructureKind::sort_and_sweep;
   std::set<BodyId> stirs;
   bool has_static = false;
   for (const Proxy<D>& p : proxies) {
@@ -126,7 +126,7 @@ void every_kind_is_exact(std::size_t bodies, std::uint64_t seeds) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       Random random(100 * seed + static_cast<std::uint64_t>(sort));
       std::vector<BroadPhase<D>> phases;
-      for (const BroadPhaseKind kind : kinds<D>())
+      for (const StructureKind kind : kinds<D>())
         phases.emplace_back(config_of<D>(kind, sort, random));
       auto proxies = random_proxies<D>(sort, bodies, random);
       for (int update = 0; update < 5; ++update) {
@@ -134,8 +134,8 @@ void every_kind_is_exact(std::size_t bodies, std::uint64_t seeds) {
         for (BroadPhase<D>& phase : phases) {
           phase.update(proxies);
           ASSERT_EQ(phase.pairs(), expected)
-              << name_of(phase.config().kind) << " in " << D << "D, sort " << static_cast<int>(sort)
-              << ", seed " << seed << ", update " << update;
+              << to_string(phase.config().kind) << " in " << D << "D, sort "
+              << static_cast<int>(sort) << ", seed " << seed << ", update " << update;
           expect_counted(phase, proxies);
         }
         move(sort, proxies, random);
@@ -147,14 +147,14 @@ TEST(BroadPhase, EveryKindEqualsBruteForceIn2D) { every_kind_is_exact<2>(70, 12)
 TEST(BroadPhase, EveryKindEqualsBruteForceIn3D) { every_kind_is_exact<3>(70, 8); }
 
 TEST(BroadPhase, NamesAreReadBack) {
-  for (const BroadPhaseKind kind : kBroadPhaseKinds)
-    EXPECT_EQ(structure_named(name_of(kind)), kind) << name_of(kind);
+  for (const StructureKind kind : kStructureKinds)
+    EXPECT_EQ(structure_named(to_string(kind)), kind) << to_string(kind);
   EXPECT_EQ(structure_named("quad tree"), std::nullopt);
 }
 
 TEST(BroadPhase, RefusesWhatItCannotDoAndStaysAsItWas) {
   BroadPhaseConfig<2> config;
-  config.kind = BroadPhaseKind::octree;
+  config.kind = StructureKind::octree;
   EXPECT_THROW(BroadPhase<2>{config}, Refused) << "an octree in two dimensions";
   BroadPhase<2> phase({});
   const Box<2> box{{0, 0}, {1, 1}};
@@ -167,18 +167,18 @@ TEST(BroadPhase, RefusesWhatItCannotDoAndStaysAsItWas) {
 }
 
 TEST(BroadPhase, TooManyPairsAreRefusedAndTheNextUpdateIsRight) {
-  for (const BroadPhaseKind kind : kinds<2>()) {
+  for (const StructureKind kind : kinds<2>()) {
     BroadPhaseConfig<2> config;
     config.kind = kind;
     config.most_pairs = 44;
     BroadPhase<2> phase(config);
     std::vector<Proxy<2>> proxies;
     for (BodyId id = 0; id < 10; ++id) proxies.push_back({id, {{1, 1}, {2, 2}}});
-    EXPECT_THROW(phase.update(proxies), Refused) << name_of(kind) << ": 45 pairs";
-    EXPECT_TRUE(phase.pairs().empty()) << name_of(kind);
+    EXPECT_THROW(phase.update(proxies), Refused) << to_string(kind) << ": 45 pairs";
+    EXPECT_TRUE(phase.pairs().empty()) << to_string(kind);
     proxies.pop_back();
     phase.update(proxies);
-    EXPECT_EQ(phase.pairs().size(), 36u) << name_of(kind);
+    EXPECT_EQ(phase.pairs().size(), 36u) << to_string(kind);
   }
 }
 
@@ -192,7 +192,7 @@ std::vector<Proxy<2>> grid(int side) {
   return proxies;
 }
 
-BroadPhaseConfig<2> grid_config(BroadPhaseKind kind, int side) {
+BroadPhaseConfig<2> grid_config(StructureKind kind, int side) {
   BroadPhaseConfig<2> config;
   config.kind = kind;
   config.bounds = {Vec<2>(0.0), Vec<2>(4.0 * side)};
@@ -202,7 +202,7 @@ BroadPhaseConfig<2> grid_config(BroadPhaseKind kind, int side) {
 }
 
 TEST(BroadPhase, TheStaticStructureIsBuiltOnceAndAgainOnlyWhenStaticBodiesChange) {
-  for (const BroadPhaseKind kind : kinds<2>()) {
+  for (const StructureKind kind : kinds<2>()) {
     BroadPhase<2> phase(grid_config(kind, 12));
     auto proxies = grid(12);
     for (std::size_t i = 0; i < proxies.size(); ++i) proxies[i].is_static = i % 3 != 0;
@@ -211,99 +211,99 @@ TEST(BroadPhase, TheStaticStructureIsBuiltOnceAndAgainOnlyWhenStaticBodiesChange
         if (!p.is_static) p.box = {p.box.lo + 0.01, p.box.hi + 0.01};
       phase.update(proxies);
     }
-    EXPECT_EQ(phase.counters().static_builds, 1u) << name_of(kind) << ": nothing static changed";
-    EXPECT_EQ(phase.counters().dynamic_builds, 10u) << name_of(kind);
+    EXPECT_EQ(phase.counters().static_builds, 1u) << to_string(kind) << ": nothing static changed";
+    EXPECT_EQ(phase.counters().dynamic_builds, 10u) << to_string(kind);
     proxies[1].awake = false;  // says nothing of a static body
     phase.update(proxies);
-    EXPECT_EQ(phase.counters().static_builds, 1u) << name_of(kind);
+    EXPECT_EQ(phase.counters().static_builds, 1u) << to_string(kind);
     proxies.erase(proxies.begin() + 1);  // a wall is blown up
     phase.update(proxies);
-    EXPECT_EQ(phase.counters().static_builds, 2u) << name_of(kind) << ": a static body went";
-    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << name_of(kind);
+    EXPECT_EQ(phase.counters().static_builds, 2u) << to_string(kind) << ": a static body went";
+    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << to_string(kind);
   }
 }
 
 // A row of walls, and one body that touches two of them.
 TEST(BroadPhase, ABodyIsComparedOnlyWithStaticOnesThatAreNear) {
-  for (const BroadPhaseKind kind : kinds<2>()) {
+  for (const StructureKind kind : kinds<2>()) {
     BroadPhase<2> phase(grid_config(kind, 100));
     std::vector<Proxy<2>> proxies;
     for (BodyId id = 0; id < 100; ++id)
       proxies.push_back({id, Box<2>::around({4.0 * id + 2, 2}, Vec<2>(2.0)), true});
     proxies.push_back({100, Box<2>::around({350.5, 2}, Vec<2>(2.0))});
     phase.update(proxies);
-    EXPECT_EQ(phase.pairs(), (std::vector<Pair>{{87, 100}, {88, 100}})) << name_of(kind);
+    EXPECT_EQ(phase.pairs(), (std::vector<Pair>{{87, 100}, {88, 100}})) << to_string(kind);
     const std::uint64_t tests = phase.counters().pair_tests;
-    if (kind == BroadPhaseKind::brute_force) {
+    if (kind == StructureKind::brute_force) {
       EXPECT_EQ(tests, 100u);
-    } else if (kind == BroadPhaseKind::sort_and_sweep) {
+    } else if (kind == StructureKind::sort_and_sweep) {
       EXPECT_EQ(tests, 2u);
     } else {
-      EXPECT_GE(tests, 2u) << name_of(kind);
-      EXPECT_LE(tests, kind == BroadPhaseKind::bsp ? 60u : 14u) << name_of(kind);
+      EXPECT_GE(tests, 2u) << to_string(kind);
+      EXPECT_LE(tests, kind == StructureKind::bsp ? 60u : 14u) << to_string(kind);
     }
   }
 }
 
 TEST(BroadPhase, WhereNothingIsAwakeNothingIsBuilt) {
-  for (const BroadPhaseKind kind : kinds<2>()) {
+  for (const StructureKind kind : kinds<2>()) {
     BroadPhase<2> phase(grid_config(kind, 8));
     auto proxies = grid(8);
     for (Proxy<2>& p : proxies) p.awake = false;
     for (int step = 0; step < 5; ++step) phase.update(proxies);
-    EXPECT_EQ(phase.counters().dynamic_builds, 0u) << name_of(kind);
-    EXPECT_EQ(phase.counters().pair_tests, 0u) << name_of(kind);
-    EXPECT_TRUE(phase.pairs().empty()) << name_of(kind);
+    EXPECT_EQ(phase.counters().dynamic_builds, 0u) << to_string(kind);
+    EXPECT_EQ(phase.counters().pair_tests, 0u) << to_string(kind);
+    EXPECT_TRUE(phase.pairs().empty()) << to_string(kind);
     proxies[0].awake = true;
     phase.update(proxies);
-    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << name_of(kind) << ": the first one woke";
+    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << to_string(kind) << ": the first one woke";
     proxies[0].awake = false;
     phase.update(proxies);
-    EXPECT_EQ(phase.counters().dynamic_builds, 1u) << name_of(kind) << ": all sleep again";
+    EXPECT_EQ(phase.counters().dynamic_builds, 1u) << to_string(kind) << ": all sleep again";
     std::size_t shown = 0;
     phase.visit_dynamic([&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
-    EXPECT_GE(shown, proxies.size()) << name_of(kind) << ": the tree that stood is still right";
+    EXPECT_GE(shown, proxies.size()) << to_string(kind) << ": the tree that stood is still right";
     proxies[5].box.hi += 1.0;
     phase.update(proxies);
     shown = 0;
     phase.visit_dynamic([&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
-    EXPECT_EQ(shown, 0u) << name_of(kind) << ": a tree that is wrong must not be shown";
+    EXPECT_EQ(shown, 0u) << to_string(kind) << ": a tree that is wrong must not be shown";
   }
 }
 
 TEST(BroadPhase, BranchesWhereAllSleepAreSkipped) {
-  for (const BroadPhaseKind kind :
-       {BroadPhaseKind::quadtree, BroadPhaseKind::kd_tree, BroadPhaseKind::bsp}) {
+  for (const StructureKind kind :
+       {StructureKind::quadtree, StructureKind::kd_tree, StructureKind::bsp}) {
     BroadPhase<2> phase(grid_config(kind, 16));
     auto proxies = grid(16);
     phase.update(proxies);
     const BroadPhaseCounters all_awake = phase.counters();
-    EXPECT_EQ(all_awake.nodes_skipped_asleep, 0u) << name_of(kind);
+    EXPECT_EQ(all_awake.nodes_skipped_asleep, 0u) << to_string(kind);
     for (Proxy<2>& p : proxies) p.awake = p.id == 0;
     phase.update(proxies);
     const BroadPhaseCounters one_awake = phase.counters();
-    EXPECT_GT(one_awake.nodes_skipped_asleep, 0u) << name_of(kind);
-    EXPECT_LT(one_awake.nodes_visited, all_awake.nodes_visited) << name_of(kind);
-    EXPECT_LT(5 * one_awake.pair_tests, all_awake.pair_tests) << name_of(kind);
-    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << name_of(kind);
+    EXPECT_GT(one_awake.nodes_skipped_asleep, 0u) << to_string(kind);
+    EXPECT_LT(one_awake.nodes_visited, all_awake.nodes_visited) << to_string(kind);
+    EXPECT_LT(5 * one_awake.pair_tests, all_awake.pair_tests) << to_string(kind);
+    EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << to_string(kind);
 
     const std::vector<bool> awake = phase.awake_dynamic_nodes();
     std::size_t at = 0;
     phase.visit_dynamic([&](const NodeView<2>& node) {
       const bool has = std::count(node.bodies.begin(), node.bodies.end(), 0u) != 0;
-      EXPECT_TRUE(!node.leaf || awake[at] == has) << name_of(kind) << ", node " << at;
+      EXPECT_TRUE(!node.leaf || awake[at] == has) << to_string(kind) << ", node " << at;
       EXPECT_TRUE(!awake[at] || node.parent == kNone || awake[node.parent])
-          << name_of(kind) << ": an awake node wakes those above";
+          << to_string(kind) << ": an awake node wakes those above";
       ++at;
       return true;
     });
-    EXPECT_EQ(at, awake.size()) << name_of(kind);
-    EXPECT_TRUE(awake[0]) << name_of(kind);
+    EXPECT_EQ(at, awake.size()) << to_string(kind);
+    EXPECT_TRUE(awake[0]) << to_string(kind);
   }
 }
 
 TEST(BroadPhase, ASteadyStateAsksForNoMemoryAndReusesNodes) {
-  for (const BroadPhaseKind kind : kinds<2>()) {
+  for (const StructureKind kind : kinds<2>()) {
     BroadPhase<2> phase(grid_config(kind, 16));
     auto proxies = grid(16);
     for (Proxy<2>& p : proxies) p.is_static = p.id % 5 == 0;
@@ -317,25 +317,25 @@ TEST(BroadPhase, ASteadyStateAsksForNoMemoryAndReusesNodes) {
         }
       phase.update(proxies);
     }
-    EXPECT_EQ(phase.counters().allocations, before) << name_of(kind);
-    const bool has_nodes = kind == BroadPhaseKind::quadtree || kind == BroadPhaseKind::kd_tree;
-    EXPECT_TRUE(!has_nodes || phase.counters().nodes_reused > 100) << name_of(kind);
+    EXPECT_EQ(phase.counters().allocations, before) << to_string(kind);
+    const bool has_nodes = kind == StructureKind::quadtree || kind == StructureKind::kd_tree;
+    EXPECT_TRUE(!has_nodes || phase.counters().nodes_reused > 100) << to_string(kind);
   }
 }
 
 TEST(BroadPhase, CallsForMemoryAreNeverForgotten) {
-  for (const BroadPhaseKind kind : kinds<2>()) {
+  for (const StructureKind kind : kinds<2>()) {
     BroadPhase<2> phase(grid_config(kind, 16));
     std::uint64_t before = 0, grown = 0;
     for (int side = 1; side <= 16; ++side) {
       auto proxies = grid(side);
       for (Proxy<2>& p : proxies) p.is_static = p.id % 3 == 0;
       phase.update(proxies);
-      EXPECT_GE(phase.counters().allocations, before) << name_of(kind) << ", side " << side;
+      EXPECT_GE(phase.counters().allocations, before) << to_string(kind) << ", side " << side;
       grown += phase.counters().allocations > before;
       before = phase.counters().allocations;
     }
-    EXPECT_GE(grown, 8u) << name_of(kind) << ": 256 bodies were given room for nothing";
+    EXPECT_GE(grown, 8u) << to_string(kind) << ": 256 bodies were given room for nothing";
   }
 }
 
@@ -355,12 +355,12 @@ std::vector<std::pair<std::uint32_t, std::vector<BodyId>>> nodes_shown(
 }
 
 TEST(BroadPhase, StaticBodiesHaveTheSameTreeAsMovingOnes) {
-  for (const BroadPhaseKind kind : kinds<2>()) {
+  for (const StructureKind kind : kinds<2>()) {
     BroadPhaseConfig<2> config = grid_config(kind, 48);
     config.capacity = 1;
     const auto proxies = grid(48);  // of more entries than a tree may have that is made for none
     EXPECT_EQ(nodes_shown(proxies, true, config), nodes_shown(proxies, false, config))
-        << name_of(kind);
+        << to_string(kind);
   }
 }
 
@@ -390,7 +390,7 @@ TEST(BroadPhase, ATreeThatHadToBeShallowerIsDeepAgainWhenThereIsRoom) {
 }
 
 TEST(BroadPhase, BodiesOutsideTheBoundsAndFarAwayKeepTheirPairs) {
-  for (const BroadPhaseKind kind : kinds<3>()) {
+  for (const StructureKind kind : kinds<3>()) {
     BroadPhaseConfig<3> config;
     config.kind = kind;
     config.bounds = {Vec<3>(0.0), Vec<3>(1.0)};
@@ -400,13 +400,13 @@ TEST(BroadPhase, BodiesOutsideTheBoundsAndFarAwayKeepTheirPairs) {
       return Proxy<3>{id, Box<3>::around(Vec<3>(x, -x, x), Vec<3>(1.0))};
     };
     phase.update(std::vector{at(0, 1e9), at(1, 1e9 + 2), at(2, -1e9), at(3, 1e9 + 4.5), at(4, 0)});
-    EXPECT_EQ(phase.pairs(), (std::vector<Pair>{{0, 1}})) << name_of(kind);
+    EXPECT_EQ(phase.pairs(), (std::vector<Pair>{{0, 1}})) << to_string(kind);
   }
 }
 
 TEST(BroadPhase, AFlatQuadtreeLooksAtXAndZOnly) {
   BroadPhaseConfig<3> config;
-  config.kind = BroadPhaseKind::quadtree;
+  config.kind = StructureKind::quadtree;
   config.bounds = {Vec<3>(0.0), Vec<3>(64.0)};
   config.capacity = 2;
   BroadPhase<3> phase(config);
@@ -428,7 +428,7 @@ TEST(BroadPhase, AFlatQuadtreeLooksAtXAndZOnly) {
 }
 
 TEST(BroadPhase, AHundredThousandAtOnePointAreNoHangWhileTheySleep) {
-  for (const BroadPhaseKind kind : kinds<3>()) {
+  for (const StructureKind kind : kinds<3>()) {
     BroadPhaseConfig<3> config;
     config.kind = kind;
     BroadPhase<3> phase(config);
@@ -436,8 +436,8 @@ TEST(BroadPhase, AHundredThousandAtOnePointAreNoHangWhileTheySleep) {
     for (BodyId id = 0; id < proxies.size(); ++id) proxies[id].id = id;
     proxies[77].awake = true;
     phase.update(proxies);
-    EXPECT_EQ(phase.pairs().size(), 99'999u) << name_of(kind);
-    EXPECT_EQ(phase.counters().pair_tests, 99'999u) << name_of(kind);
+    EXPECT_EQ(phase.pairs().size(), 99'999u) << to_string(kind);
+    EXPECT_EQ(phase.counters().pair_tests, 99'999u) << to_string(kind);
   }
 }
 

@@ -35,7 +35,7 @@ namespace {
 
 TEST(SteadyState, AnUpdateAsksForNoMemory) {
   Random random(9);
-  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+  for (const StructureKind kind : kStructureKinds) {
     BroadPhaseConfig<3> config;
     config.kind = kind;
     config.bounds = testing::bounds_of<3>(testing::Sort::uniform);
@@ -54,8 +54,8 @@ TEST(SteadyState, AnUpdateAsksForNoMemory) {
     const std::uint64_t before = calls, counted = phase.counters().allocations;
     EXPECT_GT(counted, 0u);
     for (int step = 0; step < 10; ++step) shake(step % 2 == 0 ? 0.1 : -0.1);
-    EXPECT_EQ(calls - before, 0u) << name_of(kind) << " asked for memory";
-    EXPECT_EQ(phase.counters().allocations, counted) << name_of(kind) << ": the count is wrong";
+    EXPECT_EQ(calls - before, 0u) << to_string(kind) << " asked for memory";
+    EXPECT_EQ(phase.counters().allocations, counted) << to_string(kind) << ": the count is wrong";
   }
 }
 

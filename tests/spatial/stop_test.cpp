@@ -146,7 +146,7 @@ std::vector<Proxy<D>> stop_proxies(std::uint32_t count) {
 // Stopped at its start, while it builds the structure of static bodies: the next update must not
 // take the unfinished one for that of the same bodies.
 template <int D>
-void next_update_is_right(BroadPhaseKind kind) {
+void next_update_is_right(StructureKind kind) {
   BroadPhaseConfig<D> config;
   config.kind = kind;
   config.bounds = {Vec<D>(0.0), Vec<D>(64.0)};
@@ -155,16 +155,16 @@ void next_update_is_right(BroadPhaseKind kind) {
   other.update(proxies);
   ASSERT_GT(other.pairs().size(), 100u);
   ask_to_stop();
-  EXPECT_THROW(stopped.update(proxies), Stopped) << name_of(kind);
+  EXPECT_THROW(stopped.update(proxies), Stopped) << to_string(kind);
   EXPECT_TRUE(stopped.pairs().empty());
   forget_stop();
   stopped.update(proxies);
-  EXPECT_EQ(stopped.pairs(), other.pairs()) << name_of(kind);
+  EXPECT_EQ(stopped.pairs(), other.pairs()) << to_string(kind);
 }
 
 TEST_F(HearsStop, ABroadPhaseWhoseNextUpdateIsRight) {
-  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
-    if (kind != BroadPhaseKind::octree) next_update_is_right<2>(kind);
+  for (const StructureKind kind : kStructureKinds) {
+    if (kind != StructureKind::octree) next_update_is_right<2>(kind);
     next_update_is_right<3>(kind);
   }
 }
