@@ -153,7 +153,8 @@ void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
   c->add_option("--step", o.steps, "only these time steps, seconds")
       ->allow_extra_args(false)
       ->type_name("H");
-  CLI::Option* quick = c->add_flag("--quick", o.quick, "about a minute: plain problems, few repeats");
+  CLI::Option* quick =
+      c->add_flag("--quick", o.quick, "about a minute: plain problems, few repeats");
   c->add_flag("--full", o.full, "every run, however long it takes")->excludes(quick);
   c->add_option("--longest", o.longest, "leave out runs that would take more seconds than this")
       ->check(CLI::PositiveNumber)

@@ -15,7 +15,7 @@ constexpr double kCaption = 30;
 constexpr double kLine = 46;        // from baseline to baseline
 constexpr double kBelowLast = 54;   // from the last baseline to the page's edge
 constexpr double kAboveFirst = 52;  // from the hairline to the first baseline
-constexpr double kWidePage = 1400;      // a narrower page has its counters under the caption
+constexpr double kWidePage = 1400;  // a narrower page has its counters under the caption
 
 // A number and what it counts; `widest` is the longest that `noun` can get.
 struct Counter {
@@ -73,7 +73,7 @@ std::vector<Counter> counters_of(const Frame& frame) {
   if (!frame.rays.empty() || !frame.views.empty() || !frame.queries.empty())
     return query_counters(frame);
   if (frame.count("sectors")) return level_counters(frame);
-  const auto pairs = frame.count("pairs"), all = frame.count("all_pairs");
+  const auto pairs = frame.count("pairs"), all = frame.count("testable_pairs");
   if (pairs) {
     std::vector<Counter> counters{
         {*pairs, counted(*pairs, "pair to test", "pairs to test"), "pairs to test", true}};
@@ -120,8 +120,7 @@ std::optional<std::vector<std::string>> by_sentence(const std::string& text, dou
   double evenness = 1e300;
   for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1)) {
     const std::string first = text.substr(0, at + 1), second = text.substr(at + 2);
-    const double longer = std::max(text_width(first, style),
-                                   text_width(second, style));
+    const double longer = std::max(text_width(first, style), text_width(second, style));
     if (longer > width || longer >= evenness) continue;
     evenness = longer;
     best = {first, second};

@@ -80,7 +80,8 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
           name, e.count, e.limit, depth_limit);
     case Event::Kind::no_progress:
       return fmt::format(
-          "{} holds {}, its limit is {}. But all share one point, so a split would separate no pair.",
+          "{} holds {}, its limit is {}. But all share one point, so a split would separate no "
+          "pair.",
           name, e.count, e.limit);
   }
   return {};
@@ -122,13 +123,14 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
   if (phase == "broad_phase")
     return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
                        counted(pairs, "candidate pair", "candidate pairs"),
-                       frame.count("all_pairs").value_or(0));
+                       frame.count("testable_pairs").value_or(0));
   if (phase == "narrow_phase")
-    return fmt::format("Narrow phase: the true shapes are tested. {} of {} really {}.",
-                       counted(contacts, "pair", "pairs"), pairs,
+    return fmt::format("Narrow phase: the true shapes of {} are tested. {} really {}.",
+                       counted(frame.count("pairs_tested").value_or(0), "pair", "pairs"), contacts,
                        contacts == 1 ? "touches" : "touch");
-  return fmt::format("Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
-                     counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));
+  return fmt::format(
+      "Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
+      counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));
 }
 
 }  // namespace lantern
