@@ -1,18 +1,20 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "app/progress.hpp"
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
-#include "app/warned.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
-#include "base/memory.hpp"
-#include "draw/in_sight.hpp"
-#include "scenario/director.hpp"
-#include "scenario/warnings.hpp"
 
 namespace lantern {
 namespace {
+
+// Frames that nobody looks at.
+class NoSink : public FrameSink {
+ public:
+  void frame(const Frame&) override {}
+  void finish(const DirectorReport&) override {}
+};
 
 struct Verdict {
   std::string file;
@@ -22,35 +24,18 @@ struct Verdict {
   std::vector<Diagnostic> warnings;
 };
 
-DirectorReport run(const Scenario& scenario, Pace pace, Work& work, RunWatch& watch) {
-  Progress progress(scenario.name, extent_of(scenario, pace), work, memory_budget());
-  std::uint64_t frames = 0;
-  return direct(
-      scenario, pace, work,
-      [&](const Frame&) {
-        progress.done(++frames);
-        return true;
-      },
-      &watch);
-}
-
 // Runs one scenario; what is wrong with it goes to standard error.
 Verdict check_one(const std::string& file, const CheckOptions& options, Work& work) {
   Verdict verdict{file, kGood, {}, {}, {}};
   try {
     const Scenario scenario = load_scenario(file);
-    const Pace pace = options.pace.empty()      ? scenario.pace
-                      : options.pace == "event" ? Pace::event
-                                                : Pace::step;
-    RunWatch watch(scenario, shows_a_body);
-    verdict.report = run(scenario, pace, work, watch);
-    verdict.problems = verdict.report.unmet;
-    if (!verdict.problems.empty()) verdict.code = kFailed;
-    complain(verdict.problems);
-    const std::vector<Diagnostic> warnings = watch.warnings();
-    verdict.code = std::max(verdict.code, tell_warnings(warnings, options.strict));
+    NoSink sink;
+    const RunResult result = run_scenario(scenario, pace_of(options.pace, scenario), sink, work);
+    verdict.code = tell(result, options.strict);
+    verdict.report = result.report;
+    verdict.problems = result.report.unmet;
     auto& list = options.strict ? verdict.problems : verdict.warnings;
-    list.insert(list.end(), warnings.begin(), warnings.end());
+    list.insert(list.end(), result.warnings.begin(), result.warnings.end());
   } catch (const ScenarioError& e) {
     verdict.code = kBadScenario;
     complain(e);
@@ -58,9 +43,7 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
   } catch (const IoError& e) {
     verdict.code = kFailed;
     complain(e.what());
-    Diagnostic unreadable;
-    unreadable.message = e.what();
-    verdict.problems.push_back(unreadable);
+    verdict.problems.emplace_back().message = e.what();
   }
   return verdict;
 }
@@ -105,9 +88,9 @@ int check_command(const CheckOptions& options) {
       say(fmt::format("{}: good; {} frames, {} expectations hold{}", file, v.report.frames,
                       v.report.expectations, counted(v.warnings)));
   }
-  json.line().end_array().line().key("work").begin_object();
-  for (const auto& [stage, count] : work.listed()) json.member(stage, count);
-  json.end_object().line().end_object();
+  json.line().end_array().line().key("work");
+  write(json, work);
+  json.line().end_object();
   if (options.json) write_stdout(json.text() + "\n");
   return code;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
+#include "base/memory.hpp"
 
 namespace lantern {
 namespace {
@@ -55,11 +56,11 @@ std::string forecast_text(const RunExtent& extent, const RunState& state) {
   text += left ? left_text(left) : ", how long cannot be told yet";
   if (state.files > 0 && extent.frames)
     text += fmt::format("; about {} on the disk",
-                        size_text(static_cast<std::uint64_t>(
+                        memory_text(static_cast<std::uint64_t>(
                             static_cast<double>(state.bytes) / static_cast<double>(state.files) *
                             static_cast<double>(extent.chosen.value_or(*extent.frames)))));
-  if (state.memory) text += fmt::format("; {} of memory", size_text(*state.memory));
-  if (state.memory && state.budget) text += fmt::format(" (budget {})", size_text(*state.budget));
+  if (state.memory) text += fmt::format("; {} of memory", memory_text(*state.memory));
+  if (state.memory && state.budget) text += fmt::format(" (budget {})", memory_text(*state.budget));
   return text;
 }
 
@@ -70,7 +71,7 @@ std::string progress_text(const RunExtent& extent, const RunState& state) {
   if (extent.world_steps > 0)
     text += fmt::format(", {} of {} world steps", grouped_plainly(state.world_steps),
                         grouped_plainly(extent.world_steps));
-  if (state.files > 0) text += fmt::format(", {} on the disk", size_text(state.bytes));
+  if (state.files > 0) text += fmt::format(", {} on the disk", memory_text(state.bytes));
   return text + left_text(time_left(extent, state));
 }
 
@@ -79,13 +80,6 @@ std::string duration_text(double seconds) {
   if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
   if (seconds < 100 * 3600) return fmt::format("{:.0f} h", seconds / 3600);
   return fmt::format("{:.0f} days", seconds / 86400);
-}
-
-std::string size_text(std::uint64_t bytes) {
-  const auto b = static_cast<double>(bytes);
-  if (b < 999.5e3) return fmt::format("{:.0f} kB", std::max(1.0, b / 1e3));
-  if (b < 999.5e6) return fmt::format("{:.0f} MB", b / 1e6);
-  return fmt::format("{:.1f} GB", b / 1e9);
 }
 
 }  // namespace lantern

@@ -47,7 +47,6 @@ std::string forecast_text(const RunExtent& extent, const RunState& state);
 // "7 of 70 frames, 212 of 4000 world steps, about 12 s left"
 std::string progress_text(const RunExtent& extent, const RunState& state);
 
-std::string duration_text(double seconds);   // "3 h"
-std::string size_text(std::uint64_t bytes);  // "1.2 GB"
+std::string duration_text(double seconds);  // "3 h"
 
 }  // namespace lantern

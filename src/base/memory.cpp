@@ -113,9 +113,9 @@ std::optional<std::uint64_t> memory_size(std::string_view words) {
 }
 
 std::string memory_text(std::uint64_t bytes) {
-  auto size = static_cast<double>(bytes);
+  double size = std::max(1.0, static_cast<double>(bytes) / 1024);
   std::size_t unit = 0;
-  for (size /= 1024; size >= 1000 && unit + 1 < kUnits.size(); ++unit) size /= 1024;
+  for (; size >= 1000 && unit + 1 < kUnits.size(); ++unit) size /= 1024;
   const bool round = size >= 10 || size == std::floor(size);
   return fmt::format("{:.{}f} {}B", size, round ? 0 : 1, kUnits[unit]);
 }

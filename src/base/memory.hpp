@@ -26,7 +26,7 @@ void enforce_memory_budget();
 // which not even the program itself has room.
 inline constexpr std::uint64_t kLeastBudget = std::uint64_t{16} << 20;
 std::optional<std::uint64_t> memory_size(std::string_view words);
-// "3.3 GB": powers of 1024.
+// "3.3 GB": powers of 1024; at least 1 KB. For memory and files alike.
 std::string memory_text(std::uint64_t bytes);
 
 // Throws Refused if `bytes` are more than the budget: "<what> need about 3.3 GB, the budget is

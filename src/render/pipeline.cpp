@@ -1,19 +1,11 @@
 #include "render/pipeline.hpp"
 
 namespace lantern {
-namespace {
-
-EncodePool::Config pool_config(const Pipeline::Config& c) {
-  return {c.width, c.height, c.effort, c.pixels_per_metre, c.threads, c.written};
-}
-
-}  // namespace
-
 Pipeline::Pipeline(std::unique_ptr<Context> context, Config config, Work& work)
     : config_(std::move(config)),
       work_(work),
       renderer_(std::move(context), config_.width, config_.height),
-      pool_(pool_config(config_), work) {
+      pool_(config_, work) {
   ++work_.graphics_contexts;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,16 +19,9 @@ namespace lantern {
 // encoded once; each file still has its own texts.
 class Pipeline {
  public:
-  struct Config {
-    int width = 0, height = 0;  // pixels
+  struct Config : EncodePool::Config {
     Theme theme;
     bool transparent = false;
-    PngEffort effort = PngEffort::fast;
-    int pixels_per_metre = 0;
-    int threads = 1;  // that encode, at least 1
-    // Called after each file is in place, by one thread at a time, in no certain order. May be
-    // empty.
-    std::function<void(const std::filesystem::path&)> written;
   };
 
   // Counts the context, and each frame drawn and encoded, in `work`, which must outlive this.

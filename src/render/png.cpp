@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
+#include <new>
+#include <vector>
 
 #include <libdeflate.h>
 
@@ -22,40 +23,15 @@ struct FreeCompressor {
 };
 using Compressor = std::unique_ptr<libdeflate_compressor, FreeCompressor>;
 
-// stb's compression hook: a zlib stream in memory from malloc, or null.
-unsigned char* deflate(unsigned char* data, int size, int* out_size, int) {
+// A zlib stream of these bytes, as small as is not slow.
+std::string deflated(std::string_view bytes) {
   thread_local const Compressor compressor(libdeflate_alloc_compressor(kLevel));
-  if (!compressor) return nullptr;
-  const auto bytes = static_cast<std::size_t>(size);
-  const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), bytes);
-  auto* out = static_cast<unsigned char*>(std::malloc(room));
-  if (!out) return nullptr;
-  *out_size = static_cast<int>(libdeflate_zlib_compress(compressor.get(), data, bytes, out, room));
+  if (!compressor) throw std::bad_alloc();
+  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
+  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(),
+                                      out.size()));
   return out;
 }
-
-}  // namespace
-}  // namespace lantern
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#define STBIW_ZLIB_COMPRESS lantern::deflate
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STBI_WRITE_NO_STDIO
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
-
-namespace lantern {
-namespace {
-
-constexpr std::size_t kSignatureBytes = 8, kHeaderChunk = 12 + 13;
-
-// Set once, before any thread encodes. Up turns a row equal to the one above into zeros.
-[[maybe_unused]] const int filter_is_up = stbi_write_force_png_filter = 2;
 
 bool is_opaque(const Image& image) {
   std::uint8_t all = 255;
@@ -63,12 +39,21 @@ bool is_opaque(const Image& image) {
   return all == 255;
 }
 
-std::vector<std::uint8_t> without_alpha(const Image& image) {
-  const std::size_t pixels = image.rgba.size() / 4;
-  std::vector<std::uint8_t> rgb(3 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = image.rgba[4 * i + c];
-  return rgb;
+// The rows after the filter "Up": each byte less the one above it, so that a row equal to the one
+// above is zeros. Three or four channels are kept.
+std::string filtered(const Image& image, std::size_t channels) {
+  const std::size_t stride = std::size_t{4} * image.width;
+  const std::vector<std::uint8_t> zeros(stride);  // above the first row
+  std::string rows(image.height * (1 + channels * image.width), '\0');
+  char* to = rows.data();
+  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
+    const std::uint8_t* row = image.rgba.data() + y * stride;
+    const std::uint8_t* above = y > 0 ? row - stride : zeros.data();
+    *to++ = 2;
+    for (std::size_t x = 0; x < stride; x += 4)
+      for (std::size_t i = x; i < x + channels; ++i) *to++ = static_cast<char>(row[i] - above[i]);
+  }
+  return rows;
 }
 
 void put32(std::string& to, std::uint32_t value) {
@@ -100,39 +85,26 @@ std::string png_text(const PngText& text) {
 
 namespace {
 
-// By stb_image_write, with libdeflate in place of its own compressor.
-PngBody compress_small(const Image& image) {
-  stop_if_asked();
-  const bool opaque = is_opaque(image);
-  const std::vector<std::uint8_t> rgb = opaque ? without_alpha(image) : std::vector<std::uint8_t>();
-  int size = 0;
-  const std::unique_ptr<unsigned char, void (*)(void*)> png(
-      stbi_write_png_to_mem(opaque ? rgb.data() : image.rgba.data(), 0, image.width, image.height,
-                            opaque ? 3 : 4, &size),
-      std::free);
-  if (!png) throw std::bad_alloc();
-  const std::string_view bytes(reinterpret_cast<const char*>(png.get()),
-                               static_cast<std::size_t>(size));
-  PngBody body;
-  body.header = bytes.substr(0, kSignatureBytes + kHeaderChunk);
-  body.pixels =
-      bytes.substr(body.header.size(), bytes.size() - body.header.size() - kPngEnd.size());
-  return body;
-}
-
-PngBody compress_fast(const Image& image) {
-  std::optional<std::string> pixels = run_deflate(image, 3);
-  const bool opaque = pixels.has_value();
-  if (!opaque) pixels = run_deflate(image, 4);
+PngBody body_of(const Image& image, bool opaque, std::string_view pixels) {
   std::string header;
   put32(header, static_cast<std::uint32_t>(image.width));
   put32(header, static_cast<std::uint32_t>(image.height));
   header += {8, opaque ? '\2' : '\6', 0, 0, 0};  // bits a channel; RGB or RGBA
-  PngBody body;
-  body.header = "\x89PNG\r\n\x1a\n";
+  PngBody body{"\x89PNG\r\n\x1a\n", {}};
   put_chunk(body.header, "IHDR", header);
-  put_chunk(body.pixels, "IDAT", *pixels);
+  put_chunk(body.pixels, "IDAT", pixels);
   return body;
+}
+
+PngBody compress_small(const Image& image) {
+  stop_if_asked();
+  const bool opaque = is_opaque(image);
+  return body_of(image, opaque, deflated(filtered(image, opaque ? 3 : 4)));
+}
+
+PngBody compress_fast(const Image& image) {
+  const std::optional<std::string> opaque = run_deflate(image, 3);
+  return body_of(image, opaque.has_value(), opaque ? *opaque : *run_deflate(image, 4));
 }
 
 }  // namespace

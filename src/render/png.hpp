@@ -1,4 +1,4 @@
-// PNG files: written through stb_image_write with a fast deflate, read through stb_image.
+// PNG files: written with run_deflate or libdeflate, read through stb_image.
 #pragma once
 
 #include <optional>

@@ -10,10 +10,9 @@
 
 namespace lantern {
 
-// The chunks that hold the pixels: IHDR, PLTE if there is a palette, IDAT.
 struct PngBody {
-  std::string header;  // signature, IHDR
-  std::string pixels;  // PLTE, IDAT
+  std::string header;  // signature and IHDR
+  std::string pixels;  // IDAT
 };
 
 PngBody compress(const Image& image, PngEffort effort);

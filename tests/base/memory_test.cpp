@@ -27,6 +27,7 @@ TEST(Memory, TextsOfSizes) {
   EXPECT_EQ(memory_text(12 * kGiga + kMega), "12 GB");
   EXPECT_EQ(memory_text(800 * kMega), "800 MB");
   EXPECT_EQ(memory_text(2048), "2 KB");
+  EXPECT_EQ(memory_text(10), "1 KB");
   EXPECT_EQ(memory_text(std::uint64_t{1} << 60), "1048576 TB");
 }
 

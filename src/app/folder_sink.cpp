@@ -1,0 +1,167 @@
+#include "app/folder_sink.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/terminal.hpp"
+#include "atlas/atlas.hpp"
+#include "base/file.hpp"
+#include "base/json_writer.hpp"
+#include "draw/page.hpp"
+
+namespace lantern {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The facts of a frame are the same whatever is drawn of it.
+std::string facts_of(const Frame& frame, const MadeFrom& from) {
+  return sealed(FileKind::json, to_json(frame), {from.facts, from.facts});
+}
+
+// Where each texture lies in the image of the finished atlas.
+std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList& list) {
+  JsonWriter json;
+  json.begin_object().line().member("format", "lantern.atlas/1");
+  json.line().member("image", frame.scenario + "_atlas." + job.options.format);
+  json.line().key("size").begin_array();
+  json.value(static_cast<int>(list.page.x)).value(static_cast<int>(list.page.y)).end_array();
+  json.line().key("textures").begin_array();
+  for (const FrameTexture& t : frame.textures) {
+    if (!t.packed) continue;
+    json.line().begin_object().member("name", t.name).member("x", t.x).member("y", t.y);
+    json.member("width", t.width).member("height", t.height).end_object();
+  }
+  json.line().end_array().line().key("refused").begin_array();
+  for (const FrameTexture& t : frame.textures)
+    if (t.refused) json.value(t.name);
+  json.end_array().line().end_object();
+  return json.text() + "\n";
+}
+
+// "ghosts: left alone: a.png, b.png and 17 more"
+void say_files(const std::string& scenario, const char* what,
+               const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 5;
+  if (names.empty()) return;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += (i > 0 ? ", " : "") + names[i];
+  if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
+  say(fmt::format("{}: {}: {}", scenario, what, text));
+}
+
+}  // namespace
+
+FolderSink::FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace,
+                       Selection& selection, Work& work)
+    : job_(job),
+      scenario_(scenario),
+      selection_(selection),
+      manifest_(job.manifest(scenario, pace)),
+      path_(fs::path(job.options.output) / scenario.name),
+      work_(work) {}
+
+void FolderSink::frame(const Frame& frame) {
+  all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
+  if (selection_.takes(frame)) take(frame);
+  if (scenario_.atlas && frame.step + 1 == frame.steps) last_ = frame;
+}
+
+void FolderSink::finish(const DirectorReport& report) {
+  selection_.require_some();
+  if (pipeline_) pipeline_->finish();
+  list_frames();
+  if (last_ && manifest_.frames.size() == all_.size()) write_atlas(*last_);
+  tell_of_strange_files();
+  manifest_.finished = true;
+  manifest_.expectations = report.expectations;
+  manifest_.unmet = report.unmet.size();
+  write_manifest();
+  make_durable(path_);  // before anybody is told that it is finished
+}
+
+// Only when there is a frame for it.
+void FolderSink::open_folder() {
+  folder_.emplace(path_, manifest_, selection_.takes_all());
+  say_files(scenario_.name, "removed what an earlier run has left", folder_->removed());
+  write_manifest();
+}
+
+void FolderSink::take(const Frame& frame) {
+  if (!folder_) open_folder();
+  const std::uint32_t index = frame.index;
+  taken_.insert(index);
+  const MadeFrom from = manifest_.frame_from(index);
+  if (!folder_->stands(index, "json"))
+    write_counted(folder_->file(index, "json"), facts_of(frame, from));
+  if (folder_->stands(index, job_.options.format)) {
+    ++kept_;
+    return;
+  }
+  const DrawList list = draw_frame(frame, page_for(job_.picture.width, job_.picture.height), work_);
+  const fs::path file = folder_->file(index, job_.options.format);
+  if (job_.svg) {
+    write_counted(file, picture_of(job_, job_.picture, frame, list, from, work_));
+    ++work_.frames_written;
+  } else {
+    pipeline().submit(list, texts_of(frame), file, from);
+    written_.insert(file.filename().string());
+  }
+  ++drawn_;
+}
+
+void FolderSink::write_counted(const fs::path& file, const std::string& bytes) {
+  write_file(file, bytes);
+  written_.insert(file.filename().string());
+  work_.bytes_written += bytes.size();
+}
+
+void FolderSink::tell_of_strange_files() const {
+  std::vector<std::string> left, replaced;
+  for (const std::string& name : folder_->strange())
+    (written_.contains(name) ? replaced : left).push_back(name);
+  say_files(scenario_.name, "left alone, since it is not as Lantern made it", left);
+  say_files(scenario_.name, "replaced, though it was not as Lantern made it", replaced);
+}
+
+// Made when there is something to draw.
+Pipeline& FolderSink::pipeline() {
+  if (!pipeline_) try {
+      pipeline_ = std::make_unique<Pipeline>(Context::create(job_.backend), job_.picture, work_);
+    } catch (const Refused& too_large) {  // by the command line, not by the scenario
+      throw UsageError(too_large.what());
+    }
+  return *pipeline_;
+}
+
+// Those of this run, and those of earlier ranges that still stand.
+void FolderSink::list_frames() {
+  for (std::uint32_t i = 0; i < all_.size(); ++i)
+    if (taken_.contains(i) ||
+        (folder_->stands(i, job_.options.format) && folder_->stands(i, "json")))
+      manifest_.frames.emplace(i, std::move(all_[i]));
+}
+
+// Transparent, in its own size, as soon as all frames are there.
+void FolderSink::write_atlas(const Frame& frame) {
+  const DrawList list = draw_atlas_image(frame);
+  Pipeline::Config as = job_.picture;
+  as.width = static_cast<int>(list.page.x);
+  as.height = static_cast<int>(list.page.y);
+  as.transparent = true;
+  as.pixels_per_metre = 0;
+  const MadeFrom from = manifest_.atlas_from();
+  if (!folder_->atlas_stands(job_.options.format))
+    write_counted(folder_->atlas(job_.options.format),
+                  picture_of(job_, as, frame, list, from, work_));
+  if (!folder_->atlas_stands("json"))
+    write_counted(folder_->atlas("json"),
+                  sealed(FileKind::json, atlas_facts(job_, frame, list), from));
+}
+
+void FolderSink::write_manifest() { write_file(path_ / "manifest.json", to_json(manifest_)); }
+
+}  // namespace lantern

@@ -1,0 +1,60 @@
+// Frames into DIR/<scenario>/: a picture and facts each, a manifest, and the finished atlas.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/frame_folder.hpp"
+#include "app/render_job.hpp"
+#include "app/run_scenario.hpp"
+#include "app/selection.hpp"
+
+namespace lantern {
+
+// Each chosen frame is drawn when it comes by, unless its picture stands there already. The disk is
+// left as it was until the first one. All that is given to it must outlive this.
+class FolderSink : public FrameSink {
+ public:
+  FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace, Selection& selection,
+             Work& work);
+
+  // Throws IoError, BackendError, and UsageError for a picture that is too large.
+  void frame(const Frame& frame) override;
+  // Throws UsageError if no frame was chosen.
+  void finish(const DirectorReport& report) override;
+
+  std::size_t drawn() const { return drawn_; }
+  std::size_t kept() const { return kept_; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void open_folder();
+  void take(const Frame& frame);
+  void write_counted(const std::filesystem::path& file, const std::string& bytes);
+  void tell_of_strange_files() const;
+  Pipeline& pipeline();
+  void list_frames();
+  void write_atlas(const Frame& frame);
+  void write_manifest();
+
+  const RenderJob& job_;
+  const Scenario& scenario_;
+  Selection& selection_;
+  Manifest manifest_;
+  std::filesystem::path path_;
+  Work& work_;
+  std::optional<FrameFolder> folder_;
+  std::unique_ptr<Pipeline> pipeline_;
+  std::vector<ListedFrame> all_;   // of the run so far
+  std::set<std::uint32_t> taken_;  // of these, chosen
+  std::set<std::string> written_;  // names of files
+  std::size_t drawn_ = 0, kept_ = 0;
+  std::optional<Frame> last_;  // of an atlas
+};
+
+}  // namespace lantern

@@ -1,0 +1,71 @@
+#include "app/render_job.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "app/run_scenario.hpp"
+#include "app/selection.hpp"
+#include "embedded/version.hpp"
+#include "render/svg.hpp"
+
+namespace lantern {
+namespace {
+
+// 160 pixels to the inch, so that a frame of 1600 pixels is 10 inches wide in a document.
+constexpr int kPixelsPerMetre = 6299;
+
+}  // namespace
+
+RenderJob::RenderJob(const RenderOptions& o)
+    : options(o), backend(*backend_named(o.backend)), svg(o.format == "svg") {
+  std::tie(picture.width, picture.height) = parse_size(o.size, Renderer::kMostPixels);
+  picture.theme = *theme_named(o.theme);
+  picture.transparent = o.transparent;
+  picture.effort = o.png == "small" ? PngEffort::small : PngEffort::fast;
+  picture.pixels_per_metre = kPixelsPerMetre;
+  picture.threads = o.threads > 0
+                        ? o.threads
+                        : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
+  Manifest m;
+  m.scenario = scenario.name;
+  m.title = scenario.title;
+  m.seed = scenario.seed;
+  m.pace = to_string(pace);
+  m.size = fmt::format("{}x{}", picture.width, picture.height);
+  m.theme = options.theme;
+  m.format = options.format;
+  m.png = options.png;
+  m.transparent = options.transparent;
+  m.scenario_hash = scenario.text_hash;
+  return m;
+}
+
+std::vector<PngText> texts_of(const Frame& frame) {
+  return {{"Title", frame.title},
+          {"Software", fmt::format("Lantern {}", kVersion)},
+          {"Scenario", frame.scenario},
+          {"Frame", fmt::format("{}", frame.index)},
+          {"Seed", fmt::format("{}", frame.seed)}};
+}
+
+std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
+                       const DrawList& list, const MadeFrom& from, Work& work) {
+  if (job.svg)
+    return sealed(FileKind::svg, to_svg(list, as.theme, as.transparent, as.width, as.height), from);
+  Renderer renderer(Context::create(job.backend), as.width, as.height);
+  ++work.graphics_contexts;
+  Image image;
+  renderer.draw(list, as.theme, as.transparent, image);
+  ++work.frames_drawn;
+  ++work.frames_encoded;
+  return sealed(FileKind::png, encode_png(image, as.effort, texts_of(frame), as.pixels_per_metre),
+                from);
+}
+
+}  // namespace lantern

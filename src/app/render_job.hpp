@@ -1,0 +1,37 @@
+// What `lantern render` is asked for, read once, and a picture made so.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/manifest.hpp"
+#include "base/work.hpp"
+#include "draw/draw_list.hpp"
+#include "render/pipeline.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern {
+
+struct RenderJob {
+  // Throws UsageError for a size that cannot be. The options must outlive this.
+  explicit RenderJob(const RenderOptions& options);
+
+  const RenderOptions& options;
+  Pipeline::Config picture;  // how the picture of a frame is made
+  Backend backend = Backend::automatic;
+  bool svg = false;
+
+  // Of a folder that holds no frame yet.
+  Manifest manifest(const Scenario& scenario, Pace pace) const;
+};
+
+// What a PNG says of its frame.
+std::vector<PngText> texts_of(const Frame& frame);
+
+// A whole file, sealed, in the job's format; `as` tells size and style, which the job's own
+// pictures take from job.picture. For PNG it starts graphics and ends them.
+std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
+                       const DrawList& list, const MadeFrom& from, Work& work);
+
+}  // namespace lantern

@@ -1,0 +1,59 @@
+#include "app/run_scenario.hpp"
+
+#include <algorithm>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/terminal.hpp"
+#include "base/memory.hpp"
+#include "base/stop.hpp"
+#include "draw/in_sight.hpp"
+#include "scenario/warnings.hpp"
+
+namespace lantern {
+
+Pace pace_of(std::string_view word, const Scenario& scenario) {
+  if (word.empty()) return scenario.pace;
+  return word == to_string(Pace::event) ? Pace::event : Pace::step;
+}
+
+std::string_view to_string(Pace pace) { return pace == Pace::event ? "event" : "step"; }
+
+RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Work& work,
+                       std::optional<std::uint64_t> chosen) {
+  RunExtent extent = extent_of(scenario, pace);
+  extent.chosen = chosen;
+  Progress progress(scenario.name, extent, work, memory_budget());
+  RunWatch watch(scenario, shows_a_body);
+  std::uint64_t frames = 0;
+  RunResult result;
+  result.report = direct(
+      scenario, pace, work,
+      [&](const Frame& frame) {
+        stop_if_asked();
+        sink.frame(frame);
+        progress.done(++frames);
+        return true;
+      },
+      &watch);
+  sink.finish(result.report);
+  result.warnings = watch.warnings();
+  return result;
+}
+
+int tell(const RunResult& result, bool strict) {
+  complain(result.report.unmet);
+  std::vector<Diagnostic> warnings = result.warnings;
+  for (Diagnostic& d : warnings) d.severity = strict ? Severity::error : Severity::warning;
+  complain(warnings);
+  const int code = result.report.unmet.empty() ? kGood : kFailed;
+  return strict && !warnings.empty() ? std::max<int>(code, kBadScenario) : code;
+}
+
+void write(JsonWriter& json, const Work& work) {
+  json.begin_object();
+  for (const auto& [stage, count] : work.listed()) json.member(stage, count);
+  json.end_object();
+}
+
+}  // namespace lantern

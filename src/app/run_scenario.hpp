@@ -1,0 +1,47 @@
+// One run of a scenario, in one pass: each frame goes to a sink when it comes by.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/json_writer.hpp"
+#include "base/work.hpp"
+#include "scenario/director.hpp"
+
+namespace lantern {
+
+// Where the frames of a run go: to files, to standard output, nowhere.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  // Every frame of the run, in order.
+  virtual void frame(const Frame& frame) = 0;
+  // After the last one. What is to be whole stands whole from here on.
+  virtual void finish(const DirectorReport& report) = 0;
+};
+
+// "step", "event", or nothing for the scenario's own.
+Pace pace_of(std::string_view word, const Scenario& scenario);
+std::string_view to_string(Pace pace);
+
+struct RunResult {
+  DirectorReport report;
+  std::vector<Diagnostic> warnings;
+};
+
+// Runs the scenario and tells how far it is; `chosen` is how many frames the sink writes at most,
+// if that is known. Throws Stopped, and what direct() and the sink throw.
+RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Work& work,
+                       std::optional<std::uint64_t> chosen = std::nullopt);
+
+// Says on standard error what did not hold and what was warned of, and gives the exit code that it
+// deserves; with `strict` a warning is an error of the scenario.
+int tell(const RunResult& result, bool strict);
+
+// The counters of the stages, as an object.
+void write(JsonWriter& json, const Work& work);
+
+}  // namespace lantern

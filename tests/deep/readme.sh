@@ -1,0 +1,6 @@
+#!/bin/sh
+# readme.sh: every command of the README, the measurement of everything among them, which
+# ./run test leaves out.
+set -eu
+cd "$(dirname "$0")/../.."
+LANTERN_ALL=1 exec "${BUILD:-build}/tests/tests_app" --gtest_filter='Readme.*'
