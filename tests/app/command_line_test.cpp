@@ -84,7 +84,7 @@ TEST(CommandLine, RenderWritesAPictureAndItsFactsForEachFrameAndAManifest) {
   for (const json& frame : manifest["frames"]) {
     EXPECT_TRUE(fs::exists(out / "ghost_quadtree" / std::string(frame["file"])));
     const json facts = json::parse(read_text(out / "ghost_quadtree" / std::string(frame["facts"])));
-    EXPECT_EQ(facts["format"], "lantern.frame/1");
+    EXPECT_EQ(facts["format"], "lantern.frame/2");
     EXPECT_EQ(facts["hash"], frame["hash"]);
   }
 }

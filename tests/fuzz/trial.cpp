@@ -102,7 +102,7 @@ void require_json(const Frame& frame) {
   const std::string text = to_json(frame);
   if (text.size() > kMostJson) return;  // the reader is what would take long
   try {
-    if (nlohmann::json::parse(text).at("format") != "lantern.frame/1")
+    if (nlohmann::json::parse(text).at("format") != "lantern.frame/2")
       throw Finding("a frame's JSON without its format");
   } catch (const nlohmann::json::exception& e) {
     throw Finding(fmt::format("a frame's JSON cannot be read: {}", e.what()));

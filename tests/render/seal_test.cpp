@@ -11,7 +11,7 @@ namespace {
 const MadeFrom kFrom{"0123456789abcdef", "fedcba9876543210"};
 
 std::string unsealed(FileKind kind) {
-  if (kind == FileKind::json) return "{\n\"format\": \"lantern.frame/1\",\n\"frame\": 7\n}\n";
+  if (kind == FileKind::json) return "{\n\"format\": \"lantern.frame/2\",\n\"frame\": 7\n}\n";
   if (kind == FileKind::svg) return "<svg xmlns=\"http://www.w3.org/2000/svg\">\n</svg>\n";
   Image image{3, 2, {}};
   for (std::uint8_t i = 0; i < 24; ++i) image.rgba.push_back(i);

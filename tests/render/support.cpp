@@ -77,7 +77,9 @@ int run_in_new_process(const std::string& name, const std::map<std::string, std:
   const std::string filter = "--gtest_filter=" + name;
   const pid_t child = ::fork();
   if (child == 0) {
-    ::unsetenv("GTEST_TOTAL_SHARDS");  // which would leave out the very test that is asked for
+    // A share of the tests would leave out the very one that is asked for.
+    ::unsetenv("GTEST_TOTAL_SHARDS");
+    ::unsetenv("GTEST_SHARD_INDEX");
     for (const auto& [key, value] : added) ::setenv(key.c_str(), value.c_str(), 1);
     ::execl("/proc/self/exe", "tests_render", filter.c_str(), "--gtest_also_run_disabled_tests",
             "--gtest_brief=1", nullptr);
