@@ -64,9 +64,4 @@ PointPair<D> crossing_points(const Segment<D>& a, const Segment<D>& b);
 template <int D>
 PointPair<D> closest_points(const Segment<D>& a, const Segment<D>& b);
 
-extern template PointPair<2> crossing_points(const Segment<2>&, const Segment<2>&);
-extern template PointPair<3> crossing_points(const Segment<3>&, const Segment<3>&);
-extern template PointPair<2> closest_points(const Segment<2>&, const Segment<2>&);
-extern template PointPair<3> closest_points(const Segment<3>&, const Segment<3>&);
-
 }  // namespace lantern

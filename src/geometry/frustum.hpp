@@ -43,9 +43,4 @@ bool may_overlap(const Frustum<D>& frustum, const Box<D>& box);
 template <int D>
 bool overlap(const Frustum<D>& frustum, const Box<D>& box);
 
-extern template bool may_overlap(const Frustum<2>&, const Box<2>&);
-extern template bool may_overlap(const Frustum<3>&, const Box<3>&);
-extern template bool overlap(const Frustum<2>&, const Box<2>&);
-extern template bool overlap(const Frustum<3>&, const Box<3>&);
-
 }  // namespace lantern

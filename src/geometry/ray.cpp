@@ -91,16 +91,25 @@ std::optional<double> entry(const Ray<D>& ray, const Shape<D>& shape, const Vec<
     return span ? std::optional(span->from) : std::nullopt;
   };
   const RaySpan all{0, ray.length};
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    return from(common(all, span_in_ball<D>(ray.origin - position, ray.direction, sphere->radius)));
-  if (const auto* box = std::get_if<AxisBox<D>>(&shape))
-    return from(span_in(ray, Box<D>::around(position, box->half_size)));
-  if (const auto* box = std::get_if<OrientedBox<D>>(&shape))
-    return from(span_in(seen_from(ray, position, orientation),
-                        Box<D>::around(Vec<D>(0.0), box->half_size)));
-  if (const auto* capsule = std::get_if<Capsule>(&shape))
-    return entry_of_capsule(seen_from(ray, position, orientation), *capsule);
-  return entry_of_half_space(ray, std::get<HalfSpace<D>>(shape).normal, position);
+  return std::visit(
+      EachShape{
+          [&](const Sphere& s) {
+            return from(
+                common(all, span_in_ball<D>(ray.origin - position, ray.direction, s.radius)));
+          },
+          [&](const AxisBox<D>& s) {
+            return from(span_in(ray, Box<D>::around(position, s.half_size)));
+          },
+          [&](const OrientedBox<D>& s) {
+            return from(span_in(seen_from(ray, position, orientation),
+                                Box<D>::around(Vec<D>(0.0), s.half_size)));
+          },
+          [&](const Capsule& s) {
+            return entry_of_capsule(seen_from(ray, position, orientation), s);
+          },
+          [&](const HalfSpace<D>& s) { return entry_of_half_space(ray, s.normal, position); },
+      },
+      shape);
 }
 
 template void require_valid(const Ray<2>&);

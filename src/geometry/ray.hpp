@@ -66,11 +66,4 @@ template <int D>
 std::optional<double> entry(const Ray<D>& ray, const Shape<D>& shape, const Vec<D>& position,
                             const Rotation<D>& orientation = {});
 
-extern template void require_valid(const Ray<2>&);
-extern template void require_valid(const Ray<3>&);
-extern template std::optional<double> entry(const Ray<2>&, const Shape<2>&, const Vec<2>&,
-                                            const Rotation<2>&);
-extern template std::optional<double> entry(const Ray<3>&, const Shape<3>&, const Vec<3>&,
-                                            const Rotation<3>&);
-
 }  // namespace lantern

@@ -49,6 +49,25 @@ inline Rotation<3> turned(const Rotation<3>& r, const Vec<3>& by) {
   return {glm::normalize(glm::dquat(std::cos(angle / 2), by * k) * r.q)};
 }
 
+// Of axis `axis`; in 2D there is one.
+inline const double& spin_component(const double& spin, int) { return spin; }
+inline double& spin_component(double& spin, int) { return spin; }
+inline const double& spin_component(const Vec<3>& spin, int axis) { return spin[axis]; }
+inline double& spin_component(Vec<3>& spin, int axis) { return spin[axis]; }
+template <int D>
+Spin<D> unit_spin(int axis) {
+  if constexpr (D == 2) {
+    return 1.0;
+  } else {
+    Spin<D> spin(0.0);
+    spin[axis] = 1;
+    return spin;
+  }
+}
+
+inline double dot(double a, double b) { return a * b; }
+inline double dot(const Vec<3>& a, const Vec<3>& b) { return glm::dot(a, b); }
+
 // The lever's cross product, in either dimension: torque = cross(arm, force).
 inline double cross(const Vec<2>& a, const Vec<2>& b) { return a.x * b.y - a.y * b.x; }
 inline Vec<3> cross(const Vec<3>& a, const Vec<3>& b) { return glm::cross(a, b); }

@@ -60,26 +60,30 @@ struct EachShape : F... {
 template <class... F>
 EachShape(F...) -> EachShape<F...>;
 
+template <int D>
+Core<D> core_of(const Sphere& s) {
+  return {Vec<D>(0.0), s.radius, true};
+}
+template <int D>
+Core<D> core_of(const AxisBox<D>& s) {
+  return {s.half_size, 0, false};
+}
+template <int D>
+Core<D> core_of(const OrientedBox<D>& s) {
+  return {s.half_size, 0, true};
+}
+template <int D>
+Core<D> core_of(const Capsule& s) {
+  Vec<D> half{0.0};
+  half.y = s.half_length;
+  return {half, s.radius, true};
+}
+
 // f(core), or g(half_space).
 template <int D, class F, class G>
 auto visit_shape(const Shape<D>& shape, F&& f, G&& g) {
-  return std::visit(EachShape{
-                        [&](const Sphere& s) {
-                          return f(Core<D>{Vec<D>(0.0), s.radius, true});
-                        },
-                        [&](const AxisBox<D>& s) {
-                          return f(Core<D>{s.half_size, 0, false});
-                        },
-                        [&](const OrientedBox<D>& s) {
-                          return f(Core<D>{s.half_size, 0, true});
-                        },
-                        [&](const Capsule& s) {
-                          Vec<D> half{0.0};
-                          half.y = s.half_length;
-                          return f(Core<D>{half, s.radius, true});
-                        },
-                        [&](const HalfSpace<D>& s) { return g(s); },
-                    },
+  return std::visit(EachShape{[&](const auto& s) { return f(core_of<D>(s)); },
+                              [&](const HalfSpace<D>& s) { return g(s); }},
                     shape);
 }
 
@@ -109,8 +113,5 @@ double turning_reach(const Shape<D>& shape);
 // Half of the smallest width; endless for a half-space.
 template <int D>
 double thickness(const Shape<D>& shape);
-
-extern template Box<2> bounding_box(const Shape<2>&, const Vec<2>&, const Rotation<2>&);
-extern template Box<3> bounding_box(const Shape<3>&, const Vec<3>&, const Rotation<3>&);
 
 }  // namespace lantern

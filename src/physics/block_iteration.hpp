@@ -37,7 +37,7 @@ class BlockIteration {
   bool factor() {
     factors_ = diagonal_;
     for (Block& block : factors_)
-      if (!BlockSystem<B>::factor_diagonal(block)) return false;
+      if (!factor_small<B>(block)) return false;
     return true;
   }
 
@@ -108,15 +108,8 @@ class BlockIteration {
 
   std::vector<Row> preconditioned(std::vector<Row> x) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const Block& f = factors_[i];
-      for (int r = 0; r < B; ++r) {
-        for (int c = 0; c < r; ++c) x[i][r] -= f[r * B + c] * x[i][c];
-        x[i][r] /= f[r * B + r];
-      }
-      for (int r = B; r-- > 0;) {
-        for (int c = r + 1; c < B; ++c) x[i][r] -= f[c * B + r] * x[i][c];
-        x[i][r] /= f[r * B + r];
-      }
+      solve_lower<B>(factors_[i], x[i]);
+      solve_upper<B>(factors_[i], x[i]);
     }
     return x;
   }

@@ -17,13 +17,14 @@
 #include <vector>
 
 #include "base/stop.hpp"
+#include "physics/small_cholesky.hpp"
 
 namespace lantern {
 
 template <int B>
 class BlockSystem {
  public:
-  using Block = std::array<double, B * B>;  // row by row
+  using Block = SmallMatrix<B>;
   using Row = std::array<double, B>;
   using Link = std::pair<std::size_t, std::size_t>;
 
@@ -60,7 +61,7 @@ class BlockSystem {
   bool factor() {
     for (std::size_t j = 0; j < columns_.size(); ++j) {
       stop_if_asked();
-      if (!factor_diagonal(diagonal_[j])) return false;
+      if (!factor_small<B>(diagonal_[j])) return false;
       auto& column = columns_[j];
       for (auto& [row, block] : column) divide(block, diagonal_[j]);
       // Of the column of each row, the entries at the rows below it, which stand there in the same
@@ -83,10 +84,7 @@ class BlockSystem {
     std::vector<Row> x(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) x[place_[i]] = rows[i];
     for (std::size_t j = 0; j < x.size(); ++j) {
-      for (int r = 0; r < B; ++r) {
-        for (int c = 0; c < r; ++c) x[j][r] -= diagonal_[j][r * B + c] * x[j][c];
-        x[j][r] /= diagonal_[j][r * B + r];
-      }
+      solve_lower<B>(diagonal_[j], x[j]);
       for (const auto& [row, block] : columns_[j])
         for (int r = 0; r < B; ++r)
           for (int c = 0; c < B; ++c) x[row][r] -= block[r * B + c] * x[j][c];
@@ -95,25 +93,9 @@ class BlockSystem {
       for (const auto& [row, block] : columns_[j])
         for (int r = 0; r < B; ++r)
           for (int c = 0; c < B; ++c) x[j][c] -= block[r * B + c] * x[row][r];
-      for (int r = B; r-- > 0;) {
-        for (int c = r + 1; c < B; ++c) x[j][r] -= diagonal_[j][c * B + r] * x[j][c];
-        x[j][r] /= diagonal_[j][r * B + r];
-      }
+      solve_upper<B>(diagonal_[j], x[j]);
     }
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = x[place_[i]];
-  }
-
-  // Cholesky's factor in the lower half; false if there is none.
-  static bool factor_diagonal(Block& m) {
-    for (int i = 0; i < B; ++i) {
-      for (int j = 0; j <= i; ++j) {
-        double sum = m[i * B + j];
-        for (int k = 0; k < j; ++k) sum -= m[i * B + k] * m[j * B + k];
-        if (i == j && !(sum > 0)) return false;
-        m[i * B + j] = i == j ? std::sqrt(sum) : sum / m[j * B + j];
-      }
-    }
-    return true;
   }
 
  private:

@@ -41,7 +41,7 @@ struct Body {
   double angular_drag = 0;  // torque = -angular_drag * angular velocity
   bool may_turn = true;     // false: contacts and forces never turn it
   bool asleep = false;
-  bool collides = true;           // false: nothing meets it, no structure holds it
+  bool collides = true;                    // false: nothing meets it, no structure holds it
   std::optional<Integrator> integrator;    // of this body; none: the world's
   std::optional<RotationMethod> rotation;  // the same
 

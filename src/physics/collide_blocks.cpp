@@ -1,4 +1,4 @@
-// Two boxes, or a box and a capsule.
+// Two boxes, or a box and a capsule, or capsules whose segments cross.
 #include "physics/collide_blocks.hpp"
 
 namespace lantern::narrow {
@@ -18,8 +18,8 @@ void mark(Manifold<D>& manifold, std::uint32_t kind) {
 
 // `normal` is the face's or leans a little.
 template <int D>
-FaceContact<D> contact_on_face(const SeparatingAxis<D>& face, const Block<D>& a, const Block<D>& b,
-                               const Vec<D>& normal, double margin) {
+FaceContact<D> contact_on_face(const SeparatingAxis<D>& face, const PlacedCore<D>& a,
+                               const PlacedCore<D>& b, const Vec<D>& normal, double margin) {
   const bool of_a = face.kind == SeparatingAxis<D>::Kind::face_of_a;
   FaceContact<D> contact = of_a ? face_contact(a, b, face.axis_a, normal, margin)
                                 : face_contact(b, a, face.axis_b, -normal, margin);
@@ -34,7 +34,7 @@ struct NamedEdge {
   std::uint32_t name = 0;
 };
 
-NamedEdge farthest_edge(const Block<3>& block, int axis, const Vec<3>& normal) {
+NamedEdge farthest_edge(const PlacedCore<3>& block, int axis, const Vec<3>& normal) {
   Vec<3> middle = block.half;
   auto name = static_cast<std::uint32_t>(axis) << 3;
   for (int i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ NamedEdge farthest_edge(const Block<3>& block, int axis, const Vec<3>& normal) {
 }
 
 // Two edges that cross meet in one point, midway.
-FaceContact<3> contact_of_edges(const Block<3>& a, const Block<3>& b,
+FaceContact<3> contact_of_edges(const PlacedCore<3>& a, const PlacedCore<3>& b,
                                 const SeparatingAxis<3>& axis) {
   const NamedEdge edge_a = farthest_edge(a, axis.axis_a, axis.normal);
   const NamedEdge edge_b = farthest_edge(b, axis.axis_b, -axis.normal);
@@ -64,8 +64,8 @@ FaceContact<3> contact_of_edges(const Block<3>& a, const Block<3>& b,
 }
 
 template <int D>
-FaceContact<D> contact_on(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
-                          double margin) {
+FaceContact<D> contact_on(const SeparatingAxis<D>& axis, const PlacedCore<D>& a,
+                          const PlacedCore<D>& b, double margin) {
   if constexpr (D == 3)
     if (axis.kind == SeparatingAxis<D>::Kind::edges) return contact_of_edges(a, b, axis);
   return contact_on_face(axis, a, b, axis.normal, margin);
@@ -90,7 +90,7 @@ void set_least_separation(Manifold<D>& manifold, double exact) {
 // face's normal they still have that face's points, so that a box over the rim of another one, or
 // a capsule, settles on it rather than rocking.
 template <int D>
-Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
+Manifold<D> contact_of_closest(const PlacedCore<D>& a, const PlacedCore<D>& b,
                                const ClosestFeatures<D>& closest, const Direction<D>& normal,
                                const SeparatingAxis<D>& face, double margin) {
   const Manifold<D> single =
@@ -108,8 +108,8 @@ Manifold<D> contact_of_closest(const Block<D>& a, const Block<D>& b,
 
 // The contact on a separating axis. Nothing if it does not reach the bound that the axes give.
 template <int D>
-Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, const Block<D>& b,
-                            double bound, double rounding, double margin) {
+Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const PlacedCore<D>& a,
+                            const PlacedCore<D>& b, double bound, double rounding, double margin) {
   using Kind = typename SeparatingAxis<D>::Kind;
   if (axis.kind == Kind::side) return std::nullopt;
   const bool apart = bound > rounding;
@@ -128,7 +128,7 @@ Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const Block<D>& a, co
 }  // namespace
 
 template <int D>
-Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
+Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
   const SeparatingAxes<D> axes = separating_axes(a, b);
   const double radii = a.radius + b.radius, bound = axes.greatest.separation;
   if (bound - radii > margin) return std::nullopt;
@@ -151,14 +151,7 @@ Contact<D> touch(const Block<D>& a, const Block<D>& b, double margin) {
   return contact_of_closest(a, b, closest, normal, axes.face, margin);
 }
 
-template <int D>
-Contact<D> touch(const Block<D>& a, const Rod<D>& b, double margin) {
-  return touch(a, b.block(), margin);
-}
-
-template Contact<2> touch(const Block<2>&, const Block<2>&, double);
-template Contact<3> touch(const Block<3>&, const Block<3>&, double);
-template Contact<2> touch(const Block<2>&, const Rod<2>&, double);
-template Contact<3> touch(const Block<3>&, const Rod<3>&, double);
+template Contact<2> touch_blocks(const PlacedCore<2>&, const PlacedCore<2>&, double);
+template Contact<3> touch_blocks(const PlacedCore<3>&, const PlacedCore<3>&, double);
 
 }  // namespace lantern::narrow

@@ -1,4 +1,5 @@
-// The parts of the contact of two blocks (boxes, and capsules as boxes without thickness).
+// The parts of the contact of two blocks: cores taken for boxes, capsules for boxes without
+// thickness.
 //
 // 1. Separating axes (collide_blocks_axes.cpp): along which direction do the cores overlap least?
 // 2. A face contact (collide_blocks_face.cpp): the face that looks at the other block is the
@@ -7,7 +8,7 @@
 //    (collide_blocks_closest.cpp).
 #pragma once
 
-#include "physics/collide_forms.hpp"
+#include "physics/collide_cores.hpp"
 
 namespace lantern::narrow {
 
@@ -40,11 +41,11 @@ struct SeparatingAxes {
 inline constexpr double kAxisBias = 1e-3;
 
 template <int D>
-SeparatingAxes<D> separating_axes(const Block<D>& a, const Block<D>& b);
+SeparatingAxes<D> separating_axes(const PlacedCore<D>& a, const PlacedCore<D>& b);
 
 // The smallest half size of both that is not 0; 0 if all are.
 template <int D>
-double smallest_half(const Block<D>& a, const Block<D>& b);
+double smallest_half(const PlacedCore<D>& a, const PlacedCore<D>& b);
 
 // A contact of two blocks and how far its closest point really is from the other core.
 template <int D>
@@ -58,7 +59,7 @@ struct FaceContact {
 // than `margin` apart; the manifold is empty if nothing of the other block's face is above the
 // reference.
 template <int D>
-FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, int axis,
+FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>& other, int axis,
                             const Vec<D>& normal, double margin);
 
 // The point of each core that is closest to the other one, if they are apart, and a name of the
@@ -71,7 +72,7 @@ struct ClosestFeatures {
 };
 
 template <int D>
-ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b,
+ClosestFeatures<D> closest_features(const PlacedCore<D>& a, const PlacedCore<D>& b,
                                     const SeparatingAxis<D>& axis);
 
 }  // namespace lantern::narrow

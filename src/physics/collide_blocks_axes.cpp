@@ -15,7 +15,7 @@ class Search {
  public:
   using Kind = typename SeparatingAxis<D>::Kind;
 
-  Search(const Block<D>& a, const Block<D>& b)
+  Search(const PlacedCore<D>& a, const PlacedCore<D>& b)
       : a_(a), b_(b), offset_(b.center - a.center), bias_(kAxisBias * smallest_half(a, b)) {}
 
   SeparatingAxes<D> run() {
@@ -42,13 +42,13 @@ class Search {
 
  private:
   // A block without thickness has sides that are no faces. They separate too, but come last.
-  static bool is_face(const Block<D>& block, int axis) {
+  static bool is_face(const PlacedCore<D>& block, int axis) {
     for (int i = 0; i < D; ++i)
       if (i != axis && block.half[i] <= 0) return false;
     return true;
   }
 
-  void try_across(const Block<D>& own, const Block<D>& other, int axis, Kind kind) {
+  void try_across(const PlacedCore<D>& own, const PlacedCore<D>& other, int axis, Kind kind) {
     const Vec<D> n = own.axes[axis];
     const double along = glm::dot(n, offset_);
     consider(
@@ -78,8 +78,8 @@ class Search {
     best_.separation = none;
   }
 
-  const Block<D>& a_;
-  const Block<D>& b_;
+  const PlacedCore<D>& a_;
+  const PlacedCore<D>& b_;
   Vec<D> offset_;
   double bias_;
   SeparatingAxis<D> best_{Vec<D>(0.0), -std::numeric_limits<double>::infinity()};
@@ -90,22 +90,22 @@ class Search {
 }  // namespace
 
 template <int D>
-double smallest_half(const Block<D>& a, const Block<D>& b) {
+double smallest_half(const PlacedCore<D>& a, const PlacedCore<D>& b) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Block<D>* block : {&a, &b})
+  for (const PlacedCore<D>* block : {&a, &b})
     for (int i = 0; i < D; ++i)
       if (block->half[i] > 0) least = std::min(least, block->half[i]);
   return std::isfinite(least) ? least : 0;
 }
 
 template <int D>
-SeparatingAxes<D> separating_axes(const Block<D>& a, const Block<D>& b) {
+SeparatingAxes<D> separating_axes(const PlacedCore<D>& a, const PlacedCore<D>& b) {
   return Search<D>(a, b).run();
 }
 
-template double smallest_half(const Block<2>&, const Block<2>&);
-template double smallest_half(const Block<3>&, const Block<3>&);
-template SeparatingAxes<2> separating_axes(const Block<2>&, const Block<2>&);
-template SeparatingAxes<3> separating_axes(const Block<3>&, const Block<3>&);
+template double smallest_half(const PlacedCore<2>&, const PlacedCore<2>&);
+template double smallest_half(const PlacedCore<3>&, const PlacedCore<3>&);
+template SeparatingAxes<2> separating_axes(const PlacedCore<2>&, const PlacedCore<2>&);
+template SeparatingAxes<3> separating_axes(const PlacedCore<3>&, const PlacedCore<3>&);
 
 }  // namespace lantern::narrow

@@ -6,27 +6,12 @@
 namespace lantern::narrow {
 namespace {
 
-// Calls f(corner, name) for each corner; those that coincide, for want of thickness, once.
-template <int D, class F>
-void each_corner(const Block<D>& block, const F& f) {
-  for (std::uint32_t signs = 0; signs < 1u << D; ++signs) {
-    Vec<D> corner = block.half;
-    bool again = false;
-    for (int i = 0; i < D; ++i) {
-      if ((signs >> i & 1u) != 0) continue;
-      corner[i] = -corner[i];
-      again |= block.half[i] <= 0;
-    }
-    if (!again) f(block.world(corner), signs);
-  }
-}
-
-// Calls f(edge, name) for each edge, in the same way.
+// Calls f(edge, name) for each edge, as each_corner does.
 template <class F>
-void each_edge(const Block<3>& block, const F& f) {
+void each_edge(const PlacedCore<3>& block, const F& f) {
   for (int i = 0; i < 3; ++i) {
     if (block.half[i] <= 0) continue;
-    Block<3> start = block;  // its corners are where the edges along i begin
+    PlacedCore<3> start = block;  // its corners are where the edges along i begin
     start.center -= block.axes[i] * block.half[i];
     start.half[i] = 0;
     each_corner(start, [&](const Vec<3>& corner, std::uint32_t signs) {
@@ -37,7 +22,7 @@ void each_edge(const Block<3>& block, const F& f) {
 }
 
 template <int D>
-Vec<D> closest_point(const Block<D>& block, const Vec<D>& point) {
+Vec<D> closest_point(const PlacedCore<D>& block, const Vec<D>& point) {
   return block.world(glm::clamp(block.local(point), -block.half, block.half));
 }
 
@@ -51,7 +36,7 @@ Vec<D> closest_point(const Block<D>& block, const Vec<D>& point) {
 template <int D>
 class ClosestSearch {
  public:
-  ClosestSearch(const Block<D>& a, const Block<D>& b, const SeparatingAxis<D>& axis)
+  ClosestSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, const SeparatingAxis<D>& axis)
       : a_(a), b_(b), axis_(axis), reach_a_(a.reach(axis.normal)), reach_b_(b.reach(axis.normal)) {}
 
   ClosestFeatures<D> run() {
@@ -106,8 +91,8 @@ class ClosestSearch {
     return reach_b_ + glm::dot(p - b_.center, axis_.normal);
   }
 
-  const Block<D>& a_;
-  const Block<D>& b_;
+  const PlacedCore<D>& a_;
+  const PlacedCore<D>& b_;
   const SeparatingAxis<D>& axis_;
   double reach_a_, reach_b_;
   double least_ = std::numeric_limits<double>::infinity();  // the square of the least distance
@@ -118,14 +103,14 @@ class ClosestSearch {
 }  // namespace
 
 template <int D>
-ClosestFeatures<D> closest_features(const Block<D>& a, const Block<D>& b,
+ClosestFeatures<D> closest_features(const PlacedCore<D>& a, const PlacedCore<D>& b,
                                     const SeparatingAxis<D>& axis) {
   return ClosestSearch<D>(a, b, axis).run();
 }
 
-template ClosestFeatures<2> closest_features(const Block<2>&, const Block<2>&,
+template ClosestFeatures<2> closest_features(const PlacedCore<2>&, const PlacedCore<2>&,
                                              const SeparatingAxis<2>&);
-template ClosestFeatures<3> closest_features(const Block<3>&, const Block<3>&,
+template ClosestFeatures<3> closest_features(const PlacedCore<3>&, const PlacedCore<3>&,
                                              const SeparatingAxis<3>&);
 
 }  // namespace lantern::narrow

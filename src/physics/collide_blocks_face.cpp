@@ -59,7 +59,7 @@ struct Facing {
 };
 
 template <int D>
-Facing facing(const Block<D>& block, const Vec<D>& normal) {
+Facing facing(const PlacedCore<D>& block, const Vec<D>& normal) {
   int axis = 0;
   const auto share = [&](int i) { return std::abs(glm::dot(block.axes[i], normal)); };
   for (int i = 1; i < D; ++i)
@@ -69,7 +69,7 @@ Facing facing(const Block<D>& block, const Vec<D>& normal) {
 
 // The corners of a face in their order around it: 4 of a rectangle, 2 of an edge, 1 of a point.
 template <int D>
-Outline<D> outline_of(const Block<D>& block, const Facing& face) {
+Outline<D> outline_of(const PlacedCore<D>& block, const Facing& face) {
   Vec<D> center{0.0};
   center[face.axis] = face.positive ? block.half[face.axis] : -block.half[face.axis];
   std::array<int, 2> spread{};
@@ -116,7 +116,7 @@ Outline<D> cut(const Outline<D>& outline, const Height& height, double slack, st
 }
 
 template <int D>
-double distance_to(const Block<D>& block, const Vec<D>& point) {
+double distance_to(const PlacedCore<D>& block, const Vec<D>& point) {
   const Vec<D> local = block.local(point);
   return glm::length(local - glm::clamp(local, -block.half, block.half));
 }
@@ -153,7 +153,7 @@ std::vector<int> widest_four(const Outline<3>& outline,
 
 // The other block's face, cut back to what is above the reference face across an axis.
 template <int D>
-Outline<D> clipped_face(const Block<D>& reference, int axis, const Block<D>& other,
+Outline<D> clipped_face(const PlacedCore<D>& reference, int axis, const PlacedCore<D>& other,
                         const Facing& face, double slack) {
   Outline<D> outline = outline_of(other, face);
   std::uint32_t side = 4;
@@ -173,7 +173,7 @@ Outline<D> clipped_face(const Block<D>& reference, int axis, const Block<D>& oth
 }  // namespace
 
 template <int D>
-FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, int axis,
+FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>& other, int axis,
                             const Vec<D>& normal, double margin) {
   const double slack = kSlack * smallest_half(reference, other);
   const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
@@ -211,7 +211,9 @@ FaceContact<D> face_contact(const Block<D>& reference, const Block<D>& other, in
   return contact;
 }
 
-template FaceContact<2> face_contact(const Block<2>&, const Block<2>&, int, const Vec<2>&, double);
-template FaceContact<3> face_contact(const Block<3>&, const Block<3>&, int, const Vec<3>&, double);
+template FaceContact<2> face_contact(const PlacedCore<2>&, const PlacedCore<2>&, int, const Vec<2>&,
+                                     double);
+template FaceContact<3> face_contact(const PlacedCore<3>&, const PlacedCore<3>&, int, const Vec<3>&,
+                                     double);
 
 }  // namespace lantern::narrow

@@ -31,7 +31,4 @@ struct ContactSolver {
 template <int D>
 const ContactSolver<D>& contact_solver(ContactMethod method);
 
-extern template const ContactSolver<2>& contact_solver(ContactMethod);
-extern template const ContactSolver<3>& contact_solver(ContactMethod);
-
 }  // namespace lantern

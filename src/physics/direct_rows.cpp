@@ -4,6 +4,7 @@
 #include <span>
 
 #include "physics/direct_solve.hpp"
+#include "physics/small_cholesky.hpp"
 
 namespace lantern {
 namespace {
@@ -15,20 +16,6 @@ std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
   const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
   const Vec<3> s = glm::normalize(glm::cross(n, other));
   return {s, glm::cross(n, s)};
-}
-
-double part_of(double spin, int) { return spin; }
-double part_of(const Vec<3>& spin, int axis) { return spin[axis]; }
-
-template <int D>
-Spin<D> spin_about(int axis, double size) {
-  if constexpr (D == 2) {
-    return size;
-  } else {
-    Spin<D> spin(0.0);
-    spin[axis] = size;
-    return spin;
-  }
 }
 
 template <int D>
@@ -43,40 +30,8 @@ template <int D>
 bool turns(const Island<D>& island, std::uint32_t body) {
   if (island.solver_bodies[body].inverse_mass == 0) return false;
   for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
-    if (!(part_of(island.bodies[body].inverse_inertia, i) > 0)) return false;
+    if (!(spin_component(island.bodies[body].inverse_inertia, i) > 0)) return false;
   return true;
-}
-
-// A small matrix, row by row, of which Cholesky's factor takes the lower half's place.
-template <int N>
-using Small = std::array<std::array<double, N>, N>;
-
-// False if a row is nearly what those before it say.
-template <int N>
-bool factor_small(Small<N>& m) {
-  for (int i = 0; i < N; ++i) {
-    const double whole = m[i][i];
-    for (int j = 0; j <= i; ++j) {
-      double sum = m[i][j];
-      for (int k = 0; k < j; ++k) sum -= m[i][k] * m[j][k];
-      if (i == j && !(sum > kThin * whole)) return false;
-      m[i][j] = i == j ? std::sqrt(sum) : sum / m[j][j];
-    }
-  }
-  return true;
-}
-
-template <int N>
-std::array<double, N> solved(const Small<N>& factor, std::array<double, N> x) {
-  for (int i = 0; i < N; ++i) {
-    for (int j = 0; j < i; ++j) x[i] -= factor[i][j] * x[j];
-    x[i] /= factor[i][i];
-  }
-  for (int i = N; i-- > 0;) {
-    for (int j = i + 1; j < N; ++j) x[i] -= factor[j][i] * x[j];
-    x[i] /= factor[i][i];
-  }
-  return x;
 }
 
 }  // namespace
@@ -116,20 +71,21 @@ bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
   for (const Part& part : parts) size = std::max(size, glm::length(part.arm_a - middle_a));
   if (!(size > 0)) return false;
 
-  Small<kFreedoms> square{};
+  SmallMatrix<kFreedoms> square{};
   for (Part& part : parts) {
     const Spin<D> torque = cross(part.arm_a - middle_a, part.direction);
     for (int k = 0; k < kFreedoms; ++k)
-      part.share[k] = k < D ? part.direction[k] : part_of(torque, k - D) / size;
+      part.share[k] = k < D ? part.direction[k] : spin_component(torque, k - D) / size;
     for (int r = 0; r < kFreedoms; ++r)
-      for (int c = 0; c <= r; ++c) square[r][c] += part.share[r] * part.share[c];
+      for (int c = 0; c <= r; ++c) square[r * kFreedoms + c] += part.share[r] * part.share[c];
   }
-  if (!factor_small<kFreedoms>(square)) {
+  if (!factor_small<kFreedoms>(square, kThin)) {
     for (Part& part : parts) part.share = {1};
     return false;
   }
   for (Part& part : parts) {
-    part.share = solved<kFreedoms>(square, part.share);
+    solve_lower<kFreedoms>(square, part.share);
+    solve_upper<kFreedoms>(square, part.share);
     part.width = kFreedoms;
     part.row = rows_.size();
   }
@@ -138,7 +94,7 @@ bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
     add_row(island, {a, b, axis, cross(middle_a, axis), cross(middle_b, axis)});
   }
   for (int k = D; k < kFreedoms; ++k) {
-    const Spin<D> turn = spin_about<D>(k - D, size);
+    const Spin<D> turn = size * unit_spin<D>(k - D);
     add_row(island, {a, b, Vec<D>(0.0), turn, turn});
   }
   return true;

@@ -16,15 +16,6 @@ EndMotion<D> at_rest(const Body<D>& body) {
   return {body.orientation, Vec<D>(0.0), Spin<D>(0.0)};
 }
 
-template <int D>
-double product(const Spin<D>& a, const Spin<D>& b) {
-  if constexpr (D == 2) {
-    return a * b;
-  } else {
-    return glm::dot(a, b);
-  }
-}
-
 // Of two bodies by Newton's law; zero if they lie at one point, or if neither can be moved.
 template <int D>
 double energy_of_attraction(const Body<D>& a, const Body<D>& b, double gravitation) {
@@ -40,7 +31,7 @@ void add_own(const Body<D>& body, const Forces<D>& forces, Energy& sum) {
   if (!counts(body)) return;
   const double mass = 1 / body.inverse_mass;
   sum.linear += mass * glm::dot(body.velocity, body.velocity) / 2;
-  sum.rotational += product<D>(body.angular_momentum, angular_velocity(body)) / 2;
+  sum.rotational += dot(body.angular_momentum, angular_velocity(body)) / 2;
   sum.gravity -= mass * glm::dot(forces.gravity, body.position);
 }
 

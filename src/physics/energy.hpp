@@ -39,13 +39,4 @@ Vec<D> momentum(std::span<const Body<D>> bodies);
 template <int D>
 Spin<D> angular_momentum(std::span<const Body<D>> bodies);
 
-extern template Energy energy(std::span<const Body<2>>, const Forces<2>&);
-extern template Energy energy(std::span<const Body<3>>, const Forces<3>&);
-extern template Energy energy_of(const Body<2>&, std::span<const Body<2>>, const Forces<2>&);
-extern template Energy energy_of(const Body<3>&, std::span<const Body<3>>, const Forces<3>&);
-extern template Vec<2> momentum(std::span<const Body<2>>);
-extern template Vec<3> momentum(std::span<const Body<3>>);
-extern template Spin<2> angular_momentum<2>(std::span<const Body<2>>);
-extern template Spin<3> angular_momentum<3>(std::span<const Body<3>>);
-
 }  // namespace lantern

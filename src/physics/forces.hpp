@@ -87,15 +87,4 @@ Stretch<D> attracted(double strength, const Vec<D>& between);
 template <int D>
 void check_forces(const Forces<D>& forces, std::span<const Body<D>> bodies);
 
-extern template Stretch<2> stretched(const Spring<2>&, const Vec<2>&, const EndMotion<2>&,
-                                     const EndMotion<2>&);
-extern template Stretch<3> stretched(const Spring<3>&, const Vec<3>&, const EndMotion<3>&,
-                                     const EndMotion<3>&);
-extern template double attracting_mass(const Body<2>&);
-extern template double attracting_mass(const Body<3>&);
-extern template Stretch<2> attracted(double, const Vec<2>&);
-extern template Stretch<3> attracted(double, const Vec<3>&);
-extern template void check_forces(const Forces<2>&, std::span<const Body<2>>);
-extern template void check_forces(const Forces<3>&, std::span<const Body<3>>);
-
 }  // namespace lantern

@@ -32,11 +32,4 @@ void turn_freely(Body<D>& body, double h, RotationMethod method);
 template <int D>
 void turn_freely(Body<D>& body, const Spin<D>& lag, double h, RotationMethod method);
 
-extern template Rotation<2> freely_turned(const Body<2>&, const Spin<2>&, double, RotationMethod);
-extern template Rotation<3> freely_turned(const Body<3>&, const Spin<3>&, double, RotationMethod);
-extern template void turn_freely(Body<2>&, double, RotationMethod);
-extern template void turn_freely(Body<3>&, double, RotationMethod);
-extern template void turn_freely(Body<2>&, const Spin<2>&, double, RotationMethod);
-extern template void turn_freely(Body<3>&, const Spin<3>&, double, RotationMethod);
-
 }  // namespace lantern

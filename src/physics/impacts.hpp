@@ -11,9 +11,4 @@ template <int D>
 void move_through_impacts(Island<D>& island, const ContactSolver<D>& solver,
                           const WorldConfig<D>& config, double h, int& budget, WorldWork& work);
 
-extern template void move_through_impacts(Island<2>&, const ContactSolver<2>&,
-                                          const WorldConfig<2>&, double, int&, WorldWork&);
-extern template void move_through_impacts(Island<3>&, const ContactSolver<3>&,
-                                          const WorldConfig<3>&, double, int&, WorldWork&);
-
 }  // namespace lantern

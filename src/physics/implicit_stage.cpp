@@ -86,9 +86,7 @@ class Newton {
  private:
   static void put(Row& row, const Vec<D>& linear, const Spin<D>& angular) {
     for (int c = 0; c < D; ++c) row[c] = linear[c];
-    if constexpr (B > D && D == 2) row[D] = angular;
-    if constexpr (B > D && D == 3)
-      for (int c = 0; c < 3; ++c) row[D + c] = angular[c];
+    for (int c = D; c < B; ++c) row[c] = spin_component(angular, c - D);
   }
 
   // The velocities for the momenta rows(), which may depend on the matrix. False if numbers fail.
@@ -149,12 +147,8 @@ class Newton {
       for (int c = 0; c < D; ++c) state.kick[i][c] = before.kick[i][c] + share * step[n][c];
       if constexpr (B > D) {
         if (!system_.turns(i)) continue;
-        Spin<D> spin;
-        if constexpr (D == 2) {
-          spin = step[n][D];
-        } else {
-          for (int c = 0; c < 3; ++c) spin[c] = step[n][D + c];
-        }
+        Spin<D> spin(0.0);
+        for (int c = D; c < B; ++c) spin_component(spin, c - D) = step[n][c];
         state.twist[i] = before.twist[i] + system_.inertia_times(before, i, share * spin);
       }
     }

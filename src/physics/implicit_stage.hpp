@@ -22,11 +22,4 @@ template <int D>
 void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time,
                  LinearSolver solver = LinearSolver::by_size);
 
-extern template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double,
-                                              LinearSolver);
-extern template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double,
-                                              LinearSolver);
-extern template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double, LinearSolver);
-extern template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double, LinearSolver);
-
 }  // namespace lantern

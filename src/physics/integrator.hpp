@@ -37,9 +37,4 @@ void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
                      const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                      std::uint64_t& evaluations);
 
-extern template void find_increments(Integrator, std::span<const Body<2>>, const Forces<2>&, double,
-                                     std::vector<Increment<2>>&, std::uint64_t&);
-extern template void find_increments(Integrator, std::span<const Body<3>>, const Forces<3>&, double,
-                                     std::vector<Increment<3>>&, std::uint64_t&);
-
 }  // namespace lantern

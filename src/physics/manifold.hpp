@@ -63,7 +63,4 @@ struct Placed {
 template <int D>
 std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin);
 
-extern template std::optional<Manifold<2>> collide(const Placed<2>&, const Placed<2>&, double);
-extern template std::optional<Manifold<3>> collide(const Placed<3>&, const Placed<3>&, double);
-
 }  // namespace lantern

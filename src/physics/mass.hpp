@@ -24,9 +24,4 @@ MassProperties<D> mass_of(const Shape<D>& shape, double density);
 template <int D>
 MassProperties<D> scaled_to(MassProperties<D> properties, double mass);
 
-extern template MassProperties<2> mass_of(const Shape<2>&, double);
-extern template MassProperties<3> mass_of(const Shape<3>&, double);
-extern template MassProperties<2> scaled_to(MassProperties<2>, double);
-extern template MassProperties<3> scaled_to(MassProperties<3>, double);
-
 }  // namespace lantern

@@ -130,8 +130,8 @@ class MotionMatrix {
         for (int r = D; r < B; ++r) blocks.add(n, r, r, mass);  // unknowns that will be zero
       } else {
         for (int c = D; c < B; ++c) {
-          const Spin<D> column = system_.inertia_times(*state_, i, unit_spin(c));
-          for (int r = D; r < B; ++r) blocks.add(n, r, c, heavier * component(column, r));
+          const Spin<D> column = system_.inertia_times(*state_, i, unit_spin<D>(c - D));
+          for (int r = D; r < B; ++r) blocks.add(n, r, c, heavier * spin_component(column, r - D));
           blocks.add(n, c, c, time_ * body.angular_drag);
         }
       }
@@ -205,7 +205,7 @@ class MotionMatrix {
     for (int c = 0; c < D; ++c) all[c][c] = 1;
     if constexpr (B > D)
       if (system_.turns(i))
-        for (int c = D; c < B; ++c) all[c] = cross(unit_spin(c), arm);
+        for (int c = D; c < B; ++c) all[c] = cross(unit_spin<D>(c - D), arm);
     return all;
   }
 
@@ -224,23 +224,6 @@ class MotionMatrix {
             blocks.add(number_[i], D + r, D + c,
                        (r == c ? back : 0) - (arm[r] * force[c] + arm[c] * force[r]) / 2);
       }
-    }
-  }
-
-  static Spin<D> unit_spin(int c) {
-    if constexpr (D == 2) {
-      return 1.0;
-    } else {
-      Spin<D> spin(0.0);
-      spin[c - D] = 1;
-      return spin;
-    }
-  }
-  static double component(const Spin<D>& spin, int r) {
-    if constexpr (D == 2) {
-      return spin;
-    } else {
-      return spin[r - D];
     }
   }
 

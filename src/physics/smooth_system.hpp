@@ -136,9 +136,6 @@ void SmoothSystem<D>::each_stretch(const SmoothState<D>& state, F&& f) const {
   });
 }
 
-extern template class SmoothSystem<2>;
-extern template class SmoothSystem<3>;
-
 // The methods. `out` holds one zero increment a body. Each is defined in the file of its name.
 template <int D>
 void explicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out);

@@ -11,9 +11,6 @@ namespace lantern {
 template <int D>
 using Inertia = std::conditional_t<D == 2, double, Mat<3>>;
 
-inline double dot(double a, double b) { return a * b; }
-inline double dot(const Vec<3>& a, const Vec<3>& b) { return glm::dot(a, b); }
-
 template <int D>
 struct SolverBody {
   double inverse_mass = 0;

@@ -87,11 +87,4 @@ template <int D>
 void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
                   int sub_steps, WorldWork& work, const std::function<void(SubStep<D>&)>& solve);
 
-extern template class SubStep<2>;
-extern template class SubStep<3>;
-extern template void in_sub_steps(Island<2>&, const WorldConfig<2>&, double, double, int,
-                                  WorldWork&, const std::function<void(SubStep<2>&)>&);
-extern template void in_sub_steps(Island<3>&, const WorldConfig<3>&, double, double, int,
-                                  WorldWork&, const std::function<void(SubStep<3>&)>&);
-
 }  // namespace lantern

@@ -21,9 +21,4 @@ void wake_together(std::vector<Body<D>>& bodies, std::vector<double>& rested,
                    std::vector<std::uint32_t> places, std::span<const Pair> links,
                    Disturbed disturbed);
 
-extern template void wake_together(std::vector<Body<2>>&, std::vector<double>&,
-                                   std::vector<std::uint32_t>, std::span<const Pair>, Disturbed);
-extern template void wake_together(std::vector<Body<3>>&, std::vector<double>&,
-                                   std::vector<std::uint32_t>, std::span<const Pair>, Disturbed);
-
 }  // namespace lantern

@@ -81,9 +81,10 @@ class World {
   // out of its range. What presses goes on pressing: the next step begins with the old impulses.
   void switch_contacts(ContactMethod method, int sub_steps, int iterations);
 
-  // The structure (broad phase) as it will be used: with contacts that of the next step, if it is one
-  // of `h` seconds, in which boxes are enlarged by how far bodies may come in it; without contacts
-  // that of the bodies as they are, which no step needs. Built once: the step finds it standing.
+  // The structure (broad phase) as it will be used: with contacts that of the next step, if it is
+  // one of `h` seconds, in which boxes are enlarged by how far bodies may come in it; without
+  // contacts that of the bodies as they are, which no step needs. Built once: the step finds it
+  // standing.
   void look_ahead(double h);
   // Puts this body into the structure, after all others (the lecture's Insert), as it will be used
   // if no force acts. Throws Refused for ids that are not ascending, and as BroadPhase does.
@@ -158,8 +159,5 @@ class World {
   std::optional<Ahead> ahead_;  // until anything changes
   WorldWork work_;
 };
-
-extern template class World<2>;
-extern template class World<3>;
 
 }  // namespace lantern

@@ -1,5 +1,5 @@
 // Two capsules: the closest points of their segments; two contacts where they lie along each other.
-#include "physics/collide_forms.hpp"
+#include "physics/collide_cores.hpp"
 
 namespace lantern::narrow {
 namespace {
@@ -15,17 +15,18 @@ constexpr double kMostParallel = 0.1;
 //
 // Nothing if they cross rather than lie along each other, or hardly overlap.
 template <int D>
-Contact<D> two_points(const Rod<D>& a, const Rod<D>& b, const Direction<D>& normal, double margin) {
+Contact<D> two_points(const PlacedCore<D>& a, const PlacedCore<D>& b, const Direction<D>& normal,
+                      double margin) {
   const Vec<D> along = a.along(), n = normal.unit;
   if (std::abs(glm::dot(along, n)) > kMostParallel) return std::nullopt;
   const double turn = glm::dot(along, b.along());
   if (std::abs(turn) < std::sqrt(1 - kMostParallel * kMostParallel)) return std::nullopt;
 
   const double middle = glm::dot(b.center - a.center, along);
-  const double reach = b.half_length * std::abs(turn);
-  const double from = std::max(-a.half_length, middle - reach);
-  const double to = std::min(a.half_length, middle + reach);
-  const double shorter = std::min(a.half_length, b.half_length);
+  const double reach = b.half.y * std::abs(turn);
+  const double from = std::max(-a.half.y, middle - reach);
+  const double to = std::min(a.half.y, middle + reach);
+  const double shorter = std::min(a.half.y, b.half.y);
   if (to - from <= 1e-3 * shorter) return std::nullopt;
 
   const double radii = a.radius + b.radius;
@@ -55,18 +56,18 @@ Contact<D> two_points(const Rod<D>& a, const Rod<D>& b, const Direction<D>& norm
 }  // namespace
 
 template <int D>
-Contact<D> touch(const Rod<D>& a, const Rod<D>& b, double margin) {
+Contact<D> touch_segments(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
   const PointPair<D> closest = closest_points(a.segment(), b.segment());
   const Direction<D> normal = direction_of(closest.b - closest.a, fallback_normal<D>());
-  const double size = a.half_length + b.half_length + glm::length(b.center - a.center);
+  const double size = a.half.y + b.half.y + glm::length(b.center - a.center);
   // Segments that cross have no direction between them: they part by separating axes.
-  if (normal.length <= kRounding * size) return touch(a.block(), b.block(), margin);
+  if (normal.length <= kRounding * size) return touch_blocks(a, b, margin);
   if (normal.length - a.radius - b.radius > margin) return std::nullopt;
   if (const Contact<D> contact = two_points(a, b, normal, margin)) return contact;
   return one_point(closest.a, a.radius, b.radius, normal);
 }
 
-template Contact<2> touch(const Rod<2>&, const Rod<2>&, double);
-template Contact<3> touch(const Rod<3>&, const Rod<3>&, double);
+template Contact<2> touch_segments(const PlacedCore<2>&, const PlacedCore<2>&, double);
+template Contact<3> touch_segments(const PlacedCore<3>&, const PlacedCore<3>&, double);
 
 }  // namespace lantern::narrow

@@ -1,11 +1,11 @@
-// A ball against a ball, a box, a capsule: the point of the other core that is closest to the
+// A sphere against a sphere, a box, a capsule: the point of the other core that is closest to the
 // centre.
-#include "physics/collide_forms.hpp"
+#include "physics/collide_cores.hpp"
 
 namespace lantern::narrow {
 
 template <int D>
-Contact<D> touch(const Ball<D>& a, const Ball<D>& b, double margin) {
+Contact<D> touch_points(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
   const Direction<D> normal = direction_of(b.center - a.center, fallback_normal<D>());
   if (normal.length - a.radius - b.radius > margin) return std::nullopt;
   return one_point(a.center, a.radius, b.radius, normal);
@@ -17,10 +17,10 @@ Contact<D> touch(const Ball<D>& a, const Ball<D>& b, double margin) {
 //    |   <-x  |      x: the centre
 //    |________|
 template <int D>
-Contact<D> touch(const Ball<D>& a, const Block<D>& b, double margin) {
+Contact<D> touch_point_and_box(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
   const Vec<D> center = b.local(a.center);
   const Vec<D> outside = center - glm::clamp(center, -b.half, b.half);
-  Direction<D> normal = direction_of(-outside, Vec<D>(0.0));  // from the ball into the box
+  Direction<D> normal = direction_of(-outside, Vec<D>(0.0));  // from the sphere into the box
   if (normal.length == 0) {
     int axis = 0;
     for (int i = 1; i < D; ++i)
@@ -35,18 +35,20 @@ Contact<D> touch(const Ball<D>& a, const Block<D>& b, double margin) {
 
 // A centre on the capsule's segment leaves it sideways.
 template <int D>
-Contact<D> touch(const Ball<D>& a, const Rod<D>& b, double margin) {
+Contact<D> touch_point_and_segment(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
   const Vec<D> to_segment = closest_point(b.segment(), a.center) - a.center;
   const Direction<D> normal = direction_of(to_segment, b.axes[0]);
   if (normal.length - a.radius - b.radius > margin) return std::nullopt;
   return one_point(a.center, a.radius, b.radius, normal);
 }
 
-template Contact<2> touch(const Ball<2>&, const Ball<2>&, double);
-template Contact<3> touch(const Ball<3>&, const Ball<3>&, double);
-template Contact<2> touch(const Ball<2>&, const Block<2>&, double);
-template Contact<3> touch(const Ball<3>&, const Block<3>&, double);
-template Contact<2> touch(const Ball<2>&, const Rod<2>&, double);
-template Contact<3> touch(const Ball<3>&, const Rod<3>&, double);
+#define LANTERN_INSTANTIATE(D)                                                                 \
+  template Contact<D> touch_points(const PlacedCore<D>&, const PlacedCore<D>&, double);        \
+  template Contact<D> touch_point_and_box(const PlacedCore<D>&, const PlacedCore<D>&, double); \
+  template Contact<D> touch_point_and_segment(const PlacedCore<D>&, const PlacedCore<D>&, double);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
 
 }  // namespace lantern::narrow

@@ -1,0 +1,110 @@
+// The shapes as the narrow phase sees them, placed relative to the first body.
+//
+// Every shape but the half-space is all that lies within a radius of a core, which is a point, a
+// box or a segment (geometry/shape.hpp). Two of them are apart by the distance of their cores less
+// both radii.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "geometry/closest.hpp"
+#include "geometry/shape.hpp"
+#include "physics/manifold.hpp"
+
+namespace lantern::narrow {
+
+// A computed length is trusted to this part of the sizes that went into it: about 4500 roundings.
+inline constexpr double kRounding = 1e-12;
+
+// The normal of two cores that meet in a point.
+template <int D>
+Vec<D> fallback_normal() {
+  Vec<D> up{0.0};
+  up.y = 1;
+  return up;
+}
+
+// Half sizes of 0 make a box of the core a rectangle, a segment or a point.
+template <int D>
+struct PlacedCore {
+  // What closed form it has; one that is a box by its shape is a box, whatever its sizes.
+  enum class Kind { point, box, segment };  // pairs are handled in this order
+
+  Kind kind = Kind::box;
+  Vec<D> center{0.0};
+  Mat<D> axes{1.0};  // columns: unit vectors
+  Vec<D> half{0.0};
+  double radius = 0;
+
+  // How far the core reaches from its centre along a unit vector.
+  double reach(const Vec<D>& n) const {
+    double sum = 0;
+    for (int i = 0; i < D; ++i) sum += half[i] * std::abs(glm::dot(n, axes[i]));
+    return sum;
+  }
+  // Coordinates along the axes from the centre, and back.
+  Vec<D> local(const Vec<D>& point) const {
+    Vec<D> coordinates;
+    for (int i = 0; i < D; ++i) coordinates[i] = glm::dot(point - center, axes[i]);
+    return coordinates;
+  }
+  Vec<D> world(const Vec<D>& coordinates) const { return center + axes * coordinates; }
+  // Of a segment, which lies along its y axis.
+  Vec<D> along() const { return axes[1]; }
+  Segment<D> segment() const { return {center - along() * half.y, center + along() * half.y}; }
+};
+
+// A half-space.
+template <int D>
+struct Wall {
+  Vec<D> point{0.0};
+  Vec<D> normal{0.0};  // out of the solid
+};
+
+// Calls f(corner, name) for each corner of a core; those that coincide, for want of thickness,
+// once.
+template <int D, class F>
+void each_corner(const PlacedCore<D>& core, const F& f) {
+  for (std::uint32_t signs = 0; signs < 1u << D; ++signs) {
+    Vec<D> corner = core.half;
+    bool again = false;
+    for (int i = 0; i < D; ++i) {
+      if ((signs >> i & 1u) != 0) continue;
+      corner[i] = -corner[i];
+      again |= core.half[i] <= 0;
+    }
+    if (!again) f(core.world(corner), signs);
+  }
+}
+
+// The contact of two cores in one point. `a` and `b` are points of the cores.
+template <int D>
+Manifold<D> one_point(const Vec<D>& a, double radius_a, double radius_b, const Direction<D>& from_a,
+                      std::uint32_t feature = 0) {
+  Manifold<D> manifold;
+  manifold.normal = from_a.unit;
+  const double separation = from_a.length - radius_a - radius_b;
+  manifold.add({a + from_a.unit * (radius_a + separation / 2), separation, feature});
+  return manifold;
+}
+
+template <int D>
+using Contact = std::optional<Manifold<D>>;
+
+// The closed forms, and what is found by search. None looks at the order of bodies: `collide` has
+// sorted them, kinds of cores in their order, walls last.
+template <int D>
+Contact<D> touch_points(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
+template <int D>
+Contact<D> touch_point_and_box(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
+template <int D>
+Contact<D> touch_point_and_segment(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
+template <int D>
+Contact<D> touch_segments(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
+template <int D>
+Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);  // any two
+template <int D>
+Contact<D> touch_wall(const PlacedCore<D>& a, const Wall<D>& b, double margin);
+
+}  // namespace lantern::narrow
