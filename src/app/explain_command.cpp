@@ -1,35 +1,72 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/progress.hpp"
 #include "app/table.hpp"
 #include "app/terminal.hpp"
+#include "base/clock.hpp"
 #include "base/file.hpp"
+#include "base/grouped.hpp"
 #include "base/json_writer.hpp"
-#include "scenario/needs.hpp"
+#include "base/memory.hpp"
+#include "scenario/tally.hpp"
 
 namespace lantern {
+namespace {
+
+// "60 searches, 1 candidate pair; 10.3 s passed": of amounts behind the first only what there is.
+std::string told(const StageTally& stage) {
+  std::string text;
+  for (const Amount& a : stage.amounts)
+    if (a.n > 0 || &a == &stage.amounts.front())
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
+                          grouped(static_cast<std::int64_t>(a.n), " "), a.n == 1 ? a.name : a.many);
+  return text + (stage.note.empty() ? "" : "; ") + stage.note;
+}
+
+std::string json_of(const Scenario& scenario, const std::vector<StageTally>& stages,
+                    std::uint64_t frames, double seconds) {
+  JsonWriter json;
+  json.begin_object().member("scenario", scenario.name).member("frames", frames);
+  json.member("seconds", seconds).key("stages").begin_array();
+  for (const StageTally& stage : stages) {
+    json.line().begin_object().member("stage", stage.stage).member("used", stage.used());
+    json.key("counts").begin_object();
+    for (const Amount& a : stage.amounts) json.member(a.many, a.n);
+    json.end_object().member("note", stage.note).end_object();
+  }
+  json.line().end_array().end_object();
+  return json.text() + "\n";
+}
+
+}  // namespace
 
 int explain_command(const ExplainOptions& options) {
   const Scenario scenario = load_scenario(options.file);
-  const Needs needs = needs_of(scenario);
-  if (!options.json) {
-    std::vector<std::vector<std::string>> rows;
-    for (const Need& need : needs.listed)
-      rows.push_back({need.used ? "uses" : "leaves out", need.stage, need.reason});
-    print(fmt::format("{}: {}\n\n{}", scenario.name, scenario.title, table(rows)));
+  Work work;
+  Tally tally(scenario, work);
+  DirectorReport report;
+  const Stopwatch watch;
+  {
+    Progress progress(scenario.name, extent_of(scenario, scenario.pace), work, memory_budget());
+    std::uint64_t frames = 0;
+    report = direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+      tally.see(frame);
+      progress.done(++frames);
+      return true;
+    });
+  }
+  const double seconds = watch.seconds();
+  const std::vector<StageTally> stages = tally.stages(report);
+  if (options.json) {
+    write_stdout(json_of(scenario, stages, report.frames, seconds));
     return kGood;
   }
-  JsonWriter json;
-  json.begin_object().member("scenario", scenario.name).key("stages").begin_array();
-  for (const Need& need : needs.listed)
-    json.line()
-        .begin_object()
-        .member("stage", need.stage)
-        .member("used", need.used)
-        .member("reason", need.reason)
-        .end_object();
-  json.line().end_array().end_object();
-  write_stdout(json.text() + "\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const StageTally& stage : stages)
+    rows.push_back({stage.used() ? "uses" : "leaves out", std::string(stage.stage), told(stage)});
+  print(fmt::format("{}: {}\n\n{}\nCounted in a run without pixels: {} frames in {:.2g} s.\n",
+                    scenario.name, scenario.title, table(rows), report.frames, seconds));
   return kGood;
 }
 

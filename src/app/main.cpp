@@ -108,8 +108,9 @@ void add_list(CLI::App& app, ListOptions& o, Run& run) {
 
 void add_explain(CLI::App& app, ExplainOptions& o, Run& run) {
   CLI::App* c = app.add_subcommand("explain",
-                                   "Which stages a scenario uses and which it leaves out, and why");
+                                   "Run a scenario without pixels, tell what each stage did");
   c->add_option("FILE", o.file, "scenario file")->required();
+  add_memory(*c);
   add_json(*c, o.json);
   c->callback([&] { run = [&] { return explain_command(o); }; });
 }

@@ -14,6 +14,11 @@ struct Work {
   std::atomic<std::uint64_t> worlds_created{0};
   std::atomic<std::uint64_t> world_steps{0};
   std::atomic<std::uint64_t> structures_created{0};
+  std::atomic<std::uint64_t> structure_builds{0};  // of what may move, or of all bodies
+  std::atomic<std::uint64_t> static_builds{0};     // of the one apart, for what never moves
+  std::atomic<std::uint64_t> pair_searches{0};     // for frames, beside those of the world
+  std::atomic<std::uint64_t> pairs_found{0};       // by them
+  std::atomic<std::uint64_t> queries{0};
   std::atomic<std::uint64_t> atlases_created{0};
   std::atomic<std::uint64_t> world_layouts{0};
   std::atomic<std::uint64_t> tree_layouts{0};
@@ -27,10 +32,15 @@ struct Work {
   std::atomic<std::uint64_t> bytes_written{0};
 
   // Name and count of each stage, in the order of a run.
-  std::array<std::pair<std::string_view, std::uint64_t>, 9> listed() const {
+  std::array<std::pair<std::string_view, std::uint64_t>, 14> listed() const {
     return {{{"worlds_created", worlds_created},
              {"world_steps", world_steps},
              {"structures_created", structures_created},
+             {"structure_builds", structure_builds},
+             {"static_builds", static_builds},
+             {"pair_searches", pair_searches},
+             {"pairs_found", pairs_found},
+             {"queries", queries},
              {"atlases_created", atlases_created},
              {"world_layouts", world_layouts},
              {"tree_layouts", tree_layouts},

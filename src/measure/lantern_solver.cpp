@@ -1,7 +1,6 @@
 #include "measure/lantern_solver.hpp"
 
 #include "scenario/obey.hpp"
-#include "scenario/script_walk.hpp"
 
 namespace lantern {
 namespace {
@@ -42,6 +41,12 @@ bool has_forces(const Scenario& scenario) {
   for (const Step& step : scenario.steps)
     if (std::holds_alternative<ApplyForce>(step.verb)) return true;
   return false;
+}
+
+// Boxes along the axes and half-spaces keep to them.
+bool can_turn(const BodySpec& body) {
+  return body.kind != BodyKind::static_body && !std::holds_alternative<AxisBox<3>>(body.shape) &&
+         !std::holds_alternative<HalfSpace<3>>(body.shape);
 }
 
 bool turns_in_space(const Scenario& scenario) {

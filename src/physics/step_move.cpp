@@ -197,6 +197,7 @@ void World<D>::Step::fall_asleep() {
     for (std::size_t i = 0; i < moved.size(); ++i) {
       const Body<D>& body = moved[i];
       if (body.kind != BodyKind::dynamic_body || body.asleep) continue;
+      ++world.work_.rest_checks;
       const bool still = body.velocity == Vec<D>(0.0) && body.angular_momentum == Spin<D>(0.0) &&
                          increments[i].kick == Vec<D>(0.0);
       const bool braked = body.linear_drag > 0 && (body.angular_drag > 0 || !body.may_turn ||

@@ -52,6 +52,7 @@ struct WorldWork {
   std::uint64_t direct_solves = 0;  // of all rows at once
   std::uint64_t rotations_integrated = 0;
   std::uint64_t impacts_located = 0;  // and struck, in the steps as they were made in the end
+  std::uint64_t rest_checks = 0;  // bodies looked at whether they may fall asleep
   // Of the last step alone.
   std::uint64_t islands = 0;  // of awake bodies
   std::uint64_t asleep = 0;   // bodies
@@ -82,6 +83,7 @@ inline constexpr std::array kWorldCounters = {
     WorldCounter{"direct_solves", &WorldWork::direct_solves},
     WorldCounter{"rotations_integrated", &WorldWork::rotations_integrated},
     WorldCounter{"impacts_located", &WorldWork::impacts_located},
+    WorldCounter{"rest_checks", &WorldWork::rest_checks},
 };
 
 // What was done between two moments of one world; `islands` and `asleep` are those of the later.

@@ -38,7 +38,9 @@ class Director {
       }
       if (frames_.stopped()) break;
     }
-    return frames_.take_report();
+    DirectorReport report = frames_.take_report();
+    if (stage_.engine) report.world = stage_.engine->world_work();
+    return report;
   }
 
  private:

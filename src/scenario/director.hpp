@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/work.hpp"
+#include "physics/world_config.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern {
@@ -14,6 +15,7 @@ struct DirectorReport {
   std::uint32_t frames = 0;
   std::uint64_t expectations = 0;  // verified
   std::vector<Diagnostic> unmet;   // one for each that did not hold
+  WorldWork world;                 // what the world did; zeros if there is none
 };
 
 class RunWatch;

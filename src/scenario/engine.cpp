@@ -114,10 +114,12 @@ class EngineOf : public Engine {
   }
 
   void rebuild_as(const StructureSpec& structure) override {
+    count_builds();
     structure_ = structure;
     count_structures();
     world().switch_broad_phase(
         broad_phase_of<D>(structure, in_dimension<D>(scenario_.world.bounds)));
+    builds_ = {};
     rebuild();
   }
 
@@ -170,6 +172,9 @@ class EngineOf : public Engine {
     picture_world(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
     picture_structure(structure_, players_.world(), tells_sleepers(), touched, frame);
+    work_.pair_searches += has_structure();
+    work_.pairs_found += frame.pairs.size();
+    count_builds();
     count(frame);
     if (has_physics()) measure_world(players_, has_contacts(), frame);
     measure_bodies(players_, scenario_, frame);
@@ -182,6 +187,15 @@ class EngineOf : public Engine {
 
   void count_structures() {
     if (has_structure()) work_.structures_created += structure_.split_static ? 2 : 1;
+  }
+
+  // Those of the world's structure since it was last asked.
+  void count_builds() {
+    if (!world().broad_phase()) return;
+    const BroadPhaseCounters& now = world().broad_phase()->counters();
+    work_.structure_builds += now.dynamic_builds - builds_.dynamic_builds;
+    work_.static_builds += now.static_builds - builds_.static_builds;
+    builds_ = now;
   }
 
   // For the next step; what looks ahead must know where bodies are going.
@@ -199,6 +213,7 @@ class EngineOf : public Engine {
   // Of a world without a structure of its own every body is asked.
   template <class Verb>
   Finding answer(const Verb& verb) {
+    ++work_.queries;
     if (!has_structure() || has_contacts() || !world().broad_phase()) look_ahead();
     return asked<D>(verb, players_.world());
   }
@@ -256,7 +271,8 @@ class EngineOf : public Engine {
   bool steered_ = false;       // who has a brain has made up its mind about the next step
   bool being_stored_ = false;  // a body is on its way down the structure
   Brains<D> brains_;
-  WorldWork last_;  // what the last step did
+  WorldWork last_;              // what the last step did
+  BroadPhaseCounters builds_;   // of them, what is counted
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
 };

@@ -8,7 +8,7 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "scenario/draft.hpp"
-#include "scenario/needs.hpp"
+#include "spatial/structure_kinds.hpp"
 
 namespace lantern {
 namespace {
@@ -46,14 +46,16 @@ bool some_step(const ScenarioSpec& s, bool (*holds)(const V&)) {
   });
 }
 
+bool compiles_level(const ScenarioSpec& s) {
+  return s.level && some_step<CompileLevel>(s, [](const CompileLevel&) { return true; });
+}
+
 // Those that the file wishes for.
 void read_panels(const TableReader& file, Draft& draft) {
   ScenarioSpec& s = draft.scenario;
   const auto is_there = [](const Rebuild& r) { return r.structure.kind != StructureKind::none; };
   const bool structure = s.structure.kind != StructureKind::none || some_step<Rebuild>(s, is_there);
-  const bool level =
-      s.level && some_step<CompileLevel>(s, [](const CompileLevel&) { return true; });
-  const bool possible[] = {draft.has_world, structure || level || s.atlas, s.atlas.has_value(),
+  const bool possible[] = {draft.has_world, structure || compiles_level(s) || s.atlas, s.atlas.has_value(),
                            s.chart.has_value(), structure};
   constexpr const char* kMissing[] = {
       "it needs a [world]", "it needs a [structure], a [level] or an [atlas]",
@@ -78,13 +80,21 @@ void read_file_keys(const TableReader& file, const std::string& path, Draft& dra
   read_name(file, path, draft);
 }
 
-// Those that it needs.
-std::vector<Panel> derived_panels(const Needs& needs) {
+bool is_tree(const StructureSpec& s) {
+  return s.kind != StructureKind::none && traits_of(s.kind).is_tree;
+}
+
+// Those that can have something to show. They must be known before the first frame is drawn, so
+// they follow from what the file declares.
+std::vector<Panel> derived_panels(const ScenarioSpec& s) {
+  const bool has_tree =
+      s.atlas || compiles_level(s) || is_tree(s.structure) ||
+      some_step<Rebuild>(s, [](const Rebuild& r) { return is_tree(r.structure); });
   std::vector<Panel> panels;
-  if (needs.world_panel) panels.push_back(Panel::world);
-  if (needs.atlas_panel) panels.push_back(Panel::atlas);
-  if (needs.tree_panel) panels.push_back(Panel::tree);
-  if (needs.chart_panel) panels.push_back(Panel::chart);
+  if (!s.bodies.empty() || s.level) panels.push_back(Panel::world);
+  if (s.atlas) panels.push_back(Panel::atlas);
+  if (has_tree) panels.push_back(Panel::tree);
+  if (s.chart) panels.push_back(Panel::chart);
   return panels;
 }
 
@@ -125,10 +135,8 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
     if (!draft.problems.any()) read_all(table, path, draft);
   }
   draft.problems.raise(path, draft.text);
-  const bool wishes = !draft.scenario.panels.empty();
-  Scenario scenario(std::move(draft.scenario));
-  if (!wishes) scenario.panels = derived_panels(needs_of(scenario));
-  return scenario;
+  if (draft.scenario.panels.empty()) draft.scenario.panels = derived_panels(draft.scenario);
+  return Scenario(std::move(draft.scenario));
 }
 
 Scenario load_scenario(const std::string& path) {

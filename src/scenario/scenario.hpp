@@ -373,7 +373,7 @@ struct ScenarioSpec {
   std::string source;  // the part of the lecture it shows
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
-  std::vector<Panel> panels;  // as wished, or what `needs` derives
+  std::vector<Panel> panels;  // as wished, or all that can show something
   WorldSpec world;
   StructureSpec structure;
   std::optional<LevelSpec> level;

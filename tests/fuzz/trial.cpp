@@ -14,8 +14,8 @@
 #include "measure/plan.hpp"
 #include "render/svg.hpp"
 #include "scenario/director.hpp"
-#include "scenario/needs.hpp"
 #include "scenario/source_text.hpp"
+#include "scenario/tally.hpp"
 #include "scenario/toml_tree.hpp"
 #include "scenario/warnings.hpp"
 
@@ -137,8 +137,8 @@ std::string kind_of(std::string_view message) {
 }
 
 std::string_view to_string(Stage stage) {
-  constexpr std::string_view kNames[] = {"reading", "explaining", "running",  "repeating",
-                                         "writing", "drawing",    "measuring"};
+  constexpr std::string_view kNames[] = {"reading", "running", "explaining", "repeating",
+                                         "writing", "drawing", "measuring"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 
@@ -199,11 +199,6 @@ void Trial::read_it(const std::string& text) {
   if (!scenario_) return;
   result_.good = true;
   if (scenario_->steps.empty()) throw Finding("a scenario without a step");
-  entered_(Stage::explaining);
-  watch_.bounded([&] {
-    for (const Need& need : needs_of(*scenario_).listed)
-      if (need.used) result_.features.insert(feature("need", need.stage));
-  });
   Problems problems;
   KeyWalk(used_, result_.features)
       .walk(read_toml(without_mark(text), problems), language_table(""));
@@ -215,6 +210,8 @@ void Trial::run_it(Pace pace, Dice& dice) {
   std::vector<std::uint64_t> hashes;
   const Watch::Clock::time_point start = Watch::Clock::now();
   Work work;
+  Tally tally(*scenario_, work);
+  DirectorReport report;
   RunWatch warner(*scenario_, shows_a_body);
   const auto bounded_run = [&](RunWatch* warned, const std::function<void(const Frame&)>& look) {
     return watch_.bounded([&] {
@@ -222,12 +219,13 @@ void Trial::run_it(Pace pace, Dice& dice) {
         look(frame);
         return !stop_asked() && frame.index + 1 < kMostFrames;
       };
-      direct(*scenario_, pace, work, see, warned);
+      report = direct(*scenario_, pace, work, see, warned);
     });
   };
   const bool whole = bounded_run(&warner, [&](const Frame& frame) {
     hashes.push_back(frame.hash);
     energy.look(frame);
+    tally.see(frame);
     const Step& step = scenario_->steps[frame.step];
     result_.features.insert(feature(std::to_string(step.verb.index()), frame.event));
     result_.features.insert(feature(std::to_string(step.verb.index()), to_string(frame.structure)));
@@ -245,6 +243,10 @@ void Trial::run_it(Pace pace, Dice& dice) {
   result_.frames = static_cast<std::uint32_t>(hashes.size());
   result_.energy_growth = energy.growth();
   result_.ran = whole;
+  entered_(Stage::explaining);
+  if (whole)
+    for (const StageTally& stage : tally.stages(report))
+      if (stage.used()) result_.features.insert(feature("need", stage.stage));
   result_.stopped = result_.stopped || !whole;
   const std::chrono::duration<double> seconds = Watch::Clock::now() - start;
   if (!whole || seconds.count() > kQuickRun || !dice.chance(kRepeated)) return;

@@ -25,7 +25,7 @@ class Finding : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Stage { reading, explaining, running, repeating, writing, drawing, measuring };
+enum class Stage { reading, running, explaining, repeating, writing, drawing, measuring };
 std::string_view to_string(Stage stage);
 inline constexpr int kStages = 7;
 

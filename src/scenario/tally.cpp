@@ -1,0 +1,182 @@
+#include "scenario/tally.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "physics/contact_method.hpp"
+
+namespace lantern {
+namespace {
+
+Amount amount(std::uint64_t n, std::string name, std::string many = {}) {
+  if (many.empty()) many = name + "s";
+  return {n, std::move(name), std::move(many)};
+}
+
+std::uint64_t counted(const Frame& frame, std::string_view name) {
+  return static_cast<std::uint64_t>(frame.count(name).value_or(0));
+}
+
+std::uint64_t points_of(const FrameChart& chart) {
+  std::uint64_t points = chart.bars.size();
+  for (const FrameSeries& series : chart.series) points += series.points.size();
+  return points;
+}
+
+void raise(std::uint64_t& most, std::uint64_t n) { most = std::max(most, n); }
+
+}  // namespace
+
+bool StageTally::used() const {
+  return std::any_of(amounts.begin(), amounts.end(), [](const Amount& a) { return a.n > 0; });
+}
+
+// A step always ends with a frame, and never builds two kinds: what was built since the frame
+// before is of this frame's kind.
+void Tally::see(const Frame& frame) {
+  seconds_ = std::max(seconds_, frame.time);
+  raise(bodies_, frame.bodies.size());
+  raise(asleep_, static_cast<std::uint64_t>(
+                     std::count_if(frame.bodies.begin(), frame.bodies.end(),
+                                   [](const FrameBody& body) { return body.asleep; })));
+  const auto springs = static_cast<std::uint64_t>(
+      std::count_if(frame.links.begin(), frame.links.end(),
+                    [](const FrameLink& link) { return link.kind == FrameLink::Kind::spring; }));
+  raise(springs_, springs);
+  raise(joints_, frame.links.size() - springs);
+  raise(textures_, counted(frame, "textures"));
+  raise(points_, points_of(frame.chart));
+  raise(walls_, counted(frame, "walls"));
+  raise(sectors_, counted(frame, "sectors"));
+  with_bodies_ += !frame.bodies.empty();
+  with_walls_ += !frame.walls.empty();
+  with_nodes_ += !frame.nodes.empty();
+  with_textures_ += !frame.textures.empty();
+  with_points_ += points_of(frame.chart) > 0;
+  with_array_ += frame.array_size > 0;
+  solid_ += frame.dimension == 3;
+  const std::uint64_t builds = work_.structure_builds;
+  const bool named = frame.structure != StructureKind::none;
+  if (builds > builds_before_)
+    builds_[named ? frame.structure : StructureKind::brute_force] += builds - builds_before_;
+  builds_before_ = builds;
+}
+
+std::vector<StageTally> Tally::stages(const DirectorReport& report) const {
+  Stages all;
+  list_motion(report.world, all);
+  list_structures(report.world, all);
+  list_contacts(report.world, all);
+  list_others(report, all);
+  list_pictures(all);
+  return all;
+}
+
+void Tally::list_motion(const WorldWork& world, Stages& all) const {
+  const char* still = work_.world_steps == 0 ? "no world step was made" : "";
+  all.push_back({"world",
+                 {amount(bodies_, "body", "bodies"), amount(work_.worlds_created, "world")},
+                 scenario_.bodies.empty() ? "the scenario has no bodies" : ""});
+  all.push_back({"motion",
+                 {amount(work_.world_steps, "step")},
+                 !*still        ? fmt::format("{:.6g} s passed", seconds_)
+                 : seconds_ > 0 ? "there is no body to move"
+                                : "no time passed"});
+  all.push_back({"rotation", {amount(world.rotations_integrated, "rotation")}, still});
+  all.push_back({"forces", {amount(world.force_evaluations, "evaluation")}, still});
+  all.push_back({"springs and joints",
+                 {amount(springs_, "spring"), amount(joints_, "joint")},
+                 scenario_.links.empty() ? "nothing is tied to anything" : ""});
+}
+
+void Tally::list_structures(const WorldWork& world, Stages& all) const {
+  std::vector<Amount> builds;
+  for (const auto& [kind, n] : builds_)
+    builds.push_back(amount(n, fmt::format("{} build", to_string(kind))));
+  if (builds.empty()) builds.push_back(amount(work_.structure_builds, "build"));
+  all.push_back({"structure", std::move(builds),
+                 work_.structures_created == 0 ? "the scenario names none" : ""});
+  all.push_back({"static structure",
+                 {amount(work_.static_builds, "build")},
+                 work_.static_builds == 0 ? "nothing is stored apart" : ""});
+  all.push_back({"broad phase",
+                 {amount(world.broad_phases, "search in steps", "searches in steps"),
+                  amount(work_.pair_searches, "search for frames", "searches for frames"),
+                  amount(world.candidate_pairs + work_.pairs_found, "candidate pair")},
+                 ""});
+}
+
+void Tally::list_contacts(const WorldWork& world, Stages& all) const {
+  std::string methods;  // that the file names
+  const auto add = [&](ContactMethod method) {
+    if (method == ContactMethod::none) return;
+    methods += fmt::format("{}{}", methods.empty() ? "the file names " : ", then ", to_string(method));
+  };
+  add(scenario_.world.contacts);
+  for (const Step& step : scenario_.steps)
+    if (const auto* solve_by = std::get_if<SolveBy>(&step.verb)) add(solve_by->contacts);
+  const char* off = methods.empty() && !scenario_.bodies.empty() ? "contacts are off" : "";
+  all.push_back({"narrow phase",
+                 {amount(world.narrow_pairs, "pair"), amount(world.narrow_tests, "test")},
+                 off});
+  all.push_back({"contact solver",
+                 {amount(world.constraint_rows - world.direct_rows, "row swept", "rows swept"),
+                  amount(world.direct_solves, "direct solve"),
+                  amount(world.direct_rows, "row solved at once", "rows solved at once"),
+                  amount(world.sub_steps, "sub-step")},
+                 world.sub_steps > 0 ? methods : off});
+  all.push_back({"friction", {amount(world.friction_rows, "row")}, off});
+  all.push_back({"sleeping",
+                 {amount(asleep_, "body at most", "bodies at most"),
+                  amount(world.rest_checks, "check for rest", "checks for rest")},
+                 scenario_.world.may_sleep ? "" : "no body falls asleep by itself"});
+}
+
+void Tally::list_others(const DirectorReport& report, Stages& all) const {
+  all.push_back({"queries",
+                 {amount(work_.queries, "ray, cull or query", "rays, culls or queries")},
+                 work_.queries == 0 ? "no step asks" : ""});
+  all.push_back({"level",
+                 {amount(walls_, "wall"), amount(sectors_, "sector")},
+                 !scenario_.level ? "the scenario has none"
+                 : walls_ == 0    ? "no step compiles it"
+                                  : ""});
+  all.push_back({"atlas",
+                 {amount(work_.atlases_created, "atlas", "atlases"),
+                  amount(textures_, "texture packed", "textures packed")},
+                 scenario_.atlas ? "" : "the scenario has none"});
+  all.push_back({"expectations",
+                 {amount(report.expectations, "check")},
+                 report.unmet.empty() ? "" : fmt::format("{} do not hold", report.unmet.size())});
+  all.push_back({"chart",
+                 {amount(points_, "point or bar", "points or bars")},
+                 scenario_.chart ? "" : "the scenario has none"});
+}
+
+StageTally Tally::panel(Panel panel, std::string_view stage, std::vector<Amount> shown) const {
+  StageTally tally{stage, std::move(shown), ""};
+  const auto& panels = scenario_.panels;
+  if (std::find(panels.begin(), panels.end(), panel) != panels.end()) return tally;
+  for (Amount& a : tally.amounts) a.n = 0;
+  tally.note = "none of the scenario's panels";
+  return tally;
+}
+
+void Tally::list_pictures(Stages& all) const {
+  const auto frames = [](std::uint64_t n, std::string_view what) {
+    return amount(n, fmt::format("frame with {}", what), fmt::format("frames with {}", what));
+  };
+  all.push_back(panel(Panel::world, "world panel",
+                      {frames(with_bodies_, "bodies"), frames(with_walls_, "walls")}));
+  all.push_back(panel(Panel::tree, "tree panel", {frames(with_nodes_, "nodes")}));
+  all.push_back(panel(Panel::atlas, "atlas panel", {frames(with_textures_, "textures")}));
+  all.push_back(panel(Panel::chart, "chart panel", {frames(with_points_, "points or bars")}));
+  all.push_back(panel(Panel::memory, "memory panel", {frames(with_array_, "the leaves' array")}));
+  all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
+  all.push_back({"OpenGL",
+                 {amount(work_.graphics_contexts, "context")},
+                 "nothing is drawn here; of all output only PNG files need it"});
+}
+
+}  // namespace lantern
