@@ -38,6 +38,7 @@ struct CollisionDetection {
     // A std::set hands out constants; what does not decide their order may change.
     mutable int framesLeft = 0;
     mutable ContactPoint point;
+    mutable double impulse = 0;  // Added: that the last frame took, along the normal, in N s
     mutable bool begun = false;  // Added: OnCollisionBegin was called
 
     // Mended: the text compares a + (b << 8), sums of addresses. Two different pairs can have the

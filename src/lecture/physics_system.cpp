@@ -74,13 +74,14 @@ void PhysicsSystem::NarrowPhase() {
     CollisionInfo info = *i;
     if (ObjectIntersection(info.a, info.b, info)) {
       info.framesLeft = numCollisionFrames;
-      ImpulseResolveCollision(*info.a, *info.b, info.point);
+      info.impulse = ImpulseResolveCollision(*info.a, *info.b, info.point);
       const auto [known, isNew] = allCollisions.insert(info);  // insert into our main set
       // Mended: a std::set keeps what it has, so the text never renews the frames of a pair that it
       // knows: of two objects that lie on each other it says again and again that they part.
       if (!isNew) {
         known->framesLeft = info.framesLeft;
         known->point = info.point;
+        known->impulse = info.impulse;
       }
     }
   }
@@ -93,11 +94,11 @@ void PhysicsSystem::NarrowPhase() {
 //
 // where r is the way from the centre to the point, and e the elasticity. As in the series there is
 // no friction.
-void PhysicsSystem::ImpulseResolveCollision(GameObject& a, GameObject& b, const ContactPoint& p) {
+double PhysicsSystem::ImpulseResolveCollision(GameObject& a, GameObject& b, const ContactPoint& p) {
   PhysicsObject& physA = a.GetPhysicsObject();
   PhysicsObject& physB = b.GetPhysicsObject();
   const double totalMass = physA.GetInverseMass() + physB.GetInverseMass();
-  if (totalMass == 0) return;  // two walls
+  if (totalMass == 0) return 0;  // two walls
 
   Transform& transformA = a.GetTransform();
   Transform& transformB = b.GetTransform();
@@ -108,7 +109,7 @@ void PhysicsSystem::ImpulseResolveCollision(GameObject& a, GameObject& b, const 
   const Vector3 velocityA = physA.GetLinearVelocity() + cross(physA.GetAngularVelocity(), p.localA);
   const Vector3 velocityB = physB.GetLinearVelocity() + cross(physB.GetAngularVelocity(), p.localB);
   const double approach = glm::dot(velocityB - velocityA, p.normal);
-  if (approach >= 0) return;  // they part already, and an impulse would pull them back
+  if (approach >= 0) return 0;  // they part already, and an impulse would pull them back
 
   const Vector3 inertiaA = cross(physA.GetInertiaTensor() * cross(p.localA, p.normal), p.localA);
   const Vector3 inertiaB = cross(physB.GetInertiaTensor() * cross(p.localB, p.normal), p.localB);
@@ -122,6 +123,7 @@ void PhysicsSystem::ImpulseResolveCollision(GameObject& a, GameObject& b, const 
   physB.ApplyLinearImpulse(fullImpulse);
   physA.ApplyAngularImpulse(cross(p.localA, -fullImpulse));
   physB.ApplyAngularImpulse(cross(p.localB, fullImpulse));
+  return j;
 }
 
 // Ours: the text has `framesLeft` and `allCollisions`, and says that callbacks are updated.

@@ -51,8 +51,9 @@ class PhysicsSystem {
   void UpdateCollisionList();
 
   // Parts two objects that overlap, and turns their approach into a bounce. Ours: the text calls
-  // it and does not show it.
-  static void ImpulseResolveCollision(GameObject& a, GameObject& b, const ContactPoint& p);
+  // it and does not show it. Returns the impulse upon b along the normal, in N s; a got as much the
+  // other way.
+  static double ImpulseResolveCollision(GameObject& a, GameObject& b, const ContactPoint& p);
 
   // Added: a broad phase from outside may note its pairs, too. The same pair twice is noted once.
   void AddBroadphaseCollision(GameObject* a, GameObject* b);
