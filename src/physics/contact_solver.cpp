@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "base/check.hpp"
+#include "lecture/physics_system.hpp"
 
 namespace lantern {
 
@@ -14,15 +15,19 @@ template <int D>
 void soft_sub_steps(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
 template <int D>
 void direct_solve(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
+template <int D>
+void lecture_impulses(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
 
 namespace {
 
 template <int D>
-constexpr std::array<ContactSolver<D>, 4> kSolvers = {{
+constexpr std::array<ContactSolver<D>, 5> kSolvers = {{
     {ContactMethod::none, "none", soft_sub_steps<D>},  // of joints alone
     {ContactMethod::impulse, "impulse", sequential_impulses<D>},
     {ContactMethod::soft, "soft", soft_sub_steps<D>},
     {ContactMethod::direct, "direct", direct_solve<D>},
+    {ContactMethod::lecture, "lecture", lecture_impulses<D>, true,
+     lecture::PhysicsSystem::numCollisionFrames},
 }};
 
 }  // namespace

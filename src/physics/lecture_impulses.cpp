@@ -12,7 +12,7 @@
 
 #include "base/error.hpp"
 #include "lecture/physics_system.hpp"
-#include "physics/island.hpp"
+#include "physics/contact_solver.hpp"
 
 namespace lantern {
 namespace {
@@ -126,6 +126,7 @@ class LecturePass {
     if (!manifold) return false;
     ++work_.contact_points;
     ++work_.constraint_rows;
+    ++work_.normal_rows;
     const ManifoldPoint<D> point = single_point(*manifold);
     IslandPair<D>& pair = pair_of(a, b);
     pair.touched = true;
@@ -160,8 +161,10 @@ void lecture_impulses(Island<D>& island, const WorldConfig<D>& config, double h,
     island.increments[i].twist = Spin<D>(0.0);
   }
   LecturePass<D>(island, work).run();
+  ++work.sub_steps;
   for (std::size_t i = 0; i < island.bodies.size(); ++i)  // its IntegrateVelocity
-    fly(island.bodies[i], island.increments[i], h, config.rotation, work);
+    if (is_pushed(island.bodies[i]))
+      fly(island.bodies[i], island.increments[i], h, config.rotation, work);
 }
 
 template void lecture_impulses(Island<2>&, const WorldConfig<2>&, double, double, WorldWork&);
