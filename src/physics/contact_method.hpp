@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace lantern {
 
@@ -18,5 +19,6 @@ enum class ContactMethod {
 // "none", "impulse", "soft", "direct", "lecture"; nothing for a name that is none of them.
 std::string_view to_string(ContactMethod method);
 std::optional<ContactMethod> contact_method_named(std::string_view name);
+std::vector<std::string_view> contact_method_names();  // in the order of the enumerators
 
 }  // namespace lantern

@@ -47,6 +47,12 @@ std::optional<ContactMethod> contact_method_named(std::string_view name) {
   return solver->method;
 }
 
+std::vector<std::string_view> contact_method_names() {
+  std::vector<std::string_view> names;
+  for (const ContactSolver<2>& solver : kSolvers<2>) names.push_back(solver.name);
+  return names;
+}
+
 template const ContactSolver<2>& contact_solver(ContactMethod);
 template const ContactSolver<3>& contact_solver(ContactMethod);
 

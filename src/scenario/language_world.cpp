@@ -47,9 +47,10 @@ TableDoc world_table() {
               .range(0, kFar)
               .by_default("0"),
           Key(choice, "contacts",
-              "How bodies that touch are parted: by sequential `impulse`s, by `soft` contacts in "
-              "small steps, or not at all.")
-              .one_of({"none", "impulse", "soft"})
+              "How bodies that touch are parted: by sequential `impulse`s; by `soft` contacts in "
+              "small steps; by the same in whole steps, `direct`ly; by one impulse a pair, as the "
+              "`lecture` does it; or not at all.")
+              .one_of(contact_method_names())
               .by_default("\"none\""),
           Key(choice, "integrator", "How forces become motion.")
               .one_of(integrator_names())

@@ -101,7 +101,19 @@ std::string counters_reason(const ScriptWalk& walk) {
 }
 
 std::string contact_name(ContactMethod choice) {
-  return choice == ContactMethod::impulse ? "sequential impulses" : "soft contacts in small steps";
+  switch (choice) {
+    case ContactMethod::none:
+      break;
+    case ContactMethod::impulse:
+      return "sequential impulses";
+    case ContactMethod::soft:
+      return "soft contacts in small steps";
+    case ContactMethod::direct:
+      return "all contacts at once";
+    case ContactMethod::lecture:
+      return "an impulse for each pair, as the lecture does it";
+  }
+  return "nothing";
 }
 
 std::string solver_reason(const Scenario& scenario, const ScriptWalk& walk) {
