@@ -45,6 +45,8 @@ std::string words_of(BroadPhaseKind kind) {
       return "BSP of medians";
     case BroadPhaseKind::kd_tree:
       return "kD-tree";
+    case BroadPhaseKind::lecture_quadtree:
+      return "lecture's quadtree";
   }
   return "";
 }

@@ -104,11 +104,12 @@ TableDoc structure_table() {
       {
           Key(choice, "kind",
               "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a "
-              "`quadtree` cuts a solid world along x and z, an `octree` along all three. On one "
-              "frame, 2000000 pairs may meet.")
+              "`quadtree` cuts a solid world along x and z, an `octree` along all three; "
+              "`lecture_quadtree` is the lecture's own code, which makes all children at a split "
+              "and has no stop but the depth limit. On one frame, 2000000 pairs may meet.")
               .must()
               .one_of({"none", "brute_force", "sort_and_sweep", "quadtree", "octree", "bsp",
-                       "kd_tree"}),
+                       "kd_tree", "lecture_quadtree"}),
           Key(whole, "capacity", "A leaf that holds more splits, if depth is left.")
               .range(1, 1000)
               .in("bodies")

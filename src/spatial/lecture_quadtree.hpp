@@ -30,17 +30,16 @@ class LectureQuadtree {
  public:
   static constexpr Zones kZones = Zones::endless_rim;
 
-  struct Config {
-    Box<D> bounds;               // of the root; lo < hi on every axis
-    std::uint32_t capacity = 5;  // the text's numbers
-    std::uint32_t max_depth = 6;
-    std::uint64_t most_entries = std::uint64_t{1} << 22;  // of entries, and of nodes
-  };
+  static constexpr StructureTraits kTraits{.is_plain = true};
 
-  // Throws Refused as the quadtree does.
-  explicit LectureQuadtree(const Config& config) : config_(checked(config)), tree_(made()) {}
+  static LectureQuadtree made(const StructureConfig<D>& config) { return LectureQuadtree(config); }
 
-  // As Orthtree::insert, with its events, but that every split makes all four children.
+  // Throws Refused as the quadtree does. All children are made at a split, and there is no stop but
+  // the depth limit, whatever is configured.
+  explicit LectureQuadtree(const StructureConfig<D>& config)
+      : config_(checked(config)), tree_(empty_tree()) {}
+
+  // As Orthtree::insert, with its events.
   template <class Observer = NoObserver>
   void insert(const Item<D>& item, Observer&& observer = {}) {
     require_valid(item);
@@ -50,7 +49,7 @@ class LectureQuadtree {
   }
 
   void clear() {
-    tree_ = made();
+    tree_ = empty_tree();
     const std::uint64_t allocations = counters_.allocations;
     counters_ = {.nodes = 1, .allocations = allocations};
   }
@@ -100,13 +99,12 @@ class LectureQuadtree {
  private:
   using Vector3 = lecture::Vector3;
 
-  static const Config& checked(const Config& config) {
-    Quadtree::Config same;  // who knows what is wrong with it
+  static const StructureConfig<D>& checked(const StructureConfig<D>& config) {
+    StructureConfig<2> same;  // who knows what is wrong with it
     same.bounds = flat_box(config.bounds);
     same.capacity = config.capacity;
     same.max_depth = config.max_depth;
-    same.most_entries = config.most_entries;
-    Quadtree{same};
+    Quadtree::made(same);
     return config;
   }
 
@@ -114,7 +112,7 @@ class LectureQuadtree {
     return {{box.lo[0], box.lo[D - 1]}, {box.hi[0], box.hi[D - 1]}};
   }
 
-  Tree made() const {
+  Tree empty_tree() const {
     const Box<2> box = flat_box(config_.bounds);
     return Tree(box.hi * 0.5 - box.lo * 0.5, static_cast<int>(config_.max_depth),
                 static_cast<int>(config_.capacity), Halving<2>::middle(box));
@@ -223,7 +221,7 @@ class LectureQuadtree {
     }
   }
 
-  Config config_;
+  StructureConfig<D> config_;
   Tree tree_;
   Counters counters_{.nodes = 1};
 };

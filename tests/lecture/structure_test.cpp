@@ -22,10 +22,20 @@ using testing::kSorts;
 using testing::Sort;
 
 template <int D>
+LectureQuadtree<D> tree_of(const Box<D>& bounds, std::uint32_t capacity, std::uint32_t max_depth,
+                           std::uint64_t most_entries = 1u << 22) {
+  StructureConfig<D> config;
+  config.bounds = bounds;
+  config.capacity = capacity;
+  config.max_depth = max_depth;
+  config.most_entries = most_entries;
+  return LectureQuadtree<D>::made(config);
+}
+
+template <int D>
 LectureQuadtree<D> random_tree(Sort sort, Random& random) {
-  return LectureQuadtree<D>({testing::bounds_of<D>(sort),
-                             static_cast<std::uint32_t>(random.whole(1, 6)),
-                             static_cast<std::uint32_t>(random.whole(0, 4))});
+  return tree_of<D>(testing::bounds_of<D>(sort), static_cast<std::uint32_t>(random.whole(1, 6)),
+                    static_cast<std::uint32_t>(random.whole(0, 4)));
 }
 
 template <int D>
@@ -60,7 +70,7 @@ template <int D, class Engine>
 void expect_same_nodes(Engine engine) {
   Random random(11);
   const Box<D> bounds{Vec<D>(0.0), Vec<D>(64.0)};
-  LectureQuadtree<D> tree({bounds, 2, 4});
+  LectureQuadtree<D> tree = tree_of<D>(bounds, 2, 4);
   for (const Item<D>& item : testing::random_world<D>(Sort::aligned, 40, random)) {
     std::vector<Event> told, expected;
     tree.insert(item, [&](const Event& e) { told.push_back(e); });
@@ -93,7 +103,7 @@ TEST(LectureQuadtree, HasTheNodesOfTheEngines) {
 
 TEST(LectureQuadtree, HandlesAreNumbersBelowTheCountAndStay) {
   Random random(2);
-  LectureQuadtree<2> tree({testing::bounds_of<2>(Sort::uniform), 1, 6});
+  LectureQuadtree<2> tree = tree_of<2>(testing::bounds_of<2>(Sort::uniform), 1, 6);
   std::map<std::string, NodeHandle> handles;
   for (const Item<2>& item : testing::random_world<2>(Sort::uniform, 50, random)) {
     tree.insert(item);
@@ -130,10 +140,10 @@ TEST(LectureQuadtree, RaysFindWhatBruteForceFinds) {
 
 TEST(LectureQuadtree, RefusesWhatTheQuadtreeRefusesAndMoreThanItsBudget) {
   const Box<2> bounds{Vec<2>(0.0), Vec<2>(64.0)};
-  EXPECT_THROW(LectureQuadtree<2>({bounds, 0, 4}), Refused) << "a capacity of 0";
-  EXPECT_THROW(LectureQuadtree<2>({bounds, 2, 33}), Refused) << "too deep";
-  EXPECT_THROW(LectureQuadtree<2>({{Vec<2>(1.0), Vec<2>(1.0)}, 2, 4}), Refused) << "no extent";
-  LectureQuadtree<2> tree({bounds, 1, 8, 500});
+  EXPECT_THROW(tree_of<2>(bounds, 0, 4), Refused) << "a capacity of 0";
+  EXPECT_THROW(tree_of<2>(bounds, 2, 33), Refused) << "too deep";
+  EXPECT_THROW(tree_of<2>({Vec<2>(1.0), Vec<2>(1.0)}, 2, 4), Refused) << "no extent";
+  LectureQuadtree<2> tree = tree_of<2>(bounds, 1, 8, 500);
   EXPECT_THROW(tree.insert({0, {Vec<2>(2.0), Vec<2>(1.0)}}), Refused) << "an inverted box";
   EXPECT_EQ(tree.counters().entries, 0u);
   tree.insert({0, bounds});
@@ -150,7 +160,8 @@ TEST(LectureQuadtree, RefusesWhatTheQuadtreeRefusesAndMoreThanItsBudget) {
 TEST(LectureQuadtree, ExtremeNumbersLoseNobody) {
   for (const double scale : {1e-320, 1e-300, 1e150, 1e307}) {
     for (const double from : {0.0, -1.0, 1.0}) {
-      LectureQuadtree<2> tree({{Vec<2>(from * scale), Vec<2>((from + 2) * scale)}, 1, 5});
+      LectureQuadtree<2> tree =
+          tree_of<2>({Vec<2>(from * scale), Vec<2>((from + 2) * scale)}, 1, 5);
       std::vector<Item<2>> items;
       for (BodyId id = 0; id < 9; ++id) {
         const Vec<2> at(scale * (id * 0.25 + from), scale * (id * 0.125 + from));
