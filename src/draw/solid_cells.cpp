@@ -196,8 +196,9 @@ void draw_cell_grounds(const Frame& frame, const SolidView& view, DrawList& list
 bool add_cells(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
   Edges edges(view);
-  for (const FrameNode& node : frame.nodes)
-    edges.add(node, frame.structure == StructureKind::quadtree);
+  const bool flat = frame.structure == StructureKind::quadtree ||
+                    frame.structure == StructureKind::lecture_quadtree;
+  for (const FrameNode& node : frame.nodes) edges.add(node, flat);
   if (frame.nodes.empty()) {
     FrameNode whole;
     whole.box = frame.bounds;

@@ -1,5 +1,7 @@
 #include "measure/lantern_solver.hpp"
 
+#include <algorithm>
+
 #include "scenario/obey.hpp"
 
 namespace lantern {
@@ -67,6 +69,9 @@ std::vector<Method> named(std::initializer_list<std::string_view> names) {
 std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
   if (method_.contacts && scenario.world.contacts == ContactMethod::none)
     return "its bodies do not collide";
+  const auto is_joint = [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; };
+  if (method_.contacts == ContactMethod::lecture && std::ranges::any_of(scenario.links, is_joint))
+    return "the lecture has no joints";
   if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
   return std::nullopt;
 }
@@ -83,7 +88,7 @@ std::vector<Method> methods_for(const Scenario& scenario) {
     return methods;
   }
   if (scenario.world.contacts != ContactMethod::none)
-    return named({"impulse", "impulse:100", "soft", "soft:16"});
+    return named({"lecture", "impulse", "impulse:100", "soft", "soft:16"});
   if (has_forces(scenario))
     return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
                   "implicit_midpoint", "implicit_euler"});

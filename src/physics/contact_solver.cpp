@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "base/check.hpp"
+#include "lecture/physics_system.hpp"
 
 namespace lantern {
 
@@ -14,15 +15,19 @@ template <int D>
 void soft_sub_steps(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
 template <int D>
 void direct_solve(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
+template <int D>
+void lecture_impulses(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
 
 namespace {
 
 template <int D>
-constexpr std::array<ContactSolver<D>, 4> kSolvers = {{
+constexpr std::array<ContactSolver<D>, 5> kSolvers = {{
     {ContactMethod::none, "none", soft_sub_steps<D>},  // of joints alone
     {ContactMethod::impulse, "impulse", sequential_impulses<D>},
     {ContactMethod::soft, "soft", soft_sub_steps<D>},
     {ContactMethod::direct, "direct", direct_solve<D>},
+    {ContactMethod::lecture, "lecture", lecture_impulses<D>, true,
+     lecture::PhysicsSystem::numCollisionFrames},
 }};
 
 }  // namespace
@@ -40,6 +45,12 @@ std::optional<ContactMethod> contact_method_named(std::string_view name) {
   const auto solver = std::ranges::find(kSolvers<2>, name, &ContactSolver<2>::name);
   if (solver == kSolvers<2>.end()) return std::nullopt;
   return solver->method;
+}
+
+std::vector<std::string_view> contact_method_names() {
+  std::vector<std::string_view> names;
+  for (const ContactSolver<2>& solver : kSolvers<2>) names.push_back(solver.name);
+  return names;
 }
 
 template const ContactSolver<2>& contact_solver(ContactMethod);

@@ -26,6 +26,8 @@ struct ContactSolver {
   // Is given the world as a single island: all bodies, all pairs that may touch, for the whole
   // step. Its impacts are not located in time. Others get island by island, from impact to impact.
   bool whole_world = false;
+  // After so many steps without touch a pair is said to have parted; at least 1.
+  int frames_remembered = 1;
 };
 
 template <int D>

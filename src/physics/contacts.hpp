@@ -42,7 +42,7 @@ struct ContactEvent {
   enum class Kind {
     begin,  // touch in this step, did not in the last one
     stay,   // touch in both
-    end,    // touched in the last step
+    end,    // touched in the last step, or some steps ago (ContactSolver::frames_remembered)
   };
   Kind kind = Kind::begin;
   BodyId a = 0;

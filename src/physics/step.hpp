@@ -43,6 +43,7 @@ struct World<D>::Step {
   std::vector<Touch> touching = {};
   std::vector<Contact<D>> contacts = {};
   std::vector<ContactEvent> events = {};
+  std::vector<Told> told = {};
 
   void find_forces();
   void require_boxes() const;

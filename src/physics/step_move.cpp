@@ -236,20 +236,25 @@ void World<D>::Step::tell() {
   touching.erase(std::unique(touching.begin(), touching.end(), same), touching.end());
   for (const Touch& touch : touching) contacts.push_back(touch.record);
 
-  const std::vector<Contact<D>>& old = world.contacts_;
+  const int frames = contact_solver<D>(world.config_.contacts).frames_remembered;
+  const std::vector<Told>& old = world.told_;
   std::size_t i = 0, j = 0;
   while (i < old.size() || j < contacts.size()) {
     stop_if_asked();
-    const bool ends =
-        j == contacts.size() || (i < old.size() && pair_of(old[i]) < pair_of(contacts[j]));
-    const bool stays = !ends && i < old.size() && pair_of(old[i]) == pair_of(contacts[j]);
-    const Pair pair = pair_of(ends ? old[i] : contacts[j]);
-    const auto kind = ends    ? ContactEvent::Kind::end
-                      : stays ? ContactEvent::Kind::stay
-                              : ContactEvent::Kind::begin;
-    events.push_back({kind, pair.a, pair.b});
-    if (ends || stays) ++i;
-    if (!ends) ++j;
+    const bool parted =
+        j == contacts.size() || (i < old.size() && old[i].pair < pair_of(contacts[j]));
+    const bool known = parted || (i < old.size() && old[i].pair == pair_of(contacts[j]));
+    const Told now = {parted ? old[i].pair : pair_of(contacts[j]),
+                      (parted ? std::min(old[i].frames_left, frames) : frames) - 1};
+    if (parted && now.frames_left < 0)
+      events.push_back({ContactEvent::Kind::end, now.pair.a, now.pair.b});
+    else
+      told.push_back(now);
+    if (!parted)
+      events.push_back(
+          {known ? ContactEvent::Kind::stay : ContactEvent::Kind::begin, now.pair.a, now.pair.b});
+    if (known) ++i;
+    if (!parted) ++j;
   }
 }
 
@@ -263,6 +268,7 @@ void World<D>::Step::commit() {
   world.touching_ = std::move(touching);
   world.contacts_ = std::move(contacts);
   world.events_ = std::move(events);
+  world.told_ = std::move(told);
   world.pairs_ = std::move(pairs);
   world.ahead_.reset();
   world.time_ += h;

@@ -115,6 +115,11 @@ class World {
     Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
     double seconds = 0;  // of that sub-step; 0: there was none
   };
+  // A pair of which is told that it touches.
+  struct Told {
+    Pair pair;
+    int frames_left = 0;  // steps without touch before its end is told
+  };
   struct TimedPush {
     Push<D> push;
     std::optional<double> until;
@@ -154,6 +159,7 @@ class World {
   std::vector<Touch> touching_;  // by pair: of the last step, and of those that sleep
   std::vector<Contact<D>> contacts_;
   std::vector<ContactEvent> events_;
+  std::vector<Told> told_;  // by pair
   std::vector<Pair> pairs_;
   std::optional<BroadPhase<D>> broad_phase_;
   std::optional<Ahead> ahead_;  // until anything changes

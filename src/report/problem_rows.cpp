@@ -19,7 +19,7 @@ struct KnownMethod {
 };
 
 // The first ones are those that meet most often in one plot.
-constexpr std::array<KnownMethod, 14> kKnown{{
+constexpr std::array<KnownMethod, 16> kKnown{{
     {"velocity_verlet", "velocity Verlet", 0},
     {"explicit_euler", "explicit Euler", 1},
     {"runge_kutta_4", "Runge–Kutta 4", 2},
@@ -34,6 +34,8 @@ constexpr std::array<KnownMethod, 14> kKnown{{
     {"impulse:100", "impulses (100 sweeps)", 28},
     {"soft", "soft contacts", 18},
     {"soft:16", "soft contacts (16 sub-steps)", 48},
+    {"direct", "all contacts at once", 19},
+    {"lecture", "the lecture's impulses", 20},
 }};
 
 const KnownMethod* known(std::string_view name) {

@@ -76,12 +76,12 @@ caption = "Of {pairs:candidate pair}, {contacts} in contact."
 }
 
 TableDoc solve_by_verb() {
+  std::vector<std::string_view> methods = contact_method_names();
+  std::erase(methods, to_string(ContactMethod::none));
   return {"solve_by",
           "do = \"solve_by\"",
           "From now on, contacts are solved another way; the world must have some.",
-          {Key(choice, "contacts", "Sequential `impulse`s, or `soft` contacts in small steps.")
-               .must()
-               .one_of({"impulse", "soft"}),
+          {Key(choice, "contacts", "As [world] has it, but `none`.").must().one_of(methods),
            Key(whole, "sub_steps", "Into which soft contacts divide a world step.")
                .range(1, 64)
                .or_else("as it was"),

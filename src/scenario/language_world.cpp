@@ -47,9 +47,10 @@ TableDoc world_table() {
               .range(0, kFar)
               .by_default("0"),
           Key(choice, "contacts",
-              "How bodies that touch are parted: by sequential `impulse`s, by `soft` contacts in "
-              "small steps, or not at all.")
-              .one_of({"none", "impulse", "soft"})
+              "How bodies that touch are parted: by sequential `impulse`s; by `soft` contacts in "
+              "small steps; by the same in whole steps, `direct`ly; by one impulse a pair, as the "
+              "`lecture` does it; or not at all.")
+              .one_of(contact_method_names())
               .by_default("\"none\""),
           Key(choice, "integrator", "How forces become motion.")
               .one_of(integrator_names())
@@ -103,11 +104,12 @@ TableDoc structure_table() {
       {
           Key(choice, "kind",
               "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a "
-              "`quadtree` cuts a solid world along x and z, an `octree` along all three. On one "
-              "frame, 2000000 pairs may meet.")
+              "`quadtree` cuts a solid world along x and z, an `octree` along all three; "
+              "`lecture_quadtree` is the lecture's own code, which makes all children at a split "
+              "and has no stop but the depth limit. On one frame, 2000000 pairs may meet.")
               .must()
               .one_of({"none", "brute_force", "sort_and_sweep", "quadtree", "octree", "bsp",
-                       "kd_tree"}),
+                       "kd_tree", "lecture_quadtree"}),
           Key(whole, "capacity", "A leaf that holds more splits, if depth is left.")
               .range(1, 1000)
               .in("bodies")

@@ -1,32 +1,30 @@
 #include "scenario/method.hpp"
 
-#include <array>
 #include <charconv>
 
 namespace lantern {
 namespace {
 
 struct Known {
+  explicit Known(std::string_view called) : name(called) {}
   std::string_view name;
   Method method;
 };
 
-const std::array<Known, 11>& known() {
-  static const std::array<Known, 11> table = [] {
-    std::array<Known, 11> t;
-    std::size_t n = 0;
-    for (int i = 0; i < 6; ++i, ++n) {
-      t[n].method.integrator = static_cast<Integrator>(i);
-      t[n].name = to_string(static_cast<Integrator>(i));
+const std::vector<Known>& known() {
+  static const std::vector<Known> table = [] {
+    std::vector<Known> t;
+    for (int i = 0; i < 6; ++i) {
+      const auto integrator = static_cast<Integrator>(i);
+      t.emplace_back(to_string(integrator)).method.integrator = integrator;
     }
-    for (int i = 0; i < 3; ++i, ++n) {
-      t[n].method.rotation = static_cast<RotationMethod>(i);
-      t[n].name = to_string(static_cast<RotationMethod>(i));
+    for (int i = 0; i < 3; ++i) {
+      const auto rotation = static_cast<RotationMethod>(i);
+      t.emplace_back(to_string(rotation)).method.rotation = rotation;
     }
-    t[n].method.contacts = ContactMethod::impulse;
-    t[n++].name = "impulse";
-    t[n].method.contacts = ContactMethod::soft;
-    t[n++].name = "soft";
+    for (const std::string_view name : contact_method_names())
+      if (const auto contacts = *contact_method_named(name); contacts != ContactMethod::none)
+        t.emplace_back(name).method.contacts = contacts;
     return t;
   }();
   return table;
@@ -50,8 +48,10 @@ std::optional<Method> method_named(std::string_view name) {
     method.name = name;
     if (colon == std::string_view::npos) return method;
     method.effort = effort_of(name.substr(colon + 1));
-    const int most = method.contacts == ContactMethod::soft ? 1000 : 100'000;
-    if (!method.contacts || !method.effort || *method.effort > most) return std::nullopt;
+    const int most = method.contacts == ContactMethod::soft      ? 1000
+                     : method.contacts == ContactMethod::impulse ? 100'000
+                                                                 : 0;
+    if (!method.effort || *method.effort > most) return std::nullopt;
     return method;
   }
   return std::nullopt;

@@ -94,7 +94,8 @@ Wait read_wait(const TableReader& table, Scope& scope) {
 
 SolveBy read_solve_by(const TableReader& table, Scope& scope) {
   SolveBy method;
-  if (table.text("contacts") == "impulse") method.contacts = ContactMethod::impulse;
+  if (const auto name = table.text("contacts"))
+    method.contacts = contact_method_named(*name).value_or(method.contacts);
   method.sub_steps = static_cast<int>(table.whole("sub_steps").value_or(0));
   method.iterations = static_cast<int>(table.whole("iterations").value_or(0));
   if (scope.draft.dimension != 0 && scope.draft.scenario.world.contacts == ContactMethod::none)

@@ -49,6 +49,7 @@ std::string settings_text(const StructureSpec& s) {
     return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
                        split);
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
+  if (traits.is_plain) return "the lecture's own code, " + limits + split;
   if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
   return fmt::format("{}, {}{}{}", limits,
                      s.children == Children::eager ? "all children made" : "children on demand",

@@ -74,6 +74,9 @@ std::unordered_map<std::string_view, const BodySpec*> bodies_by_name(const Scena
 
 std::string firmer(const WorldSpec& world) {
   const bool sweeps = world.contacts == ContactMethod::impulse;
+  if (world.contacts == ContactMethod::lecture)
+    return fmt::format("give [world] contacts = \"soft\", or a time_step below {:.3g} s",
+                       world.time_step);
   return fmt::format("give [world] more {} than {}, or a time_step below {:.3g} s",
                      sweeps ? "iterations" : "sub_steps",
                      sweeps ? world.iterations : world.sub_steps, world.time_step);

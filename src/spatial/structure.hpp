@@ -120,6 +120,8 @@ struct StructureTraits {
   bool splits = true;         // leaves above capacity, down to the depth limit
   bool is_fitted = false;     // to its bodies: built of all of them at once, stale when they move
   bool shares_array = false;  // all leaves' contents lie in one array
+  bool is_plain = false;      // makes all children, has no stop but the depth limit, and asks for
+                              // memory anew each time
 };
 
 // What an algorithm does, told while it does it.

@@ -13,6 +13,7 @@
 #include "spatial/bsp.hpp"
 #include "spatial/flat_quadtree.hpp"
 #include "spatial/kd_tree.hpp"
+#include "spatial/lecture_quadtree.hpp"
 #include "spatial/orthtree.hpp"
 #include "spatial/sort_and_sweep.hpp"
 
@@ -38,7 +39,8 @@ using OctreeIn = std::conditional_t<D == 3, Octree, NoOctree>;
   KIND(quadtree, QuadtreeIn)         \
   KIND(octree, OctreeIn)             \
   KIND(bsp, Bsp)                     \
-  KIND(kd_tree, KdTree)
+  KIND(kd_tree, KdTree)              \
+  KIND(lecture_quadtree, LectureQuadtree)
 
 enum class StructureKind {
   none,  // nobody asks for one

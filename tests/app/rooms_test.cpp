@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::set<std::string>> kRooms = {
     {"base", {}},
     {"geometry", {"base"}},
-    {"spatial", {"geometry"}},
+    {"lecture", {"geometry"}},
+    {"spatial", {"lecture"}},
     {"atlas", {"geometry"}},
     {"physics", {"spatial"}},
     {"scenario", {"physics", "atlas"}},

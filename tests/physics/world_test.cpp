@@ -178,7 +178,8 @@ TEST(World, KeepsTheBroadPhaseThatItWasSwitchedTo) {
 
 TEST(World, ContactMethodsHaveNames) {
   for (const ContactMethod method :
-       {ContactMethod::none, ContactMethod::impulse, ContactMethod::soft, ContactMethod::direct})
+       {ContactMethod::none, ContactMethod::impulse, ContactMethod::soft, ContactMethod::direct,
+        ContactMethod::lecture})
     EXPECT_EQ(contact_method_named(to_string(method)), method);
   EXPECT_EQ(contact_method_named("hard"), std::nullopt);
 }

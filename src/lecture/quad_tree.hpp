@@ -1,0 +1,196 @@
+// The lecture's QuadTreeNode and QuadTree. It lies flat in x and z, as in the text.
+//
+//   +-------+-------+
+//   |   0   |   1   |   z      A node's `size` is half of its width and depth, as in the text: a
+//   +-------+-------+   ^      tree of size (1024, 1024) reaches from -1024 to 1024.
+//   |   2   |   3   |   |
+//   +-------+-------+   +-> x
+//
+// It asks for memory once for each object in each leaf and once for each split: the plain way, with
+// which the others are compared.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <list>
+#include <utility>
+#include <vector>
+
+#include "lecture/collision_detection.hpp"
+
+namespace lantern::lecture {
+
+template <class T>
+class QuadTree;
+
+template <class T>
+struct QuadTreeEntry {
+  Vector3 pos;
+  Vector3 size;
+  T object;
+
+  QuadTreeEntry(T obj, const Vector3& objPos, const Vector3& objSize)
+      : pos(objPos), size(objSize), object(obj) {}
+};
+
+// Added: who watches a tree grow has these four; the pictures and the counts need them. Here nobody
+// does, and the calls compile to nothing.
+struct NobodyWatches {
+  template <class Node, class T>
+  void Tested(const Node&, const T&, bool /*reached*/) {}
+  template <class Node, class T>
+  void Stored(const Node&, const T&, int /*depthLeft*/) {}
+  template <class Node, class T>
+  void HandedDown(const Node&, const T&) {}
+  template <class Node, class T>
+  void Split(Node&, const T& /*last*/, int /*depthLeft*/) {}
+};
+
+template <class T>
+class QuadTreeNode {
+ public:
+  using QuadTreeFunc = std::function<void(std::list<QuadTreeEntry<T>>&)>;
+  using QuadTreeReader = std::function<void(const std::list<QuadTreeEntry<T>>&)>;
+
+  QuadTreeNode() = default;
+  QuadTreeNode(const Vector2& nodePos, const Vector2& nodeSize)
+      : position(nodePos), size(nodeSize) {}
+
+  template <class Watch>
+  void Insert(const T& object, const Vector3& objectPos, const Vector3& objectSize, int depthLeft,
+              int maxSize, Watch& watch) {
+    const bool reached = Reached(objectPos, objectSize);
+    watch.Tested(*this, object, reached);
+    if (!reached) return;
+    if (!children.empty()) {  // not a leaf node, just descend the tree
+      for (int i = 0; i < 4; ++i)
+        children[i].Insert(object, objectPos, objectSize, depthLeft - 1, maxSize, watch);
+    } else {  // currently a leaf node, can just expand
+      contents.push_back(QuadTreeEntry<T>(object, objectPos, objectSize));
+      watch.Stored(*this, object, depthLeft);
+      if (static_cast<int>(contents.size()) > maxSize && depthLeft > 0) {
+        Split();
+        watch.Split(*this, object, depthLeft);
+        // we need to reinsert the contents so far!
+        for (const auto& entry : contents) {
+          watch.HandedDown(*this, entry.object);
+          for (int j = 0; j < 4; ++j)
+            children[j].Insert(entry.object, entry.pos, entry.size, depthLeft - 1, maxSize, watch);
+        }
+        contents.clear();  // contents now distributed!
+      }
+    }
+  }
+
+  void Split() {
+    const Vector2 halfSize = size / 2.0;
+    children.resize(4);
+    children[0] = QuadTreeNode<T>(position + Vector2(-halfSize.x, halfSize.y), halfSize);
+    children[1] = QuadTreeNode<T>(position + Vector2(halfSize.x, halfSize.y), halfSize);
+    children[2] = QuadTreeNode<T>(position + Vector2(-halfSize.x, -halfSize.y), halfSize);
+    children[3] = QuadTreeNode<T>(position + Vector2(halfSize.x, -halfSize.y), halfSize);
+  }
+
+  void OperateOnContents(const QuadTreeFunc& func) {
+    if (!children.empty()) {
+      for (int i = 0; i < 4; ++i) children[i].OperateOnContents(func);
+    } else {
+      if (!contents.empty()) func(contents);
+    }
+  }
+
+  // Added, the text's "Further Work 4": only the leaves into which such an object would be
+  // inserted, without inserting it.
+  void OperateOnContents(const QuadTreeReader& func, const Vector3& objectPos,
+                         const Vector3& objectSize) const {
+    if (!Reached(objectPos, objectSize)) return;
+    if (children.empty()) return func(contents);
+    for (int i = 0; i < 4; ++i) children[i].OperateOnContents(func, objectPos, objectSize);
+  }
+
+  // Added: for those who look inside.
+  const std::vector<QuadTreeNode<T>>& GetChildren() const { return children; }
+  std::vector<QuadTreeNode<T>>& GetChildren() { return children; }
+  const std::list<QuadTreeEntry<T>>& GetContents() const { return contents; }
+  int number = 0;  // Added: the tree needs none; who watches it may give one
+
+ protected:
+  friend class QuadTree<T>;
+
+  // Mended: the text makes every node 1000 high and loses what flies higher. Nodes have no end on
+  // y.
+  bool Reached(const Vector3& objectPos, const Vector3& objectSize) const {
+    return CollisionDetection::AABBTest(
+        objectPos, Vector3(position.x, 0, position.y), objectSize,
+        Vector3(size.x, std::numeric_limits<double>::infinity(), size.y));
+  }
+
+  std::list<QuadTreeEntry<T>> contents;
+
+  Vector2 position{0.0};
+  Vector2 size{0.0};
+
+  // Mended: the text has QuadTreeNode<T>*, made with `new` and never deleted, so that each frame
+  // leaks a tree; and its first constructor leaves the pointer unset. A std::vector asks for memory
+  // in the same way, once for all four, and gives it back. Four, or none in a leaf.
+  std::vector<QuadTreeNode<T>> children;
+};
+
+template <class T>
+class QuadTree {
+ public:
+  // Added: `position`, the middle of the tree; the text's lies at the origin. Nodes that halve more
+  // than 32 times are not provided for.
+  explicit QuadTree(const Vector2& size, int depth = 6, int sizeOfNode = 5,
+                    const Vector2& position = Vector2(0.0))
+      : root(position, size), maxDepth(depth), maxSize(sizeOfNode) {}
+
+  template <class Watch = NobodyWatches>
+  void Insert(const T& object, const Vector3& pos, const Vector3& size, Watch&& watch = {}) {
+    const auto [heldPos, heldSize] = Held(pos, size);
+    root.Insert(object, heldPos, heldSize, maxDepth, maxSize, watch);
+  }
+
+  void OperateOnContents(const typename QuadTreeNode<T>::QuadTreeFunc& func) {
+    root.OperateOnContents(func);
+  }
+  void OperateOnContents(const typename QuadTreeNode<T>::QuadTreeReader& func, const Vector3& pos,
+                         const Vector3& size) const {
+    const auto [heldPos, heldSize] = Held(pos, size);
+    root.OperateOnContents(func, heldPos, heldSize);
+  }
+
+  const QuadTreeNode<T>& GetRoot() const { return root; }
+
+ protected:
+  // Mended: the text drops an object that lies outside the root's square, and it never collides.
+  // Here each end of its box is held to the square, so that it lies in leaves at the rim. Ends keep
+  // their order when they are held, so two boxes that overlap outside still share a leaf.
+  //
+  // Mended: the sums that make a node's middle and an object's ends are rounded, which may open a
+  // gap between two neighbours into which a small object falls. A hair on each side closes it: a
+  // middle is off by at most half a unit in the last place of the root's largest coordinate for
+  // each level.
+  std::pair<Vector3, Vector3> Held(Vector3 pos, Vector3 size) const {
+    for (const auto& [axis, rootAxis] : {std::pair(0, 0), std::pair(2, 1)}) {
+      const double at = root.position[rootAxis], half = root.size[rootAxis];
+      const double reach = size[axis] + kHair * (std::abs(pos[axis]) + size[axis]);
+      const double lo = std::clamp(pos[axis] - reach, at - half, at + half);
+      const double hi = std::clamp(pos[axis] + reach, at - half, at + half);
+      pos[axis] = lo * 0.5 + hi * 0.5;
+      size[axis] = (hi - lo) * 0.5 + kHair * (std::abs(at) + half) + kLeast;
+    }
+    return {pos, size};
+  }
+  static constexpr double kHair = 64 * std::numeric_limits<double>::epsilon();
+  static constexpr double kLeast = std::numeric_limits<double>::min();  // of the smallest trees
+
+  QuadTreeNode<T> root;  // Mended: the text declares a pointer and uses it as a value
+
+  int maxDepth;
+  int maxSize;
+};
+
+}  // namespace lantern::lecture

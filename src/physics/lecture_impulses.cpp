@@ -1,0 +1,173 @@
+// The lecture's own way: one pass over the candidate pairs, in the order of their ids. Those that
+// really touch are moved out of each other at once and get one impulse (its NarrowPhase and
+// ImpulseResolveCollision, src/lecture); then all bodies move. No islands, no sub-steps, no second
+// look, no memory of impulses, no friction; an impact is met at the end of the step in which it
+// happens.
+//
+// What that costs is there to be seen: an impulse undoes what the one before it has done, so stacks
+// tremble and sink; and a fast body passes through a thin one.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "lecture/physics_system.hpp"
+#include "physics/contact_solver.hpp"
+
+namespace lantern {
+namespace {
+
+using lecture::CollisionDetection;
+using lecture::GameObject;
+
+// The lecture's world has three dimensions; one of two lies in it where z = 0.
+Vec<3> in_space(const Vec<2>& v) { return {v.x, v.y, 0}; }
+Vec<3> in_space(const Vec<3>& v) { return v; }
+Vec<3> as_axis(double spin) { return {0, 0, spin}; }
+Vec<3> as_axis(const Vec<3>& spin) { return spin; }
+Mat<3> as_tensor(double about_z) {
+  Mat<3> tensor(0.0);
+  tensor[2][2] = about_z;
+  return tensor;
+}
+Mat<3> as_tensor(const Mat<3>& tensor) { return tensor; }
+double as_spin(const Vec<3>& axis, double /*plane*/) { return axis.z; }
+Vec<3> as_spin(const Vec<3>& axis, const Vec<3>& /*space*/) { return axis; }
+
+template <int D>
+bool is_pushed(const Body<D>& body) {
+  return body.kind == BodyKind::dynamic_body && !body.asleep;
+}
+
+// The lecture's bodies keep their angular velocity, the world's their angular momentum.
+template <int D>
+void turn(Body<D>& body, const Vec<3>& angular_impulse) {
+  if (is_pushed(body) && body.inverse_inertia != Spin<D>(0.0))
+    body.angular_momentum += as_spin(angular_impulse, body.angular_momentum);
+}
+
+template <int D>
+GameObject object_of(const Body<D>& body, std::uint32_t place) {
+  GameObject object(place);
+  object.GetTransform().SetWorldPosition(in_space(body.position));
+  lecture::PhysicsObject& physics = object.GetPhysicsObject();
+  physics.SetElasticity(body.material.restitution);
+  if (!body.moves() || body.asleep) return object;
+  physics.SetLinearVelocity(in_space(body.velocity));
+  physics.SetAngularVelocity(as_axis(angular_velocity(body)));
+  if (!is_pushed(body)) return object;
+  physics.SetInverseMass(body.inverse_mass);
+  physics.SetInertiaTensor(as_tensor(world_inverse_inertia(body)));
+  return object;
+}
+
+// The lecture knows one point of contact for each pair: here the middle of those that the volumes
+// have in common, as deep as the deepest.
+template <int D>
+ManifoldPoint<D> single_point(const Manifold<D>& manifold) {
+  ManifoldPoint<D> single;
+  for (const ManifoldPoint<D>& point : manifold.points()) {
+    single.position += point.position / static_cast<double>(manifold.count);
+    single.separation = std::min(single.separation, point.separation);
+  }
+  return single;
+}
+
+template <int D>
+class LecturePass {
+ public:
+  LecturePass(Island<D>& island, WorldWork& work) : island_(island), work_(work) {
+    for (std::uint32_t i = 0; i < island.bodies.size(); ++i)
+      objects_.push_back(object_of(island.bodies[i], i));
+  }
+
+  // The broad phase is the world's; its pairs are noted as the lecture's own would note them.
+  void run() {
+    lecture::GameWorld world;
+    lecture::PhysicsSystem system(
+        world, [&](GameObject* a, GameObject* b, CollisionDetection::CollisionInfo& info) {
+          return intersect(*a, *b, info);
+        });
+    for (const IslandPair<D>& pair : island_.pairs)
+      system.AddBroadphaseCollision(&objects_[pair.rows.a], &objects_[pair.rows.b]);
+    system.NarrowPhase();
+    for (const CollisionDetection::CollisionInfo& info : system.GetAllCollisions()) {
+      pair_of(*info.a, *info.b).record.normal_impulses[0] = info.impulse;
+      const Vec<3> impulse = info.point.normal * info.impulse;
+      turn(body_of(*info.a), cross(info.point.localA, -impulse));
+      turn(body_of(*info.b), cross(info.point.localB, impulse));
+    }
+    for (GameObject& object : objects_) {
+      Body<D>& body = body_of(object);
+      body.position = Vec<D>(object.GetTransform().GetWorldPosition());
+      body.velocity = Vec<D>(object.GetPhysicsObject().GetLinearVelocity());
+    }
+  }
+
+ private:
+  Body<D>& body_of(const GameObject& object) { return island_.bodies[object.GetWorldID()]; }
+
+  IslandPair<D>& pair_of(const GameObject& a, const GameObject& b) {
+    return *std::ranges::lower_bound(
+        island_.pairs, std::pair(a.GetWorldID(), b.GetWorldID()), {},
+        [](const IslandPair<D>& pair) { return std::pair(pair.rows.a, pair.rows.b); });
+  }
+
+  // Where it is now: pairs before this one may have moved it.
+  Placed<D> placed(const GameObject& object) {
+    const Body<D>& body = body_of(object);
+    return {body.shape, Vec<D>(object.GetConstTransform().GetWorldPosition()), body.orientation};
+  }
+
+  bool intersect(const GameObject& a, const GameObject& b,
+                 CollisionDetection::CollisionInfo& info) {
+    ++work_.narrow_tests;
+    const auto manifold = collide(placed(a), placed(b), 0);
+    if (!manifold) return false;
+    ++work_.contact_points;
+    ++work_.constraint_rows;
+    ++work_.normal_rows;
+    const ManifoldPoint<D> point = single_point(*manifold);
+    IslandPair<D>& pair = pair_of(a, b);
+    pair.touched = true;
+    pair.record.manifold = {};
+    pair.record.manifold.normal = manifold->normal;
+    pair.record.manifold.add(point);
+    const Vec<3> at = in_space(point.position);
+    info.point.localA = at - a.GetConstTransform().GetWorldPosition();
+    info.point.localB = at - b.GetConstTransform().GetWorldPosition();
+    info.point.normal = in_space(manifold->normal);
+    info.point.penetration = -point.separation;
+    return true;
+  }
+
+  Island<D>& island_;
+  WorldWork& work_;
+  std::vector<GameObject> objects_;  // one a body, its id the body's place in the island
+};
+
+}  // namespace
+
+template <int D>
+void lecture_impulses(Island<D>& island, const WorldConfig<D>& config, double h, double /*whole*/,
+                      WorldWork& work) {
+  if (!island.joints.empty())
+    throw Refused("contacts = \"lecture\": the lecture has no joints; choose another method");
+  find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
+  for (std::size_t i = 0; i < island.bodies.size(); ++i) {  // the lecture's IntegrateAccel
+    island.bodies[i].velocity += island.increments[i].kick;
+    island.bodies[i].angular_momentum += island.increments[i].twist;
+    island.increments[i].kick = Vec<D>(0.0);
+    island.increments[i].twist = Spin<D>(0.0);
+  }
+  LecturePass<D>(island, work).run();
+  ++work.sub_steps;
+  for (std::size_t i = 0; i < island.bodies.size(); ++i)  // its IntegrateVelocity
+    if (is_pushed(island.bodies[i]))
+      fly(island.bodies[i], island.increments[i], h, config.rotation, work);
+}
+
+template void lecture_impulses(Island<2>&, const WorldConfig<2>&, double, double, WorldWork&);
+template void lecture_impulses(Island<3>&, const WorldConfig<3>&, double, double, WorldWork&);
+
+}  // namespace lantern

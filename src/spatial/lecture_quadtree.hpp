@@ -1,0 +1,229 @@
+// The lecture's own quadtree (src/lecture) as a structure like all others: in three dimensions it
+// looks at x and z only, in two at x and y. It asks for memory for every object in every leaf and
+// for every split, and gives it back when it is cleared: what a tree costs that was made plainly.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/stop.hpp"
+#include "lecture/quad_tree.hpp"
+#include "spatial/halving.hpp"
+#include "spatial/ids.hpp"
+#include "spatial/orthtree.hpp"
+#include "spatial/structure.hpp"
+
+namespace lantern {
+
+template <int D>
+class LectureQuadtree {
+  using Tree = lecture::QuadTree<BodyId>;
+  using Node = lecture::QuadTreeNode<BodyId>;
+  using Entries = std::list<lecture::QuadTreeEntry<BodyId>>;
+
+ public:
+  static constexpr Zones kZones = Zones::endless_rim;
+
+  static constexpr StructureTraits kTraits{.words = "lecture's quadtree", .is_plain = true};
+
+  static LectureQuadtree made(const StructureConfig<D>& config) { return LectureQuadtree(config); }
+
+  // Throws Refused as the quadtree does. All children are made at a split, and there is no stop but
+  // the depth limit, whatever is configured.
+  explicit LectureQuadtree(const StructureConfig<D>& config)
+      : config_(checked(config)), tree_(empty_tree()) {}
+
+  // As Orthtree::insert, with its events.
+  template <class Observer = NoObserver>
+  void insert(const Item<D>& item, Observer&& observer = {}) {
+    require_valid(item);
+    const auto [pos, size] = flat(item.box);
+    Watch<Observer> watch{*this, observer};
+    tree_.Insert(item.id, pos, size, watch);
+  }
+
+  void clear() {
+    tree_ = empty_tree();
+    const std::uint64_t allocations = counters_.allocations;
+    counters_ = {.nodes = 1, .allocations = allocations};
+  }
+
+  template <class F>
+  void visit(F&& f) const {
+    std::vector<BodyId> room;
+    visit(f, room);
+  }
+
+  template <class F>
+  void visit(F&& f, std::vector<BodyId>& room) const {
+    Tour tour{0, 0, room};
+    visit_from(tree_.GetRoot(), first_view(), tour, f);
+  }
+
+  template <class F>
+  void visit_toward(const Vec<D>& direction, F&& f) const {
+    std::vector<BodyId> room;
+    Tour tour{0, Halving<2>::first_toward({direction[0], direction[D - 1]}), room};
+    visit_from(tree_.GetRoot(), first_view(), tour, f);
+  }
+
+  template <class F>
+  void query(const Box<D>& box, F&& f) const {
+    std::vector<BodyId> ids;
+    near(box, ids);
+    each_once(std::move(ids), f);
+  }
+
+  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
+    const auto [pos, size] = flat(box);
+    tree_.OperateOnContents(
+        [&](const Entries& data) {
+          for (const auto& entry : data) ids.push_back(entry.object);
+        },
+        pos, size);
+  }
+
+  Counters counters() const {
+    Counters c = counters_;
+    c.leaves = c.nodes - c.splits;
+    c.node_bytes = c.nodes * sizeof(Node);
+    return c;
+  }
+
+ private:
+  using Vector3 = lecture::Vector3;
+
+  static const StructureConfig<D>& checked(const StructureConfig<D>& config) {
+    StructureConfig<2> same;  // who knows what is wrong with it
+    same.bounds = flat_box(config.bounds);
+    same.capacity = config.capacity;
+    same.max_depth = config.max_depth;
+    Quadtree::made(same);
+    return config;
+  }
+
+  static Box<2> flat_box(const Box<D>& box) {
+    return {{box.lo[0], box.lo[D - 1]}, {box.hi[0], box.hi[D - 1]}};
+  }
+
+  Tree empty_tree() const {
+    const Box<2> box = flat_box(config_.bounds);
+    return Tree(box.hi * 0.5 - box.lo * 0.5, static_cast<int>(config_.max_depth),
+                static_cast<int>(config_.capacity), Halving<2>::middle(box));
+  }
+
+  // Middle and half sizes, as the text wants them. They cannot tell the near side of a box that is
+  // endless on the other, so what lies outside the root is cut off first; the text's tree puts it
+  // in the leaves at the rim anyway.
+  std::pair<Vector3, Vector3> flat(const Box<D>& box) const {
+    Vector3 pos(0.0), size(0.0);
+    for (const int axis : {0, D - 1}) {
+      const double from = config_.bounds.lo[axis], to = config_.bounds.hi[axis];
+      const double lo = std::clamp(box.lo[axis], from, to), hi = std::clamp(box.hi[axis], from, to);
+      pos[axis == 0 ? 0 : 2] = lo * 0.5 + hi * 0.5;
+      size[axis == 0 ? 0 : 2] = hi * 0.5 - lo * 0.5;
+    }
+    return {pos, size};
+  }
+
+  // What the tree does, counted and told.
+  template <class Observer>
+  struct Watch {
+    LectureQuadtree& tree;
+    Observer& observer;
+
+    void tell(Event::Kind kind, const Node& node, BodyId body, std::uint32_t count = 0) {
+      observer(Event{kind, handle(node), body, count, count > 0 ? tree.config_.capacity : 0});
+    }
+    void Tested(const Node& node, BodyId body, bool reached) {
+      stop_if_asked();
+      ++tree.counters_.box_tests;
+      tell(reached ? Event::Kind::test : Event::Kind::miss, node, body);
+    }
+    void Stored(const Node& node, BodyId body, int depthLeft) {
+      Counters& c = tree.counters_;
+      const auto count = static_cast<std::uint32_t>(node.GetContents().size());
+      tree.require_room(++c.entries, "entries", body);
+      ++c.allocations;
+      tell(Event::Kind::store, node, body, count);
+      if (count <= tree.config_.capacity) return;
+      tell(depthLeft > 0 ? Event::Kind::split : Event::Kind::depth_limit, node, body, count);
+    }
+    void Split(Node& node, BodyId last, int depthLeft) {
+      Counters& c = tree.counters_;
+      ++c.splits;
+      ++c.allocations;
+      c.entries -= node.GetContents().size();
+      c.depth = std::max<std::uint64_t>(c.depth, tree.config_.max_depth - depthLeft + 1);
+      for (Node& child : node.GetChildren()) {
+        child.number = static_cast<int>(c.nodes++);
+        tell(Event::Kind::make_child, child, last);
+      }
+      tree.require_room(c.nodes, "nodes", last);
+    }
+    void HandedDown(const Node& node, BodyId body) { tell(Event::Kind::hand_down, node, body); }
+  };
+
+  void require_room(std::uint64_t wanted, const char* what, BodyId body) const {
+    if (wanted <= config_.most_entries) return;
+    throw Refused(fmt::format(
+        "body {}: with it the tree needs more than {} {} ({} nodes, {} entries); lower max_depth "
+        "({}) or raise capacity ({})",
+        body, config_.most_entries, what, counters_.nodes, counters_.entries, config_.max_depth,
+        config_.capacity));
+  }
+
+  struct Tour {
+    std::uint32_t next_id = 0;
+    std::uint32_t first_slot = 0;
+    std::vector<BodyId>& ids;
+  };
+
+  static NodeHandle handle(const Node& node) { return static_cast<NodeHandle>(node.number); }
+
+  NodeView<D> first_view() const {
+    NodeView<D> view;
+    view.box = config_.bounds;
+    return view;
+  }
+
+  // Boxes are halved on the way down, so that neighbours share their borders exactly.
+  template <class F>
+  void visit_from(const Node& node, NodeView<D> view, Tour& tour, F& f) const {
+    stop_if_asked();
+    view.handle = handle(node);
+    view.id = tour.next_id++;
+    view.leaf = node.GetChildren().empty();
+    tour.ids.clear();
+    if (view.leaf)
+      for (const auto& entry : node.GetContents()) tour.ids.push_back(entry.object);
+    std::sort(tour.ids.begin(), tour.ids.end());
+    view.bodies = tour.ids;
+    if (!f(std::as_const(view)) || view.leaf) return;
+    const Box<2> box = flat_box(view.box);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      NodeView<D> child = view;
+      child.parent = view.id;
+      child.slot = i ^ tour.first_slot;
+      child.depth = view.depth + 1;
+      const Box<2> part = Halving<2>::child(box, Halving<2>::middle(box), child.slot);
+      for (const int axis : {0, 1}) {
+        child.box.lo[axis == 0 ? 0 : D - 1] = part.lo[axis];
+        child.box.hi[axis == 0 ? 0 : D - 1] = part.hi[axis];
+      }
+      visit_from(node.GetChildren()[child.slot], child, tour, f);
+    }
+  }
+
+  StructureConfig<D> config_;
+  Tree tree_;
+  Counters counters_{.nodes = 1};
+};
+
+}  // namespace lantern
