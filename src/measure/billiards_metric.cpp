@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -14,7 +14,7 @@ class Billiards : public ErrorMetric {
  public:
   explicit Billiards(const Scenario& scenario)
       : half_(scenario.problem->samples / 2), moving_(moving_bodies(scenario)) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is gravity");
     if (scenario.problem->samples % 2 != 0)
       refuse_problem(scenario, "an odd number of samples has none in the middle");

@@ -12,8 +12,8 @@
 // For M = 100^k m it crosses floor(pi 10^k) rays in all.
 #include <numbers>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -29,7 +29,7 @@ Real dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
 class BlocksAndWall : public ErrorMetric {
  public:
   explicit BlocksAndWall(const Scenario& scenario) : wall_(ground_of(scenario)) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is gravity");
     const auto moving = moving_bodies(scenario);
     if (moving.size() != 2) refuse_problem(scenario, "it needs two blocks");

@@ -7,8 +7,8 @@
 #include <array>
 #include <limits>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -30,7 +30,7 @@ struct Fall {
 class BouncingBall : public ErrorMetric {
  public:
   explicit BouncingBall(const Scenario& scenario) : ground_(ground_of(scenario)) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     const auto moving = moving_bodies(scenario);
     if (moving.size() != 1) refuse_problem(scenario, "it needs one ball");
     ball_ = moving.front();

@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/error_metrics.hpp"
-#include "measure/exact_chain.hpp"
 #include "measure/problem_scene.hpp"
 
 namespace lantern {
@@ -28,18 +27,18 @@ struct Bond {
 std::vector<Bond> read_bonds(const Scenario& scenario) {
   std::vector<Bond> bonds;
   for (const LinkSpec& link : scenario.links) {
-    if (link.kind != LinkSpec::Kind::spring) throw Refused("chain: it has springs only");
-    if (link.damping != 0) throw Refused("chain: its springs have no damping");
-    bonds.push_back({read_tie(scenario, link, "chain"), link.stiffness});
+    if (link.kind != LinkSpec::Kind::spring) refuse_problem(scenario, "it has springs only");
+    if (link.damping != 0) refuse_problem(scenario, "its springs have no damping");
+    bonds.push_back({read_tie(scenario, link), link.stiffness});
   }
   return bonds;
 }
 
 // Follows the springs from a fixed point to the other, or to a free end. Gives the last point.
-std::optional<LongVec3> follow(std::vector<Bond>& bonds, Line& row) {
+std::optional<LongVec3> follow(const Scenario& scenario, std::vector<Bond>& bonds, Line& row) {
   const auto first =
       std::find_if(bonds.begin(), bonds.end(), [](const Bond& b) { return !b.tie.b; });
-  if (first == bonds.end()) throw Refused("chain: no end of it is fixed");
+  if (first == bonds.end()) refuse_problem(scenario, "no end of it is fixed");
   row.from = first->tie.anchor;
   std::size_t at = first->tie.a;
   for (auto bond = first; bond != bonds.end();) {
@@ -59,7 +58,7 @@ std::optional<LongVec3> follow(std::vector<Bond>& bonds, Line& row) {
 void find_rest(const Scenario& scenario, const std::optional<LongVec3>& end, Line& row) {
   const LongVec3 first(scenario.bodies[row.bodies.front()].position);
   const LongVec3 line = (end ? *end : first) - row.from;
-  if (!(glm::length(line) > 0)) throw Refused("chain: its ends coincide");
+  if (!(glm::length(line) > 0)) refuse_problem(scenario, "its ends coincide");
   row.direction = line / glm::length(line);
   long double tension = 0, loose = 0, give = 0;
   for (std::size_t i = 0; i < row.lengths.size(); ++i) {
@@ -80,8 +79,8 @@ void read_motion(const Scenario& scenario, Line& row) {
     const LongVec3 position = LongVec3(body.position) - row.from, velocity(body.velocity);
     const LongVec3 aside = position - glm::dot(position, row.direction) * row.direction;
     if (glm::length(aside) > 1e-12L * glm::length(position) || !parallel(velocity, row.direction))
-      throw Refused(fmt::format("chain: body '{}' does not move along the row", body.name));
-    if (body.linear_drag != 0) throw Refused("chain: nothing may brake it");
+      refuse_problem(scenario, fmt::format("body '{}' does not move along the row", body.name));
+    if (body.linear_drag != 0) refuse_problem(scenario, "nothing may brake it");
     row.masses.push_back(mass_of_body(scenario, row.bodies[i]));
     row.displacements.push_back(glm::dot(position, row.direction) - row.rest[i]);
     row.velocities.push_back(glm::dot(velocity, row.direction));
@@ -90,7 +89,7 @@ void read_motion(const Scenario& scenario, Line& row) {
 
 // A spring with a rest length is linear as long as its ends do not pass each other. The energy of
 // the motion, were it all in one spring, bounds how far they go.
-void require_no_passing(const Line& row) {
+void require_no_passing(const Scenario& scenario, const Line& row) {
   long double energy = 0, before = 0, place = 0;
   for (std::size_t i = 0; i < row.stiffnesses.size(); ++i) {
     const bool body = i < row.bodies.size();
@@ -103,23 +102,23 @@ void require_no_passing(const Line& row) {
     const long double length = row.rest[i] - place;
     place = row.rest[i];
     if (row.lengths[i] > 0 && !(std::sqrt(2 * energy / row.stiffnesses[i]) < length))
-      throw Refused(fmt::format("chain: bodies may pass each other at spring {}", i + 1));
+      refuse_problem(scenario, fmt::format("bodies may pass each other at spring {}", i + 1));
   }
 }
 
 }  // namespace
 
 std::unique_ptr<ErrorMetric> chain_metric(const Scenario& scenario) {
-  if (scenario.world.gravity != Vec<3>(0.0)) throw Refused("chain: there is no gravity");
+  if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is no gravity");
   std::vector<Bond> bonds = read_bonds(scenario);
   Line row;
-  const std::optional<LongVec3> end = follow(bonds, row);
+  const std::optional<LongVec3> end = follow(scenario, bonds, row);
   const bool all = std::all_of(bonds.begin(), bonds.end(), [](const Bond& b) { return b.used; });
   if (!all || row.bodies.size() != dynamic_bodies(scenario).size())
-    throw Refused("chain: its bodies are not one row from a fixed point on");
+    refuse_problem(scenario, "its bodies are not one row from a fixed point on");
   find_rest(scenario, end, row);
   read_motion(scenario, row);
-  require_no_passing(row);
+  require_no_passing(scenario, row);
   ChainMotion motion(row.masses, row.stiffnesses, row.displacements, row.velocities);
   long double length = 0, speed = 0;
   const int samples = static_cast<int>(std::min(scenario.problem->samples, 20u));
@@ -131,7 +130,7 @@ std::unique_ptr<ErrorMetric> chain_metric(const Scenario& scenario) {
       speed = std::max(speed, std::abs(v[i]));
     }
   }
-  if (!(length > 0 && speed > 0)) throw Refused("chain: nothing moves");
+  if (!(length > 0 && speed > 0)) refuse_problem(scenario, "nothing moves");
   return std::make_unique<TrajectoryMetric>(length, speed, [=](double time, auto& states) {
     std::vector<long double> xs, vs;
     motion.at(time, xs, vs);

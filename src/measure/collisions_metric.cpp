@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -25,7 +25,7 @@ struct Ball {
 class Collisions : public ErrorMetric {
  public:
   explicit Collisions(const Scenario& scenario) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is gravity");
     const auto moving = moving_bodies(scenario);
     if (moving.size() != scenario.bodies.size() || moving.size() < 2)

@@ -156,8 +156,7 @@ std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario)
   return std::nullopt;
 }
 
-std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario,
-                                                           double h) const {
+std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario, double h) const {
   if (const auto reason = cannot(scenario))
     throw Refused(fmt::format("dormand_prince: {}", *reason));
   if (scenario.world.dimension == 3) return std::make_unique<PointSimulation<3>>(scenario, h);

@@ -1,9 +1,8 @@
-#include "measure/exact_chain.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/check.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/precise.hpp"
 
 namespace lantern {

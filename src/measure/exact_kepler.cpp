@@ -1,10 +1,9 @@
-#include "measure/exact_kepler.hpp"
-
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/precise.hpp"
 
 namespace lantern {
@@ -40,12 +39,6 @@ long double anomaly(long double s, long double near, long double mean) {
 
 long double half_axis(long double mu, const Orbit& start) {
   return 1 / (2 / glm::length(start.position) - glm::dot(start.velocity, start.velocity) / mu);
-}
-
-long double eccentricity(long double mu, const Orbit& start) {
-  const auto momentum = glm::cross(start.position, start.velocity);
-  const auto e = glm::cross(start.velocity, momentum) / mu - glm::normalize(start.position);
-  return glm::length(e);
 }
 
 Orbit exact_orbit(long double mu, const Orbit& start, long double time) {

@@ -1,7 +1,6 @@
-#include "measure/exact_oscillator.hpp"
-
 #include <cmath>
 
+#include "measure/closed_forms.hpp"
 #include "measure/precise.hpp"
 
 namespace lantern {

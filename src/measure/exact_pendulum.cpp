@@ -1,11 +1,10 @@
 // Whittaker, "A treatise on the analytical dynamics of particles and rigid bodies", section 44:
 //
 //     sin(angle/2) = k sn(u),  cos(angle/2) = dn(u),  speed = 2 k omega cn(u),  u = omega t + u0
-#include "measure/exact_pendulum.hpp"
-
 #include <cmath>
 
 #include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/elliptic.hpp"
 #include "measure/precise.hpp"
 
@@ -25,11 +24,6 @@ PendulumState exact_pendulum(long double omega, PendulumState start, long double
   const long double reduced = std::fma(-turns, period, way.high) + way.low;
   const Jacobi f = jacobi(reduced + argument_of(at_start, m1), m1);
   return {2 * std::atan2(k * f.sn, f.dn), 2 * k * omega * f.cn};
-}
-
-long double pendulum_period(long double omega, long double angle) {
-  const long double c = std::cos(angle / 2);
-  return 4 * quarter_period(c * c) / omega;
 }
 
 }  // namespace lantern

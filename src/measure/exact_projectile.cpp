@@ -1,6 +1,6 @@
-#include "measure/exact_projectile.hpp"
-
 #include <cmath>
+
+#include "measure/closed_forms.hpp"
 
 namespace lantern {
 namespace {

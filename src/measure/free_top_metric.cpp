@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "measure/error_metrics.hpp"
 #include "measure/exact_free_top.hpp"
 #include "measure/problem_scene.hpp"
@@ -36,17 +35,17 @@ class FreeTopMetric : public ErrorMetric {
 }  // namespace
 
 std::unique_ptr<ErrorMetric> free_top_metric(const Scenario& scenario) {
-  const std::size_t i = the_body(scenario, "free_top");
-  require_links(scenario, 0, "free_top");
+  const std::size_t i = the_body(scenario);
+  require_links(scenario, 0);
   const BodySpec& body = scenario.bodies[i];
-  if (scenario.world.dimension != 3) throw Refused("free_top: the world must be solid");
-  if (body.angular_drag != 0) throw Refused("free_top: nothing may brake it");
+  if (scenario.world.dimension != 3) refuse_problem(scenario, "the world must be solid");
+  if (body.angular_drag != 0) refuse_problem(scenario, "nothing may brake it");
   if (!body.may_turn || std::holds_alternative<AxisBox<3>>(body.shape))
-    throw Refused("free_top: its body cannot turn; give a box `oriented = true`");
+    refuse_problem(scenario, "its body cannot turn; give a box `oriented = true`");
   MassProperties<3> mass = mass_of<3>(body.shape, body.density);
   if (body.mass > 0) mass = scaled_to<3>(mass, body.mass);
   for (int axis = 0; axis < 3; ++axis)
-    if (!(mass.inertia[axis] > 0)) throw Refused("free_top: its body has no extent");
+    if (!(mass.inertia[axis] > 0)) refuse_problem(scenario, "its body has no extent");
   const Rotation<3> start = turned(Rotation<3>(), body.axis * body.angle);
   const LongQuat orientation = glm::normalize(LongQuat(start.q.w, start.q.x, start.q.y, start.q.z));
   const LongVec spin = glm::conjugate(orientation) * (LongVec(body.axis) * LongVec(body.spin));

@@ -3,8 +3,8 @@
 // tan a <= mu (1 + k) / k, else it slips, and slides as a block does.
 #include <fmt/format.h>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -13,7 +13,7 @@ class Incline : public ErrorMetric {
  public:
   explicit Incline(const Scenario& scenario)
       : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)), k_(roundness(scenario)) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
   }
 

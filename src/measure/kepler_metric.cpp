@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/error_metrics.hpp"
-#include "measure/exact_kepler.hpp"
 #include "measure/problem_scene.hpp"
 
 namespace lantern {
@@ -24,23 +23,23 @@ struct Couple {
 }  // namespace
 
 std::unique_ptr<ErrorMetric> kepler_metric(const Scenario& scenario) {
-  require_links(scenario, 0, "kepler");
-  if (scenario.world.gravity != Vec<3>(0.0)) throw Refused("kepler: there is no other gravity");
-  if (!(scenario.world.gravitation > 0)) throw Refused("kepler: [world] needs a `gravitation`");
+  require_links(scenario, 0);
+  if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is no other gravity");
+  if (!(scenario.world.gravitation > 0)) refuse_problem(scenario, "[world] needs a `gravitation`");
   if (scenario.bodies.size() != 2)
-    throw Refused(fmt::format("kepler: it has two bodies, not {}", scenario.bodies.size()));
+    refuse_problem(scenario, fmt::format("it has two bodies, not {}", scenario.bodies.size()));
   Couple c;
   c.a = 0;
   c.b = 1;
   if (scenario.bodies[c.b].kind == BodyKind::static_body) std::swap(c.a, c.b);
   const BodySpec &a = scenario.bodies[c.a], &b = scenario.bodies[c.b];
   if (b.kind != BodyKind::dynamic_body || a.kind == BodyKind::kinematic_body)
-    throw Refused("kepler: one body is dynamic, the other dynamic or static");
-  if (a.linear_drag != 0 || b.linear_drag != 0) throw Refused("kepler: nothing may brake it");
+    refuse_problem(scenario, "one body is dynamic, the other dynamic or static");
+  if (a.linear_drag != 0 || b.linear_drag != 0) refuse_problem(scenario, "nothing may brake it");
   c.a_moves = a.kind == BodyKind::dynamic_body;
   const long double mass_a = c.a_moves ? mass_of_body(scenario, c.a) : a.mass;
   const long double mass_b = mass_of_body(scenario, c.b);
-  if (!(mass_a > 0)) throw Refused(fmt::format("kepler: body '{}' needs a mass", a.name));
+  if (!(mass_a > 0)) refuse_problem(scenario, fmt::format("body '{}' needs a mass", a.name));
   const LongVec3 velocity_a(c.a_moves ? a.velocity : Vec<3>(0.0));
   c.start = {LongVec3(b.position) - LongVec3(a.position), LongVec3(b.velocity) - velocity_a};
   c.mu = scenario.world.gravitation * (mass_a + (c.a_moves ? mass_b : 0));

@@ -1,8 +1,7 @@
 #include <cmath>
 
-#include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/error_metrics.hpp"
-#include "measure/exact_oscillator.hpp"
 #include "measure/problem_scene.hpp"
 
 namespace lantern {
@@ -19,11 +18,11 @@ struct Oscillator {
 }  // namespace
 
 std::unique_ptr<ErrorMetric> oscillator_metric(const Scenario& scenario) {
-  const std::size_t body = the_body(scenario, "oscillator");
-  require_links(scenario, 1, "oscillator");
+  const std::size_t body = the_body(scenario);
+  require_links(scenario, 1);
   const LinkSpec& spring = scenario.links.front();
-  if (spring.kind != LinkSpec::Kind::spring) throw Refused("oscillator: it hangs on a spring");
-  const Tie tie = read_tie(scenario, spring, "oscillator");
+  if (spring.kind != LinkSpec::Kind::spring) refuse_problem(scenario, "it hangs on a spring");
+  const Tie tie = read_tie(scenario, spring);
   const BodySpec& spec = scenario.bodies[body];
   Oscillator o;
   o.body = body;
@@ -36,10 +35,10 @@ std::unique_ptr<ErrorMetric> oscillator_metric(const Scenario& scenario) {
   LongVec3 line = between;
   if (line == LongVec3(0.0L)) line = o.velocity;
   if (line == LongVec3(0.0L)) line = gravity;
-  if (line == LongVec3(0.0L)) throw Refused("oscillator: nothing moves");
+  if (line == LongVec3(0.0L)) refuse_problem(scenario, "nothing moves");
   const bool straight = tie.rest_length > 0 || spring.damping > 0;
   if (straight && !(parallel(line, o.velocity) && parallel(line, gravity)))
-    throw Refused("oscillator: it must move along the line of its spring");
+    refuse_problem(scenario, "it must move along the line of its spring");
   const LongVec3 direction = line / glm::length(line);
   o.rest = tie.anchor + tie.rest_length * direction + gravity * (o.mass / o.stiffness);
   o.away = start - o.rest;
@@ -47,8 +46,8 @@ std::unique_ptr<ErrorMetric> oscillator_metric(const Scenario& scenario) {
   const long double amplitude = std::hypot(glm::length(o.away), glm::length(o.velocity) / omega);
   if (tie.rest_length > 0 &&
       (between == LongVec3(0.0L) || !(amplitude < glm::dot(o.rest - tie.anchor, direction))))
-    throw Refused("oscillator: it would pass through the spring's other end");
-  if (!(amplitude > 0)) throw Refused("oscillator: nothing moves");
+    refuse_problem(scenario, "it would pass through the spring's other end");
+  if (!(amplitude > 0)) refuse_problem(scenario, "nothing moves");
   return std::make_unique<TrajectoryMetric>(
       amplitude, amplitude * omega, [o](double time, auto& states) {
         LongVec3 x, v;

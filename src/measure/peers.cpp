@@ -75,8 +75,7 @@ std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
     }
     std::vector<std::unique_ptr<Peer>> found;
     add(found);
-    for (auto& peer : found)
-      solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
+    for (auto& peer : found) solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
   }
   return solvers;
 }

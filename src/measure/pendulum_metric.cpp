@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/error_metrics.hpp"
-#include "measure/exact_pendulum.hpp"
 #include "measure/problem_scene.hpp"
 
 namespace lantern {
@@ -59,34 +58,34 @@ class PendulumMetric : public TrajectoryMetric {
 
 std::unique_ptr<ErrorMetric> pendulum_metric(const Scenario& scenario) {
   Pendulum p;
-  p.body = the_body(scenario, "pendulum");
-  require_links(scenario, 1, "pendulum");
+  p.body = the_body(scenario);
+  require_links(scenario, 1);
   const BodySpec& body = scenario.bodies[p.body];
   const LinkSpec& link = scenario.links.front();
-  if (link.kind == LinkSpec::Kind::pin) throw Refused("pendulum: its rod has kind \"distance\"");
-  if (body.linear_drag != 0 || link.damping != 0) throw Refused("pendulum: nothing may brake it");
-  const Tie tie = read_tie(scenario, link, "pendulum");
+  if (link.kind == LinkSpec::Kind::pin) refuse_problem(scenario, "its rod has kind \"distance\"");
+  if (body.linear_drag != 0 || link.damping != 0) refuse_problem(scenario, "nothing may brake it");
+  const Tie tie = read_tie(scenario, link);
   const LongVec3 gravity(scenario.world.gravity), velocity(body.velocity);
   const LongVec3 rod = LongVec3(body.position) - tie.anchor;
   const long double g = glm::length(gravity);
   p.length = tie.rest_length;
   p.anchor = tie.anchor;
-  if (!(g > 0)) throw Refused("pendulum: there is no gravity");
+  if (!(g > 0)) refuse_problem(scenario, "there is no gravity");
   if (!(std::abs(glm::length(rod) - p.length) <= 1e-12L * p.length))
-    throw Refused("pendulum: its rod must be as long as it is at first");
+    refuse_problem(scenario, "its rod must be as long as it is at first");
   p.down = gravity / g;
   p.omega = std::sqrt(g / p.length);
   // The plane is that of gravity and the rod; if the rod hangs straight down, of the velocity.
   LongVec3 side = rod - glm::dot(rod, p.down) * p.down;
   if (!(glm::length(side) > 1e-15L * p.length)) side = velocity;
-  if (!(glm::length(side) > 0)) throw Refused("pendulum: nothing moves");
+  if (!(glm::length(side) > 0)) refuse_problem(scenario, "nothing moves");
   p.side = side / glm::length(side);
   const long double s = glm::dot(rod, p.side), c = glm::dot(rod, p.down);
   const LongVec3 tangent = (c * p.side - s * p.down) / p.length;
   p.start = {std::atan2(s, c), glm::dot(velocity, tangent) / p.length};
   if (!(glm::length(velocity - glm::dot(velocity, tangent) * tangent) <=
         1e-12L * glm::length(velocity)))
-    throw Refused("pendulum: its velocity must be across the rod, in the plane of gravity");
+    refuse_problem(scenario, "its velocity must be across the rod, in the plane of gravity");
   exact_pendulum(p.omega, p.start, 0);  // refuses
   return std::make_unique<PendulumMetric>(p);
 }

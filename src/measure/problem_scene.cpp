@@ -1,11 +1,37 @@
 #include "measure/problem_scene.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern {
+namespace {
+
+constexpr double kNear = 1e-9;  // of a body's size: so near is touching
+
+Rotation<3> orientation_of(const BodySpec& body) {
+  return turned(Rotation<3>(), body.axis * body.angle);
+}
+
+// The axis that `along` is nearest to, with its sign.
+Vec<3> nearest_axis(const Vec<3>& along) {
+  int best = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(along[i]) > std::abs(along[best])) best = i;
+  Vec<3> axis(0.0);
+  axis[best] = along[best] < 0 ? -1 : 1;
+  return axis;
+}
+
+}  // namespace
+
+void refuse_problem(const Scenario& scenario, std::string_view why) {
+  throw Refused(fmt::format("'{}' is no problem of kind {}: {}", scenario.name,
+                            to_string(scenario.problem->solution), why));
+}
 
 std::vector<std::size_t> dynamic_bodies(const Scenario& scenario) {
   std::vector<std::size_t> all;
@@ -14,17 +40,17 @@ std::vector<std::size_t> dynamic_bodies(const Scenario& scenario) {
   return all;
 }
 
-std::size_t the_body(const Scenario& scenario, std::string_view problem) {
+std::size_t the_body(const Scenario& scenario) {
   const std::vector<std::size_t> all = dynamic_bodies(scenario);
   if (all.size() != 1)
-    throw Refused(fmt::format("{}: it has one dynamic body, not {}", problem, all.size()));
+    refuse_problem(scenario, fmt::format("it needs one dynamic body, not {}", all.size()));
   return all.front();
 }
 
-void require_links(const Scenario& scenario, std::size_t count, std::string_view problem) {
+void require_links(const Scenario& scenario, std::size_t count) {
   if (scenario.links.size() != count)
-    throw Refused(fmt::format("{}: it has {} springs or joints, not {}", problem, count,
-                              scenario.links.size()));
+    refuse_problem(scenario, fmt::format("it needs {} springs or joints, not {}", count,
+                                         scenario.links.size()));
 }
 
 double mass_of_body(const Scenario& scenario, std::size_t body) {
@@ -34,12 +60,12 @@ double mass_of_body(const Scenario& scenario, std::size_t body) {
                                        : mass_of<2>(in_dimension<2>(spec.shape), spec.density).mass;
 }
 
-Tie read_tie(const Scenario& scenario, const LinkSpec& link, std::string_view problem) {
+Tie read_tie(const Scenario& scenario, const LinkSpec& link) {
   Tie tie;
   tie.a = link.a;
   const bool at_point = !link.b;
   if (link.at_a != Vec<3>(0.0) || (!at_point && link.at_b != Vec<3>(0.0)))
-    throw Refused(fmt::format("{}: springs and rods end at the bodies' centres", problem));
+    refuse_problem(scenario, "springs and rods end at the bodies' centres");
   Vec<3> end = link.at_b;
   if (link.b) {
     tie.b = link.b;
@@ -48,14 +74,14 @@ Tie read_tie(const Scenario& scenario, const LinkSpec& link, std::string_view pr
     if (scenario.bodies[tie.a].kind != BodyKind::dynamic_body) std::swap(tie.a, *tie.b);
     const BodySpec& other = scenario.bodies[*tie.b];
     if (other.kind == BodyKind::kinematic_body)
-      throw Refused(fmt::format("{}: body '{}' is kinematic", problem, other.name));
+      refuse_problem(scenario, fmt::format("body '{}' is kinematic", other.name));
     if (other.kind == BodyKind::static_body) {
       end = other.position;
       tie.b.reset();
     }
   }
   if (scenario.bodies[tie.a].kind != BodyKind::dynamic_body)
-    throw Refused(fmt::format("{}: nothing moves on one of the springs or rods", problem));
+    refuse_problem(scenario, "nothing moves on one of the springs or rods");
   tie.anchor = end;
   const Vec<3> other = tie.b ? scenario.bodies[*tie.b].position : end;
   tie.rest_length = link.rest_length
@@ -66,6 +92,128 @@ Tie read_tie(const Scenario& scenario, const LinkSpec& link, std::string_view pr
 
 bool parallel(const LongVec3& a, const LongVec3& b) {
   return glm::length(glm::cross(a, b)) <= 1e-15L * glm::length(a) * glm::length(b);
+}
+
+std::vector<std::size_t> moving_bodies(const Scenario& scenario) {
+  std::vector<std::size_t> bodies;
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const BodySpec& body = scenario.bodies[i];
+    if (body.kind == BodyKind::static_body) continue;
+    if (body.kind == BodyKind::kinematic_body || body.brain != Brain::none)
+      refuse_problem(scenario, fmt::format("'{}' is steered", body.name));
+    if (body.linear_drag != 0 || body.angular_drag != 0)
+      refuse_problem(scenario, fmt::format("'{}' has drag", body.name));
+    bodies.push_back(i);
+  }
+  if (bodies.empty()) refuse_problem(scenario, "nothing moves");
+  return bodies;
+}
+
+Footing ground_of(const Scenario& scenario) {
+  Footing ground;
+  int count = 0;
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
+    if (scenario.bodies[i].kind == BodyKind::static_body) {
+      ground.body = i;
+      ++count;
+    }
+  if (count != 1) refuse_problem(scenario, fmt::format("it has {} static bodies, not one", count));
+  const BodySpec& body = scenario.bodies[ground.body];
+  if (const auto* half = std::get_if<HalfSpace<3>>(&body.shape)) {
+    ground.normal = half->normal;
+  } else if (std::holds_alternative<AxisBox<3>>(body.shape)) {
+    Vec<3> towards = -scenario.world.gravity;
+    if (towards == Vec<3>(0.0))
+      towards = scenario.bodies[moving_bodies(scenario).front()].position - body.position;
+    ground.normal = nearest_axis(towards);
+  } else {
+    refuse_problem(scenario, fmt::format("'{}' has no flat face", body.name));
+  }
+  ground.height = glm::dot(body.position, ground.normal) + reach_along(body, ground.normal);
+  return ground;
+}
+
+void require_on_ground(const Scenario& scenario, const Footing& ground, std::size_t index) {
+  const BodySpec& body = scenario.bodies[index];
+  const double reach = reach_along(body, ground.normal);
+  const double above = glm::dot(body.position, ground.normal) - reach - ground.height;
+  const double size = reach + std::abs(ground.height);
+  if (std::abs(above) > kNear * size)
+    refuse_problem(scenario, fmt::format("'{}' does not lie on the ground", body.name));
+}
+
+Slope slope_of(const Scenario& scenario, const Footing& ground) {
+  const Vec<3>& g = scenario.world.gravity;
+  Slope slope;
+  slope.pull = -glm::dot(g, ground.normal);
+  const Vec<3> along = g + ground.normal * slope.pull;
+  slope.push = glm::length(along);
+  if (!(slope.pull > 0) || !(slope.push > 1e-12 * slope.pull))
+    refuse_problem(scenario, "gravity does not pull slantwise onto the ground");
+  slope.downhill = along / slope.push;
+  return slope;
+}
+
+double pull_onto(const Scenario& scenario, const Footing& ground) {
+  const Vec<3>& gravity = scenario.world.gravity;
+  const double pull = -glm::dot(gravity, ground.normal);
+  if (!(pull > 0) || !are_parallel(gravity, ground.normal))
+    refuse_problem(scenario, "gravity does not pull straight onto the ground");
+  return pull;
+}
+
+double friction_between(const Scenario& scenario, std::size_t a, std::size_t b) {
+  return std::sqrt(scenario.bodies[a].material.friction * scenario.bodies[b].material.friction);
+}
+
+double restitution_between(const Scenario& scenario, std::size_t a, std::size_t b) {
+  return std::max(scenario.bodies[a].material.restitution, scenario.bodies[b].material.restitution);
+}
+
+double reach_along(const BodySpec& body, const Vec<3>& along) {
+  if (const auto* ball = std::get_if<Sphere>(&body.shape)) return ball->radius;
+  const Vec<3> local = glm::transpose(matrix(orientation_of(body))) * along;
+  if (const auto* box = std::get_if<AxisBox<3>>(&body.shape))
+    return glm::dot(box->half_size, glm::abs(along));
+  if (const auto* box = std::get_if<OrientedBox<3>>(&body.shape))
+    return glm::dot(box->half_size, glm::abs(local));
+  if (const auto* rod = std::get_if<Capsule>(&body.shape))
+    return rod->radius + rod->half_length * std::abs(local.y);
+  return 0;
+}
+
+bool is_ball(const BodySpec& body) { return std::holds_alternative<Sphere>(body.shape); }
+
+bool turns(const BodySpec& body) {
+  return body.may_turn && !std::holds_alternative<AxisBox<3>>(body.shape);
+}
+
+double roundness(const Scenario& scenario) { return scenario.world.dimension == 3 ? 0.4 : 0.5; }
+
+bool are_parallel(const Vec<3>& a, const Vec<3>& b) {
+  return glm::length(glm::cross(a, b)) <= 1e-12 * glm::length(a) * glm::length(b);
+}
+
+Burdens::Burdens(const Scenario& scenario, std::vector<std::size_t> bodies)
+    : bodies_(std::move(bodies)), gravity_(glm::length(scenario.world.gravity)) {
+  up_ = -scenario.world.gravity / gravity_;
+  for (const std::size_t i : bodies_) {
+    masses_.push_back(mass_of_body(scenario, i));
+    speeds_.push_back(glm::dot(scenario.bodies[i].velocity, up_));
+  }
+}
+
+void Burdens::look(const Observation& now) {
+  const double passed = now.time - time_;
+  long double gained = 0, weight = 0;  // momentum and mass of all from the last body down to here
+  for (std::size_t i = bodies_.size(); i-- > 0;) {
+    const double speed = glm::dot(now.states[bodies_[i]].velocity, up_);
+    gained += static_cast<long double>(masses_[i]) * (speed - speeds_[i]);
+    weight += masses_[i];
+    speeds_[i] = speed;
+    if (passed > 0) worst_.meet(static_cast<double>(gained / (weight * gravity_ * passed)));
+  }
+  time_ = now.time;
 }
 
 }  // namespace lantern

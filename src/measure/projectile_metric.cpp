@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/error_metrics.hpp"
-#include "measure/exact_projectile.hpp"
 #include "measure/problem_scene.hpp"
 
 namespace lantern {
@@ -35,7 +34,7 @@ struct Flight {
 }  // namespace
 
 std::unique_ptr<ErrorMetric> projectile_metric(const Scenario& scenario) {
-  require_links(scenario, 0, "projectile");
+  require_links(scenario, 0);
   Flight flight;
   flight.gravity = scenario.world.gravity;
   for (const std::size_t i : dynamic_bodies(scenario)) {
@@ -43,7 +42,7 @@ std::unique_ptr<ErrorMetric> projectile_metric(const Scenario& scenario) {
     const long double mass = mass_of_body(scenario, i);
     flight.bodies.push_back({i, body.position, body.velocity, body.linear_drag / mass});
   }
-  if (flight.bodies.empty()) throw Refused("projectile: it has no dynamic body");
+  if (flight.bodies.empty()) refuse_problem(scenario, "it has no dynamic body");
   long double length = 0, speed = 0;
   const int samples = static_cast<int>(scenario.problem->samples);
   for (std::size_t i = 0; i < flight.bodies.size(); ++i) {
@@ -55,7 +54,7 @@ std::unique_ptr<ErrorMetric> projectile_metric(const Scenario& scenario) {
       speed = std::max(speed, glm::length(velocity));
     }
   }
-  if (!(length > 0)) throw Refused("projectile: nothing moves");
+  if (!(length > 0)) refuse_problem(scenario, "nothing moves");
   return std::make_unique<TrajectoryMetric>(length, speed, [flight](double time, auto& states) {
     for (std::size_t i = 0; i < flight.bodies.size(); ++i) {
       LongVec3 way, velocity;

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 class Slide : public ErrorMetric {
  public:
   explicit Slide(const Scenario& scenario) : ground_(ground_of(scenario)) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     const double gravity = pull_onto(scenario, ground_);
     for (const std::size_t i : moving_bodies(scenario)) {
       const BodySpec& body = scenario.bodies[i];

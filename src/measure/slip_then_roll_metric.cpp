@@ -5,8 +5,8 @@
 //                                        with v/(1+k) = 5/7 v, for ever
 #include <fmt/format.h>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -15,7 +15,7 @@ class SlipThenRoll : public ErrorMetric {
  public:
   explicit SlipThenRoll(const Scenario& scenario)
       : ground_(ground_of(scenario)), k_(roundness(scenario)) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     const double gravity = pull_onto(scenario, ground_);
     for (const std::size_t i : moving_bodies(scenario)) {
       const BodySpec& body = scenario.bodies[i];

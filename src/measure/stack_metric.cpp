@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -24,7 +24,7 @@ class Stack : public ErrorMetric {
       : ground_(ground_of(scenario)),
         bodies_(from_below(scenario, ground_.normal)),
         burdens_(scenario, bodies_) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     pull_onto(scenario, ground_);
     require_on_ground(scenario, ground_, bodies_.front());
     const Vec<3>& foot = scenario.bodies[bodies_.front()].position;

@@ -15,16 +15,13 @@ using namespace stress;
 // How far from v^2/(2 mu g) a box stops that is thrown along the floor in direction `heading`.
 template <int D>
 double sliding_error(double mu, double speed, double heading) {
-  WorldConfig<D> config = with_gravity<D>();
-  World<D> world(config);
-  world.add(make_floor<D>(0, mu));
   Body<D> box = make_box<D>(at<D>(0, 0.5));
   box.material.friction = mu;
   box.may_turn = false;
   Vec<D> way = at<D>(1);
   if constexpr (D == 3) way = {std::cos(heading), 0, std::sin(heading)};
   box.velocity = way * speed;
-  world.add(box);
+  World<D> world = world_of<D>(with_gravity<D>(), {make_floor<D>(0, mu), box});
   run(world, speed / (mu * kGravity) + 0.5);
   const Vec<D> end = world.bodies()[1].position - at<D>(0, 0.5);
   return glm::length(end - way * (speed * speed / (2 * mu * kGravity)));
@@ -45,20 +42,24 @@ StressResult headings() {
   return at_most(1e-6, worst, "m", "24 headings, 3 m/s, friction 0.5");
 }
 
+// Sleep is off: what is at the edge of sliding starts as slowly as what comes to rest.
+template <int D>
+World<D> on_slope(double alpha, double friction, Body<D> body) {
+  WorldConfig<D> config;
+  config.gravity = at<D>(kGravity * std::sin(alpha), -kGravity * std::cos(alpha));
+  config.may_sleep = false;
+  body.material.friction = friction;
+  return world_of<D>(config, {make_floor<D>(0, friction), body});
+}
+
 // On a slope a body sticks if and only if tan(alpha) <= mu; beyond, it slides at
 // g (sin(alpha) - mu cos(alpha)).
 template <int D>
 double incline_error(double mu, double off) {
   const double alpha = std::atan(mu + off);
-  WorldConfig<D> config;
-  config.gravity = at<D>(kGravity * std::sin(alpha), -kGravity * std::cos(alpha));
-  config.may_sleep = false;  // it starts as slowly as what comes to rest
-  World<D> world(config);
-  world.add(make_floor<D>(0, mu));
   Body<D> box = make_box<D>(at<D>(0, 0.5));
-  box.material.friction = mu;
   box.may_turn = false;
-  world.add(box);
+  World<D> world = on_slope<D>(alpha, mu, box);
   run(world, 2);
   const double slides = largest(0.0, kGravity * (std::sin(alpha) - mu * std::cos(alpha)));
   return std::abs(world.bodies()[1].velocity.x - 2 * slides);
@@ -79,14 +80,7 @@ StressResult topple() {
   int wrong = 0;
   for (const double off : {-0.01, -0.001, 0.001, 0.01}) {
     const double alpha = std::atan(0.25 * (1 + off));
-    WorldConfig<2> config;
-    config.gravity = {kGravity * std::sin(alpha), -kGravity * std::cos(alpha)};
-    config.may_sleep = false;  // at the edge it starts as slowly as what comes to rest
-    World<2> world(config);
-    world.add(make_floor<2>(0, 2));
-    Body<2> tower = make_body<2>(OrientedBox<2>{{0.5, 2}}, {0, 2}, "tower");
-    tower.material.friction = 2;
-    world.add(tower);
+    World<2> world = on_slope<2>(alpha, 2, make_body<2>(OrientedBox<2>{{0.5, 2}}, {0, 2}, "tower"));
     run(world, 20);
     wrong += (std::abs(world.bodies()[1].orientation.angle) > 1) != (off > 0);
   }
@@ -97,14 +91,7 @@ StressResult topple() {
 StressResult rolling() {
   double worst = 0;
   for (const double alpha : {0.01, 0.3, 1.0}) {
-    WorldConfig<3> config;
-    config.gravity = {kGravity * std::sin(alpha), -kGravity * std::cos(alpha), 0};
-    config.may_sleep = false;
-    World<3> world(config);
-    world.add(make_floor<3>(0, 2));
-    Body<3> ball = make_ball<3>({0, 0.5, 0});
-    ball.material.friction = 2;
-    world.add(ball);
+    World<3> world = on_slope<3>(alpha, 2, make_ball<3>({0, 0.5, 0}));
     run(world, 2);
     const double expected = 5.0 / 7 * kGravity * std::sin(alpha) * 2;
     worst = largest(worst, std::abs(world.bodies()[1].velocity.x / expected - 1));

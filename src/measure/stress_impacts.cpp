@@ -24,22 +24,16 @@ WorldConfig<D> flight_rules(double gravity) {
 // A ball that loses nothing, 20 s at several steps: the largest relative change of its energy.
 template <int D>
 double bounce_drift(double h) {
-  World<D> world(flight_rules<D>(kGravity));
-  world.add(make_floor<D>());
   Body<D> ball = make_ball<D>(at<D>(0, 2));
   ball.material.restitution = 1;
-  world.add(ball);
+  World<D> world = world_of<D>(flight_rules<D>(kGravity), {make_floor<D>(), ball});
   const auto energy = [&] {
     const Body<D>& b = world.bodies()[1];
     return kGravity * (b.position.y - 0.5) + glm::dot(b.velocity, b.velocity) / 2;
   };
   const double before = energy();
-  double worst = 0;
-  for (long i = 0, n = std::lround(20 / h); i < n; ++i) {
-    world.step(h);
-    worst = largest(worst, std::abs(energy() / before - 1));
-  }
-  return worst;
+  return worst_after_steps(world, static_cast<int>(std::lround(20 / h)), h,
+                           [&] { return std::abs(energy() / before - 1); });
 }
 
 StressResult elastic_bounce() {
@@ -55,11 +49,9 @@ StressResult zeno() {
   double worst = 0;
   std::uint64_t most = 0;
   for (const double e : {0.0, 0.3, 0.8, 0.99}) {
-    World<2> world(flight_rules<2>(kGravity));
-    world.add(make_floor<2>());
     Body<2> ball = make_ball<2>({0, 0.5 + 0.8});
     ball.material.restitution = e;
-    world.add(ball);
+    World<2> world = world_of<2>(flight_rules<2>(kGravity), {make_floor<2>(), ball});
     run(world, std::sqrt(2 * 0.8 / kGravity) * (1 + e) / (1 - e) + 0.1);
     worst = largest({worst, std::abs(world.bodies()[1].position.y - 0.5),
                      std::abs(world.bodies()[1].velocity.y)});
@@ -177,14 +169,12 @@ StressResult bullets() {
   int through = 0, shots = 0;
   for (const double e : {0.0, 0.5, 1.0})
     for (const double speed : {50.0, 500.0, 5e3, 1e5}) {
-      World<2> world((WorldConfig<2>()));
       Body<2> wall = make_body<2>(AxisBox<2>{{0.01, 5}}, {5, 0}, "wall");
       wall.kind = BodyKind::static_body;
-      world.add(wall);
       Body<2> bullet = make_ball<2>({0, 0}, 0.05);
       bullet.velocity = {speed, 0};
       bullet.material.restitution = e;
-      world.add(bullet);
+      World<2> world = world_of<2>({}, {wall, bullet});
       run(world, 0.5);
       ++shots;
       through += world.bodies()[1].position.x > 5;

@@ -11,7 +11,6 @@ namespace {
 
 using namespace stress;
 
-
 // A world with a pile, and what it did with the bad values that it was given.
 template <int D>
 class Guard {

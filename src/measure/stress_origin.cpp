@@ -70,9 +70,8 @@ StressResult moved_by_1e9() { return moved_by(1e9); }
 
 template <int D>
 double settling_error(double offset) {
-  World<D> world(with_gravity<D>());
-  world.add(make_floor<D>());
-  world.add(make_box<D>(at<D>(offset, 0.6)));
+  World<D> world =
+      world_of<D>(with_gravity<D>(), {make_floor<D>(), make_box<D>(at<D>(offset, 0.6))});
   run(world, 10);
   return glm::length(world.bodies()[1].position - at<D>(offset, 0.5));
 }

@@ -6,9 +6,11 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
+#include "physics/energy.hpp"
 #include "physics/world.hpp"
 
 namespace lantern::stress {
@@ -42,6 +44,14 @@ WorldConfig<D> with_gravity() {
   WorldConfig<D> config;
   config.gravity = at<D>(0, -kGravity);
   return config;
+}
+
+// Those that there are in so many dimensions.
+template <int D>
+std::vector<StructureKind> broad_phases_of() {
+  std::vector<StructureKind> kinds(kStructureKinds.begin(), kStructureKinds.end());
+  std::erase_if(kinds, [](StructureKind kind) { return !is_possible(kind, D); });
+  return kinds;
 }
 
 template <int D>
@@ -84,6 +94,42 @@ Body<D> make_anchor() {
 template <int D>
 void run(World<D>& world, double seconds, double h = kStep) {
   for (long i = 0, n = std::lround(seconds / h); i < n; ++i) world.step(h);
+}
+
+// The largest that `figure()` is after any of the steps.
+template <int D, class Figure>
+double worst_after_steps(World<D>& world, int steps, double h, Figure&& figure) {
+  double worst = 0;
+  for (int i = 0; i < steps; ++i) {
+    world.step(h);
+    worst = largest(worst, figure());
+  }
+  return worst;
+}
+
+template <int D>
+World<D> world_of(const WorldConfig<D>& config, std::initializer_list<Body<D>> bodies) {
+  World<D> world(config);
+  for (const Body<D>& body : bodies) world.add(body);
+  return world;
+}
+
+template <int D>
+double total_energy(const World<D>& world) {
+  return energy<D>(world.bodies(), world.forces()).total();
+}
+
+// The largest change of the energy over the steps, relative; or only the largest gain.
+template <int D>
+double energy_change(World<D>& world, int steps, double h) {
+  const double before = total_energy(world);
+  return worst_after_steps(world, steps, h,
+                           [&] { return std::abs(total_energy(world) / before - 1); });
+}
+template <int D>
+double energy_gain(World<D>& world, int steps, double h = kStep) {
+  const double before = total_energy(world);
+  return worst_after_steps(world, steps, h, [&] { return total_energy(world) / before - 1; });
 }
 
 // Of the last step, units.

@@ -15,7 +15,6 @@ namespace {
 
 using namespace stress;
 
-
 template <int D>
 bool is_sane(const Manifold<D>& manifold) {
   for (const ManifoldPoint<D>& point : manifold.points())

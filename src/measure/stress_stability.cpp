@@ -135,46 +135,35 @@ StressResult runge_kutta_energy() {
       "relative", "200 steps, omega h from 0.01 to 2");
 }
 
+// The largest change of the undamped spring's energy over the steps, relative.
+double wavering(Integrator method, double omega_h, int steps) {
+  World<2> world = oscillator_world(method, omega_h, 0, 1, 0);
+  const double before = energy_of(world, omega_h);
+  return worst_after_steps(world, steps, 1,
+                           [&] { return std::abs(energy_of(world, omega_h) / before - 1); });
+}
+
 // The energy wavers by (omega h)^2/4 of itself at most, for ever.
 StressResult verlet_energy() {
   double worst = 0;
-  for (const double w : {0.01, 0.1, 0.5}) {
-    World<2> world = oscillator_world(Integrator::velocity_verlet, w, 0, 1, 0);
-    const double before = energy_of(world, w);
-    for (int i = 0; i < 20000; ++i) {
-      world.step(1);
-      worst = largest(worst, std::abs(energy_of(world, w) / before - 1) / (w * w / 4));
-    }
-  }
+  for (const double w : {0.01, 0.1, 0.5})
+    worst = largest(worst, wavering(Integrator::velocity_verlet, w, 20000) / (w * w / 4));
   return at_most(1.01, worst, "x (omega h)^2/4", "20000 steps, omega h 0.01, 0.1, 0.5");
 }
 
 // Half of omega h: the modified energy v^2 + w^2 x^2 - h w^2 x v is kept.
 StressResult semi_implicit_energy() {
   double worst = 0;
-  for (const double w : {0.01, 0.1, 0.5}) {
-    World<2> world = oscillator_world(Integrator::semi_implicit_euler, w, 0, 1, 0);
-    const double before = energy_of(world, w);
-    for (int i = 0; i < 20000; ++i) {
-      world.step(1);
-      const double change = std::abs(energy_of(world, w) / before - 1);
-      worst = largest(worst, change / (w / (2 - w)));
-    }
-  }
+  for (const double w : {0.01, 0.1, 0.5})
+    worst = largest(worst, wavering(Integrator::semi_implicit_euler, w, 20000) / (w / (2 - w)));
   return at_most(1.01, worst, "x bound", "20000 steps; the bound is omega h/(2 - omega h)");
 }
 
 // Without damping, a million periods: nothing that a symplectic method loses may add up.
 StressResult many_periods() {
   const double w = 2 * std::numbers::pi / 20;  // 20 steps a period
-  World<2> world = oscillator_world(Integrator::velocity_verlet, w, 0, 1, 0);
-  const double before = energy_of(world, w);
-  double worst = 0;
-  for (int i = 0; i < 20'000'000; ++i) {
-    world.step(1);
-    worst = largest(worst, std::abs(energy_of(world, w) / before - 1));
-  }
-  return at_most(w * w / 4 * 1.01, worst, "relative", "1e6 periods of 20 steps");
+  return at_most(w * w / 4 * 1.01, wavering(Integrator::velocity_verlet, w, 20'000'000), "relative",
+                 "1e6 periods of 20 steps");
 }
 
 StressResult map_agrees() {

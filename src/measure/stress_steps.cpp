@@ -18,10 +18,8 @@ template <int D>
 World<D> resting(Integrator method = Integrator::semi_implicit_euler) {
   WorldConfig<D> config = with_gravity<D>();
   config.integrator = method;
-  World<D> world(config);
-  world.add(make_floor<D>());
-  world.add(make_box<D>(at<D>(0, 0.5)));
-  world.add(make_box<D>(at<D>(0, 1.5)));
+  World<D> world = world_of<D>(
+      config, {make_floor<D>(), make_box<D>(at<D>(0, 0.5)), make_box<D>(at<D>(0, 1.5))});
   run(world, 0.1);
   return world;
 }
@@ -149,11 +147,8 @@ StressResult blow_up() {
     WorldConfig<2> config;
     config.integrator = method;
     config.contacts = ContactMethod::none;  // or it may end at rest on its anchor
-    World<2> world(config);
-    world.add(make_anchor<2>());
-    Body<2> bob = make_ball<2>({2, 0});
-    bob.name = "bob";
-    world.add(bob);
+    World<2> world =
+        world_of<2>(config, {make_anchor<2>(), make_body<2>(Sphere{0.5}, {2, 0}, "bob")});
     Spring<2> spring;
     spring.b = 1;
     spring.stiffness = 1e8;
@@ -171,16 +166,13 @@ StressResult blow_up() {
 // still in each other then.
 template <int D>
 double exit_speed(const Body<D>& body, double apart) {
-  World<D> world((WorldConfig<D>()));
   Body<D> other = body;
   other.position.x += apart;
-  world.add(body);
-  world.add(other);
-  double fastest = 0;
-  for (int i = 0; i < 240; ++i) {
-    world.step(kStep);
-    for (const Body<D>& b : world.bodies()) fastest = largest(fastest, glm::length(b.velocity));
-  }
+  World<D> world = world_of<D>({}, {body, other});
+  const double fastest = worst_after_steps(world, 240, kStep, [&] {
+    return largest(glm::length(world.bodies()[0].velocity),
+                   glm::length(world.bodies()[1].velocity));
+  });
   return deepest(world) <= 1e-3 && is_finite(world) ? fastest : kInfinity;
 }
 

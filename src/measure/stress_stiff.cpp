@@ -1,5 +1,6 @@
 // Stiff springs, drag and chains, at steps far beyond what an explicit method bears.
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -7,7 +8,6 @@
 #include "measure/oscillator_world.hpp"
 #include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
-#include "physics/energy.hpp"
 
 namespace lantern {
 namespace {
@@ -15,8 +15,12 @@ namespace {
 using namespace stress;
 
 template <int D>
-double total_energy(const World<D>& world) {
-  return energy<D>(world.bodies(), world.forces()).total();
+WorldConfig<D> config_of(Integrator method) {
+  WorldConfig<D> config;
+  config.integrator = method;
+  config.contacts = ContactMethod::none;
+  config.may_sleep = false;
+  return config;
 }
 
 // k/m from 1e6 to 1e10 at 1/60 s: omega h from 17 to 1700. The largest relative gain of energy in
@@ -28,14 +32,9 @@ StressResult stiff_spring() {
   for (const double stiffness : {1e6, 1e7, 1e8, 1e9, 1e10})
     for (const double zeta : {0.0, 1e-6, 1.0, 1e3}) {
       World<2> world = oscillator_world(Method, std::sqrt(stiffness), zeta, 1, 0);
-      const double before = total_energy(world);
-      for (int i = 0; i < 600; ++i) {
-        world.step(kStep);
-        const double gain = total_energy(world) / before - 1;
-        if (gain > worst)
-          where = fmt::format("worst at k/m {:g}, damping ratio {}", stiffness, zeta);
-        worst = largest(worst, gain);
-      }
+      const double gain = energy_gain(world, 600);
+      if (gain > worst) where = fmt::format("worst at k/m {:g}, damping ratio {}", stiffness, zeta);
+      worst = largest(worst, gain);
     }
   return at_most(1e-11, worst, "relative", where.empty() ? "no step gains any" : where);
 }
@@ -46,19 +45,14 @@ template <Integrator Method>
 StressResult stiff_drag() {
   double fastest = 0;
   for (const double drag : {1e2, 1e3, 1e4}) {
-    WorldConfig<3> config;
-    config.integrator = Method;
-    config.may_sleep = false;
-    World<3> world(config);
     Body<3> body = make_ball<3>(Vec<3>(0.0));
     body.mass = 1;
     body.linear_drag = drag;
     body.velocity = {0.6, 0, 0.8};
-    world.add(body);
-    for (int i = 0; i < 600; ++i) {
-      world.step(kStep);
-      fastest = largest(fastest, glm::length(world.bodies()[0].velocity));
-    }
+    World<3> world = world_of<3>(config_of<3>(Method), {body});
+    fastest = largest(fastest, worst_after_steps(world, 600, kStep, [&] {
+                        return glm::length(world.bodies()[0].velocity);
+                      }));
   }
   return at_most(1 + 1e-12, fastest, "x the start", "c/m 1e2, 1e3, 1e4");
 }
@@ -69,14 +63,12 @@ StressResult terminal_speed() {
   for (const auto method :
        {Integrator::implicit_euler, Integrator::implicit_midpoint, Integrator::velocity_verlet})
     for (const double drag : {10.0, 1e2, 1e4}) {
-      WorldConfig<2> config = with_gravity<2>();
-      config.integrator = method;
-      config.may_sleep = false;
-      World<2> world(config);
+      WorldConfig<2> config = config_of<2>(method);
+      config.gravity = {0, -kGravity};
       Body<2> body = make_ball<2>({0, 0});
       body.mass = 1;
       body.linear_drag = drag;
-      world.add(body);
+      World<2> world = world_of<2>(config, {body});
       run(world, 20);
       worst = largest(worst, std::abs(-world.bodies()[0].velocity.y * drag / kGravity - 1));
     }
@@ -101,44 +93,29 @@ World<2> unequal_chain_of(int links, const WorldConfig<2>& config) {
   return world;
 }
 
-WorldConfig<2> config_of(Integrator method) {
-  WorldConfig<2> config;
-  config.integrator = method;
-  config.contacts = ContactMethod::none;
-  config.may_sleep = false;
-  return config;
-}
-
 // Its masses are thrown along it, so slowly that none passes another one: linear, with frequencies
 // from 1 to 1e5. The largest gain of energy in 10 s.
 template <Integrator Method>
 StressResult unequal_chain() {
-  World<2> world = unequal_chain_of(100, config_of(Method));
+  World<2> world = unequal_chain_of(100, config_of<2>(Method));
   Random random(3);
   for (BodyId i = 1; i <= 100; ++i) world.set_velocity(i, {random.between(-0.01, 0.01), 0});
-  const double before = total_energy(world);
-  double worst = 0;
-  for (int i = 0; i < 600; ++i) {
-    world.step(kStep);
-    worst = largest(worst, total_energy(world) / before - 1);
-  }
   // Places around 10 m are rounded by 1e-15, which k h turns into 1e-7 m/s a step.
-  return at_most(1e-7, worst, "relative", "energy gained in 10 s; 100 masses, k = 1e2 and 1e10");
+  return at_most(1e-7, energy_gain(world, 600), "relative",
+                 "energy gained in 10 s; 100 masses, k = 1e2 and 1e10");
 }
 
 // It falls from the level and swings: far from linear.
 StressResult unequal_rope_of(int links) {
-  WorldConfig<2> config = config_of(Integrator::implicit_euler);
+  WorldConfig<2> config = config_of<2>(Integrator::implicit_euler);
   config.gravity = {0, -kGravity};
   World<2> world = unequal_chain_of(links, config);
   const double scale = kGravity * 0.1 * links * (links + 1) / 2;  // J, of the whole fall
-  double before = total_energy(world), worst = 0;
-  for (int i = 0; i < 60; ++i) {
-    world.step(kStep);
+  double before = total_energy(world);
+  const double worst = worst_after_steps(world, 60, kStep, [&] {
     const double after = total_energy(world);
-    worst = largest(worst, (after - before) / scale);
-    before = after;
-  }
+    return (after - std::exchange(before, after)) / scale;
+  });
   return at_most(1e-9, worst, "of m g l", fmt::format("most in a step of 1 s; {} masses", links));
 }
 StressResult unequal_rope() { return unequal_rope_of(100); }
@@ -150,11 +127,7 @@ StressResult stiff_nets() {
   Random random(7);
   double worst = 0;
   for (int round = 0; round < 20; ++round) {
-    WorldConfig<2> config;
-    config.integrator = Integrator::implicit_euler;
-    config.contacts = ContactMethod::none;
-    config.may_sleep = false;
-    World<2> world(config);
+    World<2> world(config_of<2>(Integrator::implicit_euler));
     const double stiffness = 100 * std::ldexp(1.0, static_cast<int>(random.whole(0, 26)));
     for (int i = 0; i < 12; ++i) {
       Body<2> mass = make_ball<2>({random.between(-1, 1), random.between(-1, 1)});
@@ -178,11 +151,7 @@ StressResult stiff_nets() {
         spring.damping = round % 3 * 10.0;
         world.add_spring(spring);
       }
-    const double before = total_energy(world);
-    for (int i = 0; i < 20; ++i) {
-      world.step(kStep);
-      worst = largest(worst, total_energy(world) / before - 1);
-    }
+    worst = largest(worst, energy_gain(world, 20));
   }
   return at_most(1e-9, worst, "relative", "most above the start; 20 nets of 12 masses, k to 6.7e9");
 }
@@ -204,11 +173,8 @@ StressResult stiff_pendulum() {
   rod.rest_length = 1;
   rod.stiffness = 1e8;
   world.add_spring(rod);
-  double worst = 0;
-  for (int i = 0; i < 600; ++i) {
-    world.step(kStep);
-    worst = largest(worst, std::abs(glm::length(world.bodies()[1].position) - 1));
-  }
+  const double worst = worst_after_steps(
+      world, 600, kStep, [&] { return std::abs(glm::length(world.bodies()[1].position) - 1); });
   return at_most(0.01, worst, "m", "the rod's length, 10 s at 1/60 s");
 }
 

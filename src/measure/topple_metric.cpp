@@ -2,8 +2,8 @@
 // topples over its lower edge iff tan a > w / h: iff its centre is beyond that edge.
 #include <fmt/format.h>
 
-#include "measure/contact_parts.hpp"
 #include "measure/error_metrics.hpp"
+#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -15,7 +15,7 @@ class Topple : public ErrorMetric {
  public:
   explicit Topple(const Scenario& scenario)
       : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)) {
-    require_no_links(scenario);
+    require_links(scenario, 0);
     for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
   }
 

@@ -6,7 +6,7 @@
 #include "draw/number_text.hpp"
 #include "measure/records.hpp"
 #include "report/antialiasing.hpp"
-#include "report/cheapest.hpp"
+#include "report/page_parts.hpp"
 #include "report/pareto.hpp"
 #include "report/sentences.hpp"
 
@@ -148,6 +148,21 @@ std::string picture_sentence(const PictureReport& report, const std::string& sce
   beside("samples", "4", "four samples a pixel");
   beside("samples", "1", "one sample");
   return text + ".";
+}
+
+DrawList draw_picture_page(const PictureReport& report, const std::string& scene,
+                           const std::string& circumstances) {
+  constexpr double kMargin = 60;
+  DrawList list;
+  Labels labels(list);
+  const std::string small =
+      fmt::format("Drawn by {}, against 16 × 16 sub-pixels a pixel · cairo: {} · {}",
+                  report.backend, report.cairo, circumstances);
+  const double foot =
+      draw_page_foot(cheapest_picture(report, scene), {}, small, kMargin, list, labels);
+  draw_plot(picture_plot(report, scene), {{kMargin, 40}, {list.page.x - kMargin, foot - 22}}, list,
+            labels);
+  return list;
 }
 
 std::string to_table(const PictureReport& report) {

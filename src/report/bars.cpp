@@ -26,6 +26,11 @@ std::string seen_elsewhere(std::string_view name) {
 
 }  // namespace
 
+std::optional<bool> Bar::met() const {
+  if (!value) return std::nullopt;
+  return at_least ? *value >= bound : *value <= bound;  // false for NaN
+}
+
 std::vector<Bar> measured_bars() {
   std::vector<Bar> bars;
   for (const StressCase& one : stress_cases()) {

@@ -1,10 +1,9 @@
-#include "report/bars_table.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "report/bars.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern {

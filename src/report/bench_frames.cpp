@@ -10,13 +10,30 @@
 
 #include "base/clock.hpp"
 #include "base/error.hpp"
-#include "base/json_writer.hpp"
 #include "base/stop.hpp"
+#include "measure/records.hpp"
+#include "measure/timed.hpp"
 #include "render/pipeline.hpp"
 #include "report/cairo_peer.hpp"
-#include "report/start_time.hpp"
 
 namespace lantern {
+
+template <class Visit>
+void each_field(const FrameWriter& f, Visit&& visit) {
+  visit(Field("name"), f.name);
+  visit(Field("frames_per_second"), f.frames_per_second);
+  visit(Field("against_cairo"), f.against_cairo);
+  visit(Field("bytes_per_file"), f.bytes_per_file);
+  visit(Field("pictures_encoded"), f.pictures_encoded);
+}
+
+template <class Visit>
+void each_field(const StartTimes& s, Visit&& visit) {
+  visit(Field("shaders_known"), s.shaders_known);
+  visit(Field("bare_context_seconds"), s.bare_context);
+  visit(Field("first_file_seconds"), s.first_file);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,11 +161,11 @@ FrameBenchResult bench_frames(std::span<const DrawList> lists, const fs::path& f
       entry.seconds.push_back(entry.last.seconds);
     }
   for (const Entry& entry : entries)
-    result.methods.push_back({entry.name, config.frames / median(entry.seconds), 0,
-                                  entry.last.bytes / config.frames, entry.last.encoded});
+    result.writers.push_back({entry.name, config.frames / quantile(entry.seconds, 0.5), 0,
+                              entry.last.bytes / config.frames, entry.last.encoded});
   if (entries.size() > 2)
-    for (FrameWriter& c : result.methods)
-      c.against_cairo = c.frames_per_second / result.methods[2].frames_per_second;
+    for (FrameWriter& c : result.writers)
+      c.against_cairo = c.frames_per_second / result.writers[2].frames_per_second;
   return result;
 }
 
@@ -158,7 +175,7 @@ std::string to_table(const FrameBenchResult& result) {
                                  c.height, c.frames, c.rounds, result.cairo);
   text += fmt::format("{:<18}{:>12}{:>12}{:>14}{:>10}\n", "", "frames/s", "x cairo", "bytes/file",
                       "encoded");
-  for (const FrameWriter& f : result.methods)
+  for (const FrameWriter& f : result.writers)
     text += fmt::format("{:<18}{:>12.1f}{:>12.2f}{:>14.0f}{:>9.0f}%\n", f.name, f.frames_per_second,
                         f.against_cairo, f.bytes_per_file, 100 * f.pictures_encoded);
   text += "\nfrom the start of a process, ms   bare context   first 1280 x 720 file   ratio\n";
@@ -177,23 +194,9 @@ std::string to_json(const FrameBenchResult& result) {
   json.line().member("rounds", c.rounds).member("threads", c.threads);
   json.line().member("cairo", result.cairo);
   json.line().key("contestants").begin_array();
-  for (const FrameWriter& f : result.methods)
-    json.line()
-        .begin_object()
-        .member("name", f.name)
-        .member("frames_per_second", f.frames_per_second)
-        .member("against_cairo", f.against_cairo)
-        .member("bytes_per_file", f.bytes_per_file)
-        .member("pictures_encoded", f.pictures_encoded)
-        .end_object();
+  for (const FrameWriter& writer : result.writers) write_json(writer, json.line());
   json.line().end_array().line().key("starts").begin_array();
-  for (const StartTimes& s : result.starts)
-    json.line()
-        .begin_object()
-        .member("shaders_known", s.shaders_known)
-        .member("bare_context_seconds", s.bare_context)
-        .member("first_file_seconds", s.first_file)
-        .end_object();
+  for (const StartTimes& times : result.starts) write_json(times, json.line());
   json.line().end_array().line().end_object();
   return json.text() + "\n";
 }

@@ -14,8 +14,8 @@ namespace lantern {
 
 struct FrameBenchConfig {
   int width = 1920, height = 1080;
-  int frames = 60;  // files a method writes in a round; the lists are taken in turn
-  int rounds = 5;   // methods take turns; the median counts
+  int frames = 60;  // files a writer makes in a round; the lists are taken in turn
+  int rounds = 5;   // writers take turns; the median counts
   int threads = 2;  // that encode, beside the one that draws
   Backend backend = Backend::automatic;
   Theme theme;
@@ -39,7 +39,7 @@ struct StartTimes {
 struct FrameBenchResult {
   FrameBenchConfig config;
   std::string cairo;  // version, or why there is none
-  std::vector<FrameWriter> methods;
+  std::vector<FrameWriter> writers;
   std::vector<StartTimes> starts;
 };
 
@@ -49,6 +49,11 @@ struct FrameBenchResult {
 // missing. Throws Refused (no lists, no rounds), BackendError, IoError.
 FrameBenchResult bench_frames(std::span<const DrawList> lists, const std::filesystem::path& folder,
                               const FrameBenchConfig& config);
+
+// `rounds` new processes for each of the two times. Writes one file into `folder` and removes it.
+// Throws BackendError if a process fails.
+StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
+                         const FrameBenchConfig& config, bool shaders_known);
 
 std::string to_table(const FrameBenchResult& result);
 std::string to_json(const FrameBenchResult& result);  // lantern.bench.frames/1

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/labels.hpp"
 #include "draw/number_text.hpp"
+#include "report/page_parts.hpp"
 
 namespace lantern {
 namespace {
@@ -81,16 +81,9 @@ class GridPage {
   Box<2> all() const { return {Vec<2>(0.0), list_.page}; }
 
   void title() {
-    const Box<2> band{{kGridMargin, 20}, {list_.page.x - kGridMargin, 76}};
-    const TextStyle bold{28, Weight::semibold, Role::ink, Role::none};
-    const TextStyle quiet{26, Weight::regular, Role::quiet_ink, Role::none};
     const std::string text = fmt::format("Where to set capacity and depth limit of {} {}",
                                          words_of(kind_)[0] == 'o' ? "an" : "a", words_of(kind_));
-    labels_.add(text, {{kGridMargin, 58}, 0}, bold, band);
-    const double end = kGridMargin + text_width(text, bold) + 12;
-    labels_.add(shortened("·  " + scene_.words, band.hi.x - end, quiet), {{end, 58}, 0}, quiet,
-                band);
-    rule(78);
+    draw_page_title(text, scene_.words, kGridMargin, list_, labels_);
   }
 
   void rule(double y) {

@@ -8,18 +8,16 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/plot_bands.hpp"
 #include "draw/plot_legend.hpp"
-#include "report/outcome_plot.hpp"
-#include "report/page_foot.hpp"
+#include "report/claims.hpp"
+#include "report/page_parts.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern {
 namespace {
 
 constexpr double kPlotMargin = 60;
-constexpr double kTitleLine = 58;
 constexpr const char* kSeconds = "seconds for the whole run: median, quartiles";
 constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
 constexpr double kFarOff =
@@ -87,25 +85,6 @@ void send_far_ones_off(Plot& plot) {
   for (PlotSeries& s : plot.series)
     for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
   plot.beyond = "diverged, or beyond 1000";
-}
-
-void add_rule(DrawList& list, double y) {
-  list.shapes.emplace_back(
-      LineShape{{kPlotMargin, y}, {list.page.x - kPlotMargin, y}, {Role::rule, 1.6, 0}, true});
-}
-
-void draw_title(const ProblemRows& problem, DrawList& list, Labels& labels) {
-  const Box<2> band{{kPlotMargin, 20}, {list.page.x - kPlotMargin, 76}};
-  const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
-  const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
-  const std::string title = shortened(problem_words(problem), 0.6 * band.size().x, bold);
-  labels.add(title, {{kPlotMargin, kTitleLine}, 0}, bold, band);
-  const double x = kPlotMargin + text_width(title, bold) + 11;
-  const std::string rest =
-      fmt::format("·  {} against cost  ·  {}", has_whole_errors(problem) ? "outcome" : "error",
-                  file_name(problem));
-  labels.add(shortened(rest, band.hi.x - x, quiet), {{x, kTitleLine}, 0}, quiet, band);
-  add_rule(list, 78);
 }
 
 // "error: state (“traj”), against: closed form", with the unit of what is not relative.
@@ -255,7 +234,10 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
   const std::map<std::string, int> looks = looks_of(measurement.rows);
   DrawList list;
   Labels labels(list);
-  draw_title(problem, list, labels);
+  draw_page_title(problem_words(problem),
+                  fmt::format("{} against cost  ·  {}",
+                              has_whole_errors(problem) ? "outcome" : "error", file_name(problem)),
+                  kPlotMargin, list, labels);
   const double bottom =
       draw_page_foot(sentence(problem), notes_on(problem),
                      circumstances_text(measurement.circumstances), kPlotMargin, list, labels) -

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "report/claims.hpp"
 #include "report/problem_rows.hpp"
 #include "report/sentences.hpp"
 

@@ -1,11 +1,12 @@
-#include "report/outcome_plot.hpp"
-
+// Plots for problems where error against work says little: those that are right or wrong, and those
+// whose work does not depend on the step.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "report/measure_plots.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern {

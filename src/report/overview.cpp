@@ -7,7 +7,7 @@
 
 #include "draw/font.hpp"
 #include "draw/plot_legend.hpp"
-#include "report/bars_table.hpp"
+#include "report/bars.hpp"
 #include "report/measure_plots.hpp"
 #include "report/sentences.hpp"
 
@@ -208,11 +208,6 @@ class OverviewPage {
 };
 
 }  // namespace
-
-std::optional<bool> Bar::met() const {
-  if (!value) return std::nullopt;
-  return at_least ? *value >= bound : *value <= bound;  // false for NaN
-}
 
 DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars) {
   return OverviewPage(measurement, bars).draw();

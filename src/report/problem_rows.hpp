@@ -31,22 +31,8 @@ struct MethodRows {
 };
 std::vector<MethodRows> by_method(const ProblemRows& problem);
 
-// Whether the method's run at the problem's finest step was really made, whatever came of it: it
-// was neither refused nor left out for its time. Only then may it be said what the method cannot
-// do.
-bool finest_run_made(const MethodRows& method, const ProblemRows& problem);
-
-// Methods whose errors agree in every run that two of them share, and in two runs at least: in
-// everything that the problem asks of them they are the same. Agreement is to a billionth, since
-// they round differently. Names, two or more a group, in order of their first rows.
-std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
-
 // It chooses its steps itself, and moves the bodies without the world's step.
 inline bool is_adaptive(std::string_view method) { return method == "dormand_prince"; }
-
-// What a reader must know beside the numbers: what the main norm is, how good its reference is, and
-// who is measured otherwise than the rest. A sentence each.
-std::vector<std::string> notes_on(const ProblemRows& problem);
 
 // "explicit Euler" of "explicit_euler", "soft contacts (16 sub-steps)" of "soft:16"; a peer's name
 // stays as it is.

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "report/cheapest.hpp"
-#include "report/shortfall.hpp"
+#include "report/claims.hpp"
+#include "report/pareto.hpp"
 
 namespace lantern {
 namespace {

@@ -9,12 +9,12 @@
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
 #include "draw/pen.hpp"
+#include "report/page_parts.hpp"
 
 namespace lantern {
 namespace {
 
 constexpr double kMapMargin = 48;
-constexpr double kMapTitle = 58;  // baseline
 constexpr double kLegendLine = 118;
 constexpr double kPanelHeading = 34;  // of a panel, over its plot
 constexpr int kPanelsInRow = 3;
@@ -77,7 +77,9 @@ class Picture {
   explicit Picture(const StabilityMap& map) : map_(map), labels_(list_) {}
 
   DrawList draw() {
-    draw_title();
+    draw_page_title("How one step multiplies the motion of a damped spring",
+                    "measured with the engine, step by damping, beside the limit by theory",
+                    kMapMargin, list_, labels_);
     draw_legend();
     const Box<2> area{{kMapMargin + 92, 158}, {list_.page.x - kMapMargin, list_.page.y - 84}};
     const double gap = 46;
@@ -99,17 +101,6 @@ class Picture {
  private:
   static double row_height(const Box<2>& area) { return (area.size().y + kRowsGap) / 2; }
   Box<2> page() const { return {Vec<2>(0.0), list_.page}; }
-
-  void draw_title() {
-    const std::string_view title = "How one step multiplies the motion of a damped spring";
-    const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
-    const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
-    labels_.add(title, {{kMapMargin, kMapTitle}, 0}, bold, page());
-    labels_.add("measured with the engine, step by damping, and the limit by theory",
-                {{list_.page.x - kMapMargin, kMapTitle}, 1}, quiet, page());
-    list_.shapes.emplace_back(
-        LineShape{{kMapMargin, 78}, {list_.page.x - kMapMargin, 78}, {Role::rule, 1.6, 0}, true});
-  }
 
   void draw_legend() {
     double x = kMapMargin;

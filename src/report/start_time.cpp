@@ -1,6 +1,3 @@
-#include "report/start_time.hpp"
-
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -10,13 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/check.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/stop.hpp"
+#include "measure/timed.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
+#include "report/bench_frames.hpp"
 
 namespace lantern {
 namespace {
@@ -57,13 +55,6 @@ double seconds_in_new_process(const std::function<void()>& work) {
 
 }  // namespace
 
-double median(std::vector<double> values) {
-  LANTERN_CHECK(values.empty(), ==, false);
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
                          const FrameBenchConfig& config, bool shaders_known) {
   const std::filesystem::path path = folder / "first.png";
@@ -91,7 +82,7 @@ StartTimes measure_start(const DrawList& list, const std::filesystem::path& fold
   }
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
-  return {shaders_known, median(bare_seconds), median(frame_seconds)};
+  return {shaders_known, quantile(bare_seconds, 0.5), quantile(frame_seconds, 0.5)};
 }
 
 }  // namespace lantern

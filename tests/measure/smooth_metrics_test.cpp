@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/problems.hpp"
 #include "measure/error_metric.hpp"
+#include "measure/problems.hpp"
 
 namespace lantern {
 namespace {

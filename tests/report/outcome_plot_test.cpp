@@ -1,6 +1,4 @@
 // Problems that are right or wrong: their plots.
-#include "report/outcome_plot.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "render/check_list.hpp"
 #include "draw/layout_check.hpp"
+#include "render/check_list.hpp"
 #include "report/measure_plots.hpp"
 #include "report/overview.hpp"
 #include "report/sample_rows.hpp"

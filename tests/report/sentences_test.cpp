@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "report/claims.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern {

@@ -1,4 +1,4 @@
-// What may be said of methods that miss a bound.
+// What may be claimed of the methods of a problem: who misses a bound, and who is the same.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,16 @@
 #include "report/problem_rows.hpp"
 
 namespace lantern {
+
+// Whether the method's run at the problem's finest step was really made, whatever came of it: it
+// was neither refused nor left out for its time. Only then may it be said what the method cannot
+// do.
+bool finest_run_made(const MethodRows& method, const ProblemRows& problem);
+
+// Methods whose errors agree in every run that two of them share, and in two runs at least: in
+// everything that the problem asks of them they are the same. Agreement is to a billionth, since
+// they round differently. Names, two or more a group, in order of their first rows.
+std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
 
 // A method that misses a bound in all of its runs. That it falls short even at the problem's finest
 // step may be said only if that run was really made; a Shortfall is made of the rows themselves,
@@ -40,5 +50,9 @@ std::string within_runs_made(std::span<const Shortfall> all);
 
 // Of methods that are named by what they give: "impulses", "soft contacts (16 sub-steps)".
 bool is_plural(const std::string& name);
+
+// What a reader must know beside the numbers: what the main norm is, how good its reference is, and
+// who is measured otherwise than the rest. A sentence each.
+std::vector<std::string> notes_on(const ProblemRows& problem);
 
 }  // namespace lantern

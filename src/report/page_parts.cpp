@@ -1,5 +1,6 @@
-#include "report/page_foot.hpp"
+#include "report/page_parts.hpp"
 
+#include "draw/font.hpp"
 #include "draw/metrics.hpp"
 
 namespace lantern {
@@ -18,6 +19,20 @@ std::vector<std::string> lines_of(const std::string& text, double width, const T
 }
 
 }  // namespace
+
+void draw_page_title(const std::string& title, const std::string& rest, double margin,
+                     DrawList& list, Labels& labels) {
+  constexpr double kBaseline = 58, kRule = 78;
+  const Box<2> band{{margin, 20}, {list.page.x - margin, kRule - 2}};
+  const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
+  const TextStyle quiet{22, Weight::regular, Role::quiet_ink, Role::none};
+  const std::string name = shortened(title, 0.6 * band.size().x, bold);
+  labels.add(name, {{margin, kBaseline}, 0}, bold, band);
+  const double x = margin + text_width(name, bold) + 11;
+  labels.add(shortened("·  " + rest, band.hi.x - x, quiet), {{x, kBaseline}, 0}, quiet, band);
+  list.shapes.emplace_back(
+      LineShape{{margin, kRule}, {list.page.x - margin, kRule}, {Role::rule, 1.6, 0}, true});
+}
 
 double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
                       const std::string& small, double margin, DrawList& list, Labels& labels) {

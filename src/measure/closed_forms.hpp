@@ -1,0 +1,84 @@
+// Closed forms of motion, each in a file of its own: exact_projectile.cpp and so on.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace lantern {
+
+// A body that is thrown, with or without drag: x'' = g - rate x'.
+struct FlightState {
+  long double position = 0;
+  long double velocity = 0;
+};
+
+// On one axis, `time` >= 0 seconds after the start. `acceleration` is that of gravity, `rate` >= 0
+// is drag over mass, in 1/s. Without cancellation for any of them: with rate * time near 0 it is
+// the parabola, with a large one the fall at its last speed, acceleration / rate.
+FlightState exact_flight(FlightState start, long double acceleration, long double rate,
+                         long double time);
+
+// A damped oscillator: m x'' + c x' + k x = 0.
+struct Swing {
+  long double x = 0;
+  long double v = 0;
+};
+
+// `time` >= 0 seconds after `start`, for any stiffness > 0, damping >= 0 and mass > 0: below, at
+// and above critical damping, and without cancellation near it. The phase is kept to twice the
+// length of a long double, so that a million periods lose nothing.
+Swing exact_swing(long double stiffness, long double damping, long double mass, Swing start,
+                  long double time);
+
+// A point mass on a rod, under gravity: angle'' = -(g / length) sin(angle).
+struct PendulumState {
+  long double angle = 0;  // radians from straight down, within half a turn
+  long double speed = 0;  // radians a second
+};
+
+// `time` seconds after `start`; `omega` > 0 is sqrt(g / length). Throws Refused if it goes over the
+// top, or stands there.
+PendulumState exact_pendulum(long double omega, PendulumState start, long double time);
+
+// Two bodies that attract each other by Newton's law: the ellipse of one about the other.
+struct Orbit {
+  glm::vec<3, long double> position{0.0L};  // of one from the other
+  glm::vec<3, long double> velocity{0.0L};
+};
+
+// `time` seconds after `start`, where `mu` > 0 is the constant of gravitation times both masses'
+// sum. Throws Refused if the two are not bound to each other, or fall straight into each other.
+Orbit exact_orbit(long double mu, const Orbit& start, long double time);
+
+// Half the greater axis of the ellipse; below 0 if they are not bound.
+long double half_axis(long double mu, const Orbit& start);
+
+// Masses in a row, each tied to the next by a spring: small or large motion along the row, since
+// the springs are linear.
+//
+// Both ends are fixed, or only the first: with N masses there are N + 1 or N springs. Masses and
+// stiffnesses above 0. Displacements and velocities are from rest, at time 0.
+class ChainMotion {
+ public:
+  ChainMotion(const std::vector<long double>& masses, const std::vector<long double>& stiffnesses,
+              const std::vector<long double>& displacements,
+              const std::vector<long double>& velocities);
+
+  void at(long double time, std::vector<long double>& displacements,
+          std::vector<long double>& velocities) const;
+
+  const std::vector<long double>& frequencies() const { return omega_; }  // radians a second
+
+ private:
+  void find_uniform_modes(std::size_t n, long double mass, long double stiffness);
+  void find_modes(const std::vector<long double>& masses,
+                  const std::vector<long double>& stiffnesses);
+
+  std::vector<long double> omega_;
+  std::vector<std::vector<long double>> modes_;  // [mode][mass], of unit length
+  std::vector<long double> root_mass_;
+  std::vector<long double> cosines_, sines_;  // what of each mode there is at the start
+};
+
+}  // namespace lantern

@@ -1,0 +1,21 @@
+// What stands above and below the plots of a page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "draw/labels.hpp"
+
+namespace lantern {
+
+// The title in bold, behind it what else is to be said, and a rule below, at y = 78 page units.
+void draw_page_title(const std::string& title, const std::string& rest, double margin,
+                     DrawList& list, Labels& labels);
+
+// A sentence, and in small what a reader must know beside it and how it was measured. Between the
+// page's margins, at its lower edge; `margin` in page units. The sentence has at most three lines,
+// smaller type if it needs more than two; so have the notes. Gives the y of the rule above it.
+double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
+                      const std::string& small, double margin, DrawList& list, Labels& labels);
+
+}  // namespace lantern
