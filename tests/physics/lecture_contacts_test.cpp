@@ -93,12 +93,12 @@ TEST(LectureContacts, MomentumIsKept) {
 
 TEST(LectureContacts, EveryBroadPhaseGivesTheSameMotion) {
   std::optional<std::uint64_t> hash;
-  for (const BroadPhaseKind kind : kBroadPhaseKinds) {
+  for (const StructureKind kind : kStructureKinds) {
     WorldConfig<3> config = by_the_lecture<3>();
     config.broad_phase.kind = kind;
     World<3> world = crowd(config);
     run(world, 1);
-    EXPECT_EQ(world.hash(), hash.value_or(world.hash())) << name_of(kind);
+    EXPECT_EQ(world.hash(), hash.value_or(world.hash())) << to_string(kind);
     hash = world.hash();
   }
 }

@@ -135,8 +135,7 @@ void expect_physics(const DryRun& run) {
   if (run.steps_with<Wait>() == 0) {
     const WorldWork other = without_frames(run);
     for (const WorldCounter& c : kWorldCounters)
-      if (c.name != "pair_tests")  // of the structure, which only the director rebuilds
-        EXPECT_EQ(run.report.world.*c.count, other.*c.count) << c.name;
+      EXPECT_EQ(run.report.world.*c.count, other.*c.count) << c.name;
   }
   const WorldWork& w = run.report.world;
   EXPECT_EQ(run.count("rotation", "rotations"), w.rotations_integrated);
