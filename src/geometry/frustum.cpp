@@ -9,15 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
-
-template <int D>
-void require_finite(const Vec<D>& v, const char* field) {
-  for (int i = 0; i < D; ++i)
-    if (!std::isfinite(v[i])) throw Refused(fmt::format("view: {} is not finite", field));
-}
 
 void require_view(double angle, double near, double far) {
   if (!(angle > 0 && angle < std::numbers::pi))
@@ -30,7 +25,7 @@ void require_view(double angle, double near, double far) {
 
 template <int D>
 Vec<D> direction(const Vec<D>& v, const char* field) {
-  require_finite<D>(v, field);
+  require_finite(v, "view", field);
   const double length = glm::length(v);
   if (!(length > 0) || !std::isfinite(length))
     throw Refused(fmt::format("view: {} has no length", field));
@@ -133,8 +128,8 @@ bool crossed_edges_part(const Frustum<3>& frustum, const Box<3>& box) {
 Frustum<3> view_frustum(const Vec<3>& eye, const Vec<3>& target, const Vec<3>& up, double fov,
                         double aspect, double near, double far) {
   require_view(fov, near, far);
-  require_finite<3>(eye, "eye");
-  require_finite<3>(target, "target");
+  require_finite(eye, "view", "eye");
+  require_finite(target, "view", "target");
   if (!(aspect > 0) || !std::isfinite(aspect))
     throw Refused(fmt::format("view: aspect is {}, must be above 0", aspect));
   const Vec<3> forward = direction<3>(target - eye, "the way from eye to target");
@@ -148,7 +143,7 @@ Frustum<3> view_frustum(const Vec<3>& eye, const Vec<3>& target, const Vec<3>& u
 Frustum<2> view_wedge(const Vec<2>& eye, const Vec<2>& toward, double opening, double near,
                       double far) {
   require_view(opening, near, far);
-  require_finite<2>(eye, "eye");
+  require_finite(eye, "view", "eye");
   const Vec<2> forward = direction<2>(toward, "direction");
   return frustum_of<2>(eye, {forward, Vec<2>(forward.y, -forward.x)}, {std::tan(opening / 2)}, near,
                        far);

@@ -3,7 +3,11 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "geometry/vec.hpp"
 
 namespace lantern {
@@ -18,6 +22,19 @@ bool is_finite(const Vec<D>& value) {
   for (int i = 0; i < D; ++i)
     if (!std::isfinite(value[i])) return false;
   return true;
+}
+
+// These throw Refused, naming `who` and the field.
+inline void require_finite(double value, const std::string& who, const char* field) {
+  if (!std::isfinite(value)) throw Refused(fmt::format("{}: {} is not finite", who, field));
+}
+template <int D>
+void require_finite(const Vec<D>& value, const std::string& who, const char* field) {
+  for (int i = 0; i < D; ++i) require_finite(value[i], who, field);
+}
+inline void require_not_negative(double value, const std::string& who, const char* field) {
+  if (!std::isfinite(value) || value < 0)
+    throw Refused(fmt::format("{}: {} is {}, must be finite and not negative", who, field, value));
 }
 
 }  // namespace lantern

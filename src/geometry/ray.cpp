@@ -75,10 +75,8 @@ std::optional<double> entry_of_half_space(const Ray<D>& ray, const Vec<D>& norma
 
 template <int D>
 void require_valid(const Ray<D>& ray) {
-  for (int i = 0; i < D; ++i) {
-    if (!std::isfinite(ray.origin[i])) throw Refused("ray: origin is not finite");
-    if (!std::isfinite(ray.direction[i])) throw Refused("ray: direction is not finite");
-  }
+  require_finite(ray.origin, "ray", "origin");
+  require_finite(ray.direction, "ray", "direction");
   if (ray.direction == Vec<D>(0.0)) throw Refused("ray: direction has no length");
   if (!(ray.length >= 0))
     throw Refused(fmt::format("ray: length is {}, must not be negative", ray.length));

@@ -13,11 +13,6 @@ namespace {
 
 std::string named(const std::string& name) { return fmt::format("body '{}'", name); }
 
-void require_not_negative(double value, const std::string& who, const char* field) {
-  if (!std::isfinite(value) || value < 0)
-    throw Refused(fmt::format("{}: {} is {}, must be finite and not negative", who, field, value));
-}
-
 template <int D>
 void check_shape(const Shape<D>& shape, const std::string& who) {
   const auto sizes = [&](const Vec<D>& half) {
@@ -57,25 +52,14 @@ Vec<3> inverse(const Vec<3>& value) {
 
 }  // namespace
 
-void require_finite(double value, const std::string& who, const char* field) {
-  if (!std::isfinite(value)) throw Refused(fmt::format("{}: {} is not finite", who, field));
-}
-
-template <int D>
-void require_finite(const Vec<D>& value, const std::string& who, const char* field) {
-  for (int i = 0; i < D; ++i) require_finite(value[i], who, field);
-}
-
 template <int D>
 void check_body(const Body<D>& body) {
   const std::string who = named(body.name);
   require_finite<D>(body.position, who, "position");
   check_rotation(body.orientation, who);
   require_finite<D>(body.velocity, who, "velocity");
-  if (!is_finite(body.angular_momentum))
-    throw Refused(fmt::format("{}: angular_momentum is not finite", who));
-  if (!is_finite(body.kinematic_spin))
-    throw Refused(fmt::format("{}: kinematic_spin is not finite", who));
+  require_finite(body.angular_momentum, who, "angular_momentum");
+  require_finite(body.kinematic_spin, who, "kinematic_spin");
   check_shape<D>(body.shape, who);
   require_not_negative(body.density, who, "density");
   require_not_negative(body.mass, who, "mass");
@@ -109,8 +93,6 @@ void derive_mass(Body<D>& body) {
     throw Refused(fmt::format("{}: inertia is out of range", who));
 }
 
-template void require_finite<2>(const Vec<2>&, const std::string&, const char*);
-template void require_finite<3>(const Vec<3>&, const std::string&, const char*);
 template void check_body(const Body<2>&);
 template void check_body(const Body<3>&);
 template void derive_mass(Body<2>&);

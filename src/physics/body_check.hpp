@@ -9,11 +9,6 @@ namespace lantern {
 template <int D>
 void check_body(const Body<D>& body);
 
-// Throws Refused, naming `who` and the field, if a number is not finite.
-template <int D>
-void require_finite(const Vec<D>& value, const std::string& who, const char* field);
-void require_finite(double value, const std::string& who, const char* field);
-
 // Mass, inverse mass and inertia from shape, density and mass, checked. Throws Refused for a
 // dynamic body that has none.
 template <int D>

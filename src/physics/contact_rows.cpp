@@ -27,6 +27,18 @@ double roundness(const Shape<D>& shape) {
       [](const HalfSpace<D>&) { return 0.0; });
 }
 
+// An impulse upon b at a point, and the opposite one upon a.
+template <int D>
+void apply(const ContactPoint<D>& p, const Vec<D>& impulse, SolverBody<D>& a, SolverBody<D>& b) {
+  a.apply(-impulse, p.arm_a);
+  b.apply(impulse, p.arm_b);
+}
+template <int D>
+void correct(const ContactPoint<D>& p, const Vec<D>& impulse, SolverBody<D>& a, SolverBody<D>& b) {
+  a.correct(-impulse, p.arm_a);
+  b.correct(impulse, p.arm_b);
+}
+
 template <int D>
 Vec<D> across(const Vec<D>& v, const Vec<D>& normal) {
   return v - normal * glm::dot(v, normal);
@@ -112,9 +124,7 @@ void warm_start(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
   for (ContactPoint<D>& p : rows.points())
     p.kicked_slip = across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
   for (ContactPoint<D>& p : rows.points()) {
-    const Vec<D> impulse = rows.normal * p.pn + p.pt;
-    a.apply(-impulse, p.arm_a);
-    b.apply(impulse, p.arm_b);
+    apply<D>(p, rows.normal * p.pn + p.pt, a, b);
   }
 }
 
@@ -128,9 +138,7 @@ void solve_velocities(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, 
     // Bodies that are still apart may come as close as to touch.
     const double before = p.pn;
     p.pn = std::max(before - (parting + p.gap / h) / p.inverse_normal_mass, 0.0);
-    const Vec<D> impulse = rows.normal * (p.pn - before);
-    a.apply(-impulse, p.arm_a);
-    b.apply(impulse, p.arm_b);
+    apply<D>(p, rows.normal * (p.pn - before), a, b);
     sweep.change = std::max(sweep.change, std::abs(p.pn - before));
     sweep.largest = std::max(sweep.largest, p.pn);
     ++sweep.normal_rows;
@@ -145,8 +153,7 @@ void solve_velocities(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, 
     p.sticks = length <= most * (1 + kSlipByRounding);
     if (length > most) p.pt *= most / length;
     const Vec<D> impulse = p.pt - before;
-    a.apply(-impulse, p.arm_a);
-    b.apply(impulse, p.arm_b);
+    apply(p, impulse, a, b);
     sweep.change = std::max(sweep.change, glm::length(impulse));
     sweep.friction_rows += D - 1;
   }
@@ -206,9 +213,7 @@ void correct_positions(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b,
     // Together with the impulse that is there already, it may push but not pull.
     const double least = p.bounce > 0 ? 0 : -p.pn;
     p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
-    const Vec<D> impulse = rows.normal * (p.correction - before);
-    a.correct(-impulse, p.arm_a);
-    b.correct(impulse, p.arm_b);
+    correct<D>(p, rows.normal * (p.correction - before), a, b);
     sweep.change = std::max(sweep.change, std::abs(p.correction - before));
     ++sweep.normal_rows;
   }
@@ -216,8 +221,7 @@ void correct_positions(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b,
     if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
     const Vec<D> slip = across(relative_mean_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
     const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
-    a.correct(-impulse, p.arm_a);
-    b.correct(impulse, p.arm_b);
+    correct(p, impulse, a, b);
     sweep.change = std::max(sweep.change, glm::length(impulse));
     sweep.friction_rows += D - 1;
   }

@@ -7,23 +7,10 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
-
-void check_number(double value, const std::string& field) {
-  if (!std::isfinite(value)) throw Refused(fmt::format("{} is {}, must be finite", field, value));
-}
-
-void check_size(double value, const std::string& field) {
-  if (!std::isfinite(value) || value < 0)
-    throw Refused(fmt::format("{} is {}, must be finite and not negative", field, value));
-}
-
-template <int D>
-void check_vector(const Vec<D>& value, const std::string& field) {
-  for (int i = 0; i < D; ++i) check_number(value[i], field);
-}
 
 template <int D>
 void check_present(BodyId id, const std::vector<BodyId>& ids, const std::string& field) {
@@ -38,11 +25,11 @@ void check_spring(const Spring<D>& spring, const std::vector<BodyId>& ids,
   check_present<D>(spring.b, ids, name + ": b");
   if (spring.a == spring.b)
     throw Refused(fmt::format("{}: both ends are on body {}", name, spring.a));
-  check_vector<D>(spring.at_a, name + ": at_a");
-  check_vector<D>(spring.at_b, name + ": at_b");
-  check_size(spring.rest_length, name + ": rest_length");
-  check_size(spring.stiffness, name + ": stiffness");
-  check_size(spring.damping, name + ": damping");
+  require_finite(spring.at_a, name, "at_a");
+  require_finite(spring.at_b, name, "at_b");
+  require_not_negative(spring.rest_length, name, "rest_length");
+  require_not_negative(spring.stiffness, name, "stiffness");
+  require_not_negative(spring.damping, name, "damping");
 }
 
 }  // namespace
@@ -89,19 +76,21 @@ void check_forces(const Forces<D>& forces, std::span<const Body<D>> bodies) {
   std::vector<BodyId> ids;
   for (const Body<D>& body : bodies) {
     ids.push_back(body.id);
-    check_size(body.linear_drag, fmt::format("body '{}': linear_drag", body.name));
-    check_size(body.angular_drag, fmt::format("body '{}': angular_drag", body.name));
+    const std::string who = fmt::format("body '{}'", body.name);
+    require_not_negative(body.linear_drag, who, "linear_drag");
+    require_not_negative(body.angular_drag, who, "angular_drag");
   }
   std::sort(ids.begin(), ids.end());
-  check_vector<D>(forces.gravity, "gravity");
-  check_size(forces.gravitation, "gravitation");
+  require_finite(forces.gravity, "forces", "gravity");
+  require_not_negative(forces.gravitation, "forces", "gravitation");
   for (std::size_t i = 0; i < forces.springs.size(); ++i)
     check_spring<D>(forces.springs[i], ids, fmt::format("spring {}", i));
   for (std::size_t i = 0; i < forces.pushes.size(); ++i) {
     const Push<D>& push = forces.pushes[i];
     check_present<D>(push.body, ids, fmt::format("push {}", i));
-    check_vector<D>(push.at, fmt::format("push {} on body {}: at", i, push.body));
-    check_vector<D>(push.force, fmt::format("push {} on body {}: force", i, push.body));
+    const std::string who = fmt::format("push {} on body {}", i, push.body);
+    require_finite(push.at, who, "at");
+    require_finite(push.force, who, "force");
   }
 }
 

@@ -36,6 +36,7 @@ struct World<D>::Step {
   Forces<D> forces = world.forces_;
   std::vector<TimedPush> pushes = {};
   std::vector<Increment<D>> increments = {};  // over the whole step, if nothing touches
+  std::vector<Proxy<D>> boxes = {};           // of bodies, enlarged by how far each may come
   std::vector<Pair> pairs = {};               // of the broad phase
   std::uint64_t narrow_pairs = 0;             // of those, looked at by the narrow phase
   std::vector<NearPair> near = {};
@@ -45,17 +46,23 @@ struct World<D>::Step {
   std::vector<ContactEvent> events = {};
   std::vector<Told> told = {};
 
+  // The phases, in their order (world_step.cpp).
   void find_forces();
-  void require_boxes() const;
-  std::vector<Proxy<D>> enlarged_boxes() const;
-  void find_near_pairs();
+  void refresh_boxes();
+  void broad_phase();
+  void narrow_phase();
+  bool wake_what_is_touched();  // whether any woke, who may touch others
   void make_islands();
   void solve_and_integrate();
   void require_no_overflow() const;
   bool stayed_within_reach();
   void fall_asleep();
-  void tell();
+  void update_contact_events();
   void commit();
+
+  // What looking ahead asks for.
+  void require_boxes() const;
+  std::vector<Proxy<D>> enlarged_boxes() const;
 
  private:
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
@@ -70,11 +77,10 @@ struct World<D>::Step {
   void find_increments();
   void find_reach();
   Box<D> enlarged_box(std::size_t place) const;
-  bool look_for_near_pairs();
+  bool looks_for_contacts() const;
   std::optional<NearPair> nearing(const Pair& pair);
   void require_room_for_near_pairs() const;
   IslandPair<D> island_pair(const NearPair& from) const;
-  bool wake_what_is_touched();
   void wake(std::vector<std::uint32_t> places);
 
   std::vector<Group> groups_to_solve(bool whole_world) const;

@@ -1,4 +1,4 @@
-// The second half of a step: bodies move, some fall asleep, and the world is told.
+// The second half of a step: bodies move, some fall asleep, and what touches is noted.
 #include <algorithm>
 #include <cmath>
 
@@ -218,7 +218,7 @@ void World<D>::Step::fall_asleep() {
 
 // Contacts in order of ids, with those of bodies that slept through, and what is new about them.
 template <int D>
-void World<D>::Step::tell() {
+void World<D>::Step::update_contact_events() {
   const auto rests = [&](BodyId id) {
     return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
   };
@@ -281,7 +281,7 @@ void World<D>::Step::commit() {
   template void World<D>::Step::require_no_overflow() const; \
   template bool World<D>::Step::stayed_within_reach();       \
   template void World<D>::Step::fall_asleep();               \
-  template void World<D>::Step::tell();                      \
+  template void World<D>::Step::update_contact_events();     \
   template void World<D>::Step::commit();
 
 LANTERN_INSTANTIATE(2)

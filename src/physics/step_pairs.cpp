@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -66,7 +67,7 @@ template <int D>
 void World<D>::Step::find_increments() {
   if (world.ahead_ && world.ahead_->h == h) {
     increments = world.ahead_->increments;
-    world.work_.force_evaluations += world.ahead_->force_evaluations;
+    world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
     return;
   }
   find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
@@ -137,32 +138,36 @@ void World<D>::look_ahead(double h) {
 }
 
 template <int D>
-void World<D>::Step::find_near_pairs() {
-  require_boxes();
-  if (!collides()) return;
-  const auto awake = [](const Body<D>& body) { return body.stirs(); };
-  while (std::any_of(moved.begin(), moved.end(), awake)) {
-    ++world.work_.broad_phases;
-    narrow_pairs = 0;
-    if (!look_for_near_pairs()) break;
-  }
+bool World<D>::Step::looks_for_contacts() const {
+  return collides() && std::ranges::any_of(moved, &Body<D>::stirs);
 }
 
-// Broad phase and narrow phase. Returns whether bodies woke, so that it must be done again.
 template <int D>
-bool World<D>::Step::look_for_near_pairs() {
+void World<D>::Step::refresh_boxes() {
+  require_boxes();
+  if (looks_for_contacts()) boxes = enlarged_boxes();
+}
+
+template <int D>
+void World<D>::Step::broad_phase() {
+  if (!looks_for_contacts()) return;
   if (!world.broad_phase_) world.broad_phase_.emplace(world.config_.broad_phase);
-  world.broad_phase_->update(enlarged_boxes());
+  world.broad_phase_->update(boxes);
   pairs = world.broad_phase_->pairs();
+  ++world.work_.broad_phases;
   world.work_.pair_tests += world.broad_phase_->counters().pair_tests;
   world.work_.candidate_pairs += pairs.size();
+}
+
+template <int D>
+void World<D>::Step::narrow_phase() {
   near.clear();
+  narrow_pairs = 0;
   for (const Pair& pair : pairs) {
     stop_if_asked();
     if (const auto found = nearing(pair)) near.push_back(*found);
   }
   require_room_for_near_pairs();
-  return wake_what_is_touched();
 }
 
 // The pair, if the two may come to touch in this step.
@@ -232,6 +237,7 @@ const typename World<D>::Touch* World<D>::Step::remembered(BodyId a, BodyId b) c
 
 template <int D>
 bool World<D>::Step::wake_what_is_touched() {
+  if (!looks_for_contacts()) return false;
   std::vector<std::uint32_t> woken;
   for (const NearPair& pair : near) {
     if (moved[pair.a].asleep) woken.push_back(pair.a);
@@ -248,7 +254,6 @@ bool World<D>::Step::wake_what_is_touched() {
   wake(std::move(woken));
   find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
   find_reach();
-  require_boxes();
   return true;
 }
 
@@ -286,7 +291,10 @@ void World<D>::Step::make_islands() {
 
 #define LANTERN_INSTANTIATE(D)                                               \
   template void World<D>::Step::find_forces();                               \
-  template void World<D>::Step::find_near_pairs();                           \
+  template void World<D>::Step::refresh_boxes();                             \
+  template void World<D>::Step::broad_phase();                               \
+  template void World<D>::Step::narrow_phase();                              \
+  template bool World<D>::Step::wake_what_is_touched();                      \
   template void World<D>::Step::make_islands();                              \
   template IslandPair<D> World<D>::Step::island_pair(const NearPair&) const; \
   template void World<D>::look_ahead(double);                                \

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.hpp"
+#include "geometry/not_finite.hpp"
 #include "physics/body_check.hpp"
 #include "physics/waking.hpp"
 
@@ -178,10 +179,7 @@ void World<D>::set_angular_velocity(BodyId id, const Spin<D>& spin) {
     turning.kinematic_spin = spin;
   // Spin of a body that cannot turn is lost above, so it is looked at by itself.
   const std::string who = fmt::format("body '{}'", body.name);
-  if constexpr (D == 2)
-    require_finite(spin, who, "angular velocity");
-  else
-    require_finite<D>(spin, who, "angular velocity");
+  require_finite(spin, who, "angular velocity");
   check_body(turning);
   wake_from({id});
   body.angular_momentum = turning.angular_momentum;

@@ -1,6 +1,6 @@
 // The bodies of a scene and how they move.
 //
-//   refresh boxes -> broad phase -> narrow phase -> islands -> solve and move -> sleep
+//   forces -> boxes -> broad phase -> narrow phase -> islands -> solve and integrate -> sleep
 //
 // A world without forces and contacts does nothing of this: bodies fly straight on.
 #pragma once
