@@ -1,15 +1,15 @@
 // What the lecture's phases hand on: a pair that may collide, and where it does.
 //
-// This room is the lecture's own code ("Physics - Broad phase and Narrow phase", the section
+// This room holds the lecture's own code ("Physics - Broad phase and Narrow phase", section
 // "Tutorial Code"), kept recognisable line by line: its names, its order, its std::list in every
-// node. It stands in a namespace of the house rather than in NCL::CSC8503, because the framework of
-// that name is not here. Where the code differs, a comment says so:
+// node. It lives in a namespace of this program, not in NCL::CSC8503, because the framework of that
+// name is not part of it. Wherever the code departs from the text, a comment says so:
 //
-//   Mended:  what the text has, and why it fails
-//   Added:   what the text has not, and who needs it
-//   Ours:    the text names it and does not show it; written from its description
+//   Mended:  what the text does, and why that fails
+//   Added:   what the text lacks, and who needs it
+//   Ours:    what the text mentions but does not show; written from its description
 //
-// Numbers are doubles, as everywhere in this program; in the text they are floats.
+// Numbers are doubles, as everywhere in this program; the text uses floats.
 #pragma once
 
 #include <cmath>
@@ -35,21 +35,21 @@ struct CollisionDetection {
   struct CollisionInfo {
     GameObject* a = nullptr;
     GameObject* b = nullptr;
-    // A std::set hands out constants; what does not decide their order may change.
+    // A std::set hands out constants; what plays no part in their order may still change.
     mutable int framesLeft = 0;
     mutable ContactPoint point;
-    mutable double impulse = 0;  // Added: that the last frame took, along the normal, in N s
+    mutable double impulse = 0;  // Added: applied along the normal in the last frame, in N s
     mutable bool begun = false;  // Added: OnCollisionBegin was called
 
-    // Mended: the text compares a + (b << 8), sums of addresses. Two different pairs can have the
-    // same sum; the std::set then takes the second for the first and it never collides. The order
-    // also changes from run to run, and with it the result. Ids do neither.
+    // Mended: the text compares a + (b << 8), a sum of addresses. Two different pairs can have the
+    // same sum; the std::set then mistakes the second for the first, and it never collides. The
+    // order, and with it the outcome, also changes from run to run. With ids neither happens.
     bool operator<(const CollisionInfo& other) const;
   };
 
-  // Do two boxes overlap, each given by its middle and half sizes?
-  // Mended: the text's boxes do not overlap when they just touch, so a ball that rests on a wall is
-  // lost and found at every rounding. Touching counts.
+  // Do two boxes overlap, each given by its centre and half sizes?
+  // Mended: in the text, boxes that just touch do not overlap, so whether a ball resting on a wall
+  // is found depends on rounding. Here touching counts.
   static bool AABBTest(const Vector3& posA, const Vector3& posB, const Vector3& halfSizeA,
                        const Vector3& halfSizeB) {
     const Vector3 delta = posB - posA;

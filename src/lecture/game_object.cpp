@@ -22,8 +22,8 @@ void GameObject::UpdateBroadphaseAABB() {
     for (int i = 0; i < 3; ++i) mat[i] = glm::abs(mat[i]);
     broadphaseAABB = mat * turned_box->half_size;
   } else {
-    // Mended: the text has no further branch, and any other volume keeps half sizes that were never
-    // set. The house's formulas give a box that holds it, here made even on both sides.
+    // Mended: the text stops here, and for any other volume the half sizes are never set. This is
+    // the smallest box around the object's position that contains the volume.
     const Vector3& position = transform.GetWorldPosition();
     const Box<3> around =
         bounding_box<3>(*boundingVolume, position, {transform.GetWorldOrientation()});

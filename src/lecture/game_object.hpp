@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "geometry/rotation.hpp"
 #include "geometry/shape.hpp"
@@ -26,8 +27,8 @@ class Transform {
   Quaternion orientation{1, 0, 0, 0};  // w, x, y, z
 };
 
-// Ours, from the tutorials before this one: how an object moves. What cannot be moved or turned has
-// an inverse of 0.
+// Ours, from the tutorials before this one: how an object moves. Inverses are 0 for what cannot be
+// moved or turned.
 class PhysicsObject {
  public:
   const Vector3& GetLinearVelocity() const { return linearVelocity; }
@@ -55,8 +56,8 @@ class PhysicsObject {
 
 class GameObject {
  public:
-  // Added: `id`, different for every object of a world; the text itself recommends one. Without a
-  // volume the object never collides.
+  // Added: `id`, unique within a world, as the text itself recommends. Without a volume the object
+  // never collides.
   explicit GameObject(std::uint32_t id, std::optional<Shape<3>> volume = std::nullopt)
       : worldID(id), boundingVolume(std::move(volume)) {}
   virtual ~GameObject() = default;

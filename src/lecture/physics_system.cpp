@@ -12,8 +12,8 @@
 
 namespace lantern::lecture {
 
-// Ours: the text says only that UpdateObjectAABBs is called in every frame. The order is that of
-// semi-implicit Euler: objects move with the velocities that the collisions leave them.
+// Ours: the text only says that UpdateObjectAABBs is called every frame. The order is that of
+// semi-implicit Euler: objects move with the velocities that the collisions have left them.
 void PhysicsSystem::Update(double dt) {
   IntegrateAccel(dt);
   UpdateObjectAABBs();
@@ -61,13 +61,14 @@ void PhysicsSystem::AddBroadphaseCollision(GameObject* a, GameObject* b) {
   info.a = std::min(a, b, byID);
   info.b = std::max(a, b, byID);
   broadphaseCollisions.insert(info);
-  // Mended: a leaf at the depth limit holds any number of objects, and the text takes all n(n-1)/2
-  // pairs of them, until memory is gone.
+  // Mended: a leaf at the depth limit may hold any number of objects, and the text inserts all
+  // n(n-1)/2 of their pairs until memory runs out.
   if (broadphaseCollisions.size() > mostPairs)
     throw Refused(fmt::format("broad phase: more than {} pairs; take fewer objects, or part them",
                               mostPairs));
 }
 
+// The text's prose walks `allCollisions` here; its code, like this, walks `broadphaseCollisions`.
 void PhysicsSystem::NarrowPhase() {
   for (auto i = broadphaseCollisions.begin(); i != broadphaseCollisions.end(); ++i) {
     stop_if_asked();
@@ -76,8 +77,9 @@ void PhysicsSystem::NarrowPhase() {
       info.framesLeft = numCollisionFrames;
       info.impulse = ImpulseResolveCollision(*info.a, *info.b, info.point);
       const auto [known, isNew] = allCollisions.insert(info);  // insert into our main set
-      // Mended: a std::set keeps what it has, so the text never renews the frames of a pair that it
-      // knows: of two objects that lie on each other it says again and again that they part.
+      // Mended: inserting into a std::set what it already holds changes nothing, so in the text the
+      // frames of a known pair are never renewed, and two objects at rest on each other are
+      // reported to part again and again.
       if (!isNew) {
         known->framesLeft = info.framesLeft;
         known->point = info.point;
@@ -87,13 +89,12 @@ void PhysicsSystem::NarrowPhase() {
   }
 }
 
-// Both are moved out of each other along the normal, the lighter one further. Then an impulse j
-// along the normal turns the speed v at which the points of contact approach into e v:
+// Both are moved apart along the normal, the lighter one further. Then an impulse j along the
+// normal reverses the speed v at which the contact points approach, scaled by the elasticity e:
 //
 //   j = -(1 + e) v / K,   K = 1/ma + 1/mb + n . ((Ia^-1 (ra x n)) x ra + (Ib^-1 (rb x n)) x rb)
 //
-// where r is the way from the centre to the point, and e the elasticity. As in the series there is
-// no friction.
+// where r leads from the centre to the contact point. As in the series, there is no friction.
 double PhysicsSystem::ImpulseResolveCollision(GameObject& a, GameObject& b, const ContactPoint& p) {
   PhysicsObject& physA = a.GetPhysicsObject();
   PhysicsObject& physB = b.GetPhysicsObject();
@@ -109,7 +110,7 @@ double PhysicsSystem::ImpulseResolveCollision(GameObject& a, GameObject& b, cons
   const Vector3 velocityA = physA.GetLinearVelocity() + cross(physA.GetAngularVelocity(), p.localA);
   const Vector3 velocityB = physB.GetLinearVelocity() + cross(physB.GetAngularVelocity(), p.localB);
   const double approach = glm::dot(velocityB - velocityA, p.normal);
-  if (approach >= 0) return 0;  // they part already, and an impulse would pull them back
+  if (approach >= 0) return 0;  // already separating; an impulse would pull them back
 
   const Vector3 inertiaA = cross(physA.GetInertiaTensor() * cross(p.localA, p.normal), p.localA);
   const Vector3 inertiaB = cross(physB.GetInertiaTensor() * cross(p.localB, p.normal), p.localB);
@@ -126,7 +127,7 @@ double PhysicsSystem::ImpulseResolveCollision(GameObject& a, GameObject& b, cons
   return j;
 }
 
-// Ours: the text has `framesLeft` and `allCollisions`, and says that callbacks are updated.
+// Ours: the text has `framesLeft` and `allCollisions`, and mentions the callbacks.
 void PhysicsSystem::UpdateCollisionList() {
   for (auto i = allCollisions.begin(); i != allCollisions.end();) {
     if (!i->begun) {

@@ -1,6 +1,9 @@
 // The lecture's PhysicsSystem: one update, phase after phase.
 //
 //   forces -> UpdateObjectAABBs -> BroadPhase -> NarrowPhase -> move -> UpdateCollisionList
+//
+// It is complete in itself. With contacts = "lecture" the engine's world uses its NarrowPhase
+// (physics/lecture_impulses.cpp), and moves exactly as this does.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +16,7 @@
 
 namespace lantern::lecture {
 
-// Ours: the text only asks it for its objects. They must outlive it.
+// Ours: the text only asks it for its objects, which must outlive it.
 class GameWorld {
  public:
   using Iterator = std::vector<GameObject*>::const_iterator;
@@ -34,8 +37,8 @@ class PhysicsSystem {
   using ContactPoint = CollisionDetection::ContactPoint;
 
   // Do the true volumes of info.a and info.b overlap? If so, fills in info.point.
-  // Ours: the text calls CollisionDetection::ObjectIntersection, which an earlier tutorial made.
-  // Here whoever makes the system hands in the one to use.
+  // Ours: the text calls CollisionDetection::ObjectIntersection, from an earlier tutorial. Here it
+  // is supplied by whoever creates the system.
   using IntersectionFunc = std::function<bool(GameObject* a, GameObject* b, CollisionInfo& info)>;
 
   PhysicsSystem(GameWorld& world, IntersectionFunc objectIntersection)
@@ -45,17 +48,16 @@ class PhysicsSystem {
   void Update(double dt);
 
   void UpdateObjectAABBs();
-  // Throws Refused when more than the largest allowed number of pairs share a leaf.
+  // Throws Refused for more pairs than SetMostPairs allows.
   void BroadPhase();
   void NarrowPhase();
   void UpdateCollisionList();
 
-  // Parts two objects that overlap, and turns their approach into a bounce. Ours: the text calls
-  // it and does not show it. Returns the impulse upon b along the normal, in N s; a got as much the
-  // other way.
+  // Separates two overlapping objects and makes them bounce. Ours: the text calls it but does not
+  // show it. Returns the impulse on b along the normal, in N s; a receives its opposite.
   static double ImpulseResolveCollision(GameObject& a, GameObject& b, const ContactPoint& p);
 
-  // Added: a broad phase from outside may note its pairs, too. The same pair twice is noted once.
+  // Added: so that another broad phase can supply its pairs. A pair given twice counts once.
   void AddBroadphaseCollision(GameObject* a, GameObject* b);
   const std::set<CollisionInfo>& GetBroadphaseCollisions() const { return broadphaseCollisions; }
   const std::set<CollisionInfo>& GetAllCollisions() const { return allCollisions; }
@@ -66,7 +68,7 @@ class PhysicsSystem {
   }
   void SetMostPairs(std::size_t most) { mostPairs = most; }
 
-  static constexpr int numCollisionFrames = 5;  // that a collision is remembered after its last
+  static constexpr int numCollisionFrames = 5;  // from the last touch to OnCollisionEnd
 
  protected:
   struct TreeSettings {

@@ -6,8 +6,8 @@
 //   |   2   |   3   |   |
 //   +-------+-------+   +-> x
 //
-// It asks for memory once for each object in each leaf and once for each split: the plain way, with
-// which the others are compared.
+// It allocates once for each object in each leaf and once for each split: the naive way, against
+// which the others are measured.
 #pragma once
 
 #include <algorithm>
@@ -35,8 +35,8 @@ struct QuadTreeEntry {
       : pos(objPos), size(objSize), object(obj) {}
 };
 
-// Added: who watches a tree grow has these four; the pictures and the counts need them. Here nobody
-// does, and the calls compile to nothing.
+// Added: a watcher is told of these four things while the tree grows; pictures and counts need
+// them. This one ignores them all, and the calls compile to nothing.
 struct NobodyWatches {
   template <class Node, class T>
   void Tested(const Node&, const T&, bool /*reached*/) {}
@@ -101,8 +101,8 @@ class QuadTreeNode {
     }
   }
 
-  // Added, the text's "Further Work 4": only the leaves into which such an object would be
-  // inserted, without inserting it.
+  // Added, from the text's "Further Work 4": visits only the leaves into which such an object
+  // would be inserted, without inserting it.
   void OperateOnContents(const QuadTreeReader& func, const Vector3& objectPos,
                          const Vector3& objectSize) const {
     if (!Reached(objectPos, objectSize)) return;
@@ -110,17 +110,17 @@ class QuadTreeNode {
     for (int i = 0; i < 4; ++i) children[i].OperateOnContents(func, objectPos, objectSize);
   }
 
-  // Added: for those who look inside.
+  // Added: for drawing and counting what is inside.
   const std::vector<QuadTreeNode<T>>& GetChildren() const { return children; }
   std::vector<QuadTreeNode<T>>& GetChildren() { return children; }
   const std::list<QuadTreeEntry<T>>& GetContents() const { return contents; }
-  int number = 0;  // Added: the tree needs none; who watches it may give one
+  int number = 0;  // Added: for the watcher to set; the tree does not use it
 
  protected:
   friend class QuadTree<T>;
 
-  // Mended: the text makes every node 1000 high and loses what flies higher. Nodes have no end on
-  // y.
+  // Mended: the text gives every node a half height of 1000 and drops whatever is above or below.
+  // Here nodes are unbounded along y.
   bool Reached(const Vector3& objectPos, const Vector3& objectSize) const {
     return CollisionDetection::AABBTest(
         objectPos, Vector3(position.x, 0, position.y), objectSize,
@@ -132,25 +132,25 @@ class QuadTreeNode {
   Vector2 position{0.0};
   Vector2 size{0.0};
 
-  // Mended: the text has QuadTreeNode<T>*, made with `new` and never deleted, so that each frame
-  // leaks a tree; and its first constructor leaves the pointer unset. A std::vector asks for memory
-  // in the same way, once for all four, and gives it back. Four, or none in a leaf.
+  // Four, or none in a leaf. Mended: the text has a QuadTreeNode<T>* from `new` that is never
+  // deleted, so every frame leaks a tree, and its default constructor leaves the pointer unset. A
+  // std::vector allocates just the same, once for all four, and frees them.
   std::vector<QuadTreeNode<T>> children;
 };
 
 template <class T>
 class QuadTree {
  public:
-  // Added: `position`, the middle of the tree; the text's lies at the origin. Nodes that halve more
-  // than 32 times are not provided for.
+  // Added: `position`, the centre of the tree; in the text that is the origin. Depths above 32 are
+  // not supported.
   explicit QuadTree(const Vector2& size, int depth = 6, int sizeOfNode = 5,
                     const Vector2& position = Vector2(0.0))
       : root(position, size), maxDepth(depth), maxSize(sizeOfNode) {}
 
   template <class Watch = NobodyWatches>
   void Insert(const T& object, const Vector3& pos, const Vector3& size, Watch&& watch = {}) {
-    const auto [heldPos, heldSize] = Held(pos, size);
-    root.Insert(object, heldPos, heldSize, maxDepth, maxSize, watch);
+    const auto [clampedPos, clampedSize] = Clamped(pos, size);
+    root.Insert(object, clampedPos, clampedSize, maxDepth, maxSize, watch);
   }
 
   void OperateOnContents(const typename QuadTreeNode<T>::QuadTreeFunc& func) {
@@ -158,34 +158,34 @@ class QuadTree {
   }
   void OperateOnContents(const typename QuadTreeNode<T>::QuadTreeReader& func, const Vector3& pos,
                          const Vector3& size) const {
-    const auto [heldPos, heldSize] = Held(pos, size);
-    root.OperateOnContents(func, heldPos, heldSize);
+    const auto [clampedPos, clampedSize] = Clamped(pos, size);
+    root.OperateOnContents(func, clampedPos, clampedSize);
   }
 
   const QuadTreeNode<T>& GetRoot() const { return root; }
 
  protected:
-  // Mended: the text drops an object that lies outside the root's square, and it never collides.
-  // Here each end of its box is held to the square, so that it lies in leaves at the rim. Ends keep
-  // their order when they are held, so two boxes that overlap outside still share a leaf.
+  // Mended: the text drops an object outside the root's square, and it never collides. Here its box
+  // is clamped to the square, so that it ends up in leaves at the rim. Clamping keeps the order of
+  // ends, so two boxes that overlap outside still share a leaf.
   //
-  // Mended: the sums that make a node's middle and an object's ends are rounded, which may open a
-  // gap between two neighbours into which a small object falls. A hair on each side closes it: a
-  // middle is off by at most half a unit in the last place of the root's largest coordinate for
-  // each level.
-  std::pair<Vector3, Vector3> Held(Vector3 pos, Vector3 size) const {
+  // Mended: node centres and box ends are rounded sums, and rounding may open a gap between two
+  // neighbours into which a small object falls. A tiny margin closes it: a centre is off by at most
+  // half a unit in the last place of the root's largest coordinate per level.
+  std::pair<Vector3, Vector3> Clamped(Vector3 pos, Vector3 size) const {
     for (const auto& [axis, rootAxis] : {std::pair(0, 0), std::pair(2, 1)}) {
       const double at = root.position[rootAxis], half = root.size[rootAxis];
-      const double reach = size[axis] + kHair * (std::abs(pos[axis]) + size[axis]);
+      const double reach = size[axis] + kMargin * (std::abs(pos[axis]) + size[axis]);
       const double lo = std::clamp(pos[axis] - reach, at - half, at + half);
       const double hi = std::clamp(pos[axis] + reach, at - half, at + half);
       pos[axis] = lo * 0.5 + hi * 0.5;
-      size[axis] = (hi - lo) * 0.5 + kHair * (std::abs(at) + half) + kLeast;
+      size[axis] = (hi - lo) * 0.5 + kMargin * (std::abs(at) + half) + kLeastMargin;
     }
     return {pos, size};
   }
-  static constexpr double kHair = 64 * std::numeric_limits<double>::epsilon();
-  static constexpr double kLeast = std::numeric_limits<double>::min();  // of the smallest trees
+  static constexpr double kMargin = 64 * std::numeric_limits<double>::epsilon();
+  static constexpr double kLeastMargin =
+      std::numeric_limits<double>::min();  // where kMargin underflows
 
   QuadTreeNode<T> root;  // Mended: the text declares a pointer and uses it as a value
 

@@ -1,11 +1,10 @@
-// The lecture's own way: one pass over the candidate pairs, in the order of their ids. Those that
-// really touch are moved out of each other at once and get one impulse (its NarrowPhase and
-// ImpulseResolveCollision, src/lecture); then all bodies move. No islands, no sub-steps, no second
-// look, no memory of impulses, no friction; an impact is met at the end of the step in which it
-// happens.
+// The lecture's own method: a single pass over the candidate pairs, in order of ids. A pair that
+// really touches is moved apart at once and given one impulse (NarrowPhase and
+// ImpulseResolveCollision of src/lecture); then all bodies move. No islands, no sub-steps, no
+// iteration, no warm start, no friction; a collision is noticed once the bodies overlap.
 //
-// What that costs is there to be seen: an impulse undoes what the one before it has done, so stacks
-// tremble and sink; and a fast body passes through a thin one.
+// The price is plain to see: each impulse undoes part of the one before, so stacks jitter and sink;
+// and a fast body passes through a thin one.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -20,7 +19,7 @@ namespace {
 using lecture::CollisionDetection;
 using lecture::GameObject;
 
-// The lecture's world has three dimensions; one of two lies in it where z = 0.
+// The lecture's world has three dimensions; a two-dimensional one is its plane z = 0.
 Vec<3> in_space(const Vec<2>& v) { return {v.x, v.y, 0}; }
 Vec<3> in_space(const Vec<3>& v) { return v; }
 Vec<3> as_axis(double spin) { return {0, 0, spin}; }
@@ -39,7 +38,7 @@ bool is_pushed(const Body<D>& body) {
   return body.kind == BodyKind::dynamic_body && !body.asleep;
 }
 
-// The lecture's bodies keep their angular velocity, the world's their angular momentum.
+// The lecture's objects store angular velocity, the world's bodies angular momentum.
 template <int D>
 void turn(Body<D>& body, const Vec<3>& angular_impulse) {
   if (is_pushed(body) && body.inverse_inertia != Spin<D>(0.0))
@@ -61,8 +60,8 @@ GameObject object_of(const Body<D>& body, std::uint32_t place) {
   return object;
 }
 
-// The lecture knows one point of contact for each pair: here the middle of those that the volumes
-// have in common, as deep as the deepest.
+// The lecture has one contact point per pair: here the mean of the manifold's, at the depth of the
+// deepest.
 template <int D>
 ManifoldPoint<D> single_point(const Manifold<D>& manifold) {
   ManifoldPoint<D> single;
@@ -81,7 +80,7 @@ class LecturePass {
       objects_.push_back(object_of(island.bodies[i], i));
   }
 
-  // The broad phase is the world's; its pairs are noted as the lecture's own would note them.
+  // The pairs come from the world's broad phase, in place of the lecture's own.
   void run() {
     lecture::GameWorld world;
     lecture::PhysicsSystem system(
@@ -113,7 +112,7 @@ class LecturePass {
         [](const IslandPair<D>& pair) { return std::pair(pair.rows.a, pair.rows.b); });
   }
 
-  // Where it is now: pairs before this one may have moved it.
+  // Where it is by now: earlier pairs may have moved it.
   Placed<D> placed(const GameObject& object) {
     const Body<D>& body = body_of(object);
     return {body.shape, Vec<D>(object.GetConstTransform().GetWorldPosition()), body.orientation};

@@ -1,6 +1,6 @@
 // The lecture's own quadtree (src/lecture) as a structure like all others: in three dimensions it
-// looks at x and z only, in two at x and y. It asks for memory for every object in every leaf and
-// for every split, and gives it back when it is cleared: what a tree costs that was made plainly.
+// looks at x and z only, in two at x and y. It allocates for every object in every leaf and for
+// every split, and frees everything when it is cleared: the naive baseline.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ class LectureQuadtree {
 
   static LectureQuadtree made(const StructureConfig<D>& config) { return LectureQuadtree(config); }
 
-  // Throws Refused as the quadtree does. All children are made at a split, and there is no stop but
-  // the depth limit, whatever is configured.
+  // Throws Refused as the quadtree does. A split makes all children, and only the depth limit
+  // stops splits, whatever is configured.
   explicit LectureQuadtree(const StructureConfig<D>& config)
       : config_(checked(config)), tree_(empty_tree()) {}
 
@@ -100,7 +100,7 @@ class LectureQuadtree {
   using Vector3 = lecture::Vector3;
 
   static const StructureConfig<D>& checked(const StructureConfig<D>& config) {
-    StructureConfig<2> same;  // who knows what is wrong with it
+    StructureConfig<2> same;  // the quadtree does the checking
     same.bounds = flat_box(config.bounds);
     same.capacity = config.capacity;
     same.max_depth = config.max_depth;
@@ -118,9 +118,8 @@ class LectureQuadtree {
                 static_cast<int>(config_.capacity), Halving<2>::middle(box));
   }
 
-  // Middle and half sizes, as the text wants them. They cannot tell the near side of a box that is
-  // endless on the other, so what lies outside the root is cut off first; the text's tree puts it
-  // in the leaves at the rim anyway.
+  // Centre and half sizes, as the text wants them. Of a box that is endless on one side they would
+  // lose the other, so the box is clamped to the root first, as the tree would do anyway.
   std::pair<Vector3, Vector3> flat(const Box<D>& box) const {
     Vector3 pos(0.0), size(0.0);
     for (const int axis : {0, D - 1}) {
@@ -132,7 +131,7 @@ class LectureQuadtree {
     return {pos, size};
   }
 
-  // What the tree does, counted and told.
+  // Counts what the tree does, and tells the observer.
   template <class Observer>
   struct Watch {
     LectureQuadtree& tree;
@@ -193,7 +192,8 @@ class LectureQuadtree {
     return view;
   }
 
-  // Boxes are halved on the way down, so that neighbours share their borders exactly.
+  // Boxes are halved on the way down, so that neighbours share their borders exactly; the tree's
+  // own centres and sizes are rounded.
   template <class F>
   void visit_from(const Node& node, NodeView<D> view, Tour& tour, F& f) const {
     stop_if_asked();

@@ -62,8 +62,8 @@ void expect_exact(std::uint64_t seeds) {
     }
 }
 
-TEST(LectureQuadtree, PairsEqualBruteForceIn2D) { expect_exact<2>(20); }
-TEST(LectureQuadtree, PairsEqualBruteForceIn3D) { expect_exact<3>(12); }
+TEST(LectureQuadtree, PairsEqualBruteForceIn2D) { expect_exact<2>(8); }
+TEST(LectureQuadtree, PairsEqualBruteForceIn3D) { expect_exact<3>(6); }
 
 // Where every number is exact it is the engine's tree with all children made, node by node.
 template <int D, class Engine>
