@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/clip.hpp"
 #include "draw/plot_axes.hpp"
 #include "draw/plot_bands.hpp"
 #include "draw/plot_fan.hpp"
@@ -35,6 +36,7 @@ struct Placed {
   std::vector<bool> open;      // of the joined ones
   std::vector<std::pair<Vec<2>, Vec<2>>> spreads;
   std::vector<std::pair<Vec<2>, std::string>> notes;
+  std::vector<std::pair<Vec<2>, Vec<2>>> whiskers;
 };
 
 class Drawing {
@@ -56,6 +58,7 @@ class Drawing {
     PlotNamer namer({area_.lo + Vec<2>{4, 0}, area_.hi}, labels_);  // off the axis
     draw_guides(namer);
     for (const Placed& placed : placed_) draw_line(placed, namer);
+    for (const Placed& placed : placed_) draw_whiskers(placed, namer);
     for (std::size_t i = 0; i < placed_.size(); ++i) draw_marks(i, namer);
     name_strip(namer);
     for (std::size_t i = 0; i < guides_.size(); ++i)
@@ -83,6 +86,10 @@ class Drawing {
       for (const PlotPoint& p : series.points) {
         if (!is_drawn(p)) continue;
         xs_.add(p.at.x, plot_.log_x);
+        for (int end = 0; end < 2; ++end) {
+          if (p.spread_x) xs_.add((*p.spread_x)[end], plot_.log_x);
+          if (p.spread_y) ys_.add((*p.spread_y)[end], plot_.log_y);
+        }
         if (p.beyond)
           any_beyond_ = true;
         else if (plot_.log_y && p.at.y <= 0)
@@ -196,10 +203,25 @@ class Drawing {
         placed.points.push_back(place);
         placed.open.push_back(p.open);
         if (!p.note.empty()) placed.notes.push_back({place, p.note});
+        if (p.spread_x)
+          add_whisker(at({p.spread_x->x, p.at.y}), at({p.spread_x->y, p.at.y}), placed);
+        if (p.spread_y && !is_on_ground(p))
+          add_whisker(at({p.at.x, p.spread_y->x}), at({p.at.x, p.spread_y->y}), placed);
       }
       row += !placed.beyond.empty();
       ground_row += any_zero;
       placed_.push_back(std::move(placed));
+    }
+  }
+
+  void add_whisker(const Vec<2>& from, const Vec<2>& to, Placed& placed) const {
+    if (const auto part = cut_line(from, to, area_)) placed.whiskers.push_back(*part);
+  }
+
+  void draw_whiskers(const Placed& placed, PlotNamer& namer) {
+    for (const auto& [from, to] : placed.whiskers) {
+      draw_plot_whisker(placed.series->look, from, to, radius(), list_);
+      namer.cross(from, to);
     }
   }
 

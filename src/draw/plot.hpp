@@ -14,7 +14,9 @@ struct PlotPoint {
   bool beyond = false;  // diverged: drawn as an open mark at the upper edge, whatever its y
   std::string note;     // written beside it if there is room; mostly empty
   bool open = false;    // drawn as an open mark where it is
-  std::optional<Box<2>> spread = {};  // how far it may be off: a thin line from `lo` to `hi`
+  // Where repeats or guesses of x and of y lie, from the least to the most, in the axes' units: a
+  // level and an upright whisker at the point. None unless given; the axes widen for them.
+  std::optional<Vec<2>> spread_x, spread_y;
 };
 
 // Points of one contestant, joined in their order; those beyond stand alone.

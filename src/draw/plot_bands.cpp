@@ -6,6 +6,7 @@
 #include "draw/plot_axes.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_names.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
@@ -87,8 +88,9 @@ class BandDrawing {
         for (const PlotPoint& p : series.points)
           if (has_place(p) && is_in(p, b)) lane.points.push_back(&p);
         for (const PlotPoint* p : lane.points) {
-          least_ = std::min(least_, p->at.x);
-          most_ = std::max(most_, p->at.x);
+          const Vec<2> reach = spread_of(*p);
+          least_ = std::min(least_, reach.x);
+          most_ = std::max(most_, reach.y);
         }
         if (!lane.points.empty()) bands_[b].lanes.push_back(std::move(lane));
       }
@@ -98,6 +100,13 @@ class BandDrawing {
   bool is_in(const PlotPoint& p, std::size_t band) const {
     if (band == 0 || p.beyond) return band == 0 && p.beyond;
     return plot_.bands[plot_.bands.size() - band].holds(p.at.y);
+  }
+
+  // Of x, from the least to the most; the point alone where it has none.
+  Vec<2> spread_of(const PlotPoint& p) const {
+    const Vec<2> spread = p.spread_x.value_or(Vec<2>(p.at.x));
+    const bool has_places = is_finite(spread) && (!plot_.log_x || spread.x > 0);
+    return has_places ? spread : Vec<2>(p.at.x);
   }
 
   void lay_out() {
@@ -193,13 +202,10 @@ class BandDrawing {
     for (std::size_t i = 1; i < points.size() && !open; ++i)
       draw_plot_line(series->look, series->is_peer, at(points[i - 1]), at(points[i]),
                      0.44 * radius(), list_);
-    const auto cut = [&](double x) { return std::clamp(x_of(x), area_.lo.x, area_.hi.x); };
     for (const PlotPoint* p : points)
-      if (p->spread && p->spread->lo.x < p->spread->hi.x)
-        list_.shapes.emplace_back(LineShape{{cut(p->spread->lo.x), lane.y},
-                                            {cut(p->spread->hi.x), lane.y},
-                                            {Role::ink, 0.18 * radius(), 0},
-                                            false});
+      if (const Vec<2> spread = spread_of(*p); spread.x < spread.y)
+        draw_plot_whisker(series->look, {x_of(spread.x), lane.y}, {x_of(spread.y), lane.y},
+                          radius(), list_);
     for (const PlotPoint* p : points) draw_plot_mark(series->look, at(p), radius(), open, list_);
   }
 

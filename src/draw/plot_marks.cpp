@@ -95,6 +95,15 @@ void draw_plot_mark(int look, const Vec<2>& at, double radius, bool open, DrawLi
   list.shapes.emplace_back(PolygonShape{points, open ? Role::panel : role, open ? line : rim});
 }
 
+void draw_plot_whisker(int look, const Vec<2>& from, const Vec<2>& to, double radius,
+                       DrawList& list) {
+  const double width = 0.3 * radius;
+  const Vec<2> across = from.y == to.y ? Vec<2>(0, 0.7 * radius) : Vec<2>(0.7 * radius, 0);
+  draw_plot_line(look, false, from, to, width, list);
+  for (const Vec<2>& end : {from, to})
+    draw_plot_line(look, false, end - across, end + across, width, list);
+}
+
 void draw_plot_line(int look, bool is_peer, const Vec<2>& from, const Vec<2>& to, double width,
                     DrawList& list) {
   const double dash = is_peer ? 3.2 * width : 0;

@@ -117,6 +117,32 @@ TEST(Plot, NamesStandAtTheEndsWhereThereIsRoom) {
   }
 }
 
+TEST(Plot, WhiskersReachFromTheLeastToTheMostAndStayInside) {
+  Plot plot;
+  plot.log_x = false;
+  PlotPoint point{{2, 0.1}, false, ""};
+  point.spread_y = Vec<2>{1e-3, 10};
+  point.spread_x = Vec<2>{1, 4};
+  plot.series.push_back({"line", {point, {{3, 1}, false, ""}}, 0});
+  const auto reach = [](const DrawList& list, int axis) {
+    double most = 0;
+    for (const DrawShape& shape : list.shapes)
+      if (const auto* line = std::get_if<LineShape>(&shape);
+          line && line->stroke.role == plot_role(0) && line->from[1 - axis] == line->to[1 - axis])
+        most = std::max(most, std::abs(line->to[axis] - line->from[axis]));
+    return most;
+  };
+  const DrawList with = drawn(plot);
+  EXPECT_GT(reach(with, 0), 200);
+  EXPECT_GT(reach(with, 1), 200);
+  expect_laid_out(with, {{0, 0}, {800, 500}}, 0.91 * plot.size, "whiskers");
+  plot.series[0].points[0].spread_x = Vec<2>{kNan, kInfinity};  // nothing to draw, nothing to break
+  plot.series[0].points[0].spread_y = Vec<2>{0, 1e-3};          // a logarithm has no 0: cut
+  expect_laid_out(drawn(plot), {{0, 0}, {800, 500}}, 0.91 * plot.size, "whiskers without an end");
+  plot.series[0].points[0].spread_x = plot.series[0].points[0].spread_y = std::nullopt;
+  EXPECT_EQ(reach(drawn(plot), 0), 0);
+}
+
 TEST(Plot, WhatIsNotFiniteIsLeftOut) {
   Plot plot;
   plot.names = PlotNames::none;
