@@ -10,13 +10,13 @@
 namespace lantern {
 
 struct PlotPoint {
-  Vec<2> at{0.0};       // x, y in the axes' units
-  bool beyond = false;  // diverged: drawn as an open mark at the upper edge, whatever its y
-  std::string note;     // written beside it if there is room; mostly empty
-  bool open = false;    // drawn as an open mark where it is
+  Vec<2> at{0.0};         // x, y in the axes' units
+  bool beyond = false;    // diverged: drawn as an open mark at the upper edge, whatever its y
+  std::string note = {};  // written beside it if there is room; mostly empty
+  bool open = false;      // drawn as an open mark where it is
   // Where repeats or guesses of x and of y lie, from the least to the most, in the axes' units: a
   // level and an upright whisker at the point. None unless given; the axes widen for them.
-  std::optional<Vec<2>> spread_x, spread_y;
+  std::optional<Vec<2>> spread_x = std::nullopt, spread_y = std::nullopt;
 };
 
 // Points of one contestant, joined in their order; those beyond stand alone.
