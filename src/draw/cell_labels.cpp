@@ -11,7 +11,7 @@ constexpr std::size_t kMostLabels = 120;
 // A dividing line's name, on a plate that sits on the line.
 void label_planes(const Frame& frame, const WorldMap& map, const std::vector<Box<2>>& bodies,
                   DrawList& list, Labels& labels) {
-  const TextStyle style{kLabel, Weight::semibold, Role::ink, Role::none};
+  const TextStyle style{kLabel, Weight::semibold, Role::ink};
   const double cap = cap_height(style.weight) * style.size;
   for (const FrameNode& node : frame.nodes) {
     if (!node.plane || node.plane_name.empty()) continue;
@@ -30,7 +30,7 @@ void label_planes(const Frame& frame, const WorldMap& map, const std::vector<Box
                                        [&](const Box<2>& body) { return overlap(body, plate); });
       if (covered || !labels.is_free(plate, shrunk(map.rect, 6))) continue;
       const Role role = node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth);
-      list.shapes.emplace_back(RectShape{plate, 6, Role::panel, {role, 1.8, 0}, false});
+      list.rect(plate, Role::panel, {role, 1.8}, 6);
       labels.add(node.plane_name, {{p.x, p.y + cap / 2}, 0.5}, style, map.rect);
       labels.block(plate);
       break;
@@ -42,7 +42,7 @@ void label_planes(const Frame& frame, const WorldMap& map, const std::vector<Box
 void label_cell(const FrameNode& node, const WorldMap& map, const std::vector<Box<2>>& bodies,
                 const Grounds& grounds, Labels& labels) {
   const Box<2> cell = map.to_page(node.box);
-  TextStyle style{node.depth <= 1 ? 20.0 : 18.0, Weight::semibold, Role::quiet_ink, Role::none};
+  TextStyle style{node.depth <= 1 ? 20.0 : 18.0, Weight::semibold, Role::quiet_ink};
   if (node.mark == Mark::lit) style.role = Role::lit_ink;
   const double width = text_width(node.label, style);
   constexpr double kInset = 9;

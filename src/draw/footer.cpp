@@ -15,7 +15,7 @@ constexpr double kCaption = 30;
 constexpr double kLine = 46;        // from baseline to baseline
 constexpr double kBelowLast = 54;   // from the last baseline to the page's edge
 constexpr double kAboveFirst = 52;  // from the hairline to the first baseline
-constexpr double kWidePage = 1400;      // a narrower page has its counters under the caption
+constexpr double kWidePage = 1400;  // a narrower page has its counters under the caption
 
 // A number and what it counts; `widest` is the longest that `noun` can get.
 struct Counter {
@@ -25,8 +25,8 @@ struct Counter {
   bool main = false;
 
   TextStyle style() const {
-    return main ? TextStyle{30, Weight::semibold, Role::ink, Role::none}
-                : TextStyle{25, Weight::regular, Role::quiet_ink, Role::none};
+    return main ? TextStyle{30, Weight::semibold, Role::ink}
+                : TextStyle{25, Weight::regular, Role::quiet_ink};
   }
   double noun_width() const {
     const TextStyle s = style();
@@ -120,8 +120,7 @@ std::optional<std::vector<std::string>> by_sentence(const std::string& text, dou
   double evenness = 1e300;
   for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1)) {
     const std::string first = text.substr(0, at + 1), second = text.substr(at + 2);
-    const double longer = std::max(text_width(first, style),
-                                   text_width(second, style));
+    const double longer = std::max(text_width(first, style), text_width(second, style));
     if (longer > width || longer >= evenness) continue;
     evenness = longer;
     best = {first, second};
@@ -159,7 +158,7 @@ double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& la
     right = draw_column(counters, band, first, labels) - 40;
   else
     draw_row(counters, band, list.page.y - kBelowLast + 6, labels);
-  TextStyle style{kCaption, Weight::regular, Role::ink, Role::none};
+  TextStyle style{kCaption, Weight::regular, Role::ink};
   double baseline = first;
   for (const std::string& line : caption_lines(frame.caption, right - band.lo.x, style)) {
     labels.add(line, {{band.lo.x, baseline}, 0}, style, band);

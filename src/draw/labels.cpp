@@ -113,12 +113,12 @@ void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyl
 }
 
 void Labels::add_note(std::string_view note, const Box<2>& picture) {
-  const TextStyle style{kLabel - 1, Weight::regular, Role::ink, Role::none};
+  const TextStyle style{kLabel - 1, Weight::regular, Role::ink};
   const std::string text = shortened(note, picture.size().x - 40, style);
   if (text.empty()) return;
   const Anchor anchor{{picture.lo.x + 20, picture.hi.y - 20}, 0};
   const Box<2> plate = shrunk(extent(text, anchor, style), -7);
-  list_.shapes.emplace_back(RectShape{plate, 6, Role::panel, {Role::cell_line_1, 1.4, 0}, false});
+  list_.rect(plate, Role::panel, {Role::cell_line_1, 1.4}, 6);
   add(text, anchor, style, picture);
 }
 

@@ -22,7 +22,7 @@ constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
 constexpr double kSlots[] = {100, 84, 72, 62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
 constexpr std::size_t kMostSlotShapes = 2600;  // that slots may take
 
-const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
+const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink};
 
 // How slots are laid out on a panel.
 struct Strip {
@@ -117,13 +117,11 @@ class MemoryView {
   void draw_free() {
     for_each_piece(0, shown_, [&](std::uint32_t first, std::uint32_t count) {
       const Box<2> row = place(first, count);
-      list_.shapes.emplace_back(
-          RectShape{row, 0, Role::free_space, {Role::cell_line_3, 1.2, 4}, true});
+      list_.crisp_rect(row, Role::free_space, {Role::cell_line_3, 1.2, 4});
       if (!strip_.drawn() || list_.shapes.size() > kMostSlotShapes / 2) return;
       for (std::uint32_t i = 1; i < count; ++i) {
         const double x = row.lo.x + i * strip_.slot;
-        list_.shapes.emplace_back(
-            LineShape{{x, row.lo.y}, {x, row.hi.y}, {Role::cell_line_3, 1.2, 4}, true});
+        list_.crisp_line({x, row.lo.y}, {x, row.hi.y}, {Role::cell_line_3, 1.2, 4});
       }
     });
   }
@@ -140,7 +138,7 @@ class MemoryView {
 
   void draw_leaf(const FrameNode& leaf) {
     const bool lit = leaf.mark == Mark::lit;
-    const Stroke outline = lit ? Stroke{Role::lit, 2.8, 0} : Stroke{Role::cell_line_1, 1.8, 0};
+    const Stroke outline = lit ? Stroke{Role::lit, 2.8} : Stroke{Role::cell_line_1, 1.8};
     const auto used =
         static_cast<std::uint32_t>(std::min<std::size_t>(leaf.bodies.size(), leaf.room));
     for_each_piece(leaf.first, leaf.room, [&](std::uint32_t first, std::uint32_t count) {
@@ -148,13 +146,12 @@ class MemoryView {
                           : leaf.mark == Mark::passed ? Role::passed_fill
                                                       : Role::panel;
       const Box<2> run = place(first, count);
-      list_.shapes.emplace_back(RectShape{run, 0, ground, outline, true});
+      list_.crisp_rect(run, ground, outline);
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t index = first + i - leaf.first;
         if (i > 0 && strip_.drawn()) {
           const double x = run.lo.x + i * strip_.slot;
-          list_.shapes.emplace_back(
-              LineShape{{x, run.lo.y}, {x, run.hi.y}, {outline.role, 1.2, 0}, true});
+          list_.crisp_line({x, run.lo.y}, {x, run.hi.y}, {outline.role, 1.2});
         }
         if (index < used) draw_slot(leaf.bodies[index], place(first + i), ground);
       }
@@ -169,7 +166,7 @@ class MemoryView {
       for_each_piece(at, slots, [&](std::uint32_t first, std::uint32_t count) {
         Box<2> box = place(first, count);
         box.hi.x -= 0.2 * strip_.slot;  // leaves stay apart
-        list_.shapes.emplace_back(filled(box, role));
+        list_.rect(box, role);
       });
     };
     bar(leaf.first, leaf.room, lit ? Role::lit_fill : Role::rule);
@@ -184,7 +181,7 @@ class MemoryView {
     if (list_.shapes.size() > kMostSlotShapes) return;
     if (found == bodies_.end() || strip_.slot < kDrawnSlot) {
       const Role role = found == bodies_.end() ? Role::quiet_ink : body_role(found->second->color);
-      list_.shapes.emplace_back(filled(shrunk(box, inset), role));
+      list_.rect(shrunk(box, inset), role);
       return;
     }
     const FrameBody& body = *found->second;
@@ -214,11 +211,10 @@ class MemoryView {
   void draw_bracket(const FrameNode& leaf, const Box<2>& run, const Stroke& outline) {
     const double y = run.hi.y + 7, inset = std::min(3.0, strip_.slot / 6);
     const Vec<2> from{run.lo.x + inset, y}, to{run.hi.x - inset, y};
-    const Stroke stroke{outline.role, 1.8, 0};
-    list_.shapes.emplace_back(LineShape{from, to, stroke, true});
-    for (const Vec<2>& end : {from, to})
-      list_.shapes.emplace_back(LineShape{end - Vec<2>(0, 4), end, stroke, true});
-    TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::quiet_ink, Role::none};
+    const Stroke stroke{outline.role, 1.8};
+    list_.crisp_line(from, to, stroke);
+    for (const Vec<2>& end : {from, to}) list_.crisp_line(end - Vec<2>(0, 4), end, stroke);
+    TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::quiet_ink};
     if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
     const std::size_t dot = leaf.label.rfind('.');
     const std::string brief = dot == std::string::npos ? "" : "…" + leaf.label.substr(dot + 1);
@@ -242,7 +238,7 @@ class MemoryView {
       text += fmt::format(" — the first {} are drawn", number_text(double(shown_)));
     else if (leaves_left_out)
       text += " — not all leaves are drawn";
-    const TextStyle style{kLabel + 1, Weight::semibold, Role::ink, Role::none};
+    const TextStyle style{kLabel + 1, Weight::semibold, Role::ink};
     labels_.add(shortened(text, panel_.size().x, style),
                 {{panel_.lo.x, panel_.lo.y + 0.8 * style.size}, 0}, style, panel_);
   }

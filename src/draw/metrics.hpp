@@ -35,16 +35,8 @@ inline double arrow_share(double speed, double extent) {
 inline Stroke strain_stroke(double strain) {
   constexpr double kRest = 0.005;
   const double size = std::min(std::abs(strain), 1.0);
-  if (!(size > kRest)) return {Role::quiet_ink, 2.2, 0};
+  if (!(size > kRest)) return {Role::quiet_ink, 2.2};
   return {strain > 0 ? Role::warning : Role::ray, 2.4 + 3.2 * size, 0};
-}
-
-inline RectShape filled(const Box<2>& box, Role fill, double radius = 0) {
-  return {box, radius, fill, {}, false};
-}
-
-inline RectShape disc(const Vec<2>& center, double radius, Role fill, Stroke stroke = {}) {
-  return {Box<2>::around(center, Vec<2>(radius)), radius, fill, stroke, false};
 }
 
 }  // namespace lantern

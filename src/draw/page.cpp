@@ -27,15 +27,14 @@ constexpr double kMostEnlarged = 1.45;
 constexpr double kStackBelow = 1.2;  // aspect of a page whose panels stand one above the other
 
 void add_rule(DrawList& list, double y, double margin) {
-  list.shapes.emplace_back(
-      LineShape{{margin, y}, {list.page.x - margin, y}, {Role::rule, 1.6, 0}, true});
+  list.crisp_line({margin, y}, {list.page.x - margin, y}, {Role::rule, 1.6});
 }
 
 // "step 4 of 9" from the right, each number in cells for as many digits as the last step has.
 // Gives the left end.
 double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
   if (frame.steps == 0) return band.hi.x;
-  const TextStyle style{21, Weight::regular, Role::quiet_ink, Role::none};
+  const TextStyle style{21, Weight::regular, Role::quiet_ink};
   const auto digits = static_cast<std::int64_t>(std::to_string(frame.steps).size());
   const double number = Labels::number_width(digits, style);
   const double space = text_width(" ", style);
@@ -53,8 +52,8 @@ double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
 void draw_title(const Frame& frame, double margin, DrawList& list, Labels& labels) {
   const Box<2> band{{margin, 20}, {list.page.x - margin, 76}};
   const double right = draw_step(frame, band, labels) - 36;
-  const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
-  const TextStyle quiet{24, Weight::regular, Role::quiet_ink, Role::none};
+  const TextStyle bold{26, Weight::semibold, Role::ink};
+  const TextStyle quiet{24, Weight::regular, Role::quiet_ink};
   const std::string title = shortened(frame.title, right - margin, bold);
   labels.add(title, {{margin, kTitleLine}, 0}, bold, band);
   const double end = margin + text_width(title, bold) + 11;

@@ -12,10 +12,8 @@ namespace lantern {
 void Pen::line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double casing) {
   const auto part = cut_line(from, to, place_);
   if (!part) return;
-  if (casing > 0)
-    list_.shapes.emplace_back(
-        LineShape{part->first, part->second, {Role::panel, stroke.width + 2 * casing, 0}, false});
-  list_.shapes.emplace_back(LineShape{part->first, part->second, stroke, false});
+  if (casing > 0) list_.line(part->first, part->second, {Role::panel, stroke.width + 2 * casing});
+  list_.line(part->first, part->second, stroke);
 }
 
 void Pen::path(const std::vector<Vec<2>>& points, bool closed, const Stroke& stroke) {
@@ -39,7 +37,7 @@ void Pen::arrow(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, doub
 
 void Pen::dot(const Vec<2>& center, double radius, Role fill, const Stroke& stroke) {
   if (is_finite(center) && holds(place_, Box<2>::around(center, Vec<2>(radius))))
-    list_.shapes.emplace_back(disc(center, radius, fill, stroke));
+    list_.disc(center, radius, fill, stroke);
 }
 
 void Pen::polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) {
@@ -47,7 +45,7 @@ void Pen::polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) {
   const bool whole = std::all_of(points.begin(), points.end(),
                                  [&](const Vec<2>& p) { return contains(place_, p); });
   if (!whole) points = cut_to(std::move(points), place_);
-  if (points.size() >= 3) list_.shapes.emplace_back(PolygonShape{std::move(points), fill, stroke});
+  if (points.size() >= 3) list_.polygon(std::move(points), fill, stroke);
 }
 
 void Pen::hatch(const std::vector<Vec<2>>& polygon, double space, int lean, const Stroke& stroke,

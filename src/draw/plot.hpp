@@ -1,4 +1,4 @@
-// A plot of measured points on two axes: what the reports are made of.
+// A plot of points on two axes: a frame's chart, and what the reports are made of.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "draw/labels.hpp"
+#include "draw/plot_marks.hpp"
 
 namespace lantern {
 
@@ -26,6 +27,8 @@ struct PlotSeries {
   int look = 0;          // colour and mark; the same contestant has the same in every plot
   bool is_peer = false;  // dashed
   bool joined = true;
+  int color = 0;  // a body's, where it is not the look's
+  PlotInk ink() const { return {look, is_peer, color}; }
 };
 
 // A line that is not measured: a rounding floor, a theoretical limit, a bar. It is cut to the plot
@@ -53,11 +56,13 @@ enum class PlotNames {
   ends,    // at the lines' ends where all have room, else in a legend below
   legend,  // in a legend below
   none,    // elsewhere: several plots share one legend
+  column,  // beside the ends in a column at the right, each with its newest number
 };
 
 struct Plot {
   std::string title;
   std::string x_name, y_name;  // with their units: "seconds", "error (relative)"
+  std::string x_note;          // behind the name of x, where it has room
   bool log_x = true,
        log_y = true;  // a logarithmic y has a place for 0 below its scale, x has none
   std::vector<PlotSeries> series;
@@ -72,6 +77,14 @@ struct Plot {
   double mark = 0;                  // radius of the marks; 0 follows the size
   std::string beyond = "diverged";  // the name of the strip at the upper edge
   std::string empty = "no point";   // said when there is none
+  // A panel of a frame, to be read from the last row: strong lines with marks apart from each
+  // other, numbers written out, and the newest point of each line stressed.
+  bool slide = false;
+  // x is the seconds of a run, from 0 to `seconds` if that is known: the axes must not jump while
+  // it goes on.
+  bool over_time = false;
+  std::optional<double> seconds;
+  std::optional<double> least, most;  // ends of y; lines leave the picture beyond them
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that

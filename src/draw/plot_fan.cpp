@@ -51,7 +51,7 @@ void draw_slope_fan(const std::vector<PlotSlope>& slopes, const Vec<2>& decade, 
     const Vec<2> from = corner - reach.lo;
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const Vec<2> end = from + ends[i];
-      list.shapes.emplace_back(LineShape{from, end, {Role::cell_line_2, 1.4, 0}, false});
+      list.line(from, end, {Role::cell_line_2, 1.4});
       labels.try_add(slopes[i].name, {{end + Vec<2>{5, 0.36 * size}, 0}}, type.tick, area);
     }
     return;

@@ -7,6 +7,24 @@
 
 namespace lantern {
 
+std::vector<Vec<2>> thinned(const std::vector<Vec<2>>& points, std::size_t most) {
+  if (points.size() <= most) return points;
+  std::vector<Vec<2>> kept;
+  const std::size_t parts = most / 4;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t from = points.size() * part / parts;
+    const std::size_t to = points.size() * (part + 1) / parts - 1;
+    std::size_t low = from, high = from;
+    for (std::size_t i = from; i <= to; ++i) {
+      if (points[i].y < points[low].y) low = i;
+      if (points[i].y > points[high].y) high = i;
+    }
+    for (const std::size_t i : {from, std::min(low, high), std::max(low, high), to})
+      if (kept.empty() || kept.back() != points[i]) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
 void PlotFront::draw(const std::vector<Vec<2>>& corners, const Box<2>& area, double width,
                      double rim, DrawList& list) {
   width_ = width;
@@ -24,7 +42,7 @@ void PlotFront::draw(const std::vector<Vec<2>>& corners, const Box<2>& area, dou
        {std::pair(Role::lit, width), std::pair(Role::lit_fill, width - rim)})
     for (std::size_t i = 1; i < steps_.size(); ++i)
       if (const auto part = cut_line(steps_[i - 1], steps_[i], inside))
-        list.shapes.emplace_back(LineShape{part->first, part->second, {role, w, 0}, false});
+        list.line(part->first, part->second, {role, w});
 }
 
 void PlotFront::name(const std::string& text, TextStyle style, PlotNamer& namer) const {
@@ -46,8 +64,7 @@ void PlotGuideLine::draw(const std::vector<Vec<2>>& points, const Box<2>& area, 
     if (const auto part = cut_line(points[i - 1], points[i], area)) {
       parts_.push_back(*part);
       namer.cross(part->first, part->second);
-      list.shapes.emplace_back(
-          LineShape{part->first, part->second, {Role::quiet_ink, 1.5, 7}, false});
+      list.line(part->first, part->second, {Role::quiet_ink, 1.5, 7});
     }
 }
 

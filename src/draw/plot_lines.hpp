@@ -1,5 +1,5 @@
-// Lines of a plot that are not a series: the front's stairs, and guides. First drawn, and named
-// when all marks are in place.
+// Lines of a plot: what is left of a long series, and those that are no series: the front's stairs,
+// and guides. These are drawn first, and named when all marks are in place.
 #pragma once
 
 #include <string>
@@ -9,6 +9,10 @@
 #include "draw/plot_names.hpp"
 
 namespace lantern {
+
+// Many points become about as many as `most`, so that the page can tell them apart: of each part of
+// the line its first, lowest, highest and last one.
+std::vector<Vec<2>> thinned(const std::vector<Vec<2>>& points, std::size_t most);
 
 // From the upper edge down to the first corner, then in steps from corner to corner to the right
 // edge, under the marks.

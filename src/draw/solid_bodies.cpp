@@ -91,8 +91,7 @@ Outline outline_of(const Convex& space, const SolidView& view) {
 // The letter of sleep, in a square about the origin.
 void draw_sleep(DrawList& list) {
   const Vec<2> z[] = {{-0.7, -0.8}, {0.7, -0.8}, {-0.7, 0.8}, {0.7, 0.8}};
-  for (int i = 0; i < 3; ++i)
-    list.shapes.emplace_back(LineShape{z[i], z[i + 1], {Role::body_line, 0.3, 0}, false});
+  for (int i = 0; i < 3; ++i) list.line(z[i], z[i + 1], {Role::body_line, 0.3});
 }
 
 void recolor(DrawList& list, Role role) {
@@ -167,14 +166,14 @@ void hatch(const Face& face, const SolidView& view, std::vector<DrawShape>& shap
     const auto line = view.segment(face.middle + along_u * from + along_v * (d - from),
                                    face.middle + along_u * to + along_v * (d - to));
     if (line)
-      shapes.emplace_back(LineShape{line->first, line->second, {Role::cell_line_3, 1.3, 0}, false});
+      shapes.emplace_back(LineShape{line->first, line->second, {Role::cell_line_3, 1.3}, false});
   }
 }
 
 void draw_box(const SolidBody& b, const SolidView& view, std::vector<DrawShape>& shapes) {
   Stroke stroke = outline_of(b);
   const Stroke rim = stroke;
-  if (b.body->lit) stroke = {Role::body_line, 1.2, 0};
+  if (b.body->lit) stroke = {Role::body_line, 1.2};
   const Role color = color_of(*b.body);
   const std::vector<Face> faces = seen_faces(b.space, view.eye());
   const Face* widest = nullptr;
@@ -224,8 +223,7 @@ void draw_upright(const SolidBody& b, const SolidView& view, std::vector<DrawSha
   DrawList list;
   const Box<2> place = box_of(b.outline);
   draw_character(facing, place, false, list);
-  if (b.body->lit)
-    list.shapes.emplace_back(RectShape{shrunk(place, -3), 8, Role::none, {Role::lit, 2.8, 0}});
+  if (b.body->lit) list.rect(shrunk(place, -3), Role::none, {Role::lit, 2.8}, 8);
   if (!holds(view.panel(), place)) cut_shapes(list, 0, view.panel());
   shapes = std::move(list.shapes);
 }
@@ -275,7 +273,7 @@ void draw_solid_crowd(const Frame& frame, const SolidView& view, DrawList& list)
     if (!holds(view.panel(), Box<2>::around(at, Vec<2>(radius)))) continue;
     const Role fill = body->dimmed ? Role::panel : color_of(*body);
     const Stroke stroke{body->lit ? Role::lit : Role::body_line, body->lit ? 1.6 : 0.5, 0};
-    list.shapes.emplace_back(disc(at, radius, fill, stroke));
+    list.disc(at, radius, fill, stroke);
   }
 }
 

@@ -25,7 +25,7 @@ struct Strength {
 Stroke stroke_of(const Strength& s) {
   constexpr double kWidths[] = {2.8, 2.1, 1.5, 1.1, 0.9};
   const double width = s.depth < 5 ? kWidths[s.depth] : 0.9;
-  if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5, 0};
+  if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5};
   const double dash = s.dashed == 2 ? 16 : 6 * s.dashed;
   if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(0.8, 0.6 * width), dash};
   return {cell_line_role(s.depth), width, dash};
@@ -160,7 +160,7 @@ void fill_inside(const Box<3>& box, Role floor, Role wall, const SolidView& view
       Outline points =
           cut_to(view.polygon({c[base], c[base + u], c[base + u + v], c[base + v]}), view.panel());
       const Role role = axis == 1 ? floor : wall;
-      if (points.size() >= 3) list.shapes.emplace_back(PolygonShape{std::move(points), role, {}});
+      if (points.size() >= 3) list.polygon(std::move(points), role);
     }
 }
 

@@ -25,13 +25,12 @@ double grid_step(const Box<3>& bounds) {
 void fill(const Corners& corners, Role role, const Stroke& stroke, const SolidView& view,
           DrawList& list) {
   Outline points = cut_to(view.polygon(corners), view.panel());
-  if (points.size() >= 3) list.shapes.emplace_back(PolygonShape{std::move(points), role, stroke});
+  if (points.size() >= 3) list.polygon(std::move(points), role, stroke);
 }
 
 void line(const Vec<3>& a, const Vec<3>& b, const Stroke& stroke, const SolidView& view,
           DrawList& list) {
-  if (const auto seen = view.segment(a, b))
-    list.shapes.emplace_back(LineShape{seen->first, seen->second, stroke, false});
+  if (const auto seen = view.segment(a, b)) list.line(seen->first, seen->second, stroke);
 }
 
 Corners cut_by(Corners corners, const Box<3>& bounds) {
@@ -61,7 +60,7 @@ void draw_floor(const SolidView& view, DrawList& list) {
 void draw_grid(const SolidView& view, DrawList& list) {
   const Box<3>& b = view.bounds();
   const double step = grid_step(b);
-  const Stroke stroke{Role::rule, 1.3, 0};
+  const Stroke stroke{Role::rule, 1.3};
   for (const auto& [along, across] : {std::pair{0, 2}, std::pair{2, 0}}) {
     const double first = std::ceil(b.lo[across] / step), last = std::floor(b.hi[across] / step);
     if (!(last - first < 200)) continue;
@@ -75,7 +74,7 @@ void draw_grid(const SolidView& view, DrawList& list) {
   }
   const Corners corners = floor_of(b);
   for (std::size_t i = 0; i < 4; ++i)
-    line(corners[i], corners[(i + 1) % 4], {Role::cell_line_3, 1.6, 0}, view, list);
+    line(corners[i], corners[(i + 1) % 4], {Role::cell_line_3, 1.6}, view, list);
 }
 
 // The plane's part in the bounds: a fixed thing, so it is hatched along its rim like ground in a
@@ -107,10 +106,9 @@ void draw_half_space(const FrameBody& body, const SolidView& view, DrawList& lis
     const int ticks = static_cast<int>(std::min(60.0, length / tick));
     for (int k = 0; k < ticks; ++k) {
       const Vec<3> at = a + (b - a) * ((k + 0.5) / ticks);
-      line(at, at - n * tick + (b - a) * (0.7 * tick / length), {Role::quiet_ink, 1.2, 0}, view,
-           list);
+      line(at, at - n * tick + (b - a) * (0.7 * tick / length), {Role::quiet_ink, 1.2}, view, list);
     }
-    line(a, b, {Role::quiet_ink, 2, 0}, view, list);
+    line(a, b, {Role::quiet_ink, 2}, view, list);
   }
 }
 
@@ -159,8 +157,7 @@ void fill_view(const FrameView& seen, const SolidView& view, DrawList& list) {
     for (const Vec<2>& p : view.polygon(corners)) points.push_back(p);
   }
   points = cut_to(hull_of(std::move(points)), view.panel());
-  if (points.size() >= 3)
-    list.shapes.emplace_back(PolygonShape{std::move(points), Role::view_fill, {}});
+  if (points.size() >= 3) list.polygon(std::move(points), Role::view_fill);
 }
 
 }  // namespace
@@ -189,7 +186,7 @@ void add_drop_lines(const std::vector<SolidBody>& bodies, const SolidView& view,
     if (const auto page = view.segment(foot, foot); page && b.body->box.lo.y > foot.y) {
       const Box<2> spot = Box<2>::around(page->first, Vec<2>(2.6));
       Piece mark{Convex::line(foot, foot), polygon_of(spot), true, false, {}};
-      mark.shapes.emplace_back(disc(page->first, 2.6, Role::quiet_ink));
+      mark.shapes.emplace_back(RectShape{spot, 2.6, Role::quiet_ink, {}});
       pieces.push_back(std::move(mark));
     }
   }

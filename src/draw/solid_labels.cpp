@@ -42,7 +42,7 @@ void name_body(const SolidBody& b, const std::vector<SolidBody>& bodies, const S
 void name_cell(const FrameNode& node, const std::vector<SolidBody>& bodies, const SolidView& view,
                DrawList& list, Labels& labels) {
   const bool lit = node.mark == Mark::lit;
-  const TextStyle style{18, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink, Role::none};
+  const TextStyle style{18, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink};
   if (!view.in_front(node.box.center())) return;
   const Vec<2> middle = view.to_page(view.bounds().center());
   const Vec<2> own = view.to_page(node.box.center());
@@ -70,7 +70,7 @@ void name_cell(const FrameNode& node, const std::vector<SolidBody>& bodies, cons
                                     [&](const SolidBody& b) { return overlap(b.box, plate); });
     if (covers || !labels.is_free(extent, shrunk(view.panel(), 4))) continue;
     // Edges cross everywhere: a plate keeps them off the name.
-    list.shapes.emplace_back(filled(plate, lit ? Role::lit_fill : Role::panel, 5));
+    list.rect(plate, lit ? Role::lit_fill : Role::panel, {}, 5);
     return labels.add(node.label, anchor, style, view.panel());
   }
 }

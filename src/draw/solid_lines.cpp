@@ -67,7 +67,7 @@ void draw_spot(const Vec<3>& at, double radius, Role role, const SolidView& view
   if (view.lost(at) || !view.in_front(at)) return;
   const Vec<2> page = view.to_page(at);
   if (!holds(view.panel(), Box<2>::around(page, Vec<2>(radius + 2)))) return;
-  list.shapes.emplace_back(disc(page, radius, role, {Role::panel, 2, 0}));
+  list.disc(page, radius, role, {Role::panel, 2});
 }
 
 }  // namespace lantern

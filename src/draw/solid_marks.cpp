@@ -45,9 +45,8 @@ bool add_pairs(const Frame& frame, const std::vector<SolidBody>& bodies, const S
       if (a == found.end() || b == found.end()) continue;
       if (++drawn > kMostSolidLinks) return false;
       const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
-      add_line(end_at(*a->second, *b->second), end_at(*b->second, *a->second),
-               {Role::pair, width, 0}, {Role::panel, many ? 0 : width + 4, 0}, bodies, view,
-               pieces);
+      add_line(end_at(*a->second, *b->second), end_at(*b->second, *a->second), {Role::pair, width},
+               {Role::panel, many ? 0 : width + 4}, bodies, view, pieces);
     }
   return true;
 }
@@ -108,7 +107,7 @@ void add_links(const Frame& frame, const std::vector<SolidBody>& bodies, const S
       add_line(link.from, link.to, {stroke.role, std::max(3.0, stroke.width), 0}, {}, bodies, view,
                pieces);
     else
-      add_line(link.from, link.to, {Role::ink, 1.6, 0}, {}, bodies, view, pieces);
+      add_line(link.from, link.to, {Role::ink, 1.6}, {}, bodies, view, pieces);
   }
 }
 
@@ -123,7 +122,7 @@ void add_velocities(const Frame& frame, const std::vector<SolidBody>& bodies, co
     const double length = 0.18 * view.size() * arrow_share(speed, view.size());
     const Vec<3> from = b.body->position, to = from + b.body->velocity * (length / speed);
     if (view.lost(to) || !(glm::length(to - from) > 3e-3 * view.size())) continue;
-    add_line(from, to, {Role::ink, 2.8, 0}, {Role::panel, 5, 0}, bodies, view, pieces);
+    add_line(from, to, {Role::ink, 2.8}, {Role::panel, 5}, bodies, view, pieces);
     add_head(from, to, 13, Role::ink, view, pieces);
   }
 }
@@ -152,8 +151,7 @@ bool draw_contacts(const Frame& frame, const SolidView& view, DrawList& list) {
       const Vec<3> end = point.position + contact.normal * (part * view.size());
       std::vector<Piece> arrow;
       const double width = (pushes ? 2.6 : 1.8) * k;
-      add_piece(point.position, end, {Role::contact, width, 0}, {Role::panel, width + 2, 0}, view,
-                arrow);
+      add_piece(point.position, end, {Role::contact, width}, {Role::panel, width + 2}, view, arrow);
       add_head(point.position, end, 10 * k, Role::contact, view, arrow);
       for (Piece& piece : arrow)
         for (DrawShape& shape : piece.shapes) list.shapes.push_back(std::move(shape));

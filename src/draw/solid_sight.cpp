@@ -14,7 +14,7 @@ std::size_t few(std::size_t count, std::size_t most) { return std::min(count, mo
 
 void add_views(const Frame& frame, const std::vector<SolidBody>& bodies, const SolidView& view,
                std::vector<Piece>& pieces) {
-  const Stroke strong{Role::frustum, 2.6, 0}, faint{Role::frustum, 1.6, 6};
+  const Stroke strong{Role::frustum, 2.6}, faint{Role::frustum, 1.6, 6};
   for (std::size_t k = 0; k < few(frame.views.size(), kMostViews); ++k) {
     const FrameView& seen = frame.views[k];
     if (seen.corners.size() != 8) continue;
@@ -35,8 +35,7 @@ void add_rays(const Frame& frame, const std::vector<SolidBody>& bodies, const So
   const double k = rays > 12 ? 0.6 : 1;
   for (std::size_t i = 0; i < rays; ++i) {
     const FrameRay& ray = frame.rays[i];
-    add_line(ray.from, ray.to, {Role::ray, 3.6 * k, 0}, {Role::panel, 6.4 * k, 0}, bodies, view,
-             pieces);
+    add_line(ray.from, ray.to, {Role::ray, 3.6 * k}, {Role::panel, 6.4 * k}, bodies, view, pieces);
     add_head(ray.from, ray.to, 18 * k, Role::ray, view, pieces);
   }
 }
@@ -54,7 +53,7 @@ void add_queries(const Frame& frame, const std::vector<SolidBody>& bodies, const
     Outline rim = cut_to(view.ball_cap(center, query.radius, view.light(), -1), view.panel());
     if (rim.size() < 3) continue;
     Piece piece{Convex::line(center, center), rim, true, false, {}};
-    piece.shapes.emplace_back(PolygonShape{std::move(rim), Role::none, {Role::frustum, 3, 0}});
+    piece.shapes.emplace_back(PolygonShape{std::move(rim), Role::none, {Role::frustum, 3}});
     pieces.push_back(std::move(piece));
   }
 }
@@ -62,7 +61,7 @@ void add_queries(const Frame& frame, const std::vector<SolidBody>& bodies, const
 // Numbered along the ray when there are several.
 void draw_hits(const FrameRay& ray, const SolidView& view, DrawList& list, Labels& labels) {
   constexpr double kHit = 12.5;  // radius of a numbered mark
-  const TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::ink, Role::none};
+  const TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::ink};
   const double cap = cap_height(style.weight) * style.size;
   for (std::size_t i = 0; i < few(ray.hits.size(), kMostHits); ++i) {
     const Vec<3>& hit = ray.hits[i].position;
@@ -73,7 +72,7 @@ void draw_hits(const FrameRay& ray, const SolidView& view, DrawList& list, Label
     const Box<2> box = Box<2>::around(at, Vec<2>(radius));
     const bool numbered = ray.hits.size() > 1 && labels.is_free(box, shrunk(view.panel(), 2));
     if (!holds(view.panel(), Box<2>::around(at, Vec<2>(8)))) continue;
-    list.shapes.emplace_back(disc(at, numbered ? radius : 6, Role::panel, {Role::ray, 2.8, 0}));
+    list.disc(at, numbered ? radius : 6, Role::panel, {Role::ray, 2.8});
     if (!numbered) continue;
     labels.add(number, {{at.x, at.y + cap / 2}, 0.5}, style, view.panel());
     labels.block(box);

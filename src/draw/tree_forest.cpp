@@ -76,7 +76,7 @@ void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
   std::vector<Frame> trees = trees_of(frame);
   if (trees.size() > kMostTrees) trees.resize(kMostTrees);
   const std::vector<Box<2>> boxes = cut(trees, area);
-  const TextStyle style{kLabel, Weight::semibold, Role::quiet_ink, Role::none};
+  const TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const bool of_static = trees[i].nodes[0].of_static;
     const Box<2>& box = boxes[i];
@@ -85,10 +85,10 @@ void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
     labels.add(heading, {{box.lo.x + 4, box.lo.y + 20}, 0}, style, box);
     if (i > 0 && boxes[0].lo.x < box.lo.x) {
       const double x = box.lo.x - kBetween / 2;
-      list.shapes.emplace_back(LineShape{{x, box.lo.y}, {x, box.hi.y}, {Role::rule, 1.6, 0}, true});
+      list.crisp_line({x, box.lo.y}, {x, box.hi.y}, {Role::rule, 1.6});
     } else if (i > 0) {
       const double y = box.lo.y - kBetween / 2;
-      list.shapes.emplace_back(LineShape{{box.lo.x, y}, {box.hi.x, y}, {Role::rule, 1.6, 0}, true});
+      list.crisp_line({box.lo.x, y}, {box.hi.x, y}, {Role::rule, 1.6});
     }
     draw_one_tree(trees[i], {box.lo + Vec<2>(0, kTreeHeading), box.hi}, list, labels);
   }

@@ -57,7 +57,7 @@ class TreeView {
     for (std::size_t k = 1; k < corners.size(); ++k) {
       const Vec<2>&a = corners[k - 1], &b = corners[k];
       const bool upright_or_level = a.x == b.x || a.y == b.y;
-      list_.shapes.emplace_back(LineShape{a, b, {role, lit ? 2.8 : 2.0, 0}, upright_or_level});
+      list_.shapes.emplace_back(LineShape{a, b, {role, lit ? 2.8 : 2.0}, upright_or_level});
     }
   }
 
@@ -65,8 +65,8 @@ class TreeView {
     const FrameNode& node = node_of(branch);
     const bool dashed = is_empty_leaf(branch);
     if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
-    if (node.over_capacity) return {Role::warning, 2.6, 0};
-    if (node.sleeps()) return {Role::quiet_ink, 2.0, 2.6};
+    if (node.over_capacity) return {Role::warning, 2.6};
+    if (is_asleep(node)) return {Role::quiet_ink, 2.0, 2.6};
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
 
@@ -89,9 +89,9 @@ class TreeView {
                       (branch.kind == Branch::Kind::node && branch.copies > 1);
     if (pile) {
       Box<2> behind{box.lo + Vec<2>(5, -5), box.hi + Vec<2>(5, -5)};  // a pile of equal cards
-      list_.shapes.emplace_back(RectShape{behind, radius, ground, outline, false});
+      list_.rect(behind, ground, outline, radius);
     }
-    list_.shapes.emplace_back(RectShape{box, radius, ground, outline, false});
+    list_.rect(box, ground, outline, radius);
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
@@ -104,7 +104,7 @@ class TreeView {
   void draw_levels(const Branch& branch, const Box<2>& box) {
     const Role role = branch.mark == Mark::quiet ? Role::cell_line_2 : Role::lit;
     const Vec<2> c = box.center();
-    list_.shapes.emplace_back(LineShape{{c.x, box.lo.y}, {c.x, box.hi.y}, {role, 2.8, 5}, false});
+    list_.line({c.x, box.lo.y}, {c.x, box.hi.y}, {role, 2.8, 5});
   }
 
   // Icons from the left and the text after them, centred in the box.
@@ -127,7 +127,7 @@ class TreeView {
 
   TextStyle text_style(const Branch& branch) const {
     const bool no_node = branch.kind != Branch::Kind::node || is_empty_leaf(branch);
-    TextStyle style{layout_.scale.text, Weight::semibold, Role::ink, Role::none};
+    TextStyle style{layout_.scale.text, Weight::semibold, Role::ink};
     if (no_node && branch.mark != Mark::lit) {
       style.weight = Weight::regular;
       style.role = Role::quiet_ink;
@@ -139,7 +139,7 @@ class TreeView {
     if (is_atlas()) {
       const FrameTexture& texture = frame_.textures[texture_at_.at(id)];
       draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_);
-      list_.shapes.emplace_back(RectShape{place, 0, Role::none, {Role::body_line, 1.2, 0}, false});
+      list_.rect(place, Role::none, {Role::body_line, 1.2});
       return;
     }
     const auto found = body_at_.find(id);
@@ -161,25 +161,20 @@ class TreeView {
   void draw_cut(const FrameNode& node, const Box<2>& box, Role role) {
     const double half = 0.32 * box.size().y;
     const Box<2> icon = Box<2>::around(box.center(), Vec<2>(1.15 * half, half));
-    list_.shapes.emplace_back(RectShape{icon, 2, Role::none, {role, 1.6, 0}, false});
+    list_.rect(icon, Role::none, {role, 1.6}, 2);
     const Vec<2> c = icon.center();
     const bool upright = node.cut_vertically;
-    list_.shapes.emplace_back(LineShape{upright ? Vec<2>(c.x, icon.lo.y) : Vec<2>(icon.lo.x, c.y),
-                                        upright ? Vec<2>(c.x, icon.hi.y) : Vec<2>(icon.hi.x, c.y),
-                                        {role, 3.2, 0},
-                                        false});
+    list_.line(upright ? Vec<2>(c.x, icon.lo.y) : Vec<2>(icon.lo.x, c.y),
+               upright ? Vec<2>(c.x, icon.hi.y) : Vec<2>(icon.hi.x, c.y), {role, 3.2});
   }
 
   // A warning triangle on the box's corner.
   void draw_badge(const Box<2>& box) {
     const Vec<2> c{box.hi.x - 1, box.lo.y + 1};
-    list_.shapes.emplace_back(
-        PolygonShape{{c + Vec<2>(0, -10), c + Vec<2>(10, 7), c + Vec<2>(-10, 7)},
-                     Role::warning,
-                     {Role::paper, 2, 0}});
-    list_.shapes.emplace_back(
-        LineShape{c + Vec<2>(0, -3.5), c + Vec<2>(0, 1), {Role::paper, 2.2, 0}, false});
-    list_.shapes.emplace_back(disc(c + Vec<2>(0, 4.6), 1.3, Role::paper));
+    list_.polygon({c + Vec<2>(0, -10), c + Vec<2>(10, 7), c + Vec<2>(-10, 7)}, Role::warning,
+                  {Role::paper, 2});
+    list_.line(c + Vec<2>(0, -3.5), c + Vec<2>(0, 1), {Role::paper, 2.2});
+    list_.disc(c + Vec<2>(0, 4.6), 1.3, Role::paper);
   }
 
   void label_levels(const Branch& branch, const Vec<2>& c) {
@@ -202,9 +197,7 @@ class TreeView {
     const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
     const double room = layout_.label_room(i, frame_, panel_);
     for (const std::string& text : label_choices(branch))
-      if (text_width(text, style) <= room &&
-          labels_.try_add(text, {under}, style, panel_))
-        return;
+      if (text_width(text, style) <= room && labels_.try_add(text, {under}, style, panel_)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
       labels_.try_add(shortened(node.label, room, style), {under}, style, panel_);
   }

@@ -72,10 +72,8 @@ void draw_outside(const Stand& stand, const WorldMap& map, DrawList& list) {
   way = length > 0 ? way / length : Vec<2>(1, 0);
   const Vec<2> side{-way.y, way.x};
   const Vec<2> tip = stand.center + way * 15.0, back = stand.center - way * 10.0;
-  list.shapes.emplace_back(
-      PolygonShape{{tip, back + side * 11.0, back + way * 6.0, back - side * 11.0},
-                   body_role(body.color),
-                   {Role::body_line, 1.6, 0}});
+  list.polygon({tip, back + side * 11.0, back + way * 6.0, back - side * 11.0},
+               body_role(body.color), {Role::body_line, 1.6});
 }
 
 // What reaches too far out of the world is cut off.
@@ -220,8 +218,8 @@ bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& 
       const Vec<2> from = link_end(stands[link.a], stands[link.b].center);
       const Vec<2> to = link_end(stands[link.b], from);
       const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
-      if (!many) list.shapes.emplace_back(LineShape{from, to, {Role::panel, width + 4, 0}, false});
-      list.shapes.emplace_back(LineShape{from, to, {Role::pair, width, 0}, false});
+      if (!many) list.line(from, to, {Role::panel, width + 4});
+      list.line(from, to, {Role::pair, width});
     }
   return complete;
 }
@@ -236,7 +234,7 @@ void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList&
     Vec<2> middle;
     for (int axis = 0; axis < 2; ++axis)
       middle[axis] = (std::max(a.lo[axis], b.lo[axis]) + std::min(a.hi[axis], b.hi[axis])) / 2;
-    list.shapes.emplace_back(disc(middle, 6.5, Role::pair, {Role::panel, 2.4, 0}));
+    list.disc(middle, 6.5, Role::pair, {Role::panel, 2.4});
   }
 }
 
@@ -262,9 +260,8 @@ void draw_bodies(const std::vector<Stand>& stands, const WorldMap& map, bool box
     const bool is_its_box = look == Look::bat || look == Look::box;
     if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !is_its_box &&
                                                !stand->bodies[0]->dimmed)))
-      list.shapes.emplace_back(RectShape{
-          page_part(page_box(*stand->bodies[0], map), map), 0, Role::none,
-          is_lit(*stand) ? Stroke{Role::lit, 2.8, 0} : Stroke{Role::quiet_ink, 1.5, 5}, false});
+      list.rect(page_part(page_box(*stand->bodies[0], map), map), Role::none,
+                is_lit(*stand) ? Stroke{Role::lit, 2.8} : Stroke{Role::quiet_ink, 1.5, 5});
   }
 }
 

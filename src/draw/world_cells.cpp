@@ -83,7 +83,7 @@ void hatch(const Box<2>& box, DrawList& list) {
   for (double d = kSpace; d < size.x + size.y; d += kSpace) {  // x + y on the line, from a corner
     const Vec<2> from(std::min(d, size.x), std::max(0.0, d - size.x));
     const Vec<2> to(std::max(0.0, d - size.y), std::min(d, size.y));
-    list.shapes.emplace_back(LineShape{box.lo + from, box.lo + to, {Role::rule, 1.6, 0}, false});
+    list.line(box.lo + from, box.lo + to, {Role::rule, 1.6});
   }
 }
 
@@ -94,7 +94,7 @@ void hatch_unmade(const Frame& frame, const WorldMap& map, DrawList& list) {
     const Box<2> box = map.to_page(quarter);
     if (std::min(box.size().x, box.size().y) < kLeastHatched) continue;
     if (list.shapes.size() > kMostShapes) return;
-    list.shapes.emplace_back(RectShape{box, 0, Role::paper, {}, true});
+    list.crisp_rect(box, Role::paper);
     hatch(box, list);
   }
 }
@@ -122,9 +122,9 @@ void fill_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
     const Role role = fill_of(paint.tone(i));
     grounds.push_back({page_region(node, map), role});
     if (node.region.empty())
-      list.shapes.emplace_back(RectShape{map.to_page(node.box), 0, role, {}, true});
+      list.crisp_rect(map.to_page(node.box), role);
     else
-      list.shapes.emplace_back(PolygonShape{grounds.back().region, role, {}});
+      list.polygon(grounds.back().region, role);
   }
 }
 
@@ -161,7 +161,7 @@ void hatch_asleep(const Frame& frame, const WorldMap& map, DrawList& list) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
     if (!node.sleeps() || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
-    pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1, 0}, 60);
+    pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1}, 60);
   }
 }
 
@@ -189,8 +189,7 @@ void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
     if (node.region.empty())
       borders.add(map.to_page(node.box), std::min(node.depth, 6u));
     else if (outlined++ < kMostFills)
-      list.shapes.emplace_back(
-          PolygonShape{inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2, 0}});
+      list.polygon(inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2});
   }
   borders.draw(
       [](std::uint32_t depth) {
@@ -202,7 +201,7 @@ void outline_lit(const Frame& frame, const WorldMap& map, DrawList& list) {
 }  // namespace
 
 bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds& grounds) {
-  list.shapes.emplace_back(RectShape{map.rect, 0, Role::panel, {}, true});
+  list.crisp_rect(map.rect, Role::panel);
   hatch_unmade(frame, map, list);
   Grounds under;  // of what the cells' own grounds lie on
   fill_views(frame, map, list, under);
@@ -227,7 +226,7 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   }
   complete &= borders.draw(
       [](std::uint32_t depth) {
-        return Stroke{cell_line_role(depth), line_width(depth), 0};
+        return Stroke{cell_line_role(depth), line_width(depth)};
       },
       list);
   complete &= draw_static_cells(frame, map, list);
@@ -235,8 +234,7 @@ bool draw_cells(const Frame& frame, const WorldMap& map, DrawList& list, Grounds
   draw_planes(frame, map, list);
   const bool lit =
       !frame.nodes.empty() && !nearly_all_lit(frame) && frame.nodes[0].mark == Mark::lit;
-  list.shapes.emplace_back(RectShape{
-      map.rect, 0, Role::none, {lit ? Role::lit : Role::cell_line_0, line_width(0), 0}, true});
+  list.crisp_rect(map.rect, Role::none, {lit ? Role::lit : Role::cell_line_0, line_width(0), 0});
   return complete;
 }
 
@@ -251,7 +249,7 @@ void draw_cells_over(const Frame& frame, const WorldMap& map, const Box<2>& plac
       continue;
     borders.add_inside(place, cell, node.depth);
   }
-  borders.draw([](std::uint32_t) { return Stroke{Role::body_line, 1, 0}; }, list);
+  borders.draw([](std::uint32_t) { return Stroke{Role::body_line, 1}; }, list);
 }
 
 }  // namespace lantern

@@ -40,10 +40,10 @@ void draw_links(const Frame& frame, const WorldMap& map, DrawList& list) {
   for (std::size_t i = 0; i < std::min(frame.links.size(), kMostLinks); ++i) {
     const FrameLink& link = frame.links[i];
     const Vec<2> from = map.to_page(link.from), to = map.to_page(link.to);
-    const Stroke rim{Role::panel, 1.6, 0};
+    const Stroke rim{Role::panel, 1.6};
     if (link.kind == FrameLink::Kind::pin) {
-      pen.line(from, to, {Role::ink, 1.6, 0});
-      pen.dot(to, 7.5, Role::panel, {Role::ink, 2.6, 0});
+      pen.line(from, to, {Role::ink, 1.6});
+      pen.dot(to, 7.5, Role::panel, {Role::ink, 2.6});
       pen.dot(to, 2, Role::ink);
       continue;
     }
@@ -75,12 +75,12 @@ bool draw_contacts(const Frame& frame, const WorldMap& map, DrawList& list) {
       if (point.impulse > 0 && most > 0) {
         const double length =
             kLeastImpulse + (kMostImpulse - kLeastImpulse) * std::min(1.0, point.impulse / most);
-        pen.arrow(at, at + normal * (k * length), {Role::contact, 4.4 * k, 0}, 17 * k, 1.6 * k);
+        pen.arrow(at, at + normal * (k * length), {Role::contact, 4.4 * k}, 17 * k, 1.6 * k);
       } else {
-        pen.arrow(at, at + normal * (k * kNormal), {Role::contact, 2.0 * k, 0}, 9 * k, 1.2 * k);
+        pen.arrow(at, at + normal * (k * kNormal), {Role::contact, 2.0 * k}, 9 * k, 1.2 * k);
       }
-      if (contact.begins) pen.dot(at, 10 * k, Role::none, {Role::contact, 1.8, 0});
-      pen.dot(at, 5 * k, Role::contact, {Role::panel, 1.8 * k, 0});
+      if (contact.begins) pen.dot(at, 10 * k, Role::none, {Role::contact, 1.8});
+      pen.dot(at, 5 * k, Role::contact, {Role::panel, 1.8 * k});
     }
   }
   return true;
@@ -101,7 +101,7 @@ void draw_velocities(const Frame& frame, const WorldMap& map, DrawList& list) {
     if (!std::isfinite(speed) || !(speed > 1e-12)) continue;
     const double length = kFastest * arrow_share(speed, extent);
     const Vec<2> way = page_velocity * (length / speed);
-    if (length > 2) pen.arrow(from, from + way, {Role::ink, 2.8, 0}, 13, 1.6);
+    if (length > 2) pen.arrow(from, from + way, {Role::ink, 2.8}, 13, 1.6);
   }
 }
 

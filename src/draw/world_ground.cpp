@@ -25,7 +25,7 @@ double depth_behind(const std::vector<Vec<2>>& polygon, const Plane<2>& surface)
 void draw_dimension(Pen& pen, const Vec<2>& from, const Vec<2>& to) {
   const Vec<2> way = to - from;
   const Vec<2> across = Vec<2>(-way.y, way.x) / std::max(1e-9, std::hypot(way.x, way.y)) * 5.0;
-  const Stroke stroke{Role::quiet_ink, 1.6, 0};
+  const Stroke stroke{Role::quiet_ink, 1.6};
   pen.line(from, to, stroke);
   for (const Vec<2>& end : {from, to}) pen.line(end - across, end + across, stroke);
 }
@@ -66,7 +66,7 @@ std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const WorldMap& ma
     if (solid.size() < 3) continue;
     Pen pen(list, limit);
     pen.polygon(solid, Role::free_space);
-    pen.hatch(solid, 15, 1, {Role::cell_line_3, 1.6, 0}, 160);
+    pen.hatch(solid, 15, 1, {Role::cell_line_3, 1.6}, 160);
     const Vec<2> along = Vec<2>(-surface.normal.y, surface.normal.x) * 1e4;
     const Vec<2> at = map.to_page(body.position);
     pen.line(at - along, at + along,
@@ -97,7 +97,7 @@ void draw_ground_pairs(const Frame& frame, const WorldMap& map, DrawList& list) 
     const Vec<2> from = map.to_page(body.position);
     const double height = surface.normal.x * from.x + surface.normal.y * from.y - surface.offset;
     if (++drawn > kMostLinks) return;
-    pen.line(from, from - surface.normal * height, {Role::pair, pair.lit ? 4.4 : 3.0, 0}, 2);
+    pen.line(from, from - surface.normal * height, {Role::pair, pair.lit ? 4.4 : 3.0}, 2);
   }
 }
 
@@ -125,7 +125,7 @@ void draw_broad_boxes(const Frame& frame, const WorldMap& map, DrawList& list, L
     const Box<2> box = map.to_page(body.box);
     if (!holds(shrunk(map.rect, -30), box)) continue;
     if (!body.lit)  // the others have one already
-      list.shapes.emplace_back(RectShape{box, 0, Role::none, {Role::quiet_ink, 1.8, 6}, false});
+      list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
     if (body.lit || frame.bodies.size() <= kFewBodies) draw_half_sizes(body, box, map, pen, labels);
   }
 }

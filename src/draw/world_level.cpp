@@ -94,8 +94,8 @@ void draw_cuts(const Frame& frame, const WorldMap& map, Pen& pen) {
       for (const Vec<2>& p : {map.to_page(a.from), map.to_page(a.to)})
         for (const Vec<2>& q : {map.to_page(b.from), map.to_page(b.to)})
           if (same_place(p, q)) {
-            pen.line(p - across, p + across, {Role::panel, 6, 0});
-            pen.line(p - across, p + across, {Role::ink, 2.4, 0});
+            pen.line(p - across, p + across, {Role::panel, 6});
+            pen.line(p - across, p + across, {Role::ink, 2.4});
           }
     }
 }
@@ -121,7 +121,7 @@ void fill_sectors(const Frame& frame, const WorldMap& map, DrawList& list, Groun
     grounds.push_back({regions[i], role});
   }
   for (std::size_t i = 0; i < sectors.size(); ++i)
-    if (sectors[i]->solid) pen.hatch(regions[i], 13, 1, {Role::cell_line_3, 1.5, 0}, 60);
+    if (sectors[i]->solid) pen.hatch(regions[i], 13, 1, {Role::cell_line_3, 1.5}, 60);
 }
 
 void number_sectors(const Frame& frame, const WorldMap& map, const Grounds& grounds,
@@ -130,7 +130,7 @@ void number_sectors(const Frame& frame, const WorldMap& map, const Grounds& grou
     if (sector->order == kNone) continue;
     const Polygon region = page_region(*sector, map);
     const Vec<2> c = centroid(region);
-    TextStyle style{30, Weight::semibold, Role::ink, Role::none};
+    TextStyle style{30, Weight::semibold, Role::ink};
     const std::string number = fmt::format("{}", sector->order + 1);
     for (const double size : {34.0, 26.0, 20.0}) {
       style.size = size;
@@ -154,10 +154,10 @@ void draw_walls(const Frame& frame, const WorldMap& map, DrawList& list) {
       if (wall.mark != mark) continue;
       const Vec<2> from = map.to_page(wall.from), to = map.to_page(wall.to);
       if (mark == Mark::lit) {
-        pen.line(from, to, {Role::ink, 10, 0});
-        pen.line(from, to, {Role::lit, 6, 0});
+        pen.line(from, to, {Role::ink, 10});
+        pen.line(from, to, {Role::lit, 6});
       } else {
-        pen.line(from, to, {Role::ink, mark == Mark::passed ? 6.5 : 5, 0});
+        pen.line(from, to, {Role::ink, mark == Mark::passed ? 6.5 : 5});
       }
     }
   draw_cuts(frame, map, pen);

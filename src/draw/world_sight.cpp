@@ -25,7 +25,7 @@ bool are_finite(const std::vector<Vec<2>>& points) {
 }
 
 void draw_hits(const FrameRay& ray, const WorldMap& map, Pen& pen, Labels& labels) {
-  const TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::ink, Role::none};
+  const TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::ink};
   const double cap = cap_height(style.weight) * style.size;
   for (std::size_t i = 0; i < std::min(ray.hits.size(), kMostHits); ++i) {
     const Vec<2> at = map.to_page(ray.hits[i].position);
@@ -34,10 +34,10 @@ void draw_hits(const FrameRay& ray, const WorldMap& map, Pen& pen, Labels& label
     const Box<2> box = Box<2>::around(at, Vec<2>(radius));
     const bool numbered = ray.hits.size() > 1 && labels.is_free(box, map.rect);
     if (!numbered) {
-      pen.dot(at, 6, Role::panel, {Role::ray, 2.8, 0});
+      pen.dot(at, 6, Role::panel, {Role::ray, 2.8});
       continue;
     }
-    pen.dot(at, radius, Role::panel, {Role::ray, 2.8, 0});
+    pen.dot(at, radius, Role::panel, {Role::ray, 2.8});
     labels.add(number, {{at.x, at.y + cap / 2}, 0.5}, style, map.rect);
     labels.block(box);
   }
@@ -58,7 +58,7 @@ void draw_eye_mark(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>
       lids.push_back(at + Vec<2>(lid * t * kWide, -lid * (1 - t * t) * kHigh));
     }
   Pen pen(list, place);
-  pen.polygon(lids, Role::eye, {role, 2.8, 0});
+  pen.polygon(lids, Role::eye, {role, 2.8});
   pen.dot(at + look * 4.0, 5.6, Role::pupil);
   pen.dot(at + look * 4.0 + Vec<2>(1.6, -1.8), 1.5, Role::eye);
 }
@@ -79,7 +79,7 @@ void draw_views(const Frame& frame, const WorldMap& map, DrawList& list) {
     const FrameView& view = frame.views[i];
     const std::vector<Vec<2>> corners = page_corners(view, map);
     if (!are_finite(corners)) continue;
-    pen.path(corners, true, {Role::frustum, 3.4, 0});
+    pen.path(corners, true, {Role::frustum, 3.4});
     const Vec<2> eye = map.to_page(view.eye);
     draw_eye_mark(eye, middle_of(corners) - eye, Role::frustum, shrunk(map.rect, -20), list);
   }
@@ -97,13 +97,13 @@ void draw_queries(const Frame& frame, const WorldMap& map, DrawList& list) {
       const double radius = query.radius * map.scale;
       const Vec<2> center = box.center();
       if (holds(map.rect, Box<2>::around(center, Vec<2>(radius))))
-        list.shapes.emplace_back(disc(center, radius, Role::none, stroke));
+        list.disc(center, radius, Role::none, stroke);
       else if (std::isfinite(radius))
-        pen.path(ring_of(center, radius, 60), true, {Role::frustum, 3.2, 0});
-      pen.line(center - Vec<2>(6, 0), center + Vec<2>(6, 0), {Role::frustum, 2.2, 0});
-      pen.line(center - Vec<2>(0, 6), center + Vec<2>(0, 6), {Role::frustum, 2.2, 0});
+        pen.path(ring_of(center, radius, 60), true, {Role::frustum, 3.2});
+      pen.line(center - Vec<2>(6, 0), center + Vec<2>(6, 0), {Role::frustum, 2.2});
+      pen.line(center - Vec<2>(0, 6), center + Vec<2>(0, 6), {Role::frustum, 2.2});
     } else if (within) {
-      list.shapes.emplace_back(RectShape{box, 0, Role::none, stroke, false});
+      list.rect(box, Role::none, stroke);
     } else {
       pen.path(polygon_of(box), true, stroke);
     }
@@ -117,8 +117,8 @@ void draw_rays(const Frame& frame, const WorldMap& map, DrawList& list, Labels& 
   for (std::size_t i = 0; i < rays; ++i) {
     const FrameRay& ray = frame.rays[i];
     const Vec<2> from = map.to_page(ray.from), to = map.to_page(ray.to);
-    pen.arrow(from, to, {Role::ray, 3.6 * k, 0}, 20 * k, 1.8 * k);
-    pen.dot(from, 5.5 * k, Role::ray, {Role::panel, 1.8 * k, 0});
+    pen.arrow(from, to, {Role::ray, 3.6 * k}, 20 * k, 1.8 * k);
+    pen.dot(from, 5.5 * k, Role::ray, {Role::panel, 1.8 * k});
   }
   for (std::size_t i = 0; i < rays; ++i) draw_hits(frame.rays[i], map, pen, labels);
 }

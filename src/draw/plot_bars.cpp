@@ -1,12 +1,16 @@
+#include "draw/plot_bars.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "draw/chart_parts.hpp"
+#include "draw/chart_view.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
+#include "draw/plot_axes.hpp"
+#include "draw/plot_marks.hpp"
 
 namespace lantern {
 namespace {
@@ -23,10 +27,9 @@ std::string value_text(double value) {
 
 class Bars {
  public:
-  Bars(const FrameChart& chart, const Box<2>& panel, DrawList& list, Labels& labels)
+  Bars(const FrameChart& chart, const Box<2>& panel, double size, DrawList& list, Labels& labels)
       : chart_(chart),
-        panel_(panel),
-        type_(panel),
+        paper_(panel, size, list, labels),
         list_(list),
         labels_(labels),
         bars_(chart.bars) {
@@ -41,11 +44,12 @@ class Bars {
   }
 
   void draw() {
-    panel_.lo.y += draw_chart_heading(heading(), panel_, labels_);
+    paper_.heading(heading(), type_.title);
+    if (area_.lo.y > panel_.lo.y) area_.lo.y += 0.28 * type_.name.size;
     leave_out();
     if (bars_.empty()) return;
     measure();
-    draw_grid();
+    paper_.level_ticks(axis_, area_.lo.y, area_.hi.y + 6, {Role::rule, 1.6}, 4, 14);
     double y = area_.lo.y + (row_ * kGroupGap) / 4;
     for (std::size_t i = 0; i < bars_.size(); ++i) {
       if (i > 0 && bars_[i].group != bars_[i - 1].group) y += kGroupGap * row_;
@@ -53,8 +57,7 @@ class Bars {
       y += row_;
     }
     const double x = x_of(zero());
-    list_.shapes.emplace_back(
-        LineShape{{x, area_.lo.y}, {x, area_.hi.y}, {Role::ink, 2.2, 0}, true});
+    list_.crisp_line({x, area_.lo.y}, {x, area_.hi.y}, {Role::ink, 2.2});
     if (!note_.empty()) labels_.add(note_, {{area_.lo.x, panel_.hi.y - 5}, 0}, type_.tick, panel_);
   }
 
@@ -78,7 +81,7 @@ class Bars {
   // The last bars go when not all have room.
   void leave_out() {
     const std::size_t all = bars_.size();
-    const auto room = [&] { return panel_.size().y - kTickLine * (bars_.size() < all ? 2 : 1); };
+    const auto room = [&] { return area_.size().y - kTickLine * (bars_.size() < all ? 2 : 1); };
     while (!bars_.empty() && rows() * kLeastRow > room()) bars_.pop_back();
     if (bars_.size() < all)
       note_ =
@@ -92,11 +95,10 @@ class Bars {
       most = std::max(most, bar.value);
       if (bar.value > 0) above_zero = std::min(above_zero, bar.value);
       names = std::max(names, text_width(bar.label, type_.name));
-      values = std::max(values, text_width(value_text(bar.value), type_.number));
+      values = std::max(values, text_width(value_text(bar.value), type_.title));
     }
     names += 1;  // sums of widths lose a hair
     values += 1;
-    area_ = panel_;
     area_.lo.x += std::min(names, 0.4 * panel_.size().x) + kAfter;
     area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter;
     area_.hi.y -= kTickLine * (note_.empty() ? 1 : 2);
@@ -116,23 +118,11 @@ class Bars {
   double zero() const { return chart_.logarithmic ? 0 : std::max(0.0, axis_.low()); }
   double x_of(double value) const { return area_.lo.x + axis_.share(value) * area_.size().x; }
 
-  void draw_grid() {
-    const double end = area_.hi.y + 6;
-    double last = -1e9;
-    for (const Axis::Tick& tick : axis_.ticks()) {
-      const double x = x_of(tick.value), half = text_width(tick.text, type_.tick) / 2;
-      list_.shapes.emplace_back(LineShape{{x, area_.lo.y}, {x, end}, {Role::rule, 1.6, 0}, true});
-      if (x - half < last + 14 || x - half < panel_.lo.x || x + half > panel_.hi.x) continue;
-      labels_.add(tick.text, {{x, end + 4 + 0.78 * type_.tick.size}, 0.5}, type_.tick, panel_);
-      last = x + half;
-    }
-  }
-
   // One for each name, from the first bar on: groups to come have bars of the same names, and no
   // bar may change its colour when they do.
-  int color_of(const FrameBar& bar) const {
+  Role color_of(const FrameBar& bar) const {
     const auto at = std::find(names_.begin(), names_.end(), bar.label) - names_.begin();
-    return chart_color(static_cast<std::size_t>(at));
+    return plot_role(static_cast<int>(at));
   }
 
   void draw_bar(const FrameBar& bar, double top) {
@@ -140,35 +130,35 @@ class Bars {
     const double from = x_of(zero()), to = x_of(bar.value);
     const Box<2> box{{std::min(from, to), middle - thick / 2},
                      {std::max(from, to), middle + thick / 2}};
-    if (box.size().x > 0.5)
-      list_.shapes.emplace_back(
-          RectShape{box, 2, body_role(color_of(bar)), {Role::body_line, 1.2, 0}, false});
+    if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
     const double cap = cap_height(type_.name.weight) * type_.name.size / 2;
     const double room = area_.lo.x - panel_.lo.x - kAfter;
     labels_.add(shortened(bar.label, room, type_.name), {{area_.lo.x - kAfter, middle + cap}, 1},
                 type_.name, panel_);
     const double left = std::max(from, to) + kAfter;
-    labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, type_.number),
-                {{left, middle + cap}, 0}, type_.number, panel_);
+    labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),
+                {{left, middle + cap}, 0}, type_.title, panel_);
   }
 
   const FrameChart& chart_;
-  Box<2> panel_;
-  ChartType type_;
+  PlotPaper paper_;
+  const PlotType& type_ = paper_.type;
+  const Box<2>& panel_ = paper_.place.panel;
+  Box<2>& area_ = paper_.place.area;
   DrawList& list_;
   Labels& labels_;
   std::vector<FrameBar> bars_;
   std::vector<std::string> names_;
   std::string note_;
-  Box<2> area_;
   double row_ = kLeastRow;
-  Axis axis_ = Axis::linear(0, 1, 2);
+  Axis axis_;
 };
 
 }  // namespace
 
-void draw_bars_chart(const FrameChart& chart, const Box<2>& panel, DrawList& list, Labels& labels) {
-  Bars(chart, panel, list, labels).draw();
+void draw_bars(const FrameChart& chart, const Box<2>& panel, double size, DrawList& list,
+               Labels& labels) {
+  Bars(chart, panel, size, list, labels).draw();
 }
 
 }  // namespace lantern
