@@ -1,12 +1,12 @@
-#include "draw/atlas_view.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
 #include "draw/page.hpp"
+#include "draw/panels.hpp"
 #include "draw/pattern.hpp"
 
 namespace lantern {
@@ -89,8 +89,7 @@ class AtlasView {
   void draw_free(const FrameNode& node) {
     const Box<2> box = on_page(flat(node.box));
     const double least = std::min(box.size().x, box.size().y);
-    if (node.mark != Mark::quiet)
-      list_.crisp_rect(box, node.mark == Mark::lit ? Role::lit_fill : Role::passed_fill);
+    if (node.mark != Mark::quiet) list_.crisp_rect(box, ground_of(node.mark));
     if (least < 6) return;
     list_.rect(shrunk(box, 2), Role::none, {Role::cell_line_2, 1.4, 5});
   }
@@ -104,10 +103,8 @@ class AtlasView {
   // The name on a plate of its own, so that it can be read on any pattern.
   bool draw_plate(const std::string& name, const Box<2>& box) {
     const TextStyle style{kLabel - 1, Weight::semibold, Role::ink};
-    const double width = text_width(name, style);
-    const double cap = cap_height(style.weight) * style.size;
-    const Box<2> plate = Box<2>::around(box.center(), Vec<2>(width / 2 + 6, cap / 2 + 5));
-    const Anchor anchor{{box.center().x, box.center().y + cap / 2}, 0.5};
+    const Box<2> plate = plate_of(name, box.center(), style, {6, 5});
+    const Anchor anchor = centred(box.center(), style);
     if (name.empty() || !holds(shrunk(box, 1), plate)) return false;
     if (!labels_.is_free(Labels::extent(name, anchor, style), panel_)) return false;
     list_.rect(plate, Role::panel, {}, 5);
@@ -121,11 +118,10 @@ class AtlasView {
     if (node.mark == Mark::lit) style.role = Role::lit_ink;
     const Vec<2> size = node.box.size();
     const std::string numbers = fmt::format("{:.0f} × {:.0f}", size.x, size.y);
-    const double cap = cap_height(style.weight) * style.size;
+    const Anchor anchor = centred(box.center(), style);
     for (const std::string& text :
          {node.label.empty() ? "free " + numbers : node.label + "  " + numbers,
           node.label.empty() ? numbers : node.label}) {
-      const Anchor anchor{{box.center().x, box.center().y + cap / 2}, 0.5};
       if (!holds(shrunk(box, 6), Labels::extent(text, anchor, style))) continue;
       if (labels_.try_add(text, {anchor}, style, panel_)) return;
     }

@@ -161,15 +161,6 @@ void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
             round ? f.unit : 0);
 }
 
-PolygonShape star(const Vec<2>& center, int corners, double radius, double turn, Role fill) {
-  PolygonShape shape{{}, fill, {}};
-  for (int i = 0; i < corners; ++i) {
-    const double angle = turn + 2 * kPi * i / corners;
-    shape.points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
-  }
-  return shape;
-}
-
 }  // namespace
 
 void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list) {
@@ -182,13 +173,13 @@ void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list)
       list.disc(center, 0.85 * radius, role);
       break;
     case 1:
-      list.shapes.emplace_back(star(center, 3, 1.15 * radius, -kPi / 2, role));
+      list.polygon(ring_of(center, 1.15 * radius, 3, -kPi / 2), role);
       break;
     case 2:
       bar(0.8, 0.8);
       break;
     case 3:
-      list.shapes.emplace_back(star(center, 4, 1.1 * radius, 0, role));
+      list.polygon(ring_of(center, 1.1 * radius, 4), role);
       break;
     case 4:
       bar(1.3, 0.42);
@@ -228,13 +219,18 @@ void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, Draw
 
 }  // namespace
 
+void draw_z(const Box<2>& box, const Stroke& stroke, DrawList& list) {
+  const Vec<2> z[] = {box.lo, {box.hi.x, box.lo.y}, {box.lo.x, box.hi.y}, box.hi};
+  for (int i = 1; i < 4; ++i) list.line(z[i - 1], z[i], stroke);
+}
+
 void draw_zz(const Vec<2>& corner, double unit, double width, DrawList& list) {
-  const auto letter = [&](const Vec<2>& at, double size) {
-    const Vec<2> z[] = {at, at + Vec<2>(size, 0), at + Vec<2>(0, size), at + Vec<2>(size, size)};
-    for (int i = 1; i < 4; ++i) list.line(z[i - 1], z[i], {Role::ink, width});
+  const auto letter = [&](const Vec<2>& offset, double size) {
+    const Vec<2> at = corner + offset * unit;
+    draw_z({at, at + Vec<2>(size * unit)}, {Role::ink, width}, list);
   };
-  letter(corner + Vec<2>(0, 0.18) * unit, 0.3 * unit);
-  letter(corner + Vec<2>(0.42, -0.04) * unit, 0.22 * unit);
+  letter({0, 0.18}, 0.3);
+  letter({0.42, -0.04}, 0.22);
 }
 
 void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list) {

@@ -1,10 +1,8 @@
-#include "draw/chart_view.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "draw/panels.hpp"
 #include "draw/plot.hpp"
-#include "draw/plot_bars.hpp"
 
 namespace lantern {
 namespace {

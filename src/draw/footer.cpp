@@ -1,5 +1,3 @@
-#include "draw/footer.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {

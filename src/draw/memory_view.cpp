@@ -1,14 +1,13 @@
-#include "draw/memory_view.hpp"
-
 #include <algorithm>
-#include <map>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "draw/body_shapes.hpp"
 #include "draw/characters.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {
@@ -65,8 +64,7 @@ Strip best_strip(std::uint32_t slots, const Vec<2>& room) {
 class MemoryView {
  public:
   MemoryView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels) {
-    for (const FrameBody& body : frame.bodies) bodies_[body.id] = &body;
+      : frame_(frame), panel_(panel), list_(list), labels_(labels), bodies_(by_id(frame.bodies)) {
     const Box<2> area{panel.lo + Vec<2>(0, kMemoryHeading), panel.hi};
     strip_ = best_strip(frame.array_size, area.size());
     const double rows = std::max(1.0, std::floor((area.size().y + 4) / strip_.pitch));
@@ -142,9 +140,7 @@ class MemoryView {
     const auto used =
         static_cast<std::uint32_t>(std::min<std::size_t>(leaf.bodies.size(), leaf.room));
     for_each_piece(leaf.first, leaf.room, [&](std::uint32_t first, std::uint32_t count) {
-      const Role ground = lit                         ? Role::lit_fill
-                          : leaf.mark == Mark::passed ? Role::passed_fill
-                                                      : Role::panel;
+      const Role ground = ground_of(leaf.mark);
       const Box<2> run = place(first, count);
       list_.crisp_rect(run, ground, outline);
       for (std::uint32_t i = 0; i < count; ++i) {
@@ -157,22 +153,6 @@ class MemoryView {
       }
       if (strip_.drawn()) draw_bracket(leaf, run, outline);
     });
-  }
-
-  // Slots too small for chips: what is in use as one dark bar, what is kept free as a pale one.
-  void draw_dense(const FrameNode& leaf) {
-    const bool lit = leaf.mark == Mark::lit;
-    const auto bar = [&](std::uint32_t at, std::uint32_t slots, Role role) {
-      for_each_piece(at, slots, [&](std::uint32_t first, std::uint32_t count) {
-        Box<2> box = place(first, count);
-        box.hi.x -= 0.2 * strip_.slot;  // leaves stay apart
-        list_.rect(box, role);
-      });
-    };
-    bar(leaf.first, leaf.room, lit ? Role::lit_fill : Role::rule);
-    bar(leaf.first,
-        static_cast<std::uint32_t>(std::min<std::size_t>(leaf.bodies.size(), leaf.room)),
-        lit ? Role::lit : Role::cell_line_1);
   }
 
   void draw_slot(BodyId id, const Box<2>& box, Role ground) {
@@ -250,7 +230,7 @@ class MemoryView {
   Strip strip_;
   Vec<2> origin_{0.0};
   std::uint32_t shown_ = 0;  // slots
-  std::map<BodyId, const FrameBody*> bodies_;
+  std::unordered_map<BodyId, const FrameBody*> bodies_;
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "draw/draw_list.hpp"
 
@@ -20,6 +22,23 @@ inline Box<2> shrunk(const Box<2>& box, double inset) {
 inline bool holds(const Box<2>& outer, const Box<2>& inner) {
   return outer.lo.x <= inner.lo.x && outer.lo.y <= inner.lo.y && inner.hi.x <= outer.hi.x &&
          inner.hi.y <= outer.hi.y;
+}
+
+// Parts of an area beside each other along an axis, as wide as their shares, with gaps between
+// them.
+inline std::vector<Box<2>> split(const Box<2>& area, int axis, const std::vector<double>& shares,
+                                 double gap) {
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+  const double room = area.size()[axis] - gap * (static_cast<double>(shares.size()) - 1);
+  std::vector<Box<2>> parts;
+  double at = area.lo[axis];
+  for (const double share : shares) {
+    Box<2>& part = parts.emplace_back(area);
+    part.lo[axis] = at;
+    part.hi[axis] = at + room * share / all;
+    at = part.hi[axis] + gap;
+  }
+  return parts;
 }
 
 // The part of its greatest length that a velocity's arrow has, in a world `extent` long. Speeds

@@ -27,12 +27,9 @@ void Pen::arrow(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, doub
   const double length = std::hypot(way.x, way.y);
   if (!std::isfinite(length) || !(length > 1e-6)) return;
   head = std::min(head, 0.8 * length);
-  const Vec<2> along = way / length, side = Vec<2>(-along.y, along.x) * (0.48 * head);
-  const Vec<2> neck = to - along * head;
-  line(from, to - along * (0.7 * head), stroke, casing);
-  const Role rim = casing > 0 ? Role::panel : Role::none;
-  polygon({to, neck + side, neck + along * (0.22 * head), neck - side}, stroke.role,
-          {rim, casing > 0 ? 1.2 : 0, 0});
+  line(from, to - way * (0.7 * head / length), stroke, casing);
+  polygon(arrow_head(from, to, head), stroke.role,
+          casing > 0 ? Stroke{Role::panel, 1.2} : Stroke{});
 }
 
 void Pen::dot(const Vec<2>& center, double radius, Role fill, const Stroke& stroke) {
@@ -72,6 +69,12 @@ void Pen::hatch(const std::vector<Vec<2>>& polygon, double space, int lean, cons
     }
     if (found == 2) line(ends[0], ends[1], stroke);
   }
+}
+
+std::vector<Vec<2>> arrow_head(const Vec<2>& from, const Vec<2>& to, double head) {
+  const Vec<2> along = glm::normalize(to - from);
+  const Vec<2> neck = to - along * head, side = Vec<2>(-along.y, along.x) * (0.48 * head);
+  return {to, neck + side, neck + along * (0.22 * head), neck - side};
 }
 
 std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, double turn) {

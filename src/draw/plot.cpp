@@ -4,74 +4,31 @@
 #include <cmath>
 
 #include "draw/clip.hpp"
-#include "draw/number_text.hpp"
 #include "draw/plot_bands.hpp"
-#include "draw/plot_fan.hpp"
-#include "draw/plot_legend.hpp"
+#include "draw/plot_layout.hpp"
 #include "draw/plot_lines.hpp"
-#include "draw/plot_names.hpp"
 
 namespace lantern {
 namespace {
 
-constexpr double kMostOfEdge = 0.25;       // of the area's height, for marks at one of its edges
-constexpr double kLeastArea = 24;          // page units: what is smaller shows nothing
-constexpr std::size_t kMostPieces = 2400;  // of all lines together
+constexpr double kLeastArea = 24;  // page units: what is smaller shows nothing
 
-// What differs between a page that is read closely and a slide.
-struct PlotStyle {
-  double mark = 0;  // radius
-  double line = 0;
-  double apart = 0;  // between two marks of a line, at least
-  Vec<2> ticks_apart{0.0};
-};
-
-PlotStyle style_of(const Plot& plot) {
-  if (plot.slide) return {5, 3, 24, {96, plot.over_time ? 34 : 50}};  // over time it may be low
-  const double mark = plot.mark > 0 ? plot.mark : 0.31 * plot.size;
-  return {mark, 0.44 * mark, 0, Vec<2>(3.6, 2.1) * plot.size};
-}
-
-struct Range {
-  double least = 1e300, most = -1e300;
-  void add(double value, bool logarithmic) {
-    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  bool empty() const { return least > most; }
-};
-
-// A series on the page.
-struct Placed {
-  const PlotSeries* series = nullptr;
-  std::vector<Vec<2>> points;  // that are joined
-  std::vector<Vec<2>> beyond;  // at the upper edge
-  std::vector<bool> open;      // of the joined ones
-  std::vector<std::pair<Vec<2>, Vec<2>>> spreads;
-  std::vector<std::pair<Vec<2>, std::string>> notes;
-  std::vector<std::pair<Vec<2>, Vec<2>>> whiskers;
-};
-
-class Drawing {
+class Drawing : PlotLayout {
  public:
-  Drawing(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels)
-      : plot_(plot),
-        style_(style_of(plot)),
-        paper_(panel, plot.size, list, labels),
+  Drawing(const Plot& plot, const Box<2>& panel, bool with_legend, DrawList& list, Labels& labels)
+      : PlotLayout(plot, panel, with_legend, list, labels),
+        with_legend_(with_legend),
         halo_(plot.size),
         list_(list),
         labels_(labels) {
     halo_.tick.halo = halo_.name.halo = Role::panel;
   }
 
-  void draw(bool with_legend) {
-    find_ranges();
-    lay_out(with_legend);
-    if (xs_.empty() && !plot_.slide) return paper_.say_nothing(plot_.empty);
+  void draw() {
+    if (empty() && !plot_.slide) return paper_.say_nothing(plot_.empty);
     if (!plot_.slide && (scaled().size().y < kLeastArea || area().size().x < kLeastArea)) return;
-    place_points();
-    draw_axes();
+    placed_ = place_series();
+    draw_axes(list_);
     front_.draw(on_page(plot_.front), {scaled().lo, area().hi}, 1.15 * style_.mark,
                 0.3 * style_.mark, list_);
     PlotNamer namer({area().lo + Vec<2>{4, 0}, area().hi}, labels_);  // off the axis
@@ -83,8 +40,8 @@ class Drawing {
       guides_[i].name(plot_.guides[i].name, halo_.tick, namer);
     front_.name(plot_.front_name, halo_.tick, namer);
     draw_slopes(namer);
-    if (!with_legend && plot_.names == PlotNames::ends)
-      for (const Placed& placed : placed_) all_named_ &= name_end(placed, namer);
+    if (!with_legend_ && plot_.names == PlotNames::ends)
+      for (const PlacedSeries& placed : placed_) all_named_ &= name_end(placed, namer);
     if (plot_.names == PlotNames::column) name_column();
     name_notes(namer);
   }
@@ -92,176 +49,8 @@ class Drawing {
   bool all_named() const { return all_named_; }
 
  private:
-  Box<2>& area() { return paper_.place.area; }
-  const Box<2>& area() const { return paper_.place.area; }
-  Box<2> scaled() const { return paper_.place.scaled(); }
   // Lines end there, and reach a hair over its edge.
   Box<2> picture() const { return shrunk(area(), -2); }
-
-  bool is_drawn(const PlotPoint& p) const {
-    if (!std::isfinite(p.at.x) || (plot_.log_x && p.at.x <= 0)) return false;
-    return p.beyond || std::isfinite(p.at.y);
-  }
-  // Slides have no ground: what is not above 0 lies at the lower end of a logarithmic axis.
-  bool is_ground(double y) const { return plot_.log_y && y <= 0 && !plot_.slide; }
-  bool is_on_ground(const PlotPoint& p) const { return !p.beyond && is_ground(p.at.y); }
-
-  void find_ranges() {
-    for (const PlotSeries& series : plot_.series)
-      for (const PlotPoint& p : series.points) {
-        if (!is_drawn(p)) continue;
-        xs_.add(p.at.x, plot_.log_x);
-        for (int end = 0; end < 2; ++end) {
-          if (p.spread_x) xs_.add((*p.spread_x)[end], plot_.log_x);
-          if (p.spread_y) ys_.add((*p.spread_y)[end], plot_.log_y);
-        }
-        if (!p.beyond) ys_.add(p.at.y, plot_.log_y);
-      }
-    if (ys_.empty() && !xs_.empty()) ys_ = {plot_.log_y ? 0.1 : 0.0, 1};
-  }
-
-  std::vector<LegendEntry> entries() const {
-    std::vector<LegendEntry> all;
-    for (const PlotSeries& s : plot_.series)
-      if (std::ranges::any_of(s.points, [&](const PlotPoint& p) { return is_drawn(p); }))
-        all.push_back({s.name, s.look, s.is_peer});
-    return all;
-  }
-
-  void lay_out(bool with_legend) {
-    const PlotType& type = paper_.type;
-    const double top = area().lo.y;
-    paper_.heading(plot_.title, type.title);
-    paper_.heading(plot_.y_name, type.tick);
-    area().lo.y += area().lo.y > top ? 0.28 * plot_.size : 10;
-    if (with_legend && !xs_.empty()) add_legend();
-    paper_.reserve_x(!plot_.x_name.empty() || !plot_.x_note.empty());
-    if (xs_.empty() && !plot_.slide) return;
-    paper_.place.strip = edge_height([](const PlotPoint& p) { return p.beyond; }, 6);
-    paper_.place.ground = edge_height([&](const PlotPoint& p) { return is_on_ground(p); }, 10);
-    y_ = y_axis(ticks_in(1));
-    area().hi.x -= plot_.names == PlotNames::column
-                       ? column_width(column(), paper_, plot_.over_time)
-                       : 0.9 * plot_.size;
-    paper_.reserve_y(y_);
-    area().hi = glm::max(area().hi, area().lo + 10.0);
-    x_ = plot_.over_time && plot_.seconds
-             ? Axis::linear(0, *plot_.seconds, std::max(4, ticks_in(0))).cut_to(0, *plot_.seconds)
-             : axis_of(xs_, plot_.log_x, ticks_in(0));
-  }
-
-  // At the panel's lower edge; the plot gets what is left.
-  void add_legend() {
-    Box<2>& panel = paper_.place.panel;
-    const double wanted = plot_legend_height(entries(), panel.size().x, plot_.size);
-    const double top = area().hi.y - std::min(wanted, 0.45 * area().size().y);
-    draw_plot_legend(entries(), {{panel.lo.x, top}, panel.hi}, plot_.size, list_, labels_);
-    panel.hi.y = area().hi.y = top - 0.5 * plot_.size;
-  }
-
-  int ticks_in(int axis) const {
-    const double room = axis == 0 ? area().size().x : scaled().size().y;
-    return std::clamp(static_cast<int>(room / style_.ticks_apart[axis]), 2, 10 - axis);
-  }
-
-  Axis axis_of(const Range& range, bool logarithmic, int ticks) const {
-    if (range.empty()) return Axis::linear(0, 1, 2);
-    if (!logarithmic) return Axis::linear(range.least, range.most, ticks);
-    return plot_.slide ? Axis::logarithmic(range.least, range.most, ticks)
-                       : Axis::fitted(range.least, range.most, ticks);
-  }
-
-  // Up to the ends that are asked for; lines go on beyond them and are cut.
-  Axis y_axis(int ticks) const {
-    if (!plot_.least && !plot_.most) return axis_of(ys_, plot_.log_y, ticks);
-    Range range = ys_;
-    if (range.empty()) range.add(plot_.least.value_or(plot_.most.value_or(1)), plot_.log_y);
-    const double low = plot_.least.value_or(std::min(range.least, plot_.most.value_or(1e300)));
-    const double high = plot_.most.value_or(std::max(range.most, low));
-    return axis_of({low, high}, plot_.log_y, ticks).cut_to(plot_.least, plot_.most);
-  }
-
-  // Marks that would cover each other at an edge stand in rows, one a series.
-  double row_height() const { return 2.7 * style_.mark; }
-  int most_rows() const {
-    return std::clamp(static_cast<int>(kMostOfEdge * area().size().y / row_height()), 1, 8);
-  }
-  template <class Is>
-  double edge_height(const Is& is, double air) const {
-    const auto rows = std::ranges::count_if(plot_.series, [&](const PlotSeries& s) {
-      return std::ranges::any_of(s.points,
-                                 [&](const PlotPoint& p) { return is_drawn(p) && is(p); });
-    });
-    return rows == 0 ? 0 : std::min(static_cast<int>(rows), most_rows()) * row_height() + air;
-  }
-
-  Vec<2> at(const Vec<2>& value) const {
-    const Box<2> scale = scaled();
-    const double x = scale.lo.x + x_.place(value.x) * scale.size().x;
-    if (is_ground(value.y)) return {x, (scale.hi.y + area().hi.y) / 2};
-    return {x, scale.hi.y - y_.place(value.y) * scale.size().y};
-  }
-  std::vector<Vec<2>> on_page(const std::vector<Vec<2>>& values) const {
-    std::vector<Vec<2>> points;
-    for (const Vec<2>& value : values) points.push_back(at(value));
-    return points;
-  }
-
-  void place_points() {
-    // Not farther out than a few panels: beyond, only the direction matters.
-    const Vec<2> reach = 4.0 * area().size();
-    int row = 0, ground_row = 0;
-    for (const PlotSeries& series : plot_.series) {
-      Placed& placed = placed_.emplace_back();
-      placed.series = &series;
-      bool any_zero = false;
-      for (const PlotPoint& p : series.points) {
-        if (!is_drawn(p)) continue;
-        Vec<2> place = glm::clamp(at(p.at), area().lo - reach, area().hi + reach);
-        if (p.beyond) {
-          place.y = area().lo.y + 3 + (row % most_rows() + 0.5) * row_height();
-          placed.beyond.push_back(place);
-          continue;
-        }
-        if (is_on_ground(p))
-          place.y = scaled().hi.y + 5 + (ground_row % most_rows() + 0.5) * row_height();
-        any_zero = any_zero || is_on_ground(p);
-        placed.points.push_back(place);
-        placed.open.push_back(p.open);
-        if (!p.note.empty()) placed.notes.push_back({place, p.note});
-        place_whiskers(p, placed);
-      }
-      if (plot_.slide) {
-        placed.points =
-            thinned(placed.points, std::max<std::size_t>(60, kMostPieces / plot_.series.size()));
-        placed.open.assign(placed.points.size(), false);
-      }
-      row += !placed.beyond.empty();
-      ground_row += any_zero;
-    }
-  }
-
-  void place_whiskers(const PlotPoint& p, Placed& placed) const {
-    const auto add = [&](const Vec<2>& from, const Vec<2>& to) {
-      if (const auto part = cut_line(from, to, area())) placed.whiskers.push_back(*part);
-    };
-    if (p.spread_x) add(at({p.spread_x->x, p.at.y}), at({p.spread_x->y, p.at.y}));
-    if (p.spread_y && !is_on_ground(p))
-      add(at({p.at.x, p.spread_y->x}), at({p.at.x, p.spread_y->y}));
-  }
-
-  void draw_axes() {
-    const PlotType& type = paper_.type;
-    list_.crisp_rect(area(), Role::panel);
-    paper_.upright_ticks(y_);
-    const double end = area().hi.y + type.tick_length();
-    if (plot_.slide)
-      paper_.level_ticks(x_, area().hi.y, end, {Role::ink, 1.8}, 8, 12);
-    else
-      paper_.level_ticks(x_, scaled().lo.y, end, {Role::rule, 1.5 * type.unit}, 8 * type.unit, 8);
-    paper_.axis_lines();
-    paper_.name_x(plot_.x_name, plot_.x_note, plot_.slide ? type.name : type.tick);
-  }
 
   // On a slide each line has its marks before the next one is drawn, and what is newest lies on
   // top.
@@ -270,13 +59,13 @@ class Drawing {
       draw_line(placed_[i], namer);
       if (plot_.slide) draw_marks(i, namer);
     }
-    for (const Placed& placed : placed_) draw_whiskers(placed, namer);
+    for (const PlacedSeries& placed : placed_) draw_whiskers(placed, namer);
     for (std::size_t i = 0; i < placed_.size(); ++i)
       plot_.slide ? draw_newest(placed_[i]) : draw_marks(i, namer);
   }
 
   // On a slide the same x again begins a line anew.
-  void draw_line(const Placed& placed, PlotNamer& namer) {
+  void draw_line(const PlacedSeries& placed, PlotNamer& namer) {
     if (!placed.series->joined) return;
     const std::vector<Vec<2>>& points = placed.points;
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -288,7 +77,7 @@ class Drawing {
     }
   }
 
-  void draw_whiskers(const Placed& placed, PlotNamer& namer) {
+  void draw_whiskers(const PlacedSeries& placed, PlotNamer& namer) {
     for (const auto& [from, to] : placed.whiskers) {
       draw_plot_whisker(placed.series->ink(), from, to, style_.mark, list_);
       namer.cross(from, to);
@@ -309,7 +98,7 @@ class Drawing {
   }
 
   void draw_marks(std::size_t series, PlotNamer& namer) {
-    const Placed& placed = placed_[series];
+    const PlacedSeries& placed = placed_[series];
     const Vec<2>* last = nullptr;
     const auto draw = [&](const Vec<2>& p, bool open) {
       if (!contains(picture(), p) || (last && glm::distance(p, *last) < style_.apart)) return;
@@ -324,7 +113,7 @@ class Drawing {
     for (const Vec<2>& p : placed.beyond) draw(p, true);
   }
 
-  void draw_newest(const Placed& placed) {
+  void draw_newest(const PlacedSeries& placed) {
     if (!placed.points.empty() && contains(picture(), placed.points.back()))
       draw_plot_mark(placed.series->ink(), placed.points.back(), 1.7 * style_.mark, false, list_);
   }
@@ -344,7 +133,7 @@ class Drawing {
     draw_slope_fan(plot_.slopes, decade, scaled(), halo_, namer, list_, labels_);
   }
 
-  bool name_end(const Placed& placed, PlotNamer& namer) {
+  bool name_end(const PlacedSeries& placed, PlotNamer& namer) {
     if (placed.points.empty() && placed.beyond.empty()) return true;
     const double r = 1.4 * style_.mark + 4, size = halo_.name.size, drop = 0.36 * size;
     std::vector<Anchor> anchors;
@@ -365,33 +154,17 @@ class Drawing {
     return namer.name(placed.series->name, anchors, halo_.name, 1);
   }
 
-  // Of each series that has points; the only one needs no name. Its number is finer than the ticks
-  // are, or what has changed would not be seen.
-  std::vector<ColumnName> column() const {
-    std::vector<ColumnName> names;
-    const int decimals = y_.decimals() > 1 && y_.decimals() < 7 ? y_.decimals() + 1 : 0;
-    for (const PlotSeries& series : plot_.series) {
-      const auto newest = std::find_if(series.points.rbegin(), series.points.rend(),
-                                       [&](const PlotPoint& p) { return is_drawn(p); });
-      if (newest == series.points.rend()) continue;
-      const double y = newest->at.y;
-      names.push_back({decimals > 0 ? number_text(y, decimals) : short_number(y),
-                       plot_.series.size() > 1 ? series.name : ""});
-    }
-    return names;
-  }
-
   void name_column() {
     std::vector<ColumnName> names = column();
     auto name = names.begin();
-    for (const Placed& placed : placed_)
+    for (const PlacedSeries& placed : placed_)
       if (!placed.points.empty()) (name++)->end = placed.points.back();
     draw_column(std::move(names), plot_.series.size(), paper_, list_, labels_);
   }
 
   void name_notes(PlotNamer& namer) {
     const double r = 1.4 * style_.mark + 3, size = halo_.tick.size;
-    for (const Placed& placed : placed_)
+    for (const PlacedSeries& placed : placed_)
       for (const auto& [p, note] : placed.notes)
         namer.name(note,
                    {{p + Vec<2>{r, -0.4 * size}, 0},
@@ -400,16 +173,12 @@ class Drawing {
                    halo_.tick, 0);
   }
 
-  const Plot& plot_;
-  PlotStyle style_;
-  PlotPaper paper_;
+  bool with_legend_;
   PlotType halo_;  // of names inside the area
   DrawList& list_;
   Labels& labels_;
-  Range xs_, ys_;
-  Axis x_, y_;
   bool all_named_ = true;
-  std::vector<Placed> placed_;
+  std::vector<PlacedSeries> placed_;
   PlotFront front_;
   std::vector<PlotGuideLine> guides_;
 };
@@ -423,11 +192,11 @@ void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& la
     DrawList trial;
     trial.labels = list.labels;
     Labels trial_labels(trial);
-    Drawing drawing(plot, panel, trial, trial_labels);
-    drawing.draw(false);
+    Drawing drawing(plot, panel, false, trial, trial_labels);
+    drawing.draw();
     with_legend = !drawing.all_named();
   }
-  Drawing(plot, panel, list, labels).draw(with_legend);
+  Drawing(plot, panel, with_legend, list, labels).draw();
 }
 
 }  // namespace lantern

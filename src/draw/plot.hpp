@@ -68,9 +68,9 @@ struct Plot {
   std::vector<PlotSeries> series;
   std::vector<PlotGuide> guides;
   std::vector<PlotSlope> slopes;
-  std::vector<PlotBand>
-      bands;                  // the lowest first; if there are any, y is no scale (plot_bands.hpp)
-  std::vector<Vec<2>> front;  // the Pareto front's corners, ascending in x; drawn as stairs
+  std::vector<PlotBand> bands;  // the lowest first; if there are any, y is no
+                                // scale (plot_bands.hpp)
+  std::vector<Vec<2>> front;    // the Pareto front's corners, ascending in x; drawn as stairs
   std::string front_name = "Pareto front";
   PlotNames names = PlotNames::ends;
   double size = kLabel;             // of the names; all else follows it
@@ -84,7 +84,8 @@ struct Plot {
   // it goes on.
   bool over_time = false;
   std::optional<double> seconds;
-  std::optional<double> least, most;  // ends of y; lines leave the picture beyond them
+  std::optional<double> least,
+      most;  // ends of y; lines leave the picture beyond them
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that

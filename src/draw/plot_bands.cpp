@@ -112,7 +112,8 @@ class BandDrawing {
     pitch_ = std::min(height / lanes, 2.6 * plot_.size);
     const double air = (height - lanes * pitch_) / bands;
     named_ = plot_.names != PlotNames::none && pitch_ >= 1.12 * plot_.size;
-    area_.lo.x += named_ ? std::min(widest_name() + 12, kMostForNames * paper_.place.panel.size().x)
+    area_.lo.x += named_ ? std::min(widest_name() + 12,
+                                    kMostForNames * paper_.place.panel.size().x)
                          : 1.8 * radius();  // a mark at the axis stays in the panel
     area_.hi.x -= 0.9 * plot_.size;
     const int ticks = std::clamp(static_cast<int>(area_.size().x / (3.6 * plot_.size)), 2, 10);

@@ -1,14 +1,12 @@
-#include "draw/plot_bars.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "draw/chart_view.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
+#include "draw/panels.hpp"
 #include "draw/plot_axes.hpp"
 #include "draw/plot_marks.hpp"
 
@@ -131,13 +129,12 @@ class Bars {
     const Box<2> box{{std::min(from, to), middle - thick / 2},
                      {std::max(from, to), middle + thick / 2}};
     if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
-    const double cap = cap_height(type_.name.weight) * type_.name.size / 2;
     const double room = area_.lo.x - panel_.lo.x - kAfter;
-    labels_.add(shortened(bar.label, room, type_.name), {{area_.lo.x - kAfter, middle + cap}, 1},
-                type_.name, panel_);
+    labels_.add(shortened(bar.label, room, type_.name),
+                centred({area_.lo.x - kAfter, middle}, type_.name, 1), type_.name, panel_);
     const double left = std::max(from, to) + kAfter;
     labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),
-                {{left, middle + cap}, 0}, type_.title, panel_);
+                centred({left, middle}, type_.title, 0), type_.title, panel_);
   }
 
   const FrameChart& chart_;

@@ -34,17 +34,15 @@ void draw_name(const ColumnName& line, const PlotPaper& paper, DrawList& list, L
 
 bool PlotNamer::name(const std::string& text, const std::vector<Anchor>& anchors,
                      const TextStyle& style, std::size_t most_crossed) {
-  const Anchor* best = nullptr;
-  std::size_t least = most_crossed + 1;
-  for (const Anchor& anchor : anchors) {
-    const Box<2> box = Labels::extent(text, anchor, style);
-    if (!labels_.is_free(box, area_) || marks_on(box) > 0) continue;
-    const std::size_t crossed = lines_through(box);
-    if (crossed >= least) continue;
-    least = crossed;
-    best = &anchor;
+  for (std::size_t crossed = 0; crossed <= most_crossed; ++crossed) {
+    const Anchor* free = labels_.free_anchor(text, anchors, style, area_, [&](const Box<2>& box) {
+      return marks_on(box) == 0 && lines_through(box) <= crossed;
+    });
+    if (!free) continue;
+    labels_.add(text, *free, style, area_);
+    return true;
   }
-  return best && labels_.try_add(text, {*best}, style, area_);
+  return false;
 }
 
 std::size_t PlotNamer::marks_on(const Box<2>& place) const {

@@ -1,8 +1,7 @@
-#include "draw/tree_facts.hpp"
-
 #include <optional>
 
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {

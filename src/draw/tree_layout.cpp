@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 #include "draw/tidy_tree.hpp"
-#include "draw/tree_view.hpp"
 
 namespace lantern {
 namespace {

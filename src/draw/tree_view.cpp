@@ -1,12 +1,12 @@
-#include "draw/tree_view.hpp"
-
 #include <algorithm>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
+#include "draw/body_shapes.hpp"
 #include "draw/characters.hpp"
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 #include "draw/pattern.hpp"
 #include "draw/tree_layout.hpp"
 
@@ -20,8 +20,8 @@ class TreeView {
         panel_(panel),
         list_(list),
         labels_(labels),
-        layout_(lay_out_tree(frame, panel)) {
-    for (std::size_t i = 0; i < frame.bodies.size(); ++i) body_at_[frame.bodies[i].id] = i;
+        layout_(lay_out_tree(frame, panel)),
+        bodies_(by_id(frame.bodies)) {
     for (std::size_t i = 0; i < frame.textures.size(); ++i) texture_at_[frame.textures[i].id] = i;
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
@@ -70,11 +70,8 @@ class TreeView {
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
 
-  static Role ground_of(Mark mark, bool asleep) {
-    if (asleep && mark == Mark::quiet) return Role::free_space;
-    if (mark == Mark::lit) return Role::lit_fill;
-    return mark == Mark::passed ? Role::passed_fill : Role::panel;
-  }
+  // What never moves is not said to sleep.
+  static bool is_asleep(const FrameNode& node) { return !node.awake && !node.of_static; }
 
   void draw_branch(std::size_t i) {
     const Branch& branch = branches()[i];
@@ -82,7 +79,8 @@ class TreeView {
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
-    const Role ground = ground_of(branch.mark, node.sleeps());
+    const Role ground =
+        is_asleep(node) && branch.mark == Mark::quiet ? Role::free_space : ground_of(branch.mark);
     // What never moves has sharp corners.
     const double radius = node.of_static ? 1.5 : layout_.scale.radius;
     const bool pile = branch.kind == Branch::Kind::folded ||
@@ -121,8 +119,7 @@ class TreeView {
     for (std::size_t k = 0; k < content.icons; ++k, x += icon + 5)
       draw_icon(node_of(branch).bodies[k], {{x, c.y - icon / 2}, {x + icon, c.y + icon / 2}});
     if (content.icons > 0) x += 1;
-    const double baseline = c.y + cap_height(style.weight) * style.size / 2;
-    labels_.add(content.text, {{x, baseline}, 0}, style, panel_);
+    labels_.add(content.text, centred({x, c.y}, style, 0), style, panel_);
   }
 
   TextStyle text_style(const Branch& branch) const {
@@ -142,10 +139,9 @@ class TreeView {
       list_.rect(place, Role::none, {Role::body_line, 1.2});
       return;
     }
-    const auto found = body_at_.find(id);
-    if (found == body_at_.end()) return;
-    const FrameBody& body = frame_.bodies[found->second];
-    draw_character(body, icon_box(body, place), false, list_);
+    const auto found = bodies_.find(id);
+    if (found == bodies_.end()) return;
+    draw_character(*found->second, icon_box(*found->second, place), false, list_);
   }
 
   // A bat stays long and thin, down to a third.
@@ -291,7 +287,7 @@ class TreeView {
   Labels& labels_;
   TreeLayout layout_;
   std::vector<bool> says_holds_;  // by row
-  std::unordered_map<BodyId, std::size_t> body_at_;
+  std::unordered_map<BodyId, const FrameBody*> bodies_;
   std::unordered_map<std::uint32_t, std::size_t> texture_at_;
 };
 

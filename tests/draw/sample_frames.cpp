@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 #include "draw/page.hpp"
-#include "draw/solid_samples.hpp"
+#include "draw/world3d_samples.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::samples {
@@ -247,7 +247,8 @@ Frame pong(double ball_x) {
 }
 
 Frame doom() {
-  Frame frame = base("A level cut into convex sectors", {{0, 0}, {20, 14}}, {Panel::world, Panel::tree});
+  Frame frame =
+      base("A level cut into convex sectors", {{0, 0}, {20, 14}}, {Panel::world, Panel::tree});
   frame.structure = StructureKind::bsp;
   frame.settings = "3 dividing lines";
   frame.bodies = {body(0, "imp", Look::ghost, 7, {4, 10}),
