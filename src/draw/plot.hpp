@@ -15,9 +15,9 @@ struct PlotPoint {
   bool beyond = false;    // diverged: drawn as an open mark at the upper edge, whatever its y
   std::string note = {};  // written beside it if there is room; mostly empty
   bool open = false;      // drawn as an open mark where it is
-  // Where repeats or guesses of x and of y lie, from the least to the most, in the axes' units: a
-  // level and an upright whisker at the point. None unless given; the axes widen for them.
-  std::optional<Vec<2>> spread_x = std::nullopt, spread_y = std::nullopt;
+  // How far it may be off, along x and along y: a level and an upright whisker, where it has an
+  // extent. The axes widen for it.
+  std::optional<Box<2>> spread = std::nullopt;
 };
 
 // Points of one contestant, joined in their order; those beyond stand alone.

@@ -96,7 +96,7 @@ class BandDrawing {
 
   // Of x, from the least to the most; the point alone where it has none.
   Vec<2> spread_of(const PlotPoint& p) const {
-    const Vec<2> spread = p.spread_x.value_or(Vec<2>(p.at.x));
+    const Vec<2> spread = p.spread ? Vec<2>(p.spread->lo.x, p.spread->hi.x) : Vec<2>(p.at.x);
     const bool has_places = is_finite(spread) && (!plot_.log_x || spread.x > 0);
     return has_places ? spread : Vec<2>(p.at.x);
   }

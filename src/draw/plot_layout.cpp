@@ -47,11 +47,12 @@ void PlotLayout::find_ranges() {
     for (const PlotPoint& p : series.points) {
       if (!is_drawn(p)) continue;
       xs_.add(p.at.x, plot_.log_x);
-      for (int end = 0; end < 2; ++end) {
-        if (p.spread_x) xs_.add((*p.spread_x)[end], plot_.log_x);
-        if (p.spread_y) ys_.add((*p.spread_y)[end], plot_.log_y);
-      }
       if (!p.beyond) ys_.add(p.at.y, plot_.log_y);
+      if (p.beyond || !p.spread) continue;
+      for (const Vec<2>& end : {p.spread->lo, p.spread->hi}) {
+        xs_.add(end.x, plot_.log_x);
+        ys_.add(end.y, plot_.log_y);
+      }
     }
   if (ys_.empty() && !xs_.empty()) ys_ = {plot_.log_y ? 0.1 : 0.0, 1};
 }
@@ -161,7 +162,7 @@ std::vector<PlacedSeries> PlotLayout::place_series() const {
       placed.points.push_back(place);
       placed.open.push_back(p.open);
       if (!p.note.empty()) placed.notes.push_back({place, p.note});
-      place_whiskers(p, placed);
+      if (p.spread) place_whiskers(place, *p.spread, placed);
     }
     if (plot_.slide) {
       placed.points =
@@ -174,12 +175,14 @@ std::vector<PlacedSeries> PlotLayout::place_series() const {
   return all;
 }
 
-void PlotLayout::place_whiskers(const PlotPoint& p, PlacedSeries& placed) const {
+void PlotLayout::place_whiskers(const Vec<2>& place, const Box<2>& spread,
+                                PlacedSeries& placed) const {
   const auto add = [&](const Vec<2>& from, const Vec<2>& to) {
     if (const auto part = cut_line(from, to, area_)) placed.whiskers.push_back(*part);
   };
-  if (p.spread_x) add(at({p.spread_x->x, p.at.y}), at({p.spread_x->y, p.at.y}));
-  if (p.spread_y && !is_on_ground(p)) add(at({p.at.x, p.spread_y->x}), at({p.at.x, p.spread_y->y}));
+  const Vec<2> lo = at(spread.lo), hi = at(spread.hi);
+  if (lo.x < hi.x) add({lo.x, place.y}, {hi.x, place.y});
+  if (lo.y > hi.y) add({place.x, lo.y}, {place.x, hi.y});
 }
 
 void PlotLayout::draw_axes(DrawList& list) {

@@ -75,7 +75,7 @@ class PlotLayout {
   template <class Is>
   double edge_height(const Is& is, double air) const;
   Vec<2> at(const Vec<2>& value) const;
-  void place_whiskers(const PlotPoint& p, PlacedSeries& placed) const;
+  void place_whiskers(const Vec<2>& place, const Box<2>& spread, PlacedSeries& placed) const;
 
   Box<2>& area_ = paper_.place.area;
   PlotRange xs_, ys_;

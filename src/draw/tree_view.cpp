@@ -66,12 +66,9 @@ class TreeView {
     const bool dashed = is_empty_leaf(branch);
     if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
     if (node.over_capacity) return {Role::warning, 2.6};
-    if (is_asleep(node)) return {Role::quiet_ink, 2.0, 2.6};
+    if (node.sleeps()) return {Role::quiet_ink, 2.0, 2.6};
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
-
-  // What never moves is not said to sleep.
-  static bool is_asleep(const FrameNode& node) { return !node.awake && !node.of_static; }
 
   void draw_branch(std::size_t i) {
     const Branch& branch = branches()[i];
@@ -80,7 +77,7 @@ class TreeView {
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
     const Role ground =
-        is_asleep(node) && branch.mark == Mark::quiet ? Role::free_space : ground_of(branch.mark);
+        node.sleeps() && branch.mark == Mark::quiet ? Role::free_space : ground_of(branch.mark);
     // What never moves has sharp corners.
     const double radius = node.of_static ? 1.5 : layout_.scale.radius;
     const bool pile = branch.kind == Branch::Kind::folded ||

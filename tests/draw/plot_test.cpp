@@ -122,8 +122,7 @@ TEST(Plot, WhiskersReachFromTheLeastToTheMostAndStayInside) {
   Plot plot;
   plot.log_x = false;
   PlotPoint point{{2, 0.1}, false, ""};
-  point.spread_y = Vec<2>{1e-3, 10};
-  point.spread_x = Vec<2>{1, 4};
+  point.spread = Box<2>{{1, 1e-3}, {4, 10}};
   plot.series.push_back({"line", {point, {{3, 1}, false, ""}}, 0});
   const auto reach = [](const DrawList& list, int axis) {
     double most = 0;
@@ -137,10 +136,10 @@ TEST(Plot, WhiskersReachFromTheLeastToTheMostAndStayInside) {
   EXPECT_GT(reach(with, 0), 200);
   EXPECT_GT(reach(with, 1), 200);
   expect_laid_out(with, {{0, 0}, {800, 500}}, 0.91 * plot.size, "whiskers");
-  plot.series[0].points[0].spread_x = Vec<2>{kNan, kInfinity};  // nothing to draw, nothing to break
-  plot.series[0].points[0].spread_y = Vec<2>{0, 1e-3};          // a logarithm has no 0: cut
+  // Along x nothing to draw and nothing to break; along y a logarithm has no 0.
+  plot.series[0].points[0].spread = Box<2>{{kNan, 0}, {kInfinity, 1e-3}};
   expect_laid_out(drawn(plot), {{0, 0}, {800, 500}}, 0.91 * plot.size, "whiskers without an end");
-  plot.series[0].points[0].spread_x = plot.series[0].points[0].spread_y = std::nullopt;
+  plot.series[0].points[0].spread = std::nullopt;
   EXPECT_EQ(reach(drawn(plot), 0), 0);
 }
 
