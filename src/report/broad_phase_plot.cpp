@@ -20,11 +20,12 @@ struct GridTone {
   double above;
   Role fill, ink;
 };
-constexpr std::array<GridTone, 5> kTones = {{{1.1, Role::body_lit_6, Role::pupil},
-                                             {1.5, Role::body_6, Role::pupil},
-                                             {2.5, Role::body_lit_4, Role::pupil},
-                                             {5, Role::body_4, Role::eye},
-                                             {1e300, Role::body_shade_4, Role::eye}}};
+constexpr std::array<GridTone, 5> kTones = {
+    {{1.1, in_tone(Role::body_6, Tone::lit), Role::pupil},
+     {1.5, Role::body_6, Role::pupil},
+     {2.5, in_tone(Role::body_4, Tone::lit), Role::pupil},
+     {5, Role::body_4, Role::eye},
+     {1e300, in_tone(Role::body_4, Tone::shade), Role::eye}}};
 
 const GridTone& tone_of(double ratio) {
   return *std::find_if(kTones.begin(), kTones.end(),

@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 #include "draw/page.hpp"
-#include "draw/solid_samples.hpp"
+#include "draw/world3d_samples.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::samples {
