@@ -4,16 +4,10 @@
 #include <fmt/format.h>
 
 #include "scenario/caption.hpp"
-#include "scenario/script.hpp"
+#include "scenario/script_reading.hpp"
 
 namespace lantern {
 namespace {
-
-const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
-  const auto found =
-      std::find_if(docs.begin(), docs.end(), [&](const CountDoc& doc) { return doc.name == name; });
-  return found == docs.end() ? nullptr : &*found;
-}
 
 // Names that can be counted or quoted here, for suggestions.
 std::vector<std::string_view> quotable(const Draft& draft, const ScriptState& state) {
@@ -108,9 +102,8 @@ bool is_of_level(CountNeed need) {
 }  // namespace
 
 std::string why_not_counted(std::string_view name, const Draft& draft, const ScriptState& state) {
-  const CountDoc* doc = nullptr;
-  for (const auto docs : {known_counts(), known_texts(), known_measures()})
-    if (!doc) doc = find_in(docs, name);
+  const CountDoc* doc = find_count(name);
+  if (!doc) doc = find_in(known_texts(), name);
   const bool has_bodies = draft.has_world && !draft.bodies.empty();
   const bool has_atlas = draft.scenario.atlas.has_value();
   if (doc->need == CountNeed::room && has_atlas && !state.asked_for_room)
@@ -126,7 +119,7 @@ std::string why_not_counted(std::string_view name, const Draft& draft, const Scr
 }
 
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state) {
-  const std::string caption = step.text("caption").value_or("");
+  const std::string caption = step.get<std::string>("caption").value_or("");
   const auto kind_of = [](std::string_view name) {
     if (find_in(known_counts(), name)) return Placeholder::count;
     if (is_of_body(name)) return Placeholder::text;
@@ -158,30 +151,22 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
   }
 }
 
-std::optional<std::string> read_plot(const TableReader& step, Draft& draft, ScriptState& state) {
+void check_plot(const TableReader& step, Draft& draft, ScriptState& state) {
   if (step.has("plot")) state.has_plot = true;
-  if (!step.is_good("plot")) return std::nullopt;
+  if (!step.is_good("plot")) return;
   const auto& chart = draft.scenario.chart;
-  if (!chart) {
-    draft.problems.add(step.key_place("plot"), "'plot' needs a [chart], the scenario has none",
-                       "add [chart] with bars = \"pairs\"");
-    return step.text("plot");
-  }
-  if (chart->over_time()) {
-    draft.problems.add(step.key_place("plot"), "over time every frame is plotted by itself",
-                       "leave out 'plot'");
-    return step.text("plot");
-  }
+  if (!chart)
+    return step.bad_key("plot", "'plot' needs a [chart], the scenario has none",
+                        "add [chart] with bars = \"pairs\"");
+  if (chart->over_time())
+    return step.bad_key("plot", "over time every frame is plotted by itself", "leave out 'plot'");
   std::vector<std::string> counts = chart->y;
   if (!chart->x.empty()) counts.push_back(chart->x);
   for (const std::string& count : counts) {
-    if (!find_in(known_counts(), count) && !find_in(known_measures(), count)) continue;
-    const std::string why = why_not_counted(count, draft, state);
+    const std::string why = find_count(count) ? why_not_counted(count, draft, state) : "";
     if (!why.empty())
-      draft.problems.add(step.key_place("plot"),
-                         fmt::format("the chart's '{}' is not counted here: {}", count, why));
+      step.bad_key("plot", fmt::format("the chart's '{}' is not counted here: {}", count, why));
   }
-  return step.text("plot");
 }
 
 }  // namespace lantern

@@ -33,7 +33,7 @@ int cycled_color(std::int64_t color, std::size_t index) {
 }
 
 std::uint64_t derived_seed(const TableReader& table, const std::string& name, const Draft& draft) {
-  if (const auto seed = table.whole("seed")) return static_cast<std::uint64_t>(*seed);
+  if (const auto seed = table.get<std::uint64_t>("seed")) return *seed;
   return Hash().add(draft.scenario.seed).add(std::string_view(name)).value();
 }
 

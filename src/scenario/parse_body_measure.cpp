@@ -10,18 +10,12 @@ namespace {
 
 constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
 
-const CountDoc* doc_of(std::string_view measure) {
-  for (const CountDoc& doc : known_body_measures())
-    if (doc.name == measure) return &doc;
-  return nullptr;
-}
-
 // Empty if a body of this world has it.
 std::string why_not_measured(const CountDoc& doc, const Draft& draft) {
   if (doc.need == CountNeed::contacts && draft.scenario.world.contacts == ContactMethod::none)
     return "this world has no contacts";
-  const bool is_solid = doc.name == "z" || doc.name.starts_with("own_spin");
-  return is_solid && draft.dimension == 2 ? "this world is flat" : "";
+  const bool is_3d = doc.name == "z" || doc.name.starts_with("own_spin");
+  return is_3d && draft.dimension == 2 ? "this world is 2D" : "";
 }
 
 }  // namespace
@@ -29,7 +23,7 @@ std::string why_not_measured(const CountDoc& doc, const Draft& draft) {
 bool note_body_measure(const Named& name, Draft& draft) {
   const std::size_t dot = name.name.find('.');
   const std::string measure = name.name.substr(0, dot);
-  const CountDoc* doc = doc_of(measure);
+  const CountDoc* doc = find_in(known_body_measures(), measure);
   if (!doc) {
     draft.problems.add(
         name.where, fmt::format("there is no measure {} of a body", in_quotes(measure)), [measure] {

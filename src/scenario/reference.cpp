@@ -101,50 +101,6 @@ caption = "{walls:wall}: four around the room, four around the pillar."
 expect = { walls = 8 }
 )";
 
-std::string_view type_text(KeyType type) {
-  switch (type) {
-    case KeyType::text:
-      return "text";
-    case KeyType::whole:
-      return "whole number";
-    case KeyType::number:
-      return "number";
-    case KeyType::truth:
-      return "true or false";
-    case KeyType::choice:
-      return "one of";
-    case KeyType::point:
-      return "point";
-    case KeyType::two_numbers:
-      return "two numbers";
-    case KeyType::loops:
-      return "list of polygons";
-    case KeyType::names:
-      return "list of texts, or none";
-    case KeyType::whole_or_names:
-      return "whole number, or list of texts";
-    case KeyType::size:
-      return "[width, height]";
-    case KeyType::texts:
-      return "list of texts";
-    case KeyType::choices_list:
-      return "list of";
-    case KeyType::table:
-      return "table";
-    case KeyType::tables:
-      return "tables";
-    case KeyType::name_pairs:
-      return "list of pairs";
-    case KeyType::name_wholes:
-      return "table: name → whole number";
-    case KeyType::name_numbers:
-      return "table: name → number";
-    case KeyType::name_points:
-      return "table: name → point";
-  }
-  return "";
-}
-
 // 1000000000 -> 1e9, 9007199254740992 -> 2^53
 std::string short_number(double x) {
   if (x == 0x1p53) return "2^53";
@@ -167,7 +123,7 @@ std::string short_range(const KeyDoc& doc) {
 }
 
 std::string type_column(const KeyDoc& doc) {
-  std::string text(doc.form.empty() ? type_text(doc.type) : doc.form);
+  std::string text(doc.form.empty() ? words_of(doc.type).name : doc.form);
   for (std::size_t i = 0; i < doc.choices.size(); ++i)
     text += fmt::format("{} `{}`", i == 0 ? "" : ",", doc.choices[i]);
   const std::string range = short_range(doc);

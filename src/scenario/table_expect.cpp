@@ -1,27 +1,26 @@
-// What a step promises.
+// `expect` and `always`: what must hold of a step's frames. The forms that have keys of their own,
+// then every measure and count.
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "geometry/angle.hpp"
-#include "scenario/script.hpp"
+#include "scenario/key.hpp"
+#include "scenario/language_parts.hpp"
+#include "scenario/script_reading.hpp"
 
 namespace lantern {
 namespace {
 
 using Kind = Expectation::Kind;
 
-bool is_counted_or_measured(std::string_view name) {
-  for (const auto docs : {known_counts(), known_measures()})
-    for (const CountDoc& doc : docs)
-      if (doc.name == name) return true;
-  return false;
-}
-
-class Promises {
+class ExpectationReader {
  public:
-  Promises(const TableReader& table, Draft& draft, ScriptState& state)
-      : table_(table), draft_(draft), state_(state) {}
+  ExpectationReader(const TableReader& table, Draft& draft, ScriptState& state)
+      : table_(table),
+        draft_(draft),
+        state_(state),
+        tolerance_(table.get<double>("tolerance").value_or(Expectation().tolerance)) {}
 
   std::vector<Expectation> read() {
     for (const CountDoc& count : known_counts()) read_number(count.name, Kind::count);
@@ -54,6 +53,11 @@ class Promises {
     return found_.emplace_back(std::move(e));
   }
 
+  Expectation& add_of_body(Kind kind, const Named& body) {
+    one_body(body, draft_);
+    return add(kind, body.name, body.where);
+  }
+
   // Adds a problem if `count`, which `key` needs, is not counted here.
   void require(std::string_view key, std::string_view count, Place where) {
     const std::string why = why_not_counted(count, draft_, state_);
@@ -71,46 +75,35 @@ class Promises {
     const Place where = table_.key_place(name);
     require(name, name, where);
     Expectation& e = add(kind, std::string(name), where);
-    if (kind == Kind::measure) {
-      e.number = table_.number(name).value_or(0);
-      e.tolerance = tolerance();
-    } else {
-      e.number = static_cast<double>(table_.whole(name).value_or(0));
-    }
+    e.number = table_.get<double>(name).value_or(0);
+    if (kind == Kind::measure) e.tolerance = tolerance_;
   }
 
   void read_bounds(std::string_view key, Kind kind) {
-    for (const auto& [name, number] : table_.name_numbers(key)) {
+    for (const auto& [name, number] : table_.list<std::pair<Named, double>>(key)) {
       if (is_of_body(name.name))
         note_body_measure(name, draft_);
-      else if (is_counted_or_measured(name.name))
+      else if (find_count(name.name))
         require(name.name, name.name, name.where);
       else
         draft_.problems.add(name.where,
                             fmt::format("there is no count or measure {}", in_quotes(name.name)),
-                            [name = name.name] {
-                              std::vector<std::string_view> known;
-                              for (const auto docs : {known_counts(), known_measures()})
-                                for (const CountDoc& doc : docs) known.push_back(doc.name);
-                              return nearest(name, known);
-                            });
+                            [name = name.name] { return nearest(name, names_of_counts()); });
       add(kind, name.name, name.where).number = number;
     }
   }
 
   void read_leaves() {
     if (table_.has("in_leaves")) require("in_leaves", "leaves", table_.key_place("in_leaves"));
-    for (const auto& [body, number] : table_.name_wholes("in_leaves")) {
-      one_body(body, draft_);
-      add(Kind::leaves, body.name, body.where).number = static_cast<double>(number);
-    }
+    for (const auto& [body, number] : table_.list<std::pair<Named, double>>("in_leaves"))
+      add_of_body(Kind::leaves, body).number = number;
   }
 
   void read_pairs(std::string_view key, std::string_view count, Kind kind) {
     if (!table_.has(key)) return;
     require(key, count, table_.key_place(key));
     Expectation& e = add(kind, "", table_.key_place(key));
-    for (const auto& [a, b] : table_.name_pairs(key)) {
+    for (const auto& [a, b] : table_.list<std::pair<Named, Named>>(key)) {
       one_body(a, draft_);
       one_body(b, draft_);
       if (a.name == b.name)
@@ -123,7 +116,7 @@ class Promises {
     if (!table_.has("hits_are")) return;
     require("hits_are", "hits", table_.key_place("hits_are"));
     Expectation& e = add(Kind::hits, "", table_.key_place("hits_are"));
-    for (const Named& body : table_.texts("hits_are")) {
+    for (const Named& body : table_.names("hits_are")) {
       one_body(body, draft_);
       e.names.push_back(body.name);
     }
@@ -133,20 +126,13 @@ class Promises {
   void read_sleepers(std::string_view key, Kind kind) {
     if (!table_.is_list(key)) return;
     Expectation& e = add(kind, "", table_.key_place(key));
-    for (const Named& name : table_.texts(key)) {
+    for (const Named& name : table_.names(key)) {
       const NamedRange* range = draft_.bodies.find(name.name);
       if (!range) {
         one_body(name, draft_);  // says what is wrong
         continue;
       }
-      const bool had_room = state_.named <= kMostNamed;
-      state_.named += range->count;
-      if (state_.named > kMostNamed) {
-        if (had_room)
-          draft_.problems.add(name.where,
-                              fmt::format("the steps name more than {} bodies in all", kMostNamed));
-        continue;
-      }
+      if (!may_name(range->count, "bodies", name.where, state_, draft_.problems)) continue;
       const auto& bodies = draft_.scenario.bodies;
       for (std::size_t i = range->first; i < range->first + range->count; ++i)
         e.names.push_back(bodies[i].name);
@@ -154,23 +140,21 @@ class Promises {
   }
 
   void read_points(std::string_view key, Kind kind) {
-    for (const auto& [body, point] : table_.name_points(key)) {
-      one_body(body, draft_);
-      Expectation& e = add(kind, body.name, body.where);
+    for (const auto& [body, point] : table_.list<std::pair<Named, Vec<3>>>(key)) {
+      Expectation& e = add_of_body(kind, body);
       e.position = point;
-      e.tolerance = tolerance();
+      e.tolerance = tolerance_;
     }
   }
 
   void read_turns() {
     if (table_.has("turned") && draft_.dimension == 3)
-      draft_.problems.add(table_.key_place("turned"), "'turned' is of a flat world",
-                          "in a solid one, promise angular_momentum");
-    for (const auto& [body, degrees] : table_.name_numbers("turned")) {
-      one_body(body, draft_);
-      Expectation& e = add(Kind::turned, body.name, body.where);
+      table_.bad_key("turned", "'turned' is for 2D worlds",
+                     "in a 3D one, expect an angular_momentum");
+    for (const auto& [body, degrees] : table_.list<std::pair<Named, double>>("turned")) {
+      Expectation& e = add_of_body(Kind::turned, body);
       e.number = degrees * kDegree;
-      e.tolerance = tolerance() * kDegree;
+      e.tolerance = tolerance_ * kDegree;
     }
   }
 
@@ -180,26 +164,70 @@ class Promises {
       if (table_.has(key)) return;
     for (const CountDoc& measure : known_measures())
       if (table_.has(measure.name)) return;
-    draft_.problems.add(table_.key_place("tolerance"),
-                        "a 'tolerance' without a 'position' or another thing that is measured",
-                        "counts are exact; leave it out");
+    table_.bad_key("tolerance", "a 'tolerance' without a 'position' or anything else measured",
+                   "counts are exact; leave it out");
   }
-
-  double tolerance() const { return table_.number("tolerance").value_or(1e-9); }
 
   const TableReader& table_;
   Draft& draft_;
   ScriptState& state_;
+  double tolerance_;
   std::vector<Expectation> found_;
 };
 
 }  // namespace
 
+TableDoc expect_table() {
+  using namespace keys;
+  using enum KeyType;
+  TableDoc expect = {
+      "expect",
+      "expect and always",
+      "Expectations that `lantern check` verifies. Any count may be a key, as in "
+      "`expect = { nodes = 5, pairs = 1 }`.",
+      {
+          key(name_numbers, "at_most",
+              "Upper limits of counts and measures, as `{ contacts = 3 }`."),
+          key(name_numbers, "at_least", "Lower limits of counts and measures."),
+          key(name_wholes, "in_leaves", "How many leaves store a body, as `{ pink = 2 }`.",
+              range(0, kMostWhole)),
+          key(name_pairs, "pairs_are",
+              "The candidate pairs, these and no others, as `[[\"red\", \"pink\"]]`."),
+          key(name_pairs, "contacts_are", "The pairs that touch, these and no others."),
+          key(KeyType::names, "hits_are",
+              "What the last ray hit, in order, or what the last cull or query found, in any "
+              "order; "
+              "these and no others."),
+          key(whole_or_names, "asleep",
+              "How many bodies are asleep; or names of bodies, all of which are.",
+              range(0, kMostWhole)),
+          key(whole_or_names, "awake",
+              "How many bodies are awake; or names of bodies, all of which are.",
+              range(0, kMostWhole)),
+          key(name_points, "position", "Where a body's centre is, as `{ ball = [12, 14] }`.",
+              range(-kFar, kFar)),
+          key(name_points, "velocity", "A body's velocity, in units a second.", range(-kFar, kFar)),
+          key(name_points, "half_size", "Of a body's box in the broad phase.", range(0, kFar)),
+          key(name_numbers, "turned", "How far a body of a 2D world is turned, in degrees.",
+              range(-1e9, 1e9)),
+      }};
+  for (const CountDoc& measure : known_measures())
+    expect.keys.push_back(key(number, measure.name, measure.doc));
+  expect.keys.push_back(
+      key(&Expectation::tolerance, "tolerance",
+          "How far off a measure, a turn, or a point on each axis may be. Counts are exact.",
+          range(0, kFar)));
+  for (const CountDoc& count : known_counts())
+    if (!expect.find(count.name))  // asleep and awake are above
+      expect.keys.push_back(key(whole, count.name, count.doc, range(0, kMostWhole)));
+  return expect;
+}
+
 std::vector<Expectation> read_expectations(const TomlValue& value, std::string_view called,
                                            Draft& draft, ScriptState& state) {
   const TableReader table =
       open(value, language_table("expect"), draft, fmt::format("'{}'", called));
-  return Promises(table, draft, state).read();
+  return ExpectationReader(table, draft, state).read();
 }
 
 }  // namespace lantern

@@ -1,15 +1,16 @@
 // The script, step by step. A body that is inserted twice, or moved while it is not there, is found
 // here and not when the scenario runs.
+#include "scenario/script_reading.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "scenario/script.hpp"
-
 namespace lantern {
 
-std::vector<std::size_t> Cast::take(const std::vector<Named>& written, std::vector<bool>& marks,
-                                    bool mark, std::string_view clash) {
+std::vector<std::size_t> NameResolver::take(const std::vector<Named>& written,
+                                            std::vector<bool>& marks, bool mark,
+                                            std::string_view clash) {
   std::vector<std::size_t> found;
   for (const Named& named : written) {
     const NamedRange* range = find(named);
@@ -28,7 +29,7 @@ std::vector<std::size_t> Cast::take(const std::vector<Named>& written, std::vect
   return found;
 }
 
-std::vector<std::size_t> Cast::present(const std::vector<Named>& written) {
+std::vector<std::size_t> NameResolver::present(const std::vector<Named>& written) {
   std::vector<std::size_t> found;
   std::vector<bool> named_before(state_.in_world.size());
   for (const Named& named : written) {
@@ -46,83 +47,118 @@ std::vector<std::size_t> Cast::present(const std::vector<Named>& written) {
   return found;
 }
 
-const NamedRange* Cast::find(const Named& named) {
+const NamedRange* NameResolver::find(const Named& named) {
   const NamedRange* range = names_.find(named.name);
   if (!range)
     problems_.add(named.where, fmt::format("there is no {} {}", kind_, in_quotes(named.name)),
                   [&known = names_, name = named.name] { return nearest(name, known.declared()); });
-  return range && has_room_for(range->count, named.where) ? range : nullptr;
+  return range && may_name(range->count, "bodies or textures", named.where, state_, problems_)
+             ? range
+             : nullptr;
 }
 
-// All steps together name a bounded number, or a small file could fill the memory.
-bool Cast::has_room_for(std::size_t count, Place where) {
-  const bool had_room = state_.named <= kMostNamed;
-  state_.named += count;
-  if (state_.named > kMostNamed && had_room)
-    problems_.add(where,
-                  fmt::format("the steps name more than {} bodies or textures in all", kMostNamed));
-  return state_.named <= kMostNamed;
+bool may_name(std::size_t count, std::string_view what, Place where, ScriptState& state,
+              Problems& problems) {
+  const bool had_room = state.named <= kMostNamed;
+  state.named += count;
+  if (state.named > kMostNamed && had_room)
+    problems.add(where, fmt::format("the steps name more than {} {} in all", kMostNamed, what));
+  return state.named <= kMostNamed;
+}
+
+std::optional<std::size_t> ScriptReading::present_body(const TableReader& table, const char* key) {
+  const auto name = table.named(key);
+  const auto body = name ? one_body(*name, draft) : std::nullopt;
+  if (body && !state.in_world[*body])
+    table.bad_value(key, fmt::format("'{}' is not in the world at this step", name->name),
+                    "insert it first");
+  return body;
+}
+
+void ScriptReading::require_contacts(Place where) {
+  if (draft.dimension != 0 && draft.scenario.world.contacts == ContactMethod::none)
+    draft.problems.add(where, kNothingTouches, kGiveContacts);
+}
+
+void ScriptReading::require_sleep(Place where) {
+  if (draft.dimension != 0 && !draft.scenario.world.may_sleep)
+    draft.problems.add(where, kNothingSleeps, kGiveSleep);
 }
 
 namespace {
+
+template <class V>
+Verb read_as(const TableReader& table, ScriptReading& script) {
+  V verb;
+  table.fill(verb);
+  if constexpr (requires { verb.read(table, script); }) verb.read(table, script);
+  return verb;
+}
+
+// What stands behind a verb of the list, by its place there.
+struct VerbEntry {
+  const VerbTraits* traits;
+  Verb (*read)(const TableReader& table, ScriptReading& script);
+};
+
+template <class... V>
+std::vector<VerbEntry> entries_of(const std::variant<V...>*) {
+  return {{&V::kTraits, read_as<V>}...};
+}
 
 class ScriptReader {
  public:
   explicit ScriptReader(Draft& draft)
       : draft_(draft),
-        scope_{draft, state_, Cast(draft.bodies, "body", draft.problems, state_),
-               Cast(draft.textures, "texture", draft.problems, state_)} {
+        script_{draft, state_, NameResolver(draft.bodies, "body", draft.problems, state_),
+                NameResolver(draft.textures, "texture", draft.problems, state_)} {
     state_.in_world.resize(draft.scenario.bodies.size());
     state_.packed.resize(draft.scenario.textures.size());
     state_.structure = draft.scenario.structure;
   }
 
   void read(const TomlValue& value) {
-    const auto& entries = std::get<TomlTable>(value.data);
-    const TableDoc* doc = verb_of(entries, value.where);
-    if (!doc) return;
-    const TableReader table =
-        open(value, *doc, draft_, fmt::format("a step with {}", doc->heading));
+    const auto which = verb_of(std::get<TomlTable>(value.data), value.where);
+    if (!which) return;
+    const TableDoc& doc = language_verbs()[*which];
+    const TableReader table = open(value, doc, draft_, fmt::format("a step with {}", doc.heading));
     Step step;
+    table.fill(step);
     step.where = draft_.position(value.where);
-    step.name = table.text("name").value_or("");
-    step.part = table.text("part").value_or("");
-    step.caption = table.text("caption").value_or("");
-    scope_.frames = 1;
-    if (has_surroundings(table, doc->name)) step.verb = read_verb(table, doc->name);
-    if (doc->find("events")) read_watching(table, step);
+    script_.frames = 1;
+    if (has_basis(table, *entries_[*which].traits))
+      step.verb = entries_[*which].read(table, script_);
     count_frames(table);
-    step.plot = read_plot(table, draft_, state_);
+    check_plot(table, draft_, state_);
     check_caption(table, draft_, state_);
-    for (const TomlValue* promises : table.tables("expect"))
-      step.expect = read_expectations(*promises, "expect", draft_, state_);
-    for (const TomlValue* promises : table.tables("always"))
-      step.always = read_expectations(*promises, "always", draft_, state_);
+    for (const TomlValue* expect : table.tables("expect"))
+      step.expect = read_expectations(*expect, "expect", draft_, state_);
+    for (const TomlValue* always : table.tables("always"))
+      step.always = read_expectations(*always, "always", draft_, state_);
     draft_.scenario.steps.push_back(std::move(step));
   }
 
   const ScriptState& state() const { return state_; }
 
  private:
-  // The language's table of the step's verb. Adds a problem and gives null if there is none.
-  const TableDoc* verb_of(const TomlTable& entries, Place where) {
-    const auto found = std::find_if(entries.begin(), entries.end(),
-                                    [](const TomlEntry& e) { return e.key == "do"; });
+  // The place of the step's verb in the list. Adds a problem and gives nothing if there is none.
+  std::optional<std::size_t> verb_of(const TomlTable& entries, Place where) {
+    const auto found = std::ranges::find(entries, "do", &TomlEntry::key);
     if (found == entries.end()) {
       draft_.problems.add(where, "a step has no 'do'", "say what it does, as do = \"insert\"");
-      return nullptr;
+      return std::nullopt;
     }
     const auto* name = std::get_if<std::string>(&found->value.data);
     std::vector<std::string_view> verbs;
-    for (const TableDoc& verb : language_verbs()) {
-      if (name && *name == verb.name) return &verb;
-      verbs.push_back(verb.name);
+    for (const VerbEntry& verb : entries_) {
+      if (name && *name == verb.traits->name) return verbs.size();
+      verbs.push_back(verb.traits->name);
     }
     draft_.problems.add(found->value.where,
                         name ? fmt::format("there is no verb {}", in_quotes(*name))
                              : "'do' must be a text, one of the verbs",
                         nearest(name ? *name : "", verbs));
-    return nullptr;
+    return std::nullopt;
   }
 
   // What the verb works on and the scenario lacks, and how to mend it; empty if nothing.
@@ -130,57 +166,42 @@ class ScriptReader {
     std::string_view what;
     std::string_view hint;
   };
-  Lack lack_of(std::string_view verb) const {
-    const auto is = [&](std::initializer_list<std::string_view> verbs) {
-      return std::find(verbs.begin(), verbs.end(), verb) != verbs.end();
-    };
+  Lack lack_of(Basis basis) const {
     const bool has_atlas = draft_.scenario.atlas.has_value();
-    if (is({"show"})) return {};
-    if (is({"pack", "ask_room"}))
+    if (basis == Basis::nothing) return {};
+    if (basis == Basis::atlas)
       return has_atlas ? Lack{} : Lack{"an [atlas]", "add [atlas] with size = [512, 512]"};
     if (!draft_.has_world)
       return {"a [world]",
               has_atlas ? "an atlas knows pack and ask_room" : "add [world] with size = [64, 64]"};
-    if (is({"compile", "locate", "order"}))
-      return draft_.scenario.level ? Lack{} : Lack{"a [level]", "add [level] with its loops"};
-    if (is({"rebuild", "phases", "solve_by", "ray", "cull", "query"}) && draft_.bodies.empty())
+    if (basis == Basis::level && !draft_.scenario.level)
+      return {"a [level]", "add [level] with its loops"};
+    if (basis == Basis::bodies && draft_.bodies.empty())
       return {"bodies", "add a [[body]] or a [[pattern]]"};
     return {};
   }
 
-  bool has_surroundings(const TableReader& table, std::string_view verb) {
-    const Lack lack = lack_of(verb);
+  bool has_basis(const TableReader& table, const VerbTraits& verb) {
+    const Lack lack = lack_of(verb.basis);
     if (lack.what.empty()) return true;
-    draft_.problems.add(table.place("do"),
-                        fmt::format("'{}' needs {}, the scenario has none", verb, lack.what),
-                        std::string(lack.hint));
+    table.bad_value("do", fmt::format("'{}' needs {}, the scenario has none", verb.name, lack.what),
+                    std::string(lack.hint));
     return false;
-  }
-
-  Verb read_verb(const TableReader& table, std::string_view verb) {
-    for (const auto read : {read_body_verb, read_time_verb, read_query_verb, read_atlas_verb})
-      if (auto found = read(table, verb, scope_)) return *std::move(found);
-    return Show{};
-  }
-
-  static void read_watching(const TableReader& table, Step& step) {
-    if (const auto pace = table.choice("pace")) step.pace = static_cast<Pace>(*pace);
-    for (const Named& event : table.texts("events")) step.events.push_back(event.name);
   }
 
   void count_frames(const TableReader& table) {
     const bool had_room = state_.frames <= kMostScriptFrames;
-    state_.frames += scope_.frames;
+    state_.frames += script_.frames;
     if (state_.frames <= kMostScriptFrames || !had_room) return;
     const char* key = table.has("seconds") ? "seconds" : table.has("at_most") ? "at_most" : "do";
-    draft_.problems.add(table.place(key),
-                        fmt::format("the steps up to here have {} frames in all, the limit is {}",
-                                    state_.frames, kMostScriptFrames));
+    table.bad_value(key, fmt::format("the steps up to here have {} frames in all, the limit is {}",
+                                     state_.frames, kMostScriptFrames));
   }
 
   Draft& draft_;
   ScriptState state_;
-  Scope scope_;
+  ScriptReading script_;
+  std::vector<VerbEntry> entries_ = entries_of(static_cast<const Verb*>(nullptr));
 };
 
 }  // namespace

@@ -1,4 +1,6 @@
 // What a frame counts, and what else a caption may quote.
+#include <algorithm>
+
 #include "scenario/language.hpp"
 
 namespace lantern {
@@ -91,7 +93,7 @@ constexpr CountDoc kMeasures[] = {
     {"potential_energy", "Energy of height and of springs.", true, false, physics},
     {"momentum", "Length of the momentum of all bodies.", true, false, physics},
     {"angular_momentum",
-     "Angular momentum of all bodies about the origin; its length in a solid world.", true, false,
+     "Angular momentum of all bodies about the origin; its length in a 3D world.", true, false,
      physics},
     {"penetration", "How deep the two bodies that overlap most do.", true, false, contacts},
 };
@@ -102,20 +104,37 @@ constexpr CountDoc kBodyMeasures[] = {
     {"kinetic_energy", "Energy of its motion and rotation.", true, false, bodies},
     {"potential_energy", "Energy of its height and springs.", true, false, bodies},
     {"speed", "Of its centre, in units a second.", true, false, bodies},
-    {"spin", "Its angular velocity in rad/s, counter-clockwise; its length in a solid world.", true,
+    {"spin", "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world.", true,
      false, bodies},
-    {"angular_momentum", "About its own centre; its length in a solid world.", true, false, bodies},
-    {"own_spin_x", "Its angular velocity in rad/s about its own x axis, in a solid world.", true,
+    {"angular_momentum", "About its own centre; its length in a 3D world.", true, false, bodies},
+    {"own_spin_x", "Its angular velocity in rad/s about its own x axis, in a 3D world.", true,
      false, bodies},
     {"own_spin_y", "About its own y axis.", true, false, bodies},
     {"own_spin_z", "About its own z axis.", true, false, bodies},
     {"x", "Where its centre is.", true, false, bodies},
     {"y", "The same along y.", true, false, bodies},
-    {"z", "The same along z, in a solid world.", true, false, bodies},
+    {"z", "The same along z, in a 3D world.", true, false, bodies},
     {"penetration", "How deep it overlaps what it touches, at the deepest.", true, false, contacts},
 };
 
 }  // namespace
+
+const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
+  const auto found = std::ranges::find(docs, name, &CountDoc::name);
+  return found == docs.end() ? nullptr : &*found;
+}
+
+const CountDoc* find_count(std::string_view name) {
+  const CountDoc* count = find_in(kCounts, name);
+  return count ? count : find_in(kMeasures, name);
+}
+
+std::vector<std::string_view> names_of_counts() {
+  std::vector<std::string_view> names;
+  for (const CountDoc& doc : kCounts) names.push_back(doc.name);
+  for (const CountDoc& doc : kMeasures) names.push_back(doc.name);
+  return names;
+}
 
 std::span<const CountDoc> known_body_measures() { return kBodyMeasures; }
 std::span<const CountDoc> known_counts() { return kCounts; }

@@ -24,10 +24,10 @@ struct ScriptState {
   std::size_t named = 0;     // bodies and textures, over all steps
 };
 
-// Names the bodies or textures of a step, and turns them into indices.
-class Cast {
+// Turns the names of bodies or textures that a step gives into their indices.
+class NameResolver {
  public:
-  Cast(Names& names, const char* kind, Problems& problems, ScriptState& state)
+  NameResolver(Names& names, const char* kind, Problems& problems, ScriptState& state)
       : names_(names), kind_(kind), problems_(problems), state_(state) {}
 
   // Each must not yet have `mark` and is given it; `clash` says what is wrong otherwise.
@@ -37,11 +37,9 @@ class Cast {
   // Each must be in the world.
   std::vector<std::size_t> present(const std::vector<Named>& written);
 
+ private:
   // Adds a problem if there is no such name, or if all steps together name too many.
   const NamedRange* find(const Named& named);
-
- private:
-  bool has_room_for(std::size_t count, Place where);
 
   Names& names_;
   const char* kind_;
@@ -50,23 +48,23 @@ class Cast {
 };
 
 // What is at hand while a step's verb is read.
-struct Scope {
+struct ScriptReading {
   Draft& draft;
   ScriptState& state;
-  Cast bodies;
-  Cast textures;
+  NameResolver bodies;
+  NameResolver textures;
   std::uint64_t frames = 1;  // of the step, in step pace
+
+  // One body that is in the world, named by `key`. Adds a problem and gives nothing otherwise.
+  std::optional<std::size_t> present_body(const TableReader& table, const char* key);
+  // Adds a problem if nothing touches, or nothing sleeps, in this world.
+  void require_contacts(Place where);
+  void require_sleep(Place where);
 };
 
-// The verb's own keys. Each gives nothing for a verb that is not its own.
-std::optional<Verb> read_body_verb(const TableReader& table, std::string_view verb, Scope& scope);
-std::optional<Verb> read_time_verb(const TableReader& table, std::string_view verb, Scope& scope);
-std::optional<Verb> read_query_verb(const TableReader& table, std::string_view verb, Scope& scope);
-std::optional<Verb> read_atlas_verb(const TableReader& table, std::string_view verb, Scope& scope);
-
-// One body that is in the world, named by `key`. Adds a problem and gives nothing otherwise.
-std::optional<std::size_t> read_present_body(const TableReader& table, const char* key,
-                                             Scope& scope);
+// All steps together may name so many, or a small file could fill the memory; one message says so.
+bool may_name(std::size_t count, std::string_view what, Place where, ScriptState& state,
+              Problems& problems);
 
 // Why the scenario cannot count `name` at this point; empty if it can. `name` is a known count or
 // measure or, in a caption, a known text.
@@ -80,6 +78,6 @@ std::vector<Expectation> read_expectations(const TomlValue& value, std::string_v
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state);
 
 // Can the chart's counts be counted at this step?
-std::optional<std::string> read_plot(const TableReader& step, Draft& draft, ScriptState& state);
+void check_plot(const TableReader& step, Draft& draft, ScriptState& state);
 
 }  // namespace lantern
