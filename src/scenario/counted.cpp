@@ -69,8 +69,10 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
   const ScenarioSpec& s = draft.scenario;
   switch (need) {
     case CountNeed::bodies:
+    case CountNeed::atlas:
     case CountNeed::room:
       return {};
+    case CountNeed::tree:
     case CountNeed::structure:
     case CountNeed::kd_tree:
     case CountNeed::array:
@@ -99,6 +101,16 @@ bool is_of_level(CountNeed need) {
   return need == CountNeed::compiled || need == CountNeed::located;
 }
 
+constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
+
+// Empty if a body of this world has it.
+std::string why_not_measured(const CountDoc& doc, const Draft& draft) {
+  if (doc.need == CountNeed::contacts && draft.scenario.world.contacts == ContactMethod::none)
+    return "this world has no contacts";
+  const bool is_3d = doc.name == "z" || doc.name.starts_with("own_spin");
+  return is_3d && draft.dimension == 2 ? "this world is 2D" : "";
+}
+
 }  // namespace
 
 std::string why_not_counted(std::string_view name, const Draft& draft, const ScriptState& state) {
@@ -108,11 +120,10 @@ std::string why_not_counted(std::string_view name, const Draft& draft, const Scr
   const bool has_atlas = draft.scenario.atlas.has_value();
   if (doc->need == CountNeed::room && has_atlas && !state.asked_for_room)
     return "no step has asked for room yet";
-  if (doc->for_atlas && has_atlas) return {};
-  if (!doc->for_world) return "the scenario has no [atlas]";
+  if (doc->for_atlas() && has_atlas) return {};
+  if (!doc->for_world()) return "the scenario has no [atlas]";
   if (name == "time" && draft.has_world) return {};
-  const bool of_any_tree = name == "nodes" || name == "leaves" || name == "depth";
-  if (of_any_tree && draft.scenario.level && state.compiled) return {};
+  if (doc->need == CountNeed::tree && draft.scenario.level && state.compiled) return {};
   if (!has_bodies && !is_of_level(doc->need))
     return has_atlas ? "an atlas has none" : "the scenario has no bodies";
   return why_not_there(doc->need, draft, state);
@@ -167,6 +178,38 @@ void check_plot(const TableReader& step, Draft& draft, ScriptState& state) {
     if (!why.empty())
       step.bad_key("plot", fmt::format("the chart's '{}' is not counted here: {}", count, why));
   }
+}
+
+bool note_body_measure(const Named& name, Draft& draft) {
+  const std::size_t dot = name.name.find('.');
+  const std::string measure = name.name.substr(0, dot);
+  const CountDoc* doc = find_in(known_body_measures(), measure);
+  if (!doc) {
+    draft.problems.add(
+        name.where, fmt::format("there is no measure {} of a body", in_quotes(measure)), [measure] {
+          std::vector<std::string_view> known;
+          for (const CountDoc& k : known_body_measures()) known.push_back(k.name);
+          return nearest(measure, known);
+        });
+    return false;
+  }
+  if (const std::string why = why_not_measured(*doc, draft); !why.empty()) {
+    draft.problems.add(name.where, fmt::format("'{}' is not measured here: {}", name.name, why));
+    return false;
+  }
+  const auto body = one_body({name.name.substr(dot + 1), name.where}, draft);
+  if (!body) return false;
+  std::vector<BodyMeasureSpec>& noted = draft.scenario.body_measures;
+  if (std::any_of(noted.begin(), noted.end(), [&](const auto& n) { return n.name == name.name; }))
+    return true;
+  if (noted.size() == kMostNoted) {
+    draft.problems.add(name.where,
+                       fmt::format("more than {} measures of single bodies", kMostNoted));
+    return false;
+  }
+  const auto what = static_cast<BodyMeasure>(doc - known_body_measures().data());
+  noted.push_back({name.name, what, *body});
+  return true;
 }
 
 }  // namespace lantern

@@ -9,112 +9,100 @@ namespace {
 using enum CountNeed;
 
 constexpr CountDoc kCounts[] = {
-    {"bodies", "Bodies in the world.", true, false, bodies},
-    {"nodes", "Nodes of the tree.", true, true, structure},
-    {"leaves", "Nodes without children.", true, true, structure},
-    {"depth", "Depth of the deepest node; the root has depth 0.", true, true, structure},
-    {"entries", "Bodies stored in leaves, each once a leaf.", true, false, structure},
-    {"most_in_leaf", "Bodies in the fullest leaf.", true, false, structure},
-    {"pairs", "Unique candidate pairs: bodies that share a leaf.", true, false, structure},
-    {"pair_tests", "Pairs met, leaf by leaf, before duplicates fell out.", true, false, structure},
-    {"all_pairs", "All pairs there are: n(n−1)/2 of n bodies.", true, false, bodies},
-    {"testable_pairs", "Those of them that brute force would test: not both never move.", true,
-     false, bodies},
-    {"overlaps", "Candidate pairs whose boxes overlap: the narrow phase will test them.", true,
-     false, structure},
-    {"pairs_tested", "Pairs whose shapes were tested in the last world step.", true, false,
-     contacts},
-    {"narrow_tests", "Tests made of them; a pair may be looked at several times in a step.", true,
-     false, contacts},
-    {"contacts", "Pairs that really touch.", true, false, contacts},
-    {"contact_points", "Points at which they do.", true, false, contacts},
-    {"impulses", "Those of them that passed on an impulse in the last world step.", true, false,
-     contacts},
-    {"begins", "Pairs that began to touch during the step.", true, false, contacts},
-    {"ends", "Pairs that ceased to touch during the step.", true, false, contacts},
-    {"constraint_rows",
-     "Rows of contacts and joints that were solved in the last world step, once a sweep.", true,
-     false, contacts},
-    {"friction_rows", "Those of them that are friction.", true, false, contacts},
-    {"force_evaluations", "How often all forces were worked out, in the last world step.", true,
-     false, physics},
-    {"rotations", "Bodies that were turned, in the last world step.", true, false, physics},
-    {"asleep", "Bodies asleep.", true, false, sleep},
-    {"awake", "Bodies that can move and are not asleep.", true, false, sleep},
-    {"box_tests", "Tests of a body against a node or plane since the tree was built.", true, false,
-     structure},
-    {"splits", "Leaves that split since the tree was built.", true, false, structure},
-    {"static_builds", "How often the structure of what never moves was built.", true, false, split},
-    {"dynamic_builds", "How often the structure of what moves was built.", true, false, split},
-    {"nodes_asleep", "Nodes below which nothing is awake.", true, false, asleep_nodes},
-    {"leaves_asleep", "Those of them that are leaves.", true, false, asleep_nodes},
-    {"branches_asleep", "The topmost of them: a search for pairs skips each with all below it.",
-     true, false, asleep_nodes},
-    {"stale", "Bodies that have left the cells which a `kd_tree` fitted to them.", true, false,
-     kd_tree},
-    {"nodes_reused", "Nodes that took an old node's place instead of new memory.", true, false,
-     structure},
-    {"allocations", "Calls for memory since the structure was made.", true, false, structure},
-    {"slots", "Places of the array that all leaves share.", true, false, array},
-    {"node_bytes", "Memory that the nodes take.", true, false, array},
-    {"node_bytes_with_bounds", "What they would take if each stored its box.", true, false, array},
-    {"nodes_visited", "Nodes that the last ray, cull or query went into.", true, false, query},
-    {"nodes_skipped", "Nodes that it left out, with all below them.", true, false, query},
-    {"objects_tested", "Bodies that it tested.", true, false, query},
-    {"hits", "Bodies that it found.", true, false, query},
-    {"walls", "Walls of the level.", true, false, compiled},
-    {"wall_pieces", "Walls after lines have cut them.", true, false, compiled},
-    {"sectors", "Leaves of the level's BSP.", true, false, compiled},
-    {"cuts", "Walls that a line has cut in two.", true, false, compiled},
-    {"plane_score", "Score of the line that divides the whole level.", true, false, compiled},
-    {"first_wall_score", "What the first wall to divide it would have scored.", true, false,
-     compiled},
-    {"sector", "Where the last `locate` ended, from 1.", true, false, located},
-    {"planes_tested", "Lines that it asked for the point's side.", true, false, located},
-    {"textures", "Textures packed.", false, true},
-    {"refused", "Textures that fit nowhere.", false, true},
-    {"used_area", "Pixels under textures.", false, true},
-    {"free_area", "Pixels left free.", false, true},
-    {"atlas_area", "Pixels of the atlas.", false, true},
-    {"free_leaves", "Leaves without a texture.", false, true},
-    {"leaf_tests", "Leaves looked at, by packing and by questions for room.", false, true},
-    {"room", "1 if the last `ask_room` found room, 0 if not.", false, true, room},
+    {"bodies", bodies, "Bodies in the world."},
+    {"nodes", tree, "Nodes of the tree."},
+    {"leaves", tree, "Nodes without children."},
+    {"depth", tree, "Depth of the deepest node; the root has depth 0."},
+    {"entries", structure, "Bodies stored in leaves, each once a leaf."},
+    {"most_in_leaf", structure, "Bodies in the fullest leaf."},
+    {"pairs", structure, "Unique candidate pairs: bodies that share a leaf."},
+    {"pair_tests", structure, "Pairs met, leaf by leaf, before duplicates fell out."},
+    {"all_pairs", bodies, "All pairs there are: n(n−1)/2 of n bodies."},
+    {"testable_pairs", bodies, "Those of them that brute force would test: not both never move."},
+    {"overlaps", structure,
+     "Candidate pairs whose boxes overlap: the narrow phase will test them."},
+    {"pairs_tested", contacts, "Pairs whose shapes were tested in the last world step."},
+    {"narrow_tests", contacts,
+     "Tests made of them; a pair may be looked at several times in a step."},
+    {"contacts", contacts, "Pairs that really touch."},
+    {"contact_points", contacts, "Points at which they do."},
+    {"impulses", contacts, "Those of them that passed on an impulse in the last world step."},
+    {"begins", contacts, "Pairs that began to touch during the step."},
+    {"ends", contacts, "Pairs that ceased to touch during the step."},
+    {"constraint_rows", contacts,
+     "Rows of contacts and joints that were solved in the last world step, once a sweep."},
+    {"friction_rows", contacts, "Those of them that are friction."},
+    {"force_evaluations", physics, "How often all forces were worked out, in the last world step."},
+    {"rotations", physics, "Bodies that were turned, in the last world step."},
+    {"asleep", sleep, "Bodies asleep."},
+    {"awake", sleep, "Bodies that can move and are not asleep."},
+    {"box_tests", structure, "Tests of a body against a node or plane since the tree was built."},
+    {"splits", structure, "Leaves that split since the tree was built."},
+    {"static_builds", split, "How often the structure of what never moves was built."},
+    {"dynamic_builds", split, "How often the structure of what moves was built."},
+    {"nodes_asleep", asleep_nodes, "Nodes below which nothing is awake."},
+    {"leaves_asleep", asleep_nodes, "Those of them that are leaves."},
+    {"branches_asleep", asleep_nodes,
+     "The topmost of them: a search for pairs skips each with all below it."},
+    {"stale", kd_tree, "Bodies that have left the cells which a `kd_tree` fitted to them."},
+    {"nodes_reused", structure, "Nodes that took an old node's place instead of new memory."},
+    {"allocations", structure, "Calls for memory since the structure was made."},
+    {"slots", array, "Places of the array that all leaves share."},
+    {"node_bytes", array, "Memory that the nodes take."},
+    {"node_bytes_with_bounds", array, "What they would take if each stored its box."},
+    {"nodes_visited", query, "Nodes that the last ray, cull or query went into."},
+    {"nodes_skipped", query, "Nodes that it left out, with all below them."},
+    {"objects_tested", query, "Bodies that it tested."},
+    {"hits", query, "Bodies that it found."},
+    {"walls", compiled, "Walls of the level."},
+    {"wall_pieces", compiled, "Walls after lines have cut them."},
+    {"sectors", compiled, "Leaves of the level's BSP."},
+    {"cuts", compiled, "Walls that a line has cut in two."},
+    {"plane_score", compiled, "Score of the line that divides the whole level."},
+    {"first_wall_score", compiled, "What the first wall to divide it would have scored."},
+    {"sector", located, "Where the last `locate` ended, from 1."},
+    {"planes_tested", located, "Lines that it asked for the point's side."},
+    {"textures", atlas, "Textures packed."},
+    {"refused", atlas, "Textures that fit nowhere."},
+    {"used_area", atlas, "Pixels under textures."},
+    {"free_area", atlas, "Pixels left free."},
+    {"atlas_area", atlas, "Pixels of the atlas."},
+    {"free_leaves", atlas, "Leaves without a texture."},
+    {"leaf_tests", atlas, "Leaves looked at, by packing and by questions for room."},
+    {"room", room, "1 if the last `ask_room` found room, 0 if not."},
 };
 
 constexpr CountDoc kTexts[] = {
-    {"texture", "The texture that the frame is about.", false, true},
-    {"refused_names", "Names of the textures that were refused, or \"none\".", false, true},
-    {"time", "Seconds of world time, with two decimals.", true, false},
+    {"texture", atlas, "The texture that the frame is about."},
+    {"refused_names", atlas, "Names of the textures that were refused, or \"none\"."},
+    {"time", bodies, "Seconds of world time, with two decimals."},
 };
 
 constexpr CountDoc kMeasures[] = {
-    {"energy", "Kinetic and potential energy.", true, false, physics},
-    {"kinetic_energy", "Energy of motion and rotation.", true, false, physics},
-    {"potential_energy", "Energy of height and of springs.", true, false, physics},
-    {"momentum", "Length of the momentum of all bodies.", true, false, physics},
-    {"angular_momentum",
-     "Angular momentum of all bodies about the origin; its length in a 3D world.", true, false,
-     physics},
-    {"penetration", "How deep the two bodies that overlap most do.", true, false, contacts},
+    {"energy", physics, "Kinetic and potential energy."},
+    {"kinetic_energy", physics, "Energy of motion and rotation."},
+    {"potential_energy", physics, "Energy of height and of springs."},
+    {"momentum", physics, "Length of the momentum of all bodies."},
+    {"angular_momentum", physics,
+     "Angular momentum of all bodies about the origin; its length in a 3D world."},
+    {"penetration", contacts, "How deep the two bodies that overlap most do."},
 };
 
 constexpr CountDoc kBodyMeasures[] = {
-    {"energy", "Kinetic and potential energy; of a spring between two dynamic bodies, half.", true,
-     false, bodies},
-    {"kinetic_energy", "Energy of its motion and rotation.", true, false, bodies},
-    {"potential_energy", "Energy of its height and springs.", true, false, bodies},
-    {"speed", "Of its centre, in units a second.", true, false, bodies},
-    {"spin", "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world.", true,
-     false, bodies},
-    {"angular_momentum", "About its own centre; its length in a 3D world.", true, false, bodies},
-    {"own_spin_x", "Its angular velocity in rad/s about its own x axis, in a 3D world.", true,
-     false, bodies},
-    {"own_spin_y", "About its own y axis.", true, false, bodies},
-    {"own_spin_z", "About its own z axis.", true, false, bodies},
-    {"x", "Where its centre is.", true, false, bodies},
-    {"y", "The same along y.", true, false, bodies},
-    {"z", "The same along z, in a 3D world.", true, false, bodies},
-    {"penetration", "How deep it overlaps what it touches, at the deepest.", true, false, contacts},
+    {"energy", bodies,
+     "Kinetic and potential energy; of a spring between two dynamic bodies, half."},
+    {"kinetic_energy", bodies, "Energy of its motion and rotation."},
+    {"potential_energy", bodies, "Energy of its height and springs."},
+    {"speed", bodies, "Of its centre, in units a second."},
+    {"spin", bodies, "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world."},
+    {"angular_momentum", bodies, "About its own centre; its length in a 3D world."},
+    {"own_spin_x", bodies, "Its angular velocity in rad/s about its own x axis, in a 3D world."},
+    {"own_spin_y", bodies, "About its own y axis."},
+    {"own_spin_z", bodies, "About its own z axis."},
+    {"x", bodies, "Where its centre is."},
+    {"y", bodies, "The same along y."},
+    {"z", bodies, "The same along z, in a 3D world."},
+    {"penetration", contacts, "How deep it overlaps what it touches, at the deepest."},
 };
 
 }  // namespace
@@ -142,35 +130,24 @@ std::span<const CountDoc> known_texts() { return kTexts; }
 std::span<const CountDoc> known_measures() { return kMeasures; }
 
 std::string_view when_counted(CountNeed need) {
-  switch (need) {
-    case bodies:
-      return "always";
-    case structure:
-      return "with a structure";
-    case kd_tree:
-      return "with a kD-tree";
-    case contacts:
-      return "with contacts";
-    case array:
-      return "with a tree whose leaves share an array";
-    case split:
-      return "with `split_static`";
-    case asleep_nodes:
-      return "with a structure and `may_sleep`, contacts or `split_static`";
-    case sleep:
-      return "with `may_sleep`, contacts or `split_static`";
-    case physics:
-      return "with contacts, gravity, springs or joints";
-    case query:
-      return "after a ray, cull or query";
-    case compiled:
-      return "once the level is compiled";
-    case located:
-      return "after a `locate`";
-    case room:
-      return "after an `ask_room`";
-  }
-  return "";
+  static constexpr std::string_view kWhen[] = {
+      // in the order of CountNeed
+      "always",
+      "with a structure",
+      "with a structure",
+      "with a kD-tree",
+      "with a tree whose leaves share an array",
+      "with `split_static`",
+      "with a structure and `may_sleep`, contacts or `split_static`",
+      "with contacts",
+      "with `may_sleep`, contacts or `split_static`",
+      "with contacts, gravity, springs or joints",
+      "after a ray, cull or query",
+      "once the level is compiled",
+      "after a `locate`",
+      "with an atlas",
+      "after an `ask_room`"};
+  return kWhen[static_cast<std::size_t>(need)];
 }
 
 }  // namespace lantern

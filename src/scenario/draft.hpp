@@ -90,9 +90,12 @@ StructureSpec read_structure(const TableReader& table, const StructureSpec& base
 BodySpec read_body_keys(const TableReader& table, Draft& draft);
 // Adds a problem if `key` makes a body move that is static or has no size.
 void check_motion(const TableReader& table, const char* key, const BodySpec& body, bool moves);
-// The next `count` bodies follow whom the table says, who may be declared later.
-void note_follower(const TableReader& table, std::size_t count, Draft& draft);
 void read_pattern(const TomlValue& value, Draft& draft);
+
+// The next `count` bodies follow whom the table says, who may be declared later; then they are
+// found.
+void note_follower(const TableReader& table, std::size_t count, Draft& draft);
+void find_the_followed(Draft& draft);
 
 // Exactly one body of that name. Adds a problem and gives nothing for an unknown name or a pattern.
 std::optional<std::size_t> one_body(const Named& name, Draft& draft);

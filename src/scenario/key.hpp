@@ -54,7 +54,11 @@ struct Filled<bool> {
 template <>
 struct Filled<double> {
   static constexpr KeyType type = KeyType::number;
-  static std::string literal(double value) { return fmt::format("{:.12g}", value); }
+  static std::string literal(double value) {
+    std::string text = fmt::format("{:.12g}", value);
+    if (const std::size_t zero = text.find("e-0"); zero != text.npos) text.erase(zero + 2, 1);
+    return text;
+  }
 };
 template <>
 struct Filled<std::string> {
@@ -153,6 +157,7 @@ KeyDoc key(M T::*member, std::string_view name, std::string_view meaning, const 
   M value = T{}.*member;
   if constexpr (std::is_same_v<M, double>) value /= doc.scale;
   doc.fallback = Filled<M>::literal(value);
+  if (doc.fallback == "\"\"" && doc.least > 0) doc.fallback.clear();  // no text may be empty here
   return doc;
 }
 

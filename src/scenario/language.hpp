@@ -76,6 +76,19 @@ struct KeyDoc {
   std::function<void(const TomlValue& value, const KeyDoc& key, void* object)> fill = {};
 };
 
+// How the reference calls a type, and a value of it; of some types the value depends on the key.
+struct TypeWords {
+  std::string_view name;
+  std::string_view example;
+};
+const TypeWords& words_of(KeyType type);
+
+// How a key is written: "position = [1.5, 2]".
+std::string form_of(const KeyDoc& key, int dimension);
+
+// "0 to 32", "above 0, at most 1000"; empty if the key has no range.
+std::string range_text(const KeyDoc& doc);
+
 // Of several groups of keys, exactly one must be given, or at least one.
 struct KeyGroups {
   std::vector<std::vector<std::string_view>> groups = {};
@@ -102,9 +115,10 @@ const TableDoc& language_table(std::string_view name);
 // One table a verb of the script: `name` is the verb; its own keys, then those of every step.
 std::span<const TableDoc> language_verbs();
 
-// When a world's count can be counted.
+// When a count can be counted.
 enum class CountNeed {
   bodies,
+  tree,  // a structure, a compiled level or an atlas
   structure,
   kd_tree,
   array,  // a structure whose leaves share one
@@ -116,15 +130,19 @@ enum class CountNeed {
   query,     // a ray, cull or query was asked
   compiled,  // the level was
   located,   // a point of the level was
-  room,      // of an atlas: it was asked for room
+  atlas,
+  room,  // of an atlas: it was asked for room
 };
 
 struct CountDoc {
   std::string_view name;
-  std::string_view doc;
-  bool for_world = false;
-  bool for_atlas = false;
   CountNeed need = CountNeed::bodies;
+  std::string_view doc;
+
+  bool for_atlas() const {
+    return need == CountNeed::atlas || need == CountNeed::room || need == CountNeed::tree;
+  }
+  bool for_world() const { return need != CountNeed::atlas && need != CountNeed::room; }
 };
 
 // "with a structure", "once the level is compiled": for the reference page.

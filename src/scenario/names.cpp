@@ -51,4 +51,21 @@ std::optional<std::size_t> one_body(const Named& body, Draft& draft) {
   return std::nullopt;
 }
 
+void note_follower(const TableReader& table, std::size_t count, Draft& draft) {
+  if (const auto name = table.named("follow"))
+    draft.followers.push_back({draft.scenario.bodies.size(), count, *name});
+}
+
+void find_the_followed(Draft& draft) {
+  auto& bodies = draft.scenario.bodies;
+  for (const Follower& f : draft.followers) {
+    const auto followed = one_body(f.followed, draft);
+    if (!followed) continue;
+    if (f.first <= *followed && *followed < f.first + f.count)
+      draft.problems.add(f.followed.where, "a body cannot follow itself",
+                         "name another one in 'follow'");
+    for (std::size_t i = f.first; i < f.first + f.count; ++i) bodies[i].follows = *followed;
+  }
+}
+
 }  // namespace lantern

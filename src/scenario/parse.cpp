@@ -52,8 +52,8 @@ void check_panels(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
   const auto is_there = [](const Rebuild& r) { return r.structure.kind != StructureKind::none; };
   const bool structure = s.structure.kind != StructureKind::none || some_step<Rebuild>(s, is_there);
-  const bool possible[] = {draft.has_world, structure || compiles_level(s) || s.atlas, s.atlas.has_value(),
-                           s.chart.has_value(), structure};
+  const bool possible[] = {draft.has_world, structure || compiles_level(s) || s.atlas,
+                           s.atlas.has_value(), s.chart.has_value(), structure};
   constexpr const char* kMissing[] = {
       "it needs a [world]", "it needs a [structure], a [level] or an [atlas]",
       "it needs an [atlas]", "it needs a [chart]", "it needs a [structure]"};

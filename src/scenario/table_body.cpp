@@ -161,18 +161,6 @@ void read_body(const TomlValue& value, Draft& draft) {
   draft.scenario.bodies.push_back(std::move(body));
 }
 
-void find_the_followed(Draft& draft) {
-  auto& bodies = draft.scenario.bodies;
-  for (const Follower& f : draft.followers) {
-    const auto followed = one_body(f.followed, draft);
-    if (!followed) continue;
-    if (f.first <= *followed && *followed < f.first + f.count)
-      draft.problems.add(f.followed.where, "a body cannot follow itself",
-                         "name another one in 'follow'");
-    for (std::size_t i = f.first; i < f.first + f.count; ++i) bodies[i].follows = *followed;
-  }
-}
-
 }  // namespace
 
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
@@ -284,11 +272,6 @@ void check_motion(const TableReader& table, const char* key, const BodySpec& bod
     table.bad_value(size_key(table),
                     fmt::format("'{}' is zero: a body that moves needs a size", size_key(table)),
                     fmt::format("or leave out {}", key));
-}
-
-void note_follower(const TableReader& table, std::size_t count, Draft& draft) {
-  if (const auto name = table.named("follow"))
-    draft.followers.push_back({draft.scenario.bodies.size(), count, *name});
 }
 
 void read_bodies(const TableReader& file, Draft& draft) {

@@ -89,9 +89,10 @@ TableDoc structure_table() {
       "one."};
   table.keys = {
       key(&S::kind, "kind",
-          "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a "
-          "`quadtree` cuts a 3D world along x and z, an `octree` along all three. At most "
-          "2000000 pairs may be met on one frame.",
+          "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a `quadtree` "
+          "cuts a 3D world along x and z, an `octree` along all three; `lecture_quadtree` is the "
+          "lecture's own code, which makes all children at a split and has no stop but the depth "
+          "limit. At most 2000000 pairs may be met on one frame.",
           must()),
       key(&S::capacity, "capacity", "A leaf that holds more splits, if depth is left.",
           range(1, 1000), in("bodies")),

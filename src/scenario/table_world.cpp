@@ -83,8 +83,9 @@ TableDoc world_table() {
           "distance. A static body attracts if it has a `mass`.",
           range(0, kFar)),
       key(&W::contacts, "contacts",
-          "How touching bodies are kept apart: by sequential `impulse`s, by `soft` contacts in "
-          "small steps, or not at all."),
+          "How touching bodies are kept apart: by sequential `impulse`s; by `soft` contacts in "
+          "small steps; by the same in whole steps, `direct`ly; by one impulse a pair, as the "
+          "`lecture` does it; or not at all."),
       key(&W::integrator, "integrator", "How forces become motion."),
       key(&W::rotation, "rotation",
           "How free bodies rotate. `explicit_gyroscopic` is there to be seen failing."),

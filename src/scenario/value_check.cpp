@@ -270,49 +270,4 @@ bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Probl
   return Check(doc, dimension, problems)(value);
 }
 
-// In the order of KeyType.
-const TypeWords& words_of(KeyType type) {
-  static constexpr TypeWords kWords[] = {
-      {"text", "\"…\""},
-      {"whole number", ""},
-      {"number", "1.5"},
-      {"true or false", "true"},
-      {"one of", ""},
-      {"point", "[1.5, 2]"},
-      {"two numbers", "[0.5, 1]"},
-      {"[width, height]", "[64, 32]"},
-      {"list of texts", "[\"…\"]"},
-      {"list of texts, or none", "[\"…\"]"},
-      {"list of polygons", "[[[0, 0], [8, 0], [8, 6]]]"},
-      {"whole number, or list of texts", "2, or a list of names"},
-      {"list of", "[\"…\"]"},
-      {"table", ""},
-      {"tables", ""},
-      {"list of pairs", "[[\"red\", \"pink\"]]"},
-      {"table: name → whole number", "{ pink = 2 }"},
-      {"table: name → number", "{ pink = 2 }"},
-      {"table: name → point", "{ ball = [12, 14] }"},
-  };
-  return kWords[static_cast<std::size_t>(type)];
-}
-
-std::string form_of(const KeyDoc& key, int dimension) {
-  std::string value(words_of(key.type).example);
-  if (key.type == KeyType::tables) return fmt::format("a [[{}]]", key.of);
-  if (key.type == KeyType::whole) value = fmt::format("{}", std::max(key.least, 1.0));
-  if (key.type == KeyType::choice) value = fmt::format("\"{}\"", key.choices.back());
-  if (key.type == KeyType::point && dimension == 3) value = "[1.5, 2, 0.5]";
-  if (key.type == KeyType::name_points && dimension == 3) value = "{ ball = [12, 14, 0] }";
-  return fmt::format("{} = {}", key.key, value);
-}
-
-std::string range_text(const KeyDoc& doc) {
-  const bool from = std::isfinite(doc.least), to = std::isfinite(doc.most);
-  if (from && to && doc.above_least)
-    return fmt::format("above {}, at most {}", doc.least, doc.most);
-  if (from && to) return fmt::format("{} to {}", doc.least, doc.most);
-  if (from) return fmt::format("{} {}", doc.above_least ? "above" : "at least", doc.least);
-  return to ? fmt::format("at most {}", doc.most) : "";
-}
-
 }  // namespace lantern

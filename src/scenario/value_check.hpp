@@ -12,17 +12,4 @@ namespace lantern {
 // world's, 0 where it is not known.
 bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Problems& problems);
 
-// How the reference calls a type, and a value of it; of some types the value depends on the key.
-struct TypeWords {
-  std::string_view name;
-  std::string_view example;
-};
-const TypeWords& words_of(KeyType type);
-
-// How a key is written: "position = [1.5, 2]".
-std::string form_of(const KeyDoc& key, int dimension);
-
-// "0 to 32", "above 0, at most 1000"; empty if the key has no range.
-std::string range_text(const KeyDoc& doc);
-
 }  // namespace lantern

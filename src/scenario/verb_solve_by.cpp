@@ -8,12 +8,13 @@ namespace lantern {
 TableDoc SolveBy::table() {
   using namespace keys;
   using S = SolveBy;
+  std::vector<std::string_view> methods = contact_method_names();
+  std::erase(methods, to_string(ContactMethod::none));
   return {.doc = "From now on, contacts are solved another way; the world must have some.",
           .keys =
               {
-                  key(&S::contacts, "contacts",
-                      "Sequential `impulse`s, or `soft` contacts in small steps.", must(),
-                      one_of({"impulse", "soft"})),
+                  key(&S::contacts, "contacts", "As [world] has it, but `none`.", must(),
+                      one_of(methods)),
                   key(&S::sub_steps, "sub_steps",
                       "How many parts soft contacts divide a world step into.", range(1, 64),
                       or_else("as it was")),

@@ -672,7 +672,7 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "always", {"{}"}, bad_table("[expect]")});
   }
   for (const CountDoc& count : known_counts())
-    if (count.for_world && count.name != "asleep" && count.name != "awake" &&
+    if (count.for_world() && count.name != "asleep" && count.name != "awake" &&
         count.name != "stale")  // the first two are above, the last needs another structure
       cases.push_back(
           {"expect", std::string(count.name), {"0", "1", "9007199254740992"}, no_number});

@@ -82,7 +82,7 @@ std::vector<std::string> names_of(const Met& met) {
 
 Vec<3> end_of(const Frame& frame) { return {31, 10, frame.dimension == 3 ? 22 : 0}; }
 
-TEST(Questions, ARayThatGoesThroughAllMeetsWhatEachShapeSays) {
+TEST(Queries, ARayThatGoesThroughAllMeetsWhatEachShapeSays) {
   const std::string keys = "do = \"ray\"\nhits = \"all\"\n";
   std::size_t most = 0;
   ask_all(keys + "from = [0, 7]\nto = [31, 10]", keys + "from = [0, 7, 0]\nto = [31, 10, 22]",
@@ -101,7 +101,7 @@ TEST(Questions, ARayThatGoesThroughAllMeetsWhatEachShapeSays) {
   EXPECT_GE(most, 2u) << "the ray meets next to nothing: the test says little";
 }
 
-TEST(Questions, ARayStopsAtTheNearest) {
+TEST(Queries, ARayStopsAtTheNearest) {
   ask_all("do = \"ray\"\nfrom = [0, 7]\nto = [31, 10]",
           "do = \"ray\"\nfrom = [0, 7, 0]\nto = [31, 10, 22]", [&](const Frame& frame) {
             const Met met = met_by_hand(frame, Vec<3>(0, 7, 0), end_of(frame));
@@ -127,7 +127,7 @@ void expect_found(const Frame& frame, Holds&& holds) {
   for (const FrameBody& b : frame.bodies) EXPECT_EQ(b.dimmed, !expected.contains(b.name)) << b.name;
 }
 
-TEST(Questions, ARegionHoldsWhatOverlapsIt) {
+TEST(Queries, ARegionHoldsWhatOverlapsIt) {
   ask_all("do = \"query\"\nmin = [8, 4]\nmax = [20, 12]",
           "do = \"query\"\nmin = [4, 2, 4]\nmax = [24, 14, 16]", [](const Frame& frame) {
             ASSERT_EQ(frame.queries.size(), 1u);
@@ -136,7 +136,7 @@ TEST(Questions, ARegionHoldsWhatOverlapsIt) {
           });
 }
 
-TEST(Questions, ABallHoldsWhatItReaches) {
+TEST(Queries, ABallHoldsWhatItReaches) {
   ask_all("do = \"query\"\ncenter = [14, 9]\nradius = 6",
           "do = \"query\"\ncenter = [14, 9, 12]\nradius = 9", [](const Frame& frame) {
             ASSERT_EQ(frame.queries.size(), 1u);
@@ -148,7 +148,7 @@ TEST(Questions, ABallHoldsWhatItReaches) {
           });
 }
 
-TEST(Questions, AViewSeesTheSameWithEveryStructure) {
+TEST(Queries, AViewSeesTheSameWithEveryStructure) {
   std::set<Names> flat, solid;
   ask_all("do = \"cull\"\neye = [1, 9]\ntarget = [31, 9]\nangle = 50\nfar = 20",
           "do = \"cull\"\neye = [1, 9, 12]\ntarget = [31, 9, 12]\nangle = 50\nfar = 20",
@@ -165,7 +165,7 @@ TEST(Questions, AViewSeesTheSameWithEveryStructure) {
   EXPECT_FALSE(flat.begin()->empty() || solid.begin()->empty());
 }
 
-TEST(Questions, WhatTheyFoundIsShownOnTheirStepOnly) {
+TEST(Queries, WhatTheyFoundIsShownOnTheirStepOnly) {
   Scenario s = asked(false, "quadtree", false, "do = \"query\"\nmin = [8, 4]\nmax = [20, 12]");
   s.steps.push_back(s.steps.back());
   s.steps.back().verb = Show();
@@ -175,7 +175,7 @@ TEST(Questions, WhatTheyFoundIsShownOnTheirStepOnly) {
   for (const FrameBody& b : last.bodies) EXPECT_FALSE(b.dimmed);
 }
 
-TEST(Questions, EventsTellTheWholeWalk) {
+TEST(Queries, EventsTellTheWholeWalk) {
   for (const bool solid : {false, true}) {
     const Scenario s = asked(solid, solid ? "octree" : "quadtree", false,
                              solid ? "do = \"query\"\nmin = [4, 2, 4]\nmax = [24, 14, 16]\n"

@@ -1,4 +1,4 @@
-#include "scenario/questions.hpp"
+#include "scenario/queries.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@ namespace lantern {
 namespace {
 
 template <int D>
-class Question {
+class Queries {
  public:
-  explicit Question(const World<D>& world) : world_(world) {}
+  explicit Queries(const World<D>& world) : world_(world) {}
 
-  Finding cast(const CastRay& cast) {
+  Finding answer(const CastRay& cast) {
     Ray<D> ray;
     ray.origin = in_dimension<D>(cast.from);
     const Vec<D> way = in_dimension<D>(cast.to) - ray.origin;
@@ -49,7 +49,7 @@ class Question {
     return std::move(found_);
   }
 
-  Finding cull(const Cull& view) {
+  Finding answer(const Cull& view) {
     const Frustum<D> frustum = frustum_of(view);
     look([&](const auto& tree, auto& box_of, auto& told) {
       return add(frustum_cull<D>(tree, frustum, box_of, AlwaysTrue(), told));
@@ -58,7 +58,7 @@ class Question {
     return sorted();
   }
 
-  Finding query(const Query& region) {
+  Finding answer(const Query& region) {
     const Box<D> box = in_dimension<D>(region.box);
     const Ball<D> ball{box.center(), region.radius};
     look([&](const auto& tree, auto& box_of, auto& told) {
@@ -124,19 +124,9 @@ class Question {
 
 }  // namespace
 
-template <int D>
-Finding asked(const CastRay& ray, const World<D>& world) {
-  return Question<D>(world).cast(ray);
-}
-
-template <int D>
-Finding asked(const Cull& view, const World<D>& world) {
-  return Question<D>(world).cull(view);
-}
-
-template <int D>
-Finding asked(const Query& region, const World<D>& world) {
-  return Question<D>(world).query(region);
+template <int D, class V>
+Finding asked(const V& verb, const World<D>& world) {
+  return Queries<D>(world).answer(verb);
 }
 
 template Finding asked(const CastRay&, const World<2>&);
