@@ -5,7 +5,7 @@
 #include "base/check.hpp"
 #include "scenario/body_measure.hpp"
 #include "scenario/brains.hpp"
-#include "scenario/questions.hpp"
+#include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
 #include "scenario/world_watch.hpp"
