@@ -271,8 +271,8 @@ class EngineOf : public Engine {
   bool steered_ = false;       // who has a brain has made up its mind about the next step
   bool being_stored_ = false;  // a body is on its way down the structure
   Brains<D> brains_;
-  WorldWork last_;              // what the last step did
-  BroadPhaseCounters builds_;   // of them, what is counted
+  WorldWork last_;             // what the last step did
+  BroadPhaseCounters builds_;  // of them, what is counted
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
 };
