@@ -89,7 +89,7 @@ void solve_velocities(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, 
                       Sweep& sweep);
 
 // What follows from the velocities found: the way that slipping points lag behind (see
-// sub_steps.cpp), and how far sticking ones may still slide. `lag_a` and `lag_b` are the lags that
+// sub_step.hpp), and how far sticking ones may still slide. `lag_a` and `lag_b` are the lags that
 // the integrator has already.
 template <int D>
 void begin_correction(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double lag_a,

@@ -1,7 +1,6 @@
 // Smooth forces: all that pushes bodies without their touching.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "physics/body.hpp"
@@ -80,11 +79,5 @@ double attracting_mass(const Body<D>& body);
 // a to b.
 template <int D>
 Stretch<D> attracted(double strength, const Vec<D>& between);
-
-// Throws Refused, naming the field, if the forces cannot be applied to the bodies (in any order):
-// a number that is not finite, a negative rest length, stiffness, damping or drag, a body that is
-// not there, a spring from a body to itself.
-template <int D>
-void check_forces(const Forces<D>& forces, std::span<const Body<D>> bodies);
 
 }  // namespace lantern

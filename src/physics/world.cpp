@@ -67,10 +67,14 @@ Spin<3> momentum_for(const Body<3>& body, const Vec<3>& spin) {
 }
 
 template <int D>
-void check_spring(const Spring<D>& spring, const std::vector<Body<D>>& bodies) {
-  Forces<D> alone;
-  alone.springs.push_back(spring);
-  check_forces<D>(alone, bodies);
+void check_spring(const Spring<D>& spring, const std::string& who) {
+  if (spring.a == spring.b)
+    throw Refused(fmt::format("{}: both ends are on body {}", who, spring.a));
+  require_finite(spring.at_a, who, "at_a");
+  require_finite(spring.at_b, who, "at_b");
+  require_not_negative(spring.rest_length, who, "rest_length");
+  require_not_negative(spring.stiffness, who, "stiffness");
+  require_not_negative(spring.damping, who, "damping");
 }
 
 template <int D>
@@ -254,8 +258,10 @@ void World<D>::set_gravity(const Vec<D>& gravity) {
 
 template <int D>
 SpringId World<D>::add_spring(const Spring<D>& spring) {
-  check_spring<D>(spring, bodies_);
-  check_same_integrator(*find(spring.a), *find(spring.b), config_);
+  const Body<D>& a = bodies_[index_of(spring.a)];
+  const Body<D>& b = bodies_[index_of(spring.b)];
+  check_spring(spring, fmt::format("spring {}", next_spring_));
+  check_same_integrator(a, b, config_);
   wake_from({spring.a, spring.b});
   forces_.springs.push_back(spring);
   spring_ids_.push_back(next_spring_);

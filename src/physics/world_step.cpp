@@ -13,6 +13,7 @@ namespace lantern {
 // engine must do more. It looks not where bodies are, but as far as they may come in the step, so
 // that none passes through another; what the pairs tie together it solves together, as islands; it
 // lets islands sleep that rest, and wakes them; and it tells who began to touch and who ceased to.
+// (The lecture's own solver is given the world as one, and does no more than the lecture.)
 template <int D>
 void World<D>::step(double h) {
   if (!std::isfinite(h) || h < 0) throw Refused(fmt::format("time step {} is not allowed", h));

@@ -114,12 +114,8 @@ TEST(Attraction, ActsAcrossIslandsThatTouch) {
 }
 
 TEST(Attraction, RefusesAConstantThatIsNone) {
-  for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
+  for (const double bad : {-1.0, std::nan(""), HUGE_VAL})
     EXPECT_THROW(World<2>(attracting(bad, ContactMethod::none)), Refused) << bad;
-    SmoothScene<2> scene = couple();
-    scene.forces.gravitation = bad;
-    EXPECT_THROW(check_forces<2>(scene.forces, scene.bodies), Refused) << bad;
-  }
 }
 
 }  // namespace

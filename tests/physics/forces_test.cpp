@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "smooth_scene.hpp"
+#include "world_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -71,35 +72,29 @@ TEST(Forces, AngularDragSlowsTheTurning) {
 }
 
 TEST(Forces, NamesWhatCannotBeApplied) {
-  SmoothScene<2> good;
-  good.add({0, 0}, {0, 0}, 1);
-  good.add({1, 0}, {0, 0}, 1);
-  good.forces.springs.push_back({0, 1, {0, 0}, {0, 0}, 1, 10, 1});
-  good.forces.pushes.push_back({0, {0, 0}, {1, 0}});
-  EXPECT_NO_THROW(check_forces<2>(good.forces, good.bodies));
+  World<2> world;
+  for (const double x : {0.0, 1.0}) world.add(ball_at<2>({x, 0}));
+  const Spring<2> good{0, 1, {0, 0}, {0, 0}, 1, 10, 1};
+  EXPECT_EQ(world.add_spring(good), 0u);
 
   const auto refuses = [&](const std::string& text, auto&& spoil) {
-    SmoothScene<2> bad = good;
+    Spring<2> bad = good;
     spoil(bad);
     try {
-      check_forces<2>(bad.forces, bad.bodies);
+      world.add_spring(bad);
       ADD_FAILURE() << "accepted, though " << text;
     } catch (const Refused& error) {
       EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
     }
   };
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
-  refuses("gravity", [&](auto& s) { s.forces.gravity.y = nan; });
-  refuses("spring 0: stiffness", [&](auto& s) { s.forces.springs[0].stiffness = -1; });
-  refuses("spring 0: damping", [&](auto& s) { s.forces.springs[0].damping = inf; });
-  refuses("spring 0: rest_length", [&](auto& s) { s.forces.springs[0].rest_length = nan; });
-  refuses("spring 0: at_b", [&](auto& s) { s.forces.springs[0].at_b.x = inf; });
-  refuses("spring 0: a: there is no body 7", [&](auto& s) { s.forces.springs[0].a = 7; });
-  refuses("both ends are on body 1", [&](auto& s) { s.forces.springs[0].a = 1; });
-  refuses("push 0: there is no body 9", [&](auto& s) { s.forces.pushes[0].body = 9; });
-  refuses("push 0 on body 0: force", [&](auto& s) { s.forces.pushes[0].force.x = nan; });
-  refuses("linear_drag", [&](auto& s) { s.bodies[0].linear_drag = -1; });
-  refuses("angular_drag", [&](auto& s) { s.bodies[1].angular_drag = nan; });
+  refuses("spring 1: stiffness", [&](auto& spring) { spring.stiffness = -1; });
+  refuses("spring 1: damping", [&](auto& spring) { spring.damping = inf; });
+  refuses("spring 1: rest_length", [&](auto& spring) { spring.rest_length = nan; });
+  refuses("spring 1: at_b", [&](auto& spring) { spring.at_b.x = inf; });
+  refuses("there is no body 7", [&](auto& spring) { spring.a = 7; });
+  refuses("both ends are on body 1", [&](auto& spring) { spring.a = 1; });
+  EXPECT_EQ(world.add_spring(good), 1u) << "a refusal takes no id";
 }
 
 TEST(Forces, ASpringOnNoBodyIsRefused) {
