@@ -1,12 +1,12 @@
-#include "draw/atlas_view.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
 #include "draw/page.hpp"
+#include "draw/panels.hpp"
 #include "draw/pattern.hpp"
 
 namespace lantern {
@@ -42,17 +42,16 @@ class AtlasView {
   }
 
   void draw() {
-    list_.shapes.emplace_back(RectShape{image_, 0, Role::free_space, {}, true});
+    list_.crisp_rect(image_, Role::free_space);
     for (const FrameNode* node : free_leaves()) draw_free(*node);
     const std::vector<const FrameTexture*> packed = packed_textures();
     const auto count = std::max(1, static_cast<int>(packed.size()));
     parts_ = std::clamp(kMostPanelShapes / count - 2, 0, kMostPatternParts);
     for (const FrameTexture* texture : packed) draw_textured(*texture, place_of(*texture));
-    list_.shapes.emplace_back(RectShape{image_, 0, Role::none, {Role::cell_line_0, 3.4, 0}, true});
+    list_.crisp_rect(image_, Role::none, {Role::cell_line_0, 3.4});
     for (const FrameNode& node : frame_.nodes)
       if (node.mark == Mark::lit)
-        list_.shapes.emplace_back(
-            RectShape{on_page(flat(node.box)), 0, Role::none, {Role::lit, 4, 0}, true});
+        list_.crisp_rect(on_page(flat(node.box)), Role::none, {Role::lit, 4});
     if (packed.size() == kMostTextures) labels_.add_note("not all textures are drawn", image_);
     for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
     for (const FrameNode* node : free_leaves()) name_free(*node);
@@ -90,46 +89,39 @@ class AtlasView {
   void draw_free(const FrameNode& node) {
     const Box<2> box = on_page(flat(node.box));
     const double least = std::min(box.size().x, box.size().y);
-    if (node.mark != Mark::quiet)
-      list_.shapes.emplace_back(
-          RectShape{box, 0, node.mark == Mark::lit ? Role::lit_fill : Role::passed_fill, {}, true});
+    if (node.mark != Mark::quiet) list_.crisp_rect(box, ground_of(node.mark));
     if (least < 6) return;
-    list_.shapes.emplace_back(
-        RectShape{shrunk(box, 2), 0, Role::none, {Role::cell_line_2, 1.4, 5}, false});
+    list_.rect(shrunk(box, 2), Role::none, {Role::cell_line_2, 1.4, 5});
   }
 
   void draw_textured(const FrameTexture& texture, const Box<2>& box) {
     const double scale = std::clamp(std::min(box.size().x, box.size().y) / 70, 0.6, 1.6);
     draw_pattern(texture.id, texture.color, box, scale, parts_, list_);
-    if (parts_ > 0)
-      list_.shapes.emplace_back(RectShape{box, 0, Role::none, {Role::body_line, 1.6, 0}, false});
+    if (parts_ > 0) list_.rect(box, Role::none, {Role::body_line, 1.6});
   }
 
   // The name on a plate of its own, so that it can be read on any pattern.
   bool draw_plate(const std::string& name, const Box<2>& box) {
-    const TextStyle style{kLabel - 1, Weight::semibold, Role::ink, Role::none};
-    const double width = text_width(name, style);
-    const double cap = cap_height(style.weight) * style.size;
-    const Box<2> plate = Box<2>::around(box.center(), Vec<2>(width / 2 + 6, cap / 2 + 5));
-    const Anchor anchor{{box.center().x, box.center().y + cap / 2}, 0.5};
+    const TextStyle style{kLabel - 1, Weight::semibold, Role::ink};
+    const Box<2> plate = plate_of(name, box.center(), style, {6, 5});
+    const Anchor anchor = centred(box.center(), style);
     if (name.empty() || !holds(shrunk(box, 1), plate)) return false;
     if (!labels_.is_free(Labels::extent(name, anchor, style), panel_)) return false;
-    list_.shapes.emplace_back(filled(plate, Role::panel, 5));
+    list_.rect(plate, Role::panel, {}, 5);
     labels_.add(name, anchor, style, panel_);
     return true;
   }
 
   void name_free(const FrameNode& node) {
     const Box<2> box = on_page(flat(node.box));
-    TextStyle style{kLabel - 1, Weight::regular, Role::quiet_ink, Role::none};
+    TextStyle style{kLabel - 1, Weight::regular, Role::quiet_ink};
     if (node.mark == Mark::lit) style.role = Role::lit_ink;
     const Vec<2> size = node.box.size();
     const std::string numbers = fmt::format("{:.0f} × {:.0f}", size.x, size.y);
-    const double cap = cap_height(style.weight) * style.size;
+    const Anchor anchor = centred(box.center(), style);
     for (const std::string& text :
          {node.label.empty() ? "free " + numbers : node.label + "  " + numbers,
           node.label.empty() ? numbers : node.label}) {
-      const Anchor anchor{{box.center().x, box.center().y + cap / 2}, 0.5};
       if (!holds(shrunk(box, 6), Labels::extent(text, anchor, style))) continue;
       if (labels_.try_add(text, {anchor}, style, panel_)) return;
     }
@@ -175,15 +167,14 @@ class AtlasView {
   // In rows, first come first; what has no room is counted.
   void draw_queue(const char* heading, const std::vector<const FrameTexture*>& queue,
                   const Box<2>& area, bool crossed) {
-    const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink,
-                          Role::none};
+    const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink};
     const auto digits = static_cast<std::int64_t>(std::to_string(frame_.textures.size()).size());
     const double number = Labels::number_width(digits, style);
     labels_.add_number(static_cast<std::int64_t>(queue.size()),
                        {area.lo.x + number, area.lo.y + 18}, style, panel_);
     labels_.add(heading, {{area.lo.x + number + 7, area.lo.y + 18}, 0}, style, panel_);
     const double end = area.lo.x + number + 7 + text_width(heading, style);
-    const TextStyle note{kLabel - 1, Weight::regular, Role::quiet_ink, Role::none};
+    const TextStyle note{kLabel - 1, Weight::regular, Role::quiet_ink};
     const double name_line = crossed ? 24 : 0;
     if (strip_scale_ < scale_ && !queue.empty())
       labels_.try_add(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)",
@@ -216,11 +207,10 @@ class AtlasView {
   void cross_out(const FrameTexture& texture, const Box<2>& box) {
     for (const double width : {7.0, 3.6}) {
       const Role role = width > 5 ? Role::panel : Role::warning;
-      list_.shapes.emplace_back(LineShape{box.lo, box.hi, {role, width, 0}, false});
-      list_.shapes.emplace_back(
-          LineShape{{box.lo.x, box.hi.y}, {box.hi.x, box.lo.y}, {role, width, 0}, false});
+      list_.line(box.lo, box.hi, {role, width});
+      list_.line({box.lo.x, box.hi.y}, {box.hi.x, box.lo.y}, {role, width});
     }
-    const TextStyle style{kLabel - 1, Weight::regular, Role::warning, Role::none};
+    const TextStyle style{kLabel - 1, Weight::regular, Role::warning};
     const std::string name = shortened(texture.name, panel_.hi.x - box.lo.x, style);
     labels_.try_add(name, {{{box.lo.x, box.hi.y + 20}, 0}}, style, panel_);
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "draw/number_text.hpp"
 
 namespace lantern {
@@ -22,6 +24,12 @@ double nice_step(double step, int& decimals) {
     if (k * power >= step) return k * power;
   decimals = std::max(0, decimals - 1);
   return 10 * power;
+}
+
+double power_value(int power) {
+  double value = 1;
+  for (int i = 0; i < std::abs(power); ++i) value *= 10;
+  return power < 0 ? 1 / value : value;
 }
 
 // Where all values are one, they get a range all the same.
@@ -79,14 +87,58 @@ Axis Axis::logarithmic(double least_above_zero, double most, int most_ticks) {
   const int every = std::max(1, (decades + most_ticks - 2) / std::max(1, most_ticks - 1));
   for (int i = 0; i <= decades; i += every) {
     const int power = static_cast<int>(axis.low_) + i;
-    double value = 1;
-    for (int k = 0; k < std::abs(power); ++k) value *= 10;
-    if (power < 0) value = 1 / value;
+    const double value = power_value(power);
     axis.ticks_.push_back({value, power < 0 && power > -4 ? number_text(value, -power)
                                   : power < 0             ? short_number(value)
                                                           : number_text(value)});
   }
   return axis;
+}
+
+Axis Axis::fitted(double least_above_zero, double most, int most_ticks) {
+  constexpr double kAir = 0.04;  // of the range, at both ends
+  constexpr double kMostPower = 300;
+  const double a = std::clamp(std::log10(least_above_zero), -kMostPower, kMostPower);
+  const double b = std::clamp(std::log10(most), a, kMostPower);
+  Axis axis;
+  axis.logarithmic_ = true;
+  axis.low_ = a - kAir * (b - a) - 0.05;
+  axis.high_ = b + kAir * (b - a) + 0.05;
+  if (std::floor(axis.high_) - std::ceil(axis.low_) < 1) {  // fewer than two powers of ten on it
+    if (axis.add_parts(b - a, most_ticks)) return axis;
+    const double low = std::min(axis.low_, std::floor(a));
+    axis.high_ = std::max(axis.high_, std::floor(low + 0.999) + 1) + 0.06;
+    axis.low_ = low - 0.06;
+  }
+  const int first = static_cast<int>(std::ceil(axis.low_));
+  const int last = static_cast<int>(std::floor(axis.high_));
+  int every = 1;
+  while ((last - first) / every + 1 > std::max(2, most_ticks)) ++every;
+  // Multiples of the spacing, so that 1 is among them if the axis holds it, where there are two.
+  const int begin = every * static_cast<int>(std::ceil(static_cast<double>(first) / every));
+  for (int power = begin + every > last ? first : begin; power <= last; power += every)
+    axis.ticks_.push_back({power_value(power), power_of_ten(power)});
+  return axis;
+}
+
+// Twice and five times the powers of ten too, where these alone would make the axis much longer
+// than its values need. False, and there are none, if that gives too few or too many ticks.
+bool Axis::add_parts(double decades, int most_ticks) {
+  constexpr double kLeastDecades = 0.7;  // less is a close look at nothing
+  if (decades < kLeastDecades) return false;
+  for (int power = static_cast<int>(std::floor(low_)); power <= high_; ++power)
+    for (const int part : {1, 2, 5}) {
+      const double at = power + std::log10(part), value = part * power_value(power);
+      if (at < low_ || at > high_) continue;
+      const bool is_plain = power >= -1 && power <= 1;  // 0.5, 2, 20
+      const std::string text = part == 1  ? power_of_ten(power)
+                               : is_plain ? fmt::format("{:g}", value)
+                                          : fmt::format("{}·{}", part, power_of_ten(power));
+      ticks_.push_back({value, text});
+    }
+  if (ticks_.size() >= 2 && static_cast<int>(ticks_.size()) <= std::max(4, most_ticks)) return true;
+  ticks_.clear();
+  return false;
 }
 
 double Axis::share(double value) const {

@@ -1,4 +1,4 @@
-// A chart's axis: its range, where its ticks stand, and what is written at them.
+// A plot's axis: its range, where its ticks stand, and what is written at them.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,13 @@ class Axis {
   };
 
   // For values from `least` to `most` (finite, in order), at most `most_ticks` (2 or more) ticks.
-  // A linear axis starts at 0 unless all values are far from it. A logarithmic one spans whole
-  // decades and shows what is not above 0 at its lower end.
+  // A linear axis starts at 0 unless all values are far from it. A logarithmic one shows what is
+  // not above 0 at its lower end; it spans whole decades, and its numbers are written out.
   static Axis linear(double least, double most, int most_ticks);
   static Axis logarithmic(double least_above_zero, double most, int most_ticks);
+  // A logarithmic one that fits its values closely. Its ticks are powers of ten, or, where fewer
+  // than two are on it, these with twice and five times as much: "2·10⁻³".
+  static Axis fitted(double least_above_zero, double most, int most_ticks);
 
   // 0 at the lower end, 1 at the upper one; never outside.
   double share(double value) const;
@@ -28,9 +31,12 @@ class Axis {
   // With these ends, wherever the ticks are; an end that is not given stays.
   Axis cut_to(std::optional<double> low, std::optional<double> high) const;
   double low() const { return low_; }
-  int decimals() const { return decimals_; }  // that its ticks have after the point
+  double decades() const { return high_ - low_; }  // of a logarithmic one
+  int decimals() const { return decimals_; }       // that its ticks have after the point
 
  private:
+  bool add_parts(double decades, int most_ticks);
+
   double low_ = 0, high_ = 1;
   bool logarithmic_ = false;
   int decimals_ = 0;

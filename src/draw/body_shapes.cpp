@@ -19,18 +19,35 @@ std::vector<Vec<2>> capsule_outline(const Capsule& capsule) {
   return points;
 }
 
+// In the body's own axes; empty for what looks the same however it is turned, or never turns.
+struct TurningOutline {
+  using Points = std::vector<Vec<2>>;
+  Points operator()(const Sphere&) const { return {}; }
+  Points operator()(const AxisBox<3>&) const { return {}; }
+  Points operator()(const OrientedBox<3>& box) const {
+    const Vec<3>& h = box.half_size;
+    return {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};
+  }
+  Points operator()(const Capsule& capsule) const { return capsule_outline(capsule); }
+  Points operator()(const HalfSpace<3>&) const { return {}; }
+};
+
 }  // namespace
 
+std::unordered_map<BodyId, const FrameBody*> by_id(const std::vector<FrameBody>& bodies) {
+  std::unordered_map<BodyId, const FrameBody*> found;
+  for (const FrameBody& body : bodies) found[body.id] = &body;
+  return found;
+}
+
+Vec<3> foot_on(const FrameBody& ground, const Vec<3>& point) {
+  const Vec<3>& normal = std::get<HalfSpace<3>>(ground.shape).normal;
+  return point - normal * glm::dot(normal, point - ground.position);
+}
+
 std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place) {
-  std::vector<Vec<2>> points;
-  if (const auto* box = std::get_if<OrientedBox<3>>(&body.shape)) {
-    const Vec<3>& h = box->half_size;
-    points = {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};
-  } else if (const auto* capsule = std::get_if<Capsule>(&body.shape)) {
-    points = capsule_outline(*capsule);
-  } else {
-    return points;
-  }
+  std::vector<Vec<2>> points = std::visit(TurningOutline{}, body.shape);
+  if (points.empty()) return points;
   // One scale for both axes, or the shape would not keep its angles.
   const Vec<3> size = body.box.size();
   const Vec<2> room = place.size();

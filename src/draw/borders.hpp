@@ -52,7 +52,7 @@ class Borders {
       const bool upright = p.axis == 1;
       const Vec<2> from = upright ? Vec<2>(p.at, p.from) : Vec<2>(p.from, p.at);
       const Vec<2> to = upright ? Vec<2>(p.at, p.to) : Vec<2>(p.to, p.at);
-      list.shapes.emplace_back(LineShape{from, to, stroke_of(p.depth), true});
+      list.crisp_line(from, to, stroke_of(p.depth));
     }
     return count == pieces_.size();
   }

@@ -45,20 +45,19 @@ Role fill_of(const FrameBody& body) {
 // What the step has ruled out is dotted.
 Stroke rim_of(const FrameBody& body, const Figure& f) {
   if (body.dimmed) return {Role::quiet_ink, std::max(1.0, 0.8 * f.line), 2.4};
-  return {Role::body_line, f.line, 0};
+  return {Role::body_line, f.line};
 }
 
 void draw_eye(const Figure& f, double x, bool asleep, DrawList& list) {
   const Vec<2> middle = f.at(x, -0.2);
   if (asleep) {
     const Vec<2> half{0.2 * f.unit, 0};
-    list.shapes.emplace_back(
-        LineShape{middle - half, middle + half, {Role::body_line, 1.3 * f.line, 0}, false});
+    list.line(middle - half, middle + half, {Role::body_line, 1.3 * f.line});
     return;
   }
   const double white = 0.235 * f.unit, black = 0.125 * f.unit;
-  list.shapes.emplace_back(disc(middle, white, Role::eye));
-  list.shapes.emplace_back(disc(middle + f.gaze * (white - black) * 0.85, black, Role::pupil));
+  list.disc(middle, white, Role::eye);
+  list.disc(middle + f.gaze * (white - black) * 0.85, black, Role::pupil);
 }
 
 // Dome, straight sides, and a hem of four scallops; 38 points.
@@ -98,14 +97,13 @@ void draw_player(const FrameBody& body, const Figure& f, DrawList& list) {
 void draw_slab(const FrameBody& body, const Figure& f, double radius, DrawList& list) {
   const Stroke outline = rim_of(body, f);
   const Vec<2> half = f.half - Vec<2>(std::min(f.line / 2, f.unit / 2));
-  list.shapes.emplace_back(
-      RectShape{Box<2>::around(f.center, half), radius, fill_of(body), outline, false});
+  list.rect(Box<2>::around(f.center, half), fill_of(body), outline, radius);
 }
 
 // A shape that turns. Characters of such a shape are known by their eyes.
 void draw_turned(const FrameBody& body, const Figure& f, std::vector<Vec<2>> outline,
                  DrawList& list) {
-  list.shapes.emplace_back(PolygonShape{std::move(outline), fill_of(body), rim_of(body, f)});
+  list.polygon(std::move(outline), fill_of(body), rim_of(body, f));
   if (body.look != Look::ghost && body.look != Look::player) return;
   draw_eye(f, -0.3, body.asleep, list);
   draw_eye(f, 0.3, body.asleep, list);
@@ -117,9 +115,9 @@ void draw_ground(const FrameBody& body, const Box<2>& place, DrawList& list) {
   const std::vector<Vec<2>> solid = clipped(polygon_of(place), surface, false);
   Pen pen(list, place);
   pen.polygon(solid, Role::static_body);
-  pen.hatch(solid, 6, 1, {Role::quiet_ink, 1.1, 0}, 12);
+  pen.hatch(solid, 6, 1, {Role::quiet_ink, 1.1}, 12);
   const Vec<2> along = Vec<2>(-surface.normal.y, surface.normal.x) * (2 * place.size().x);
-  pen.line(place.center() - along, place.center() + along, {Role::body_line, 2.2, 0});
+  pen.line(place.center() - along, place.center() + along, {Role::body_line, 2.2});
 }
 
 // What never moves is hatched, whatever its tone.
@@ -136,7 +134,7 @@ void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, D
       p[axis] = f.center[axis] + (p[axis] - f.center[axis]) *
                                      std::max(0.9, 1 - kInset / std::max(f.half[axis], 1e-9));
   Pen(list, place)
-      .hatch(outline, std::clamp(0.4 * f.unit, 7.0, 13.0), 1, {Role::quiet_ink, 1.1, 0}, 60);
+      .hatch(outline, std::clamp(0.4 * f.unit, 7.0, 13.0), 1, {Role::quiet_ink, 1.1}, 60);
 }
 
 // "z z" for a body that sleeps: in the middle, or of a character beside its head.
@@ -148,32 +146,19 @@ void draw_sleep(const FrameBody& body, const Figure& f, DrawList& list) {
 }
 
 void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
-  list.shapes.emplace_back(RectShape{Box<2>::around(f.center, f.half - Vec<2>(0.04 * f.unit)),
-                                     0.96 * f.unit, fill_of(body), rim_of(body, f), false});
+  list.rect(Box<2>::around(f.center, f.half - Vec<2>(0.04 * f.unit)), fill_of(body),
+            rim_of(body, f), 0.96 * f.unit);
   if (body.angle == 0 && body.angular_momentum.z == 0) return;
   const Vec<2> way{std::cos(body.angle), -std::sin(body.angle)};  // how far it has turned
   const double r = 0.96 * f.unit - f.line;
-  list.shapes.emplace_back(
-      LineShape{f.center + way * (0.36 * r), f.center + way * r, rim_of(body, f), false});
+  list.line(f.center + way * (0.36 * r), f.center + way * r, rim_of(body, f));
 }
 
 void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
   const bool round = body.look != Look::box && body.look != Look::bat;
-  list.shapes.emplace_back(
-      RectShape{Box<2>::around(f.center, f.half),
-                round ? f.unit : 0,
-                fill_of(body),
-                {body.dimmed ? Role::quiet_ink : Role::body_line, std::min(0.8, 0.25 * f.unit), 0},
-                false});
-}
-
-PolygonShape star(const Vec<2>& center, int corners, double radius, double turn, Role fill) {
-  PolygonShape shape{{}, fill, {}};
-  for (int i = 0; i < corners; ++i) {
-    const double angle = turn + 2 * kPi * i / corners;
-    shape.points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
-  }
-  return shape;
+  list.rect(Box<2>::around(f.center, f.half), fill_of(body),
+            {body.dimmed ? Role::quiet_ink : Role::body_line, std::min(0.8, 0.25 * f.unit), 0},
+            round ? f.unit : 0);
 }
 
 }  // namespace
@@ -181,20 +166,20 @@ PolygonShape star(const Vec<2>& center, int corners, double radius, double turn,
 void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list) {
   const Role role = body_mark_role(color);
   const auto bar = [&](double x, double y) {
-    list.shapes.emplace_back(filled(Box<2>::around(center, Vec<2>(x, y) * radius), role));
+    list.rect(Box<2>::around(center, Vec<2>(x, y) * radius), role);
   };
   switch ((color - 1) % 8) {
     case 0:
-      list.shapes.emplace_back(disc(center, 0.85 * radius, role));
+      list.disc(center, 0.85 * radius, role);
       break;
     case 1:
-      list.shapes.emplace_back(star(center, 3, 1.15 * radius, -kPi / 2, role));
+      list.polygon(ring_of(center, 1.15 * radius, 3, -kPi / 2), role);
       break;
     case 2:
       bar(0.8, 0.8);
       break;
     case 3:
-      list.shapes.emplace_back(star(center, 4, 1.1 * radius, 0, role));
+      list.polygon(ring_of(center, 1.1 * radius, 4), role);
       break;
     case 4:
       bar(1.3, 0.42);
@@ -204,7 +189,7 @@ void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list)
       bar(0.36, 1.1);
       break;
     case 6:
-      list.shapes.emplace_back(disc(center, 0.75 * radius, Role::none, {role, 0.45 * radius, 0}));
+      list.disc(center, 0.75 * radius, Role::none, {role, 0.45 * radius});
       break;
     default:
       bar(0.42, 1.2);
@@ -234,14 +219,18 @@ void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, Draw
 
 }  // namespace
 
+void draw_z(const Box<2>& box, const Stroke& stroke, DrawList& list) {
+  const Vec<2> z[] = {box.lo, {box.hi.x, box.lo.y}, {box.lo.x, box.hi.y}, box.hi};
+  for (int i = 1; i < 4; ++i) list.line(z[i - 1], z[i], stroke);
+}
+
 void draw_zz(const Vec<2>& corner, double unit, double width, DrawList& list) {
-  const auto letter = [&](const Vec<2>& at, double size) {
-    const Vec<2> z[] = {at, at + Vec<2>(size, 0), at + Vec<2>(0, size), at + Vec<2>(size, size)};
-    for (int i = 1; i < 4; ++i)
-      list.shapes.emplace_back(LineShape{z[i - 1], z[i], {Role::ink, width, 0}, false});
+  const auto letter = [&](const Vec<2>& offset, double size) {
+    const Vec<2> at = corner + offset * unit;
+    draw_z({at, at + Vec<2>(size * unit)}, {Role::ink, width}, list);
   };
-  letter(corner + Vec<2>(0, 0.18) * unit, 0.3 * unit);
-  letter(corner + Vec<2>(0.42, -0.04) * unit, 0.22 * unit);
+  letter({0, 0.18}, 0.3);
+  letter({0.42, -0.04}, 0.22);
 }
 
 void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list) {

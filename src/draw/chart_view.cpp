@@ -1,16 +1,43 @@
-#include "draw/chart_view.hpp"
-
 #include <algorithm>
+#include <cmath>
 
-#include "draw/chart_parts.hpp"
-#include "draw/pen.hpp"
+#include "draw/panels.hpp"
+#include "draw/plot.hpp"
 
 namespace lantern {
+namespace {
 
-int chart_color(std::size_t i) {
-  constexpr int kColors[kChartLooks] = {4, 1, 5, 8, 7, 2, 6, 3};
-  return kColors[i % kChartLooks];
+// A panel that has the page for itself gets larger type.
+double type_size(const Box<2>& panel) {
+  return panel.size().x > 1000 && panel.size().y > 380 ? 1.22 * kLabel : kLabel;
 }
+
+Plot plot_of(const FrameChart& chart) {
+  Plot plot;
+  plot.slide = true;
+  plot.names = PlotNames::column;
+  plot.over_time = chart.over_time;
+  plot.seconds = chart.seconds;
+  plot.least = chart.least;
+  plot.most = chart.most;
+  plot.log_y = chart.logarithmic;
+  plot.log_x = chart.logarithmic && !chart.over_time;
+  plot.x_name = chart.over_time ? "time in s" : chart_words(chart.x_name);
+  if (plot.log_x) plot.x_note = plot.x_name.empty() ? "both logarithmic" : "  (both logarithmic)";
+  plot.title = chart_words(chart.y_name);
+  for (const FrameSeries& series : chart.series) {
+    PlotSeries& line = plot.series.emplace_back();
+    line.name = chart_words(series.name);
+    line.look = static_cast<int>(plot.series.size()) - 1;
+    line.color = series.color;
+    for (const Vec<2>& p : series.points) line.points.push_back({p});
+  }
+  if (plot.series.size() == 1 && plot.title.empty()) plot.title = plot.series[0].name;
+  if (plot.over_time && plot.log_y && !plot.title.empty()) plot.title += "  (logarithmic)";
+  return plot;
+}
+
+}  // namespace
 
 std::string chart_words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -18,56 +45,14 @@ std::string chart_words(std::string name) {
   return name;
 }
 
-void draw_chart_mark(std::size_t i, int color, const Vec<2>& at, double radius, DrawList& list) {
-  const Role role = body_role(color);
-  const Stroke rim{Role::body_line, 0.16 * radius + 0.4, 0};
-  const auto shape = [&](int corners, double size, double turn) {
-    list.shapes.emplace_back(PolygonShape{ring_of(at, size * radius, corners, turn), role, rim});
-  };
-  constexpr double kQuarter = 0.785398163397448, kUp = -1.570796326794897;
-  switch (i % kChartLooks) {
-    case 0:
-      list.shapes.emplace_back(disc(at, radius, role, rim));
-      break;
-    case 1:
-      shape(4, 1.22, kQuarter);
-      break;
-    case 2:
-      shape(3, 1.4, kUp);
-      break;
-    case 3:
-      shape(4, 1.35, 0);
-      break;
-    case 4:
-      shape(3, 1.4, -kUp);
-      break;
-    case 5:
-      list.shapes.emplace_back(
-          disc(at, 0.85 * radius, Role::panel, {role, std::max(1.6, 0.5 * radius), 0}));
-      break;
-    case 6:
-      shape(6, 1.2, 0);
-      break;
-    default:
-      shape(5, 1.3, kUp);
-      break;
-  }
-}
-
-double draw_chart_heading(const std::string& text, const Box<2>& panel, Labels& labels) {
-  const TextStyle style = ChartType(panel).number;
-  const std::string words = shortened(text, panel.size().x, style);
-  if (words.empty() || panel.size().y < 60) return 0;
-  labels.add(words, {{panel.lo.x, panel.lo.y + 0.78 * style.size}, 0}, style, panel);
-  return 1.7 * style.size;
-}
-
 void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const FrameChart& chart = frame.chart;
   const Box<2> place = shrunk(panel, 4);
   if (place.size().x < 40 || place.size().y < 40) return;
-  if (!chart.bars.empty()) return draw_bars_chart(chart, place, list, labels);
-  draw_lines_chart(chart, place, list, labels);
+  if (!chart.bars.empty()) return draw_bars(chart, place, type_size(place), list, labels);
+  Plot plot = plot_of(chart);
+  plot.size = type_size(place);
+  draw_plot(plot, place, list, labels);
 }
 
 }  // namespace lantern

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "draw/metrics.hpp"
@@ -39,20 +40,25 @@ std::vector<Vec<2>> cut_to(std::vector<Vec<2>> polygon, const Box<2>& rect) {
 }
 
 void cut_shapes(DrawList& list, std::size_t first, const Box<2>& rect) {
-  std::vector<DrawShape> kept;
-  for (std::size_t i = first; i < list.shapes.size(); ++i) {
-    PolygonShape cut;
-    if (const auto* box = std::get_if<RectShape>(&list.shapes[i]))
-      cut = {cut_to(outline_of(*box), rect), box->fill, box->stroke};
-    else if (const auto* polygon = std::get_if<PolygonShape>(&list.shapes[i]))
-      cut = {cut_to(polygon->points, rect), polygon->fill, polygon->stroke};
-    else if (const auto* line = std::get_if<LineShape>(&list.shapes[i]);
-             line && contains(rect, line->from) && contains(rect, line->to))
-      kept.emplace_back(*line);
-    if (!cut.points.empty()) kept.emplace_back(std::move(cut));
-  }
+  struct Cut {
+    DrawList& list;
+    const Box<2>& rect;
+    void operator()(const RectShape& s) const { polygon(outline_of(s), s.fill, s.stroke); }
+    void operator()(const PolygonShape& s) const { polygon(s.points, s.fill, s.stroke); }
+    void operator()(const LineShape& s) const {
+      if (contains(rect, s.from) && contains(rect, s.to)) list.shapes.emplace_back(s);
+    }
+    void operator()(const TextShape&) const {}
+    void polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) const {
+      points = cut_to(std::move(points), rect);
+      if (!points.empty()) list.polygon(std::move(points), fill, stroke);
+    }
+  };
+  const auto begin = list.shapes.begin() + static_cast<std::ptrdiff_t>(first);
+  const std::vector<DrawShape> whole(std::make_move_iterator(begin),
+                                     std::make_move_iterator(list.shapes.end()));
   list.shapes.resize(first);
-  for (DrawShape& shape : kept) list.shapes.push_back(std::move(shape));
+  for (const DrawShape& shape : whole) std::visit(Cut{list, rect}, shape);
 }
 
 // Liang and Barsky, "A New Concept and Method for Line Clipping" (1984).

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,14 +23,14 @@ struct RectShape {
   Box<2> box;
   double radius = 0;  // of the corners; half the smaller side makes a disc or a pill
   Role fill = Role::none;
-  Stroke stroke;
+  Stroke stroke = {};
   bool snapped = false;  // edges on whole pixels: for axis-aligned lines that must be crisp
 };
 
 struct LineShape {
   Vec<2> from{0.0};
   Vec<2> to{0.0};
-  Stroke stroke;         // round caps
+  Stroke stroke = {};    // round caps
   bool snapped = false;  // a horizontal or vertical line, put on whole pixels
 };
 
@@ -37,7 +38,7 @@ struct LineShape {
 struct PolygonShape {
   std::vector<Vec<2>> points;
   Role fill = Role::none;
-  Stroke stroke;
+  Stroke stroke = {};
 };
 
 enum class Weight { regular, semibold };
@@ -65,6 +66,26 @@ struct DrawList {
   Vec<2> page{1600.0, 900.0};
   std::vector<DrawShape> shapes;
   std::vector<LabelBox> labels;
+
+  void line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke) {
+    shapes.emplace_back(LineShape{from, to, stroke, false});
+  }
+  void rect(const Box<2>& box, Role fill, const Stroke& stroke = {}, double radius = 0) {
+    shapes.emplace_back(RectShape{box, radius, fill, stroke, false});
+  }
+  // The same on whole pixels: a level or upright line, a rectangle with sharp corners.
+  void crisp_line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke) {
+    shapes.emplace_back(LineShape{from, to, stroke, true});
+  }
+  void crisp_rect(const Box<2>& box, Role fill, const Stroke& stroke = {}) {
+    shapes.emplace_back(RectShape{box, 0, fill, stroke, true});
+  }
+  void disc(const Vec<2>& center, double radius, Role fill, const Stroke& stroke = {}) {
+    rect(Box<2>::around(center, Vec<2>(radius)), fill, stroke, radius);
+  }
+  void polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke = {}) {
+    shapes.emplace_back(PolygonShape{std::move(points), fill, stroke});
+  }
 };
 
 }  // namespace lantern

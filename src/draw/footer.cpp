@@ -1,5 +1,3 @@
-#include "draw/footer.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {
@@ -25,8 +24,8 @@ struct Counter {
   bool main = false;
 
   TextStyle style() const {
-    return main ? TextStyle{30, Weight::semibold, Role::ink, Role::none}
-                : TextStyle{25, Weight::regular, Role::quiet_ink, Role::none};
+    return main ? TextStyle{30, Weight::semibold, Role::ink}
+                : TextStyle{25, Weight::regular, Role::quiet_ink};
   }
   double noun_width() const {
     const TextStyle s = style();
@@ -158,7 +157,7 @@ double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& la
     right = draw_column(counters, band, first, labels) - 40;
   else
     draw_row(counters, band, list.page.y - kBelowLast + 6, labels);
-  TextStyle style{kCaption, Weight::regular, Role::ink, Role::none};
+  TextStyle style{kCaption, Weight::regular, Role::ink};
   double baseline = first;
   for (const std::string& line : caption_lines(frame.caption, right - band.lo.x, style)) {
     labels.add(line, {{band.lo.x, baseline}, 0}, style, band);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "draw/solid_projection.hpp"
+#include "draw/body_shapes.hpp"
+#include "draw/projection.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr Box<2> kWidePanel{{0, 0}, {1600, 800}};
 
-bool shows(const SolidView& view, const FrameBody& body) {
+bool shows(const View3D& view, const FrameBody& body) {
   const std::vector<Vec<3>> corners = corners_of(body.box);
   const auto in_front = std::count_if(corners.begin(), corners.end(),
                                       [&](const Vec<3>& p) { return view.in_front(p); });
@@ -25,14 +26,13 @@ bool shows(const SolidView& view, const FrameBody& body) {
 
 bool shows_a_body(const Frame& frame) {
   const auto is_seen = [&](auto&& shown) {
-    return std::any_of(frame.bodies.begin(), frame.bodies.end(), [&](const FrameBody& body) {
-      return !std::holds_alternative<HalfSpace<3>>(body.shape) && shown(body);
-    });
+    return std::any_of(frame.bodies.begin(), frame.bodies.end(),
+                       [&](const FrameBody& body) { return !is_half_space(body) && shown(body); });
   };
   if (frame.dimension == 2)
     return is_seen(
         [&](const FrameBody& body) { return overlap(flat(body.box), flat(frame.bounds)); });
-  const SolidView view(frame.bounds, frame.camera, kWidePanel);
+  const View3D view(frame.bounds, frame.camera, kWidePanel);
   return is_seen([&](const FrameBody& body) { return shows(view, body); });
 }
 

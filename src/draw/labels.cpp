@@ -49,6 +49,25 @@ double text_width(std::string_view text, const TextStyle& style) {
   return text_width(text, style.size, style.weight);
 }
 
+Anchor centred(const Vec<2>& at, const TextStyle& style, double align) {
+  return {{at.x, at.y + cap_height(style.weight) * style.size / 2}, align};
+}
+
+Box<2> plate_of(std::string_view text, const Vec<2>& at, const TextStyle& style,
+                const Vec<2>& margin) {
+  const double cap = cap_height(style.weight) * style.size;
+  return Box<2>::around(at, Vec<2>(text_width(text, style), cap) / 2.0 + margin);
+}
+
+std::array<Anchor, 8> anchors_around(const Box<2>& box, double gap, const TextStyle& style) {
+  const Vec<2> c = box.center();
+  const double below = box.hi.y + gap + 0.78 * style.size, above = box.lo.y - gap - 4;
+  const double left = box.lo.x - gap - 3, right = box.hi.x + gap + 3;
+  return {Anchor{{c.x, below}, 0.5}, {{c.x, above}, 0.5},   {{box.lo.x, below}, 0},
+          {{box.hi.x, below}, 1},    {{right, c.y + 6}, 0}, {{left, c.y + 6}, 1},
+          {{box.lo.x, above}, 0},    {{box.hi.x, above}, 1}};
+}
+
 Box<2> Labels::extent(std::string_view text, const Anchor& anchor, const TextStyle& style) {
   const double width = text_width(text, style);
   const double left = anchor.at.x - anchor.align * width;
@@ -74,14 +93,13 @@ void Labels::add(std::string_view text, const Anchor& anchor, const TextStyle& s
                                       anchor.align, style.role, style.halo});
 }
 
-bool Labels::try_add(std::string_view text, std::initializer_list<Anchor> anchors,
+bool Labels::try_add(std::string_view text, std::initializer_list<Anchor> list,
                      const TextStyle& style, const Box<2>& panel) {
-  for (const Anchor& anchor : anchors) {
-    if (!is_free(extent(text, anchor, style), panel)) continue;
-    add(text, anchor, style, panel);
-    return true;
-  }
-  return false;
+  const std::span<const Anchor> anchors(list.begin(), list.size());
+  const Anchor* anchor =
+      free_anchor(text, anchors, style, panel, [](const Box<2>&) { return true; });
+  if (anchor) add(text, *anchor, style, panel);
+  return anchor != nullptr;
 }
 
 // From a number's last digit back to the front of its `place`-th, counted from 1. The thousands of
@@ -113,12 +131,12 @@ void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyl
 }
 
 void Labels::add_note(std::string_view note, const Box<2>& picture) {
-  const TextStyle style{kLabel - 1, Weight::regular, Role::ink, Role::none};
+  const TextStyle style{kLabel - 1, Weight::regular, Role::ink};
   const std::string text = shortened(note, picture.size().x - 40, style);
   if (text.empty()) return;
   const Anchor anchor{{picture.lo.x + 20, picture.hi.y - 20}, 0};
   const Box<2> plate = shrunk(extent(text, anchor, style), -7);
-  list_.shapes.emplace_back(RectShape{plate, 6, Role::panel, {Role::cell_line_1, 1.4, 0}, false});
+  list_.rect(plate, Role::panel, {Role::cell_line_1, 1.4}, 6);
   add(text, anchor, style, picture);
 }
 

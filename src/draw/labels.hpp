@@ -2,8 +2,10 @@
 // another, and records the boxes for the layout test.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,6 +30,22 @@ struct Anchor {
   double align = 0;
 };
 
+// A place whose capitals stand in the middle of a height: beside `at`, or centred on it.
+Anchor centred(const Vec<2>& at, const TextStyle& style, double align = 0.5);
+
+// Places for a name that stands `gap` outside of a box: below, above, and beside it.
+std::array<Anchor, 8> anchors_around(const Box<2>& box, double gap, const TextStyle& style);
+
+// A text on these places would be read as the name of something else.
+inline bool touches(const std::vector<Box<2>>& places, const Box<2>& box) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](const Box<2>& place) { return overlap(place, box); });
+}
+
+// The plate under a text that is centred there, with a margin around its capitals.
+Box<2> plate_of(std::string_view text, const Vec<2>& at, const TextStyle& style,
+                const Vec<2>& margin);
+
 class Labels {
  public:
   // Texts and their boxes go to `list`, which must outlive this.
@@ -49,6 +67,19 @@ class Labels {
   // The text at the first anchor where it is free; false, and nothing is drawn, if there is none.
   bool try_add(std::string_view text, std::initializer_list<Anchor> anchors, const TextStyle& style,
                const Box<2>& panel);
+
+  // The first anchor where the text is free in the room, and where what it covers is accepted; null
+  // if there is none.
+  template <class Accepts>
+  const Anchor* free_anchor(std::string_view text, std::span<const Anchor> anchors,
+                            const TextStyle& style, const Box<2>& room,
+                            const Accepts& accepts) const {
+    for (const Anchor& anchor : anchors) {
+      const Box<2> box = extent(text, anchor, style);
+      if (is_free(box, room) && accepts(box)) return &anchor;
+    }
+    return nullptr;
+  }
 
   // A number whose last digit ends at `right`. Each digit has a cell of its own, so that none moves
   // when another one changes.

@@ -1,14 +1,13 @@
-#include "draw/memory_view.hpp"
-
 #include <algorithm>
-#include <map>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "draw/body_shapes.hpp"
 #include "draw/characters.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {
@@ -22,7 +21,7 @@ constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
 constexpr double kSlots[] = {100, 84, 72, 62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
 constexpr std::size_t kMostSlotShapes = 2600;  // that slots may take
 
-const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
+const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink};
 
 // How slots are laid out on a panel.
 struct Strip {
@@ -65,8 +64,7 @@ Strip best_strip(std::uint32_t slots, const Vec<2>& room) {
 class MemoryView {
  public:
   MemoryView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels) {
-    for (const FrameBody& body : frame.bodies) bodies_[body.id] = &body;
+      : frame_(frame), panel_(panel), list_(list), labels_(labels), bodies_(by_id(frame.bodies)) {
     const Box<2> area{panel.lo + Vec<2>(0, kMemoryHeading), panel.hi};
     strip_ = best_strip(frame.array_size, area.size());
     const double rows = std::max(1.0, std::floor((area.size().y + 4) / strip_.pitch));
@@ -117,13 +115,11 @@ class MemoryView {
   void draw_free() {
     for_each_piece(0, shown_, [&](std::uint32_t first, std::uint32_t count) {
       const Box<2> row = place(first, count);
-      list_.shapes.emplace_back(
-          RectShape{row, 0, Role::free_space, {Role::cell_line_3, 1.2, 4}, true});
+      list_.crisp_rect(row, Role::free_space, {Role::cell_line_3, 1.2, 4});
       if (!strip_.drawn() || list_.shapes.size() > kMostSlotShapes / 2) return;
       for (std::uint32_t i = 1; i < count; ++i) {
         const double x = row.lo.x + i * strip_.slot;
-        list_.shapes.emplace_back(
-            LineShape{{x, row.lo.y}, {x, row.hi.y}, {Role::cell_line_3, 1.2, 4}, true});
+        list_.crisp_line({x, row.lo.y}, {x, row.hi.y}, {Role::cell_line_3, 1.2, 4});
       }
     });
   }
@@ -140,42 +136,23 @@ class MemoryView {
 
   void draw_leaf(const FrameNode& leaf) {
     const bool lit = leaf.mark == Mark::lit;
-    const Stroke outline = lit ? Stroke{Role::lit, 2.8, 0} : Stroke{Role::cell_line_1, 1.8, 0};
+    const Stroke outline = lit ? Stroke{Role::lit, 2.8} : Stroke{Role::cell_line_1, 1.8};
     const auto used =
         static_cast<std::uint32_t>(std::min<std::size_t>(leaf.bodies.size(), leaf.room));
     for_each_piece(leaf.first, leaf.room, [&](std::uint32_t first, std::uint32_t count) {
-      const Role ground = lit                         ? Role::lit_fill
-                          : leaf.mark == Mark::passed ? Role::passed_fill
-                                                      : Role::panel;
+      const Role ground = ground_of(leaf.mark);
       const Box<2> run = place(first, count);
-      list_.shapes.emplace_back(RectShape{run, 0, ground, outline, true});
+      list_.crisp_rect(run, ground, outline);
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t index = first + i - leaf.first;
         if (i > 0 && strip_.drawn()) {
           const double x = run.lo.x + i * strip_.slot;
-          list_.shapes.emplace_back(
-              LineShape{{x, run.lo.y}, {x, run.hi.y}, {outline.role, 1.2, 0}, true});
+          list_.crisp_line({x, run.lo.y}, {x, run.hi.y}, {outline.role, 1.2});
         }
         if (index < used) draw_slot(leaf.bodies[index], place(first + i), ground);
       }
       if (strip_.drawn()) draw_bracket(leaf, run, outline);
     });
-  }
-
-  // Slots too small for chips: what is in use as one dark bar, what is kept free as a pale one.
-  void draw_dense(const FrameNode& leaf) {
-    const bool lit = leaf.mark == Mark::lit;
-    const auto bar = [&](std::uint32_t at, std::uint32_t slots, Role role) {
-      for_each_piece(at, slots, [&](std::uint32_t first, std::uint32_t count) {
-        Box<2> box = place(first, count);
-        box.hi.x -= 0.2 * strip_.slot;  // leaves stay apart
-        list_.shapes.emplace_back(filled(box, role));
-      });
-    };
-    bar(leaf.first, leaf.room, lit ? Role::lit_fill : Role::rule);
-    bar(leaf.first,
-        static_cast<std::uint32_t>(std::min<std::size_t>(leaf.bodies.size(), leaf.room)),
-        lit ? Role::lit : Role::cell_line_1);
   }
 
   void draw_slot(BodyId id, const Box<2>& box, Role ground) {
@@ -184,7 +161,7 @@ class MemoryView {
     if (list_.shapes.size() > kMostSlotShapes) return;
     if (found == bodies_.end() || strip_.slot < kDrawnSlot) {
       const Role role = found == bodies_.end() ? Role::quiet_ink : body_role(found->second->color);
-      list_.shapes.emplace_back(filled(shrunk(box, inset), role));
+      list_.rect(shrunk(box, inset), role);
       return;
     }
     const FrameBody& body = *found->second;
@@ -214,11 +191,10 @@ class MemoryView {
   void draw_bracket(const FrameNode& leaf, const Box<2>& run, const Stroke& outline) {
     const double y = run.hi.y + 7, inset = std::min(3.0, strip_.slot / 6);
     const Vec<2> from{run.lo.x + inset, y}, to{run.hi.x - inset, y};
-    const Stroke stroke{outline.role, 1.8, 0};
-    list_.shapes.emplace_back(LineShape{from, to, stroke, true});
-    for (const Vec<2>& end : {from, to})
-      list_.shapes.emplace_back(LineShape{end - Vec<2>(0, 4), end, stroke, true});
-    TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::quiet_ink, Role::none};
+    const Stroke stroke{outline.role, 1.8};
+    list_.crisp_line(from, to, stroke);
+    for (const Vec<2>& end : {from, to}) list_.crisp_line(end - Vec<2>(0, 4), end, stroke);
+    TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::quiet_ink};
     if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
     const std::size_t dot = leaf.label.rfind('.');
     const std::string brief = dot == std::string::npos ? "" : "…" + leaf.label.substr(dot + 1);
@@ -242,7 +218,7 @@ class MemoryView {
       text += fmt::format(" — the first {} are drawn", number_text(double(shown_)));
     else if (leaves_left_out)
       text += " — not all leaves are drawn";
-    const TextStyle style{kLabel + 1, Weight::semibold, Role::ink, Role::none};
+    const TextStyle style{kLabel + 1, Weight::semibold, Role::ink};
     labels_.add(shortened(text, panel_.size().x, style),
                 {{panel_.lo.x, panel_.lo.y + 0.8 * style.size}, 0}, style, panel_);
   }
@@ -254,7 +230,7 @@ class MemoryView {
   Strip strip_;
   Vec<2> origin_{0.0};
   std::uint32_t shown_ = 0;  // slots
-  std::map<BodyId, const FrameBody*> bodies_;
+  std::unordered_map<BodyId, const FrameBody*> bodies_;
 };
 
 }  // namespace

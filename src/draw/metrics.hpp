@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "draw/draw_list.hpp"
 
@@ -22,6 +24,23 @@ inline bool holds(const Box<2>& outer, const Box<2>& inner) {
          inner.hi.y <= outer.hi.y;
 }
 
+// Parts of an area beside each other along an axis, as wide as their shares, with gaps between
+// them.
+inline std::vector<Box<2>> split(const Box<2>& area, int axis, const std::vector<double>& shares,
+                                 double gap) {
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+  const double room = area.size()[axis] - gap * (static_cast<double>(shares.size()) - 1);
+  std::vector<Box<2>> parts;
+  double at = area.lo[axis];
+  for (const double share : shares) {
+    Box<2>& part = parts.emplace_back(area);
+    part.lo[axis] = at;
+    part.hi[axis] = at + room * share / all;
+    at = part.hi[axis] + gap;
+  }
+  return parts;
+}
+
 // The part of its greatest length that a velocity's arrow has, in a world `extent` long. Speeds
 // far above the world's measure are pressed together, so that the scale depends on no other body
 // and an arrow changes from frame to frame only as its own body does.
@@ -35,16 +54,8 @@ inline double arrow_share(double speed, double extent) {
 inline Stroke strain_stroke(double strain) {
   constexpr double kRest = 0.005;
   const double size = std::min(std::abs(strain), 1.0);
-  if (!(size > kRest)) return {Role::quiet_ink, 2.2, 0};
+  if (!(size > kRest)) return {Role::quiet_ink, 2.2};
   return {strain > 0 ? Role::warning : Role::ray, 2.4 + 3.2 * size, 0};
-}
-
-inline RectShape filled(const Box<2>& box, Role fill, double radius = 0) {
-  return {box, radius, fill, {}, false};
-}
-
-inline RectShape disc(const Vec<2>& center, double radius, Role fill, Stroke stroke = {}) {
-  return {Box<2>::around(center, Vec<2>(radius)), radius, fill, stroke, false};
 }
 
 }  // namespace lantern

@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kLongest = 1e12;  // from here on as a power of ten
 
-std::string raised(int power) {
-  constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = power < 0 ? "⁻" : "";
-  for (const char digit : std::to_string(std::abs(power))) text += kDigits[digit - '0'];
-  return text;
-}
-
 std::string without_end_zeros(std::string text) {
   if (text.find('.') == std::string::npos) return text;
   while (text.back() == '0') text.pop_back();
@@ -31,11 +24,20 @@ std::string as_power(double number) {
   const std::string text = fmt::format("{:.1e}", std::abs(number));
   const std::size_t e = text.find('e');
   const std::string lead = without_end_zeros(text.substr(0, e));
-  const std::string power = "10" + raised(std::stoi(text.substr(e + 1)));
+  const std::string power = power_of_ten(std::stoi(text.substr(e + 1)));
   return (number < 0 ? "−" : "") + (lead == "1" ? power : lead + "·" + power);
 }
 
 }  // namespace
+
+std::string power_of_ten(int power) {
+  constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  if (power == 0) return "1";
+  if (power == 1) return "10";
+  std::string text = power < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(power))) text += kDigits[digit - '0'];
+  return text;
+}
 
 std::string number_text(double number, int decimals) {
   if (!std::isfinite(number)) return "–";

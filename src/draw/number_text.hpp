@@ -13,4 +13,7 @@ std::string number_text(double number, int decimals = 0);
 // With as many decimals as three figures need.
 std::string short_number(double number);
 
+// "10⁻⁵"; 1 and 10 as they are.
+std::string power_of_ten(int power);
+
 }  // namespace lantern

@@ -3,23 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <type_traits>
 
-#include "draw/atlas_view.hpp"
-#include "draw/chart_view.hpp"
 #include "draw/font.hpp"
-#include "draw/footer.hpp"
 #include "draw/labels.hpp"
-#include "draw/memory_view.hpp"
-#include "draw/tree_view.hpp"
-#include "draw/world_view.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {
 
-constexpr double kLeastSolid = 0.95, kMostSolid = 1.35;  // aspects of a solid world's panel
-constexpr double kTop = 104;                             // of the panels
-constexpr double kTitleLine = 58;                        // baseline
+constexpr double kLeast3D = 0.95,
+                 kMost3D = 1.35;   // aspects of a 3D world's panel
+constexpr double kTop = 104;       // of the panels
+constexpr double kTitleLine = 58;  // baseline
 constexpr double kPanelGap = 44;
 constexpr double kLeastForTwo = 460;  // height of a column with two panels
 constexpr double kStripGap = 30;      // over the strip of an array
@@ -27,15 +22,14 @@ constexpr double kMostEnlarged = 1.45;
 constexpr double kStackBelow = 1.2;  // aspect of a page whose panels stand one above the other
 
 void add_rule(DrawList& list, double y, double margin) {
-  list.shapes.emplace_back(
-      LineShape{{margin, y}, {list.page.x - margin, y}, {Role::rule, 1.6, 0}, true});
+  list.crisp_line({margin, y}, {list.page.x - margin, y}, {Role::rule, 1.6});
 }
 
 // "step 4 of 9" from the right, each number in cells for as many digits as the last step has.
 // Gives the left end.
 double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
   if (frame.steps == 0) return band.hi.x;
-  const TextStyle style{21, Weight::regular, Role::quiet_ink, Role::none};
+  const TextStyle style{21, Weight::regular, Role::quiet_ink};
   const auto digits = static_cast<std::int64_t>(std::to_string(frame.steps).size());
   const double number = Labels::number_width(digits, style);
   const double space = text_width(" ", style);
@@ -53,8 +47,8 @@ double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
 void draw_title(const Frame& frame, double margin, DrawList& list, Labels& labels) {
   const Box<2> band{{margin, 20}, {list.page.x - margin, 76}};
   const double right = draw_step(frame, band, labels) - 36;
-  const TextStyle bold{26, Weight::semibold, Role::ink, Role::none};
-  const TextStyle quiet{24, Weight::regular, Role::quiet_ink, Role::none};
+  const TextStyle bold{26, Weight::semibold, Role::ink};
+  const TextStyle quiet{24, Weight::regular, Role::quiet_ink};
   const std::string title = shortened(frame.title, right - margin, bold);
   labels.add(title, {{margin, kTitleLine}, 0}, bold, band);
   const double end = margin + text_width(title, bold) + 11;
@@ -70,9 +64,9 @@ double wanted_width(const Frame& frame, Panel panel, double height) {
   if (panel != Panel::world) return 0;
   if (frame.dimension == 3) {
     // Seen from aside, what is wide or deep takes width.
-    const Vec<3> solid = frame.bounds.size();
-    const double aspect = solid.y > 0 ? std::max(solid.x, solid.z) / solid.y : 1;
-    return height * std::clamp(aspect, kLeastSolid, kMostSolid);
+    const Vec<3> size = frame.bounds.size();
+    const double aspect = size.y > 0 ? std::max(size.x, size.z) / size.y : 1;
+    return height * std::clamp(aspect, kLeast3D, kMost3D);
   }
   const Vec<2> size = frame.bounds.size();
   return size.y > 0 ? height * size.x / size.y : height;
@@ -96,32 +90,16 @@ std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& p
     widths.push_back(width);
     left -= width;
   }
-  std::vector<Box<2>> boxes;
-  double x = area.lo.x;
-  for (double width : widths) {
-    if (width == 0) width = left / static_cast<double>(flexible);
-    boxes.push_back({{x, area.lo.y}, {x + width, area.hi.y}});
-    x += width + kPanelGap;
-  }
-  return boxes;
+  std::replace(widths.begin(), widths.end(), 0.0, left / static_cast<double>(flexible));
+  return split(area, 0, widths, kPanelGap);
 }
 
 // A tree needs rows, so it gets somewhat more height than the others; the array is a strip.
 std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area) {
-  const auto weight = [](Panel panel) {
-    return panel == Panel::tree ? 1.1 : panel == Panel::memory ? 0.6 : 1.0;
-  };
-  double weights = 0;
-  for (const Panel panel : panels) weights += weight(panel);
-  const double room = area.size().y - kPanelGap * static_cast<double>(panels.size() - 1);
-  std::vector<Box<2>> boxes;
-  double y = area.lo.y;
-  for (const Panel panel : panels) {
-    const double height = room * weight(panel) / weights;
-    boxes.push_back({{area.lo.x, y}, {area.hi.x, y + height}});
-    y += height + kPanelGap;
-  }
-  return boxes;
+  std::vector<double> weights;
+  for (const Panel panel : panels)
+    weights.push_back(panel == Panel::tree ? 1.1 : panel == Panel::memory ? 0.6 : 1.0);
+  return split(area, 1, weights, kPanelGap);
 }
 
 // The array lies under all the others, as wide as they are together. Cuts it from the area.
@@ -229,27 +207,23 @@ void scale(Stroke& stroke, double k) {
   stroke.dash *= k;
 }
 
-void scale(DrawShape& shape, double k) {
-  std::visit(
-      [&](auto& s) {
-        using Shape = std::decay_t<decltype(s)>;
-        if constexpr (std::is_same_v<Shape, RectShape>) {
-          scale(s.box, k);
-          s.radius *= k;
-          scale(s.stroke, k);
-        } else if constexpr (std::is_same_v<Shape, LineShape>) {
-          s.from *= k;
-          s.to *= k;
-          scale(s.stroke, k);
-        } else if constexpr (std::is_same_v<Shape, PolygonShape>) {
-          for (Vec<2>& point : s.points) point *= k;
-          scale(s.stroke, k);
-        } else {
-          s.at *= k;
-          s.size *= k;
-        }
-      },
-      shape);
+void scale(RectShape& rect, double k) {
+  scale(rect.box, k);
+  rect.radius *= k;
+  scale(rect.stroke, k);
+}
+void scale(LineShape& line, double k) {
+  line.from *= k;
+  line.to *= k;
+  scale(line.stroke, k);
+}
+void scale(PolygonShape& polygon, double k) {
+  for (Vec<2>& point : polygon.points) point *= k;
+  scale(polygon.stroke, k);
+}
+void scale(TextShape& text, double k) {
+  text.at *= k;
+  text.size *= k;
 }
 
 }  // namespace
@@ -274,7 +248,7 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
   draw_panels(frame, {{margin, kTop}, {list.page.x - margin, bottom - 26}}, list, labels, work);
   list.page = page;
   if (k == 1) return list;
-  for (DrawShape& shape : list.shapes) scale(shape, k);
+  for (DrawShape& shape : list.shapes) std::visit([&](auto& s) { scale(s, k); }, shape);
   for (LabelBox& label : list.labels) {
     scale(label.box, k);
     scale(label.panel, k);

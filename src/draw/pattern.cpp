@@ -39,7 +39,7 @@ class Swatch {
       if (lean < 0)
         for (Vec<2>& p : bar) p.x = rect_.lo.x + rect_.hi.x - p.x;
       bar = cut_to(std::move(bar), rect_);
-      if (bar.size() >= 3) list_.shapes.emplace_back(PolygonShape{std::move(bar), role_, {}});
+      if (bar.size() >= 3) list_.polygon(std::move(bar), role_);
     }
   }
 
@@ -57,12 +57,11 @@ class Swatch {
         const Vec<2> center = rect_.lo + Vec<2>((column + 0.5) * cell.x, (row + 0.5) * cell.y);
         const double r = radius * std::min(cell.x, cell.y);
         if (part == Part::square) add(Box<2>::around(center, cell * 0.5));
-        if (part == Part::disc) list_.shapes.emplace_back(disc(center, r, role_));
+        if (part == Part::disc) list_.disc(center, r, role_);
         if (part == Part::diamond)
-          list_.shapes.emplace_back(PolygonShape{{center - Vec<2>(r, 0), center - Vec<2>(0, r),
-                                                  center + Vec<2>(r, 0), center + Vec<2>(0, r)},
-                                                 role_,
-                                                 {}});
+          list_.polygon({center - Vec<2>(r, 0), center - Vec<2>(0, r), center + Vec<2>(r, 0),
+                         center + Vec<2>(0, r)},
+                        role_);
       }
   }
 
@@ -72,15 +71,14 @@ class Swatch {
     const int n = count(least / (4 * cell_), std::min(most_, 6));
     const double width = least / (4 * n + 1.0);
     for (int i = 0; i < n; ++i)
-      list_.shapes.emplace_back(
-          RectShape{shrunk(rect_, width * (2 * i + 1.5)), 0, Role::none, {role_, width, 0}, false});
+      list_.rect(shrunk(rect_, width * (2 * i + 1.5)), Role::none, {role_, width});
   }
 
  private:
   static int count(double wanted, int most) {
     return std::clamp(static_cast<int>(std::min(wanted, 1e6)), 1, most);
   }
-  void add(const Box<2>& box) { list_.shapes.emplace_back(filled(box, role_)); }
+  void add(const Box<2>& box) { list_.rect(box, role_); }
 
   Box<2> rect_;
   Vec<2> size_;
@@ -94,7 +92,7 @@ class Swatch {
 
 void draw_pattern(std::uint32_t id, int color, const Box<2>& rect, double scale, int most_parts,
                   DrawList& list) {
-  list.shapes.emplace_back(filled(rect, body_role(color)));
+  list.rect(rect, body_role(color));
   if (most_parts < 1) return;
   Swatch swatch(rect, body_mark_role(color), 6.5 * scale, std::min(most_parts, kMostPatternParts),
                 list);

@@ -12,10 +12,8 @@ namespace lantern {
 void Pen::line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double casing) {
   const auto part = cut_line(from, to, place_);
   if (!part) return;
-  if (casing > 0)
-    list_.shapes.emplace_back(
-        LineShape{part->first, part->second, {Role::panel, stroke.width + 2 * casing, 0}, false});
-  list_.shapes.emplace_back(LineShape{part->first, part->second, stroke, false});
+  if (casing > 0) list_.line(part->first, part->second, {Role::panel, stroke.width + 2 * casing});
+  list_.line(part->first, part->second, stroke);
 }
 
 void Pen::path(const std::vector<Vec<2>>& points, bool closed, const Stroke& stroke) {
@@ -29,17 +27,14 @@ void Pen::arrow(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, doub
   const double length = std::hypot(way.x, way.y);
   if (!std::isfinite(length) || !(length > 1e-6)) return;
   head = std::min(head, 0.8 * length);
-  const Vec<2> along = way / length, side = Vec<2>(-along.y, along.x) * (0.48 * head);
-  const Vec<2> neck = to - along * head;
-  line(from, to - along * (0.7 * head), stroke, casing);
-  const Role rim = casing > 0 ? Role::panel : Role::none;
-  polygon({to, neck + side, neck + along * (0.22 * head), neck - side}, stroke.role,
-          {rim, casing > 0 ? 1.2 : 0, 0});
+  line(from, to - way * (0.7 * head / length), stroke, casing);
+  polygon(arrow_head(from, to, head), stroke.role,
+          casing > 0 ? Stroke{Role::panel, 1.2} : Stroke{});
 }
 
 void Pen::dot(const Vec<2>& center, double radius, Role fill, const Stroke& stroke) {
   if (is_finite(center) && holds(place_, Box<2>::around(center, Vec<2>(radius))))
-    list_.shapes.emplace_back(disc(center, radius, fill, stroke));
+    list_.disc(center, radius, fill, stroke);
 }
 
 void Pen::polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) {
@@ -47,7 +42,7 @@ void Pen::polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) {
   const bool whole = std::all_of(points.begin(), points.end(),
                                  [&](const Vec<2>& p) { return contains(place_, p); });
   if (!whole) points = cut_to(std::move(points), place_);
-  if (points.size() >= 3) list_.shapes.emplace_back(PolygonShape{std::move(points), fill, stroke});
+  if (points.size() >= 3) list_.polygon(std::move(points), fill, stroke);
 }
 
 void Pen::hatch(const std::vector<Vec<2>>& polygon, double space, int lean, const Stroke& stroke,
@@ -74,6 +69,12 @@ void Pen::hatch(const std::vector<Vec<2>>& polygon, double space, int lean, cons
     }
     if (found == 2) line(ends[0], ends[1], stroke);
   }
+}
+
+std::vector<Vec<2>> arrow_head(const Vec<2>& from, const Vec<2>& to, double head) {
+  const Vec<2> along = glm::normalize(to - from);
+  const Vec<2> neck = to - along * head, side = Vec<2>(-along.y, along.x) * (0.48 * head);
+  return {to, neck + side, neck + along * (0.22 * head), neck - side};
 }
 
 std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, double turn) {

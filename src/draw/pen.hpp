@@ -33,6 +33,9 @@ class Pen {
   Box<2> place_;
 };
 
+// The corners of an arrow's head at `to`, `head` long, its tip first.
+std::vector<Vec<2>> arrow_head(const Vec<2>& from, const Vec<2>& to, double head);
+
 // The corners of a regular polygon, or of a circle with enough of them.
 std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, double turn = 0);
 

@@ -1,4 +1,4 @@
-// A plot of measured points on two axes: what the reports are made of.
+// A plot of points on two axes: a frame's chart, and what the reports are made of.
 #pragma once
 
 #include <optional>
@@ -6,15 +6,18 @@
 #include <vector>
 
 #include "draw/labels.hpp"
+#include "draw/plot_marks.hpp"
 
 namespace lantern {
 
 struct PlotPoint {
-  Vec<2> at{0.0};       // x, y in the axes' units
-  bool beyond = false;  // diverged: drawn as an open mark at the upper edge, whatever its y
-  std::string note;     // written beside it if there is room; mostly empty
-  bool open = false;    // drawn as an open mark where it is
-  std::optional<Box<2>> spread = {};  // how far it may be off: a thin line from `lo` to `hi`
+  Vec<2> at{0.0};         // x, y in the axes' units
+  bool beyond = false;    // diverged: drawn as an open mark at the upper edge, whatever its y
+  std::string note = {};  // written beside it if there is room; mostly empty
+  bool open = false;      // drawn as an open mark where it is
+  // How far it may be off, along x and along y: a level and an upright whisker, where it has an
+  // extent. The axes widen for it.
+  std::optional<Box<2>> spread = std::nullopt;
 };
 
 // Points of one contestant, joined in their order; those beyond stand alone.
@@ -24,6 +27,8 @@ struct PlotSeries {
   int look = 0;          // colour and mark; the same contestant has the same in every plot
   bool is_peer = false;  // dashed
   bool joined = true;
+  int color = 0;  // a body's, where it is not the look's
+  PlotInk ink() const { return {look, is_peer, color}; }
 };
 
 // A line that is not measured: a rounding floor, a theoretical limit, a bar. It is cut to the plot
@@ -51,25 +56,36 @@ enum class PlotNames {
   ends,    // at the lines' ends where all have room, else in a legend below
   legend,  // in a legend below
   none,    // elsewhere: several plots share one legend
+  column,  // beside the ends in a column at the right, each with its newest number
 };
 
 struct Plot {
   std::string title;
   std::string x_name, y_name;  // with their units: "seconds", "error (relative)"
+  std::string x_note;          // behind the name of x, where it has room
   bool log_x = true,
        log_y = true;  // a logarithmic y has a place for 0 below its scale, x has none
   std::vector<PlotSeries> series;
   std::vector<PlotGuide> guides;
   std::vector<PlotSlope> slopes;
-  std::vector<PlotBand>
-      bands;                  // the lowest first; if there are any, y is no scale (plot_bands.hpp)
-  std::vector<Vec<2>> front;  // the Pareto front's corners, ascending in x; drawn as stairs
+  std::vector<PlotBand> bands;  // the lowest first; if there are any, y is no
+                                // scale (plot_bands.hpp)
+  std::vector<Vec<2>> front;    // the Pareto front's corners, ascending in x; drawn as stairs
   std::string front_name = "Pareto front";
   PlotNames names = PlotNames::ends;
   double size = kLabel;             // of the names; all else follows it
   double mark = 0;                  // radius of the marks; 0 follows the size
   std::string beyond = "diverged";  // the name of the strip at the upper edge
   std::string empty = "no point";   // said when there is none
+  // A panel of a frame, to be read from the last row: strong lines with marks apart from each
+  // other, numbers written out, and the newest point of each line stressed.
+  bool slide = false;
+  // x is the seconds of a run, from 0 to `seconds` if that is known: the axes must not jump while
+  // it goes on.
+  bool over_time = false;
+  std::optional<double> seconds;
+  std::optional<double> least,
+      most;  // ends of y; lines leave the picture beyond them
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that

@@ -1,132 +1,85 @@
 #include "draw/plot_axes.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "draw/font.hpp"
 
 namespace lantern {
-namespace {
 
-constexpr double kTickLength = 6;
-constexpr double kLeastPower = -300, kMostPower = 300;
-
-double value_of(int power) {
-  double value = 1;
-  for (int i = 0; i < std::abs(power); ++i) value *= 10;
-  return power < 0 ? 1 / value : value;
+void PlotPaper::heading(const std::string& text, const TextStyle& style) {
+  const std::string words = shortened(text, place.panel.size().x, style);
+  if (words.empty() || place.panel.size().y < 60) return;
+  labels_.add(words, {{place.panel.lo.x, place.area.lo.y + 0.78 * style.size}, 0}, style,
+              place.panel);
+  place.area.lo.y += 1.42 * style.size;
 }
 
-}  // namespace
-
-std::string power_of_ten(int power) {
-  constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  if (power == 0) return "1";
-  if (power == 1) return "10";
-  std::string text = power < 0 ? "10⁻" : "10";
-  for (const char digit : std::to_string(std::abs(power))) text += kDigits[digit - '0'];
-  return text;
+void PlotPaper::reserve_x(bool named) {
+  place.area.hi.y -= type.under_ticks() + 8 * type.unit + (named ? 1.5 * type.name.size : 0);
 }
 
-PlotScale::PlotScale(double least, double most, bool logarithmic, int most_ticks)
-    : logarithmic_(logarithmic) {
-  if (!logarithmic) {
-    ticks_ = Axis::linear(least, most, most_ticks).ticks();
-    low_ = ticks_.front().value;
-    high_ = ticks_.back().value;
-    return;
-  }
-  constexpr double kAir = 0.04;  // of the range, at both ends
-  const double a = std::clamp(std::log10(least), kLeastPower, kMostPower);
-  const double b = std::clamp(std::log10(most), a, kMostPower);
-  low_ = a - kAir * (b - a) - 0.05;
-  high_ = b + kAir * (b - a) + 0.05;
-  if (std::floor(high_) - std::ceil(low_) < 1) {  // fewer than two powers of ten on it
-    if (add_parts(b - a, most_ticks)) return;
-    const double low = std::min(low_, std::floor(a));
-    high_ = std::max(high_, std::floor(low + 0.999) + 1) + 0.06;
-    low_ = low - 0.06;
-  }
-  const int first = static_cast<int>(std::ceil(low_)), last = static_cast<int>(std::floor(high_));
-  int every = 1;
-  while ((last - first) / every + 1 > std::max(2, most_ticks)) ++every;
-  // Multiples of the spacing, so that 1 is among them if the axis holds it, where there are two.
-  const int begin = every * static_cast<int>(std::ceil(static_cast<double>(first) / every));
-  for (int power = begin + every > last ? first : begin; power <= last; power += every)
-    ticks_.push_back({value_of(power), power_of_ten(power)});
-}
-
-// Twice and five times the powers of ten too, where these alone would make the axis much longer
-// than its values need. False, and there are none, if that gives too few or too many ticks.
-bool PlotScale::add_parts(double decades, int most_ticks) {
-  constexpr double kLeastDecades = 0.7;  // less is a close look at nothing
-  if (decades < kLeastDecades) return false;
-  for (int power = static_cast<int>(std::floor(low_)); power <= high_; ++power)
-    for (const int part : {1, 2, 5}) {
-      const double at = power + std::log10(part), value = part * value_of(power);
-      if (at < low_ || at > high_) continue;
-      const bool is_plain = power >= -1 && power <= 1;  // 0.5, 2, 20
-      const std::string text = part == 1  ? power_of_ten(power)
-                               : is_plain ? fmt::format("{:g}", value)
-                                          : fmt::format("{}·{}", part, power_of_ten(power));
-      ticks_.push_back({value, text});
-    }
-  if (ticks_.size() >= 2 && static_cast<int>(ticks_.size()) <= std::max(4, most_ticks)) return true;
-  ticks_.clear();
-  return false;
-}
-
-double PlotScale::share(double value) const {
-  if (logarithmic_) return value > 0 ? (std::log10(value) - low_) / (high_ - low_) : 0;
-  return (value - low_) / (high_ - low_);
-}
-
-double PlotScale::share_inside(double value) const { return std::clamp(share(value), 0.0, 1.0); }
-
-double plot_ticks_width(const PlotScale& y, const PlotType& type) {
+void PlotPaper::reserve_y(const Axis& y) {
   double widest = 0;
   for (const Axis::Tick& tick : y.ticks())
     widest = std::max(widest, text_width(tick.text, type.tick));
-  return widest + kTickLength + 5;
+  place.area.lo.x +=
+      std::min(widest + 1, 0.3 * place.panel.size().x) + type.tick_length() + 8 * type.unit;
 }
 
-double plot_ticks_height(const PlotType& type) { return kTickLength + 4 + 1.1 * type.tick.size; }
-
-void draw_plot_axes(const PlotScale& x, const PlotScale& y, const PlotArea& place,
-                    const Box<2>& panel, const PlotType& type, DrawList& list, Labels& labels) {
-  const Box<2>& area = place.box;
-  list.shapes.emplace_back(RectShape{area, 0, Role::panel, {}, true});
-  const double top = area.lo.y + place.strip, bottom = area.hi.y - place.ground;
-  const auto write = [&](const std::string& text, double at) {
-    const Vec<2> end{area.lo.x - kTickLength - 4, at + 0.36 * type.tick.size};
-    labels.try_add(text, {{end, 1}}, type.tick, panel);
-  };
-  if (place.ground > 0) write("0", area.hi.y - place.ground / 2);
-  for (const Axis::Tick& tick : y.ticks()) {
-    const double at = bottom - y.share_inside(tick.value) * (bottom - top);
-    list.shapes.emplace_back(
-        LineShape{{area.lo.x - kTickLength, at}, {area.hi.x, at}, {Role::rule, 1.2, 0}, true});
-    write(tick.text, at);
-  }
+void PlotPaper::level_ticks(const Axis& x, double top, double bottom, const Stroke& stroke,
+                            double below, double apart) {
+  const Box<2>& area = place.area;
   double last = -1e9;
   for (const Axis::Tick& tick : x.ticks()) {
-    const double at = area.lo.x + x.share_inside(tick.value) * area.size().x;
-    list.shapes.emplace_back(
-        LineShape{{at, top}, {at, area.hi.y + kTickLength}, {Role::rule, 1.2, 0}, true});
+    const double at = area.lo.x + x.share(tick.value) * area.size().x;
+    list_.crisp_line({at, top}, {at, bottom}, stroke);
     const double half = text_width(tick.text, type.tick) / 2;
-    if (at - half < last + 8) continue;
-    const double baseline = area.hi.y + kTickLength + 3 + 0.8 * type.tick.size;
-    if (labels.try_add(tick.text, {{{at, baseline}, 0.5}}, type.tick, panel)) last = at + half;
+    if (at - half < last + apart) continue;
+    const Anchor anchor{{at, bottom + below + 0.78 * type.tick.size}, 0.5};
+    if (labels_.try_add(tick.text, {anchor}, type.tick, place.panel)) last = at + half;
   }
-  for (const Vec<2>& end : {Vec<2>(area.lo.x, area.lo.y), Vec<2>(area.hi.x, area.hi.y)})
-    list.shapes.emplace_back(LineShape{{area.lo.x, area.hi.y}, end, {Role::ink, 1.6, 0}, true});
-  for (const auto& [height, at] : {std::pair(place.strip, top), std::pair(place.ground, bottom)})
-    if (height > 0)
-      list.shapes.emplace_back(
-          LineShape{{area.lo.x, at}, {area.hi.x, at}, {Role::cell_line_3, 1.2, 4}, true});
+}
+
+void PlotPaper::upright_ticks(const Axis& y) {
+  const Box<2> scaled = place.scaled();
+  const double end = scaled.lo.x - type.tick_length(), room = end - 6 * type.unit;
+  const auto write = [&](const std::string& text, double at) {
+    labels_.try_add(shortened(text, room - place.panel.lo.x, type.tick),
+                    {{{room, at + 0.36 * type.tick.size}, 1}}, type.tick, place.panel);
+  };
+  if (place.ground > 0) write("0", place.area.hi.y - place.ground / 2);
+  double last = 1e9;
+  for (const Axis::Tick& tick : y.ticks()) {
+    const double at = scaled.hi.y - y.share(tick.value) * scaled.size().y;
+    list_.crisp_line({end, at}, {scaled.hi.x, at}, {Role::rule, 1.5 * type.unit});
+    if (at > last - 22 * type.unit) continue;
+    write(tick.text, at);
+    last = at;
+  }
+}
+
+void PlotPaper::axis_lines() {
+  const Box<2>&area = place.area, scaled = place.scaled();
+  for (const Vec<2>& end : {area.lo, area.hi})
+    list_.crisp_line({area.lo.x, area.hi.y}, end, {Role::ink, 2.2 * type.unit});
+  for (const double at : {scaled.lo.y, scaled.hi.y})
+    if (at != area.lo.y && at != area.hi.y)
+      list_.crisp_line({area.lo.x, at}, {area.hi.x, at}, {Role::cell_line_3, 1.2, 4});
+}
+
+void PlotPaper::name_x(const std::string& name, const std::string& note, const TextStyle& style) {
+  const double left = place.area.lo.x, right = place.panel.hi.x;
+  std::string text = name + note;
+  if (text_width(text, style) > right - left) text = shortened(name, right - left, style);
+  const double half = text_width(text, style) / 2;
+  const double x =
+      std::clamp(place.area.center().x, left + half, std::max(left + half, right - half));
+  labels_.try_add(text, {{{x, place.panel.hi.y - 7 * type.unit}, 0.5}}, style, place.panel);
+}
+
+void PlotPaper::say_nothing(const std::string& why) {
+  list_.crisp_rect(place.area, Role::panel, {Role::rule, 1.2});
+  const double room = place.area.size().x - 2 * type.name.size;
+  labels_.try_add(shortened(why, room, type.tick), {{place.area.center(), 0.5}}, type.tick,
+                  place.panel);
 }
 
 }  // namespace lantern

@@ -1,63 +1,71 @@
-// The two axes of a plot: where a value lies, and what is written at the ticks.
+// What every plot has: headings, a ground, axes with their ticks and names.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "draw/axis.hpp"
 #include "draw/labels.hpp"
 
 namespace lantern {
 
-// "10⁻⁵"; 1 and 10 as they are.
-std::string power_of_ten(int power);
-
-// One axis. A logarithmic one fits its values closely. Its ticks are powers of ten, or, where fewer
-// than two are on it, these with twice and five times as much: "2·10⁻³".
-class PlotScale {
- public:
-  PlotScale() = default;
-  // For values from `least` to `most`, finite, in order, above 0 on a logarithmic axis.
-  PlotScale(double least, double most, bool logarithmic, int most_ticks);
-
-  // 0 at the lower end and 1 at the upper one; beyond them for values outside. What has no
-  // logarithm is at the lower end.
-  double share(double value) const;
-  // The same, never outside.
-  double share_inside(double value) const;
-  const std::vector<Axis::Tick>& ticks() const { return ticks_; }
-  bool logarithmic() const { return logarithmic_; }
-  double decades() const { return high_ - low_; }  // of a logarithmic one
-
- private:
-  bool add_parts(double decades, int most_ticks);
-
-  double low_ = 0, high_ = 1;
-  bool logarithmic_ = false;
-  std::vector<Axis::Tick> ticks_;
-};
-
+// The type of a plot: `size` is that of its names, all else follows it.
 struct PlotType {
   explicit PlotType(double size)
-      : tick{0.92 * size, Weight::regular, Role::quiet_ink, Role::none},
-        name{size, Weight::regular, Role::ink, Role::none},
-        title{size, Weight::semibold, Role::ink, Role::none} {}
+      : tick{(kLeastLabel + 0.4) / kLabel * size, Weight::regular, Role::quiet_ink},
+        name{size, Weight::regular, Role::ink},
+        title{size, Weight::semibold, Role::ink},
+        unit(std::min(1.0, size / kLabel)) {}
   TextStyle tick, name, title;
+  double unit;  // of lines and gaps, which do not grow with large type
+
+  double tick_length() const { return 7 * unit; }
+  double under_ticks() const { return tick_length() + 8 * unit + 0.78 * tick.size; }  // baseline
 };
 
-// Where points lie. `strip` is the height of the part at the upper edge that has no scale, `ground`
-// that of the part at the lower edge where 0 is, on a logarithmic axis.
+// The parts of a plot's panel. `strip` is the height of the part at the area's upper edge that has
+// no scale, `ground` that of the part at its lower edge where 0 is, on a logarithmic axis.
 struct PlotArea {
-  Box<2> box;
+  Box<2> panel, area;
   double strip = 0, ground = 0;
+
+  Box<2> scaled() const {
+    return {{area.lo.x, area.lo.y + strip}, {area.hi.x, area.hi.y - ground}};
+  }
 };
 
-// The ground, a line and a text for each tick, and the axes themselves.
-void draw_plot_axes(const PlotScale& x, const PlotScale& y, const PlotArea& place,
-                    const Box<2>& panel, const PlotType& type, DrawList& list, Labels& labels);
+class PlotPaper {
+ public:
+  PlotPaper(const Box<2>& panel, double size, DrawList& list, Labels& labels)
+      : place{panel, panel}, type(size), list_(list), labels_(labels) {}
 
-// How much room the ticks' texts take to the left of the area, and below it.
-double plot_ticks_width(const PlotScale& y, const PlotType& type);
-double plot_ticks_height(const PlotType& type);
+  PlotArea place;
+  PlotType type;
+
+  // One below the other at the panel's upper left; they take their height from the area. Nothing
+  // for an empty text, or on a panel too low for one.
+  void heading(const std::string& text, const TextStyle& style);
+
+  // Takes from the area's lower edge what the ticks of x and its name need.
+  void reserve_x(bool named);
+  // Takes from the area's left what the ticks' texts need, or as much of it as the panel can spare.
+  void reserve_y(const Axis& y);
+
+  // A line at each tick of a level axis from `top` to `bottom`, and its text `below` that, where it
+  // has room: no nearer to the one before than `apart`.
+  void level_ticks(const Axis& x, double top, double bottom, const Stroke& stroke, double below,
+                   double apart);
+  // A level line and a text for each tick of an upright one, and "0" on the ground.
+  void upright_ticks(const Axis& y);
+  // Along the left edge and the lower one, and dashed where the scale of y ends.
+  void axis_lines();
+  // The name of x below its ticks, with `note` behind it if both have room.
+  void name_x(const std::string& name, const std::string& note, const TextStyle& style);
+  // In place of all that is in the area.
+  void say_nothing(const std::string& why);
+
+ private:
+  DrawList& list_;
+  Labels& labels_;
+};
 
 }  // namespace lantern

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "draw/plot_axes.hpp"
-#include "draw/plot_marks.hpp"
 #include "draw/plot_names.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
@@ -28,16 +28,17 @@ struct Band {
 class BandDrawing {
  public:
   BandDrawing(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels)
-      : plot_(plot), panel_(panel), area_(panel), type_(plot.size), list_(list), labels_(labels) {}
+      : plot_(plot), paper_(panel, plot.size, list, labels), list_(list), labels_(labels) {}
 
   void draw() {
     prepare();
-    if (!(least_ <= most_)) return say_nothing();
+    if (!(least_ <= most_)) return paper_.say_nothing(plot_.empty);
     if (pitch_ < 3 || area_.size().x < 24) return;
-    draw_plot_axes(x_, PlotScale(), {area_, 0, 0}, panel_, type_, list_, labels_);
-    labels_.try_add(shortened(plot_.x_name, area_.size().x, type_.tick),
-                    {{{area_.center().x, below_ - 0.3 * type_.tick.size}, 0.5}}, type_.tick,
-                    panel_);
+    list_.crisp_rect(area_, Role::panel);
+    paper_.level_ticks(x_, area_.lo.y, area_.hi.y + type_.tick_length(),
+                       {Role::rule, 1.5 * type_.unit}, 8 * type_.unit, 8);
+    paper_.axis_lines();
+    paper_.name_x(plot_.x_name, plot_.x_note, type_.tick);
     for (Band& band : bands_) draw_band(band);
     draw_front();
     for (const Band& band : bands_)
@@ -55,23 +56,15 @@ class BandDrawing {
     const double wanted = plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size;
     return std::min(wanted, 0.36 * pitch_);
   }
-  void heading(const std::string& text, const TextStyle& style) {
-    if (text.empty()) return;
-    labels_.add(shortened(text, panel_.size().x, style),
-                {{panel_.lo.x, area_.lo.y + 0.78 * style.size}, 0}, style, panel_);
-    area_.lo.y += 1.42 * style.size;
-  }
-
   bool has_place(const PlotPoint& p) const {
     return std::isfinite(p.at.x) && (!plot_.log_x || p.at.x > 0);
   }
 
   void prepare() {
-    heading(plot_.title, type_.title);
-    heading(plot_.y_name, type_.tick);
+    paper_.heading(plot_.title, type_.title);
+    paper_.heading(plot_.y_name, type_.tick);
     sort_into_bands();
-    below_ = area_.hi.y;
-    area_.hi.y -= plot_ticks_height(type_) + (plot_.x_name.empty() ? 0 : 1.3 * plot_.size);
+    paper_.reserve_x(!plot_.x_name.empty());
     area_.lo.y += 6;
     if (least_ <= most_) lay_out();  // else there is nothing to be seen
   }
@@ -87,8 +80,9 @@ class BandDrawing {
         for (const PlotPoint& p : series.points)
           if (has_place(p) && is_in(p, b)) lane.points.push_back(&p);
         for (const PlotPoint* p : lane.points) {
-          least_ = std::min(least_, p->at.x);
-          most_ = std::max(most_, p->at.x);
+          const Vec<2> reach = spread_of(*p);
+          least_ = std::min(least_, reach.x);
+          most_ = std::max(most_, reach.y);
         }
         if (!lane.points.empty()) bands_[b].lanes.push_back(std::move(lane));
       }
@@ -98,6 +92,13 @@ class BandDrawing {
   bool is_in(const PlotPoint& p, std::size_t band) const {
     if (band == 0 || p.beyond) return band == 0 && p.beyond;
     return plot_.bands[plot_.bands.size() - band].holds(p.at.y);
+  }
+
+  // Of x, from the least to the most; the point alone where it has none.
+  Vec<2> spread_of(const PlotPoint& p) const {
+    const Vec<2> spread = p.spread ? Vec<2>(p.spread->lo.x, p.spread->hi.x) : Vec<2>(p.at.x);
+    const bool has_places = is_finite(spread) && (!plot_.log_x || spread.x > 0);
+    return has_places ? spread : Vec<2>(p.at.x);
   }
 
   void lay_out() {
@@ -111,10 +112,12 @@ class BandDrawing {
     pitch_ = std::min(height / lanes, 2.6 * plot_.size);
     const double air = (height - lanes * pitch_) / bands;
     named_ = plot_.names != PlotNames::none && pitch_ >= 1.12 * plot_.size;
-    area_.lo.x += named_ ? std::min(widest_name() + 12, kMostForNames * panel_.size().x)
+    area_.lo.x += named_ ? std::min(widest_name() + 12,
+                                    kMostForNames * paper_.place.panel.size().x)
                          : 1.8 * radius();  // a mark at the axis stays in the panel
     area_.hi.x -= 0.9 * plot_.size;
-    x_ = {least_, most_, plot_.log_x, std::clamp(int(area_.size().x / (3.6 * plot_.size)), 2, 10)};
+    const int ticks = std::clamp(static_cast<int>(area_.size().x / (3.6 * plot_.size)), 2, 10);
+    x_ = plot_.log_x ? Axis::fitted(least_, most_, ticks) : Axis::linear(least_, most_, ticks);
     double y = area_.lo.y;
     for (Band& band : bands_) {
       band.top = y;
@@ -133,18 +136,11 @@ class BandDrawing {
     return widest;
   }
 
-  void say_nothing() {
-    list_.shapes.emplace_back(RectShape{area_, 0, Role::panel, {Role::rule, 1.2, 0}, true});
-    labels_.try_add(shortened(plot_.empty, area_.size().x - 2 * plot_.size, type_.tick),
-                    {{area_.center(), 0.5}}, type_.tick, panel_);
-  }
-
-  double x_of(double value) const { return area_.lo.x + x_.share(value) * area_.size().x; }
+  double x_of(double value) const { return area_.lo.x + x_.place(value) * area_.size().x; }
 
   void draw_band(Band& band) {
     if (&band != &bands_.front())
-      list_.shapes.emplace_back(
-          LineShape{{area_.lo.x, band.top}, {area_.hi.x, band.top}, {Role::ink, 1.2, 0}, true});
+      list_.crisp_line({area_.lo.x, band.top}, {area_.hi.x, band.top}, {Role::ink, 1.2});
     TextStyle style = band.lowest ? type_.title : type_.tick;
     style.size = type_.tick.size;
     style.halo = Role::panel;
@@ -170,7 +166,7 @@ class BandDrawing {
     const Vec<2> from{x, band.top + heading_}, to{x, band.bottom - 3};
     for (const auto& [role, w] :
          {std::pair(Role::lit, width), std::pair(Role::lit_fill, 0.74 * width)})
-      list_.shapes.emplace_back(LineShape{from, to, {role, w, 0}, false});
+      list_.line(from, to, {role, w});
     TextStyle style = type_.tick;
     style.role = Role::lit_ink;
     style.halo = Role::panel;
@@ -182,25 +178,20 @@ class BandDrawing {
   }
 
   void draw_lane(const Lane& lane, bool open) {
-    list_.shapes.emplace_back(
-        LineShape{{area_.lo.x, lane.y}, {area_.hi.x, lane.y}, {Role::rule, 1.2, 0}, true});
+    list_.crisp_line({area_.lo.x, lane.y}, {area_.hi.x, lane.y}, {Role::rule, 1.2});
     const Vec<2> end{area_.lo.x - 9, lane.y + 0.36 * type_.name.size};
     if (named_)
-      labels_.try_add(shortened(lane.series->name, end.x - panel_.lo.x, type_.name), {{end, 1}},
-                      type_.name, panel_);
+      labels_.try_add(shortened(lane.series->name, end.x - paper_.place.panel.lo.x, type_.name),
+                      {{end, 1}}, type_.name, paper_.place.panel);
     const auto at = [&](const PlotPoint* p) { return Vec<2>{x_of(p->at.x), lane.y}; };
     const auto& [series, points, _] = lane;
     for (std::size_t i = 1; i < points.size() && !open; ++i)
-      draw_plot_line(series->look, series->is_peer, at(points[i - 1]), at(points[i]),
-                     0.44 * radius(), list_);
-    const auto cut = [&](double x) { return std::clamp(x_of(x), area_.lo.x, area_.hi.x); };
+      draw_plot_line(series->ink(), at(points[i - 1]), at(points[i]), 0.44 * radius(), list_);
     for (const PlotPoint* p : points)
-      if (p->spread && p->spread->lo.x < p->spread->hi.x)
-        list_.shapes.emplace_back(LineShape{{cut(p->spread->lo.x), lane.y},
-                                            {cut(p->spread->hi.x), lane.y},
-                                            {Role::ink, 0.18 * radius(), 0},
-                                            false});
-    for (const PlotPoint* p : points) draw_plot_mark(series->look, at(p), radius(), open, list_);
+      if (const Vec<2> spread = spread_of(*p); spread.x < spread.y)
+        draw_plot_whisker(series->ink(), {x_of(spread.x), lane.y}, {x_of(spread.y), lane.y},
+                          radius(), list_);
+    for (const PlotPoint* p : points) draw_plot_mark(series->ink(), at(p), radius(), open, list_);
   }
 
   void name_points(const Band& band) {
@@ -217,13 +208,14 @@ class BandDrawing {
   }
 
   const Plot& plot_;
-  Box<2> panel_, area_;
-  PlotType type_;
+  PlotPaper paper_;
+  Box<2>& area_ = paper_.place.area;
+  const PlotType& type_ = paper_.type;
   DrawList& list_;
   Labels& labels_;
   std::vector<Band> bands_;
-  PlotScale x_;
-  double least_ = 1e300, most_ = -1e300, pitch_ = 0, heading_ = 0, below_ = 0;
+  Axis x_;
+  double least_ = 1e300, most_ = -1e300, pitch_ = 0, heading_ = 0;
   bool named_ = false;
 };
 

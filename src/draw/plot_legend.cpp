@@ -6,7 +6,6 @@
 
 #include "draw/font.hpp"
 #include "draw/plot_axes.hpp"
-#include "draw/plot_marks.hpp"
 
 namespace lantern {
 namespace {
@@ -57,9 +56,9 @@ void draw_plot_legend(const std::vector<LegendEntry>& entries, const Box<2>& pla
     }
     const Vec<2> at{place.lo.x + static_cast<double>(column) * (c.width + kColumnGap),
                     place.lo.y + (static_cast<double>(row) + 0.5) * c.line};
-    draw_plot_line(entries[i].look, entries[i].is_peer, at + Vec<2>{3, 0},
-                   at + Vec<2>{c.sample - 3, 0}, 0.14 * size, list);
-    draw_plot_mark(entries[i].look, at + Vec<2>{c.sample / 2, 0}, 0.33 * size, false, list);
+    draw_plot_line(entries[i].ink(), at + Vec<2>{3, 0}, at + Vec<2>{c.sample - 3, 0}, 0.14 * size,
+                   list);
+    draw_plot_mark(entries[i].ink(), at + Vec<2>{c.sample / 2, 0}, 0.33 * size, false, list);
     labels.add(shortened(entries[i].name, c.width - c.sample - 8, style),
                {{at.x + c.sample + 8, at.y + 0.36 * size}, 0}, style, place);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "draw/labels.hpp"
+#include "draw/plot_marks.hpp"
 
 namespace lantern {
 
@@ -12,6 +13,7 @@ struct LegendEntry {
   std::string name;
   int look = 0;
   bool is_peer = false;
+  PlotInk ink() const { return {look, is_peer}; }
 };
 
 // The height that they take in a legend so wide, page units.

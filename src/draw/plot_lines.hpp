@@ -1,14 +1,19 @@
-// Lines of a plot that are not a series: the front's stairs, and guides. First drawn, and named
-// when all marks are in place.
+// Lines of a plot: what is left of a long series, and those that are no series: the front's stairs,
+// guides and slopes. These are drawn first, and named when all marks are in place.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "draw/plot.hpp"
 #include "draw/plot_names.hpp"
 
 namespace lantern {
+
+// Many points become about as many as `most`, so that the page can tell them apart: of each part of
+// the line its first, lowest, highest and last one.
+std::vector<Vec<2>> thinned(const std::vector<Vec<2>>& points, std::size_t most);
 
 // From the upper edge down to the first corner, then in steps from corner to corner to the right
 // edge, under the marks.
@@ -36,5 +41,18 @@ class PlotGuideLine {
  private:
   std::vector<std::pair<Vec<2>, Vec<2>>> parts_;
 };
+
+// A key to slopes on logarithmic axes: lines that begin at one point and fall (or rise) as orders
+// would.
+//
+//     +---___
+//      `.    ---  h
+//        `.
+//          `  h²
+//
+// The least fan whose names can be told apart, in a corner of `area` where nothing else is; none if
+// there is no such corner. `decade` is the size of a decade along x and y, page units.
+void draw_slope_fan(const std::vector<PlotSlope>& slopes, const Vec<2>& decade, const Box<2>& area,
+                    const PlotType& type, const PlotNamer& namer, DrawList& list, Labels& labels);
 
 }  // namespace lantern

@@ -1,12 +1,9 @@
 #include "draw/plot_marks.hpp"
 
-#include <array>
 #include <cmath>
-#include <utility>
+#include <iterator>
 #include <vector>
 
-#include "draw/chart_parts.hpp"
-#include "draw/metrics.hpp"
 #include "draw/pen.hpp"
 
 namespace lantern {
@@ -38,18 +35,16 @@ std::vector<Vec<2>> bar(const Vec<2>& at, const Vec<2>& half) {
   return {at - half, at + Vec<2>{half.x, -half.y}, at + half, at + Vec<2>{-half.x, half.y}};
 }
 
+// Those that are regular polygons, by how far their corners lie from the middle.
+struct Ring {
+  int corners;
+  double reach, turn;
+};
+constexpr Ring kRings[] = {{4, 1.22, kQuarter}, {3, 1.4, kUp}, {4, 1.35, 0},      {3, 1.4, -kUp},
+                           {5, 1.2, kUp},       {3, 1.35, 0},  {3, 1.35, 2 * kUp}};
+
 std::vector<Vec<2>> outline(int mark, const Vec<2>& at, double r) {
   switch (mark) {
-    case 1:
-      return ring_of(at, 1.25 * r, 4, kQuarter);
-    case 2:
-      return ring_of(at, 1.35 * r, 3, kUp);
-    case 3:
-      return ring_of(at, 1.35 * r, 4, 0);
-    case 4:
-      return ring_of(at, 1.35 * r, 3, -kUp);
-    case 5:
-      return ring_of(at, 1.2 * r, 5, kUp);
     case 6:
       return bar(at, {0.6 * r, 1.3 * r});
     case 7:
@@ -62,45 +57,55 @@ std::vector<Vec<2>> outline(int mark, const Vec<2>& at, double r) {
       return star(at, 1.55 * r, 5, 0.42, kUp);
     case 11:
       return star(at, 1.6 * r, 4, 0.38, kUp);
-    case 12:
-      return ring_of(at, 1.35 * r, 3, 0);
-    default:
-      return ring_of(at, 1.35 * r, 3, 2 * kUp);
+    default: {
+      const Ring& ring = kRings[mark < 6 ? mark - 1 : mark - 7];
+      return ring_of(at, ring.reach * r, ring.corners, ring.turn);
+    }
   }
 }
 
 // Colours whose lines are lost on white, or as greys in print.
-bool is_pale(int look) {
-  const int color = chart_color(static_cast<std::size_t>(look));
-  return color == 2 || color == 3 || color == 6;
+bool is_pale(Role role) {
+  return role == body_role(2) || role == body_role(3) || role == body_role(6);
 }
 
 }  // namespace
 
-Role plot_role(int look) { return body_role(chart_color(static_cast<std::size_t>(look))); }
-
-void draw_plot_mark(int look, const Vec<2>& at, double radius, bool open, DrawList& list) {
-  const Role role = plot_role(look);
-  const int mark = look % kPlotMarks;
-  const Stroke rim{Role::body_line, 0.14 * radius + 0.35, 0};
-  const Stroke line{role, 0.4 * radius, 0};
-  if (mark == 0) {
-    if (open) list.shapes.emplace_back(disc(at, radius, Role::panel, {rim.role, 0.66 * radius, 0}));
-    list.shapes.emplace_back(disc(at, radius, open ? Role::panel : role, open ? line : rim));
-    return;
-  }
-  const std::vector<Vec<2>> points = outline(mark, at, radius);
-  if (open)  // a dark line under the coloured one, which may be pale
-    list.shapes.emplace_back(PolygonShape{points, Role::panel, {rim.role, 0.66 * radius, 0}});
-  list.shapes.emplace_back(PolygonShape{points, open ? Role::panel : role, open ? line : rim});
+Role plot_role(int look) {
+  constexpr int kColors[] = {4, 1, 5, 8, 7, 2, 6, 3};
+  return body_role(kColors[look % std::ssize(kColors)]);
 }
 
-void draw_plot_line(int look, bool is_peer, const Vec<2>& from, const Vec<2>& to, double width,
+void draw_plot_mark(const PlotInk& ink, const Vec<2>& at, double radius, bool open,
                     DrawList& list) {
-  const double dash = is_peer ? 3.2 * width : 0;
-  if (is_pale(look))
-    list.shapes.emplace_back(LineShape{from, to, {Role::cell_line_2, width + 1.6, dash}, false});
-  list.shapes.emplace_back(LineShape{from, to, {plot_role(look), width, dash}, false});
+  const int mark = ink.look % kPlotMarks;
+  const Stroke rim{Role::body_line, 0.16 * radius + 0.4};
+  const auto draw = [&](Role fill, const Stroke& stroke) {
+    if (mark == 0)
+      list.disc(at, radius, fill, stroke);
+    else
+      list.polygon(outline(mark, at, radius), fill, stroke);
+  };
+  if (!open) return draw(ink.role(), rim);
+  draw(Role::panel, {rim.role, 0.66 * radius});  // a dark line under a colour that may be pale
+  draw(Role::panel, {ink.role(), 0.4 * radius});
+}
+
+void draw_plot_whisker(const PlotInk& ink, const Vec<2>& from, const Vec<2>& to, double radius,
+                       DrawList& list) {
+  const double width = 0.3 * radius;
+  const PlotInk unbroken{ink.look, false, ink.color};
+  const Vec<2> across = from.y == to.y ? Vec<2>(0, 0.7 * radius) : Vec<2>(0.7 * radius, 0);
+  draw_plot_line(unbroken, from, to, width, list);
+  for (const Vec<2>& end : {from, to})
+    draw_plot_line(unbroken, end - across, end + across, width, list);
+}
+
+void draw_plot_line(const PlotInk& ink, const Vec<2>& from, const Vec<2>& to, double width,
+                    DrawList& list) {
+  const double dash = ink.is_peer ? 3.2 * width : 0;
+  if (is_pale(ink.role())) list.line(from, to, {Role::cell_line_2, width + 1.6, dash});
+  list.line(from, to, {ink.role(), width, dash});
 }
 
 }  // namespace lantern

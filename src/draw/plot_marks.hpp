@@ -1,4 +1,4 @@
-// The marks and colours of measured points.
+// The marks and colours of a plot's series.
 #pragma once
 
 #include "draw/draw_list.hpp"
@@ -8,14 +8,26 @@ namespace lantern {
 inline constexpr int kPlotMarks = 14;     // shapes; with 8 colours, 56 looks are unlike
 inline constexpr int kFirstPeerLook = 8;  // from here on crosses and stars: what peers take
 
-// The colour of a look, 0 or more.
+// The colour of a look, 0 or more: dark and unlike ones first.
 Role plot_role(int look);
 
-// A mark, `radius` large; open: of something that is not there, such as a diverged run.
-void draw_plot_mark(int look, const Vec<2>& at, double radius, bool open, DrawList& list);
+// What tells one series from another: a mark, a colour and a dash.
+struct PlotInk {
+  int look = 0;          // mark and colour; the same series has the same in every plot
+  bool is_peer = false;  // dashed
+  int color = 0;         // a body's, where it is not the look's
+  Role role() const { return color > 0 ? body_role(color) : plot_role(look); }
+};
 
-// A line in a look's colour, so that pale colours stay visible on pale ground.
-void draw_plot_line(int look, bool is_peer, const Vec<2>& from, const Vec<2>& to, double width,
+// A mark, `radius` large; open: of something that is not there, such as a diverged run.
+void draw_plot_mark(const PlotInk& ink, const Vec<2>& at, double radius, bool open, DrawList& list);
+
+// A whisker through a mark of that radius, level or upright, with a short bar across either end.
+void draw_plot_whisker(const PlotInk& ink, const Vec<2>& from, const Vec<2>& to, double radius,
+                       DrawList& list);
+
+// A line, so that pale colours stay visible on pale ground.
+void draw_plot_line(const PlotInk& ink, const Vec<2>& from, const Vec<2>& to, double width,
                     DrawList& list);
 
 }  // namespace lantern

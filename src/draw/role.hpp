@@ -39,38 +39,18 @@ enum class Role : std::uint8_t {
   ray,
   frustum,
   warning,
-  free_space,  // an atlas's unused ground
-  body_mark_1,
-  body_mark_2,
-  body_mark_3,
-  body_mark_4,  // emblems and patterns on a body's colour:
-  body_mark_5,
-  body_mark_6,
-  body_mark_7,
-  body_mark_8,  // the second cue beside its hue
-  view_fill,    // ground of what a view sees
-  sector_1,     // grounds of a level's sectors, so that neighbours differ
-  sector_2,
-  sector_3,
-  sector_4,
-  body_lit_1,  // faces of solid bodies that look towards the light: of colour 1 ... 8, of static
-  body_lit_2,  // and of sleeping ones
-  body_lit_3,
-  body_lit_4,
-  body_lit_5,
-  body_lit_6,
-  body_lit_7,
-  body_lit_8,
-  static_lit,
+  free_space,   // an atlas's unused ground
+  body_mark_1,  // emblems and patterns on a body's colour 1 ... 8: the second cue beside its hue
+  body_mark_8 = body_mark_1 + 7,
+  view_fill,  // ground of what a view sees
+  sector_1,   // grounds of a level's sectors, so that neighbours differ
+  sector_4 = sector_1 + 3,
+  body_lit_1,  // faces of 3D bodies that look towards the light: of colour 1 ... 8,
+  body_lit_8 = body_lit_1 + 7,
+  static_lit,  // of static and of sleeping ones
   asleep_lit,
   body_shade_1,  // and faces that look away from it
-  body_shade_2,
-  body_shade_3,
-  body_shade_4,
-  body_shade_5,
-  body_shade_6,
-  body_shade_7,
-  body_shade_8,
+  body_shade_8 = body_shade_1 + 7,
   static_shade,
   asleep_shade,
   count_,
@@ -86,7 +66,7 @@ constexpr Role body_mark_role(int color) {
   return static_cast<Role>(static_cast<int>(Role::body_mark_1) + (color - 1) % 8);
 }
 
-// The three tones of a solid body's faces.
+// The three tones of a 3D body's faces.
 enum class Tone { lit, middle, shade };
 
 // The same colour, of body 1 ... 8, a static or a sleeping one, in another tone.

@@ -1,5 +1,3 @@
-#include "draw/sweep_view.hpp"
-
 #include <algorithm>
 #include <vector>
 
@@ -8,6 +6,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/characters.hpp"
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {
@@ -40,8 +39,8 @@ void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   std::vector<const FrameBody*> order = swept(frame, axis);
   const double length = world.size().x;
   if (order.empty() || !(length > 0) || panel.size().y < kAxisHeading + 2 * kMostBand) return;
-  const TextStyle heading{kLabel, Weight::semibold, Role::quiet_ink, Role::none};
-  const TextStyle note{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::none};
+  const TextStyle heading{kLabel, Weight::semibold, Role::quiet_ink};
+  const TextStyle note{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink};
   labels.add(
       shortened(fmt::format("intervals along {}, sorted", "xyz"[axis]), panel.size().x, heading),
       {{panel.lo.x, panel.lo.y + 20}, 0}, heading, panel);
@@ -60,21 +59,18 @@ void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
     const double y = area.lo.y + (static_cast<double>(i) + 0.5) * row;
     const double from = x_of(body.box.lo[axis]), to = x_of(body.box.hi[axis]);
     if (body.lit)
-      list.shapes.emplace_back(filled(
-          {{panel.lo.x, y - row / 2 + 1}, {area.hi.x + 8, y + row / 2 - 1}}, Role::lit_fill, 4));
+      list.rect({{panel.lo.x, y - row / 2 + 1}, {area.hi.x + 8, y + row / 2 - 1}}, Role::lit_fill,
+                {}, 4);
     // A thin line down to where the sweep meets it.
-    list.shapes.emplace_back(LineShape{{from, y}, {from, area.hi.y}, {Role::rule, 1.4, 4}, true});
+    list.crisp_line({from, y}, {from, area.hi.y}, {Role::rule, 1.4, 4});
     const double half = std::min(0.3 * row, 9.0);
-    list.shapes.emplace_back(RectShape{{{from, y - half}, {std::max(to, from + 3), y + half}},
-                                       2,
-                                       body.dimmed ? Role::panel : body_role(body.color),
-                                       {body.lit ? Role::lit : Role::body_line, 1.6, 0},
-                                       false});
+    list.rect({{from, y - half}, {std::max(to, from + 3), y + half}},
+              body.dimmed ? Role::panel : body_role(body.color),
+              {body.lit ? Role::lit : Role::body_line, 1.6, 0}, 2);
     const double icon = std::min(0.42 * row, 15.0);
     draw_character(body, Box<2>::around({panel.lo.x + icon + 3, y}, Vec<2>(icon)), false, list);
   }
-  list.shapes.emplace_back(
-      LineShape{{area.lo.x, area.hi.y + 4}, {area.hi.x, area.hi.y + 4}, {Role::ink, 2.0, 0}, true});
+  list.crisp_line({area.lo.x, area.hi.y + 4}, {area.hi.x, area.hi.y + 4}, {Role::ink, 2.0});
   const double below = area.hi.y + kAxis + 12;
   labels.try_add(std::string(1, "xyz"[axis]), {{{area.hi.x, below}, 1}}, note, panel);
   if (all > order.size())

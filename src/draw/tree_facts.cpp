@@ -1,8 +1,7 @@
-#include "draw/tree_facts.hpp"
-
 #include <optional>
 
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {
@@ -41,7 +40,7 @@ constexpr double kFactLine = 30;
 // Counts have cells for two digits at least, so that nothing moves while a small tree grows.
 int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, const Spacing& spacing,
                   double top, Labels* labels) {
-  const TextStyle style{kLabel, Weight::regular, Role::quiet_ink, Role::none};
+  const TextStyle style{kLabel, Weight::regular, Role::quiet_ink};
   constexpr double kSpace = 6;
   double x = panel.lo.x;
   int line = 0;
@@ -52,8 +51,7 @@ int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, const Spa
       number = Labels::number_width(std::max<std::int64_t>(2, digits), style) + kSpace;
     }
     const std::string words = shortened(fact.words, panel.size().x, style);
-    const double width =
-        number + text_width(fact.widest.empty() ? words : fact.widest, style);
+    const double width = number + text_width(fact.widest.empty() ? words : fact.widest, style);
     const bool counts_begin = spacing.counts_apart && fact.first_count;
     if (x > panel.lo.x && (counts_begin || x + width > panel.hi.x)) {
       x = panel.lo.x;

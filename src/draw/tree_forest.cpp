@@ -1,9 +1,8 @@
 // A structure for what never moves beside the one for what does: two trees in one panel.
 #include <algorithm>
+#include <numeric>
 
-#include "draw/sweep_view.hpp"
-#include "draw/tree_facts.hpp"
-#include "draw/tree_view.hpp"
+#include "draw/panels.hpp"
 
 namespace lantern {
 namespace {
@@ -52,23 +51,11 @@ std::vector<Box<2>> cut(const std::vector<Frame>& trees, const Box<2>& area) {
   const bool beside = size.x > kWideEnough * size.y;
   const int axis = beside ? 0 : 1;
   std::vector<double> shares;
-  double all = 0;
   for (const Frame& tree : trees) shares.push_back(share_of(tree, beside));
-  for (const double share : shares) all += share;
-  const double even = 1.0 / static_cast<double>(trees.size());
-  double sum = 0;
-  for (double& share : shares) sum += share = std::max(share / all, (beside ? 0.6 : 0.7) * even);
-  const double room = size[axis] - kBetween * static_cast<double>(trees.size() - 1);
-  std::vector<Box<2>> boxes;
-  double at = area.lo[axis];
-  for (const double share : shares) {
-    Box<2> box = area;
-    box.lo[axis] = at;
-    box.hi[axis] = at + room * share / sum;
-    at = box.hi[axis] + kBetween;
-    boxes.push_back(box);
-  }
-  return boxes;
+  const double even =
+      std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(trees.size());
+  for (double& share : shares) share = std::max(share, (beside ? 0.6 : 0.7) * even);
+  return split(area, axis, shares, kBetween);
 }
 
 void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels& labels) {
@@ -76,7 +63,7 @@ void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
   std::vector<Frame> trees = trees_of(frame);
   if (trees.size() > kMostTrees) trees.resize(kMostTrees);
   const std::vector<Box<2>> boxes = cut(trees, area);
-  const TextStyle style{kLabel, Weight::semibold, Role::quiet_ink, Role::none};
+  const TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const bool of_static = trees[i].nodes[0].of_static;
     const Box<2>& box = boxes[i];
@@ -85,10 +72,10 @@ void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
     labels.add(heading, {{box.lo.x + 4, box.lo.y + 20}, 0}, style, box);
     if (i > 0 && boxes[0].lo.x < box.lo.x) {
       const double x = box.lo.x - kBetween / 2;
-      list.shapes.emplace_back(LineShape{{x, box.lo.y}, {x, box.hi.y}, {Role::rule, 1.6, 0}, true});
+      list.crisp_line({x, box.lo.y}, {x, box.hi.y}, {Role::rule, 1.6});
     } else if (i > 0) {
       const double y = box.lo.y - kBetween / 2;
-      list.shapes.emplace_back(LineShape{{box.lo.x, y}, {box.hi.x, y}, {Role::rule, 1.6, 0}, true});
+      list.crisp_line({box.lo.x, y}, {box.hi.x, y}, {Role::rule, 1.6});
     }
     draw_one_tree(trees[i], {box.lo + Vec<2>(0, kTreeHeading), box.hi}, list, labels);
   }

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 #include "draw/tidy_tree.hpp"
-#include "draw/tree_view.hpp"
 
 namespace lantern {
 namespace {
@@ -214,13 +214,12 @@ BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& sc
     if (branch.copies > 1) return {fmt::format("×{}{}", branch.copies, each), 0};
     if (!frame.textures.empty()) return {};  // an atlas's inner node shows its cut
     const bool named = node.plane && !node.plane_name.empty();
-    const TextStyle style{scale.text, Weight::semibold, Role::ink, Role::none};
+    const TextStyle style{scale.text, Weight::semibold, Role::ink};
     const std::string_view text = named ? node.plane_name : node.label;
     const double width = std::max(1.3 * scale.box_width, named ? 150.0 : 62.0);
     const std::string brief = short_label(node.label);
     const bool use_brief =
-        !named && !brief.empty() &&
-        (is_long_way(node.label) || text_width(text, style) > width);
+        !named && !brief.empty() && (is_long_way(node.label) || text_width(text, style) > width);
     return {shortened(use_brief ? brief : text, width, style), 0};
   }
   if (!frame.textures.empty() && node.bodies.empty() && node.label.empty()) {

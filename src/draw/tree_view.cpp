@@ -1,12 +1,12 @@
-#include "draw/tree_view.hpp"
-
 #include <algorithm>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
+#include "draw/body_shapes.hpp"
 #include "draw/characters.hpp"
 #include "draw/font.hpp"
+#include "draw/panels.hpp"
 #include "draw/pattern.hpp"
 #include "draw/tree_layout.hpp"
 
@@ -20,8 +20,8 @@ class TreeView {
         panel_(panel),
         list_(list),
         labels_(labels),
-        layout_(lay_out_tree(frame, panel)) {
-    for (std::size_t i = 0; i < frame.bodies.size(); ++i) body_at_[frame.bodies[i].id] = i;
+        layout_(lay_out_tree(frame, panel)),
+        bodies_(by_id(frame.bodies)) {
     for (std::size_t i = 0; i < frame.textures.size(); ++i) texture_at_[frame.textures[i].id] = i;
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
@@ -57,7 +57,7 @@ class TreeView {
     for (std::size_t k = 1; k < corners.size(); ++k) {
       const Vec<2>&a = corners[k - 1], &b = corners[k];
       const bool upright_or_level = a.x == b.x || a.y == b.y;
-      list_.shapes.emplace_back(LineShape{a, b, {role, lit ? 2.8 : 2.0, 0}, upright_or_level});
+      list_.shapes.emplace_back(LineShape{a, b, {role, lit ? 2.8 : 2.0}, upright_or_level});
     }
   }
 
@@ -65,15 +65,9 @@ class TreeView {
     const FrameNode& node = node_of(branch);
     const bool dashed = is_empty_leaf(branch);
     if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
-    if (node.over_capacity) return {Role::warning, 2.6, 0};
+    if (node.over_capacity) return {Role::warning, 2.6};
     if (node.sleeps()) return {Role::quiet_ink, 2.0, 2.6};
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
-  }
-
-  static Role ground_of(Mark mark, bool asleep) {
-    if (asleep && mark == Mark::quiet) return Role::free_space;
-    if (mark == Mark::lit) return Role::lit_fill;
-    return mark == Mark::passed ? Role::passed_fill : Role::panel;
   }
 
   void draw_branch(std::size_t i) {
@@ -82,16 +76,17 @@ class TreeView {
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
-    const Role ground = ground_of(branch.mark, node.sleeps());
+    const Role ground =
+        node.sleeps() && branch.mark == Mark::quiet ? Role::free_space : ground_of(branch.mark);
     // What never moves has sharp corners.
     const double radius = node.of_static ? 1.5 : layout_.scale.radius;
     const bool pile = branch.kind == Branch::Kind::folded ||
                       (branch.kind == Branch::Kind::node && branch.copies > 1);
     if (pile) {
       Box<2> behind{box.lo + Vec<2>(5, -5), box.hi + Vec<2>(5, -5)};  // a pile of equal cards
-      list_.shapes.emplace_back(RectShape{behind, radius, ground, outline, false});
+      list_.rect(behind, ground, outline, radius);
     }
-    list_.shapes.emplace_back(RectShape{box, radius, ground, outline, false});
+    list_.rect(box, ground, outline, radius);
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
@@ -104,7 +99,7 @@ class TreeView {
   void draw_levels(const Branch& branch, const Box<2>& box) {
     const Role role = branch.mark == Mark::quiet ? Role::cell_line_2 : Role::lit;
     const Vec<2> c = box.center();
-    list_.shapes.emplace_back(LineShape{{c.x, box.lo.y}, {c.x, box.hi.y}, {role, 2.8, 5}, false});
+    list_.line({c.x, box.lo.y}, {c.x, box.hi.y}, {role, 2.8, 5});
   }
 
   // Icons from the left and the text after them, centred in the box.
@@ -121,13 +116,12 @@ class TreeView {
     for (std::size_t k = 0; k < content.icons; ++k, x += icon + 5)
       draw_icon(node_of(branch).bodies[k], {{x, c.y - icon / 2}, {x + icon, c.y + icon / 2}});
     if (content.icons > 0) x += 1;
-    const double baseline = c.y + cap_height(style.weight) * style.size / 2;
-    labels_.add(content.text, {{x, baseline}, 0}, style, panel_);
+    labels_.add(content.text, centred({x, c.y}, style, 0), style, panel_);
   }
 
   TextStyle text_style(const Branch& branch) const {
     const bool no_node = branch.kind != Branch::Kind::node || is_empty_leaf(branch);
-    TextStyle style{layout_.scale.text, Weight::semibold, Role::ink, Role::none};
+    TextStyle style{layout_.scale.text, Weight::semibold, Role::ink};
     if (no_node && branch.mark != Mark::lit) {
       style.weight = Weight::regular;
       style.role = Role::quiet_ink;
@@ -139,13 +133,12 @@ class TreeView {
     if (is_atlas()) {
       const FrameTexture& texture = frame_.textures[texture_at_.at(id)];
       draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_);
-      list_.shapes.emplace_back(RectShape{place, 0, Role::none, {Role::body_line, 1.2, 0}, false});
+      list_.rect(place, Role::none, {Role::body_line, 1.2});
       return;
     }
-    const auto found = body_at_.find(id);
-    if (found == body_at_.end()) return;
-    const FrameBody& body = frame_.bodies[found->second];
-    draw_character(body, icon_box(body, place), false, list_);
+    const auto found = bodies_.find(id);
+    if (found == bodies_.end()) return;
+    draw_character(*found->second, icon_box(*found->second, place), false, list_);
   }
 
   // A bat stays long and thin, down to a third.
@@ -161,25 +154,20 @@ class TreeView {
   void draw_cut(const FrameNode& node, const Box<2>& box, Role role) {
     const double half = 0.32 * box.size().y;
     const Box<2> icon = Box<2>::around(box.center(), Vec<2>(1.15 * half, half));
-    list_.shapes.emplace_back(RectShape{icon, 2, Role::none, {role, 1.6, 0}, false});
+    list_.rect(icon, Role::none, {role, 1.6}, 2);
     const Vec<2> c = icon.center();
     const bool upright = node.cut_vertically;
-    list_.shapes.emplace_back(LineShape{upright ? Vec<2>(c.x, icon.lo.y) : Vec<2>(icon.lo.x, c.y),
-                                        upright ? Vec<2>(c.x, icon.hi.y) : Vec<2>(icon.hi.x, c.y),
-                                        {role, 3.2, 0},
-                                        false});
+    list_.line(upright ? Vec<2>(c.x, icon.lo.y) : Vec<2>(icon.lo.x, c.y),
+               upright ? Vec<2>(c.x, icon.hi.y) : Vec<2>(icon.hi.x, c.y), {role, 3.2});
   }
 
   // A warning triangle on the box's corner.
   void draw_badge(const Box<2>& box) {
     const Vec<2> c{box.hi.x - 1, box.lo.y + 1};
-    list_.shapes.emplace_back(
-        PolygonShape{{c + Vec<2>(0, -10), c + Vec<2>(10, 7), c + Vec<2>(-10, 7)},
-                     Role::warning,
-                     {Role::paper, 2, 0}});
-    list_.shapes.emplace_back(
-        LineShape{c + Vec<2>(0, -3.5), c + Vec<2>(0, 1), {Role::paper, 2.2, 0}, false});
-    list_.shapes.emplace_back(disc(c + Vec<2>(0, 4.6), 1.3, Role::paper));
+    list_.polygon({c + Vec<2>(0, -10), c + Vec<2>(10, 7), c + Vec<2>(-10, 7)}, Role::warning,
+                  {Role::paper, 2});
+    list_.line(c + Vec<2>(0, -3.5), c + Vec<2>(0, 1), {Role::paper, 2.2});
+    list_.disc(c + Vec<2>(0, 4.6), 1.3, Role::paper);
   }
 
   void label_levels(const Branch& branch, const Vec<2>& c) {
@@ -202,9 +190,7 @@ class TreeView {
     const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
     const double room = layout_.label_room(i, frame_, panel_);
     for (const std::string& text : label_choices(branch))
-      if (text_width(text, style) <= room &&
-          labels_.try_add(text, {under}, style, panel_))
-        return;
+      if (text_width(text, style) <= room && labels_.try_add(text, {under}, style, panel_)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
       labels_.try_add(shortened(node.label, room, style), {under}, style, panel_);
   }
@@ -298,7 +284,7 @@ class TreeView {
   Labels& labels_;
   TreeLayout layout_;
   std::vector<bool> says_holds_;  // by row
-  std::unordered_map<BodyId, std::size_t> body_at_;
+  std::unordered_map<BodyId, const FrameBody*> bodies_;
   std::unordered_map<std::uint32_t, std::size_t> texture_at_;
 };
 

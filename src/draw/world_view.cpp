@@ -1,32 +1,25 @@
-#include "draw/world_view.hpp"
-
 #include <fmt/format.h>
 
-#include "draw/depths.hpp"
-#include "draw/solid_view.hpp"
-#include "draw/world_bodies.hpp"
-#include "draw/world_marks.hpp"
+#include "draw/panels.hpp"
+#include "draw/world2d_parts.hpp"
 
 namespace lantern {
 namespace {
 
-constexpr std::size_t kCrowd = 700;  // more bodies than this are no longer drawn one by one
-
-}  // namespace
-
-namespace {
-
 // What lies over the bodies. Gives what had to be left out.
-std::string draw_marks(const Frame& frame, const WorldMap& map, DrawList& list, Labels& labels) {
-  draw_links(frame, map, list);
-  draw_views(frame, map, list);
-  draw_queries(frame, map, list);
-  draw_velocities(frame, map, list);
-  const bool all = draw_contacts(frame, map, list);
-  draw_rays(frame, map, list, labels);
+std::string draw_marks(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
+  Marks2D marks(map, mark_limit(map), list), inside(map, map.picture(), list);
+  mark_links(frame, marks);
+  mark_views(frame, inside);
+  mark_eyes(frame, map, shrunk(map.picture(), -20), list);
+  mark_queries(frame, inside);
+  mark_velocities(frame, marks);
+  const bool all = mark_contacts(frame, marks);
+  mark_rays(frame, marks);
+  mark_hits(frame, marks, labels);
   if (frame.eye) {
     const Vec<2> eye = map.to_page(*frame.eye);
-    draw_eye_mark(eye, {1, 0}, Role::ink, shrunk(map.rect, -20), list);
+    draw_eye(eye, {1, 0}, Role::ink, shrunk(map.picture(), -20), list);
     labels.block(Box<2>::around(eye, {24, 18}));
   }
   return all ? "" : "not all contacts are drawn";
@@ -35,8 +28,8 @@ std::string draw_marks(const Frame& frame, const WorldMap& map, DrawList& list, 
 }  // namespace
 
 void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  if (frame.dimension == 3) return draw_solid_world(frame, panel, list, labels);
-  const WorldMap map(flat(frame.bounds), panel);
+  if (frame.dimension == 3) return draw_world3d(frame, panel, list, labels);
+  const View2D map(flat(frame.bounds), panel);
   Grounds grounds;
   std::string note;
   const auto leave_out = [&](const std::string& what) {
@@ -48,14 +41,15 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
     const std::size_t marks = draw_crowd(frame, map, list);
     leave_out(fmt::format("{} bodies as {} marks", frame.bodies.size(), marks));
     leave_out(draw_marks(frame, map, list, labels));
-    return labels.add_note(note, map.rect);
+    return labels.add_note(note, map.picture());
   }
   const std::vector<GroundPlace> ground = draw_half_spaces(frame, map, list, grounds);
   const std::vector<Stand> stands = stands_of(frame, map);
   // A ray, view or region is about bodies, not about pairs.
   const bool asks = !frame.rays.empty() || !frame.views.empty() || !frame.queries.empty();
   if (!asks && !draw_pairs(frame, stands, list)) leave_out("not all pairs are drawn");
-  if (!asks) draw_ground_pairs(frame, map, list);
+  Marks2D marks(map, mark_limit(map), list);
+  if (!asks) draw_ground_pairs(frame, marks);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.show_boxes;
   draw_bodies(stands, map, own_boxes, list);
   for (const Stand& stand : stands)
@@ -63,16 +57,14 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   if (!asks) draw_joints(frame, stands, list);
   draw_broad_boxes(frame, map, list, labels);
   leave_out(draw_marks(frame, map, list, labels));
-  if (!note.empty()) labels.add_note(note, map.rect);
+  if (!note.empty()) labels.add_note(note, map.picture());
   std::vector<Box<2>> covered;
   for (const Stand& stand : stands) covered.push_back(stand.box);
-  write_depths(
-      frame, [&](const Vec<3>& p) { return std::optional(map.to_page(p)); }, covered, map.panel,
-      labels);
+  write_depths(frame, map, covered, labels);
   number_sectors(frame, map, grounds, labels);
   label_cells(frame, map, covered, grounds, list, labels);
   name_half_spaces(ground, map, grounds, labels);
-  name_bodies(stands, map, grounds, labels);
+  name_bodies(stands, covered, map, grounds, labels);
 }
 
 }  // namespace lantern

@@ -99,7 +99,7 @@ class Table {
     const bool met = *b.met();
     const Role role = met ? Role::ink : Role::warning;
     list_.shapes.emplace_back(LineShape{{middle, y}, {at, y}, {role, 3, 0}, false});
-    list_.shapes.emplace_back(disc({at, y}, 5.2, met ? Role::ink : Role::paper, {role, 2.2, 0}));
+    list_.disc({at, y}, 5.2, met ? Role::ink : Role::paper, {role, 2.2, 0});
     if (std::abs(far) <= kDecades) return;  // beyond the strip: an arrow's head
     const double way = far < 0 ? -1 : 1, tip = at + way * 12;
     for (const double side : {-1.0, 1.0})

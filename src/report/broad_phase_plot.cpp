@@ -20,11 +20,12 @@ struct GridTone {
   double above;
   Role fill, ink;
 };
-constexpr std::array<GridTone, 5> kTones = {{{1.1, Role::body_lit_6, Role::pupil},
-                                             {1.5, Role::body_6, Role::pupil},
-                                             {2.5, Role::body_lit_4, Role::pupil},
-                                             {5, Role::body_4, Role::eye},
-                                             {1e300, Role::body_shade_4, Role::eye}}};
+constexpr std::array<GridTone, 5> kTones = {
+    {{1.1, in_tone(Role::body_6, Tone::lit), Role::pupil},
+     {1.5, Role::body_6, Role::pupil},
+     {2.5, in_tone(Role::body_4, Tone::lit), Role::pupil},
+     {5, Role::body_4, Role::eye},
+     {1e300, in_tone(Role::body_4, Tone::shade), Role::eye}}};
 
 const GridTone& tone_of(double ratio) {
   return *std::find_if(kTones.begin(), kTones.end(),
@@ -185,7 +186,8 @@ class GridPage {
     const TextStyle plain{20, Weight::regular, Role::ink, Role::none};
     const TextStyle strong{20, Weight::semibold, Role::lit_ink, Role::none};
     const double right = place.hi.x, middle = with_time ? right - 120 : right;
-    const double step = scene_.dimension() == 3 ? 36 : 42;
+    const double step = std::min(
+        42.0, (place.size().y - head.size - 40) / static_cast<double>(kStructureKinds.size()));
     double y = place.lo.y + head.size;
     labels_.add("Cheapest capacity / limit", {{place.lo.x, y}, 0}, head, place);
     const TextStyle quiet{18, Weight::regular, Role::quiet_ink, Role::none};

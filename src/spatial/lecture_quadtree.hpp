@@ -30,7 +30,8 @@ class LectureQuadtree {
  public:
   static constexpr Zones kZones = Zones::endless_rim;
 
-  static constexpr StructureTraits kTraits{.words = "lecture's quadtree", .is_plain = true};
+  static constexpr StructureTraits kTraits{
+      .words = "lecture's quadtree", .ignores_height = true, .is_plain = true};
 
   static LectureQuadtree made(const StructureConfig<D>& config) { return LectureQuadtree(config); }
 

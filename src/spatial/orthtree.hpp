@@ -46,8 +46,8 @@ class Orthtree {
  public:
   static constexpr std::uint32_t kChildren = Halves::kChildren;
   static constexpr Zones kZones = Zones::endless_rim;
-  static constexpr StructureTraits kTraits{.words = D == 2 ? "quadtree" : "octree",
-                                           .shares_array = true};
+  static constexpr StructureTraits kTraits{
+      .words = D == 2 ? "quadtree" : "octree", .shares_array = true, .ignores_height = D == 2};
   static constexpr std::uint32_t kDeepest = 32;
   static constexpr std::uint64_t kMost = 0xffff'fffe;  // nodes and entries have 32-bit numbers
 

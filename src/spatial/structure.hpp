@@ -115,13 +115,14 @@ struct StructureConfig {
 
 // What tells kinds of structures apart for whoever shows or describes them.
 struct StructureTraits {
-  std::string_view words;     // "sort and sweep": as one would write it
-  bool is_tree = true;        // else one list of all bodies
-  bool splits = true;         // leaves above capacity, down to the depth limit
-  bool is_fitted = false;     // to its bodies: built of all of them at once, stale when they move
-  bool shares_array = false;  // all leaves' contents lie in one array
-  bool is_plain = false;      // makes all children, has no stop but the depth limit, and asks for
-                              // memory anew each time
+  std::string_view words;       // "sort and sweep": as one would write it
+  bool is_tree = true;          // else one list of all bodies
+  bool splits = true;           // leaves above capacity, down to the depth limit
+  bool is_fitted = false;       // to its bodies: built of all of them at once, stale when they move
+  bool shares_array = false;    // all leaves' contents lie in one array
+  bool ignores_height = false;  // in three dimensions it looks at x and z only
+  bool is_plain = false;        // makes all children, has no stop but the depth limit, and asks for
+                                // memory anew each time
 };
 
 // What an algorithm does, told while it does it.

@@ -1,8 +1,7 @@
 // How deep bodies overlap, as it is written beside contacts.
-#include "draw/depths.hpp"
-
 #include <gtest/gtest.h>
 
+#include "draw/marks.hpp"
 #include "draw/page.hpp"
 
 namespace lantern {

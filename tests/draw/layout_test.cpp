@@ -202,7 +202,7 @@ Placed placed(std::int64_t pairs, std::int64_t all, const std::string& caption) 
   frame.caption = caption;
   for (auto& [name, count] : frame.counts) {
     if (name == "pairs") count = pairs;
-    if (name == "all_pairs") count = all;
+    if (name == "testable_pairs") count = all;
   }
   Work work;
   Placed found;

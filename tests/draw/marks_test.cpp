@@ -1,3 +1,5 @@
+#include "draw/marks.hpp"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include "draw/page.hpp"
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
+#include "draw/world3d_parts.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern {
@@ -223,6 +226,46 @@ TEST(Marks, BoxesAndVelocitiesOnlyWhenAskedFor) {
   frame.show_boxes = frame.show_velocities = false;
   EXPECT_EQ(count<RectShape>(page_of(frame), dashed), 0);
   EXPECT_EQ(count<LineShape>(page_of(frame), arrows), 0);
+}
+
+// The ends of the longest line in that role.
+double longest_line(const DrawList& list, Role role) {
+  double longest = 0;
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* line = std::get_if<LineShape>(&shape); line && line->stroke.role == role)
+      longest = std::max(longest, glm::distance(line->from, line->to));
+  return longest;
+}
+
+// Seen straight from the front, what lies in one plane looks as in a 2D world.
+TEST(Marks, LookTheSameIn2DAnd3D) {
+  const Box<2> panel{{0, 0}, {600, 600}};
+  Frame frame;
+  frame.bounds = {{-4, -4, -1}, {4, 4, 1}};
+  FrameContact contact;
+  contact.normal = {0, 1, 0};
+  contact.points.push_back({{1, 1, 0}, 0, 2.0});
+  frame.contacts = {contact};
+  FrameRay ray;
+  ray.from = {-2, 0, 0};
+  ray.to = {2, 0, 0};
+  frame.rays = {ray};
+  DrawList in_2d, in_3d;
+  const View2D plane(flat(frame.bounds), panel);
+  Marks2D flat_marks(plane, panel, in_2d);
+  const View3D front(frame.bounds, Camera{{0, 0, 50}, {0, 0, 0}, 0.7}, panel);
+  const std::vector<Body3D> nobody;
+  Marks3D deep_marks(front, nobody, in_3d);
+  for (Marks* marks : {static_cast<Marks*>(&flat_marks), static_cast<Marks*>(&deep_marks)})
+    mark_rays(frame, *marks);
+  deep_marks.paint();
+  for (const Marks* marks : {static_cast<Marks*>(&flat_marks), static_cast<Marks*>(&deep_marks)})
+    EXPECT_TRUE(mark_contacts(frame, *marks));
+  ASSERT_EQ(in_2d.shapes.size(), in_3d.shapes.size());
+  EXPECT_NEAR(longest_line(in_2d, Role::contact), longest_line(in_3d, Role::contact), 1e-6)
+      << "an impulse has one length, whatever the world";
+  const double ratio = front.scale_at({0, 0, 0}) / plane.scale();
+  EXPECT_NEAR(longest_line(in_3d, Role::ray), ratio * longest_line(in_2d, Role::ray), 15);
 }
 
 }  // namespace

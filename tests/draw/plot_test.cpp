@@ -9,8 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "draw/axis.hpp"
 #include "draw/layout_check.hpp"
-#include "draw/plot_axes.hpp"
+#include "draw/number_text.hpp"
 #include "draw/plot_legend.hpp"
 #include "draw/plot_marks.hpp"
 #include "geometry/not_finite.hpp"
@@ -115,6 +116,31 @@ TEST(Plot, NamesStandAtTheEndsWhereThereIsRoom) {
     ASSERT_NE(found, list.labels.end());
     EXPECT_LT(found->box.hi.y, 480) << s.name << " went to a legend though its end was free";
   }
+}
+
+TEST(Plot, WhiskersReachFromTheLeastToTheMostAndStayInside) {
+  Plot plot;
+  plot.log_x = false;
+  PlotPoint point{{2, 0.1}, false, ""};
+  point.spread = Box<2>{{1, 1e-3}, {4, 10}};
+  plot.series.push_back({"line", {point, {{3, 1}, false, ""}}, 0});
+  const auto reach = [](const DrawList& list, int axis) {
+    double most = 0;
+    for (const DrawShape& shape : list.shapes)
+      if (const auto* line = std::get_if<LineShape>(&shape);
+          line && line->stroke.role == plot_role(0) && line->from[1 - axis] == line->to[1 - axis])
+        most = std::max(most, std::abs(line->to[axis] - line->from[axis]));
+    return most;
+  };
+  const DrawList with = drawn(plot);
+  EXPECT_GT(reach(with, 0), 200);
+  EXPECT_GT(reach(with, 1), 200);
+  expect_laid_out(with, {{0, 0}, {800, 500}}, 0.91 * plot.size, "whiskers");
+  // Along x nothing to draw and nothing to break; along y a logarithm has no 0.
+  plot.series[0].points[0].spread = Box<2>{{kNan, 0}, {kInfinity, 1e-3}};
+  expect_laid_out(drawn(plot), {{0, 0}, {800, 500}}, 0.91 * plot.size, "whiskers without an end");
+  plot.series[0].points[0].spread = std::nullopt;
+  EXPECT_EQ(reach(drawn(plot), 0), 0);
 }
 
 TEST(Plot, WhatIsNotFiniteIsLeftOut) {
@@ -265,17 +291,17 @@ TEST(Plot, PeersAreDashed) {
   }
 }
 
-TEST(PlotScale, LogarithmicTicksArePowersOfTenOrPartsWithinTheAxis) {
+TEST(FittedAxis, LogarithmicTicksArePowersOfTenOrPartsWithinTheAxis) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     const double least = std::pow(10, random.between(-20, 10));
     const double most = least * std::pow(10, random.between(0, 18));
     const int ticks = static_cast<int>(random.whole(2, 10));
-    const PlotScale scale(least, most, true, ticks);
+    const Axis scale = Axis::fitted(least, most, ticks);
     ASSERT_GE(scale.ticks().size(), 2u) << least << " to " << most;
     EXPECT_LE(scale.ticks().size(), static_cast<std::size_t>(std::max(4, ticks)));
-    EXPECT_GE(scale.share(least), 0);
-    EXPECT_LE(scale.share(most), 1);
+    EXPECT_GE(scale.place(least), 0);
+    EXPECT_LE(scale.place(most), 1);
     int powers = 0;
     for (const Axis::Tick& tick : scale.ticks()) {
       const double power = std::floor(std::log10(tick.value) + 1e-9);
@@ -286,34 +312,34 @@ TEST(PlotScale, LogarithmicTicksArePowersOfTenOrPartsWithinTheAxis) {
       if (is_power) {
         EXPECT_EQ(tick.text, power_of_ten(static_cast<int>(std::lround(power))));
       }
-      EXPECT_GE(scale.share(tick.value), -1e-9) << least << " to " << most;
-      EXPECT_LE(scale.share(tick.value), 1 + 1e-9) << least << " to " << most;
+      EXPECT_GE(scale.place(tick.value), -1e-9) << least << " to " << most;
+      EXPECT_LE(scale.place(tick.value), 1 + 1e-9) << least << " to " << most;
     }
     if (powers > 1) {
       EXPECT_EQ(static_cast<std::size_t>(powers), scale.ticks().size())
           << "parts are only for axes with fewer than two powers of ten";
     }
   }
-  const PlotScale parts(1.5e-3, 8e-3, true, 8);
+  const Axis parts = Axis::fitted(1.5e-3, 8e-3, 8);
   ASSERT_EQ(parts.ticks().size(), 2u);
   EXPECT_EQ(parts.ticks()[0].text, "2·10⁻³");
-  EXPECT_NEAR(parts.share(1.5e-3), 0.09, 0.04) << "the axis is much longer than its values need";
+  EXPECT_NEAR(parts.place(1.5e-3), 0.09, 0.04) << "the axis is much longer than its values need";
   EXPECT_EQ(power_of_ten(-12), "10⁻¹²");
   EXPECT_EQ(power_of_ten(0), "1");
   EXPECT_EQ(power_of_ten(1), "10");
 }
 
-TEST(PlotScale, WhatHasNoLogarithmIsAtTheLowerEnd) {
-  const PlotScale scale(1e-6, 1, true, 6);
-  EXPECT_EQ(scale.share(0), 0);
-  EXPECT_EQ(scale.share(-3), 0);
+TEST(FittedAxis, WhatHasNoLogarithmIsAtTheLowerEnd) {
+  const Axis scale = Axis::fitted(1e-6, 1, 6);
+  EXPECT_EQ(scale.place(0), 0);
+  EXPECT_EQ(scale.place(-3), 0);
 }
 
 TEST(PlotMarks, LooksAreUnlike) {
   std::set<std::string> seen;
   for (int look = 0; look < 56; ++look) {
     DrawList list;
-    draw_plot_mark(look, {0, 0}, 10, false, list);
+    draw_plot_mark({look}, {0, 0}, 10, false, list);
     std::string text = fmt::format("{}", static_cast<int>(plot_role(look)));
     for (const DrawShape& shape : list.shapes)
       if (const auto* polygon = std::get_if<PolygonShape>(&shape))

@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 #include "draw/page.hpp"
-#include "draw/solid_samples.hpp"
+#include "draw/world3d_samples.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::samples {
@@ -70,7 +70,8 @@ void count(Frame& frame) {
                   {"leaves", leaves},
                   {"entries", entries},
                   {"pairs", static_cast<std::int64_t>(pairs.size())},
-                  {"all_pairs", n * (n - 1) / 2}};
+                  {"all_pairs", n * (n - 1) / 2},
+                  {"testable_pairs", n * (n - 1) / 2}};
 }
 
 void grow(Frame& frame, std::size_t capacity, std::uint32_t max_depth) {
@@ -247,7 +248,8 @@ Frame pong(double ball_x) {
 }
 
 Frame doom() {
-  Frame frame = base("A level cut into convex sectors", {{0, 0}, {20, 14}}, {Panel::world, Panel::tree});
+  Frame frame =
+      base("A level cut into convex sectors", {{0, 0}, {20, 14}}, {Panel::world, Panel::tree});
   frame.structure = StructureKind::bsp;
   frame.settings = "3 dividing lines";
   frame.bodies = {body(0, "imp", Look::ghost, 7, {4, 10}),
@@ -409,7 +411,7 @@ Frame unstructured() {
   frame.pairs.clear();
   frame.panels = {Panel::world};
   frame.structure = StructureKind::none;
-  frame.counts = {{"bodies", 4}, {"all_pairs", 6}};
+  frame.counts = {{"bodies", 4}, {"all_pairs", 6}, {"testable_pairs", 6}};
   return frame;
 }
 

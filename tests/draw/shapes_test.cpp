@@ -122,8 +122,8 @@ TEST(AtlasImage, HoldsEachPackedTextureAndNothingElse) {
 TEST(Clip, KeepsWhatLiesInside) {
   const Box<2> rect{{0, 0}, {10, 10}};
   DrawList list;
-  list.shapes.emplace_back(disc({0, 5}, 3, Role::body_1));
-  list.shapes.emplace_back(disc({50, 5}, 3, Role::body_2));
+  list.disc({0, 5}, 3, Role::body_1);
+  list.disc({50, 5}, 3, Role::body_2);
   list.shapes.emplace_back(LineShape{{1, 1}, {2, 2}, {Role::ink, 0, 0}, false});
   cut_shapes(list, 0, rect);
   ASSERT_EQ(list.shapes.size(), 2u) << "the disc outside goes, the line inside stays";

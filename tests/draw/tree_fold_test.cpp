@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "draw/page.hpp"
+#include "draw/panels.hpp"
 #include "draw/sample_frames.hpp"
 #include "draw/tree_layout.hpp"
-#include "draw/tree_view.hpp"
 
 namespace lantern {
 namespace {

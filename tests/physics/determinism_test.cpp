@@ -92,7 +92,10 @@ TEST(Determinism, StagesThatAreNotNeededChangeNothing) {
 }
 
 TEST(Determinism, StagesThatAreNotNeededAreLeftOut) {
-  World<2> free_flight;
+  WorldConfig<2> config;
+  config.contacts = ContactMethod::none;
+  config.may_sleep = false;
+  World<2> free_flight(config);
   free_flight.add(ball_at<2>({0, 0}, {1, 0}));
   free_flight.add(ball_at<2>({0, 0}, {-1, 0}));
   run(free_flight, 1);

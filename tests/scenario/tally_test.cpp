@@ -134,8 +134,10 @@ void expect_world(const DryRun& run) {
 void expect_physics(const DryRun& run) {
   if (run.steps_with<Wait>() == 0) {
     const WorldWork other = without_frames(run);
-    for (const WorldCounter& c : kWorldCounters)
+    for (const WorldCounter& c : kWorldCounters) {
+      if (c.name == "pair_tests") continue;  // of the structure, which only the director rebuilds
       EXPECT_EQ(run.report.world.*c.count, other.*c.count) << c.name;
+    }
   }
   const WorldWork& w = run.report.world;
   EXPECT_EQ(run.count("rotation", "rotations"), w.rotations_integrated);
@@ -283,7 +285,7 @@ TEST(Tally, OfALevelThatIsNotCompiled) {
 TEST(Tally, TellsAKindOfStructureByItsBuilds) {
   const DryRun run(load_scenario(LANTERN_ROOT "/scenarios/pong_bsp.toml"));
   EXPECT_EQ(run.count("structure", "brute_force builds"), 1u);
-  EXPECT_EQ(run.count("structure", "bsp builds"), 65u);
+  EXPECT_EQ(run.count("structure", "bsp builds"), 66u);
 }
 
 TEST(Panels, AreDerivedUnlessGiven) {

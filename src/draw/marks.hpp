@@ -1,0 +1,105 @@
+// Marks of a world, each written once: in a 2D world they are drawn as they come, in a 3D one they
+// are sorted with what hides them.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "draw/labels.hpp"
+#include "draw/pen.hpp"
+#include "draw/projection.hpp"
+
+namespace lantern {
+
+class Marks {
+ public:
+  virtual ~Marks() = default;
+
+  // With a `casing` of the panel's tone on both sides of it, a line can be told from what it
+  // crosses.
+  virtual void line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke,
+                    double casing = 0) = 0;
+  // A line with a head at its end, `head` page units long.
+  virtual void arrow(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double head,
+                     double casing) = 0;
+  virtual void spring(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke) = 0;
+  virtual void box(const Box<3>& box, const Stroke& stroke) = 0;
+  virtual void ball(const Vec<3>& center, double radius, const Stroke& stroke) = 0;
+
+  // What is drawn with it lies over all that bodies may hide, in the marks' place.
+  Pen over() const { return {*over_, place_}; }
+  void dot(const Vec<3>& at, double radius, Role fill, const Stroke& stroke = {}) const;
+
+  const Projection& projection() const { return projection_; }
+
+ protected:
+  Marks(const Projection& projection, const Box<2>& place, DrawList& list)
+      : projection_(projection), place_(place), list_(list), over_(&list) {}
+
+  const Projection& projection_;
+  Box<2> place_;
+  DrawList& list_;
+  DrawList* over_;
+};
+
+// Marks of a 2D world, cut to `place`.
+class Marks2D : public Marks {
+ public:
+  Marks2D(const View2D& view, const Box<2>& place, DrawList& list)
+      : Marks(view, place, list), view_(view) {}
+
+  void line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double casing = 0) override;
+  void arrow(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double head,
+             double casing) override;
+  void spring(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke) override;
+  void box(const Box<3>& box, const Stroke& stroke) override;
+  void ball(const Vec<3>& center, double radius, const Stroke& stroke) override;
+
+ private:
+  const View2D& view_;
+};
+
+// The corners of a spring's line, which turns to and fro across its way; none for a short one.
+std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to);
+
+// Springs, joints and pins with their ends; velocities, the faster the longer by one rule for all
+// frames.
+void mark_links(const Frame& frame, Marks& marks);
+void mark_velocities(const Frame& frame, Marks& marks);
+// Points, normals and impulses. False if there are too many, and not all are drawn.
+bool mark_contacts(const Frame& frame, const Marks& marks);
+
+// "12 mm", "0.34 mm", "1.5 m": two figures, and a unit that keeps them readable. "0" below a
+// nanometre. A unit of the world is taken for a metre.
+std::string depth_text(double depth);
+
+// The deepest point of each contact, beside all of the contact's points: free of labels and, as far
+// as there is room, of `bodies`, their boxes on the page. The deepest contacts come first; what has
+// no room is left out.
+void write_depths(const Frame& frame, const Projection& view, const std::vector<Box<2>>& bodies,
+                  Labels& labels);
+
+// What is asked for: the outlines of views, regions and rays; the eyes of views, cut to `place`;
+// the rays' starts and hits, numbered when there are several.
+void mark_views(const Frame& frame, Marks& marks);
+void mark_queries(const Frame& frame, Marks& marks);
+void mark_rays(const Frame& frame, Marks& marks);
+void mark_eyes(const Frame& frame, const Projection& projection, const Box<2>& place,
+               DrawList& list);
+void mark_hits(const Frame& frame, const Marks& marks, Labels& labels);
+
+// An eye at a place of the page that looks along `gaze`.
+void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& place, DrawList& list);
+
+// The first `most` of them: more are not drawn on one frame.
+template <class T>
+std::span<const T> first_of(const std::vector<T>& all, std::size_t most) {
+  return {all.data(), std::min(all.size(), most)};
+}
+
+inline constexpr std::size_t kMostViews = 8;
+inline constexpr std::size_t kCrowd = 700;  // more bodies than this are not drawn one by one
+
+}  // namespace lantern

@@ -1,0 +1,115 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+#include "draw/marks.hpp"
+#include "geometry/not_finite.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostQueries = 60;
+constexpr std::size_t kMostRays = 120;
+constexpr std::size_t kMostHits = 60;
+
+// Many rays are drawn thinner.
+double ray_scale(const Frame& frame) { return frame.rays.size() > 12 ? 0.6 : 1; }
+
+void mark_hits_of(const FrameRay& ray, const Marks& marks, Labels& labels) {
+  constexpr double kHit = 12.5;  // radius of a numbered mark
+  const TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::ink};
+  const Box<2>& picture = marks.projection().picture();
+  int number = 0;
+  for (const auto& hit : first_of(ray.hits, kMostHits)) {
+    const std::string text = fmt::format("{}", ++number);
+    const auto at = marks.projection().seen(hit.position);
+    if (!at) continue;
+    const double radius = std::max(kHit, text_width(text, style) / 2 + 4);
+    const Box<2> box = Box<2>::around(*at, Vec<2>(radius));
+    const bool numbered = ray.hits.size() > 1 && labels.is_free(box, picture);
+    marks.over().dot(*at, numbered ? radius : 6, Role::panel, {Role::ray, 2.8});
+    if (!numbered) continue;
+    labels.add(text, centred(*at, style), style, picture);
+    labels.block(box);
+  }
+}
+
+}  // namespace
+
+void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& place,
+              DrawList& list) {
+  constexpr int kPerLid = 9;
+  constexpr double kWide = 17, kHigh = 10.5;
+  const double length = std::hypot(gaze.x, gaze.y);
+  const Vec<2> look = length > 0 ? gaze / length : Vec<2>(0, 0);
+  std::vector<Vec<2>> lids;
+  for (const int lid : {1, -1})
+    for (int i = 0; i < kPerLid; ++i) {
+      const double t = 2.0 * i / kPerLid - 1;  // from corner to corner
+      lids.push_back(at + Vec<2>(lid * t * kWide, -lid * (1 - t * t) * kHigh));
+    }
+  Pen pen(list, place);
+  pen.polygon(lids, Role::eye, {role, 2.8});
+  pen.dot(at + look * 4.0, 5.6, Role::pupil);
+  pen.dot(at + look * 4.0 + Vec<2>(1.6, -1.8), 1.5, Role::eye);
+}
+
+// Of a 2D view its border, of a 3D one its edges, and from the eye to them.
+void mark_views(const Frame& frame, Marks& marks) {
+  for (const FrameView& view : first_of(frame.views, kMostViews)) {
+    const std::vector<Vec<3>>& c = view.corners;
+    if (!std::all_of(c.begin(), c.end(), is_finite<3>)) continue;
+    if (c.size() != 8) {
+      for (std::size_t i = 0; i < c.size() && c.size() > 2; ++i)
+        marks.line(c[i], c[(i + 1) % c.size()], {Role::frustum, 3.4});
+      continue;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Stroke strong{Role::frustum, 2.6};
+      const std::size_t next = (i + 1) % 4;
+      marks.line(c[i], c[next], strong);
+      marks.line(c[i + 4], c[next + 4], strong);
+      marks.line(c[i], c[i + 4], strong);
+      marks.line(view.eye, c[i], {Role::frustum, 1.6, 6});
+    }
+  }
+}
+
+void mark_eyes(const Frame& frame, const Projection& projection, const Box<2>& place,
+               DrawList& list) {
+  for (const FrameView& view : first_of(frame.views, kMostViews)) {
+    const auto at = projection.seen(view.eye);
+    if (!at || view.corners.empty()) continue;
+    Vec<3> ahead{0.0};
+    for (const Vec<3>& corner : view.corners)
+      ahead += (corner - view.eye) / static_cast<double>(view.corners.size());
+    if (is_finite(ahead)) draw_eye(*at, projection.turned(ahead), Role::frustum, place, list);
+  }
+}
+
+void mark_queries(const Frame& frame, Marks& marks) {
+  const Stroke stroke{Role::frustum, 3.2, 9};
+  for (const FrameQuery& query : first_of(frame.queries, kMostQueries)) {
+    if (!is_valid(query.box)) continue;
+    if (query.radius > 0)
+      marks.ball(query.box.center(), query.radius, stroke);
+    else
+      marks.box(query.box, stroke);
+  }
+}
+
+void mark_rays(const Frame& frame, Marks& marks) {
+  const double k = ray_scale(frame);
+  for (const FrameRay& ray : first_of(frame.rays, kMostRays))
+    marks.arrow(ray.from, ray.to, {Role::ray, 3.6 * k}, 20 * k, 1.8 * k);
+}
+
+void mark_hits(const Frame& frame, const Marks& marks, Labels& labels) {
+  const double k = ray_scale(frame);
+  const auto rays = first_of(frame.rays, kMostRays);
+  for (const FrameRay& ray : rays) marks.dot(ray.from, 5.5 * k, Role::ray, {Role::panel, 1.8 * k});
+  for (const FrameRay& ray : rays) mark_hits_of(ray, marks, labels);
+}
+
+}  // namespace lantern

@@ -1,0 +1,278 @@
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "base/stop.hpp"
+#include "draw/characters.hpp"
+#include "draw/clip.hpp"
+#include "draw/world2d_parts.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kOnePlace = 6;        // page units between centres that count as one place
+constexpr std::size_t kMostCards = 7;  // drawn of the bodies at one place
+constexpr std::size_t kMostDetailed = 160;
+constexpr std::size_t kMostBoxed = 60;
+constexpr std::size_t kMostLinks = 900;
+constexpr double kRim = 24;      // from the bounds to an outside body's marker
+const Vec<2> kOverhang{34, 20};  // a body may reach this far out of the world's bounds
+constexpr double kLeastBody = 5;
+
+// A body's box on the page, never too small to be seen.
+Box<2> page_box(const FrameBody& body, const View2D& map) {
+  const Box<2> box = map.to_page(body.box);
+  return Box<2>::around(box.center(), glm::max(box.size(), Vec<2>(kLeastBody)) / 2.0);
+}
+
+Box<2> drawing_limit(const View2D& map) {
+  return {map.picture().lo - kOverhang, map.picture().hi + kOverhang};
+}
+
+Box<2> page_part(const Box<2>& box, const View2D& map) {
+  const Box<2> limit = drawing_limit(map);
+  return {glm::clamp(box.lo, limit.lo, limit.hi), glm::clamp(box.hi, limit.lo, limit.hi)};
+}
+
+bool is_outside(const FrameBody& body, const Frame& frame) {
+  return !contains(frame.bounds, body.box.center());
+}
+
+Stand stand_of(const FrameBody& body, const Frame& frame, const View2D& map) {
+  Stand stand{{&body}, map.to_page(body.box.center()), page_box(body, map), false};
+  stand.outside = is_outside(body, frame);
+  if (stand.outside) {
+    const Box<2> rim = shrunk(map.picture(), kRim);
+    stand.center = glm::clamp(stand.center, glm::min(rim.lo, rim.hi), glm::max(rim.lo, rim.hi));
+    stand.box = Box<2>::around(stand.center, Vec<2>(15));
+  }
+  return stand;
+}
+
+double size_of(const Stand& stand, const View2D& map) {
+  const Vec<2> size = page_box(*stand.bodies.front(), map).size();
+  return std::min(size.x, size.y);
+}
+
+void draw_outside(const Stand& stand, const View2D& map, DrawList& list) {
+  const FrameBody& body = *stand.bodies.front();
+  Vec<2> way = map.to_page(body.box.center()) - stand.center;
+  const double length = std::hypot(way.x, way.y);
+  way = length > 0 ? way / length : Vec<2>(1, 0);
+  const Vec<2> side{-way.y, way.x};
+  const Vec<2> tip = stand.center + way * 15.0, back = stand.center - way * 10.0;
+  list.polygon({tip, back + side * 11.0, back + way * 6.0, back - side * 11.0},
+               body_role(body.color), {Role::body_line, 1.6});
+}
+
+// What reaches too far out of the world is cut off.
+void draw_inside(const FrameBody& body, const Box<2>& box, bool plain, const View2D& map,
+                 DrawList& list) {
+  const std::size_t first = list.shapes.size();
+  draw_character(body, box, plain, list);
+  const Box<2> limit = drawing_limit(map);
+  if (!holds(limit, box)) cut_shapes(list, first, limit);
+}
+
+// The box of the i-th of k bodies at one place: smaller ones, side by side within it like cards,
+// so that each can be seen and none seems to be where it is not.
+Box<2> card(const Box<2>& box, std::size_t i, std::size_t k) {
+  if (k < 2) return box;
+  constexpr double kPart = 0.6;
+  const Vec<2> room = box.size() * (1 - kPart);
+  const Vec<2> lo = box.lo + room * (static_cast<double>(i) / static_cast<double>(k - 1));
+  return {lo, lo + box.size() * kPart};
+}
+
+void draw_stand(const Stand& stand, bool plain, const View2D& map, DrawList& list) {
+  const std::size_t cards = std::min(stand.bodies.size(), kMostCards);
+  for (std::size_t i = 0; i < cards; ++i)
+    draw_inside(*stand.bodies[i], card(page_box(*stand.bodies[i], map), i, cards), plain, map,
+                list);
+}
+
+// Two stands with bodies that are to be tested.
+struct Link {
+  std::size_t a, b;  // indices of stands
+  bool lit;
+};
+
+// Each two stands once, in order of the pairs; `complete` is false when there are too many.
+std::vector<Link> links_of(const Frame& frame, const std::vector<Stand>& stands, bool& complete) {
+  std::unordered_map<BodyId, std::size_t> stand_of_body;
+  for (std::size_t i = 0; i < stands.size(); ++i)
+    for (const FrameBody* body : stands[i].bodies) stand_of_body[body->id] = i;
+  std::set<std::pair<std::size_t, std::size_t>> seen;
+  std::vector<Link> links;
+  for (const FramePair& pair : frame.pairs) {
+    const auto a = stand_of_body.find(pair.pair.a), b = stand_of_body.find(pair.pair.b);
+    if (a == stand_of_body.end() || b == stand_of_body.end() || a->second == b->second) continue;
+    if (!seen.insert(std::minmax(a->second, b->second)).second) continue;
+    complete = links.size() < kMostLinks;
+    if (!complete) break;
+    links.push_back({a->second, b->second, pair.lit});
+  }
+  return links;
+}
+
+// Where a link to `stand` ends. A long wall or floor is met at its place nearest to the other body:
+// links to its middle would all run into one point, far from where the two could touch.
+Vec<2> link_end(const Stand& stand, const Vec<2>& other) {
+  constexpr double kLong = 260;  // page units
+  const Vec<2> size = stand.box.size();
+  if (stand.bodies.size() > 1 || !stand.bodies.front()->is_static || stand.outside ||
+      std::max(size.x, size.y) < kLong)
+    return stand.center;
+  const Vec<2> inset = glm::min(Vec<2>(6), size / 2.0);
+  return glm::clamp(other, stand.box.lo + inset, stand.box.hi - inset);
+}
+
+std::string names_of(const Stand& stand) {
+  if (stand.bodies.size() == 1) return stand.bodies.front()->name;
+  constexpr std::size_t kMostNames = 4;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(stand.bodies.size(), kMostNames); ++i)
+    names += (i == 0 ? "" : ", ") + stand.bodies[i]->name;
+  if (stand.bodies.size() > kMostNames)
+    names += fmt::format(" + {}", stand.bodies.size() - kMostNames);
+  return names + (stand.outside ? " — outside" : " — one place");
+}
+
+// Below, above, beside; first where no body is covered and inside the bounds, then anywhere in the
+// panel. Among many bodies a name that covers one would be read as its name, so it is left out.
+void name_stand(const std::string& text, const Stand& stand, const std::vector<Box<2>>& covered,
+                const View2D& map, const Grounds& grounds, Labels& labels) {
+  constexpr std::size_t kFew = 12;
+  TextStyle style;
+  const auto anchors = anchors_around(stand.box, 7, style);
+  for (const bool strict : {true, false}) {
+    if (!strict && covered.size() > kFew) return;
+    const Anchor* free = labels.free_anchor(
+        text, anchors, style, strict ? shrunk(map.picture(), 5) : map.panel(),
+        [&](const Box<2>& extent) { return !strict || !touches(covered, extent); });
+    if (!free) continue;
+    style.halo = ground_at(grounds, Labels::extent(text, *free, style).center());
+    return labels.add(text, *free, style, map.panel());
+  }
+}
+
+bool is_lit(const Stand& stand) {
+  return std::any_of(stand.bodies.begin(), stand.bodies.end(),
+                     [](const FrameBody* body) { return body->lit; });
+}
+
+}  // namespace
+
+std::vector<Stand> stands_of(const Frame& frame, const View2D& map) {
+  std::vector<Stand> stands;
+  for (const FrameBody& body : frame.bodies) {
+    stop_if_asked();
+    if (is_half_space(body)) continue;
+    Stand mine = stand_of(body, frame, map);
+    const auto same = std::find_if(stands.begin(), stands.end(), [&](const Stand& other) {
+      const Vec<2> apart = other.center - mine.center;
+      return other.outside == mine.outside && std::hypot(apart.x, apart.y) < kOnePlace;
+    });
+    if (same == stands.end())
+      stands.push_back(std::move(mine));
+    else {
+      same->bodies.push_back(&body);
+      if (!mine.outside) same->box = united(same->box, mine.box);
+    }
+  }
+  return stands;
+}
+
+bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& list) {
+  bool complete = true;
+  const std::vector<Link> links = links_of(frame, stands, complete);
+  const bool many = links.size() > kMostBoxed;
+  for (const bool lit : {false, true})
+    for (const Link& link : links) {
+      if (link.lit != lit) continue;
+      const Vec<2> from = link_end(stands[link.a], stands[link.b].center);
+      const Vec<2> to = link_end(stands[link.b], from);
+      const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
+      if (!many) list.line(from, to, {Role::panel, width + 4});
+      list.line(from, to, {Role::pair, width});
+    }
+  return complete;
+}
+
+void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList& list) {
+  bool complete = true;
+  const std::vector<Link> links = links_of(frame, stands, complete);
+  if (links.size() > kMostBoxed) return;
+  for (const Link& link : links) {
+    const Box<2>&a = stands[link.a].box, &b = stands[link.b].box;
+    if (!overlap(a, b)) continue;
+    const Box<2> common{glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
+    list.disc(common.center(), 6.5, Role::pair, {Role::panel, 2.4});
+  }
+}
+
+void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list) {
+  std::size_t count = 0;
+  std::vector<const Stand*> order;
+  for (const Stand& stand : stands) {
+    count += stand.bodies.size();
+    order.push_back(&stand);
+  }
+  // A large body must not hide a small one.
+  std::stable_sort(order.begin(), order.end(), [&](const Stand* a, const Stand* b) {
+    return size_of(*a, map) > size_of(*b, map);
+  });
+  const bool plain = count > kMostDetailed;
+  for (const Stand* stand : order) {
+    if (stand->outside)
+      draw_outside(*stand, map, list);
+    else
+      draw_stand(*stand, plain, map, list);
+    const Look look = stand->bodies[0]->look;
+    const bool is_its_box = look == Look::bat || look == Look::box;
+    if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !is_its_box &&
+                                               !stand->bodies[0]->dimmed)))
+      list.rect(page_part(page_box(*stand->bodies[0], map), map), Role::none,
+                is_lit(*stand) ? Stroke{Role::lit, 2.8} : Stroke{Role::quiet_ink, 1.5, 5});
+  }
+}
+
+void name_bodies(const std::vector<Stand>& stands, const std::vector<Box<2>>& covered,
+                 const View2D& map, const Grounds& grounds, Labels& labels) {
+  constexpr std::size_t kMostNamed = 35;        // of more, only those the step is about
+  constexpr std::size_t kMostStaticNamed = 12;  // of more bodies, no wall or pillar that is quiet
+  constexpr double kWidestName = 210;
+  // Bodies, not stands: these merge and part as bodies move, and names must not come and go.
+  std::size_t bodies = 0;
+  for (const Stand& stand : stands) bodies += stand.bodies.size();
+  std::vector<const Stand*> order;
+  for (const Stand& stand : stands)
+    if (is_lit(stand) ||
+        (bodies <= kMostNamed && (bodies <= kMostStaticNamed || !stand.bodies.front()->is_static)))
+      order.push_back(&stand);
+  std::stable_partition(order.begin(), order.end(), [](const Stand* s) { return is_lit(*s); });
+  if (order.size() > kMostNamed) order.resize(kMostNamed);
+  for (const Stand* stand : order) {
+    const double widest = stand->bodies.size() > 1 ? map.panel().size().x - 16 : kWidestName;
+    name_stand(shortened(names_of(*stand), widest, {}), *stand, covered, map, grounds, labels);
+  }
+}
+
+std::size_t draw_crowd(const Frame& frame, const View2D& map, DrawList& list) {
+  constexpr double kSquare = 18;
+  std::set<std::pair<long, long>> taken;
+  for (const FrameBody& body : frame.bodies) {
+    if (is_half_space(body) || is_outside(body, frame)) continue;
+    const Vec<2> p = map.to_page(body.box.center());
+    const auto square = std::pair{std::lround(p.x / kSquare), std::lround(p.y / kSquare)};
+    if (!taken.insert(square).second) continue;
+    const Box<2> box = page_box(body, map);
+    const Vec<2> half{std::min(box.size().x, kSquare) / 2, std::min(box.size().y, kSquare) / 2};
+    draw_character(body, Box<2>::around(box.center(), half), true, list);
+  }
+  return taken.size();
+}
+
+}  // namespace lantern

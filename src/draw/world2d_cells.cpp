@@ -1,0 +1,264 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "draw/borders.hpp"
+#include "draw/clip.hpp"
+#include "draw/pen.hpp"
+#include "draw/world2d_parts.hpp"
+#include "geometry/not_finite.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostFills = 500;
+constexpr std::size_t kMostPlanes = 400;
+constexpr double kLeastCell = 1.5;  // page units; smaller ones are below what a line can show
+
+// By depth, page units.
+double line_width(std::uint32_t depth) {
+  constexpr double kWidths[] = {4.6, 3.4, 2.3, 1.7, 1.3, 1.1};
+  return depth < 6 ? kWidths[depth] : 1.0;
+}
+
+// How many children cover their parent without a gap; the fitted boxes of a kD-tree never do.
+std::size_t children_that_cover(StructureKind kind) {
+  if (kind == StructureKind::kd_tree) return ~std::size_t{0};
+  return kind == StructureKind::bsp ? 2 : 4;
+}
+
+// Which nodes are painted, and how. A node whose children cover it with one tone is painted as a
+// whole; a lit inner node is painted when the step is about it alone, with nothing lit inside.
+class Paint {
+ public:
+  explicit Paint(const Frame& frame) : nodes_(frame.nodes) {
+    const std::size_t all = children_that_cover(frame.structure);
+    tone_.resize(nodes_.size());
+    child_tone_.resize(nodes_.size());
+    std::vector<std::size_t> alike(nodes_.size());
+    std::vector<bool> lit_inside(nodes_.size());
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+      const FrameNode& node = nodes_[i];
+      if (node.leaf || (node.mark == Mark::lit && !lit_inside[i]))
+        tone_[i] = node.mark;
+      else if (alike[i] == all)
+        tone_[i] = child_tone_[i];
+      if (node.parent == kNone) continue;
+      if (node.mark == Mark::lit || lit_inside[i]) lit_inside[node.parent] = true;
+      if (!tone_[i] || (alike[node.parent] > 0 && child_tone_[node.parent] != tone_[i])) continue;
+      ++alike[node.parent];
+      child_tone_[node.parent] = tone_[i];
+    }
+  }
+
+  // In order of painting. Parents stand before children, so whatever an ancestor covers falls out.
+  std::vector<std::size_t> painted() const {
+    std::vector<std::size_t> found;
+    std::vector<bool> covered(nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const std::uint32_t parent = nodes_[i].parent;
+      covered[i] = parent != kNone && (covered[parent] || tone_[parent].has_value());
+      if (!covered[i] && tone_[i] && *tone_[i] != Mark::quiet) found.push_back(i);
+    }
+    return found;
+  }
+  Mark tone(std::size_t i) const { return *tone_[i]; }
+
+ private:
+  const std::vector<FrameNode>& nodes_;
+  std::vector<std::optional<Mark>> tone_;        // of the whole node, if it has one tone
+  std::vector<std::optional<Mark>> child_tone_;  // of the children seen so far
+};
+
+bool is_drawn(const Box<2>& cell) { return std::min(cell.size().x, cell.size().y) >= kLeastCell; }
+
+// A quarter without a child: hatched from the lower left to the upper right.
+void hatch(const Box<2>& box, DrawList& list) {
+  constexpr double kSpace = 16;
+  const Vec<2> size = box.size();
+  for (double d = kSpace; d < size.x + size.y; d += kSpace) {  // x + y on the line, from a corner
+    const Vec<2> from(std::min(d, size.x), std::max(0.0, d - size.x));
+    const Vec<2> to(std::max(0.0, d - size.y), std::min(d, size.y));
+    list.line(box.lo + from, box.lo + to, {Role::rule, 1.6});
+  }
+}
+
+void hatch_unmade(const Frame& frame, const View2D& map, DrawList& list) {
+  constexpr double kLeastHatched = 30;
+  constexpr std::size_t kMostShapes = 1200;
+  for (const Box<2>& quarter : unmade_quarters(frame)) {
+    const Box<2> box = map.to_page(quarter);
+    if (std::min(box.size().x, box.size().y) < kLeastHatched) continue;
+    if (list.shapes.size() > kMostShapes) return;
+    list.crisp_rect(box, Role::paper);
+    hatch(box, list);
+  }
+}
+
+// In a tree of many leaves that are nearly all lit, the tone would tell nothing and drown the
+// bodies.
+bool nearly_all_lit(const Frame& frame) {
+  constexpr std::size_t kMany = 200;  // nodes
+  std::size_t leaves = 0, lit = 0;
+  for (const FrameNode& node : frame.nodes) {
+    leaves += node.leaf;
+    lit += node.leaf && node.mark == Mark::lit;
+  }
+  return frame.nodes.size() > kMany && frame.bodies.size() > kMany / 4 && 10 * lit > 7 * leaves;
+}
+
+void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
+  if (nearly_all_lit(frame)) return;
+  const Paint paint(frame);
+  std::vector<std::size_t> painted = paint.painted();
+  std::erase_if(painted, [&](std::size_t i) { return !is_drawn(map.to_page(frame.nodes[i].box)); });
+  if (painted.size() > kMostFills) return;  // some alone would say what is not so
+  for (const std::size_t i : painted) {
+    const FrameNode& node = frame.nodes[i];
+    const Role role = ground_of(paint.tone(i));
+    grounds.push_back({page_region(node, map), role});
+    if (node.region.empty())
+      list.crisp_rect(map.to_page(node.box), role);
+    else
+      list.polygon(grounds.back().region, role);
+  }
+}
+
+// In a level the walls are what is strong, and the lines that divide it are thin and dashed; the
+// one that is looked at now is not.
+Stroke plane_stroke(const FrameNode& node, bool level) {
+  const bool lit = node.mark == Mark::lit;
+  const Role role = lit ? Role::lit : cell_line_role(node.depth);
+  if (level) return lit ? Stroke{role, 4, 14} : Stroke{role, 1.8, 6};
+  if (node.region.empty()) return {role, lit ? 3.0 : 2.0, 8};  // inside a fitted box
+  return {role, std::max(2.4, 4.6 - 0.7 * node.depth), 0};
+}
+
+void draw_planes(const Frame& frame, const View2D& map, DrawList& list) {
+  const bool level = is_level(frame);
+  for (std::size_t i = std::min(frame.nodes.size(), kMostPlanes); i-- > 0;) {
+    const FrameNode& node = frame.nodes[i];
+    if (!node.plane) continue;
+    const auto line = dividing_line(node);
+    if (!line) continue;
+    const Vec<2> a = map.in_reach(map.to_page(line->first));
+    const Vec<2> b = map.in_reach(map.to_page(line->second));
+    const bool upright = a.x == b.x || a.y == b.y;
+    list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
+  }
+}
+
+// Branches that sleep, each from its highest node on, are hatched against the grain of what is
+// not made.
+void hatch_asleep(const Frame& frame, const View2D& map, DrawList& list) {
+  constexpr std::size_t kMostShapes = 1500;
+  Pen pen(list, map.picture());
+  for (const FrameNode& node : frame.nodes) {
+    const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
+    if (!node.sleeps() || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (list.shapes.size() > kMostShapes) return;
+    pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1}, 60);
+  }
+}
+
+// Long dashes, over the lines of the other tree, so that both can be told apart in one picture.
+bool draw_static_cells(const Frame& frame, const View2D& map, DrawList& list) {
+  Borders borders;
+  for (const FrameNode& node : frame.nodes) {
+    const Box<2> cell = map.to_page(node.box);
+    if (node.of_static && node.depth > 0 && node.region.empty() && is_drawn(cell))
+      borders.add(cell, node.depth);
+  }
+  return borders.draw(
+      [](std::uint32_t depth) {
+        return Stroke{Role::cell_line_3, std::max(1.6, 0.6 * line_width(depth)), 16};
+      },
+      list);
+}
+
+void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
+  if (nearly_all_lit(frame)) return;
+  Borders borders;
+  std::size_t outlined = 0;
+  for (const FrameNode& node : frame.nodes) {
+    if (node.mark != Mark::lit || !is_drawn(map.to_page(node.box))) continue;
+    if (node.region.empty())
+      borders.add(map.to_page(node.box), std::min(node.depth, 6u));
+    else if (outlined++ < kMostFills)
+      list.polygon(inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2});
+  }
+  borders.draw(
+      [](std::uint32_t depth) {
+        return Stroke{Role::lit, std::max(1.2, 3.6 - 0.4 * depth), 0};
+      },
+      list);
+}
+
+// The grounds of views, which lie under the cells.
+void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
+  Pen pen(list, map.picture());
+  for (const FrameView& view : first_of(frame.views, kMostViews)) {
+    std::vector<Vec<2>> corners;
+    for (const Vec<3>& corner : view.corners) corners.push_back(map.to_page(corner));
+    if (corners.size() < 3 || !std::all_of(corners.begin(), corners.end(), is_finite<2>)) continue;
+    pen.polygon(corners, Role::view_fill);
+    grounds.push_back({cut_to(corners, map.picture()), Role::view_fill});
+  }
+}
+
+}  // namespace
+
+bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
+  list.crisp_rect(map.picture(), Role::panel);
+  hatch_unmade(frame, map, list);
+  Grounds under;  // of what the cells' own grounds lie on
+  fill_views(frame, map, list, under);
+  fill_cells(frame, map, list, grounds);
+  if (is_level(frame)) {
+    Grounds sectors;  // over what is painted of inner nodes
+    fill_sectors(frame, map, list, sectors);
+    grounds.insert(grounds.begin(), sectors.begin(), sectors.end());
+  }
+  grounds.insert(grounds.end(), under.begin(), under.end());
+  hatch_asleep(frame, map, list);
+  bool complete = true;
+  Borders borders;
+  const bool fitted = frame.structure == StructureKind::kd_tree;  // its root is not the world
+  for (const FrameNode& node : frame.nodes) {
+    if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static) continue;
+    const Box<2> cell = map.to_page(node.box);
+    if (is_drawn(cell))
+      borders.add(cell, node.depth);
+    else
+      complete = false;
+  }
+  complete &= borders.draw(
+      [](std::uint32_t depth) {
+        return Stroke{cell_line_role(depth), line_width(depth)};
+      },
+      list);
+  complete &= draw_static_cells(frame, map, list);
+  outline_lit(frame, map, list);
+  draw_planes(frame, map, list);
+  const bool lit =
+      !frame.nodes.empty() && !nearly_all_lit(frame) && frame.nodes[0].mark == Mark::lit;
+  list.crisp_rect(map.picture(), Role::none,
+                  {lit ? Role::lit : Role::cell_line_0, line_width(0), 0});
+  return complete;
+}
+
+void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place, DrawList& list) {
+  constexpr double kLeastOver = 4;  // page units; smaller cells would hide the body in turn
+  Borders borders;
+  for (const FrameNode& node : frame.nodes) {
+    const Box<2> cell = map.to_page(node.box);
+    const Vec<2> room = place.size() - cell.size();
+    if (node.depth == 0 || !node.region.empty() || !overlap(cell, place) ||
+        std::min(cell.size().x, cell.size().y) < kLeastOver || room.x <= 0 || room.y <= 0)
+      continue;
+    borders.add_inside(place, cell, node.depth);
+  }
+  borders.draw([](std::uint32_t) { return Stroke{Role::body_line, 1}; }, list);
+}
+
+}  // namespace lantern

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cmath>
+
+#include "draw/clip.hpp"
+#include "draw/font.hpp"
+#include "draw/number_text.hpp"
+#include "draw/pen.hpp"
+#include "draw/world2d_parts.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr double kLeastDepth = 10;  // page units of ground that can be seen as such
+const Vec<2> kRimOutside{20, 20};   // for ground that lies beyond the bounds
+
+// How far the polygon reaches behind the surface.
+double depth_behind(const std::vector<Vec<2>>& polygon, const Plane<2>& surface) {
+  double depth = 0;
+  for (const Vec<2>& p : polygon)
+    depth = std::max(depth, surface.offset - surface.normal.x * p.x - surface.normal.y * p.y);
+  return depth;
+}
+
+void draw_dimension(Pen& pen, const Vec<2>& from, const Vec<2>& to) {
+  const Vec<2> way = to - from;
+  const Vec<2> across = Vec<2>(-way.y, way.x) / std::max(1e-9, std::hypot(way.x, way.y)) * 5.0;
+  const Stroke stroke{Role::quiet_ink, 1.6};
+  pen.line(from, to, stroke);
+  for (const Vec<2>& end : {from, to}) pen.line(end - across, end + across, stroke);
+}
+
+// Half the width above the box, half the height at its right.
+void draw_half_sizes(const FrameBody& body, const Box<2>& box, const View2D& map, Pen& pen,
+                     Labels& labels) {
+  constexpr double kAway = 12, kLeastSize = 44;
+  if (std::min(box.size().x, box.size().y) < kLeastSize) return;
+  const TextStyle style{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::panel};
+  const Vec<2> c = box.center();
+  const Vec<3> half = body.box.size() * 0.5;
+  const double above = box.lo.y - kAway, beside = box.hi.x + kAway;
+  const auto measure = [&](const Anchor& anchor, double size, const Vec<2>& from,
+                           const Vec<2>& to) {
+    if (!labels.try_add(short_number(size), {anchor}, style, map.picture())) return;
+    draw_dimension(pen, from, to);
+    labels.block(shrunk(united(Box<2>{from, from}, Box<2>{to, to}), -6));
+  };
+  measure({{(c.x + box.hi.x) / 2, above - 9}, 0.5}, half.x, {c.x, above}, {box.hi.x, above});
+  measure({{beside + 9, (c.y + box.lo.y) / 2 + 6}, 0}, half.y, {beside, c.y}, {beside, box.lo.y});
+}
+
+}  // namespace
+
+std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map, DrawList& list,
+                                          Grounds& grounds) {
+  std::vector<GroundPlace> places;
+  for (const FrameBody& body : frame.bodies) {
+    if (!is_half_space(body)) continue;
+    const Plane<2> surface = page_surface(body, map.to_page(body.position));
+    Box<2> limit = map.picture();
+    std::vector<Vec<2>> solid = clipped(polygon_of(limit), surface, false);
+    if (solid.size() < 3 || depth_behind(solid, surface) < kLeastDepth) {
+      limit = {map.picture().lo - kRimOutside, map.picture().hi + kRimOutside};
+      solid = clipped(polygon_of(limit), surface, false);
+    }
+    if (solid.size() < 3) continue;
+    Pen pen(list, limit);
+    pen.polygon(solid, Role::free_space);
+    pen.hatch(solid, 15, 1, {Role::cell_line_3, 1.6}, 160);
+    const Vec<2> along = Vec<2>(-surface.normal.y, surface.normal.x) * 1e4;
+    const Vec<2> at = map.to_page(body.position);
+    pen.line(at - along, at + along,
+             {body.lit      ? Role::lit
+              : body.dimmed ? Role::quiet_ink
+                            : Role::body_line,
+              3.4, 0});
+    grounds.insert(grounds.begin(), Ground{solid, Role::free_space});
+    places.push_back({&body, middle_of(solid)});
+  }
+  return places;
+}
+
+void draw_ground_pairs(const Frame& frame, Marks& marks) {
+  constexpr std::size_t kMostLinks = 200;
+  const auto bodies = by_id(frame.bodies);
+  std::size_t drawn = 0;
+  for (const FramePair& pair : frame.pairs) {
+    const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
+    if (a == bodies.end() || b == bodies.end()) continue;
+    const bool first = is_half_space(*a->second);
+    if (first == is_half_space(*b->second)) continue;
+    if (++drawn > kMostLinks) return;
+    const Vec<3>& from = (first ? b : a)->second->position;
+    const FrameBody& ground = *(first ? a : b)->second;
+    marks.line(from, foot_on(ground, from), {Role::pair, pair.lit ? 4.4 : 3.0}, 2);
+  }
+}
+
+void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
+                      const Grounds& grounds, Labels& labels) {
+  for (const GroundPlace& place : places) {
+    TextStyle style;
+    style.halo = ground_at(grounds, place.label);
+    const std::string name = shortened(place.body->name, 210, style);
+    const double y = place.label.y + 0.3 * style.size;
+    const double quarter = map.picture().size().x / 4;
+    for (const double x : {0.0, -quarter, quarter})
+      if (labels.try_add(name, {{{place.label.x + x, y}, 0.5}}, style, map.panel())) break;
+  }
+}
+
+void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
+  if (!frame.show_boxes) return;
+  constexpr std::size_t kMostBoxes = 400, kFewBodies = 4;
+  Pen pen(list, mark_limit(map));
+  std::size_t drawn = 0;
+  for (const FrameBody& body : frame.bodies) {
+    if (is_half_space(body) || body.dimmed) continue;
+    if (++drawn > kMostBoxes) return;
+    const Box<2> box = map.to_page(body.box);
+    if (!holds(shrunk(map.picture(), -30), box)) continue;
+    if (!body.lit)  // the others have one already
+      list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
+    if (body.lit || frame.bodies.size() <= kFewBodies) draw_half_sizes(body, box, map, pen, labels);
+  }
+}
+
+}  // namespace lantern

@@ -1,0 +1,110 @@
+// What the parts of a 2D world's panel share.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "draw/body_shapes.hpp"
+#include "draw/labels.hpp"
+#include "draw/marks.hpp"
+
+namespace lantern {
+
+// A node's region on the page.
+Polygon page_region(const FrameNode& node, const View2D& map);
+
+// The piece of a node's dividing line that lies in its region, in the world; nothing if it misses
+// it.
+std::optional<std::pair<Vec<2>, Vec<2>>> dividing_line(const FrameNode& node);
+
+// A convex region of the page whose border moved inwards, so that a line on it shows beside the
+// dividing lines.
+Polygon inset(const Polygon& region, double by);
+
+// A region whose ground is not the panel's, so that a label's halo can match it.
+struct Ground {
+  Polygon region;  // on the page; clockwise there
+  Role role = Role::panel;
+};
+using Grounds = std::vector<Ground>;
+
+Role ground_at(const Grounds& grounds, const Vec<2>& point);
+
+// The polygon holds the point, or the whole box; any convex polygon, either way round.
+bool inside(const Polygon& polygon, const Vec<2>& point);
+bool inside(const Polygon& polygon, const Box<2>& box);
+
+// The quarters of quadtree nodes for which no child was made, in the world.
+std::vector<Box<2>> unmade_quarters(const Frame& frame);
+
+// Cells and dividing lines; leaves what it painted in `grounds`. False if there are too many cells,
+// and the smallest are left out.
+bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds);
+
+// The lines of cells smaller than `place`, a body's box on the page, once more over what is drawn
+// there: a body hides the splits that it causes.
+void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place, DrawList& list);
+
+// The names of leaves in their corners, and of dividing lines. Bodies cover cells, so names keep
+// clear of `bodies`, their boxes on the page.
+void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
+                 const Grounds& grounds, DrawList& list, Labels& labels);
+
+// --- bodies: who stands where on the page, as what, and under which name ---
+
+// Bodies that stand at one place, or one body that stands alone.
+struct Stand {
+  std::vector<const FrameBody*> bodies;  // in order of ids
+  Vec<2> center{0.0};                    // of the first, on the page
+  Box<2> box;                            // that all of them cover on the page
+  bool outside = false;                  // of the world's bounds: only a marker at the rim
+};
+
+// In order of the first body's id. Half-spaces stand nowhere.
+std::vector<Stand> stands_of(const Frame& frame, const View2D& map);
+
+// False if there are too many pairs, and not all are drawn.
+bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& list);
+// A mark where two bodies that are to be tested cover each other, and with it their link.
+void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList& list);
+// `boxes`: with the dashed boxes of what is no box itself.
+void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list);
+// Free of what is covered by bodies, as far as there is room.
+void name_bodies(const std::vector<Stand>& stands, const std::vector<Box<2>>& covered,
+                 const View2D& map, const Grounds& grounds, Labels& labels);
+
+// Too many bodies to tell apart: one mark for each small square of the page that holds any.
+// Returns how many marks it made.
+std::size_t draw_crowd(const Frame& frame, const View2D& map, DrawList& list);
+
+// --- ground, levels and boxes ---
+
+// Half-spaces: hatched ground, cut to the bounds, or to a rim under them where none of it lies
+// inside. Gives the places of their names and adds what was painted to `grounds`.
+struct GroundPlace {
+  const FrameBody* body = nullptr;
+  Vec<2> label{0.0};  // the middle of a name
+};
+std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map, DrawList& list,
+                                          Grounds& grounds);
+// From a body to the ground that it is to be tested with.
+void draw_ground_pairs(const Frame& frame, Marks& marks);
+void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
+                      const Grounds& grounds, Labels& labels);
+
+// Dashed, with its half sizes where the step is about the body or there are few bodies.
+void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
+
+// A level's walls, and the place it is looked at from.
+void draw_walls(const Frame& frame, const View2D& map, DrawList& list);
+// A level's sectors: neighbours in different tones, solid ones hatched.
+bool is_level(const Frame& frame);
+void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds);
+// The places of sectors in the order from the eye.
+void number_sectors(const Frame& frame, const View2D& map, const Grounds& grounds, Labels& labels);
+
+// Where marks may be drawn: the bounds and a little beyond.
+inline Box<2> mark_limit(const View2D& map) { return shrunk(map.picture(), -8); }
+
+}  // namespace lantern

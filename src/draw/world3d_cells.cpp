@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "draw/clip.hpp"
+#include "draw/world3d_parts.hpp"
+
+namespace lantern {
+namespace {
+
+constexpr std::size_t kMostEdges = 500;
+constexpr std::size_t kMostEdgesInCrowd = 250;  // lines must not hide a crowd of dots
+constexpr std::size_t kMostFills3d = 300;
+
+// How strongly an edge is drawn. Smaller is stronger, and wins where edges of several cells lie on
+// one line.
+struct Strength {
+  int lit = 1;              // 0 of a lit cell
+  std::uint32_t depth = 0;  // of the cell
+  int dashed = 0;           // 1 of a cell that sleeps, 2 of the tree of what never moves
+  int quiet = 0;            // 1 where it lies before the cell's inside, or upright in a column
+  auto operator<=>(const Strength&) const = default;
+};
+
+Stroke stroke_of(const Strength& s) {
+  constexpr double kWidths[] = {2.8, 2.1, 1.5, 1.1, 0.9};
+  const double width = s.depth < 5 ? kWidths[s.depth] : 0.9;
+  if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5};
+  const double dash = s.dashed == 2 ? 16 : 6 * s.dashed;
+  if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(0.8, 0.6 * width), dash};
+  return {cell_line_role(s.depth), width, dash};
+}
+
+// A part of a line along one axis, at two fixed places on the other two.
+struct Edge {
+  int axis = 0;
+  double at[2] = {0, 0};
+  double from = 0, to = 0;
+  Strength strength;
+
+  auto line() const { return std::tie(axis, at[0], at[1]); }
+  Vec<3> point(double along) const {
+    Vec<3> p{0.0};
+    p[axis] = along;
+    p[(axis + 1) % 3] = at[0];
+    p[(axis + 2) % 3] = at[1];
+    return p;
+  }
+};
+
+// Edges of one line, each place once, as strong as the strongest that lies there.
+void merge(std::vector<Edge> on_line, std::vector<Edge>& merged) {
+  std::vector<double> ends;
+  for (const Edge& e : on_line) ends.insert(ends.end(), {e.from, e.to});
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::stable_sort(on_line.begin(), on_line.end(),
+                   [](const Edge& a, const Edge& b) { return a.strength < b.strength; });
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const auto strongest = std::find_if(on_line.begin(), on_line.end(), [&](const Edge& e) {
+      return e.from <= ends[i] && ends[i + 1] <= e.to;
+    });
+    if (strongest == on_line.end()) continue;
+    Edge part = *strongest;
+    part.from = ends[i];
+    part.to = ends[i + 1];
+    if (i > 0 && !merged.empty() && merged.back().line() == part.line() &&
+        merged.back().to == part.from && merged.back().strength == part.strength)
+      merged.back().to = part.to;
+    else
+      merged.push_back(part);
+  }
+}
+
+class Edges {
+ public:
+  explicit Edges(const View3D& view)
+      : view_(view), grain_(std::exp2(std::ceil(std::log2(view.size())) - 32)) {}
+
+  // The twelve edges of a cell. In a column's cell those at the top are left out,
+  // unless it is lit.
+  void add(const FrameNode& node, bool column) {
+    if (!is_valid(node.box)) return;
+    const Box<3>& box = node.box;
+    for (int axis = 0; axis < 3; ++axis)
+      for (unsigned corner = 0; corner < 4; ++corner) {
+        const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+        const bool high_j = (corner & 1) != 0, high_k = (corner & 2) != 0;
+        const bool top = (j == 1 && high_j) || (k == 1 && high_k);
+        if (column && axis != 1 && top && node.depth > 0 && node.mark != Mark::lit) continue;
+        Edge e;
+        e.axis = axis;
+        e.at[0] = rounded(high_j ? box.hi[j] : box.lo[j]);
+        e.at[1] = rounded(high_k ? box.hi[k] : box.lo[k]);
+        e.from = rounded(box.lo[axis]);
+        e.to = rounded(box.hi[axis]);
+        const bool before = faces_eye(box, j, high_j) && faces_eye(box, k, high_k);
+        const bool faint = column && (axis == 1 || top) && node.depth > 0;
+        e.strength = {node.mark == Mark::lit ? 0 : 1, node.depth,
+                      node.of_static ? 2
+                      : node.awake   ? 0
+                                     : 1,
+                      before || faint ? 1 : 0};
+        edges_.push_back(e);
+      }
+  }
+
+  // In a fixed order; of too many the deepest levels are left out, but for lit cells, and the
+  // answer is false.
+  bool take(std::size_t most, std::vector<Edge>& merged) {
+    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
+      return std::tie(a.axis, a.at[0], a.at[1], a.from, a.to, a.strength) <
+             std::tie(b.axis, b.at[0], b.at[1], b.from, b.to, b.strength);
+    });
+    for (std::size_t i = 0; i < edges_.size();) {
+      std::size_t end = i;
+      while (end < edges_.size() && edges_[end].line() == edges_[i].line()) ++end;
+      merge({edges_.begin() + static_cast<std::ptrdiff_t>(i),
+             edges_.begin() + static_cast<std::ptrdiff_t>(end)},
+            merged);
+      i = end;
+    }
+    bool complete = true;
+    while (merged.size() > most) {
+      std::uint32_t deepest = 0;
+      for (const Edge& e : merged)
+        if (e.strength.lit != 0) deepest = std::max(deepest, e.strength.depth);
+      if (deepest == 0) break;
+      std::erase_if(merged, [&](const Edge& e) {
+        return e.strength.lit != 0 && e.strength.depth == deepest;
+      });
+      complete = false;
+    }
+    return complete;
+  }
+
+ private:
+  // Neighbours compute the same border by different sums.
+  double rounded(double x) const { return std::round(x / grain_) * grain_; }
+
+  bool faces_eye(const Box<3>& box, int axis, bool high) const {
+    return high ? view_.eye()[axis] > box.hi[axis] : view_.eye()[axis] < box.lo[axis];
+  }
+
+  const View3D& view_;
+  double grain_;
+  std::vector<Edge> edges_;
+};
+
+// The faces whose inner side the eye sees: the floor of the cell, and its walls at the back.
+void fill_inside(const Box<3>& box, Role floor, Role wall, const View3D& view, DrawList& list) {
+  const std::vector<Vec<3>> c = corners_of(box);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const unsigned high : {0u, 1u}) {
+      const bool back =
+          high != 0 ? view.eye()[axis] < box.hi[axis] : view.eye()[axis] > box.lo[axis];
+      if (!back) continue;
+      const unsigned a = 1u << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+      const unsigned base = high * a;
+      Outline points =
+          cut_to(view.polygon({c[base], c[base + u], c[base + u + v], c[base + v]}), view.panel());
+      const Role role = axis == 1 ? floor : wall;
+      if (points.size() >= 3) list.polygon(std::move(points), role);
+    }
+}
+
+}  // namespace
+
+void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
+  // A lit node with lit nodes inside is not painted as a whole.
+  std::vector<bool> lit_inside(frame.nodes.size());
+  for (std::size_t i = frame.nodes.size(); i-- > 0;) {
+    const FrameNode& node = frame.nodes[i];
+    if (node.parent != kNone && node.parent < i && (node.mark == Mark::lit || lit_inside[i]))
+      lit_inside[node.parent] = true;
+  }
+  std::vector<const FrameNode*> filled;
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const FrameNode& node = frame.nodes[i];
+    const bool shown = node.leaf || (node.mark == Mark::lit && !lit_inside[i]);
+    if (shown && node.mark != Mark::quiet && is_valid(node.box)) filled.push_back(&node);
+  }
+  if (filled.size() > kMostFills3d) return;
+  std::stable_sort(filled.begin(), filled.end(), [&](const FrameNode* a, const FrameNode* b) {
+    const auto key = [&](const FrameNode* n) {
+      return std::pair{n->mark == Mark::lit, -view.depth(n->box.center())};
+    };
+    return key(a) < key(b);
+  });
+  for (const FrameNode* node : filled) {
+    const bool lit = node->mark == Mark::lit;
+    fill_inside(node->box, lit ? Role::lit_fill : Role::passed_fill, Role::passed_fill, view, list);
+  }
+}
+
+bool add_cells(const Frame& frame, Marks3D& marks) {
+  Edges edges(marks.view);
+  const bool flat = traits_of(frame.structure).ignores_height;
+  for (const FrameNode& node : frame.nodes) edges.add(node, flat);
+  if (frame.nodes.empty()) {
+    FrameNode whole;
+    whole.box = frame.bounds;
+    whole.depth = 2;  // a quiet line
+    edges.add(whole, false);
+  }
+  std::vector<Edge> merged;
+  const bool crowd = marks.bodies.empty() && !frame.bodies.empty();
+  const bool complete = edges.take(crowd ? kMostEdgesInCrowd : kMostEdges, merged);
+  // Deep ones first: of pieces equally far away the stronger lies on top.
+  std::stable_sort(merged.begin(), merged.end(),
+                   [](const Edge& a, const Edge& b) { return b.strength < a.strength; });
+  const std::size_t first = marks.pieces.size();
+  for (const Edge& e : merged) marks.line(e.point(e.from), e.point(e.to), stroke_of(e.strength));
+  for (std::size_t i = first; i < marks.pieces.size(); ++i) marks.pieces[i].yields = true;
+  return complete;
+}
+
+}  // namespace lantern

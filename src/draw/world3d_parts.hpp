@@ -1,0 +1,83 @@
+// What the parts of a 3D world's panel share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "draw/marks.hpp"
+#include "draw/painter_order.hpp"
+
+namespace lantern {
+
+// A body that is drawn: where it is in space and on the page.
+struct Body3D {
+  const FrameBody* body = nullptr;
+  Convex space;
+  Outline outline;
+  Box<2> box;  // of the outline, what is in the panel
+};
+
+// The bodies that the view shows, in the frame's order. Half-spaces are ground, and not among them.
+std::vector<Body3D> bodies_in_view(const Frame& frame, const View3D& view);
+
+// A body as one piece: its faces in three tones, or a character that faces the viewer.
+Piece body_piece(const Body3D& body, const View3D& view);
+
+// A dot for each body, the nearest last.
+void draw_crowd3d(const Frame& frame, const View3D& view, DrawList& list);
+
+// Marks of a 3D world: pieces to be painted in order, as far as no body hides them.
+class Marks3D : public Marks {
+ public:
+  Marks3D(const View3D& seen_from, const std::vector<Body3D>& shown, DrawList& list)
+      : Marks(seen_from, seen_from.panel(), list), view(seen_from), bodies(shown) {
+    over_ = &above_;
+  }
+
+  const View3D& view;
+  const std::vector<Body3D>& bodies;
+  std::vector<Piece> pieces;
+
+  void line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double casing = 0) override;
+  void arrow(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double head,
+             double casing) override;
+  void spring(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke) override;
+  void box(const Box<3>& box, const Stroke& stroke) override;
+  void ball(const Vec<3>& center, double radius, const Stroke& stroke) override;
+  void add(const Convex& space, Outline outline, std::vector<DrawShape> shapes);
+
+  // All pieces, and what lies over them; what comes later is drawn as it comes.
+  void paint();
+
+ private:
+  // What is in front of the eye and in the panel, as one piece.
+  void add_part(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double casing);
+
+  DrawList above_;
+};
+
+// The floor with its grid, half-spaces, and views' insides: what lies under all else.
+void draw_ground3d(const Frame& frame, const View3D& view, DrawList& list);
+
+// Straight below each body on the floor; seen through the grounds of cells, or they would hide how
+// high a body is.
+void draw_shadows(const std::vector<Body3D>& bodies, const View3D& view, DrawList& list);
+
+// The lines from bodies to the floor.
+void add_drop_lines(Marks3D& marks);
+
+// The grounds of lit cells, which lie behind all bodies in them.
+void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list);
+
+// The edges of cells; false if there are too many, and the deepest are left out.
+bool add_cells(const Frame& frame, Marks3D& marks);
+
+// Links between the bodies of each pair; false if not all are drawn.
+bool add_pairs(const Frame& frame, Marks3D& marks);
+// Where they meet, shown through whatever lies before it.
+void draw_joints(const Frame& frame, const Marks3D& marks);
+
+void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const View3D& view,
+                  DrawList& list, Labels& labels);
+
+}  // namespace lantern
