@@ -1,8 +1,13 @@
 // The command line of Lantern: words to options, errors to exit codes.
+#include <algorithm>
 #include <functional>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,8 +31,17 @@ using Run = std::function<int()>;
 const CLI::Validator kNotEmpty(
     [](const std::string& word) { return word.empty() ? "must not be empty" : std::string(); }, "");
 
+const std::vector<std::string> kThemes = {"light", "dark", "print"};
+const std::vector<std::string> kBackends = {"auto", "osmesa", "egl"};
+
 void add_json(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "print JSON instead of a table");
+}
+
+// One of some words.
+void add_choice(CLI::App& command, const char* name, std::string& word, const char* help,
+                const std::vector<std::string>& words) {
+  command.add_option(name, word, help)->check(CLI::IsMember(words))->capture_default_str();
 }
 
 // Before a command, and after one that runs a scenario.
@@ -47,8 +61,19 @@ void add_memory(CLI::App& command) {
       ->type_name("SIZE");
 }
 
-void add_render(CLI::App& app, RenderOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("render", "Draw a scenario's frames to PNG or SVG files");
+// A command and its options, which live as long as it can be run.
+template <class Options>
+std::pair<CLI::App*, Options&> command(CLI::App& app, Run& run, const char* name, const char* help,
+                                       int (*start)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* c = app.add_subcommand(name, help);
+  c->callback([&run, options, start] { run = [options, start] { return start(*options); }; });
+  return {c, *options};
+}
+
+void add_render(CLI::App& app, Run& run) {
+  const auto [c, o] =
+      command(app, run, "render", "Draw a scenario's frames to PNG or SVG files", render_command);
   c->add_option("FILE", o.files, "scenario files")->required();
   c->add_option("-o,--output", o.output,
                 "folder for DIR/<scenario>/<scenario>_0000.png ...; - writes one frame to standard "
@@ -65,20 +90,12 @@ void add_render(CLI::App& app, RenderOptions& o, Run& run) {
       ->check(kNotEmpty)
       ->type_name("EVENT|TIME");
   c->add_option("--size", o.size, "pixels")->type_name("WxH")->capture_default_str();
-  c->add_option("--format", o.format, "file format")
-      ->check(CLI::IsMember({"png", "svg"}))
-      ->capture_default_str();
-  c->add_option("--theme", o.theme, "colours")
-      ->check(CLI::IsMember({"light", "dark", "print"}))
-      ->capture_default_str();
+  add_choice(*c, "--format", o.format, "file format", {"png", "svg"});
+  add_choice(*c, "--theme", o.theme, "colours", kThemes);
   c->add_option("--pace", o.pace, "one frame per step, or one for each thing the algorithm does")
       ->check(CLI::IsMember({"step", "event"}));
-  c->add_option("--png", o.png, "fast to write, or small")
-      ->check(CLI::IsMember({"fast", "small"}))
-      ->capture_default_str();
-  c->add_option("--backend", o.backend, "off-screen OpenGL")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
-      ->capture_default_str();
+  add_choice(*c, "--png", o.png, "fast to write, or small", {"fast", "small"});
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   c->add_flag("--transparent", o.transparent, "draw no background");
   c->add_flag("--strict", o.strict, "turn warnings into errors (exit code 3)");
   c->add_option("-j,--threads", o.threads, "encoding threads; the default is one per core")
@@ -86,43 +103,42 @@ void add_render(CLI::App& app, RenderOptions& o, Run& run) {
       ->type_name("N");
   add_memory(*c);
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return render_command(o); }; });
 }
 
-void add_check(CLI::App& app, CheckOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("check", "Run scenarios without drawing, verify expectations");
+void add_check(CLI::App& app, Run& run) {
+  const auto [c, o] = command(app, run, "check",
+                              "Run scenarios without drawing, verify expectations", check_command);
   c->add_option("FILE", o.files, "scenario files")->required();
   c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
   add_memory(*c);
   c->add_flag("--strict", o.strict, "turn warnings into errors (exit code 3)");
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return check_command(o); }; });
 }
 
-void add_list(CLI::App& app, ListOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("list", "List the scenarios in a folder");
+void add_list(CLI::App& app, Run& run) {
+  const auto [c, o] = command(app, run, "list", "List the scenarios in a folder", list_command);
   c->add_option("DIR", o.folders, "folders; the default is scenarios");
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return list_command(o); }; });
 }
 
-void add_explain(CLI::App& app, ExplainOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("explain",
-                                   "Run a scenario without pixels, tell what each stage did");
+void add_explain(CLI::App& app, Run& run) {
+  const auto [c, o] =
+      command(app, run, "explain", "Run a scenario without pixels, tell what each stage did",
+              explain_command);
   c->add_option("FILE", o.file, "scenario file")->required();
   add_memory(*c);
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return explain_command(o); }; });
 }
 
-void add_doctor(CLI::App& app, DoctorOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("doctor", "Graphics backends found, and what to install");
+void add_doctor(CLI::App& app, Run& run) {
+  const auto [c, o] =
+      command(app, run, "doctor", "Graphics backends found, and what to install", doctor_command);
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return doctor_command(o); }; });
 }
 
-void add_compare(CLI::App& app, CompareOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("compare", "Compare two PNG images, or two folders of them");
+void add_compare(CLI::App& app, Run& run) {
+  const auto [c, o] = command(app, run, "compare", "Compare two PNG images, or two folders of them",
+                              compare_command);
   c->add_option("EXPECTED", o.expected, "image or folder")->required();
   c->add_option("ACTUAL", o.actual, "image or folder")->required();
   c->add_option("-o,--output", o.output,
@@ -135,12 +151,12 @@ void add_compare(CLI::App& app, CompareOptions& o, Run& run) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return compare_command(o); }; });
 }
 
-void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand(
-      "measure", "Error against run time: problems with known answers, method by method");
+void add_measure(CLI::App& app, Run& run) {
+  const auto [c, o] = command(
+      app, run, "measure", "Error against run time: problems with known answers, method by method",
+      measure_command);
   c->add_option("PROBLEM", o.problems,
                 "problems or families by name, or scenario files; the default is all problems; "
                 "'pictures' measures antialiasing, 'broad_phase' the trees' settings");
@@ -161,50 +177,41 @@ void add_measure(CLI::App& app, MeasureOptions& o, Run& run) {
       ->check(CLI::PositiveNumber)
       ->type_name("S");
   c->add_flag("!--no-peers", o.peers, "without other engines");
-  c->add_option("--theme", o.theme, "colours of the plots")
-      ->check(CLI::IsMember({"light", "dark", "print"}))
-      ->capture_default_str();
-  c->add_option("--backend", o.backend, "off-screen OpenGL, for the PNG files")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
-      ->capture_default_str();
+  add_choice(*c, "--theme", o.theme, "colours of the plots", kThemes);
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL, for the PNG files", kBackends);
   c->add_flag("--list", o.list, "name the problems, measure nothing");
   add_memory(*c);
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return measure_command(o); }; });
 }
 
-void add_bench(CLI::App& app, BenchOptions& o, Run& run) {
+void add_bench(CLI::App& app, Run& run) {
   CLI::App* c = app.add_subcommand("bench", "Measure speed against named peers");
   c->require_subcommand(1);
-  CLI::App* frames = c->add_subcommand("frames", "Frames per second written to disk, beside cairo");
+  const auto [frames, o] = command(
+      *c, run, "frames", "Frames per second written to disk, beside cairo", bench_frames_command);
   frames->add_option("FILE", o.scenario, "scenario file")->capture_default_str();
   frames->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_memory(*frames);
   add_json(*frames, o.json);
-  frames->callback([&] { run = [&] { return bench_frames_command(o); }; });
 }
 
-void add_stress(CLI::App& app, StressOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand(
-      "stress", "Check extreme input, stiff springs and the limits of stability");
+void add_stress(CLI::App& app, Run& run) {
+  const auto [c, o] =
+      command(app, run, "stress", "Check extreme input, stiff springs and the limits of stability",
+              stress_command);
   c->add_option("CASE", o.cases, "names of cases; the default is all that are not slow");
   c->add_option("-o,--output", o.output,
                 "folder for stress.csv, stress.json, stability_map.png and .svg")
       ->check(kNotEmpty)
       ->type_name("DIR");
-  c->add_option("--theme", o.theme, "colours of the stability map")
-      ->check(CLI::IsMember({"light", "dark", "print"}))
-      ->capture_default_str();
-  c->add_option("--backend", o.backend, "off-screen OpenGL")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
-      ->capture_default_str();
+  add_choice(*c, "--theme", o.theme, "colours of the stability map", kThemes);
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   c->add_flag("--list", o.list, "list the cases and exit");
   c->add_flag("--full", o.full, "run the slow cases, too");
   add_memory(*c);
   add_json(*c, o.json);
-  c->callback([&] { run = [&] { return stress_command(o); }; });
 }
 
 void add_texts(CLI::App& app, Run& run) {
@@ -220,17 +227,16 @@ void add_texts(CLI::App& app, Run& run) {
   print("schema", "Print the scenario language's JSON Schema", json_schema);
 }
 
-// A misspelt subcommand gets the nearest one.
-std::string usage_hint(int argc, char** argv) {
-  static constexpr std::string_view kCommands[] = {"render", "check",     "list",    "explain",
-                                                   "doctor", "compare",   "measure", "stress",
-                                                   "bench",  "reference", "schema"};
+// A misspelt command gets the nearest one.
+std::string usage_hint(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return "see 'lantern --help'";
-  const std::string_view word = argv[1];
-  for (const std::string_view command : kCommands)
-    if (word == command) return "see 'lantern " + std::string(command) + " --help'";
-  const std::string hint = suggestion(word, kCommands);
-  return "there is no command '" + std::string(word) + "'; " + hint;
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end())
+    return "see 'lantern " + word + " --help'";
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  return "there is no command '" + word + "'; " + suggestion(word, known);
 }
 
 // Made before it is needed, when there may be no room for it.
@@ -275,31 +281,22 @@ int run_words(int argc, char** argv) {
       "Exit codes: 0 good, 1 failed, 2 usage, 3 scenario error, 4 no graphics backend, "
       "130 interrupted.\nStart with: lantern render scenarios/ghost_quadtree.toml");
   add_memory(app);
-  RenderOptions render;
-  CheckOptions check;
-  ListOptions list;
-  ExplainOptions explain;
-  DoctorOptions doctor;
-  CompareOptions compare;
-  MeasureOptions measure;
-  BenchOptions bench;
-  StressOptions stress;
   Run run;
-  add_render(app, render, run);
-  add_check(app, check, run);
-  add_list(app, list, run);
-  add_explain(app, explain, run);
-  add_doctor(app, doctor, run);
-  add_compare(app, compare, run);
-  add_measure(app, measure, run);
-  add_bench(app, bench, run);
-  add_stress(app, stress, run);
+  add_render(app, run);
+  add_check(app, run);
+  add_list(app, run);
+  add_explain(app, run);
+  add_doctor(app, run);
+  add_compare(app, run);
+  add_measure(app, run);
+  add_bench(app, run);
+  add_stress(app, run);
   add_texts(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0)
-      throw UsageError(std::string(e.what()) + "; " + usage_hint(argc, argv));
+      throw UsageError(std::string(e.what()) + "; " + usage_hint(app, argc, argv));
     std::ostringstream text;  // --help, --version
     app.exit(e, text, text);
     print(text.str());

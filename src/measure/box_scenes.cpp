@@ -120,11 +120,6 @@ BoxUpdates<D> updates_of(const Scenario& scenario, const Frame& frame) {
   return scene;
 }
 
-bool passes_time(const Verb& verb) {
-  return std::holds_alternative<Run>(verb) || std::holds_alternative<Wait>(verb) ||
-         std::holds_alternative<Phases>(verb);
-}
-
 }  // namespace
 
 std::vector<BoxScene> seeded_box_scenes(std::size_t bodies, std::uint64_t seed) {
@@ -139,9 +134,9 @@ BoxScene box_scene_of(const Scenario& scenario) {
   Work work;
   direct(scenario, Pace::step, work, [&](const Frame& frame) {
     if (frame.bodies.size() > fullest.bodies.size() &&
-        (fullest.bodies.empty() || !passes_time(scenario.steps[frame.step].verb)))
+        (fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time))
       fullest = frame;
-    return fullest.bodies.empty() || !passes_time(scenario.steps[frame.step].verb);
+    return fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time;
   });
   if (fullest.bodies.size() < 2)
     throw ScenarioError(diagnose(scenario, {scenario.file, 0, 0},

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenario/obey.hpp"
+#include "scenario/engine.hpp"
 
 namespace lantern {
 namespace {
@@ -19,7 +19,7 @@ class WorldSimulation : public Simulation {
     for (std::uint64_t i = 0; i < steps; ++i) engine_->step();
   }
 
-  void act(const Verb& verb) override { obey(*engine_, verb, scenario_.world.time_step); }
+  void act(const Verb& verb) override { carry_out(verb, *engine_, scenario_.world.time_step); }
 
   void observe(std::vector<BodyState>& states) const override { engine_->observe(states); }
   std::uint64_t impacts() const override { return engine_->world_work().impacts_located; }

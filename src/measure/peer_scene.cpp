@@ -73,8 +73,7 @@ bool only_watches(const std::vector<Step>& steps) {
         std::holds_alternative<ApplyForce>(verb) || std::holds_alternative<ApplyImpulse>(verb) ||
         std::holds_alternative<Sleep>(verb) || std::holds_alternative<Wake>(verb))
       return false;
-    runs |= std::holds_alternative<Run>(verb) || std::holds_alternative<Wait>(verb) ||
-            std::holds_alternative<Phases>(verb);
+    runs |= traits_of(verb).passes_time;
   }
   return true;
 }

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "scenario/obey.hpp"
+#include "scenario/engine.hpp"
 
 namespace lantern {
 namespace {
@@ -26,7 +26,7 @@ class FileRun {
   explicit FileRun(const Scenario& scenario)
       : h_(scenario.world.time_step), engine_(make_engine(scenario, work_)) {}
 
-  void act(const Verb& verb) { obey(*engine_, verb, h_); }
+  void act(const Verb& verb) { carry_out(verb, *engine_, h_); }
 
   std::uint64_t steps_in(double seconds) const {
     return static_cast<std::uint64_t>(std::llround(seconds / h_));

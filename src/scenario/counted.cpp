@@ -4,16 +4,10 @@
 #include <fmt/format.h>
 
 #include "scenario/caption.hpp"
-#include "scenario/script.hpp"
+#include "scenario/script_reading.hpp"
 
 namespace lantern {
 namespace {
-
-const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
-  const auto found =
-      std::find_if(docs.begin(), docs.end(), [&](const CountDoc& doc) { return doc.name == name; });
-  return found == docs.end() ? nullptr : &*found;
-}
 
 // Names that can be counted or quoted here, for suggestions.
 std::vector<std::string_view> quotable(const Draft& draft, const ScriptState& state) {
@@ -75,8 +69,10 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
   const ScenarioSpec& s = draft.scenario;
   switch (need) {
     case CountNeed::bodies:
+    case CountNeed::atlas:
     case CountNeed::room:
       return {};
+    case CountNeed::tree:
     case CountNeed::structure:
     case CountNeed::kd_tree:
     case CountNeed::array:
@@ -105,28 +101,36 @@ bool is_of_level(CountNeed need) {
   return need == CountNeed::compiled || need == CountNeed::located;
 }
 
+constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
+
+// Empty if a body of this world has it.
+std::string why_not_measured(const CountDoc& doc, const Draft& draft) {
+  if (doc.need == CountNeed::contacts && draft.scenario.world.contacts == ContactMethod::none)
+    return "this world has no contacts";
+  const bool is_3d = doc.name == "z" || doc.name.starts_with("own_spin");
+  return is_3d && draft.dimension == 2 ? "this world is 2D" : "";
+}
+
 }  // namespace
 
 std::string why_not_counted(std::string_view name, const Draft& draft, const ScriptState& state) {
-  const CountDoc* doc = nullptr;
-  for (const auto docs : {known_counts(), known_texts(), known_measures()})
-    if (!doc) doc = find_in(docs, name);
+  const CountDoc* doc = find_count(name);
+  if (!doc) doc = find_in(known_texts(), name);
   const bool has_bodies = draft.has_world && !draft.bodies.empty();
   const bool has_atlas = draft.scenario.atlas.has_value();
   if (doc->need == CountNeed::room && has_atlas && !state.asked_for_room)
     return "no step has asked for room yet";
-  if (doc->for_atlas && has_atlas) return {};
-  if (!doc->for_world) return "the scenario has no [atlas]";
+  if (doc->for_atlas() && has_atlas) return {};
+  if (!doc->for_world()) return "the scenario has no [atlas]";
   if (name == "time" && draft.has_world) return {};
-  const bool of_any_tree = name == "nodes" || name == "leaves" || name == "depth";
-  if (of_any_tree && draft.scenario.level && state.compiled) return {};
+  if (doc->need == CountNeed::tree && draft.scenario.level && state.compiled) return {};
   if (!has_bodies && !is_of_level(doc->need))
     return has_atlas ? "an atlas has none" : "the scenario has no bodies";
   return why_not_there(doc->need, draft, state);
 }
 
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state) {
-  const std::string caption = step.text("caption").value_or("");
+  const std::string caption = step.get<std::string>("caption").value_or("");
   const auto kind_of = [](std::string_view name) {
     if (find_in(known_counts(), name)) return Placeholder::count;
     if (is_of_body(name)) return Placeholder::text;
@@ -158,30 +162,54 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
   }
 }
 
-std::optional<std::string> read_plot(const TableReader& step, Draft& draft, ScriptState& state) {
+void check_plot(const TableReader& step, Draft& draft, ScriptState& state) {
   if (step.has("plot")) state.has_plot = true;
-  if (!step.is_good("plot")) return std::nullopt;
+  if (!step.is_good("plot")) return;
   const auto& chart = draft.scenario.chart;
-  if (!chart) {
-    draft.problems.add(step.key_place("plot"), "'plot' needs a [chart], the scenario has none",
-                       "add [chart] with bars = \"pairs\"");
-    return step.text("plot");
-  }
-  if (chart->over_time()) {
-    draft.problems.add(step.key_place("plot"), "over time every frame is plotted by itself",
-                       "leave out 'plot'");
-    return step.text("plot");
-  }
+  if (!chart)
+    return step.bad_key("plot", "'plot' needs a [chart], the scenario has none",
+                        "add [chart] with bars = \"pairs\"");
+  if (chart->over_time())
+    return step.bad_key("plot", "over time every frame is plotted by itself", "leave out 'plot'");
   std::vector<std::string> counts = chart->y;
   if (!chart->x.empty()) counts.push_back(chart->x);
   for (const std::string& count : counts) {
-    if (!find_in(known_counts(), count) && !find_in(known_measures(), count)) continue;
-    const std::string why = why_not_counted(count, draft, state);
+    const std::string why = find_count(count) ? why_not_counted(count, draft, state) : "";
     if (!why.empty())
-      draft.problems.add(step.key_place("plot"),
-                         fmt::format("the chart's '{}' is not counted here: {}", count, why));
+      step.bad_key("plot", fmt::format("the chart's '{}' is not counted here: {}", count, why));
   }
-  return step.text("plot");
+}
+
+bool note_body_measure(const Named& name, Draft& draft) {
+  const std::size_t dot = name.name.find('.');
+  const std::string measure = name.name.substr(0, dot);
+  const CountDoc* doc = find_in(known_body_measures(), measure);
+  if (!doc) {
+    draft.problems.add(
+        name.where, fmt::format("there is no measure {} of a body", in_quotes(measure)), [measure] {
+          std::vector<std::string_view> known;
+          for (const CountDoc& k : known_body_measures()) known.push_back(k.name);
+          return nearest(measure, known);
+        });
+    return false;
+  }
+  if (const std::string why = why_not_measured(*doc, draft); !why.empty()) {
+    draft.problems.add(name.where, fmt::format("'{}' is not measured here: {}", name.name, why));
+    return false;
+  }
+  const auto body = one_body({name.name.substr(dot + 1), name.where}, draft);
+  if (!body) return false;
+  std::vector<BodyMeasureSpec>& noted = draft.scenario.body_measures;
+  if (std::any_of(noted.begin(), noted.end(), [&](const auto& n) { return n.name == name.name; }))
+    return true;
+  if (noted.size() == kMostNoted) {
+    draft.problems.add(name.where,
+                       fmt::format("more than {} measures of single bodies", kMostNoted));
+    return false;
+  }
+  const auto what = static_cast<BodyMeasure>(doc - known_body_measures().data());
+  noted.push_back({name.name, what, *body});
+  return true;
 }
 
 }  // namespace lantern

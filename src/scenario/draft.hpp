@@ -13,6 +13,11 @@
 
 namespace lantern {
 
+inline constexpr const char* kNothingTouches = "in this world nothing touches";
+inline constexpr const char* kGiveContacts = "give [world] contacts = \"impulse\" or \"soft\"";
+inline constexpr const char* kNothingSleeps = "in this world nothing sleeps";
+inline constexpr const char* kGiveSleep = "give [world] may_sleep = true";
+
 // Bodies or textures by name: one, or all of a pattern.
 struct NamedRange {
   std::size_t first = 0;
@@ -81,12 +86,16 @@ void read_structures(const TableReader& file, Draft& draft);
 // The structure keys of a table, upon `base`: what is not given stays.
 StructureSpec read_structure(const TableReader& table, const StructureSpec& base, Draft& draft);
 
-// What [[body]] and [[pattern]] share; all but where the body is, how it goes and who steers it.
+// What [[body]] and [[pattern]] share: all but what only one of them has, or who is followed.
 BodySpec read_body_keys(const TableReader& table, Draft& draft);
+// Adds a problem if `key` makes a body move that is static or has no size.
+void check_motion(const TableReader& table, const char* key, const BodySpec& body, bool moves);
+void read_pattern(const TomlValue& value, Draft& draft);
 
-// The bodies of a pattern, in their order, each like `like` but for place, velocity and colour.
-void unroll_pattern(const BodySpec& like, std::size_t count, const TableReader& table,
-                    Draft& draft);
+// The next `count` bodies follow whom the table says, who may be declared later; then they are
+// found.
+void note_follower(const TableReader& table, std::size_t count, Draft& draft);
+void find_the_followed(Draft& draft);
 
 // Exactly one body of that name. Adds a problem and gives nothing for an unknown name or a pattern.
 std::optional<std::size_t> one_body(const Named& name, Draft& draft);

@@ -5,7 +5,7 @@
 #include "base/check.hpp"
 #include "scenario/body_measure.hpp"
 #include "scenario/brains.hpp"
-#include "scenario/questions.hpp"
+#include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
 #include "scenario/world_watch.hpp"
@@ -271,8 +271,8 @@ class EngineOf : public Engine {
   bool steered_ = false;       // who has a brain has made up its mind about the next step
   bool being_stored_ = false;  // a body is on its way down the structure
   Brains<D> brains_;
-  WorldWork last_;              // what the last step did
-  BroadPhaseCounters builds_;   // of them, what is counted
+  WorldWork last_;             // what the last step did
+  BroadPhaseCounters builds_;  // of them, what is counted
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
 };

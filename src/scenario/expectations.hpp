@@ -1,4 +1,4 @@
-// Does a frame keep what its step promises?
+// Does a frame meet the expectations of its step?
 #pragma once
 
 #include <optional>

@@ -1,85 +1,103 @@
 #include "scenario/language.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "scenario/language_key.hpp"
+#include "scenario/key.hpp"
 #include "scenario/language_parts.hpp"
+#include "scenario/scenario.hpp"
 
 namespace lantern {
 namespace {
 
-using enum KeyType;
-
 TableDoc file_table() {
-  return {
-      "",
-      "The file's own keys",
-      "A scenario of Lantern. These keys stand at the top, before the first [table].",
-      {
-          Key(text, "title", "The thin line above every frame.").must().range(1, 80),
-          Key(text, "source", "The section of the lecture that the scenario shows.")
-              .range(0, 80)
-              .by_default("\"\""),
-          Key(text, "name", "Names the output folder and its files.")
-              .like(kFilePattern)
-              .or_else("the file's name"),
-          Key(whole, "seed",
-              "Where random patterns begin; the same seed gives the same frames everywhere.")
-              .range(0, kMostWhole)
-              .by_default("1"),
-          Key(choice, "pace", "One frame a step, or one for each thing that the algorithm does.")
-              .one_of({"step", "event"})
-              .by_default("\"step\""),
-          Key(choices_list, "panels", "What is drawn, from left to right.")
-              .one_of({"world", "tree", "atlas", "chart", "memory"})
-              .or_else("what the scenario uses"),
-          Key(table, "world", "Where bodies are.").holds("world"),
-          Key(table, "structure", "How the world is partitioned.").holds("structure"),
-          Key(tables, "body", "One body each.").at_most(kMostBodies).holds("body"),
-          Key(tables, "pattern", "Many bodies each.").at_most(kMostBodies).holds("pattern"),
-          Key(tables, "spring", "One spring each.").at_most(kMostLinks).holds("spring"),
-          Key(tables, "joint", "One joint each.").at_most(kMostLinks).holds("joint"),
-          Key(table, "level", "Walls, to be made a BSP of.").holds("level"),
-          Key(table, "chart", "Counts of steps as lines or bars.").holds("chart"),
-          Key(table, "problem", "The known answer that it is measured against.").holds("problem"),
-          Key(table, "atlas", "The image that textures are packed into.").holds("atlas"),
-          Key(tables, "texture", "One texture each.").at_most(kMostTextures).holds("texture"),
-          Key(tables, "texture_pattern", "Many textures each.")
-              .at_most(kMostTextures)
-              .holds("texture_pattern"),
-          Key(tables, "step", "The script.").must().at_most(kMostSteps).holds("step"),
-      }};
+  using namespace keys;
+  using S = ScenarioSpec;
+  TableDoc table = {
+      "", "The file's own keys",
+      "A scenario of Lantern. These keys stand at the top, before the first [table]."};
+  table.keys = {
+      key(&S::title, "title", "The thin line above every frame.", must(), range(1, 80)),
+      key(&S::source, "source", "The section of the lecture that the scenario shows.",
+          range(0, 80)),
+      key(&S::name, "name", "Names the output folder and its files.", like(kFilePattern),
+          or_else("the file's name")),
+      key(&S::seed, "seed",
+          "Where random patterns begin; the same seed gives the same frames everywhere.",
+          range(0, kMostWhole)),
+      key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
+      key(&S::panels, "panels", "What is drawn, from left to right.",
+          or_else("what the scenario uses")),
+      key(KeyType::table, "world", "Where bodies are.", holds("world")),
+      key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
+      key(KeyType::tables, "body", "One body each.", at_most(kMostBodies), holds("body")),
+      key(KeyType::tables, "pattern", "Many bodies each.", at_most(kMostBodies), holds("pattern")),
+      key(KeyType::tables, "spring", "One spring each.", at_most(kMostLinks), holds("spring")),
+      key(KeyType::tables, "joint", "One joint each.", at_most(kMostLinks), holds("joint")),
+      key(KeyType::table, "level", "Walls, to be compiled into a BSP.", holds("level")),
+      key(KeyType::table, "chart", "Counts of steps as lines or bars.", holds("chart")),
+      key(KeyType::table, "problem", "The known answer that it is measured against.",
+          holds("problem")),
+      key(KeyType::table, "atlas", "The image that textures are packed into.", holds("atlas")),
+      key(KeyType::tables, "texture", "One texture each.", at_most(kMostTextures),
+          holds("texture")),
+      key(KeyType::tables, "texture_pattern", "Many textures each.", at_most(kMostTextures),
+          holds("texture_pattern")),
+      key(KeyType::tables, "step", "The script.", must(), at_most(kMostSteps), holds("step")),
+  };
+  return table;
 }
 
 TableDoc step_table() {
-  return {"step",
-          "[[step]]",
-          "One step of the script. Each has a verb in `do`, the verb's own keys, and any of these.",
-          {
-              Key(text, "do", "The verb, one of those below.").must(),
-              Key(text, "name", "To ask for this step's frames with `--at`.")
-                  .like(kEventPattern)
-                  .or_else("the verb"),
-              Key(text, "part", "Stands behind the title from here on.")
-                  .range(1, 60)
-                  .or_else("as before"),
-              Key(text, "caption", "Explains the frame. It may quote counts.")
-                  .range(0, kMostCaption)
-                  .by_default("\"\""),
-              Key(text, "plot", "Adds a point to the [chart], or a bar with this label.")
-                  .range(1, 40)
-                  .or_else("adds none"),
-              Key(table, "expect", "What must hold when the step is done.").holds("expect"),
-              Key(table, "always", "What must hold on every frame of the step.").holds("expect"),
-          }};
+  using namespace keys;
+  TableDoc table = {
+      "step", "[[step]]",
+      "One step of the script. Each has a verb in `do`, the verb's own keys, and any of these."};
+  table.keys = {
+      key(KeyType::text, "do", "The verb, one of those below.", must()),
+      key(&Step::name, "name", "To ask for this step's frames with `--at`.", like(kEventPattern),
+          or_else("the verb")),
+      key(&Step::part, "part", "Stands behind the title from here on.", range(1, 60),
+          or_else("as before")),
+      key(&Step::caption, "caption", "Explains the frame. It may quote counts.",
+          range(0, kMostCaption)),
+      key(&Step::plot, "plot", "Adds a point to the [chart], or a bar with this label.",
+          range(1, 40), or_else("adds none")),
+      key(KeyType::table, "expect", "What must hold when the step is done.", holds("expect")),
+      key(KeyType::table, "always", "What must hold on every frame of the step.", holds("expect")),
+  };
+  return table;
 }
 
 }  // namespace
 
+KeyDoc body_key() {
+  using namespace keys;
+  return key(KeyType::text, "body", "Its name.", must(), range(1, 64));
+}
+
+KeyDoc bodies_key() {
+  using namespace keys;
+  return key(KeyType::texts, "bodies", "Names of bodies, or of patterns for all of theirs.",
+             must());
+}
+
+KeyDoc pace_key() {
+  using namespace keys;
+  return key(&Step::pace, "pace", "Of this step alone.", or_else("the scenario's"));
+}
+
+KeyDoc events_key(std::vector<std::string_view> names) {
+  using namespace keys;
+  return key(&Step::events, "events", "When the pace is `event`, only these give frames.",
+             one_of(std::move(names)), or_else("all"));
+}
+
 const KeyDoc* TableDoc::find(std::string_view key) const {
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const KeyDoc& k) { return k.key == key; });
+  const auto found = std::ranges::find(keys, key, &KeyDoc::key);
   return found == keys.end() ? nullptr : &*found;
 }
 
@@ -94,10 +112,54 @@ std::span<const TableDoc> language_tables() {
 
 const TableDoc& language_table(std::string_view name) {
   const auto tables = language_tables();
-  const auto found = std::find_if(tables.begin(), tables.end(),
-                                  [&](const TableDoc& table) { return table.name == name; });
+  const auto found = std::ranges::find(tables, name, &TableDoc::name);
   LANTERN_CHECK(found == tables.end(), ==, false);
   return *found;
+}
+
+// In the order of KeyType.
+const TypeWords& words_of(KeyType type) {
+  static constexpr TypeWords kWords[] = {
+      {"text", "\"…\""},
+      {"whole number", ""},
+      {"number", "1.5"},
+      {"true or false", "true"},
+      {"one of", ""},
+      {"point", "[1.5, 2]"},
+      {"two numbers", "[0.5, 1]"},
+      {"[width, height]", "[64, 32]"},
+      {"list of texts", "[\"…\"]"},
+      {"list of texts, or none", "[\"…\"]"},
+      {"list of polygons", "[[[0, 0], [8, 0], [8, 6]]]"},
+      {"whole number, or list of texts", "2, or a list of names"},
+      {"list of", "[\"…\"]"},
+      {"table", ""},
+      {"tables", ""},
+      {"list of pairs", "[[\"red\", \"pink\"]]"},
+      {"table: name → whole number", "{ pink = 2 }"},
+      {"table: name → number", "{ pink = 2 }"},
+      {"table: name → point", "{ ball = [12, 14] }"},
+  };
+  return kWords[static_cast<std::size_t>(type)];
+}
+
+std::string form_of(const KeyDoc& key, int dimension) {
+  std::string value(words_of(key.type).example);
+  if (key.type == KeyType::tables) return fmt::format("a [[{}]]", key.of);
+  if (key.type == KeyType::whole) value = fmt::format("{}", std::max(key.least, 1.0));
+  if (key.type == KeyType::choice) value = fmt::format("\"{}\"", key.choices.back());
+  if (key.type == KeyType::point && dimension == 3) value = "[1.5, 2, 0.5]";
+  if (key.type == KeyType::name_points && dimension == 3) value = "{ ball = [12, 14, 0] }";
+  return fmt::format("{} = {}", key.key, value);
+}
+
+std::string range_text(const KeyDoc& doc) {
+  const bool from = std::isfinite(doc.least), to = std::isfinite(doc.most);
+  if (from && to && doc.above_least)
+    return fmt::format("above {}, at most {}", doc.least, doc.most);
+  if (from && to) return fmt::format("{} to {}", doc.least, doc.most);
+  if (from) return fmt::format("{} {}", doc.above_least ? "above" : "at least", doc.least);
+  return to ? fmt::format("at most {}", doc.most) : "";
 }
 
 }  // namespace lantern

@@ -1,18 +1,21 @@
-// The scenario language as one table of its tables: every key with its type, range, default and a
-// sentence on what it means. The parser checks against it; the JSON Schema and the reference page
-// are printed from it.
+// The scenario language as one table of its tables: every key with its type, range, default, what
+// it means and what it fills. The parser checks and reads by it; the JSON Schema and the reference
+// page are printed from it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <vector>
 
 #include "scenario/name_pattern.hpp"
+#include "scenario/toml_tree.hpp"
 
 namespace lantern {
 
@@ -55,17 +58,36 @@ struct KeyDoc {
   KeyType type = KeyType::text;
   std::string_view doc = {};  // one sentence or two
   bool required = false;
-  std::string_view fallback = {};   // the default as TOML writes it
+  std::string fallback = {};        // the default as TOML, and JSON, writes it
   std::string_view otherwise = {};  // the default in words, where it depends on other things
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool above_least = false;  // `least` itself is not allowed
   std::string_view unit = {};
+  double scale = 1;  // from the file's unit to the program's
   std::vector<std::string_view> choices = {};
   std::optional<NamePattern> pattern = {};  // of a text
   std::string_view of = {};
   std::string_view form = {};  // of two numbers: "[x, y]"
+
+  // Writes a good value into the member of `*object` that the key is bound to. A key without an
+  // owner is read by the reader of its table.
+  const std::type_info* owner = nullptr;
+  std::function<void(const TomlValue& value, const KeyDoc& key, void* object)> fill = {};
 };
+
+// How the reference calls a type, and a value of it; of some types the value depends on the key.
+struct TypeWords {
+  std::string_view name;
+  std::string_view example;
+};
+const TypeWords& words_of(KeyType type);
+
+// How a key is written: "position = [1.5, 2]".
+std::string form_of(const KeyDoc& key, int dimension);
+
+// "0 to 32", "above 0, at most 1000"; empty if the key has no range.
+std::string range_text(const KeyDoc& doc);
 
 // Of several groups of keys, exactly one must be given, or at least one.
 struct KeyGroups {
@@ -74,10 +96,10 @@ struct KeyGroups {
 };
 
 struct TableDoc {
-  std::string_view name;     // "world", "structure.planes"; of the file's own keys ""
-  std::string_view heading;  // "[world]", "[[body]]", "do = \"insert\""
-  std::string_view doc;
-  std::vector<KeyDoc> keys;
+  std::string_view name = {};  // "world", "structure.planes"; of the file's own keys ""
+  std::string heading = {};    // "[world]", "[[body]]", "do = \"insert\""
+  std::string_view doc = {};
+  std::vector<KeyDoc> keys = {};
   KeyGroups groups = {};
   std::string_view example = {};  // of a verb: steps that may follow the reference page's scenario
 
@@ -93,9 +115,10 @@ const TableDoc& language_table(std::string_view name);
 // One table a verb of the script: `name` is the verb; its own keys, then those of every step.
 std::span<const TableDoc> language_verbs();
 
-// When a world's count can be counted.
+// When a count can be counted.
 enum class CountNeed {
   bodies,
+  tree,  // a structure, a compiled level or an atlas
   structure,
   kd_tree,
   array,  // a structure whose leaves share one
@@ -107,15 +130,19 @@ enum class CountNeed {
   query,     // a ray, cull or query was asked
   compiled,  // the level was
   located,   // a point of the level was
-  room,      // of an atlas: it was asked for room
+  atlas,
+  room,  // of an atlas: it was asked for room
 };
 
 struct CountDoc {
   std::string_view name;
-  std::string_view doc;
-  bool for_world = false;
-  bool for_atlas = false;
   CountNeed need = CountNeed::bodies;
+  std::string_view doc;
+
+  bool for_atlas() const {
+    return need == CountNeed::atlas || need == CountNeed::room || need == CountNeed::tree;
+  }
+  bool for_world() const { return need != CountNeed::atlas && need != CountNeed::room; }
 };
 
 // "with a structure", "once the level is compiled": for the reference page.
@@ -127,10 +154,17 @@ std::span<const CountDoc> known_measures();
 // The same of one body, written as `energy.bob`; in the order of BodyMeasure.
 std::span<const CountDoc> known_body_measures();
 
-// What a caption may quote and an expectation may promise, in the order of a frame's counts.
+// What a caption may quote and an expectation may name, in the order of a frame's counts.
 std::span<const CountDoc> known_counts();
 
 // Placeholders of captions that are not counts.
 std::span<const CountDoc> known_texts();
+
+// The row of that name; null if there is none.
+const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name);
+
+// A known count or measure, and the names of all of them.
+const CountDoc* find_count(std::string_view name);
+std::vector<std::string_view> names_of_counts();
 
 }  // namespace lantern

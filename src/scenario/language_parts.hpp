@@ -22,20 +22,13 @@ TableDoc texture_table();
 TableDoc texture_pattern_table();
 TableDoc expect_table();
 
-// In the order of the enums.
-std::vector<std::string_view> integrator_names();
-std::vector<std::string_view> rotation_names();
+// Those of a table for a body or a pattern: `own` and what both have.
+std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);
 
-// Verbs, each with its own keys only.
-std::vector<TableDoc> body_verbs();
-std::vector<TableDoc> time_verbs();
-std::vector<TableDoc> structure_verbs();
-std::vector<TableDoc> query_verbs();
-std::vector<TableDoc> level_verbs();
-std::vector<TableDoc> atlas_verbs();
-
-// The keys of a verb that can be watched while it works.
-KeyDoc pace_key();
+// The keys that several verbs have.
+KeyDoc body_key();  // read by the verb, as is "bodies"
+KeyDoc bodies_key();
+KeyDoc pace_key();  // of a verb that can be watched while it works, as is "events"
 KeyDoc events_key(std::vector<std::string_view> names);
 
 }  // namespace lantern

@@ -5,29 +5,26 @@
 namespace lantern {
 namespace {
 
-struct Known {
-  explicit Known(std::string_view called) : name(called) {}
-  std::string_view name;
-  Method method;
-};
+// One of each name, but for the numbers.
+std::vector<Method> made() {
+  std::vector<Method> methods;
+  const auto add = [&]<class E>(std::optional<E> Method::*member, E first) {
+    const auto all = names(first);
+    for (auto i = static_cast<std::size_t>(first); i < all.size(); ++i) {
+      Method& method = methods.emplace_back();
+      method.name = all[i];
+      method.*member = static_cast<E>(i);
+    }
+  };
+  add(&Method::integrator, Integrator());
+  add(&Method::rotation, RotationMethod());
+  add(&Method::contacts, ContactMethod::impulse);
+  return methods;
+}
 
-const std::vector<Known>& known() {
-  static const std::vector<Known> table = [] {
-    std::vector<Known> t;
-    for (int i = 0; i < 6; ++i) {
-      const auto integrator = static_cast<Integrator>(i);
-      t.emplace_back(to_string(integrator)).method.integrator = integrator;
-    }
-    for (int i = 0; i < 3; ++i) {
-      const auto rotation = static_cast<RotationMethod>(i);
-      t.emplace_back(to_string(rotation)).method.rotation = rotation;
-    }
-    for (const std::string_view name : contact_method_names())
-      if (const auto contacts = *contact_method_named(name); contacts != ContactMethod::none)
-        t.emplace_back(name).method.contacts = contacts;
-    return t;
-  }();
-  return table;
+const std::vector<Method>& known() {
+  static const std::vector<Method> methods = made();
+  return methods;
 }
 
 // "16": nothing if it is no number from 1 on.
@@ -42,9 +39,8 @@ std::optional<int> effort_of(std::string_view text) {
 
 std::optional<Method> method_named(std::string_view name) {
   const std::size_t colon = name.find(':');
-  for (const Known& k : known()) {
-    if (k.name != name.substr(0, colon)) continue;
-    Method method = k.method;
+  for (Method method : known()) {
+    if (method.name != name.substr(0, colon)) continue;
     method.name = name;
     if (colon == std::string_view::npos) return method;
     method.effort = effort_of(name.substr(colon + 1));
@@ -59,7 +55,7 @@ std::optional<Method> method_named(std::string_view name) {
 
 std::vector<std::string_view> method_names() {
   std::vector<std::string_view> names;
-  for (const Known& k : known()) names.push_back(k.name);
+  for (const Method& method : known()) names.push_back(method.name);
   return names;
 }
 

@@ -1,34 +1,11 @@
 #include "scenario/name_pattern.hpp"
 
-#include "base/check.hpp"
+#include <algorithm>
+
+#include <fmt/format.h>
 
 namespace lantern {
 namespace {
-
-// The group of letters that starts at `at`, and how many of them are wanted.
-struct Letters {
-  std::string_view group;  // between the brackets
-  std::size_t least = 1;
-  std::size_t most = 1;
-};
-
-Letters next_letters(std::string_view pattern, std::size_t& at) {
-  const std::size_t close = pattern.find(']', at);
-  LANTERN_CHECK(close, !=, std::string_view::npos);
-  Letters found{pattern.substr(at + 1, close - at - 1)};
-  at = close + 1;
-  if (at >= pattern.size() || pattern[at] != '{') return found;
-  const auto number = [&] {
-    std::size_t n = 0;
-    while (pattern[++at] >= '0' && pattern[at] <= '9')
-      n = n * 10 + static_cast<std::size_t>(pattern[at] - '0');
-    return n;
-  };
-  found.least = number();
-  found.most = number();
-  ++at;
-  return found;
-}
 
 bool in_group(char c, std::string_view group) {
   for (std::size_t i = 0; i < group.size(); ++i) {
@@ -41,17 +18,13 @@ bool in_group(char c, std::string_view group) {
 
 }  // namespace
 
-bool matches(std::string_view text, const NamePattern& name_pattern) {
-  const std::string_view pattern = name_pattern.expression;
-  for (std::size_t at = 1; at < pattern.size() && pattern[at] == '[';) {
-    const Letters letters = next_letters(pattern, at);
-    std::size_t taken = 0;
-    while (taken < letters.most && taken < text.size() && in_group(text[taken], letters.group))
-      ++taken;
-    if (taken < letters.least) return false;
-    text.remove_prefix(taken);
-  }
-  return text.empty();
+std::string NamePattern::expression() const {
+  return fmt::format("^[{}][{}]{{0,{}}}$", first, rest, most - 1);
+}
+
+bool matches(std::string_view text, const NamePattern& pattern) {
+  return !text.empty() && text.size() <= pattern.most && in_group(text[0], pattern.first) &&
+         std::ranges::all_of(text.substr(1), [&](char c) { return in_group(c, pattern.rest); });
 }
 
 std::string legal_name(std::string_view text, const NamePattern& pattern) {

@@ -1,16 +1,21 @@
 // Which letters a name may have.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace lantern {
 
-// A regular expression in little, which a JSON Schema understands as well: a ^, then groups of
-// letters in [ ], each of which may be followed by {least,most}, then a $.
+// Groups of letters are written as between the brackets of a regular expression: "a-z0-9_".
 struct NamePattern {
-  std::string_view expression;
+  std::string_view first;  // what it may begin with
+  std::string_view rest;   // and what may follow
+  std::size_t most = 1;    // letters
   std::string_view words;  // the same for people
+
+  // The same as a regular expression, for the JSON Schema.
+  std::string expression() const;
 };
 
 // Does the whole text match?

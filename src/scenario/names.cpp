@@ -33,7 +33,7 @@ int cycled_color(std::int64_t color, std::size_t index) {
 }
 
 std::uint64_t derived_seed(const TableReader& table, const std::string& name, const Draft& draft) {
-  if (const auto seed = table.whole("seed")) return static_cast<std::uint64_t>(*seed);
+  if (const auto seed = table.get<std::uint64_t>("seed")) return *seed;
   return Hash().add(draft.scenario.seed).add(std::string_view(name)).value();
 }
 
@@ -49,6 +49,23 @@ std::optional<std::size_t> one_body(const Named& body, Draft& draft) {
   draft.problems.add(body.where, fmt::format("'{}' is a pattern, not a body", body.name),
                      fmt::format("its bodies are '{0}1' to '{0}{1}'", body.name, range->count));
   return std::nullopt;
+}
+
+void note_follower(const TableReader& table, std::size_t count, Draft& draft) {
+  if (const auto name = table.named("follow"))
+    draft.followers.push_back({draft.scenario.bodies.size(), count, *name});
+}
+
+void find_the_followed(Draft& draft) {
+  auto& bodies = draft.scenario.bodies;
+  for (const Follower& f : draft.followers) {
+    const auto followed = one_body(f.followed, draft);
+    if (!followed) continue;
+    if (f.first <= *followed && *followed < f.first + f.count)
+      draft.problems.add(f.followed.where, "a body cannot follow itself",
+                         "name another one in 'follow'");
+    for (std::size_t i = f.first; i < f.first + f.count; ++i) bodies[i].follows = *followed;
+  }
 }
 
 }  // namespace lantern

@@ -24,10 +24,7 @@ constexpr Place kTop{1, 1};
 }
 
 void read_name(const TableReader& file, const std::string& path, Draft& draft) {
-  if (file.has("name")) {
-    draft.scenario.name = file.text("name").value_or("");
-    return;
-  }
+  if (file.has("name")) return;
   const std::string stem = std::filesystem::path(path).stem().string();
   draft.scenario.name = stem;
   const NamePattern& pattern = *language_table("").find("name")->pattern;
@@ -50,34 +47,24 @@ bool compiles_level(const ScenarioSpec& s) {
   return s.level && some_step<CompileLevel>(s, [](const CompileLevel&) { return true; });
 }
 
-// Those that the file wishes for.
-void read_panels(const TableReader& file, Draft& draft) {
-  ScenarioSpec& s = draft.scenario;
+// Can there be those that the file wishes for?
+void check_panels(const TableReader& file, Draft& draft) {
+  const ScenarioSpec& s = draft.scenario;
   const auto is_there = [](const Rebuild& r) { return r.structure.kind != StructureKind::none; };
   const bool structure = s.structure.kind != StructureKind::none || some_step<Rebuild>(s, is_there);
-  const bool possible[] = {draft.has_world, structure || compiles_level(s) || s.atlas, s.atlas.has_value(),
-                           s.chart.has_value(), structure};
+  const bool possible[] = {draft.has_world, structure || compiles_level(s) || s.atlas,
+                           s.atlas.has_value(), s.chart.has_value(), structure};
   constexpr const char* kMissing[] = {
       "it needs a [world]", "it needs a [structure], a [level] or an [atlas]",
       "it needs an [atlas]", "it needs a [chart]", "it needs a [structure]"};
-  const std::vector<Named> written = file.texts("panels");
-  const std::vector<std::size_t> chosen = file.choices("panels");
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    s.panels.push_back(static_cast<Panel>(chosen[i]));
-    if (!possible[chosen[i]])
-      draft.problems.add(written[i].where,
-                         fmt::format("this scenario cannot have the panel '{}'", written[i].name),
-                         kMissing[chosen[i]]);
+  std::size_t i = 0;
+  for (const Named& written : file.names("panels")) {
+    const auto panel = static_cast<std::size_t>(s.panels[i++]);
+    if (!possible[panel])
+      draft.problems.add(written.where,
+                         fmt::format("this scenario cannot have the panel '{}'", written.name),
+                         kMissing[panel]);
   }
-}
-
-void read_file_keys(const TableReader& file, const std::string& path, Draft& draft) {
-  ScenarioSpec& s = draft.scenario;
-  s.title = file.text("title").value_or("");
-  s.source = file.text("source").value_or("");
-  s.seed = static_cast<std::uint64_t>(file.whole("seed").value_or(1));
-  s.pace = static_cast<Pace>(file.choice("pace").value_or(0));
-  read_name(file, path, draft);
 }
 
 bool is_tree(const StructureSpec& s) {
@@ -104,7 +91,8 @@ bool is_blank(std::string_view text) {
 
 void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   const TableReader file(table, kTop, language_table(""), draft.problems, 0);
-  read_file_keys(file, path, draft);
+  file.fill(draft.scenario);
+  read_name(file, path, draft);
   read_world(file, draft);
   read_bodies(file, draft);
   read_links(file, draft);
@@ -113,7 +101,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   read_problem(file, draft);
   read_atlas(file, draft);
   read_script(file, draft);
-  read_panels(file, draft);
+  check_panels(file, draft);
 }
 
 }  // namespace
@@ -146,10 +134,6 @@ Scenario load_scenario(const std::string& path) {
     if (!error && bytes > kMostFileBytes) refuse_size(path, bytes);
   }
   return parse_scenario(read_file(path, kMostFileBytes), path);
-}
-
-std::string_view to_string(Children children) {
-  return children == Children::eager ? "eager" : "lazy";
 }
 
 }  // namespace lantern

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "scenario/language.hpp"
-#include "scenario/value_check.hpp"
 
 namespace lantern {
 namespace {
@@ -101,50 +100,6 @@ caption = "{walls:wall}: four around the room, four around the pillar."
 expect = { walls = 8 }
 )";
 
-std::string_view type_text(KeyType type) {
-  switch (type) {
-    case KeyType::text:
-      return "text";
-    case KeyType::whole:
-      return "whole number";
-    case KeyType::number:
-      return "number";
-    case KeyType::truth:
-      return "true or false";
-    case KeyType::choice:
-      return "one of";
-    case KeyType::point:
-      return "point";
-    case KeyType::two_numbers:
-      return "two numbers";
-    case KeyType::loops:
-      return "list of polygons";
-    case KeyType::names:
-      return "list of texts, or none";
-    case KeyType::whole_or_names:
-      return "whole number, or list of texts";
-    case KeyType::size:
-      return "[width, height]";
-    case KeyType::texts:
-      return "list of texts";
-    case KeyType::choices_list:
-      return "list of";
-    case KeyType::table:
-      return "table";
-    case KeyType::tables:
-      return "tables";
-    case KeyType::name_pairs:
-      return "list of pairs";
-    case KeyType::name_wholes:
-      return "table: name → whole number";
-    case KeyType::name_numbers:
-      return "table: name → number";
-    case KeyType::name_points:
-      return "table: name → point";
-  }
-  return "";
-}
-
 // 1000000000 -> 1e9, 9007199254740992 -> 2^53
 std::string short_number(double x) {
   if (x == 0x1p53) return "2^53";
@@ -167,7 +122,7 @@ std::string short_range(const KeyDoc& doc) {
 }
 
 std::string type_column(const KeyDoc& doc) {
-  std::string text(doc.form.empty() ? type_text(doc.type) : doc.form);
+  std::string text(doc.form.empty() ? words_of(doc.type).name : doc.form);
   for (std::size_t i = 0; i < doc.choices.size(); ++i)
     text += fmt::format("{} `{}`", i == 0 ? "" : ",", doc.choices[i]);
   const std::string range = short_range(doc);
@@ -229,22 +184,16 @@ std::string verb_section(const TableDoc& verb) {
 std::string world_count_rows() {
   std::string text = "| count | meaning | counted |\n|---|---|---|\n";
   for (const CountDoc& count : known_counts())
-    if (count.for_world)
+    if (count.for_world())
       text += fmt::format("| `{}` | {} | {} |\n", count.name, count.doc, when_counted(count.need));
   return text;
 }
 
-std::string body_measure_rows() {
-  std::string text = "| measure | meaning |\n|---|---|\n";
-  for (const CountDoc& doc : known_body_measures())
-    text += fmt::format("| `{}` | {} |\n", doc.name, doc.doc);
-  return text;
-}
-
-std::string atlas_count_rows() {
-  std::string text = "| count | meaning |\n|---|---|\n";
-  for (const CountDoc& count : known_counts())
-    if (count.for_atlas) text += fmt::format("| `{}` | {} |\n", count.name, count.doc);
+std::string count_rows(std::string_view what, std::span<const CountDoc> docs,
+                       bool (*is_listed)(const CountDoc&)) {
+  std::string text = fmt::format("| {} | meaning |\n|---|---|\n", what);
+  for (const CountDoc& doc : docs)
+    if (is_listed(doc)) text += fmt::format("| `{}` | {} |\n", doc.name, doc.doc);
   return text;
 }
 
@@ -261,24 +210,25 @@ std::string text_rows() {
 std::string introduction() {
   return fmt::format(R"(# The scenario language
 
-A scenario is a [TOML](https://toml.io) file: it says what there is and what happens, and promises what will be
-counted. It is data, never code. This page is printed by `lantern reference`; editors that know JSON Schema can use
+A scenario is a [TOML](https://toml.io) file: it says what there is, what happens, and which counts
+to expect. It is data, never code. This page is printed by `lantern reference`; editors that know JSON Schema can use
 [scenario.schema.json](scenario.schema.json).
 
 ## In two minutes
 
 {}
-`lantern check` runs it and verifies every promise in `expect`; `lantern render` draws it. An atlas looks like this:
+`lantern check` runs it and verifies every expectation; `lantern render` draws it. An atlas looks like this:
 
 {}
 And a level like this:
 
 {}
 The language is strict. A key that it does not know, a wrong type, a name that does not exist, a number out of range:
-all mistakes of a file are told at once, each with its line and column and, if there is one, the word you meant.
+all mistakes in a file are reported at once, each with its line and column and, where one can be guessed, the word
+you meant.
 
 Lengths and positions are in units of your own, times in seconds, angles in degrees, textures in pixels; x goes to
-the right, y up, and z towards the viewer. A point is `[x, y]` in a flat world and `[x, y, z]` in a solid one.
+the right, y up, and z towards the viewer. A point is `[x, y]` in a 2D world and `[x, y, z]` in a 3D one.
 Coordinates are at most 1e9, either way. A file has at most {} MiB, {} bodies, {} textures and {} steps.
 
 ## What there is
@@ -303,7 +253,7 @@ std::string reference_page() {
       "\nA body is used as a script would: inserted before it is moved or removed, and not twice. "
       "Each example\nbelow goes on from the three scenarios above; append them in this order.\n";
   for (const TableDoc& verb : language_verbs()) page += verb_section(verb);
-  page += "\n## What is promised and said\n";
+  page += "\n## What is expected and said\n";
   page += table_section(language_table("expect"));
   page += fmt::format(
       "\n### Captions\n\nAt most {} letters. Placeholders are filled in with what "
@@ -313,8 +263,9 @@ std::string reference_page() {
   page +=
       "\n### Measures of one body\n\nWritten with the body's name, as `energy.bob`: in the "
       "chart, in `at_most` and `at_least`, and in captions.\n\n" +
-      body_measure_rows();
-  page += "\n### Counts of an atlas\n\n" + atlas_count_rows();
+      count_rows("measure", known_body_measures(), [](const CountDoc&) { return true; });
+  page += "\n### Counts of an atlas\n\n" +
+          count_rows("count", known_counts(), [](const CountDoc& doc) { return doc.for_atlas(); });
   return page;
 }
 

@@ -1,48 +1,14 @@
 #include "scenario/table_reader.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
-#include "base/check.hpp"
 #include "base/suggest.hpp"
 #include "scenario/value_check.hpp"
 
 namespace lantern {
 namespace {
-
-double number_of(const TomlValue& value) {
-  if (const auto* whole = std::get_if<std::int64_t>(&value.data))
-    return static_cast<double>(*whole);
-  return std::get<double>(value.data);
-}
-
-Vec<2> two_of(const TomlValue& value) {
-  const auto& list = std::get<TomlArray>(value.data);
-  return {number_of(list[0]), number_of(list[1])};
-}
-
-Vec<3> point_of(const TomlValue& value) {
-  const auto& list = std::get<TomlArray>(value.data);
-  Vec<3> point(0.0);
-  for (std::size_t i = 0; i < list.size(); ++i) point[static_cast<int>(i)] = number_of(list[i]);
-  return point;
-}
-
-Named named(const TomlValue& value) { return {std::get<std::string>(value.data), value.where}; }
-
-template <class T>
-std::optional<T> parsed(std::string_view literal) {
-  T value{};
-  if (literal.empty()) return std::nullopt;
-  std::from_chars(literal.data(), literal.data() + literal.size(), value);
-  return value;
-}
-
-std::string_view unquoted(std::string_view literal) {
-  return literal.substr(1, literal.size() - 2);
-}
 
 bool is_verb(const TableDoc& table) {
   const auto verbs = language_verbs();
@@ -58,34 +24,6 @@ std::string home_of(std::string_view key, const TableDoc& here) {
     if (&other != &here && other.find(key))
       return fmt::format("'{}' belongs to {}", key, other.heading);
   return {};
-}
-
-// "position = [1.5, 2]": how a key is written.
-std::string form_of(const KeyDoc& key, int dimension) {
-  switch (key.type) {
-    case KeyType::whole:
-      return fmt::format("{} = {}", key.key, std::max(key.least, 1.0));
-    case KeyType::number:
-      return fmt::format("{} = 1.5", key.key);
-    case KeyType::truth:
-      return fmt::format("{} = true", key.key);
-    case KeyType::choice:
-      return fmt::format("{} = \"{}\"", key.key, key.choices.back());
-    case KeyType::point:
-      return fmt::format("{} = {}", key.key, dimension == 3 ? "[1.5, 2, 0.5]" : "[1.5, 2]");
-    case KeyType::two_numbers:
-      return fmt::format("{} = [0.5, 1]", key.key);
-    case KeyType::loops:
-      return fmt::format("{} = [[[0, 0], [8, 0], [8, 6]]]", key.key);
-    case KeyType::size:
-      return fmt::format("{} = [64, 32]", key.key);
-    case KeyType::texts:
-      return fmt::format("{} = [\"…\"]", key.key);
-    case KeyType::tables:
-      return fmt::format("a [[{}]]", key.of);
-    default:
-      return fmt::format("{} = \"…\"", key.key);
-  }
 }
 
 }  // namespace
@@ -168,12 +106,6 @@ const TomlValue* TableReader::good(std::string_view key) const {
   return e && !bad_.contains(key) ? &e->value : nullptr;
 }
 
-const KeyDoc& TableReader::doc(std::string_view key) const {
-  const KeyDoc* found = doc_.find(key);
-  LANTERN_CHECK(found == nullptr, ==, false);
-  return *found;
-}
-
 Place TableReader::place(std::string_view key) const {
   const TomlEntry* e = entry(key);
   return e ? e->value.where : where_;
@@ -184,119 +116,17 @@ Place TableReader::key_place(std::string_view key) const {
   return e ? e->where : where_;
 }
 
-std::optional<std::string> TableReader::text(std::string_view key) const {
-  if (const TomlValue* value = good(key)) return std::get<std::string>(value->data);
-  const std::string_view fallback = doc(key).fallback;
-  if (fallback.empty()) return std::nullopt;
-  return std::string(unquoted(fallback));
-}
-
-std::optional<std::int64_t> TableReader::whole(std::string_view key) const {
-  if (const TomlValue* value = good(key)) return std::get<std::int64_t>(value->data);
-  return parsed<std::int64_t>(doc(key).fallback);
-}
-
-std::optional<double> TableReader::number(std::string_view key) const {
-  if (const TomlValue* value = good(key)) return number_of(*value);
-  return parsed<double>(doc(key).fallback);
-}
-
-std::optional<Vec<3>> TableReader::point(std::string_view key) const {
-  if (const TomlValue* value = good(key)) return point_of(*value);
-  return std::nullopt;
-}
-
-std::optional<Vec<2>> TableReader::two(std::string_view key) const {
-  if (const TomlValue* value = good(key)) return two_of(*value);
-  return std::nullopt;
-}
-
-std::vector<std::vector<Vec<2>>> TableReader::loops(std::string_view key) const {
-  std::vector<std::vector<Vec<2>>> found;
-  if (const TomlValue* value = good(key))
-    for (const TomlValue& loop : std::get<TomlArray>(value->data)) {
-      found.emplace_back();
-      for (const TomlValue& corner : std::get<TomlArray>(loop.data))
-        found.back().push_back(two_of(corner));
-    }
-  return found;
-}
-
 bool TableReader::is_list(std::string_view key) const {
   const TomlValue* value = good(key);
   return value && std::holds_alternative<TomlArray>(value->data);
 }
 
-bool TableReader::truth(std::string_view key) const {
-  if (const TomlValue* value = good(key)) return std::get<bool>(value->data);
-  return doc(key).fallback == "true";
-}
-
-std::vector<Named> TableReader::texts(std::string_view key) const {
-  std::vector<Named> found;
-  if (const TomlValue* value = good(key))
-    for (const TomlValue& element : std::get<TomlArray>(value->data))
-      found.push_back(named(element));
-  return found;
-}
-
-std::optional<std::size_t> TableReader::choice(std::string_view key) const {
-  const std::optional<std::string> chosen = text(key);
-  if (!chosen) return std::nullopt;
-  const auto& choices = doc(key).choices;
-  return static_cast<std::size_t>(std::find(choices.begin(), choices.end(), *chosen) -
-                                  choices.begin());
-}
-
-std::vector<std::size_t> TableReader::choices(std::string_view key) const {
-  const auto& choices = doc(key).choices;
-  std::vector<std::size_t> found;
-  for (const Named& chosen : texts(key))
-    found.push_back(static_cast<std::size_t>(
-        std::find(choices.begin(), choices.end(), chosen.name) - choices.begin()));
-  return found;
-}
-
 std::vector<const TomlValue*> TableReader::tables(std::string_view key) const {
   const TomlValue* value = good(key);
   if (!value) return {};
-  if (!std::holds_alternative<TomlArray>(value->data)) return {value};
+  if (!is_list(key)) return {value};
   std::vector<const TomlValue*> found;
   for (const TomlValue& element : std::get<TomlArray>(value->data)) found.push_back(&element);
-  return found;
-}
-
-std::vector<std::pair<Named, std::int64_t>> TableReader::name_wholes(std::string_view key) const {
-  std::vector<std::pair<Named, std::int64_t>> found;
-  if (const TomlValue* value = good(key))
-    for (const TomlEntry& e : std::get<TomlTable>(value->data))
-      found.push_back({{e.key, e.where}, std::get<std::int64_t>(e.value.data)});
-  return found;
-}
-
-std::vector<std::pair<Named, double>> TableReader::name_numbers(std::string_view key) const {
-  std::vector<std::pair<Named, double>> found;
-  if (const TomlValue* value = good(key))
-    for (const TomlEntry& e : std::get<TomlTable>(value->data))
-      found.push_back({{e.key, e.where}, number_of(e.value)});
-  return found;
-}
-
-std::vector<std::pair<Named, Vec<3>>> TableReader::name_points(std::string_view key) const {
-  std::vector<std::pair<Named, Vec<3>>> found;
-  if (const TomlValue* value = good(key))
-    for (const TomlEntry& e : std::get<TomlTable>(value->data))
-      found.push_back({{e.key, e.where}, point_of(e.value)});
-  return found;
-}
-
-std::vector<std::pair<Named, Named>> TableReader::name_pairs(std::string_view key) const {
-  std::vector<std::pair<Named, Named>> found;
-  if (const TomlValue* value = good(key))
-    for (const TomlValue& element : std::get<TomlArray>(value->data)) {
-      const auto& pair = std::get<TomlArray>(element.data);
-      found.push_back({named(pair[0]), named(pair[1])});
-    }
   return found;
 }
 

@@ -1,30 +1,23 @@
 // One table of a scenario file, read against its table of the language.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
-#include "geometry/vec.hpp"
 #include "scenario/language.hpp"
 #include "scenario/problems.hpp"
-#include "scenario/toml_tree.hpp"
+#include "scenario/toml_value.hpp"
 
 namespace lantern {
 
-// A name with the place where it is written.
-struct Named {
-  std::string name;
-  Place where;
-};
-
 // Checks a table as a whole when it is made: unknown and missing keys, types, ranges, choices. What
-// is asked for afterwards is either good, or the default, or, where there is neither, nothing; so
-// the reader of a bad file goes on and finds the other mistakes, too.
+// is asked for afterwards is either good or not given; so the reader of a bad file goes on and
+// finds the other mistakes, too.
 class TableReader {
  public:
   // `where` is the place of the table's header. `dimension` is the world's, 0 where it is not
@@ -40,19 +33,41 @@ class TableReader {
   Place place(std::string_view key) const;
   Place key_place(std::string_view key) const;
   Place where() const { return where_; }
+  const TableDoc& doc() const { return doc_; }
 
-  std::optional<std::string> text(std::string_view key) const;
-  std::optional<std::int64_t> whole(std::string_view key) const;
-  std::optional<double> number(std::string_view key) const;
-  std::optional<Vec<3>> point(std::string_view key) const;  // z = 0 unless it is written
-  std::optional<Vec<2>> two(std::string_view key) const;    // two numbers, or a size
-  std::vector<std::vector<Vec<2>>> loops(std::string_view key) const;
-  std::vector<Named> texts(std::string_view key) const;
-  bool truth(std::string_view key) const;
+  // The members of `to` that keys are bound to; what is not given, or not good, stays as it is.
+  template <class T>
+  void fill(T& to) const {
+    for (const KeyDoc& key : doc_.keys)
+      if (key.owner && *key.owner == typeid(T))
+        if (const TomlValue* value = good(key.key)) key.fill(*value, key, &to);
+  }
 
-  // The position of the key's choice, or of its default, in the language's list of choices.
-  std::optional<std::size_t> choice(std::string_view key) const;
-  std::vector<std::size_t> choices(std::string_view key) const;
+  // The value of one key, of the type that the language gives it (see toml_value.hpp).
+  template <class T>
+  std::optional<T> get(std::string_view key) const {
+    std::optional<T> found;
+    if (const TomlValue* value = good(key)) assign(*value, found);
+    return found;
+  }
+  // The elements of a list, or the entries of a table from names to values.
+  template <class T>
+  std::vector<T> list(std::string_view key) const {
+    return get<std::vector<T>>(key).value_or(std::vector<T>());
+  }
+  std::optional<Named> named(std::string_view key) const { return get<Named>(key); }
+  std::vector<Named> names(std::string_view key) const { return list<Named>(key); }
+  bool truth(std::string_view key) const { return get<bool>(key).value_or(false); }
+
+  // Adds a problem at the key's value, or at its name.
+  template <class... Hint>
+  void bad_value(std::string_view key, std::string message, Hint&&... hint) const {
+    problems_.add(place(key), std::move(message), std::forward<Hint>(hint)...);
+  }
+  template <class... Hint>
+  void bad_key(std::string_view key, std::string message, Hint&&... hint) const {
+    problems_.add(key_place(key), std::move(message), std::forward<Hint>(hint)...);
+  }
 
   // The table or tables of a key, with their places; empty if there is none or it is bad.
   std::vector<const TomlValue*> tables(std::string_view key) const;
@@ -60,16 +75,9 @@ class TableReader {
   // Is the key's value a good list? Otherwise it is a whole number, bad, or not there.
   bool is_list(std::string_view key) const;
 
-  // Entries of the types name_wholes, name_numbers, name_points and name_pairs.
-  std::vector<std::pair<Named, std::int64_t>> name_wholes(std::string_view key) const;
-  std::vector<std::pair<Named, double>> name_numbers(std::string_view key) const;
-  std::vector<std::pair<Named, Vec<3>>> name_points(std::string_view key) const;
-  std::vector<std::pair<Named, Named>> name_pairs(std::string_view key) const;
-
  private:
   const TomlEntry* entry(std::string_view key) const;
   const TomlValue* good(std::string_view key) const;
-  const KeyDoc& doc(std::string_view key) const;
   void check_unknown(const TomlEntry& entry);
   void check_missing();
   void check_groups();

@@ -111,7 +111,8 @@ void Tally::list_contacts(const WorldWork& world, Stages& all) const {
   std::string methods;  // that the file names
   const auto add = [&](ContactMethod method) {
     if (method == ContactMethod::none) return;
-    methods += fmt::format("{}{}", methods.empty() ? "the file names " : ", then ", to_string(method));
+    methods +=
+        fmt::format("{}{}", methods.empty() ? "the file names " : ", then ", to_string(method));
   };
   add(scenario_.world.contacts);
   for (const Step& step : scenario_.steps)

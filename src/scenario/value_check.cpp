@@ -24,7 +24,7 @@ class Check {
       : doc_(doc), dimension_(dimension), problems_(problems) {}
 
   bool operator()(const TomlValue& value) {
-    check(value);
+    (this->*kRules[static_cast<std::size_t>(doc_.type)])(value);
     return good_;
   }
 
@@ -39,46 +39,14 @@ class Check {
         std::move(hint));
   }
 
-  void check(const TomlValue& value) {
-    switch (doc_.type) {
-      case KeyType::text:
-        return check_text(value);
-      case KeyType::whole:
-        return check_whole(value);
-      case KeyType::number:
-        return check_number(value);
-      case KeyType::truth:
-        if (!std::holds_alternative<bool>(value.data)) wrong_type(value, "true or false");
-        return;
-      case KeyType::choice:
-        return check_choice(value);
-      case KeyType::point:
-        return check_point(value);
-      case KeyType::two_numbers:
-      case KeyType::size:
-        return check_two(value);
-      case KeyType::texts:
-      case KeyType::names:
-      case KeyType::choices_list:
-        return check_list(value);
-      case KeyType::whole_or_names:
-        return check_whole_or_names(value);
-      case KeyType::loops:
-        return check_loops(value);
-      case KeyType::table:
-        if (!std::holds_alternative<TomlTable>(value.data))
-          wrong_type(value, "a table", fmt::format("write its header: [{}]", doc_.of));
-        return;
-      case KeyType::tables:
-        return check_tables(value);
-      case KeyType::name_pairs:
-        return check_name_pairs(value);
-      case KeyType::name_wholes:
-      case KeyType::name_numbers:
-      case KeyType::name_points:
-        return check_name_table(value);
-    }
+  // The value's list; adds a problem and gives null if it is none.
+  const TomlArray* list_in(const TomlValue& value, std::string_view wanted) {
+    const auto* list = std::get_if<TomlArray>(&value.data);
+    if (!list) wrong_type(value, wanted, hint());
+    return list;
   }
+
+  std::string hint() const { return "as " + form_of(doc_, dimension_); }
 
   void check_text(const TomlValue& value) {
     const auto* text = std::get_if<std::string>(&value.data);
@@ -134,6 +102,15 @@ class Check {
                is_whole ? fmt::format("write {}", static_cast<std::int64_t>(*number)) : "");
   }
 
+  void check_truth(const TomlValue& value) {
+    if (!std::holds_alternative<bool>(value.data)) wrong_type(value, "true or false");
+  }
+
+  void check_table(const TomlValue& value) {
+    if (!std::holds_alternative<TomlTable>(value.data))
+      wrong_type(value, "a table", fmt::format("write its header: [{}]", doc_.of));
+  }
+
   void check_number(const TomlValue& value) {
     if (const auto* whole = std::get_if<std::int64_t>(&value.data))
       return check_range(value.where, static_cast<double>(*whole), fmt::format("{}", *whole));
@@ -154,14 +131,12 @@ class Check {
 
   void check_two(const TomlValue& value) {
     const bool is_size = doc_.type == KeyType::size;
-    const auto* list = std::get_if<TomlArray>(&value.data);
-    const std::string form = fmt::format("as {} = {}", doc_.key, is_size ? "[64, 32]" : "[1.5, 2]");
-    if (!list)
-      return wrong_type(
-          value, is_size ? "two whole numbers" : fmt::format("two numbers {}", doc_.form), form);
+    const auto* list =
+        list_in(value, is_size ? "two whole numbers" : fmt::format("two numbers {}", doc_.form));
+    if (!list) return;
     if (list->size() != 2)
       return add(value.where,
-                 fmt::format("'{}' must have two numbers, not {}", doc_.key, list->size()), form);
+                 fmt::format("'{}' must have two numbers, not {}", doc_.key, list->size()), hint());
     for (const TomlValue& element : *list) is_size ? check_whole(element) : check_number(element);
   }
 
@@ -169,47 +144,39 @@ class Check {
   void check_point(const TomlValue& value) {
     constexpr std::string_view kHowMany[] = {"two or three numbers", "", "two numbers",
                                              "three numbers"};
-    constexpr std::string_view kForms[] = {"[x, y] in a flat world, [x, y, z] in a solid one", "",
+    constexpr std::string_view kForms[] = {"[x, y] in a 2D world, [x, y, z] in a 3D one", "",
                                            "[x, y]", "[x, y, z]"};
-    const std::string hint =
-        dimension_ == 0 ? fmt::format("write {}", kForms[0])
-                        : fmt::format("this world is {}: write {}",
-                                      dimension_ == 2 ? "flat" : "solid", kForms[dimension_]);
-    const auto* list = std::get_if<TomlArray>(&value.data);
-    if (!list)
-      return wrong_type(
-          value, fmt::format("{} {}", kHowMany[dimension_], kForms[dimension_]),
-          fmt::format("as {} = {}", doc_.key, dimension_ == 3 ? "[1.5, 2, 0.5]" : "[1.5, 2]"));
+    const std::string_view how_many = kHowMany[dimension_], form = kForms[dimension_];
+    const auto* list = list_in(value, fmt::format("{} {}", how_many, form));
+    if (!list) return;
     const auto count = static_cast<int>(std::min<std::size_t>(list->size(), 4));
     if (dimension_ == 0 ? count != 2 && count != 3 : count != dimension_)
-      return add(
-          value.where,
-          fmt::format("'{}' must have {}, not {}", doc_.key, kHowMany[dimension_], list->size()),
-          hint);
+      return add(value.where,
+                 fmt::format("'{}' must have {}, not {}", doc_.key, how_many, list->size()),
+                 dimension_ == 0 ? fmt::format("write {}", form)
+                                 : fmt::format("this world is {}D: write {}", dimension_, form));
     for (const TomlValue& element : *list) check_number(element);
   }
 
   void check_whole_or_names(const TomlValue& value) {
     if (std::holds_alternative<TomlArray>(value.data)) return check_list(value);
     if (std::holds_alternative<std::int64_t>(value.data)) return check_whole(value);
-    wrong_type(value, "a whole number or a list of names",
-               fmt::format("as {0} = 2, or {0} = [\"…\"]", doc_.key));
+    wrong_type(value, "a whole number or a list of names", hint());
   }
 
   void check_loops(const TomlValue& value) {
-    const std::string form = fmt::format("as {} = [[[0, 0], [8, 0], [8, 6]]]", doc_.key);
-    const auto* list = std::get_if<TomlArray>(&value.data);
-    if (!list) return wrong_type(value, "a list of polygons", form);
+    const auto* list = list_in(value, "a list of polygons");
+    if (!list) return;
     if (list->empty()) return add(value.where, fmt::format("'{}' must not be empty", doc_.key));
     for (const TomlValue& loop : *list) {
       const auto* corners = std::get_if<TomlArray>(&loop.data);
       if (!corners) {
-        add(loop.where, "a polygon is a list of corners [x, y]", form);
+        add(loop.where, "a polygon is a list of corners [x, y]", hint());
         continue;
       }
       if (corners->size() < 3)
         add(loop.where,
-            fmt::format("a polygon must have at least 3 corners, not {}", corners->size()), form);
+            fmt::format("a polygon must have at least 3 corners, not {}", corners->size()), hint());
       for (const TomlValue& corner : *corners) check_corner(corner);
     }
   }
@@ -221,20 +188,22 @@ class Check {
   }
 
   void check_list(const TomlValue& value) {
-    const auto* list = std::get_if<TomlArray>(&value.data);
-    if (!list) return wrong_type(value, "a list", fmt::format("as {} = [\"…\"]", doc_.key));
+    const auto* list = list_in(value, "a list");
+    if (!list) return;
     if (list->empty() && doc_.type != KeyType::names)
       return add(value.where, fmt::format("'{}' must not be empty", doc_.key));
     std::set<std::string_view> seen;
     for (const TomlValue& element : *list) {
-      if (doc_.type == KeyType::choices_list)
-        check_choice(element);
-      else if (!std::holds_alternative<std::string>(element.data))
-        wrong_type(element, "a list of texts");
       const auto* text = std::get_if<std::string>(&element.data);
-      if (doc_.type != KeyType::choices_list && text) check_one_line(element.where, *text);
-      if (doc_.type == KeyType::choices_list && text && !seen.insert(*text).second)
-        add(element.where, fmt::format("{} stands twice in '{}'", in_quotes(*text), doc_.key));
+      if (doc_.type == KeyType::choices_list) {
+        check_choice(element);
+        if (text && !seen.insert(*text).second)
+          add(element.where, fmt::format("{} stands twice in '{}'", in_quotes(*text), doc_.key));
+      } else if (text) {
+        check_one_line(element.where, *text);
+      } else {
+        wrong_type(element, "a list of texts");
+      }
     }
   }
 
@@ -251,40 +220,43 @@ class Check {
   }
 
   void check_name_pairs(const TomlValue& value) {
-    const auto* list = std::get_if<TomlArray>(&value.data);
-    const std::string form = fmt::format("as {} = [[\"red\", \"pink\"]]", doc_.key);
-    if (!list) return wrong_type(value, "a list of pairs", form);
+    const auto* list = list_in(value, "a list of pairs");
+    if (!list) return;
     for (const TomlValue& element : *list) {
       const auto* pair = std::get_if<TomlArray>(&element.data);
-      const bool good = pair && pair->size() == 2 &&
-                        std::holds_alternative<std::string>((*pair)[0].data) &&
-                        std::holds_alternative<std::string>((*pair)[1].data);
-      if (!good) add(element.where, "a pair is a list of two names", form);
-      if (good)
-        for (const TomlValue& name : *pair)
-          check_one_line(name.where, std::get<std::string>(name.data));
+      const auto is_text = [](const TomlValue& name) {
+        return std::holds_alternative<std::string>(name.data);
+      };
+      if (!pair || pair->size() != 2 || !std::ranges::all_of(*pair, is_text)) {
+        add(element.where, "a pair is a list of two names", hint());
+        continue;
+      }
+      for (const TomlValue& name : *pair)
+        check_one_line(name.where, std::get<std::string>(name.data));
     }
   }
 
   void check_name_table(const TomlValue& value) {
     const auto* table = std::get_if<TomlTable>(&value.data);
-    if (!table)
-      return wrong_type(
-          value, "a table of names",
-          fmt::format("as {} = {}", doc_.key,
-                      doc_.type == KeyType::name_points
-                          ? dimension_ == 3 ? "{ ball = [12, 14, 0] }" : "{ ball = [12, 14] }"
-                          : "{ pink = 2 }"));
+    if (!table) return wrong_type(value, "a table of names", hint());
     for (const TomlEntry& e : *table) {
       check_one_line(e.where, e.key);
-      check_named(e.value);
+      if (doc_.type == KeyType::name_points)
+        check_point(e.value);
+      else
+        doc_.type == KeyType::name_wholes ? check_whole(e.value) : check_number(e.value);
     }
   }
 
-  void check_named(const TomlValue& value) {
-    if (doc_.type == KeyType::name_points) return check_point(value);
-    doc_.type == KeyType::name_wholes ? check_whole(value) : check_number(value);
-  }
+  // In the order of KeyType.
+  static constexpr void (Check::*kRules[])(const TomlValue&) = {
+      &Check::check_text,       &Check::check_whole,      &Check::check_number,
+      &Check::check_truth,      &Check::check_choice,     &Check::check_point,
+      &Check::check_two,        &Check::check_two,        &Check::check_list,
+      &Check::check_list,       &Check::check_loops,      &Check::check_whole_or_names,
+      &Check::check_list,       &Check::check_table,      &Check::check_tables,
+      &Check::check_name_pairs, &Check::check_name_table, &Check::check_name_table,
+      &Check::check_name_table};
 
   const KeyDoc& doc_;
   int dimension_;
@@ -296,15 +268,6 @@ class Check {
 
 bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Problems& problems) {
   return Check(doc, dimension, problems)(value);
-}
-
-std::string range_text(const KeyDoc& doc) {
-  const bool from = std::isfinite(doc.least), to = std::isfinite(doc.most);
-  if (from && to && doc.above_least)
-    return fmt::format("above {}, at most {}", doc.least, doc.most);
-  if (from && to) return fmt::format("{} to {}", doc.least, doc.most);
-  if (from) return fmt::format("{} {}", doc.above_least ? "above" : "at least", doc.least);
-  return to ? fmt::format("at most {}", doc.most) : "";
 }
 
 }  // namespace lantern

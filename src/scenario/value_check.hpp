@@ -12,7 +12,4 @@ namespace lantern {
 // world's, 0 where it is not known.
 bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Problems& problems);
 
-// "0 to 32", "above 0, at most 1000"; empty if the key has no range.
-std::string range_text(const KeyDoc& doc);
-
 }  // namespace lantern

@@ -82,11 +82,11 @@ TEST(LeaveOut, CheckAndSvgLoadNoGraphicsLibrary) {
 
 // The shell runs them all; `used` is told of no library, and none is loaded.
 TEST(LeaveOut, ExplainLoadsNoLibraryForAnyScenarioOrProblem) {
-  const Outcome o = shell(
-      "cd " LANTERN_ROOT
-      "/scenarios && for f in *.toml problems/*.toml; do LD_DEBUG=files " LANTERN_BINARY
-      " explain $f 2>&1 >/dev/null | grep -E 'libOSMesa|libEGL|libGL\\.|libgallium|swrast|"
-      "lantern_peer'; done; true");
+  const Outcome o =
+      shell("cd " LANTERN_ROOT
+            "/scenarios && for f in *.toml problems/*.toml; do LD_DEBUG=files " LANTERN_BINARY
+            " explain $f 2>&1 >/dev/null | grep -E 'libOSMesa|libEGL|libGL\\.|libgallium|swrast|"
+            "lantern_peer'; done; true");
   EXPECT_EQ(o.code, 0);
   EXPECT_EQ(o.out, "");
 }

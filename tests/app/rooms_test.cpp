@@ -57,6 +57,18 @@ TEST(Rooms, IncludeOnlyWhatTheTableAllows) {
   EXPECT_GT(includes, 100u) << "the search for includes found next to none: is it broken?";
 }
 
+// A page that names a file which is gone misleads.
+TEST(Rooms, PagesNameFilesThatAreThere) {
+  const std::regex path("`((src|tests|shaders|scenarios)/[A-Za-z0-9_./]+)`");
+  for (const char* page : {"src/ARCHITECTURE.md", ".github/CONTRIBUTING.md", "README.md"}) {
+    const std::string text = read_text(repository(page));
+    std::size_t named = 0;
+    for (std::sregex_iterator it(text.begin(), text.end(), path), end; it != end; ++it, ++named)
+      EXPECT_TRUE(fs::exists(repository((*it)[1].str()))) << page << " names " << (*it)[1];
+    EXPECT_GT(named, 3u) << page;
+  }
+}
+
 TEST(Rooms, OnlyRenderKnowsGl) {
   for (const auto& entry : fs::recursive_directory_iterator(repository("src"))) {
     if (entry.path().parent_path().filename() == "render") continue;

@@ -12,9 +12,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const std::string kSmall = " --size 160x90 ";
+const std::string kTiny = " --size 160x90 ";
 
-std::size_t lines_of(const std::string& text) {
+std::size_t line_count(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -42,7 +42,7 @@ void expect_shown(const std::string& text, const std::string& escape) {
 TEST(Streams, WithoutStandardErrorTheWorkIsDoneAllTheSame) {
   const fs::path out = fresh_folder("lost-stderr");
   const auto render = [&](const std::string& name, const std::string& streams) {
-    return shell("lantern render " + kGhosts + kSmall + "--frames 0-2 -o " + (out / name).string() +
+    return shell("lantern render " + kGhosts + kTiny + "--frames 0-2 -o " + (out / name).string() +
                  streams);
   };
   ASSERT_EQ(render("all", "").code, 0);
@@ -75,7 +75,7 @@ TEST(Streams, AStandardOutputThatCannotBeWrittenIsSaidInOneLine) {
     for (const char* stream : {" >/dev/full", " >&-"}) {
       const Outcome o = shell("cd " LANTERN_ROOT "; lantern " + std::string(words) + stream);
       EXPECT_EQ(o.code, 1) << words << stream;
-      EXPECT_EQ(lines_of(o.err), 1u) << words << stream << ": " << o.err;
+      EXPECT_EQ(line_count(o.err), 1u) << words << stream << ": " << o.err;
     }
   EXPECT_EQ(shell("lantern explain " + kGhosts + " >/dev/full").code, 1);
   EXPECT_EQ(shell("lantern check --json " + kGhosts + " >/dev/full").code, 1);
@@ -95,14 +95,14 @@ TEST(Terminal, GetsNothingRawFromArguments) {
   const Outcome command = shell("lantern \"$(printf '\\033[31mfoo\\302\\233\\342\\200\\256')\"");
   EXPECT_EQ(command.code, 2);
   expect_shown(command.err, "\\x1b[31mfoo\\u009b\\u202e");
-  EXPECT_EQ(lines_of(command.err), 1u);
+  EXPECT_EQ(line_count(command.err), 1u);
   for (const char* words : {"render x --format", "render x --theme", "measure kepler --method",
                             "measure", "stress", "render x --size", "check x --pace"}) {
     const Outcome o =
         shell("lantern " + std::string(words) + " \"$(printf 'a\\033]0;b\\a\\n\\377c')\"");
     EXPECT_NE(o.code, 0) << words;
     expect_shown(o.err, "\\x1b]0;b\\x07");
-    EXPECT_EQ(lines_of(o.err), 1u) << words << ": " << o.err;
+    EXPECT_EQ(line_count(o.err), 1u) << words << ": " << o.err;
   }
 }
 
@@ -196,7 +196,7 @@ TEST(Backend, AutoGoesOnWhereOsmesaIsNotWhole) {
   for (const char* lack : {"symbol", "function"}) {
     const std::string fake =
         "export LD_LIBRARY_PATH=" LANTERN_FAKES "/without_" + std::string(lack) + "; ";
-    const std::string render = "lantern render " + kGhosts + kSmall + "--frames 0 -o ";
+    const std::string render = "lantern render " + kGhosts + kTiny + "--frames 0 -o ";
     const Outcome o = shell(fake + render + (out / lack).string());
     EXPECT_EQ(o.code, 0) << lack << ": " << o.err;
     EXPECT_TRUE(fs::exists(out / lack / "ghost_quadtree" / "ghost_quadtree_0000.png"));
@@ -219,9 +219,9 @@ TEST(AddressSpace, ASmallOneIsToldAndNotRunInto) {
                             "-v 500000", "-d 150000", "-d 250000"}) {
     const std::string limited = "ulimit -c 0; ulimit " + std::string(limit) + "; ";
     const Outcome render =
-        shell(limited + "lantern render " + kGhosts + kSmall + "--frames 0-1 -o " + out.string());
+        shell(limited + "lantern render " + kGhosts + kTiny + "--frames 0-1 -o " + out.string());
     EXPECT_TRUE(render.code == 0 || render.code == 4) << limit << ": " << render.code;
-    EXPECT_EQ(lines_of(render.err), 1u) << limit << ": " << render.err;
+    EXPECT_EQ(line_count(render.err), 1u) << limit << ": " << render.err;
     const Outcome doctor = shell(limited + "lantern doctor");
     EXPECT_TRUE(doctor.code == 0 || doctor.code == 4) << limit << ": " << doctor.code;
   }

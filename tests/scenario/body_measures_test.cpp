@@ -96,7 +96,7 @@ TEST(BodyMeasures, MistakesAreToldByName) {
   expect_mistakes(with("@\"enrgy.bob\" = 1"), {"there is no measure 'enrgy' of a body"});
   expect_mistakes(with("@\"energy.bib\" = 1"), {"there is no body 'bib'"});
   expect_mistakes(with("@\"penetration.bob\" = 1"), {"this world has no contacts"});
-  expect_mistakes(with("@\"own_spin_y.bob\" = 1"), {"this world is flat"});
+  expect_mistakes(with("@\"own_spin_y.bob\" = 1"), {"this world is 2D"});
   expect_mistakes(
       world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "caption = @\"{energy.bib}\"\n"),
       {"there is no body 'bib'"});

@@ -194,7 +194,7 @@ Bad bad_point() {
   return {{"@1", "two numbers"},
           {"@[]", "two numbers"},
           {"@[1]", "two numbers"},
-          {"@[1, 2, 3]", "this world is flat: write [x, y]"},
+          {"@[1, 2, 3]", "this world is 2D: write [x, y]"},
           {"[1, @nan]", "must be finite"},
           {"[@inf, 1]", "must be finite"},
           {"[@\"1\", 2]", "must be a number"},
@@ -446,7 +446,7 @@ void add_promise_cases(std::vector<KeyCase>& cases) {
                      {"{ red = [1, 1] }"},
                      {{"@1", "a table of names"},
                       {"{ red = @1 }", "two numbers"},
-                      {"{ red = @[1, 1, 1] }", "this world is flat"},
+                      {"{ red = @[1, 1, 1] }", "this world is 2D"},
                       {"{ @rd = [1, 1] }", "'red'"}}});
   cases.push_back({"expect",
                    "turned",
@@ -478,7 +478,7 @@ std::vector<KeyCase> key_cases() {
   extent.push_back({"@1", "two or three numbers"});
   extent.push_back({"@[]", "two or three numbers"});
   extent.push_back({"@[1]", "two or three numbers"});
-  extent.push_back({"@[1, 2, 3, 4]", "[x, y, z] in a solid one"});
+  extent.push_back({"@[1, 2, 3, 4]", "[x, y, z] in a 3D one"});
   extent.push_back({"[@0, 1]", "above 0"});
   extent.push_back({"[1, @-1]", "above 0"});
   Bad file_name = bad_name();
@@ -545,7 +545,7 @@ std::vector<KeyCase> key_cases() {
        "kind",
        {"\"none\"", "\"brute_force\"", "\"quadtree\"", "\"kd_tree\"", "\"sort_and_sweep\""},
        bad_choice("quadtre", "quadtree")},
-      {"structure", "kind", {}, {{"@\"octree\"", "needs a solid world"}}},
+      {"structure", "kind", {}, {{"@\"octree\"", "needs a 3D world"}}},
       {"structure", "split_static", {"true", "false"}, bad_truth()},
       {"rebuild", "split_static", {"true", "false"}, bad_truth()},
       {"structure", "capacity", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
@@ -672,7 +672,7 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "always", {"{}"}, bad_table("[expect]")});
   }
   for (const CountDoc& count : known_counts())
-    if (count.for_world && count.name != "asleep" && count.name != "awake" &&
+    if (count.for_world() && count.name != "asleep" && count.name != "awake" &&
         count.name != "stale")  // the first two are above, the last needs another structure
       cases.push_back(
           {"expect", std::string(count.name), {"0", "1", "9007199254740992"}, no_number});

@@ -40,12 +40,12 @@ TEST(Dimension, IsThatOfTheWorldsExtent) {
 
 TEST(Dimension, IsThatOfAllPoints) {
   expect_mistakes(kFlat + "[[body]]\nname = \"a\"\nradius = 1\nposition = @[1, 2, 3]\n" + kShow,
-                  {"this world is flat: write [x, y]"});
+                  {"this world is 2D: write [x, y]"});
   expect_mistakes(kDeep + "[[body]]\nname = \"a\"\nradius = 1\nposition = @[1, 2]\n" + kShow,
-                  {"this world is solid: write [x, y, z]"});
+                  {"this world is 3D: write [x, y, z]"});
   expect_mistakes(
       "title = \"x\"\n[world]\nmin = [0, 0]\nmax = @[1, 1, 1]\ngravity = @[0, 0, -9]\n" + kShow,
-      {"this world is flat", "this world is flat"});
+      {"this world is 2D", "this world is 2D"});
   expect_mistakes(kDeep +
                       "[structure]\nkind = \"bsp\"\nplanes = [{ point = @[1, 2], normal = "
                       "[0, 1, 0] }]\n" +
@@ -53,7 +53,7 @@ TEST(Dimension, IsThatOfAllPoints) {
                   {"three numbers, not 2"});
   expect_mistakes(kDeep + body_text("radius = 1\n", true) +
                       "[[step]]\ndo = \"show\"\nexpect = { position = { a = @[1, 2] } }\n",
-                  {"this world is solid"});
+                  {"this world is 3D"});
 }
 
 TEST(Dimension, ThatCannotBeToldBringsAboutNoOtherMistake) {
@@ -111,7 +111,7 @@ TEST(World, ACameraIsOfASolidOneAndWhole) {
       good(kDeep + "camera_eye = [0, 5, 20]\ncamera_target = [0, 0, 0]\n" + kShow).world;
   EXPECT_TRUE(w.has_camera);
   EXPECT_EQ(w.camera_eye, Vec<3>(0, 5, 20));
-  expect_mistakes(kFlat + "@camera_eye = [0, 5]\n" + kShow, {"a flat world has no camera"});
+  expect_mistakes(kFlat + "@camera_eye = [0, 5]\n" + kShow, {"a 2D world has no camera"});
   expect_mistakes(kDeep + "@camera_eye = [0, 5, 1]\n" + kShow, {"no 'camera_target'"});
   expect_mistakes(kDeep + "@camera_target = [0, 5, 1]\n" + kShow, {"no 'camera_eye'"});
   expect_mistakes(kDeep + "camera_eye = [0, 5, 1]\ncamera_target = @[0, 5, 1]\n" + kShow,
@@ -413,7 +413,7 @@ TEST(Level, IsRead) {
 
 TEST(Level, IsOfAFlatWorldAndCompiledFirst) {
   const std::string level = "[level]\nloops = [[[0, 0], [8, 0], [8, 6]]]\n";
-  expect_mistakes(kDeep + "@" + level + kShow, {"a flat world, this one is solid"});
+  expect_mistakes(kDeep + "@" + level + kShow, {"a 2D world, this one is 3D"});
   expect_mistakes("title = \"x\"\n@" + level + kShow, {"needs a [world]"});
   expect_mistakes(kFlat + "[[step]]\ndo = @\"compile\"\n", {"needs a [level]"});
   expect_mistakes(kFlat + level + "[[step]]\ndo = @\"locate\"\npoint = [1, 1]\n",

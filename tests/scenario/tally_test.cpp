@@ -13,9 +13,9 @@
 
 #include "physics/world_config.hpp"
 #include "scenario/engine.hpp"
-#include "scenario/obey.hpp"
 #include "scenario/parsing.hpp"
 #include "scenario/reference.hpp"
+#include "scenario/verbs.hpp"
 
 namespace lantern::test {
 namespace {
@@ -104,13 +104,14 @@ struct DryRun {
   Frame last;
 };
 
-// Of the same script, run without director and frames; `wait` lasts as long as the director found.
+// Of the same script, run without director and frames. It must not wait: how long, the director
+// finds.
 WorldWork without_frames(const DryRun& run) {
   if (run.scenario.bodies.empty()) return {};
   Work work;
   const auto engine = make_engine(run.scenario, work);
   for (const Step& step : run.scenario.steps)
-    obey(*engine, step.verb, run.scenario.world.time_step);
+    carry_out(step.verb, *engine, run.scenario.world.time_step);
   return engine->world_work();
 }
 

@@ -1,0 +1,153 @@
+// What a frame counts, and what else a caption may quote.
+#include <algorithm>
+
+#include "scenario/language.hpp"
+
+namespace lantern {
+namespace {
+
+using enum CountNeed;
+
+constexpr CountDoc kCounts[] = {
+    {"bodies", bodies, "Bodies in the world."},
+    {"nodes", tree, "Nodes of the tree."},
+    {"leaves", tree, "Nodes without children."},
+    {"depth", tree, "Depth of the deepest node; the root has depth 0."},
+    {"entries", structure, "Bodies stored in leaves, each once a leaf."},
+    {"most_in_leaf", structure, "Bodies in the fullest leaf."},
+    {"pairs", structure, "Unique candidate pairs: bodies that share a leaf."},
+    {"pair_tests", structure, "Pairs met, leaf by leaf, before duplicates fell out."},
+    {"all_pairs", bodies, "All pairs there are: n(n−1)/2 of n bodies."},
+    {"testable_pairs", bodies, "Those of them that brute force would test: not both never move."},
+    {"overlaps", structure,
+     "Candidate pairs whose boxes overlap: the narrow phase will test them."},
+    {"pairs_tested", contacts, "Pairs whose shapes were tested in the last world step."},
+    {"narrow_tests", contacts,
+     "Tests made of them; a pair may be looked at several times in a step."},
+    {"contacts", contacts, "Pairs that really touch."},
+    {"contact_points", contacts, "Points at which they do."},
+    {"impulses", contacts, "Those of them that passed on an impulse in the last world step."},
+    {"begins", contacts, "Pairs that began to touch during the step."},
+    {"ends", contacts, "Pairs that ceased to touch during the step."},
+    {"constraint_rows", contacts,
+     "Rows of contacts and joints that were solved in the last world step, once a sweep."},
+    {"friction_rows", contacts, "Those of them that are friction."},
+    {"force_evaluations", physics, "How often all forces were worked out, in the last world step."},
+    {"rotations", physics, "Bodies that were turned, in the last world step."},
+    {"asleep", sleep, "Bodies asleep."},
+    {"awake", sleep, "Bodies that can move and are not asleep."},
+    {"box_tests", structure, "Tests of a body against a node or plane since the tree was built."},
+    {"splits", structure, "Leaves that split since the tree was built."},
+    {"static_builds", split, "How often the structure of what never moves was built."},
+    {"dynamic_builds", split, "How often the structure of what moves was built."},
+    {"nodes_asleep", asleep_nodes, "Nodes below which nothing is awake."},
+    {"leaves_asleep", asleep_nodes, "Those of them that are leaves."},
+    {"branches_asleep", asleep_nodes,
+     "The topmost of them: a search for pairs skips each with all below it."},
+    {"stale", kd_tree, "Bodies that have left the cells which a `kd_tree` fitted to them."},
+    {"nodes_reused", structure, "Nodes that took an old node's place instead of new memory."},
+    {"allocations", structure, "Calls for memory since the structure was made."},
+    {"slots", array, "Places of the array that all leaves share."},
+    {"node_bytes", array, "Memory that the nodes take."},
+    {"node_bytes_with_bounds", array, "What they would take if each stored its box."},
+    {"nodes_visited", query, "Nodes that the last ray, cull or query went into."},
+    {"nodes_skipped", query, "Nodes that it left out, with all below them."},
+    {"objects_tested", query, "Bodies that it tested."},
+    {"hits", query, "Bodies that it found."},
+    {"walls", compiled, "Walls of the level."},
+    {"wall_pieces", compiled, "Walls after lines have cut them."},
+    {"sectors", compiled, "Leaves of the level's BSP."},
+    {"cuts", compiled, "Walls that a line has cut in two."},
+    {"plane_score", compiled, "Score of the line that divides the whole level."},
+    {"first_wall_score", compiled, "What the first wall to divide it would have scored."},
+    {"sector", located, "Where the last `locate` ended, from 1."},
+    {"planes_tested", located, "Lines that it asked for the point's side."},
+    {"textures", atlas, "Textures packed."},
+    {"refused", atlas, "Textures that fit nowhere."},
+    {"used_area", atlas, "Pixels under textures."},
+    {"free_area", atlas, "Pixels left free."},
+    {"atlas_area", atlas, "Pixels of the atlas."},
+    {"free_leaves", atlas, "Leaves without a texture."},
+    {"leaf_tests", atlas, "Leaves looked at, by packing and by questions for room."},
+    {"room", room, "1 if the last `ask_room` found room, 0 if not."},
+};
+
+constexpr CountDoc kTexts[] = {
+    {"texture", atlas, "The texture that the frame is about."},
+    {"refused_names", atlas, "Names of the textures that were refused, or \"none\"."},
+    {"time", bodies, "Seconds of world time, with two decimals."},
+};
+
+constexpr CountDoc kMeasures[] = {
+    {"energy", physics, "Kinetic and potential energy."},
+    {"kinetic_energy", physics, "Energy of motion and rotation."},
+    {"potential_energy", physics, "Energy of height and of springs."},
+    {"momentum", physics, "Length of the momentum of all bodies."},
+    {"angular_momentum", physics,
+     "Angular momentum of all bodies about the origin; its length in a 3D world."},
+    {"penetration", contacts, "How deep the two bodies that overlap most do."},
+};
+
+constexpr CountDoc kBodyMeasures[] = {
+    {"energy", bodies,
+     "Kinetic and potential energy; of a spring between two dynamic bodies, half."},
+    {"kinetic_energy", bodies, "Energy of its motion and rotation."},
+    {"potential_energy", bodies, "Energy of its height and springs."},
+    {"speed", bodies, "Of its centre, in units a second."},
+    {"spin", bodies, "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world."},
+    {"angular_momentum", bodies, "About its own centre; its length in a 3D world."},
+    {"own_spin_x", bodies, "Its angular velocity in rad/s about its own x axis, in a 3D world."},
+    {"own_spin_y", bodies, "About its own y axis."},
+    {"own_spin_z", bodies, "About its own z axis."},
+    {"x", bodies, "Where its centre is."},
+    {"y", bodies, "The same along y."},
+    {"z", bodies, "The same along z, in a 3D world."},
+    {"penetration", contacts, "How deep it overlaps what it touches, at the deepest."},
+};
+
+}  // namespace
+
+const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
+  const auto found = std::ranges::find(docs, name, &CountDoc::name);
+  return found == docs.end() ? nullptr : &*found;
+}
+
+const CountDoc* find_count(std::string_view name) {
+  const CountDoc* count = find_in(kCounts, name);
+  return count ? count : find_in(kMeasures, name);
+}
+
+std::vector<std::string_view> names_of_counts() {
+  std::vector<std::string_view> names;
+  for (const CountDoc& doc : kCounts) names.push_back(doc.name);
+  for (const CountDoc& doc : kMeasures) names.push_back(doc.name);
+  return names;
+}
+
+std::span<const CountDoc> known_body_measures() { return kBodyMeasures; }
+std::span<const CountDoc> known_counts() { return kCounts; }
+std::span<const CountDoc> known_texts() { return kTexts; }
+std::span<const CountDoc> known_measures() { return kMeasures; }
+
+std::string_view when_counted(CountNeed need) {
+  static constexpr std::string_view kWhen[] = {
+      // in the order of CountNeed
+      "always",
+      "with a structure",
+      "with a structure",
+      "with a kD-tree",
+      "with a tree whose leaves share an array",
+      "with `split_static`",
+      "with a structure and `may_sleep`, contacts or `split_static`",
+      "with contacts",
+      "with `may_sleep`, contacts or `split_static`",
+      "with contacts, gravity, springs or joints",
+      "after a ray, cull or query",
+      "once the level is compiled",
+      "after a `locate`",
+      "with an atlas",
+      "after an `ask_room`"};
+  return kWhen[static_cast<std::size_t>(need)];
+}
+
+}  // namespace lantern

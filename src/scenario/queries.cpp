@@ -1,0 +1,139 @@
+#include "scenario/queries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spatial/frustum_cull.hpp"
+#include "spatial/overlap_query.hpp"
+#include "spatial/raycast.hpp"
+
+namespace lantern {
+namespace {
+
+template <int D>
+class Queries {
+ public:
+  explicit Queries(const World<D>& world) : world_(world) {}
+
+  Finding answer(const CastRay& cast) {
+    Ray<D> ray;
+    ray.origin = in_dimension<D>(cast.from);
+    const Vec<D> way = in_dimension<D>(cast.to) - ray.origin;
+    ray.length = glm::length(way);
+    ray.direction = way / ray.length;
+    const auto meets = [&](BodyId id) {
+      const Body<D>& b = *world_.find(id);
+      return entry(ray, b.shape, b.position, b.orientation);
+    };
+    std::vector<RayHit> hits;
+    look([&](const auto& tree, auto& box_of, auto& told) {
+      if (cast.all) {
+        const AllHits all = raycast_all<D>(tree, ray, box_of, meets, told);
+        hits.insert(hits.end(), all.hits.begin(), all.hits.end());
+        return all.counts;
+      }
+      const NearestHit nearest = raycast_nearest<D>(tree, ray, box_of, meets, told);
+      if (nearest.hit) hits.push_back(*nearest.hit);
+      return nearest.counts;
+    });
+    std::sort(hits.begin(), hits.end(), [](const RayHit& a, const RayHit& b) {
+      return std::pair(a.distance, a.id) < std::pair(b.distance, b.id);
+    });
+    if (!cast.all && hits.size() > 1) hits.resize(1);
+    found_.ray = FrameRay{cast.from, cast.to, {}};
+    for (const RayHit& hit : hits) {
+      found_.hits.push_back(hit.id);
+      found_.ray->hits.push_back({hit.id, solid(ray.at(hit.distance))});
+    }
+    if (!cast.all && !hits.empty()) found_.ray->to = found_.ray->hits[0].position;
+    return std::move(found_);
+  }
+
+  Finding answer(const Cull& view) {
+    const Frustum<D> frustum = frustum_of(view);
+    look([&](const auto& tree, auto& box_of, auto& told) {
+      return add(frustum_cull<D>(tree, frustum, box_of, AlwaysTrue(), told));
+    });
+    found_.view = FrameView{view.eye, corners_of(frustum)};
+    return sorted();
+  }
+
+  Finding answer(const Query& region) {
+    const Box<D> box = in_dimension<D>(region.box);
+    const Ball<D> ball{box.center(), region.radius};
+    look([&](const auto& tree, auto& box_of, auto& told) {
+      return add(region.radius > 0 ? overlap_query<D>(tree, ball, box_of, AlwaysTrue(), told)
+                                   : overlap_query<D>(tree, box, box_of, AlwaysTrue(), told));
+    });
+    found_.region = FrameQuery{region.box, region.radius};
+    return sorted();
+  }
+
+ private:
+  template <class F>
+  void look(F&& f) {
+    auto told = [&](const QueryEvent& event) { found_.walk.push_back(event); };
+    auto box_of = [&](BodyId id) { return world_.find(id)->box(); };
+    world_.broad_phase()->with_each([&](const auto& tree) {
+      const QueryCounts counts = f(tree, box_of, told);
+      found_.counts.nodes_visited += counts.nodes_visited;
+      found_.counts.nodes_skipped += counts.nodes_skipped;
+      found_.counts.objects_tested += counts.objects_tested;
+    });
+  }
+
+  const QueryCounts& add(const Found& found) {
+    found_.hits.insert(found_.hits.end(), found.ids.begin(), found.ids.end());
+    return counts_ = found.counts;
+  }
+
+  Finding sorted() {
+    std::sort(found_.hits.begin(), found_.hits.end());
+    return std::move(found_);
+  }
+
+  static Frustum<D> frustum_of(const Cull& view) {
+    constexpr double kAspect = 16.0 / 9.0;
+    if constexpr (D == 2)
+      return view_wedge(flat(view.eye), flat(view.target - view.eye), view.angle, view.near,
+                        view.far);
+    else
+      return view_frustum(view.eye, view.target, up_of(view.target - view.eye), view.angle, kAspect,
+                          view.near, view.far);
+  }
+
+  // Upwards, but for a view straight up or down: there the picture's top is the world's back.
+  static Vec<3> up_of(const Vec<3>& forward) {
+    const bool upright = std::abs(forward.y) > 0.999 * glm::length(forward);
+    return upright ? Vec<3>(0, 0, -1) : Vec<3>(0, 1, 0);
+  }
+
+  // Round the wedge, or round the near plane and then the far one.
+  static std::vector<Vec<3>> corners_of(const Frustum<D>& frustum) {
+    constexpr std::size_t kFlat[] = {0, 2, 3, 1}, kSolid[] = {0, 2, 6, 4, 1, 3, 7, 5};
+    std::vector<Vec<3>> corners;
+    for (std::size_t i = 0; i < frustum.corners.size(); ++i)
+      corners.push_back(solid(frustum.corners[D == 2 ? kFlat[i] : kSolid[i]]));
+    return corners;
+  }
+
+  const World<D>& world_;
+  QueryCounts counts_;
+  Finding found_;
+};
+
+}  // namespace
+
+template <int D, class V>
+Finding asked(const V& verb, const World<D>& world) {
+  return Queries<D>(world).answer(verb);
+}
+
+template Finding asked(const CastRay&, const World<2>&);
+template Finding asked(const CastRay&, const World<3>&);
+template Finding asked(const Cull&, const World<2>&);
+template Finding asked(const Cull&, const World<3>&);
+template Finding asked(const Query&, const World<2>&);
+template Finding asked(const Query&, const World<3>&);
+
+}  // namespace lantern

@@ -1,0 +1,223 @@
+// The script, step by step. A body that is inserted twice, or moved while it is not there, is found
+// here and not when the scenario runs.
+#include "scenario/script_reading.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace lantern {
+
+std::vector<std::size_t> NameResolver::take(const std::vector<Named>& written,
+                                            std::vector<bool>& marks, bool mark,
+                                            std::string_view clash) {
+  std::vector<std::size_t> found;
+  for (const Named& named : written) {
+    const NamedRange* range = find(named);
+    if (!range) continue;
+    std::size_t clashes = 0, example = 0;
+    for (std::size_t i = range->first; i < range->first + range->count; ++i) {
+      if (marks[i] == mark && ++clashes == 1) example = i - range->first + 1;
+      marks[i] = mark;
+      found.push_back(i);
+    }
+    if (clashes == 0) continue;
+    const std::string who =
+        range->count == 1 ? named.name : fmt::format("{}{}", named.name, example);
+    problems_.add(named.where, fmt::format("'{}' {}", who, clash));
+  }
+  return found;
+}
+
+std::vector<std::size_t> NameResolver::present(const std::vector<Named>& written) {
+  std::vector<std::size_t> found;
+  std::vector<bool> named_before(state_.in_world.size());
+  for (const Named& named : written) {
+    const NamedRange* range = find(named);
+    if (!range) continue;
+    std::string_view clash;
+    for (std::size_t i = range->first; i < range->first + range->count; ++i) {
+      if (named_before[i]) clash = "is named twice";
+      if (!state_.in_world[i]) clash = "is not in the world at this step";
+      named_before[i] = true;
+      found.push_back(i);
+    }
+    if (!clash.empty()) problems_.add(named.where, fmt::format("'{}' {}", named.name, clash));
+  }
+  return found;
+}
+
+const NamedRange* NameResolver::find(const Named& named) {
+  const NamedRange* range = names_.find(named.name);
+  if (!range)
+    problems_.add(named.where, fmt::format("there is no {} {}", kind_, in_quotes(named.name)),
+                  [&known = names_, name = named.name] { return nearest(name, known.declared()); });
+  return range && may_name(range->count, "bodies or textures", named.where, state_, problems_)
+             ? range
+             : nullptr;
+}
+
+bool may_name(std::size_t count, std::string_view what, Place where, ScriptState& state,
+              Problems& problems) {
+  const bool had_room = state.named <= kMostNamed;
+  state.named += count;
+  if (state.named > kMostNamed && had_room)
+    problems.add(where, fmt::format("the steps name more than {} {} in all", kMostNamed, what));
+  return state.named <= kMostNamed;
+}
+
+std::optional<std::size_t> ScriptReading::present_body(const TableReader& table, const char* key) {
+  const auto name = table.named(key);
+  const auto body = name ? one_body(*name, draft) : std::nullopt;
+  if (body && !state.in_world[*body])
+    table.bad_value(key, fmt::format("'{}' is not in the world at this step", name->name),
+                    "insert it first");
+  return body;
+}
+
+void ScriptReading::require_contacts(Place where) {
+  if (draft.dimension != 0 && draft.scenario.world.contacts == ContactMethod::none)
+    draft.problems.add(where, kNothingTouches, kGiveContacts);
+}
+
+void ScriptReading::require_sleep(Place where) {
+  if (draft.dimension != 0 && !draft.scenario.world.may_sleep)
+    draft.problems.add(where, kNothingSleeps, kGiveSleep);
+}
+
+namespace {
+
+template <class V>
+Verb read_as(const TableReader& table, ScriptReading& script) {
+  V verb;
+  table.fill(verb);
+  if constexpr (requires { verb.read(table, script); }) verb.read(table, script);
+  return verb;
+}
+
+// What stands behind a verb of the list, by its place there.
+struct VerbEntry {
+  const VerbTraits* traits;
+  Verb (*read)(const TableReader& table, ScriptReading& script);
+};
+
+template <class... V>
+std::vector<VerbEntry> entries_of(const std::variant<V...>*) {
+  return {{&V::kTraits, read_as<V>}...};
+}
+
+class ScriptReader {
+ public:
+  explicit ScriptReader(Draft& draft)
+      : draft_(draft),
+        script_{draft, state_, NameResolver(draft.bodies, "body", draft.problems, state_),
+                NameResolver(draft.textures, "texture", draft.problems, state_)} {
+    state_.in_world.resize(draft.scenario.bodies.size());
+    state_.packed.resize(draft.scenario.textures.size());
+    state_.structure = draft.scenario.structure;
+  }
+
+  void read(const TomlValue& value) {
+    const auto which = verb_of(std::get<TomlTable>(value.data), value.where);
+    if (!which) return;
+    const TableDoc& doc = language_verbs()[*which];
+    const TableReader table = open(value, doc, draft_, fmt::format("a step with {}", doc.heading));
+    Step step;
+    table.fill(step);
+    step.where = draft_.position(value.where);
+    script_.frames = 1;
+    if (has_basis(table, *entries_[*which].traits))
+      step.verb = entries_[*which].read(table, script_);
+    count_frames(table);
+    check_plot(table, draft_, state_);
+    check_caption(table, draft_, state_);
+    for (const TomlValue* expect : table.tables("expect"))
+      step.expect = read_expectations(*expect, "expect", draft_, state_);
+    for (const TomlValue* always : table.tables("always"))
+      step.always = read_expectations(*always, "always", draft_, state_);
+    draft_.scenario.steps.push_back(std::move(step));
+  }
+
+  const ScriptState& state() const { return state_; }
+
+ private:
+  // The place of the step's verb in the list. Adds a problem and gives nothing if there is none.
+  std::optional<std::size_t> verb_of(const TomlTable& entries, Place where) {
+    const auto found = std::ranges::find(entries, "do", &TomlEntry::key);
+    if (found == entries.end()) {
+      draft_.problems.add(where, "a step has no 'do'", "say what it does, as do = \"insert\"");
+      return std::nullopt;
+    }
+    const auto* name = std::get_if<std::string>(&found->value.data);
+    std::vector<std::string_view> verbs;
+    for (const VerbEntry& verb : entries_) {
+      if (name && *name == verb.traits->name) return verbs.size();
+      verbs.push_back(verb.traits->name);
+    }
+    draft_.problems.add(found->value.where,
+                        name ? fmt::format("there is no verb {}", in_quotes(*name))
+                             : "'do' must be a text, one of the verbs",
+                        nearest(name ? *name : "", verbs));
+    return std::nullopt;
+  }
+
+  // What the verb works on and the scenario lacks, and how to mend it; empty if nothing.
+  struct Lack {
+    std::string_view what;
+    std::string_view hint;
+  };
+  Lack lack_of(Basis basis) const {
+    const bool has_atlas = draft_.scenario.atlas.has_value();
+    if (basis == Basis::nothing) return {};
+    if (basis == Basis::atlas)
+      return has_atlas ? Lack{} : Lack{"an [atlas]", "add [atlas] with size = [512, 512]"};
+    if (!draft_.has_world)
+      return {"a [world]",
+              has_atlas ? "an atlas knows pack and ask_room" : "add [world] with size = [64, 64]"};
+    if (basis == Basis::level && !draft_.scenario.level)
+      return {"a [level]", "add [level] with its loops"};
+    if (basis == Basis::bodies && draft_.bodies.empty())
+      return {"bodies", "add a [[body]] or a [[pattern]]"};
+    return {};
+  }
+
+  bool has_basis(const TableReader& table, const VerbTraits& verb) {
+    const Lack lack = lack_of(verb.basis);
+    if (lack.what.empty()) return true;
+    table.bad_value("do", fmt::format("'{}' needs {}, the scenario has none", verb.name, lack.what),
+                    std::string(lack.hint));
+    return false;
+  }
+
+  void count_frames(const TableReader& table) {
+    const bool had_room = state_.frames <= kMostScriptFrames;
+    state_.frames += script_.frames;
+    if (state_.frames <= kMostScriptFrames || !had_room) return;
+    const char* key = table.has("seconds") ? "seconds" : table.has("at_most") ? "at_most" : "do";
+    table.bad_value(key, fmt::format("the steps up to here have {} frames in all, the limit is {}",
+                                     state_.frames, kMostScriptFrames));
+  }
+
+  Draft& draft_;
+  ScriptState state_;
+  ScriptReading script_;
+  std::vector<VerbEntry> entries_ = entries_of(static_cast<const Verb*>(nullptr));
+};
+
+}  // namespace
+
+void read_script(const TableReader& file, Draft& draft) {
+  if (file.has("step") && file.tables("step").empty() && !draft.problems.any())
+    draft.problems.add(file.place("step"), "the script has no step",
+                       "add [[step]] with do = \"show\"");
+  ScriptReader reader(draft);
+  for (const TomlValue* value : file.tables("step")) reader.read(*value);
+  draft.scenario.most_frames = reader.state().frames;
+  draft.scenario.world_steps = reader.state().ticks;
+  if (draft.scenario.chart && !draft.scenario.chart->over_time() && !reader.state().has_plot &&
+      !draft.problems.any())
+    draft.problems.add(file.place("chart"), "no step adds anything to the chart",
+                       "give steps a label in 'plot'");
+}
+
+}  // namespace lantern

@@ -1,0 +1,39 @@
+// A script while it runs: what its verbs act on.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scenario/frame_maker.hpp"
+#include "scenario/stage.hpp"
+#include "scenario/warnings.hpp"
+
+namespace lantern {
+
+struct ScriptRun {
+  ScriptRun(const Scenario& of, Pace pace, Work& work,
+            const std::function<bool(const Frame&)>& sink, RunWatch* watched_by)
+      : scenario(of), stage(of, work), frames(of, pace, stage, sink), watch(watched_by) {}
+
+  const Scenario& scenario;
+  Stage stage;
+  FrameMaker frames;
+  RunWatch* watch;  // null if nobody looks for warnings
+
+  // Of the bodies, which the scenario must have.
+  Engine& engine() { return *stage.engine; }
+
+  std::uint32_t ticks_in(double seconds) const;
+  std::uint32_t frame_every(int of_step) const;  // 0: the world's
+  // One world step, and the structure anew.
+  void let_time_pass();
+
+  // The step is about this body, or about all that move.
+  void focus(std::size_t body);
+  void watch_movers();
+  // An insertion into the structure, as it happens.
+  void witness(const Event& event);
+  std::string name_of(BodyId body) const;
+};
+
+}  // namespace lantern

@@ -1,0 +1,256 @@
+// What a scenario has, as plain values, each with the place in the file it came from. A member's
+// initial value is the default of the key that fills it (see key.hpp).
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "geometry/flat.hpp"
+#include "physics/body.hpp"
+#include "physics/contact_method.hpp"
+#include "physics/motion_method.hpp"
+#include "spatial/structure_kinds.hpp"
+
+namespace lantern {
+
+enum class Children { lazy, eager };  // each made when something enters it, or all at a split
+enum class Panel { world, tree, atlas, chart, memory };
+enum class Pace { step, event };
+enum class Look { ghost, player, ball, bat, disc, box };
+enum class Brain { none, follow, wander };  // who steers a body
+
+// What is legal in a scenario and surely not meant; found while it runs (see warnings.hpp).
+enum class Warning {
+  view,      // a picture that shows no body
+  outside,   // a body beyond the world's bounds
+  contacts,  // contacts are off, and bodies fall into each other
+  joints,    // a joint's ends part
+  energy,    // grows, and nothing drives it
+  through,   // a body is pushed through one that never moves
+};
+// A point has three coordinates; in a 2D world the third is 0.
+struct WorldSpec {
+  int dimension = 2;
+  Box<3> bounds;                  // of the world and of the tree's root
+  double time_step = 1.0 / 60.0;  // seconds
+  int frame_every = 1;            // world steps from frame to frame of a run
+  Vec<3> gravity{0.0};
+  double gravitation = 0;  // Newton's constant between the bodies
+  ContactMethod contacts = ContactMethod::none;
+  Integrator integrator = Integrator::semi_implicit_euler;
+  RotationMethod rotation = RotationMethod::splitting_2;
+  int sub_steps = 8;           // of the soft contacts
+  int iterations = 10;         // of the impulse contacts
+  int impact_budget = 10'000;  // impacts located in one step of the world
+  bool may_sleep = false;
+  bool show_boxes = false;  // broad-phase boxes are drawn
+  bool show_velocities = false;
+  bool show_depths = false;  // how deep bodies overlap stands beside their contacts
+  Vec<3> camera_eye{0.0};    // of a 3D world
+  Vec<3> camera_target{0.0};
+  bool has_camera = false;
+  std::vector<Warning> quiet;  // kinds of warning whose cause is meant
+  SourcePosition where;
+  std::map<std::string_view, SourcePosition> keys;  // where those stand that the file gives
+
+  // Of the first of these keys that the file gives; of the table if it gives none.
+  const SourcePosition& place_of(std::initializer_list<std::string_view> names) const {
+    for (const std::string_view name : names)
+      if (const auto found = keys.find(name); found != keys.end()) return found->second;
+    return where;
+  }
+};
+
+struct PlaneSpec {
+  std::string name;
+  Vec<3> point{0.0};
+  Vec<3> normal{0.0};
+  std::string at;  // "root", or the way down from it: "front", "front.back", ...
+  SourcePosition where;
+};
+
+struct StructureSpec {
+  StructureKind kind = StructureKind::none;
+  std::uint32_t capacity = 2;
+  std::uint32_t max_depth = 6;
+  Children children = Children::lazy;
+  bool no_progress_stop = false;
+  bool split_static = false;      // one structure for what never moves, one for what does
+  std::vector<PlaneSpec> planes;  // bsp only; a plane's parent stands before it
+  SourcePosition where;
+};
+
+struct BodySpec {
+  std::string name;
+  Look look = Look::box;
+  int color = 1;  // body 1 ... 8 of the theme
+  Shape<3> shape;
+  Vec<3> position{0.0};
+  Vec<3> velocity{0.0};
+  double angle = 0;      // radians, counter-clockwise, or about `axis`
+  double spin = 0;       // radians a second, the same way
+  Vec<3> axis{0, 0, 1};  // unit; of a 3D world
+  BodyKind kind = BodyKind::dynamic_body;
+  double density = 1;
+  double mass = 0;  // 0: from shape and density
+  Material material;
+  double linear_drag = 0;
+  double angular_drag = 0;
+  bool may_turn = true;
+  bool asleep = false;                     // when it enters
+  std::optional<Integrator> integrator;    // none: the world's
+  std::optional<RotationMethod> rotation;  // none: the world's
+  Brain brain = Brain::none;
+  std::size_t follows = 0;  // the body that it follows
+  Vec<3> brain_axes{1.0};   // 0 where it does not follow
+  double brain_speed = 0;   // units a second at most
+  SourcePosition where;
+};
+
+// A spring or joint between points of two bodies, or of a body and a point of the world. It is
+// there while its bodies are.
+struct LinkSpec {
+  enum class Kind { spring, distance, pin };
+  Kind kind = Kind::spring;
+  std::size_t a = 0;
+  std::optional<std::size_t> b;       // none: it is tied to the world
+  Vec<3> at_a{0.0};                   // from the body's centre, in its own axes
+  Vec<3> at_b{0.0};                   // the same, or a point of the world
+  std::optional<double> rest_length;  // else as long as it is when it comes to be
+  double stiffness = 0;               // of a spring
+  double damping = 0;
+  SourcePosition where;
+};
+
+struct LevelSpec {
+  std::vector<std::vector<Vec<2>>> loops;  // closed polygons: the solid lies right of the way round
+  double balance = 1;                      // weight of |front - back| in a line's score
+  double cuts = 8;                         // weight of a wall cut in two
+  bool first_wall = false;                 // take the first wall's line instead of the best
+  SourcePosition where;
+};
+
+inline constexpr std::string_view kTimeAxis = "time";
+
+struct ChartSpec {
+  std::string x;                // a count or measure, or "time"; empty for bars
+  std::vector<std::string> y;   // counts and measures; of bars one
+  bool logarithmic = false;     // but for time
+  bool each_part = false;       // over time: lines begin anew with each part
+  std::optional<double> least;  // of the y axis; none: what is there
+  std::optional<double> most;
+  bool over_time() const { return x == kTimeAxis; }
+  SourcePosition where;
+};
+
+// What is measured of one body, in the order of the language's list.
+enum class BodyMeasure {
+  energy,
+  kinetic_energy,
+  potential_energy,
+  speed,
+  spin,
+  angular_momentum,
+  own_spin_x,
+  own_spin_y,
+  own_spin_z,
+  x,
+  y,
+  z,
+  penetration,
+};
+
+struct BodyMeasureSpec {
+  std::string name;  // as it is written: "energy.bob"
+  BodyMeasure measure = BodyMeasure::energy;
+  std::size_t body = 0;
+};
+
+// Whose answer is known in closed form.
+enum class Solution {
+  projectile,
+  oscillator,
+  chain,
+  kepler,
+  pendulum,
+  free_top,
+  bouncing_ball,
+  blocks_and_wall,
+  collisions,
+  billiards,
+  slide,
+  slip_then_roll,
+  incline,
+  topple,
+  stack,
+  hanging_chain,
+};
+enum class ProblemVariant { plain, stiff, extreme };
+
+// What `lantern measure` holds the scenario's runs against.
+struct ProblemSpec {
+  Solution solution = Solution::projectile;
+  ProblemVariant variant = ProblemVariant::plain;
+  double seconds = 1;
+  std::uint32_t samples = 20;        // moments that are looked at, equally far apart
+  double step = 1;                   // the largest, seconds
+  int halvings = 7;                  // of the step, a run each
+  std::vector<std::string> methods;  // names; empty for all that make a difference
+  SourcePosition where;
+};
+
+struct TextureSpec {
+  std::string name;
+  int width = 0;
+  int height = 0;
+  int color = 1;
+  SourcePosition where;
+};
+
+struct AtlasSpec {
+  int width = 0;
+  int height = 0;
+  SourcePosition where;
+};
+
+// How a scenario writes an enum's values, in the enum's order.
+using EnumNames = std::vector<std::string_view>;
+
+template <class E>
+EnumNames names_up_to(E last) {
+  EnumNames all;
+  for (int i = 0; i <= static_cast<int>(last); ++i) all.push_back(to_string(static_cast<E>(i)));
+  return all;
+}
+
+inline EnumNames names(StructureKind) { return names_up_to(kStructureKinds.back()); }
+inline EnumNames names(Children) { return {"lazy", "eager"}; }
+inline EnumNames names(Panel) { return {"world", "tree", "atlas", "chart", "memory"}; }
+inline EnumNames names(Pace) { return {"step", "event"}; }
+inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box"}; }
+inline EnumNames names(Warning) {
+  return {"view", "outside", "contacts", "joints", "energy", "through"};
+}
+inline EnumNames names(LinkSpec::Kind) { return {"spring", "distance", "pin"}; }
+inline EnumNames names(Solution) {
+  return {"projectile", "oscillator", "chain",         "kepler",
+          "pendulum",   "free_top",   "bouncing_ball", "blocks_and_wall",
+          "collisions", "billiards",  "slide",         "slip_then_roll",
+          "incline",    "topple",     "stack",         "hanging_chain"};
+}
+inline EnumNames names(ProblemVariant) { return {"plain", "stiff", "extreme"}; }
+inline EnumNames names(BodyKind) { return {"dynamic", "kinematic", "static"}; }
+inline EnumNames names(ContactMethod) { return contact_method_names(); }
+inline EnumNames names(Integrator) { return names_up_to(Integrator::implicit_euler); }
+inline EnumNames names(RotationMethod) { return names_up_to(RotationMethod::explicit_gyroscopic); }
+
+inline std::string_view to_string(Solution s) { return names(s)[std::size_t(s)]; }
+inline std::string_view to_string(ProblemVariant v) { return names(v)[std::size_t(v)]; }
+
+}  // namespace lantern

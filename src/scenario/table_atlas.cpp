@@ -1,0 +1,165 @@
+// [atlas], [[texture]] and [[texture_pattern]].
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/random.hpp"
+#include "scenario/draft.hpp"
+#include "scenario/key.hpp"
+#include "scenario/language_parts.hpp"
+
+namespace lantern {
+namespace {
+
+enum class Order { as_made, tallest_first };
+EnumNames names(Order) { return {"as_made", "tallest_first"}; }
+
+struct TexturePatternSpec {
+  std::string name;
+  std::size_t count = 1;
+  int multiple = 1;
+  Order order = Order::as_made;
+  int color = 0;  // 0: each the next
+};
+
+bool has_room_for_textures(std::size_t count, Place where, Draft& draft) {
+  return draft.has_room_for(draft.scenario.textures.size() + count, kMostTextures, "textures",
+                            where);
+}
+
+void read_texture(const TomlValue& value, Draft& draft) {
+  const TableReader table = open(value, language_table("texture"), draft);
+  const auto size = table.get<Vec<2>>("size").value_or(Vec<2>(1.0));
+  TextureSpec texture;
+  table.fill(texture);
+  texture.width = static_cast<int>(size.x);
+  texture.height = static_cast<int>(size.y);
+  texture.where = draft.position(value.where);
+  if (!has_room_for_textures(1, value.where, draft)) return;
+  if (!texture.name.empty())
+    draft.textures.add(texture.name, {draft.scenario.textures.size(), 1, table.place("name")}, true,
+                       draft.problems);
+  draft.scenario.textures.push_back(texture);
+}
+
+// Multiples of `multiple` between two lengths, counted in that unit.
+struct Lengths {
+  std::int64_t least = 1;
+  std::int64_t most = 1;
+};
+
+Lengths read_lengths(const TableReader& table, int axis, std::int64_t multiple) {
+  const auto least = std::int64_t(table.get<Vec<2>>("min").value_or(Vec<2>(1.0))[axis]);
+  const auto most = std::int64_t(table.get<Vec<2>>("max").value_or(Vec<2>(1e9))[axis]);
+  const Lengths lengths{(least + multiple - 1) / multiple, most / multiple};
+  if (lengths.least <= lengths.most) return lengths;
+  table.bad_value(table.has("max") ? "max" : "min",
+                  fmt::format("no {} from {} to {} is a multiple of {}",
+                              axis == 0 ? "width" : "height", least, most, multiple));
+  return {};
+}
+
+void read_texture_pattern(const TomlValue& value, Draft& draft) {
+  const TableReader table = open(value, language_table("texture_pattern"), draft);
+  TexturePatternSpec pattern;
+  table.fill(pattern);
+  const Lengths widths = read_lengths(table, 0, pattern.multiple);
+  const Lengths heights = read_lengths(table, 1, pattern.multiple);
+  if (!has_room_for_textures(pattern.count, table.place("count"), draft) || pattern.name.empty())
+    return;
+
+  Random random(derived_seed(table, pattern.name, draft));
+  std::vector<TextureSpec> made(pattern.count);
+  for (TextureSpec& texture : made) {
+    texture.width = static_cast<int>(random.whole(widths.least, widths.most)) * pattern.multiple;
+    texture.height = static_cast<int>(random.whole(heights.least, heights.most)) * pattern.multiple;
+    texture.where = draft.position(value.where);
+  }
+  if (pattern.order == Order::tallest_first)
+    std::stable_sort(made.begin(), made.end(), [](const TextureSpec& a, const TextureSpec& b) {
+      return a.height != b.height ? a.height > b.height : a.width > b.width;
+    });
+
+  auto& textures = draft.scenario.textures;
+  const NamedRange all{textures.size(), pattern.count, table.place("name")};
+  if (!draft.textures.add(pattern.name, all, true, draft.problems)) return;
+  for (std::size_t i = 0; i < pattern.count; ++i) {
+    made[i].name = fmt::format("{}{}", pattern.name, i + 1);
+    made[i].color = cycled_color(pattern.color, i);
+    const NamedRange one{textures.size(), 1, table.place("name")};
+    draft.textures.add(made[i].name, one, false, draft.problems);
+    textures.push_back(std::move(made[i]));
+  }
+}
+
+}  // namespace
+
+TableDoc atlas_table() {
+  using namespace keys;
+  TableDoc table = {
+      "atlas", "[atlas]",
+      "One large image that textures are packed into, by a kD-tree. Its origin is the upper "
+      "left corner."};
+  table.keys = {key(KeyType::size, "size", "Its width and height; it is also written as an image.",
+                    must(), range(1, kMostAtlas), in("px"))};
+  return table;
+}
+
+TableDoc texture_table() {
+  using namespace keys;
+  using T = TextureSpec;
+  TableDoc table = {"texture", "[[texture]]",
+                    "A texture. It enters the atlas when a step packs it."};
+  table.keys = {
+      key(&T::name, "name", "Unique over textures and their patterns.", must(), like(kNamePattern)),
+      key(KeyType::size, "size", "Its width and height.", must(), range(1, kMostPixels), in("px")),
+      key(&T::color, "color", "As a body's.", range(1, 8)),
+  };
+  return table;
+}
+
+TableDoc texture_pattern_table() {
+  using namespace keys;
+  using P = TexturePatternSpec;
+  TableDoc table = {
+      "texture_pattern", "[[texture_pattern]]",
+      "Many textures at once, of random sizes. Those of pattern `t` are called `t1`, `t2`, …"};
+  table.keys = {
+      key(&P::name, "name", "Unique over textures and their patterns.", must(), like(kNamePattern)),
+      key(&P::count, "count", "How many; 20000 textures in all are allowed.", must(),
+          range(1, kMostTextures), in("textures")),
+      key(KeyType::size, "min", "The least width and height.", must(), range(1, kMostPixels),
+          in("px")),
+      key(KeyType::size, "max", "The largest width and height.", must(), range(1, kMostPixels),
+          in("px")),
+      key(&P::multiple, "multiple", "Widths and heights are multiples of it.",
+          range(1, kMostPixels), in("px")),
+      key(&P::order, "order", "In which they are named and packed."),
+      key(&P::color, "color", "As a body's; 0 cycles through 1 to 8.", range(0, 8)),
+      key(KeyType::whole, "seed", "Of this pattern alone.", range(0, kMostWhole),
+          or_else("from the scenario's seed and the name")),
+  };
+  return table;
+}
+
+void read_atlas(const TableReader& file, Draft& draft) {
+  if (file.has("atlas")) draft.scenario.atlas.emplace();  // a bad one is told once
+  for (const TomlValue* value : file.tables("atlas")) {
+    const TableReader table = open(*value, language_table("atlas"), draft);
+    const auto size = table.get<Vec<2>>("size").value_or(Vec<2>(1.0));
+    draft.scenario.atlas =
+        AtlasSpec{static_cast<int>(size.x), static_cast<int>(size.y), draft.position(value->where)};
+    if (file.has("world"))
+      draft.problems.add(value->where, "a scenario has either a [world] or an [atlas], not both",
+                         "write two scenarios");
+  }
+  const auto textures = file.tables("texture");
+  const auto patterns = file.tables("texture_pattern");
+  if (!file.has("atlas") && (!textures.empty() || !patterns.empty()))
+    draft.problems.add((textures.empty() ? patterns : textures)[0]->where,
+                       "textures need an [atlas]", "add [atlas] with size = [512, 512]");
+  for (const TomlValue* value : textures) read_texture(*value, draft);
+  for (const TomlValue* value : patterns) read_texture_pattern(*value, draft);
+}
+
+}  // namespace lantern

@@ -1,0 +1,88 @@
+// `compile`, `locate` and `order`: a level's BSP.
+#include <fmt/format.h>
+
+#include "scenario/key.hpp"
+#include "scenario/language_parts.hpp"
+#include "scenario/script_reading.hpp"
+#include "scenario/script_run.hpp"
+
+namespace lantern {
+namespace {
+
+void require_compiled(const TableReader& table, std::string_view verb,
+                      const ScriptReading& script) {
+  if (!script.state.compiled)
+    table.bad_value("do", fmt::format("'{}' needs the compiled level", verb),
+                    "add a step with do = \"compile\" before");
+}
+
+template <class V>
+KeyDoc point_key(Vec<2> V::*member, std::string_view name, std::string_view meaning) {
+  using namespace keys;
+  return key(member, name, meaning, range(-kFar, kFar), written("[x, y]"), must());
+}
+
+}  // namespace
+
+TableDoc CompileLevel::table() {
+  return {.doc = "The level's walls become a BSP, whose leaves are the sectors.",
+          .keys = {pace_key(), events_key({"consider", "choose", "cut", "sector"})},
+          .example = R"([[step]]
+do = "compile"
+pace = "event"
+events = ["choose", "cut"]
+caption = "{walls} walls, {sectors} sectors, {cuts:wall} cut in two."
+expect = { walls = 8 }
+)"};
+}
+
+void CompileLevel::read(const TableReader&, ScriptReading& script) { script.state.compiled = true; }
+
+void CompileLevel::act(ScriptRun& run) const {
+  FrameMaker& frames = run.frames;
+  run.stage.level->compile([&](const LevelMoment& moment) {
+    if (!frames.stopped() && frames.by_event() && frames.wanted(moment.event))
+      frames.emit({}, moment.event, moment.text);
+  });
+  frames.settle("compile");
+}
+
+TableDoc Locate::table() {
+  return {.doc = "In which sector of the compiled level is a point?",
+          .keys = {point_key(&Locate::point, "point", "The point asked for.")},
+          .example = R"([[step]]
+do = "locate"
+point = [2, 2]
+caption = "Sector {sector}, after {planes_tested:line}."
+)"};
+}
+
+void Locate::read(const TableReader& table, ScriptReading& script) {
+  require_compiled(table, "locate", script);
+  script.state.located = true;
+}
+
+void Locate::act(ScriptRun& run) const {
+  run.stage.level->locate(point);
+  run.frames.settle("locate");
+}
+
+TableDoc OrderFrom::table() {
+  return {.doc = "The sectors of the compiled level, front to back.",
+          .keys = {point_key(&OrderFrom::eye, "eye", "Where they are seen from.")},
+          .example = R"([[step]]
+do = "order"
+eye = [2, 2]
+)"};
+}
+
+void OrderFrom::read(const TableReader& table, ScriptReading& script) {
+  require_compiled(table, "order", script);
+}
+
+void OrderFrom::act(ScriptRun& run) const {
+  run.stage.level->order_from(eye);
+  run.frames.settle("order");
+}
+
+}  // namespace lantern

@@ -1,0 +1,156 @@
+// `run` and `wait`: time passes.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scenario/key.hpp"
+#include "scenario/language_parts.hpp"
+#include "scenario/script_reading.hpp"
+#include "scenario/script_run.hpp"
+
+namespace lantern {
+namespace {
+
+// World steps in the seconds that `key` gives; 1 and a problem if they are not a whole number, or
+// too many.
+std::uint64_t read_ticks(const TableReader& table, const char* key, ScriptReading& script) {
+  const auto seconds = table.get<double>(key);
+  if (!seconds) return 1;
+  const double h = script.draft.scenario.world.time_step;
+  const double ticks = *seconds / h;
+  const double whole = std::max(1.0, std::round(ticks));
+  // A file's decimals are rounded: a millionth of the time is no mistake.
+  constexpr double kRounding = 1e-6;
+  if (whole > static_cast<double>(kMostWorldSteps)) {
+    table.bad_value(key,
+                    fmt::format("{} s are {} time steps, the limit is {} in all", *seconds, whole,
+                                kMostWorldSteps),
+                    "run for a shorter time, or take a larger time_step");
+  } else if (std::abs(ticks - whole) > kRounding * whole) {
+    const double less = std::max(1.0, std::floor(ticks));
+    table.bad_value(key,
+                    fmt::format("{} s are {:.6g} time steps of {:.6g} s, not a whole number",
+                                *seconds, ticks, h),
+                    fmt::format("{:.10g} s or {:.10g} s would be {} or {}", h * less,
+                                h * (less + 1), less, less + 1));
+  } else {
+    return static_cast<std::uint64_t>(whole);
+  }
+  return 1;
+}
+
+// Counts the world steps and frames of the seconds that `key` gives. `every` is the step's own.
+void count_time(const TableReader& table, const char* key, int every, ScriptReading& script) {
+  const std::uint64_t ticks = read_ticks(table, key, script);
+  const auto stride =
+      static_cast<std::uint64_t>(every > 0 ? every : script.draft.scenario.world.frame_every);
+  script.frames = (ticks + stride - 1) / stride;
+  const bool had_room = script.state.ticks <= kMostWorldSteps;
+  script.state.ticks += ticks;
+  if (script.state.ticks > kMostWorldSteps && had_room)
+    table.bad_value(key,
+                    fmt::format("the steps up to here have {} time steps in all, the limit is {}",
+                                script.state.ticks, kMostWorldSteps));
+}
+
+template <class V>
+KeyDoc every_key() {
+  using namespace keys;
+  return key(&V::every, "every", "World steps from one frame to the next.", range(1, kMostEvery),
+             in("steps"), or_else("the world's `frame_every`"));
+}
+
+}  // namespace
+
+TableDoc Run::table() {
+  using namespace keys;
+  return {.doc = "Time passes.",
+          .keys = {key(&Run::seconds, "seconds",
+                       "A whole number of time steps; the frames of all steps are at most 100000, "
+                       "and the time steps 1000000.",
+                       must(), above(0, kHundredYears), in("s")),
+                   every_key<Run>()},
+          .example = R"([[step]]
+do = "run"
+seconds = 0.5
+every = 6
+caption = "{time} s: pink runs to the right, {pairs:pair} to test."
+always = { bodies = 3 }
+expect = { position = { pink = [4.5, 2] } }
+)"};
+}
+
+void Run::read(const TableReader& table, ScriptReading& script) {
+  count_time(table, "seconds", every, script);
+}
+
+void Run::act(ScriptRun& run) const {
+  if (run.stage.engine) run.watch_movers();
+  const std::uint32_t ticks = run.ticks_in(seconds);
+  for (std::uint32_t tick = 1; tick <= ticks && !run.frames.stopped(); ++tick) {
+    run.let_time_pass();
+    if (tick % run.frame_every(every) == 0 || tick == ticks)
+      run.frames.settle("run", tick == ticks);
+  }
+}
+
+TableDoc Wait::table() {
+  using namespace keys;
+  return {.doc =
+              "Time passes until something happens. If it has not happened in time, the scenario "
+              "fails.",
+          .keys =
+              {
+                  key(&Wait::event, "event",
+                      "Two bodies `touch` or `part`; or all of some bodies are `asleep`.", must()),
+                  key(KeyType::texts, "bodies",
+                      "Two names of bodies; of what falls asleep any number.", must()),
+                  key(&Wait::at_most, "at_most", "A whole number of time steps.", must(),
+                      above(0, kHundredYears), in("s")),
+                  every_key<Wait>(),
+              },
+          .example = R"([[step]]
+do = "wait"
+event = "touch"
+bodies = ["pink", "player"]
+at_most = 2
+every = 6
+caption = "After {time} s they touch: {contacts:contact}."
+expect = { contacts_are = [["pink", "player"]] }
+)"};
+}
+
+void Wait::read(const TableReader& table, ScriptReading& script) {
+  count_time(table, "at_most", every, script);
+  const std::vector<Named> written = table.names("bodies");
+  bodies = script.bodies.present(written);
+  if (!table.is_good("event") || !table.has("bodies")) return;
+  if (event == Event::asleep) return script.require_sleep(table.place("event"));
+  script.require_contacts(table.place("event"));
+  if (written.empty() && bodies.empty()) return;
+  for (const Named& name : written)
+    if (script.draft.bodies.find(name.name)) one_body(name, script.draft);
+  if (written.size() != 2)
+    table.bad_value("bodies",
+                    fmt::format("{} of them cannot {}: it takes two", written.size(),
+                                *table.get<std::string>("event")),
+                    "as bodies = [\"ball\", \"wall\"]");
+}
+
+// Until the event, which must happen in time.
+void Wait::act(ScriptRun& run) const {
+  run.watch_movers();
+  const std::uint32_t ticks = run.ticks_in(at_most);
+  for (std::uint32_t tick = 1; tick <= ticks && !run.frames.stopped(); ++tick) {
+    run.let_time_pass();
+    if (run.engine().has_happened(event, bodies)) return run.frames.settle("wait");
+    if (tick == ticks)
+      run.frames.fail(
+          fmt::format("what this step waits for has not happened within {} s", at_most));
+    if (tick % run.frame_every(every) == 0 || tick == ticks)
+      run.frames.settle("wait", tick == ticks);
+  }
+}
+
+}  // namespace lantern

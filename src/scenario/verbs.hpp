@@ -1,0 +1,266 @@
+// The script's verbs. What one does stands in its verb_*.cpp: its keys and how it is read, acted
+// and foreseen. A new verb is a struct here, a place in the list below and that file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "geometry/angle.hpp"
+#include "scenario/specs.hpp"
+
+namespace lantern {
+
+class Engine;
+class TableReader;
+struct ScriptReading;
+struct ScriptRun;
+struct TableDoc;
+
+// What a scenario must have for a verb to work on.
+enum class Basis { nothing, world, bodies, level, atlas };
+
+// Each verb says so of itself, and gives
+//   table()          its own keys, what it means, and an example
+//   read(…)          fills what the keys do not fill by themselves, and tells mistakes; optional
+//   change(engine)   if it changes bodies: only that, for whoever wants no frames
+//   seconds(step)    if it passes time: how much of it, at most
+//   act(run)         the frames as well; without it, a change is shown on one frame
+struct VerbTraits {
+  std::string_view name;
+  Basis basis = Basis::world;
+  bool passes_time = false;
+  bool changes_bodies = false;  // which are there, where, how they move, or what moves them
+  bool asks = false;            // the structure, of rays, views and regions
+};
+
+// Nothing happens; the caption speaks.
+struct Show {
+  static constexpr VerbTraits kTraits{.name = "show", .basis = Basis::nothing};
+  static TableDoc table();
+  void act(ScriptRun& run) const;
+};
+
+// Bodies and textures are indices into the scenario's lists.
+struct Insert {
+  static constexpr VerbTraits kTraits{.name = "insert", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  void act(ScriptRun& run) const;
+  std::vector<std::size_t> bodies;
+};
+
+struct Remove {
+  static constexpr VerbTraits kTraits{.name = "remove", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  void act(ScriptRun& run) const;
+  std::vector<std::size_t> bodies;
+};
+
+struct Move {
+  static constexpr VerbTraits kTraits{.name = "move", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  void act(ScriptRun& run) const;
+  std::size_t body = 0;
+  std::optional<Vec<3>> to;
+  std::optional<Vec<3>> velocity;
+  std::optional<double> turned;  // radians
+  std::optional<double> spin;    // radians a second
+  bool rebuild = true;           // false: the structure is left as it was
+};
+
+struct Sleep {
+  static constexpr VerbTraits kTraits{.name = "sleep", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  std::vector<std::size_t> bodies;
+};
+
+struct Wake {
+  static constexpr VerbTraits kTraits{.name = "wake", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  std::vector<std::size_t> bodies;
+};
+
+// From now on; a force of 0 ends it.
+struct ApplyForce {
+  static constexpr VerbTraits kTraits{.name = "force", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  std::size_t body = 0;
+  Vec<3> force{0.0};
+  Vec<3> at{0.0};
+};
+
+// N s, now.
+struct ApplyImpulse {
+  static constexpr VerbTraits kTraits{.name = "impulse", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  std::size_t body = 0;
+  Vec<3> impulse{0.0};
+  Vec<3> at{0.0};
+};
+
+struct Run {
+  static constexpr VerbTraits kTraits{.name = "run", .passes_time = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  double seconds_of(double) const { return seconds; }
+  double seconds = 0;
+  int every = 0;  // steps from frame to frame; 0: the world's frame_every
+};
+
+// As Run, until something happens.
+struct Wait {
+  enum class Event { touch, part, asleep };  // two bodies; two bodies; all of them
+  static constexpr VerbTraits kTraits{.name = "wait", .passes_time = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  double seconds_of(double) const { return at_most; }
+  Event event = Event::touch;
+  std::vector<std::size_t> bodies;
+  double at_most = 0;  // seconds; if it has not happened by then, the run fails
+  int every = 0;
+};
+inline EnumNames names(Wait::Event) { return {"touch", "part", "asleep"}; }
+
+// One world step, phase by phase.
+struct Phases {
+  static constexpr VerbTraits kTraits{
+      .name = "phases", .basis = Basis::bodies, .passes_time = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  double seconds_of(double time_step) const { return time_step; }
+};
+
+// Contacts, from now on.
+struct SolveBy {
+  static constexpr VerbTraits kTraits{
+      .name = "solve_by", .basis = Basis::bodies, .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  ContactMethod contacts = ContactMethod::soft;
+  int sub_steps = 0;   // 0: as it was
+  int iterations = 0;  // the same
+};
+
+// All bodies anew, with these settings.
+struct Rebuild {
+  static constexpr VerbTraits kTraits{.name = "rebuild", .basis = Basis::bodies};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  StructureSpec structure;
+};
+
+// The nearest hit, or all.
+struct CastRay {
+  static constexpr VerbTraits kTraits{.name = "ray", .basis = Basis::bodies, .asks = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  Vec<3> from{0.0};
+  Vec<3> to{1, 0, 0};
+  bool all = false;
+};
+
+// What does the camera see?
+struct Cull {
+  static constexpr VerbTraits kTraits{.name = "cull", .basis = Basis::bodies, .asks = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  Vec<3> eye{0.0};
+  Vec<3> target{1, 0, 0};
+  double angle = 60 * kDegree;  // of opening, in a 3D world from bottom to top
+  double near = 0.1;
+  double far = 10;  // both along the view
+};
+
+struct Query {
+  static constexpr VerbTraits kTraits{.name = "query", .basis = Basis::bodies, .asks = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  Box<3> box;
+  double radius = 0;  // above 0: a ball about the box's centre
+};
+
+// The BSP of the level.
+struct CompileLevel {
+  static constexpr VerbTraits kTraits{.name = "compile", .basis = Basis::level};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+};
+
+// In which sector?
+struct Locate {
+  static constexpr VerbTraits kTraits{.name = "locate", .basis = Basis::level};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  Vec<2> point{0.0};
+};
+
+// Sectors front to back.
+struct OrderFrom {
+  static constexpr VerbTraits kTraits{.name = "order", .basis = Basis::level};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  Vec<2> eye{0.0};
+};
+
+// Textures, in this order.
+struct Pack {
+  static constexpr VerbTraits kTraits{.name = "pack", .basis = Basis::atlas};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  std::vector<std::size_t> textures;
+  bool each = true;       // one frame a texture, or one for all
+  std::string free_name;  // label of the largest free leaf it leaves
+};
+
+// Does any free leaf have room?
+struct AskRoom {
+  static constexpr VerbTraits kTraits{.name = "ask_room", .basis = Basis::atlas};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  int width = 0;
+  int height = 0;
+};
+
+// In the order of the reference page.
+using Verb = std::variant<Show, Insert, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse, Run,
+                          Wait, Phases, SolveBy, Rebuild, CastRay, Cull, Query, CompileLevel,
+                          Locate, OrderFrom, Pack, AskRoom>;
+
+inline const VerbTraits& traits_of(const Verb& verb) {
+  return std::visit([](const auto& v) -> const VerbTraits& { return v.kTraits; }, verb);
+}
+
+// What a verb does to an engine's bodies, without frames: one that only shows, asks or partitions
+// does nothing, one that passes time takes its steps. Throws Refused as the engine does.
+void carry_out(const Verb& verb, Engine& engine, double time_step);
+
+}  // namespace lantern
