@@ -33,8 +33,8 @@ constexpr std::array<KnownMethod, 16> kKnown{{
     {"impulse:100", "impulses (100 sweeps)", 28},
     {"soft", "soft contacts", 18},
     {"soft:16", "soft contacts (16 sub-steps)", 48},
-    {"direct", "all contacts at once", 19},
-    {"lecture", "the lecture's impulses", 20},
+    {"direct", "direct solve", 19},
+    {"lecture", "the lecture's solver", 20},
 }};
 
 const KnownMethod* known(std::string_view name) {
