@@ -155,11 +155,14 @@ class Drawing : PlotLayout {
   }
 
   void name_column() {
-    std::vector<ColumnName> names = column();
-    auto name = names.begin();
-    for (const PlacedSeries& placed : placed_)
-      if (!placed.points.empty()) (name++)->end = placed.points.back();
-    draw_column(std::move(names), plot_.series.size(), paper_, list_, labels_);
+    const std::vector<ColumnName> all = column();
+    std::vector<ColumnName> names;  // of those that have an end
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!placed_[i].points.empty()) {
+        names.push_back(all[i]);
+        names.back().end = placed_[i].points.back();
+      }
+    draw_column(std::move(names), all.size(), paper_, list_, labels_);
   }
 
   void name_notes(PlotNamer& namer) {

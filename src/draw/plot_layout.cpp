@@ -203,12 +203,13 @@ std::vector<ColumnName> PlotLayout::column() const {
   std::vector<ColumnName> names;
   const int decimals = y_.decimals() > 1 && y_.decimals() < 7 ? y_.decimals() + 1 : 0;
   for (const PlotSeries& series : plot_.series) {
+    ColumnName& name = names.emplace_back();
+    if (plot_.series.size() > 1) name.name = series.name;
     const auto newest = std::find_if(series.points.rbegin(), series.points.rend(),
                                      [&](const PlotPoint& p) { return is_drawn(p); });
     if (newest == series.points.rend()) continue;
     const double y = newest->at.y;
-    names.push_back({decimals > 0 ? number_text(y, decimals) : short_number(y),
-                     plot_.series.size() > 1 ? series.name : ""});
+    name.number = decimals > 0 ? number_text(y, decimals) : short_number(y);
   }
   return names;
 }

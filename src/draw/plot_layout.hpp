@@ -49,7 +49,7 @@ class PlotLayout {
   std::vector<Vec<2>> on_page(const std::vector<Vec<2>>& values) const;
   // Of each series, not farther out than a few panels: beyond, only the direction matters.
   std::vector<PlacedSeries> place_series() const;
-  // Of each series that has points; the only one needs no name.
+  // Of each series, without a number if it has no points; the only one needs no name.
   std::vector<ColumnName> column() const;
   void draw_axes(DrawList& list);
 
