@@ -185,13 +185,16 @@ class GridPage {
     const TextStyle plain{20, Weight::regular, Role::ink, Role::none};
     const TextStyle strong{20, Weight::semibold, Role::lit_ink, Role::none};
     const double right = place.hi.x, middle = with_time ? right - 120 : right;
-    const double step = scene_.dimension() == 3 ? 36 : 42;
     double y = place.lo.y + head.size;
     labels_.add("Cheapest capacity / limit", {{place.lo.x, y}, 0}, head, place);
     const TextStyle quiet{18, Weight::regular, Role::quiet_ink, Role::none};
     labels_.add("tests", {{middle, y}, 1}, quiet, place);
     if (with_time) labels_.add("time", {{right, y}, 1}, quiet, place);
     y += 34;
+    const auto lines = std::ranges::count_if(kStructureKinds, [&](StructureKind kind) {
+      return cheapest(rows_, scene_.name, kind, CostBy::work) != nullptr;
+    });
+    const double step = std::min(42.0, (place.hi.y - y) / static_cast<double>(lines));
     for (const StructureKind kind : kStructureKinds) {
       const BroadPhaseCost* row = cheapest(rows_, scene_.name, kind, CostBy::work);
       if (row == nullptr) continue;
