@@ -194,6 +194,10 @@ class GridPage {
     labels_.add("tests", {{middle, y}, 1}, quiet, place);
     if (with_time) labels_.add("time", {{right, y}, 1}, quiet, place);
     y += 34;
+    const auto lines = std::ranges::count_if(kStructureKinds, [&](StructureKind kind) {
+      return cheapest(rows_, scene_.name, kind, CostBy::work) != nullptr;
+    });
+    const double step = std::min(42.0, (place.hi.y - y) / static_cast<double>(lines));
     for (const StructureKind kind : kStructureKinds) {
       const BroadPhaseCost* row = cheapest(rows_, scene_.name, kind, CostBy::work);
       if (row == nullptr) continue;
