@@ -186,8 +186,6 @@ class GridPage {
     const TextStyle plain{20, Weight::regular, Role::ink, Role::none};
     const TextStyle strong{20, Weight::semibold, Role::lit_ink, Role::none};
     const double right = place.hi.x, middle = with_time ? right - 120 : right;
-    const double step = std::min(
-        42.0, (place.size().y - head.size - 40) / static_cast<double>(kStructureKinds.size()));
     double y = place.lo.y + head.size;
     labels_.add("Cheapest capacity / limit", {{place.lo.x, y}, 0}, head, place);
     const TextStyle quiet{18, Weight::regular, Role::quiet_ink, Role::none};
