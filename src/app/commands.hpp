@@ -27,6 +27,7 @@ struct RenderOptions {
   std::string theme = "light";
   std::string pace;              // step, event; empty for the scenario's own
   std::string png = "fast";      // fast, small
+  std::string facts = "2";       // lantern.frame/2, or /1 until the next release
   std::string backend = "auto";  // auto, osmesa, egl
   bool transparent = false;
   bool strict = false;  // warnings are errors

@@ -17,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // The facts of a frame are the same whatever is drawn of it.
-std::string facts_of(const Frame& frame, const MadeFrom& from) {
-  return sealed(FileKind::json, to_json(frame), {from.facts, from.facts});
+std::string facts_of(const RenderJob& job, const Frame& frame, const MadeFrom& from) {
+  const FactsVersion version = job.options.facts == "1" ? FactsVersion::v1 : FactsVersion::v2;
+  return sealed(FileKind::json, to_json(frame, version), {from.facts, from.facts});
 }
 
 // Where each texture lies in the image of the finished atlas.
@@ -96,7 +97,7 @@ void FolderSink::take(const Frame& frame) {
   taken_.insert(index);
   const MadeFrom from = manifest_.frame_from(index);
   if (!folder_->stands(index, "json"))
-    write_counted(folder_->file(index, "json"), facts_of(frame, from));
+    write_counted(folder_->file(index, "json"), facts_of(job_, frame, from));
   if (folder_->stands(index, job_.options.format)) {
     ++kept_;
     return;

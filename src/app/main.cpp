@@ -95,6 +95,8 @@ void add_render(CLI::App& app, Run& run) {
   c->add_option("--pace", o.pace, "one frame per step, or one for each thing the algorithm does")
       ->check(CLI::IsMember({"step", "event"}));
   add_choice(*c, "--png", o.png, "fast to write, or small", {"fast", "small"});
+  add_choice(*c, "--facts", o.facts, "version of lantern.frame; 1 only until the next release",
+             {"1", "2"});
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   c->add_flag("--transparent", o.transparent, "draw no background");
   c->add_flag("--strict", o.strict, "turn warnings into errors (exit code 3)");

@@ -15,7 +15,7 @@ namespace {
 std::string text_of(const Hash& hash) { return fmt::format("{:016x}", hash.value()); }
 
 Hash facts_of(const Manifest& m) {
-  return Hash().add(kVersion).add(m.scenario).add(m.scenario_hash).add(m.pace);
+  return Hash().add(kVersion).add(m.scenario).add(m.scenario_hash).add(m.pace).add(m.facts);
 }
 
 // `png`, the effort of encoding, counts only where it shows.
@@ -58,6 +58,7 @@ std::string to_json(const Manifest& m) {
   json.line().member("scenario_hash", fmt::format("{:016x}", m.scenario_hash));
   json.line().member("seed", m.seed).line().member("pace", m.pace);
   json.line().member("size", m.size).line().member("theme", m.theme);
+  json.line().member("facts_format", "lantern.frame/" + m.facts);
   json.line().member("picture_format", m.format).line().member("png", m.png);
   json.line().member("transparent", m.transparent).line().member("finished", m.finished);
   json.line().member("expectations", m.expectations).line().member("unmet", m.unmet);

@@ -24,7 +24,7 @@ struct Manifest {
   std::string scenario;
   std::string title;
   std::uint64_t seed = 1;
-  std::string pace, size, theme, format, png;
+  std::string pace, size, theme, format, png, facts;
   bool transparent = false;
   std::uint64_t scenario_hash = 0;  // of the file's bytes
   bool finished = false;

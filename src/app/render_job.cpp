@@ -41,6 +41,7 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   m.theme = options.theme;
   m.format = options.format;
   m.png = options.png;
+  m.facts = options.facts;
   m.transparent = options.transparent;
   m.scenario_hash = scenario.text_hash;
   return m;

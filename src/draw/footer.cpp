@@ -74,8 +74,12 @@ std::vector<Counter> counters_of(const Frame& frame) {
   if (frame.count("sectors")) return level_counters(frame);
   const auto pairs = frame.count("pairs"), all = frame.count("testable_pairs");
   if (pairs) {
+    // With contacts only those of them are tested whose boxes overlap.
+    const bool all_tested = !frame.count("contacts");
+    const char* many = all_tested ? "pairs to test" : "candidate pairs";
     std::vector<Counter> counters{
-        {*pairs, counted(*pairs, "pair to test", "pairs to test"), "pairs to test", true}};
+        {*pairs, counted(*pairs, all_tested ? "pair to test" : "candidate pair", many), many,
+         true}};
     if (all) counters.push_back({*all, "by brute force", "by brute force", false});
     return counters;
   }

@@ -111,6 +111,7 @@ void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
 void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
   if (!frame.show_boxes) return;
   constexpr std::size_t kMostBoxes = 400, kFewBodies = 4;
+  constexpr double kSeen = 2.5;  // pixels
   Pen pen(list, mark_limit(map));
   std::size_t drawn = 0;
   for (const FrameBody& body : frame.bodies) {
@@ -118,6 +119,10 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
     if (++drawn > kMostBoxes) return;
     const Box<2> box = map.to_page(body.box);
     if (!holds(shrunk(map.picture(), -30), box)) continue;
+    // What the structure holds, where one can see that it is more.
+    const Box<2> held = map.to_page(body.stored_box.value_or(body.box));
+    if (box.lo.x - held.lo.x > kSeen || held.hi.x - box.hi.x > kSeen)
+      list.rect(held, Role::none, {Role::quiet_ink, 1.2, 3});
     if (!body.lit)  // the others have one already
       list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
     if (body.lit || frame.bodies.size() <= kFewBodies) draw_half_sizes(body, box, map, pen, labels);

@@ -222,7 +222,11 @@ struct Frame {
 // Of time, bodies, nodes, pairs and textures; not of the counts of work.
 std::uint64_t state_hash(const Frame& frame);
 
-// The frame as `lantern.frame/2`, one line a body, node and pair.
-std::string to_json(const Frame& frame);
+// `lantern.frame/1` has no way of pairs: neither `overlaps`, `stored_box` and `since_last_frame` nor
+// the counts that came with them. It will go with the next release.
+enum class FactsVersion { v1, v2 };
+
+// The frame as JSON, one line a body, node and pair.
+std::string to_json(const Frame& frame, FactsVersion version = FactsVersion::v2);
 
 }  // namespace lantern

@@ -1,4 +1,7 @@
-// The frame as `lantern.frame/2`.
+// The frame as `lantern.frame/2`, or as the version before.
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "base/json_writer.hpp"
@@ -11,10 +14,12 @@ namespace {
 // Points have as many numbers as the world has dimensions.
 class FrameWriter {
  public:
-  explicit FrameWriter(const Frame& frame) : frame_(frame) {}
+  FrameWriter(const Frame& frame, FactsVersion version)
+      : frame_(frame), whole_way_(version == FactsVersion::v2) {}
 
   std::string written() {
-    json_.begin_object().line().member("format", "lantern.frame/2");
+    json_.begin_object().line().member("format",
+                                       whole_way_ ? "lantern.frame/2" : "lantern.frame/1");
     json_.line().member("scenario", frame_.scenario);
     json_.line().member("frame", frame_.index);
     json_.line().member("time", frame_.time);
@@ -27,10 +32,12 @@ class FrameWriter {
     json_.line().key("pairs").begin_array();
     for (const FramePair& p : frame_.pairs) write(p.pair);
     json_.end_array();
-    json_.line().key("overlaps").begin_array();
-    for (const FramePair& p : frame_.pairs)
-      if (p.overlaps) write(p.pair);
-    json_.end_array();
+    if (whole_way_) {
+      json_.line().key("overlaps").begin_array();
+      for (const FramePair& p : frame_.pairs)
+        if (p.overlaps) write(p.pair);
+      json_.end_array();
+    }
     write_list("contacts", frame_.contacts);
     if (!frame_.links.empty()) write_list("links", frame_.links);
     if (!frame_.rays.empty()) write_list("rays", frame_.rays);
@@ -39,7 +46,9 @@ class FrameWriter {
     if (!frame_.walls.empty()) write_list("walls", frame_.walls);
     if (!frame_.textures.empty()) write_list("textures", frame_.textures);
     json_.line().key("counts").begin_object();
-    for (const auto& [name, number] : frame_.counts) json_.line().member(name, number);
+    for (const auto& [name, number] : frame_.counts)
+      if (whole_way_ || std::ranges::find(kNewCounts, name) == std::end(kNewCounts))
+        json_.line().member(name, number);
     if (!frame_.counts.empty()) json_.line();
     json_.end_object();
     if (!frame_.measures.empty()) {
@@ -47,7 +56,7 @@ class FrameWriter {
       for (const auto& [name, number] : frame_.measures) json_.line().member(name, number);
       json_.line().end_object();
     }
-    if (frame_.since_last_frame) write(*frame_.since_last_frame);
+    if (whole_way_ && frame_.since_last_frame) write(*frame_.since_last_frame);
     json_.line().member("hash", fmt::format("{:016x}", frame_.hash));
     json_.line().end_object();
     return json_.text() + "\n";
@@ -142,7 +151,8 @@ class FrameWriter {
     else
       member("angular_momentum", body.angular_momentum);
     member("box", body.box);
-    if (body.stored_box && !(*body.stored_box == body.box)) member("stored_box", *body.stored_box);
+    if (whole_way_ && body.stored_box && !(*body.stored_box == body.box))
+      member("stored_box", *body.stored_box);
     json_.member("static", body.is_static).member("asleep", body.asleep).end_object();
   }
 
@@ -238,12 +248,18 @@ class FrameWriter {
     json_.member("refused", texture.refused).end_object();
   }
 
+  static constexpr std::string_view kNewCounts[] = {"testable_pairs", "pairs_tested", "impulses",
+                                                    "leaves_asleep", "branches_asleep"};
+
   const Frame& frame_;
+  bool whole_way_;
   JsonWriter json_;
 };
 
 }  // namespace
 
-std::string to_json(const Frame& frame) { return FrameWriter(frame).written(); }
+std::string to_json(const Frame& frame, FactsVersion version) {
+  return FrameWriter(frame, version).written();
+}
 
 }  // namespace lantern

@@ -161,10 +161,9 @@ class LectureQuadtree {
       ++c.allocations;
       c.entries -= node.GetContents().size();
       c.depth = std::max<std::uint64_t>(c.depth, tree.config_.max_depth - depthLeft + 1);
-      for (Node& child : node.GetChildren()) {
-        child.number = static_cast<int>(c.nodes++);
-        tell(Event::Kind::make_child, child, last);
-      }
+      // All are there before the first is told of.
+      for (Node& child : node.GetChildren()) child.number = static_cast<int>(c.nodes++);
+      for (Node& child : node.GetChildren()) tell(Event::Kind::make_child, child, last);
       tree.require_room(c.nodes, "nodes", last);
     }
     void HandedDown(const Node& node, BodyId body) { tell(Event::Kind::hand_down, node, body); }

@@ -86,7 +86,7 @@ TEST(MeasureBroadPhase, WritesTablesAndAPageForEachTree) {
   const json report = json::parse(o.out);
   EXPECT_EQ(report["format"], "lantern.measure.broad_phase/1");
   ASSERT_EQ(report["scenes"].size(), 1u);
-  EXPECT_EQ(report["scenes"][0]["sentences"].size(), 3u) << "one a tree";
+  EXPECT_EQ(report["scenes"][0]["sentences"].size(), 4u) << "one a tree";
   expect_csv(read_text(out / "broad_phase.csv"), report["rows"].size());
   EXPECT_NE(read_text(out / "broad_phase.txt").find("sort_and_sweep"), std::string::npos);
 }
