@@ -121,7 +121,8 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
     if (!holds(shrunk(map.picture(), -30), box)) continue;
     // What the structure holds, where one can see that it is more.
     const Box<2> held = map.to_page(body.stored_box.value_or(body.box));
-    if (box.lo.x - held.lo.x > kSeen || held.hi.x - box.hi.x > kSeen)
+    const bool more = box.lo.x - held.lo.x > kSeen || held.hi.x - box.hi.x > kSeen;
+    if (more && holds(shrunk(map.picture(), -30), held))
       list.rect(held, Role::none, {Role::quiet_ink, 1.2, 3});
     if (!body.lit)  // the others have one already
       list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});

@@ -124,13 +124,13 @@ struct PutOn {
   void operator()(LineShape line) const {
     line.from = to_page(line.from);
     line.to = to_page(line.to);
-    line.stroke.width *= unit;
+    line.stroke.width = wide(line.stroke.width);
     if (contains(view.panel(), line.from) && contains(view.panel(), line.to))
       shapes.emplace_back(line);
   }
   void operator()(PolygonShape polygon) const {
     for (Vec<2>& p : polygon.points) p = to_page(p);
-    polygon.stroke.width *= unit;
+    polygon.stroke.width = wide(polygon.stroke.width);
     add_polygon(polygon.points, polygon.fill, polygon.stroke, view, shapes);
   }
   void operator()(const RectShape& rect) const {
@@ -143,6 +143,9 @@ struct PutOn {
     (*this)(PolygonShape{std::move(points), rect.fill, rect.stroke});
   }
   void operator()(const TextShape&) const {}  // no mark has any
+
+  // A stroke that covers the panel need not be wider.
+  double wide(double width) const { return std::min(width * unit, view.panel().size().x); }
 };
 
 template <class ToPage>

@@ -109,9 +109,7 @@ class EngineOf : public Engine {
     }
   }
 
-  void rebuild() override {
-    if (has_structure() && !has_contacts()) look_ahead();
-  }
+  void rebuild() override { outdated_ = true; }
 
   void rebuild_as(const StructureSpec& structure) override {
     count_builds();
@@ -167,8 +165,7 @@ class EngineOf : public Engine {
   void forget_events() override { begins_ = ends_ = 0; }
 
   void picture(const Touched& touched, Frame& frame) override {
-    if (has_structure() && (has_contacts() || !world().broad_phase()) && !being_stored_)
-      look_ahead();
+    if (has_structure()) bring_up_to_date();
     picture_world(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
     picture_structure(structure_, players_.world(), tells_sleepers(), touched, frame);
@@ -205,6 +202,14 @@ class EngineOf : public Engine {
     steered_ = true;
   }
 
+  // What is drawn or asked is the structure of the bodies as they are. Without contacts nobody else
+  // needs it: it is built only then.
+  void bring_up_to_date() {
+    if (being_stored_) return;
+    if (outdated_ || has_contacts() || !world().broad_phase()) look_ahead();
+    outdated_ = false;
+  }
+
   void look_ahead() {
     if (!steered_) steer();
     world().look_ahead(scenario_.world.time_step);
@@ -214,7 +219,8 @@ class EngineOf : public Engine {
   template <class Verb>
   Finding answer(const Verb& verb) {
     ++work_.queries;
-    if (!has_structure() || has_contacts() || !world().broad_phase()) look_ahead();
+    if (!has_structure()) outdated_ = true;
+    bring_up_to_date();
     return asked<D>(verb, players_.world());
   }
 
@@ -270,6 +276,7 @@ class EngineOf : public Engine {
   StructureSpec structure_;
   bool steered_ = false;       // who has a brain has made up its mind about the next step
   bool being_stored_ = false;  // a body is on its way down the structure
+  bool outdated_ = false;      // bodies have moved on since it was built
   Brains<D> brains_;
   WorldWork last_;             // what the last step did
   BroadPhaseCounters builds_;  // of them, what is counted

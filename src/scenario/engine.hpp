@@ -45,8 +45,8 @@ class Engine {
   virtual void wake(std::size_t body) = 0;
   virtual void solve_by(const SolveBy& method) = 0;
   virtual void step() = 0;     // one world step
-  // The structure of the bodies as they are, its memory reused. With contacts this is left to the
-  // world, whose next step needs it: it is built when a frame or a query asks for it, or else then.
+  // From now on the structure is that of the bodies as they are. It is built, its memory reused,
+  // when a frame, a query or the next step of a world with contacts needs it.
   virtual void rebuild() = 0;
   // Another structure, all bodies anew; the world's broad phase becomes the same kind.
   virtual void rebuild_as(const StructureSpec& structure) = 0;

@@ -235,6 +235,9 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
   NodePicture<D> picture(spec, touched, frame);
   structure.with_dynamic([&](const auto& tree) {
+    if (const int axis = structure.sweep_axis(); axis >= 0)
+      frame.settings = fmt::format("sorted along {}, then swept{}", "xyz"[axis],
+                                   spec.split_static ? ", static bodies apart" : "");
     picture.add(tree, tells_sleepers ? awake_nodes(tree, awake) : std::vector<bool>(), false);
   });
   if (spec.split_static)

@@ -480,6 +480,18 @@ std::optional<Box<D>> BroadPhase<D>::box_of(BodyId id) const {
 }
 
 template <int D>
+int BroadPhase<D>::sweep_axis() const {
+  return std::visit(
+      [](const auto& structure) {
+        if constexpr (requires { structure.axis(); })
+          return structure.axis();
+        else
+          return -1;
+      },
+      dynamic_.structure);
+}
+
+template <int D>
 bool BroadPhase<D>::is_stale(const Item<D>& item) const {
   std::size_t place = 0;
   const Store* store = store_of(item.id, place);

@@ -141,6 +141,9 @@ class BroadPhase {
   // Of these, which no longer lies where a structure that is fitted to its bodies has it.
   bool is_stale(const Item<D>& item) const;
 
+  // Of the dynamic structure, if it sweeps: the axis along which it sorted last; otherwise -1.
+  int sweep_axis() const;
+
   // f(structure) with the real type of structure (see structure.hpp for what it offers: visit,
   // visit_toward, kZones, counters), its bodies named by their ids: for views and queries. The
   // structures of the last update or build; if all slept, the dynamic one as it was last built, or

@@ -5,10 +5,9 @@
 #include <ostream>
 #include <utility>
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "base/file.hpp"
 #include "render/renderer.hpp"
@@ -33,9 +32,10 @@ DrawList page_of(double width, double height, std::vector<DrawShape> shapes) {
 
 namespace {
 
-// The renderer of the last size asked for, kept from test to test. It must go before main ends: in
-// the exit handlers the GL library may be torn down before a static object of ours is.
-class LastRenderer : public testing::Environment {
+// The renderer of the last size asked for, kept within a test: the next one may make contexts of
+// its own. It must go before main ends: in the exit handlers the GL library may be torn down before
+// a static object of ours is.
+class LastRenderer : public testing::EmptyTestEventListener {
  public:
   Renderer& of(int width, int height) {
     // A context is current from when it is made until the next one is: one at a time.
@@ -46,15 +46,18 @@ class LastRenderer : public testing::Environment {
     }
     return *renderer_;
   }
-  void TearDown() override { renderer_.reset(); }
+  void OnTestEnd(const testing::TestInfo&) override { renderer_.reset(); }
 
  private:
   std::unique_ptr<Renderer> renderer_;
   std::pair<int, int> size_;
 };
 
-LastRenderer& last_renderer =
-    *static_cast<LastRenderer*>(testing::AddGlobalTestEnvironment(new LastRenderer));
+LastRenderer& last_renderer = *[] {
+  auto* listener = new LastRenderer;
+  testing::UnitTest::GetInstance()->listeners().Append(listener);
+  return listener;
+}();
 
 }  // namespace
 
