@@ -68,13 +68,15 @@ TEST(Warnings, AreAListOfTheirOwnInJson) {
 TEST(Warnings, AreGivenOfNothingThatComesWithLantern) {
   const std::string root = repository("scenarios");
 #ifdef __SANITIZE_ADDRESS__
-  const std::vector<std::string> paces = {"event"};  // which does all that the other does
+  // Event pace does all that the other does; crowds among the problems would take minutes.
+  const std::vector<std::string> paces = {"event"};
+  const std::string files = root + "/*.toml";
 #else
   const std::vector<std::string> paces = {"step", "event"};
+  const std::string files = root + "/*.toml " + root + "/problems/*.toml";
 #endif
   for (const std::string& pace : paces) {
-    const Outcome o = shell("lantern check --strict --pace " + pace + " " + root + "/*.toml " +
-                            root + "/problems/*.toml");
+    const Outcome o = shell("lantern check --strict --pace " + pace + " " + files);
     EXPECT_EQ(o.code, 0) << o.err;
   }
 }
