@@ -109,7 +109,7 @@ void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
   const auto fixed =
       static_cast<std::size_t>(std::ranges::count(boxes, true, &Proxy<D>::is_static));
   c.all_pairs += all_pairs(boxes.size());
-  c.testable_pairs += all_pairs(boxes.size()) - all_pairs(fixed);
+  c.testable_pairs += testable_pairs(boxes.size(), fixed);
   c.true_pairs += truth.size();
   c.missed += count_missing(truth, broad_phase.pairs());
   c.invented += count_missing(broad_phase.pairs(), truth);

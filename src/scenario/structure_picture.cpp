@@ -38,13 +38,13 @@ std::string child_label(StructureKind kind, const std::string& parent, std::uint
   return parent == "root" ? way : parent + "." + way;
 }
 
-// "capacity 2, depth limit 4, all children made"
-std::string settings_text(const StructureSpec& s) {
+// "capacity 2, depth limit 4, all children made"; `sweep_axis`: of a sweep.
+std::string settings_text(const StructureSpec& s, int sweep_axis) {
   const std::string split = s.split_static ? ", static bodies apart" : "";
   const StructureTraits traits = traits_of(s.kind);
-  if (s.kind == StructureKind::none) return "";
   if (s.kind == StructureKind::brute_force) return "every body with every other" + split;
-  if (s.kind == StructureKind::sort_and_sweep) return "sorted along one axis, then swept" + split;
+  if (s.kind == StructureKind::sort_and_sweep)
+    return fmt::format("sorted along {}, then swept{}", "xyz"[sweep_axis], split);
   if (s.kind == StructureKind::bsp)
     return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
                        split);
@@ -176,10 +176,10 @@ std::uint64_t count_stale(const World<D>& world) {
 }
 
 // Pairs of which a broad phase would test one: not both never move.
-std::uint64_t testable_pairs(const Frame& frame) {
+std::uint64_t testable_pairs_of(const Frame& frame) {
   const auto never_move = static_cast<std::uint64_t>(
       std::ranges::count_if(frame.bodies, [](const FrameBody& body) { return body.is_static; }));
-  return all_pairs(frame.bodies.size()) - all_pairs(never_move);
+  return testable_pairs(frame.bodies.size(), never_move);
 }
 
 }  // namespace
@@ -225,19 +225,16 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
     frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
   };
   frame.structure = spec.kind;
-  frame.settings = settings_text(spec);
   if (spec.kind == StructureKind::none) {
     count("all_pairs", all_pairs(frame.bodies.size()));
-    count("testable_pairs", testable_pairs(frame));
+    count("testable_pairs", testable_pairs_of(frame));
     return;
   }
   const BroadPhase<D>& structure = *world.broad_phase();
+  frame.settings = settings_text(spec, structure.sweep_axis());
   const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
   NodePicture<D> picture(spec, touched, frame);
   structure.with_dynamic([&](const auto& tree) {
-    if (const int axis = structure.sweep_axis(); axis >= 0)
-      frame.settings = fmt::format("sorted along {}, then swept{}", "xyz"[axis],
-                                   spec.split_static ? ", static bodies apart" : "");
     picture.add(tree, tells_sleepers ? awake_nodes(tree, awake) : std::vector<bool>(), false);
   });
   if (spec.split_static)
@@ -258,7 +255,7 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   count("pairs", chain.pairs.size());
   count("pair_tests", chain.met);
   count("all_pairs", all_pairs(frame.bodies.size()));
-  count("testable_pairs", testable_pairs(frame));
+  count("testable_pairs", testable_pairs_of(frame));
   count("overlaps", chain.overlapping.size());
   count("box_tests", c.box_tests);
   count("splits", c.splits);

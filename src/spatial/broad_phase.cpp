@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stop.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern {
 namespace {
@@ -373,14 +374,6 @@ void BroadPhase<D>::sort_pairs() {
 // --- the chain of pairs ---
 
 namespace {
-
-void require_within(std::uint64_t met, std::uint64_t most) {
-  if (met > most)
-    throw Refused(fmt::format(
-        "{} pairs meet in the leaves, the limit is {}; take fewer bodies, or a structure that "
-        "parts them better",
-        met, most));
-}
 
 // f(place, place) for each pair met in the leaves of which at least one stirs.
 template <int D, class Tree, class F>

@@ -25,8 +25,22 @@ inline void sort_pairs(std::vector<Pair>& pairs) {
   });
 }
 
-// n(n-1)/2: what brute force would test.
+// n(n-1)/2
 constexpr std::uint64_t all_pairs(std::uint64_t n) { return n < 2 ? 0 : n * (n - 1) / 2; }
+
+// Those of n bodies that brute force would test: not both of the `never_move` that never do.
+constexpr std::uint64_t testable_pairs(std::uint64_t n, std::uint64_t never_move) {
+  return all_pairs(n) - all_pairs(never_move);
+}
+
+// Throws Refused if more pairs meet than `budget`.
+inline void require_within(std::uint64_t met, std::uint64_t budget) {
+  if (met > budget)
+    throw Refused(fmt::format(
+        "{} pairs meet in the leaves, the limit is {}; take fewer bodies, or a structure that "
+        "parts them better",
+        met, budget));
+}
 
 // How many pairs meet in the leaves; needs no memory, so it may be asked before collecting them.
 template <class Structure>
@@ -46,11 +60,7 @@ template <class Structure, class Wanted>
 CandidatePairs pairs_where(const Structure& structure, std::uint64_t budget, Wanted&& wanted) {
   CandidatePairs found;
   found.pair_tests = count_pair_tests(structure);
-  if (found.pair_tests > budget)
-    throw Refused(fmt::format(
-        "{} pairs meet in the leaves, the limit is {}; take fewer bodies, or a structure that "
-        "parts them better",
-        found.pair_tests, budget));
+  require_within(found.pair_tests, budget);
   structure.visit([&](const auto& node) {
     for (std::size_t i = 0; i < node.bodies.size(); ++i) {
       stop_if_asked();
