@@ -9,7 +9,7 @@
 namespace lantern {
 namespace {
 
-constexpr std::size_t kMostLinks = 120;
+constexpr std::size_t kMostDrawnLinks = 120;
 constexpr std::size_t kMostArrows = 300;
 constexpr std::size_t kMostPoints = 500;
 constexpr std::size_t kFewPoints = 60;  // more are drawn smaller
@@ -65,7 +65,7 @@ std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to) {
 }
 
 void mark_links(const Frame& frame, Marks& marks) {
-  for (const FrameLink& link : first_of(frame.links, kMostLinks)) {
+  for (const FrameLink& link : first_of(frame.links, kMostDrawnLinks)) {
     const Stroke stroke = strain_stroke(link.strain);
     switch (link.kind) {
       case FrameLink::Kind::pin:

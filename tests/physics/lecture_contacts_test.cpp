@@ -58,7 +58,7 @@ TEST(LectureContacts, EqualBallsSwapTheirVelocities) {
 }
 
 template <int D>
-World<D> crowd(const WorldConfig<D>& config) {
+World<D> mixed_crowd(const WorldConfig<D>& config) {
   World<D> world(config);
   Random random(21);
   for (int i = 0; i < 40; ++i) {
@@ -73,7 +73,7 @@ World<D> crowd(const WorldConfig<D>& config) {
 
 template <int D>
 void expect_momentum_kept() {
-  World<D> world = crowd(by_the_lecture<D>());
+  World<D> world = mixed_crowd(by_the_lecture<D>());
   const Vec<D> before = momentum(world);
   std::uint64_t touches = 0;
   for (int i = 0; i < 60; ++i) {
@@ -96,7 +96,7 @@ TEST(LectureContacts, EveryBroadPhaseGivesTheSameMotion) {
   for (const StructureKind kind : kStructureKinds) {
     WorldConfig<3> config = by_the_lecture<3>();
     config.broad_phase.kind = kind;
-    World<3> world = crowd(config);
+    World<3> world = mixed_crowd(config);
     run(world, 1);
     EXPECT_EQ(world.hash(), hash.value_or(world.hash())) << to_string(kind);
     hash = world.hash();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -29,11 +30,23 @@ Scenario shipped(const std::string& name) {
   return load_scenario(LANTERN_ROOT "/scenarios/" + name + ".toml");
 }
 
-std::vector<std::string> all_scenarios() {
+namespace {
+
+std::vector<std::string> files_in(const std::string& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios"))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+  for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios/" + folder))
+    if (entry.path().extension() == ".toml") names.push_back(folder + entry.path().stem().string());
   std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> all_scenarios() { return files_in(""); }
+
+std::vector<std::string> all_files() {
+  std::vector<std::string> names = all_scenarios();
+  std::ranges::copy(files_in("problems/"), std::back_inserter(names));
   return names;
 }
 

@@ -18,6 +18,7 @@ std::vector<Frame> frames_of(const std::string& name, Pace pace = Pace::step);
 
 Scenario shipped(const std::string& name);
 std::vector<std::string> all_scenarios();
+std::vector<std::string> all_files();  // scenarios and problems, by names for `shipped`
 
 // The first frame of this event, the node of this label, the body of this name; the test fails if
 // there is none.

@@ -2,7 +2,6 @@
 #include "scenario/tally.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/world_config.hpp"
+#include "scenario/directing.hpp"
 #include "scenario/engine.hpp"
 #include "scenario/parsing.hpp"
 #include "scenario/reference.hpp"
@@ -19,18 +19,6 @@
 
 namespace lantern::test {
 namespace {
-
-namespace fs = std::filesystem;
-
-// Those that come with Lantern, then the problems.
-std::vector<std::string> all_files() {
-  std::vector<std::string> files;
-  for (const char* folder : {LANTERN_ROOT "/scenarios", LANTERN_ROOT "/scenarios/problems"})
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 // One dry run of a scenario, tallied, and what its frames say by themselves.
 struct DryRun {
@@ -228,7 +216,7 @@ TEST(Tally, IsWhatTheCountersSayOfEveryScenarioAndProblem) {
   EXPECT_GT(files.size(), 80u);
   for (const std::string& file : files) {
     SCOPED_TRACE(file);
-    const DryRun run(load_scenario(file));
+    const DryRun run(shipped(file));
     expect_world(run);
     expect_physics(run);
     expect_structures(run);
@@ -284,7 +272,7 @@ TEST(Tally, OfALevelThatIsNotCompiled) {
 }
 
 TEST(Tally, TellsAKindOfStructureByItsBuilds) {
-  const DryRun run(load_scenario(LANTERN_ROOT "/scenarios/pong_bsp.toml"));
+  const DryRun run(shipped("pong_bsp"));
   EXPECT_EQ(run.count("structure", "brute_force builds"), 1u);
   EXPECT_EQ(run.count("structure", "bsp builds"), 66u);
 }
