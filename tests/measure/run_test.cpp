@@ -84,6 +84,8 @@ seconds = 40
 TEST(Run, OneThatIsStoppedCanBeRunAgain) {
   PlanOptions options;
   options.scenarios = {thrown()};
+  options.methods = {"velocity_verlet"};
+  options.steps = {0.01};
   options.peers = false;
   Plan plan(std::move(options), [](const Scenario&) {});
   ask_to_stop();
