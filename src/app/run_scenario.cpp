@@ -7,7 +7,7 @@
 #include "app/terminal.hpp"
 #include "base/memory.hpp"
 #include "base/stop.hpp"
-#include "draw/in_sight.hpp"
+#include "draw/page.hpp"
 #include "scenario/warnings.hpp"
 
 namespace lantern {

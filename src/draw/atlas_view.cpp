@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
+#include "geometry/flat.hpp"
 
 namespace lantern {
 namespace {
@@ -21,9 +22,7 @@ constexpr double kAtlasHeading = 30;
 constexpr double kTextureGap = 8;  // between textures in the strip
 
 Vec<2> atlas_size(const Frame& frame) {
-  if (frame.nodes.empty()) return Vec<2>(1.0);
-  const Vec<2> size = frame.nodes[0].box.size();
-  return {std::max(size.x, 1.0), std::max(size.y, 1.0)};
+  return frame.nodes.empty() ? Vec<2>(1.0) : glm::max(flat(frame.nodes[0].box).size(), 1.0);
 }
 
 class AtlasView {
@@ -79,9 +78,9 @@ class AtlasView {
     std::vector<const FrameNode*> leaves;
     for (const FrameNode& node : frame_.nodes)
       if (node.leaf && node.bodies.empty()) leaves.push_back(&node);
-    const auto area = [](const FrameNode* node) { return node->box.size().x * node->box.size().y; };
-    std::stable_sort(leaves.begin(), leaves.end(),
-                     [&](const FrameNode* a, const FrameNode* b) { return area(a) > area(b); });
+    std::ranges::stable_sort(leaves, std::greater(), [](const FrameNode* node) {
+      return node->box.size().x * node->box.size().y;
+    });
     if (leaves.size() > kMostFree) leaves.resize(kMostFree);
     return leaves;
   }
@@ -131,12 +130,8 @@ class AtlasView {
 
   void draw_strip() {
     std::vector<const FrameTexture*> waiting, refused;
-    for (const FrameTexture& t : frame_.textures) {
-      if (t.refused)
-        refused.push_back(&t);
-      else if (!t.packed)
-        waiting.push_back(&t);
-    }
+    for (const FrameTexture& t : frame_.textures)
+      if (t.refused || !t.packed) (t.refused ? refused : waiting).push_back(&t);
     choose_strip_scale();
     Box<2> upper = strip_;
     if (!refused.empty()) upper.hi.y -= 0.4 * strip_.size().y;

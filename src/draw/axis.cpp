@@ -32,17 +32,6 @@ double power_value(int power) {
   return power < 0 ? 1 / value : value;
 }
 
-// Where all values are one, they get a range all the same.
-void widen(double& low, double& high) {
-  if (low < high) return;
-  if (low == 0)
-    high = 1;
-  else if (low > 0)
-    low = 0;
-  else
-    high = 0;
-}
-
 }  // namespace
 
 Axis Axis::linear(double least, double most, int most_ticks) {
@@ -50,7 +39,8 @@ Axis Axis::linear(double least, double most, int most_ticks) {
   double low = std::clamp(least, -kMost, kMost), high = std::clamp(most, -kMost, kMost);
   if (low > 0 && low < 0.7 * high) low = 0;
   if (high < 0 && high > 0.7 * low) high = 0;
-  widen(low, high);
+  // Where all values are one, they get a range all the same.
+  if (low >= high) (low > 0 ? low : high) = low == 0 ? 1 : 0;
   // Below this, steps would be lost against the values themselves.
   const double lost = std::max(std::abs(low), std::abs(high)) * 1e-12;
   if (high - low < lost) {

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/flat.hpp"
+#include "geometry/polygon.hpp"
+
 namespace lantern {
 namespace {
 
@@ -20,22 +23,17 @@ std::vector<Vec<2>> capsule_outline(const Capsule& capsule) {
 }
 
 // In the body's own axes; empty for what looks the same however it is turned, or never turns.
-struct TurningOutline {
-  using Points = std::vector<Vec<2>>;
-  Points operator()(const Sphere&) const { return {}; }
-  Points operator()(const AxisBox<3>&) const { return {}; }
-  Points operator()(const OrientedBox<3>& box) const {
-    const Vec<3>& h = box.half_size;
-    return {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};
-  }
-  Points operator()(const Capsule& capsule) const { return capsule_outline(capsule); }
-  Points operator()(const HalfSpace<3>&) const { return {}; }
-};
+std::vector<Vec<2>> turning_outline(const Shape<3>& shape) {
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule_outline(*capsule);
+  const auto* box = std::get_if<OrientedBox<3>>(&shape);
+  if (!box) return {};
+  return polygon_of({-flat(box->half_size), flat(box->half_size)});
+}
 
 }  // namespace
 
-std::unordered_map<BodyId, const FrameBody*> by_id(const std::vector<FrameBody>& bodies) {
-  std::unordered_map<BodyId, const FrameBody*> found;
+BodiesById by_id(const std::vector<FrameBody>& bodies) {
+  BodiesById found;
   for (const FrameBody& body : bodies) found[body.id] = &body;
   return found;
 }
@@ -45,8 +43,12 @@ Vec<3> foot_on(const FrameBody& ground, const Vec<3>& point) {
   return point - normal * glm::dot(normal, point - ground.position);
 }
 
+Vec<3> link_end(const FrameBody& body, const FrameBody& other) {
+  return is_half_space(body) ? foot_on(body, other.position) : body.position;
+}
+
 std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place) {
-  std::vector<Vec<2>> points = std::visit(TurningOutline{}, body.shape);
+  std::vector<Vec<2>> points = turning_outline(body.shape);
   if (points.empty()) return points;
   // One scale for both axes, or the shape would not keep its angles.
   const Vec<3> size = body.box.size();

@@ -1,9 +1,11 @@
-// Bodies by their ids, and the outlines of their collision volumes on the page.
+// Bodies by their ids, the outlines of their collision volumes on the page, and bodies as
+// characters, made of few shapes and points in any size.
 #pragma once
 
 #include <unordered_map>
 #include <vector>
 
+#include "draw/draw_list.hpp"
 #include "draw/role.hpp"
 #include "geometry/plane.hpp"
 #include "scenario/frame.hpp"
@@ -14,16 +16,35 @@ inline bool is_half_space(const FrameBody& body) {
   return std::holds_alternative<HalfSpace<3>>(body.shape);
 }
 
+inline bool is_character(const FrameBody& body) {
+  return body.look == Look::ghost || body.look == Look::player;
+}
+
 // The ground of a node that the step is about, or has passed.
 inline Role ground_of(Mark mark) {
   if (mark == Mark::lit) return Role::lit_fill;
   return mark == Mark::passed ? Role::passed_fill : Role::panel;
 }
 
-std::unordered_map<BodyId, const FrameBody*> by_id(const std::vector<FrameBody>& bodies);
+using BodiesById = std::unordered_map<BodyId, const FrameBody*>;
+BodiesById by_id(const std::vector<FrameBody>& bodies);
 
 // The point of a half-space's surface that is nearest to a point.
 Vec<3> foot_on(const FrameBody& ground, const Vec<3>& point);
+
+// Where a pair's link ends at this body: its centre, or the place of the ground nearest to the
+// other one.
+Vec<3> link_end(const FrameBody& body, const FrameBody& other);
+
+// f(one, other, pair) for each pair that both bodies of are in `bodies`, until it gives false.
+template <class F>
+bool for_each_pair(const Frame& frame, const BodiesById& bodies, const F& f) {
+  for (const FramePair& pair : frame.pairs) {
+    const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
+    if (a != bodies.end() && b != bodies.end() && !f(*a->second, *b->second, pair)) return false;
+  }
+  return true;
+}
 
 // The outline of a box or capsule that turns, when the body's box fills `place`; convex. Empty for
 // any other shape.
@@ -31,5 +52,17 @@ std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place);
 
 // The surface of a half-space through this point of the page; the solid is behind it.
 Plane<2> page_surface(const FrameBody& body, const Vec<2>& through);
+
+// Draws the body so that it fills `place` (page units). Eyes and mouth turn along its velocity.
+// Below some 14 units across, and when `plain`, a body is one simple shape.
+void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list);
+
+// The emblem of a colour around `center`: what tells colours apart without colour.
+void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list);
+
+// The letter of sleep, in this box.
+void draw_z(const Box<2>& box, const Stroke& stroke, DrawList& list);
+// "z z", for what sleeps; the first letter's upper left corner lies `unit` / 5 under `corner`.
+void draw_zz(const Vec<2>& corner, double unit, double width, DrawList& list);
 
 }  // namespace lantern

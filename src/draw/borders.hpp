@@ -69,19 +69,15 @@ class Borders {
   static double rounded(double x) { return std::round(x * 64) / 64; }
 
   void join() {
-    std::sort(pieces_.begin(), pieces_.end(),
-              [](const Piece& a, const Piece& b) { return a.key() < b.key(); });
+    std::ranges::sort(pieces_, {}, &Piece::key);
     std::vector<Piece> joined;
     for (const Piece& p : pieces_) {
-      if (!joined.empty()) {
-        Piece& last = joined.back();
-        if (std::tie(last.depth, last.axis, last.at) == std::tie(p.depth, p.axis, p.at) &&
-            p.from <= last.to + 1.0 / 64) {
-          last.to = std::max(last.to, p.to);
-          continue;
-        }
-      }
-      joined.push_back(p);
+      Piece* const last = joined.empty() ? nullptr : &joined.back();
+      if (last && std::tie(last->depth, last->axis, last->at) == std::tie(p.depth, p.axis, p.at) &&
+          p.from <= last->to + 1.0 / 64)
+        last->to = std::max(last->to, p.to);
+      else
+        joined.push_back(p);
     }
     pieces_ = std::move(joined);
   }

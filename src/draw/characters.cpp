@@ -1,10 +1,9 @@
-#include "draw/characters.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
-#include "draw/metrics.hpp"
+#include "draw/draw_list.hpp"
 #include "draw/pen.hpp"
 #include "geometry/polygon.hpp"
 
@@ -52,8 +51,7 @@ void draw_eye(const Figure& f, double x, bool asleep, DrawList& list) {
   const Vec<2> middle = f.at(x, -0.2);
   if (asleep) {
     const Vec<2> half{0.2 * f.unit, 0};
-    list.line(middle - half, middle + half, {Role::body_line, 1.3 * f.line});
-    return;
+    return list.line(middle - half, middle + half, {Role::body_line, 1.3 * f.line});
   }
   const double white = 0.235 * f.unit, black = 0.125 * f.unit;
   list.disc(middle, white, Role::eye);
@@ -104,7 +102,7 @@ void draw_slab(const FrameBody& body, const Figure& f, double radius, DrawList& 
 void draw_turned(const FrameBody& body, const Figure& f, std::vector<Vec<2>> outline,
                  DrawList& list) {
   list.polygon(std::move(outline), fill_of(body), rim_of(body, f));
-  if (body.look != Look::ghost && body.look != Look::player) return;
+  if (!is_character(body)) return;
   draw_eye(f, -0.3, body.asleep, list);
   draw_eye(f, 0.3, body.asleep, list);
 }
@@ -139,10 +137,8 @@ void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, D
 
 // "z z" for a body that sleeps: in the middle, or of a character beside its head.
 void draw_sleep(const FrameBody& body, const Figure& f, DrawList& list) {
-  const bool character = body.look == Look::ghost || body.look == Look::player;
-  const Vec<2> corner =
-      character ? f.center + Vec<2>(0.5, -0.98) * f.unit : f.center + Vec<2>(-0.34, -0.12) * f.unit;
-  draw_zz(corner, f.unit, std::max(1.2, 0.9 * f.line), list);
+  const Vec<2> corner = is_character(body) ? Vec<2>(0.5, -0.98) : Vec<2>(-0.34, -0.12);
+  draw_zz(f.center + corner * f.unit, f.unit, std::max(1.2, 0.9 * f.line), list);
 }
 
 void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
@@ -161,6 +157,16 @@ void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
             round ? f.unit : 0);
 }
 
+void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, DrawList& list) {
+  if (std::vector<Vec<2>> outline = turned_outline(body, place); !outline.empty())
+    return draw_turned(body, f, std::move(outline), list);
+  if (body.look == Look::ghost) return draw_ghost(body, f, list);
+  if (body.look == Look::player) return draw_player(body, f, list);
+  if (body.look == Look::bat) return draw_slab(body, f, 0.45 * f.unit, list);
+  if (body.look == Look::box) return draw_slab(body, f, 0.12 * f.unit, list);
+  draw_round(body, f, list);
+}
+
 }  // namespace
 
 void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list) {
@@ -168,56 +174,16 @@ void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list)
   const auto bar = [&](double x, double y) {
     list.rect(Box<2>::around(center, Vec<2>(x, y) * radius), role);
   };
-  switch ((color - 1) % 8) {
-    case 0:
-      list.disc(center, 0.85 * radius, role);
-      break;
-    case 1:
-      list.polygon(ring_of(center, 1.15 * radius, 3, -kPi / 2), role);
-      break;
-    case 2:
-      bar(0.8, 0.8);
-      break;
-    case 3:
-      list.polygon(ring_of(center, 1.1 * radius, 4), role);
-      break;
-    case 4:
-      bar(1.3, 0.42);
-      break;
-    case 5:
-      bar(1.1, 0.36);
-      bar(0.36, 1.1);
-      break;
-    case 6:
-      list.disc(center, 0.75 * radius, Role::none, {role, 0.45 * radius});
-      break;
-    default:
-      bar(0.42, 1.2);
-      break;
-  }
+  const int emblem = (color - 1) % 8;
+  if (emblem == 0) list.disc(center, 0.85 * radius, role);
+  if (emblem == 1) list.polygon(ring_of(center, 1.15 * radius, 3, -kPi / 2), role);
+  if (emblem == 2) bar(0.8, 0.8);
+  if (emblem == 3) list.polygon(ring_of(center, 1.1 * radius, 4), role);
+  if (emblem == 4) bar(1.3, 0.42);
+  if (emblem == 5) bar(1.1, 0.36), bar(0.36, 1.1);
+  if (emblem == 6) list.disc(center, 0.75 * radius, Role::none, {role, 0.45 * radius});
+  if (emblem == 7) bar(0.42, 1.2);
 }
-
-namespace {
-
-void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, DrawList& list) {
-  if (std::vector<Vec<2>> outline = turned_outline(body, place); !outline.empty())
-    return draw_turned(body, f, std::move(outline), list);
-  switch (body.look) {
-    case Look::ghost:
-      return draw_ghost(body, f, list);
-    case Look::player:
-      return draw_player(body, f, list);
-    case Look::ball:
-    case Look::disc:
-      return draw_round(body, f, list);
-    case Look::bat:
-      return draw_slab(body, f, 0.45 * f.unit, list);
-    case Look::box:
-      return draw_slab(body, f, 0.12 * f.unit, list);
-  }
-}
-
-}  // namespace
 
 void draw_z(const Box<2>& box, const Stroke& stroke, DrawList& list) {
   const Vec<2> z[] = {box.lo, {box.hi.x, box.lo.y}, {box.lo.x, box.hi.y}, box.hi};
@@ -235,9 +201,7 @@ void draw_zz(const Vec<2>& corner, double unit, double width, DrawList& list) {
 
 void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list) {
   if (is_half_space(body)) return draw_ground(body, place, list);
-  Figure f;
-  f.center = place.center();
-  f.half = place.size() * 0.5;
+  Figure f{place.center(), place.size() * 0.5};
   f.unit = std::min(f.half.x, f.half.y);
   f.line = pen_width(2 * f.unit);
   const bool upright = body.look == Look::ghost;
@@ -248,8 +212,7 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   if (plain) return;
   if (body.is_static) hatch_static(body, f, place, list);
   if (body.asleep) draw_sleep(body, f, list);
-  const bool furniture = body.look != Look::ghost && body.look != Look::player;
-  if (furniture && !body.asleep && fill_of(body) != Role::static_body)
+  if (!is_character(body) && !body.asleep && fill_of(body) != Role::static_body)
     draw_emblem(body.color, f.center, 0.3 * f.unit, list);
 }
 

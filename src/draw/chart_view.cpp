@@ -1,11 +1,153 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+#include "draw/number_text.hpp"
 #include "draw/panels.hpp"
 #include "draw/plot.hpp"
+#include "draw/plot_marks.hpp"
+#include "draw/plot_parts.hpp"
 
 namespace lantern {
 namespace {
+
+constexpr double kLeastRow = 25;  // a name has room in it
+constexpr double kMostRow = 96;
+constexpr double kGroupGap = 0.55;  // between groups, in rows
+constexpr double kAfter = 10;       // between a bar and its number, or its name
+constexpr double kTickLine = 34;
+
+std::string value_text(double value) {
+  return value == std::floor(value) ? number_text(value) : short_number(value);
+}
+
+class Bars {
+ public:
+  Bars(const FrameChart& chart, const Box<2>& panel, double size, DrawList& list, Labels& labels)
+      : chart_(chart),
+        paper_(panel, size, list, labels),
+        list_(list),
+        labels_(labels),
+        bars_(chart.bars) {
+    std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
+    for (FrameBar& bar : bars_) bar.label = chart_words(bar.label);
+    std::ranges::stable_sort(bars_, {}, &FrameBar::group);
+    for (const FrameBar& bar : bars_)
+      if (std::ranges::find(names_, bar.label) == names_.end()) names_.push_back(bar.label);
+  }
+
+  void draw() {
+    paper_.heading(heading(), type_.title);
+    if (area_.lo.y > panel_.lo.y) area_.lo.y += 0.28 * type_.name.size;
+    leave_out();
+    if (bars_.empty()) return;
+    measure();
+    paper_.level_ticks(axis_, area_.lo.y, area_.hi.y + 6, {Role::rule, 1.6}, 4, 14);
+    double y = area_.lo.y + (row_ * kGroupGap) / 4;
+    for (std::size_t i = 0; i < bars_.size(); ++i) {
+      if (i > 0 && bars_[i].group != bars_[i - 1].group) y += kGroupGap * row_;
+      draw_bar(bars_[i], y);
+      y += row_;
+    }
+    const double x = x_of(zero());
+    list_.crisp_line({x, area_.lo.y}, {x, area_.hi.y}, {Role::ink, 2.2});
+    if (!note_.empty()) labels_.add(note_, {{area_.lo.x, panel_.hi.y - 5}, 0}, type_.tick, panel_);
+  }
+
+ private:
+  std::string heading() const {
+    const std::string name = chart_words(chart_.y_name);
+    if (!chart_.logarithmic) return name;
+    return name + (name.empty() ? "" : ", ") + "logarithmic scale";
+  }
+
+  double rows() const {
+    return static_cast<double>(bars_.size()) + kGroupGap * static_cast<double>(groups() - 1) +
+           kGroupGap / 2;
+  }
+  std::size_t groups() const {
+    std::size_t count = 1;
+    for (std::size_t i = 1; i < bars_.size(); ++i) count += bars_[i].group != bars_[i - 1].group;
+    return count;
+  }
+
+  // The last bars go when not all have room.
+  void leave_out() {
+    const std::size_t all = bars_.size();
+    const auto room = [&] { return area_.size().y - kTickLine * (bars_.size() < all ? 2 : 1); };
+    while (!bars_.empty() && rows() * kLeastRow > room()) bars_.pop_back();
+    if (bars_.size() < all)
+      note_ =
+          shortened(fmt::format("and {} more", all - bars_.size()), panel_.size().x, type_.tick);
+  }
+
+  void measure() {
+    double least = 0, most = 0, above_zero = 1e300, names = 0, values = 0;
+    for (const FrameBar& bar : bars_) {
+      least = std::min(least, bar.value);
+      most = std::max(most, bar.value);
+      if (bar.value > 0) above_zero = std::min(above_zero, bar.value);
+      names = std::max(names, text_width(bar.label, type_.name));
+      values = std::max(values, text_width(value_text(bar.value), type_.title));
+    }
+    names += 1;  // sums of widths lose a hair
+    values += 1;
+    area_.lo.x += std::min(names, 0.4 * panel_.size().x) + kAfter;
+    area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter;
+    area_.hi.y -= kTickLine * (note_.empty() ? 1 : 2);
+    row_ = std::min(kMostRow, area_.size().y / rows());
+    area_.hi.y = area_.lo.y + rows() * row_;
+    const int ticks = std::clamp(static_cast<int>(area_.size().x / 110), 2, 8);
+    if (chart_.logarithmic) {
+      // From 1 on where that is not far; otherwise half a decade less than the least bar, so that
+      // it has a length.
+      const double low = most > 0 ? above_zero : 1;
+      axis_ = Axis::logarithmic(low >= 1 && low < 1e5 ? 1 : low / 3, std::max(most, low), ticks);
+    } else {
+      axis_ = Axis::linear(least, most, ticks);
+    }
+  }
+
+  double zero() const { return chart_.logarithmic ? 0 : std::max(0.0, axis_.low()); }
+  double x_of(double value) const { return area_.lo.x + axis_.share(value) * area_.size().x; }
+
+  // One for each name, from the first bar on: groups to come have bars of the same names, and no
+  // bar may change its colour when they do.
+  Role color_of(const FrameBar& bar) const {
+    const auto at = std::ranges::find(names_, bar.label) - names_.begin();
+    return plot_role(static_cast<int>(at));
+  }
+
+  void draw_bar(const FrameBar& bar, double top) {
+    const double thick = std::min(0.7 * row_, 52.0), middle = top + row_ / 2;
+    const double from = x_of(zero()), to = x_of(bar.value);
+    const Box<2> box{{std::min(from, to), middle - thick / 2},
+                     {std::max(from, to), middle + thick / 2}};
+    if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
+    const double room = area_.lo.x - panel_.lo.x - kAfter;
+    labels_.add(shortened(bar.label, room, type_.name),
+                centred({area_.lo.x - kAfter, middle}, type_.name, 1), type_.name, panel_);
+    const double left = std::max(from, to) + kAfter;
+    labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),
+                centred({left, middle}, type_.title, 0), type_.title, panel_);
+  }
+
+  const FrameChart& chart_;
+  PlotPaper paper_;
+  const PlotType& type_ = paper_.type;
+  const Box<2>& panel_ = paper_.place.panel;
+  Box<2>& area_ = paper_.place.area;
+  DrawList& list_;
+  Labels& labels_;
+  std::vector<FrameBar> bars_;
+  std::vector<std::string> names_;
+  std::string note_;
+  double row_ = kLeastRow;
+  Axis axis_;
+};
 
 // A panel that has the page for itself gets larger type.
 double type_size(const Box<2>& panel) {
@@ -40,7 +182,7 @@ Plot plot_of(const FrameChart& chart) {
 }  // namespace
 
 std::string chart_words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
   return name;
 }
@@ -49,7 +191,7 @@ void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   const FrameChart& chart = frame.chart;
   const Box<2> place = shrunk(panel, 4);
   if (place.size().x < 40 || place.size().y < 40) return;
-  if (!chart.bars.empty()) return draw_bars(chart, place, type_size(place), list, labels);
+  if (!chart.bars.empty()) return Bars(chart, place, type_size(place), list, labels).draw();
   Plot plot = plot_of(chart);
   plot.size = type_size(place);
   draw_plot(plot, place, list, labels);

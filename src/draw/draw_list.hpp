@@ -3,6 +3,9 @@
 // order.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <variant>
@@ -55,6 +58,19 @@ struct TextShape {
 
 using DrawShape = std::variant<RectShape, LineShape, PolygonShape, TextShape>;
 
+// f(number) for every coordinate, length and size of a shape.
+template <class Shape, class F>
+void for_each_measure(Shape& shape, const F& f) {
+  const auto of_point = [&](auto& p) { f(p.x), f(p.y); };
+  if constexpr (requires { shape.box; })
+    of_point(shape.box.lo), of_point(shape.box.hi), f(shape.radius);
+  if constexpr (requires { shape.from; }) of_point(shape.from), of_point(shape.to);
+  if constexpr (requires { shape.points; })
+    for (auto& p : shape.points) of_point(p);
+  if constexpr (requires { shape.text; }) of_point(shape.at), f(shape.size);
+  if constexpr (requires { shape.stroke; }) f(shape.stroke.width), f(shape.stroke.dash);
+}
+
 // A text's place, for the layout test: labels overlap neither each other nor their panel's edge.
 struct LabelBox {
   Box<2> box;
@@ -87,5 +103,36 @@ struct DrawList {
     shapes.emplace_back(PolygonShape{std::move(points), fill, stroke});
   }
 };
+
+inline constexpr double kLeastCaption = 23.4;  // 2.6 % of 900
+inline constexpr double kLeastLabel = 17.1;    // 1.9 % of 900
+inline constexpr double kLabel = 19;
+
+// The least of `box` that a text or shape `inset` inside it may use.
+inline Box<2> shrunk(const Box<2>& box, double inset) {
+  return {box.lo + Vec<2>(inset), box.hi - Vec<2>(inset)};
+}
+
+inline bool holds(const Box<2>& outer, const Box<2>& inner) {
+  return outer.lo.x <= inner.lo.x && outer.lo.y <= inner.lo.y && inner.hi.x <= outer.hi.x &&
+         inner.hi.y <= outer.hi.y;
+}
+
+// Parts of an area beside each other along an axis, as wide as their shares, with gaps between
+// them.
+inline std::vector<Box<2>> split(const Box<2>& area, int axis, const std::vector<double>& shares,
+                                 double gap) {
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+  const double room = area.size()[axis] - gap * (static_cast<double>(shares.size()) - 1);
+  std::vector<Box<2>> parts;
+  double at = area.lo[axis];
+  for (const double share : shares) {
+    Box<2>& part = parts.emplace_back(area);
+    part.lo[axis] = at;
+    part.hi[axis] = at + room * share / all;
+    at = part.hi[axis] + gap;
+  }
+  return parts;
+}
 
 }  // namespace lantern

@@ -19,43 +19,37 @@ namespace {
 constexpr int kReplacement = 0xfffd;
 
 // One weight. Immutable once made, so every thread may use it.
-class FontFace {
- public:
+struct FontFace {
   explicit FontFace(std::string_view bytes) {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    LANTERN_CHECK(stbtt_InitFont(&info_, data, 0), !=, 0);
-    em_per_unit_ = static_cast<double>(stbtt_ScaleForMappingEmToPixels(&info_, 1.0f));
-    for (int c = 0; c < kAscii; ++c) ascii_[c] = stbtt_FindGlyphIndex(&info_, c);
+    LANTERN_CHECK(stbtt_InitFont(&info, data, 0), !=, 0);
+    em_per_unit = static_cast<double>(stbtt_ScaleForMappingEmToPixels(&info, 1.0f));
+    for (int c = 0; c < kAscii; ++c) ascii_[c] = stbtt_FindGlyphIndex(&info, c);
     for (int a = 0; a < kAscii; ++a)
       for (int b = 0; b < kAscii; ++b)
-        kern_[a * kAscii + b] = stbtt_GetGlyphKernAdvance(&info_, ascii_[a], ascii_[b]);
-    advances_.resize(info_.numGlyphs);
-    for (int g = 0; g < info_.numGlyphs; ++g)
-      stbtt_GetGlyphHMetrics(&info_, g, &advances_[g], nullptr);
+        kern_[a * kAscii + b] = stbtt_GetGlyphKernAdvance(&info, ascii_[a], ascii_[b]);
+    advances_.resize(info.numGlyphs);
+    for (int g = 0; g < info.numGlyphs; ++g)
+      stbtt_GetGlyphHMetrics(&info, g, &advances_[g], nullptr);
     int top = 0;
-    stbtt_GetGlyphBox(&info_, ascii_['H'], nullptr, nullptr, nullptr, &top);
-    cap_height_ = top * em_per_unit_;
+    stbtt_GetGlyphBox(&info, ascii_['H'], nullptr, nullptr, nullptr, &top);
+    cap_height = top * em_per_unit;
   }
 
   int glyph(int codepoint) const {
-    return codepoint < kAscii ? ascii_[codepoint] : stbtt_FindGlyphIndex(&info_, codepoint);
+    return codepoint < kAscii ? ascii_[codepoint] : stbtt_FindGlyphIndex(&info, codepoint);
   }
   // Space from the origin of `a` to that of `b` after it, in ems.
   double advance(int a, int glyph_a, int b, int glyph_b) const {
     const int kern = a < kAscii && b < kAscii ? kern_[a * kAscii + b]
-                                              : stbtt_GetGlyphKernAdvance(&info_, glyph_a, glyph_b);
-    return (advances_[glyph_a] + kern) * em_per_unit_;
+                                              : stbtt_GetGlyphKernAdvance(&info, glyph_a, glyph_b);
+    return (advances_[glyph_a] + kern) * em_per_unit;
   }
-  double advance(int glyph) const { return advances_[glyph] * em_per_unit_; }
-  double cap_height() const { return cap_height_; }
-  double em_per_unit() const { return em_per_unit_; }
-  const stbtt_fontinfo* info() const { return &info_; }
+  double advance(int glyph) const { return advances_[glyph] * em_per_unit; }
 
- private:
   static constexpr int kAscii = 128;
-  stbtt_fontinfo info_{};
-  double em_per_unit_ = 0;
-  double cap_height_ = 0;
+  stbtt_fontinfo info{};
+  double em_per_unit = 0, cap_height = 0;
   std::array<int, kAscii> ascii_{};
   std::array<int, kAscii * kAscii> kern_{};  // of pairs of characters, font units
   std::vector<int> advances_;                // of glyphs, font units
@@ -98,7 +92,7 @@ double text_width(std::string_view text, double size, Weight weight) {
   return size * walk(text, weight, [](int, double) {});
 }
 
-double cap_height(Weight weight) { return face(weight).cap_height(); }
+double cap_height(Weight weight) { return face(weight).cap_height; }
 
 std::vector<PlacedGlyph> shape_text(std::string_view text, double size, Weight weight) {
   std::vector<PlacedGlyph> glyphs;
@@ -108,7 +102,7 @@ std::vector<PlacedGlyph> shape_text(std::string_view text, double size, Weight w
 }
 
 GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shift) {
-  const stbtt_fontinfo* info = face(weight).info();
+  const stbtt_fontinfo* info = &face(weight).info;
   const float scale = stbtt_ScaleForMappingEmToPixels(info, static_cast<float>(pixels));
   GlyphBitmap bitmap;
   unsigned char* coverage =
@@ -123,10 +117,10 @@ GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shif
 std::string glyph_path(int glyph, Weight weight) {
   const FontFace& f = face(weight);
   stbtt_vertex* vertices = nullptr;
-  const int count = stbtt_GetGlyphShape(f.info(), glyph, &vertices);
+  const int count = stbtt_GetGlyphShape(&f.info, glyph, &vertices);
   std::string path;
   const auto point = [&](int x, int y) {
-    path += fmt::format("{:.5g} {:.5g} ", x * f.em_per_unit(), y == 0 ? 0.0 : -y * f.em_per_unit());
+    path += fmt::format("{:.5g} {:.5g} ", x * f.em_per_unit, y == 0 ? 0.0 : -y * f.em_per_unit);
   };
   for (int i = 0; i < count; ++i) {
     const stbtt_vertex& v = vertices[i];
@@ -138,7 +132,7 @@ std::string glyph_path(int glyph, Weight weight) {
     if (v.type == STBTT_vcubic) point(v.cx1, v.cy1);
     point(v.x, v.y);
   }
-  stbtt_FreeShape(f.info(), vertices);
+  stbtt_FreeShape(&f.info, vertices);
   if (!path.empty()) path += 'Z';
   return path;
 }

@@ -20,7 +20,7 @@ constexpr double kWidePage = 1400;  // a narrower page has its counters under th
 struct Counter {
   std::int64_t number = 0;
   std::string noun;
-  std::string widest;
+  std::string widest = {};
   bool main = false;
 
   TextStyle style() const {
@@ -38,55 +38,39 @@ struct Counter {
   }
 };
 
-std::string counted(std::int64_t n, const char* one, const char* many) {
-  return n == 1 ? one : many;
+Counter counted(std::int64_t number, const char* one, const char* many) {
+  return {number, number == 1 ? one : many, many};
 }
 
-std::vector<Counter> atlas_counters(const Frame& frame) {
-  const std::int64_t used = frame.count("used_area").value_or(0);
-  const std::int64_t all = std::max<std::int64_t>(1, frame.count("atlas_area").value_or(1));
-  auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
-  if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
-  const std::string of = fmt::format("of {} textures", frame.textures.size());
-  return {{percent, "% used", "% used", true},
-          {frame.count("textures").value_or(0), of, of, false}};
-}
-
-// Of a ray, view or region: how few bodies it had to test.
-std::vector<Counter> query_counters(const Frame& frame) {
-  const std::int64_t tested = frame.count("objects_tested").value_or(0);
-  const std::int64_t hits = frame.count("hits").value_or(0);
-  const std::string of = fmt::format("of {} bodies tested", frame.bodies.size());
-  return {{tested, of, of, true}, {hits, counted(hits, "hit", "hits"), "hits", false}};
-}
-
-std::vector<Counter> level_counters(const Frame& frame) {
-  const std::int64_t sectors = frame.count("sectors").value_or(0);
-  const std::int64_t walls = frame.count("walls").value_or(0);
-  return {{sectors, counted(sectors, "sector", "sectors"), "sectors", true},
-          {walls, counted(walls, "wall", "walls"), "walls", false}};
-}
-
+// Two at most; the first is the main one.
 std::vector<Counter> counters_of(const Frame& frame) {
-  if (!frame.textures.empty()) return atlas_counters(frame);
-  if (!frame.rays.empty() || !frame.views.empty() || !frame.queries.empty())
-    return query_counters(frame);
-  if (frame.count("sectors")) return level_counters(frame);
-  const auto pairs = frame.count("pairs"), all = frame.count("testable_pairs");
-  if (pairs) {
-    // With contacts only those of them are tested whose boxes overlap.
-    const bool all_tested = !frame.count("contacts");
-    const char* many = all_tested ? "pairs to test" : "candidate pairs";
-    std::vector<Counter> counters{
-        {*pairs, counted(*pairs, all_tested ? "pair to test" : "candidate pair", many), many,
-         true}};
-    if (all) counters.push_back({*all, "by brute force", "by brute force", false});
-    return counters;
+  const auto count = [&](const char* name) { return frame.count(name).value_or(0); };
+  if (!frame.textures.empty()) {
+    const std::int64_t used = count("used_area");
+    const std::int64_t all = std::max<std::int64_t>(1, count("atlas_area"));
+    auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
+    if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
+    return {{percent, "% used"},
+            {count("textures"), fmt::format("of {} textures", frame.textures.size())}};
   }
-  const auto bodies = frame.count("bodies");
-  if (!bodies) return {};
-  std::vector<Counter> counters{{*bodies, counted(*bodies, "body", "bodies"), "bodies", true}};
-  if (all) counters.push_back({*all, counted(*all, "pair", "pairs"), "pairs", false});
+  // Of a ray, view or region: how few bodies it had to test.
+  if (!frame.rays.empty() || !frame.views.empty() || !frame.queries.empty())
+    return {{count("objects_tested"), fmt::format("of {} bodies tested", frame.bodies.size())},
+            counted(count("hits"), "hit", "hits")};
+  if (frame.count("sectors"))
+    return {counted(count("sectors"), "sector", "sectors"),
+            counted(count("walls"), "wall", "walls")};
+  std::vector<Counter> counters;
+  const auto pairs = frame.count("pairs"), bodies = frame.count("bodies");
+  // With contacts only those of them are tested whose boxes overlap.
+  if (pairs && frame.count("contacts"))
+    counters.push_back(counted(*pairs, "candidate pair", "candidate pairs"));
+  else if (pairs)
+    counters.push_back(counted(*pairs, "pair to test", "pairs to test"));
+  else if (bodies)
+    counters.push_back(counted(*bodies, "body", "bodies"));
+  if (const auto all = frame.count("testable_pairs"); all && !counters.empty())
+    counters.push_back(pairs ? Counter{*all, "by brute force"} : counted(*all, "pair", "pairs"));
   return counters;
 }
 
@@ -133,7 +117,7 @@ std::optional<std::vector<std::string>> by_sentence(const std::string& text, dou
 
 std::vector<std::string> caption_lines(const std::string& caption, double width, TextStyle& style) {
   std::string text = caption;
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::ranges::replace(text, '\n', ' ');
   for (style.size = kCaption; style.size > kLeastCaption; style.size -= 1.1) {
     std::vector<std::string> lines = wrapped(text, width, style);
     if (lines.size() < 2) return lines;
@@ -151,7 +135,8 @@ std::vector<std::string> caption_lines(const std::string& caption, double width,
 
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels) {
   const bool wide = list.page.x >= kWidePage;
-  const std::vector<Counter> counters = counters_of(frame);
+  std::vector<Counter> counters = counters_of(frame);
+  if (!counters.empty()) counters[0].main = true;
   const double row = wide ? 0 : kLine + 4;
   const double second = list.page.y - kBelowLast - row, first = second - kLine;
   const double top = first - kAboveFirst;

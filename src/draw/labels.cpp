@@ -1,5 +1,8 @@
 #include "draw/labels.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
@@ -18,29 +21,15 @@ bool cover(const Box<2>& a, const Box<2>& b, double gap) {
          b.lo.y < a.hi.y + gap;
 }
 
-// The start of the last UTF-8 character before `end`.
-std::size_t before(std::string_view text, std::size_t end) {
-  do --end;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80);
-  return end;
-}
-
 // How many bytes of `text`, in whole characters, are no wider than `width`. Widths grow with the
 // text, so the place is found by halving.
 std::size_t prefix(std::string_view text, double width, const TextStyle& style) {
-  std::size_t fits = 0, too_long = text.size() + 1;
-  while (fits + 1 < too_long) {
-    std::size_t middle = (fits + too_long) / 2;
-    if (middle < text.size()) middle = before(text, middle + 1);
-    if (middle <= fits) {  // one character fills the gap: take the step to its end
-      middle = fits + 1;
-      while (middle < text.size() && (static_cast<unsigned char>(text[middle]) & 0xc0) == 0x80)
-        ++middle;
-      if (middle >= too_long) break;
-    }
-    (text_width(text.substr(0, middle), style) <= width ? fits : too_long) = middle;
-  }
-  return fits;
+  std::vector<std::size_t> ends;  // of characters
+  for (std::size_t i = 1; i <= text.size(); ++i)
+    if (i == text.size() || (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) ends.push_back(i);
+  const auto too_long = std::ranges::partition_point(
+      ends, [&](std::size_t end) { return text_width(text.substr(0, end), style) <= width; });
+  return too_long == ends.begin() ? 0 : *std::prev(too_long);
 }
 
 }  // namespace
@@ -96,10 +85,7 @@ void Labels::add(std::string_view text, const Anchor& anchor, const TextStyle& s
 bool Labels::try_add(std::string_view text, std::initializer_list<Anchor> list,
                      const TextStyle& style, const Box<2>& panel) {
   const std::span<const Anchor> anchors(list.begin(), list.size());
-  const Anchor* anchor =
-      free_anchor(text, anchors, style, panel, [](const Box<2>&) { return true; });
-  if (anchor) add(text, *anchor, style, panel);
-  return anchor != nullptr;
+  return try_add(text, anchors, style, panel, panel, [](const Box<2>&) { return true; });
 }
 
 // From a number's last digit back to the front of its `place`-th, counted from 1. The thousands of
@@ -108,10 +94,6 @@ double Labels::width_to(std::int64_t place, std::int64_t digits, const TextStyle
   constexpr double kGap = 0.3;  // of a digit
   const auto gaps = static_cast<double>(digits > 4 ? (place - 1) / 3 : 0);
   return (static_cast<double>(place) + kGap * gaps) * text_width("0", style);
-}
-
-double Labels::number_width(std::int64_t digits, const TextStyle& style) {
-  return width_to(digits, digits, style);
 }
 
 void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyle& style,

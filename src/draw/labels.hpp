@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "draw/draw_list.hpp"
-#include "draw/metrics.hpp"
 
 namespace lantern {
 
@@ -38,8 +37,7 @@ std::array<Anchor, 8> anchors_around(const Box<2>& box, double gap, const TextSt
 
 // A text on these places would be read as the name of something else.
 inline bool touches(const std::vector<Box<2>>& places, const Box<2>& box) {
-  return std::any_of(places.begin(), places.end(),
-                     [&](const Box<2>& place) { return overlap(place, box); });
+  return std::ranges::any_of(places, [&](const Box<2>& place) { return overlap(place, box); });
 }
 
 // The plate under a text that is centred there, with a margin around its capitals.
@@ -81,11 +79,22 @@ class Labels {
     return nullptr;
   }
 
+  // The text at the first of these; false, and nothing is drawn, if there is none.
+  template <class Accepts>
+  bool try_add(std::string_view text, std::span<const Anchor> anchors, const TextStyle& style,
+               const Box<2>& room, const Box<2>& panel, const Accepts& accepts) {
+    const Anchor* free = free_anchor(text, anchors, style, room, accepts);
+    if (free) add(text, *free, style, panel);
+    return free != nullptr;
+  }
+
   // A number whose last digit ends at `right`. Each digit has a cell of its own, so that none moves
   // when another one changes.
   void add_number(std::int64_t number, const Vec<2>& right, const TextStyle& style,
                   const Box<2>& panel);
-  static double number_width(std::int64_t digits, const TextStyle& style);
+  static double number_width(std::int64_t digits, const TextStyle& style) {
+    return width_to(digits, digits, style);
+  }
 
   // What a picture leaves out, on a plate in its lower left corner. Nothing for an empty note.
   void add_note(std::string_view note, const Box<2>& picture);

@@ -1,5 +1,4 @@
-// Marks of a world, each written once: in a 2D world they are drawn as they come, in a 3D one they
-// are sorted with what hides them.
+// Marks of a world, each written once.
 #pragma once
 
 #include <algorithm>
@@ -13,20 +12,23 @@
 
 namespace lantern {
 
+// In a 2D world they are drawn as they come, cut to `place`; in a 3D one (Marks3D) they are sorted
+// with what hides them.
 class Marks {
  public:
+  Marks(const Projection& projection, const Box<2>& place, DrawList& list)
+      : projection_(projection), place_(place), list_(list), over_(&list) {}
   virtual ~Marks() = default;
 
   // With a `casing` of the panel's tone on both sides of it, a line can be told from what it
   // crosses.
-  virtual void line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke,
-                    double casing = 0) = 0;
+  virtual void line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double casing = 0);
   // A line with a head at its end, `head` page units long.
   virtual void arrow(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double head,
-                     double casing) = 0;
-  virtual void spring(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke) = 0;
-  virtual void box(const Box<3>& box, const Stroke& stroke) = 0;
-  virtual void ball(const Vec<3>& center, double radius, const Stroke& stroke) = 0;
+                     double casing);
+  virtual void spring(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke);
+  virtual void box(const Box<3>& box, const Stroke& stroke);
+  virtual void ball(const Vec<3>& center, double radius, const Stroke& stroke);
 
   // What is drawn with it lies over all that bodies may hide, in the marks' place.
   Pen over() const { return {*over_, place_}; }
@@ -35,30 +37,13 @@ class Marks {
   const Projection& projection() const { return projection_; }
 
  protected:
-  Marks(const Projection& projection, const Box<2>& place, DrawList& list)
-      : projection_(projection), place_(place), list_(list), over_(&list) {}
+  // Of a 2D world, where all is seen.
+  Vec<2> to_page(const Vec<3>& p) const { return *projection_.seen(p); }
 
   const Projection& projection_;
   Box<2> place_;
   DrawList& list_;
   DrawList* over_;
-};
-
-// Marks of a 2D world, cut to `place`.
-class Marks2D : public Marks {
- public:
-  Marks2D(const View2D& view, const Box<2>& place, DrawList& list)
-      : Marks(view, place, list), view_(view) {}
-
-  void line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double casing = 0) override;
-  void arrow(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double head,
-             double casing) override;
-  void spring(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke) override;
-  void box(const Box<3>& box, const Stroke& stroke) override;
-  void ball(const Vec<3>& center, double radius, const Stroke& stroke) override;
-
- private:
-  const View2D& view_;
 };
 
 // The corners of a spring's line, which turns to and fro across its way; none for a short one.

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.hpp"
 #include "draw/body_shapes.hpp"
-#include "draw/characters.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panels.hpp"
@@ -16,7 +16,6 @@ constexpr double kMemoryHeading = 38;
 constexpr double kBracket = 30;    // under a row, for brackets and names
 constexpr double kRowGap = 12;     // between rows
 constexpr double kNamedSlot = 46;  // from here on a body's name has room under it
-constexpr double kChipSlot = 13;   // from here on each slot in use is drawn
 constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
 constexpr double kSlots[] = {100, 84, 72, 62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
 constexpr std::size_t kMostSlotShapes = 2600;  // that slots may take
@@ -78,18 +77,18 @@ class MemoryView {
     for (const FrameNode& node : frame_.nodes)
       if (node.leaf && node.first != kNone && node.room > 0 && node.first < shown_)
         leaves.push_back(&node);
-    std::stable_sort(leaves.begin(), leaves.end(), [](const FrameNode* a, const FrameNode* b) {
-      return std::pair(a->mark == Mark::lit, a->first) < std::pair(b->mark == Mark::lit, b->first);
+    std::ranges::stable_sort(leaves, {}, [](const FrameNode* leaf) {
+      return std::pair(leaf->mark == Mark::lit, leaf->first);
     });
     draw_free();
     number_rows();
-    std::size_t drawn = 0;
+    bool left_out = false;
     for (const FrameNode* leaf : leaves) {
-      if (list_.shapes.size() > kMostSlotShapes) break;
+      left_out = list_.shapes.size() > kMostSlotShapes;
+      if (left_out) break;
       draw_leaf(*leaf);
-      ++drawn;
     }
-    draw_heading(drawn < leaves.size());
+    draw_heading(left_out);
   }
 
  private:
@@ -159,11 +158,8 @@ class MemoryView {
     const auto found = bodies_.find(id);
     const double inset = std::max(1.0, 0.13 * strip_.slot);
     if (list_.shapes.size() > kMostSlotShapes) return;
-    if (found == bodies_.end() || strip_.slot < kDrawnSlot) {
-      const Role role = found == bodies_.end() ? Role::quiet_ink : body_role(found->second->color);
-      list_.rect(shrunk(box, inset), role);
-      return;
-    }
+    if (found == bodies_.end()) return list_.rect(shrunk(box, inset), Role::quiet_ink);
+    if (!strip_.drawn()) return list_.rect(shrunk(box, inset), body_role(found->second->color));
     const FrameBody& body = *found->second;
     Box<2> chip = shrunk(box, inset);
     if (strip_.named()) {
@@ -181,8 +177,7 @@ class MemoryView {
 
   // The first letter, and the digits that a name ends with: "b12" of "body 12".
   static std::string initial(const std::string& name) {
-    std::size_t end = std::min<std::size_t>(1, name.size());
-    while (end < name.size() && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) ++end;
+    const std::size_t end = name.empty() ? 0 : first_letter(name).bytes;
     std::size_t digits = name.size();
     while (digits > end && name[digits - 1] >= '0' && name[digits - 1] <= '9') --digits;
     return name.substr(0, end) + name.substr(digits);
@@ -230,7 +225,7 @@ class MemoryView {
   Strip strip_;
   Vec<2> origin_{0.0};
   std::uint32_t shown_ = 0;  // slots
-  std::unordered_map<BodyId, const FrameBody*> bodies_;
+  BodiesById bodies_;
 };
 
 }  // namespace
@@ -243,12 +238,12 @@ void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels
 
 double memory_height(const Frame& frame, double width) {
   constexpr double kMostRows = 3;
+  Strip s;
   for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {
-    const Strip s = strip_for(frame.array_size, slot, width - 6);
-    if (s.rows <= kMostRows - (s.named() ? 1 : 0)) return kMemoryHeading + 8 + s.rows * s.pitch;
+    s = strip_for(frame.array_size, slot, width - 6);
+    if (s.rows <= kMostRows - (s.named() ? 1 : 0)) break;
   }
-  const Strip s = strip_for(frame.array_size, 28, width - 6);
-  return kMemoryHeading + 8 + kMostRows * s.pitch;
+  return kMemoryHeading + 8 + std::min<double>(s.rows, kMostRows) * s.pitch;
 }
 
 }  // namespace lantern

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
@@ -34,14 +33,14 @@ double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
   const double number = Labels::number_width(digits, style);
   const double space = text_width(" ", style);
   double x = band.hi.x;
-  labels.add_number(frame.steps, {x, kTitleLine}, style, band);
-  x -= number + space;
-  labels.add("of", {{x, kTitleLine}, 1}, style, band);
-  x -= text_width("of", style) + space;
-  labels.add_number(std::int64_t{frame.step} + 1, {x, kTitleLine}, style, band);
-  x -= number + space;
-  labels.add("step", {{x, kTitleLine}, 1}, style, band);
-  return x - text_width("step", style);
+  for (const auto& [word, count] : {std::pair{"of", std::int64_t{frame.steps}},
+                                    std::pair{"step", frame.step + std::int64_t{1}}}) {
+    labels.add_number(count, {x, kTitleLine}, style, band);
+    x -= number + space;
+    labels.add(word, {{x, kTitleLine}, 1}, style, band);
+    x -= text_width(word, style) + space;
+  }
+  return x + space;
 }
 
 void draw_title(const Frame& frame, double margin, DrawList& list, Labels& labels) {
@@ -77,7 +76,7 @@ bool takes_the_rest(Panel panel) { return panel != Panel::world && panel != Pane
 std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& panels,
                                  const Box<2>& area) {
   const double room = area.size().x - kPanelGap * static_cast<double>(panels.size() - 1);
-  const auto flexible = std::count_if(panels.begin(), panels.end(), takes_the_rest);
+  const auto flexible = std::ranges::count_if(panels, takes_the_rest);
   const auto others = static_cast<double>(panels.size()) - static_cast<double>(flexible);
   std::vector<double> widths;
   double left = room;
@@ -90,7 +89,7 @@ std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& p
     widths.push_back(width);
     left -= width;
   }
-  std::replace(widths.begin(), widths.end(), 0.0, left / static_cast<double>(flexible));
+  std::ranges::replace(widths, 0.0, left / static_cast<double>(flexible));
   return split(area, 0, widths, kPanelGap);
 }
 
@@ -116,9 +115,7 @@ Box<2> cut_strip(const Frame& frame, Box<2>& area) {
 bool wants_stack(const Frame& frame) {
   constexpr double kWideWorld = 1.9;  // aspect of a world
   if (!frame.chart.over_time || frame.panels.size() != 2) return false;
-  const auto has = [&](Panel panel) {
-    return std::find(frame.panels.begin(), frame.panels.end(), panel) != frame.panels.end();
-  };
+  const auto has = [&](Panel panel) { return std::ranges::count(frame.panels, panel) > 0; };
   const Vec<3> size = frame.bounds.size();
   return has(Panel::world) && has(Panel::chart) && size.x > kWideWorld * std::max(size.y, size.z);
 }
@@ -136,40 +133,30 @@ std::vector<Box<2>> over_its_chart(const Frame& frame, const Box<2>& area) {
 std::vector<Box<2>> arranged(const Frame& frame, Box<2> area) {
   const std::vector<Panel>& panels = frame.panels;
   std::vector<Box<2>> boxes(panels.size());
-  std::vector<std::vector<std::size_t>> columns;
-  std::optional<std::size_t> shared;  // the column of all that take the rest
   const auto is_strip = [&](std::size_t i) {
     return panels[i] == Panel::memory && panels.size() > 1;
   };
   for (std::size_t i = 0; i < panels.size(); ++i)
     if (is_strip(i)) boxes[i] = cut_strip(frame, area);
-  const bool room_for_two = area.size().y >= kLeastForTwo;
-  const bool with_others =
-      std::any_of(panels.begin(), panels.end(), [](Panel panel) { return !takes_the_rest(panel); });
+  const bool shares = area.size().y >= kLeastForTwo && !std::ranges::all_of(panels, takes_the_rest);
+  // The first panel of each column, and all of the column of those that take the rest.
+  std::vector<std::size_t> firsts, shared;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (is_strip(i)) {
-      continue;
-    } else if (shared && takes_the_rest(panels[i])) {
-      columns[*shared].push_back(i);
-    } else {
-      if (with_others && room_for_two && takes_the_rest(panels[i])) shared = columns.size();
-      columns.push_back({i});
-    }
+    if (is_strip(i)) continue;
+    const bool joins = shares && takes_the_rest(panels[i]);
+    if (joins) shared.push_back(i);
+    if (!joins || shared.size() == 1) firsts.push_back(i);
   }
-  const auto panels_of = [&](const std::vector<std::size_t>& column) {
+  const auto panels_of = [&](const std::vector<std::size_t>& some) {
     std::vector<Panel> found;
-    for (const std::size_t i : column) found.push_back(panels[i]);
+    for (const std::size_t i : some) found.push_back(panels[i]);
     return found;
   };
-  std::vector<Panel> firsts;
-  for (const auto& column : columns) firsts.push_back(panels[column[0]]);
-  const std::vector<Box<2>> places = side_by_side(frame, firsts, area);
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    boxes[columns[c][0]] = places[c];
-    if (columns[c].size() < 2) continue;
-    const std::vector<Box<2>> cut = stacked(panels_of(columns[c]), places[c]);
-    for (std::size_t k = 0; k < cut.size(); ++k) boxes[columns[c][k]] = cut[k];
-  }
+  const std::vector<Box<2>> places = side_by_side(frame, panels_of(firsts), area);
+  for (std::size_t c = 0; c < firsts.size(); ++c) boxes[firsts[c]] = places[c];
+  if (shared.size() < 2) return boxes;
+  const std::vector<Box<2>> cut = stacked(panels_of(shared), boxes[shared[0]]);
+  for (std::size_t k = 0; k < cut.size(); ++k) boxes[shared[k]] = cut[k];
   return boxes;
 }
 
@@ -180,50 +167,15 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
   const std::vector<Box<2>> boxes = tall                 ? stacked(frame.panels, area)
                                     : wants_stack(frame) ? over_its_chart(frame, area)
                                                          : arranged(frame, area);
-  for (std::size_t i = 0; i < boxes.size(); ++i) switch (frame.panels[i]) {
-      case Panel::world:
-        ++work.world_layouts;
-        draw_world(frame, boxes[i], list, labels);
-        break;
-      case Panel::tree:
-        ++work.tree_layouts;
-        draw_tree(frame, boxes[i], list, labels);
-        break;
-      case Panel::atlas:
-        draw_atlas(frame, boxes[i], list, labels);
-        break;
-      case Panel::chart:
-        draw_chart(frame, boxes[i], list, labels);
-        break;
-      case Panel::memory:
-        draw_memory(frame, boxes[i], list, labels);
-        break;
-    }
-}
-
-void scale(Box<2>& box, double k) { box = {box.lo * k, box.hi * k}; }
-void scale(Stroke& stroke, double k) {
-  stroke.width *= k;
-  stroke.dash *= k;
-}
-
-void scale(RectShape& rect, double k) {
-  scale(rect.box, k);
-  rect.radius *= k;
-  scale(rect.stroke, k);
-}
-void scale(LineShape& line, double k) {
-  line.from *= k;
-  line.to *= k;
-  scale(line.stroke, k);
-}
-void scale(PolygonShape& polygon, double k) {
-  for (Vec<2>& point : polygon.points) point *= k;
-  scale(polygon.stroke, k);
-}
-void scale(TextShape& text, double k) {
-  text.at *= k;
-  text.size *= k;
+  using Draw = void (*)(const Frame&, const Box<2>&, DrawList&, Labels&);
+  constexpr Draw kDraw[] = {draw_world, draw_tree, draw_atlas, draw_chart,
+                            draw_memory};  // by Panel
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const Panel panel = frame.panels[i];
+    work.world_layouts += panel == Panel::world;
+    work.tree_layouts += panel == Panel::tree;
+    kDraw[static_cast<std::size_t>(panel)](frame, boxes[i], list, labels);
+  }
 }
 
 }  // namespace
@@ -248,11 +200,11 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
   draw_panels(frame, {{margin, kTop}, {list.page.x - margin, bottom - 26}}, list, labels, work);
   list.page = page;
   if (k == 1) return list;
-  for (DrawShape& shape : list.shapes) std::visit([&](auto& s) { scale(s, k); }, shape);
-  for (LabelBox& label : list.labels) {
-    scale(label.box, k);
-    scale(label.panel, k);
-  }
+  const auto enlarge = [&](double& measure) { measure *= k; };
+  for (DrawShape& shape : list.shapes)
+    std::visit([&](auto& s) { for_each_measure(s, enlarge); }, shape);
+  for (LabelBox& label : list.labels)
+    for (Box<2>* box : {&label.box, &label.panel}) *box = {box->lo * k, box->hi * k};
   return list;
 }
 

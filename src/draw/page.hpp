@@ -15,6 +15,10 @@ Vec<2> page_for(int width, int height);
 // counters. Counts one layout for each panel that is there.
 DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work);
 
+// Does the world panel show any body that is no ground? What another body hides counts as shown,
+// and so does what only a panel twice as wide as high would show: the page's size is not known.
+bool shows_a_body(const Frame& frame);
+
 // The finished atlas alone, one page unit a pixel: what is written as a real texture atlas.
 DrawList draw_atlas_image(const Frame& frame);
 

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "base/stop.hpp"
+#include "geometry/not_finite.hpp"
+#include "geometry/ray.hpp"
 
 namespace lantern {
 namespace {
@@ -46,37 +48,17 @@ std::vector<Vec<3>> directions(const Convex& a, const Convex& b) {
   return found;
 }
 
-struct Slab {
-  double from = 0, to = 1;
-  bool any() const { return from <= to; }
-};
-
-// Where |center + way t| <= half, of t in the slab.
-void cut(Slab& slab, double center, double way, double half) {
-  if (way == 0) {
-    if (std::abs(center) > half) slab = {1, 0};
-    return;
-  }
-  const double t = (-half - center) / way, u = (half - center) / way;
-  slab.from = std::max(slab.from, std::min(t, u));
-  slab.to = std::min(slab.to, std::max(t, u));
-}
-
-// Where the square of (offset + way t) is at most r^2.
-void cut_round(Slab& slab, const Vec<3>& offset, const Vec<3>& way, double r) {
+// Of a span of a line, where the square of (offset + way t) is at most r^2.
+std::optional<RaySpan> in_round(const std::optional<RaySpan>& span, const Vec<3>& offset,
+                                const Vec<3>& way, double r) {
   const double a = glm::dot(way, way), b = glm::dot(offset, way);
   const double c = glm::dot(offset, offset) - r * r;
-  if (a < 1e-300) {
-    if (c > 0) slab = {1, 0};
-    return;
-  }
   const double root = b * b - a * c;
-  if (root <= 0) {
-    slab = {1, 0};
-    return;
-  }
-  slab.from = std::max(slab.from, (-b - std::sqrt(root)) / a);
-  slab.to = std::min(slab.to, (-b + std::sqrt(root)) / a);
+  if (!span || (a < 1e-300 ? c > 0 : root <= 0)) return std::nullopt;
+  if (a < 1e-300) return span;
+  const RaySpan part{std::max(span->from, (-b - std::sqrt(root)) / a),
+                     std::min(span->to, (-b + std::sqrt(root)) / a)};
+  return part.from <= part.to ? std::optional(part) : std::nullopt;
 }
 
 // Thinner where it passes before others: a body must stay readable behind the edges of its cell.
@@ -93,7 +75,7 @@ void thin(Piece& line, std::vector<std::pair<double, double>> over) {
     shape.to = whole.from + way * to;
     line.shapes.emplace_back(shape);
   };
-  std::sort(over.begin(), over.end());
+  std::ranges::sort(over);
   double start = 0;
   for (const auto& [first, last] : over) {
     add(whole, start, first);
@@ -111,32 +93,28 @@ Convex Convex::line(const Vec<3>& a, const Vec<3>& b) {
   const double length = glm::length(b - a);
   if (!(length > 0)) return c;
   const Vec<3> along = (b - a) / length;
-  const Vec<3> side = glm::normalize(
-      glm::cross(along, std::abs(along.y) < 0.9 ? Vec<3>(0, 1, 0) : Vec<3>(1, 0, 0)));
+  const Vec<3> side = across(along);
   c.axes = Mat<3>(along, side, glm::cross(along, side));
   c.half.x = length / 2;
   return c;
 }
 
 Convex Convex::of(const FrameBody& body) {
-  struct Of {
-    const FrameBody& body;
-    Convex box(const Vec<3>& center, const Vec<3>& half) const { return {center, Mat<3>(1), half}; }
-    Convex operator()(const Sphere& s) const {
-      return {body.position, Mat<3>(1), Vec<3>(0), s.radius};
-    }
-    Convex operator()(const AxisBox<3>& b) const { return box(body.position, b.half_size); }
-    Convex operator()(const OrientedBox<3>& b) const {
-      return {body.position, matrix(body.orientation), b.half_size};
-    }
-    Convex operator()(const Capsule& c) const {
-      return {body.position, matrix(body.orientation), {0, c.half_length, 0}, c.radius};
-    }
-    Convex operator()(const HalfSpace<3>&) const {
-      return box(body.box.center(), body.box.size() * 0.5);
-    }
-  };
-  return std::visit(Of{body}, body.shape);
+  if (std::holds_alternative<HalfSpace<3>>(body.shape))
+    return {body.box.center(), Mat<3>(1), body.box.size() * 0.5};
+  Convex convex;
+  convex.center = body.position;
+  if (std::holds_alternative<OrientedBox<3>>(body.shape) ||
+      std::holds_alternative<Capsule>(body.shape))
+    convex.axes = matrix(body.orientation);
+  std::visit(
+      [&](const auto& shape) {
+        if constexpr (requires { shape.half_size; }) convex.half = shape.half_size;
+        if constexpr (requires { shape.half_length; }) convex.half.y = shape.half_length;
+        if constexpr (requires { shape.radius; }) convex.radius = shape.radius;
+      },
+      body.shape);
+  return convex;
 }
 
 // A piece with a radius is a ball or a capsule along its own y: the balls at its ends and the
@@ -145,24 +123,25 @@ std::optional<std::pair<double, double>> inside_of(const Convex& piece, const Ve
                                                    const Vec<3>& b) {
   const Vec<3> from = glm::transpose(piece.axes) * (a - piece.center);
   const Vec<3> way = glm::transpose(piece.axes) * (b - a);
-  Slab whole{1, 0};
+  const Ray<3> ray{from, way, 1};
+  std::optional<RaySpan> whole;
+  const auto add = [&](const std::optional<RaySpan>& part) {
+    if (whole && part)
+      whole = {std::min(whole->from, part->from), std::max(whole->to, part->to)};
+    else if (part)
+      whole = part;
+  };
   if (piece.radius > 0) {
-    for (const double end : {-piece.half.y, piece.half.y}) {
-      Slab ball;
-      cut_round(ball, from - Vec<3>(0, end, 0), way, piece.radius);
-      if (ball.any()) whole = {std::min(whole.from, ball.from), std::max(whole.to, ball.to)};
-    }
-    Slab cylinder;
-    cut(cylinder, from.y, way.y, piece.half.y);
-    cut_round(cylinder, {from.x, 0, from.z}, {way.x, 0, way.z}, piece.radius);
-    if (cylinder.any())
-      whole = {std::min(whole.from, cylinder.from), std::max(whole.to, cylinder.to)};
+    for (const double end : {-piece.half.y, piece.half.y})
+      add(in_round(RaySpan{0, 1}, from - Vec<3>(0, end, 0), way, piece.radius));
+    const Vec<3> endless{kInfinity, piece.half.y, kInfinity};
+    add(in_round(span_in(ray, Box<3>{-endless, endless}), {from.x, 0, from.z}, {way.x, 0, way.z},
+                 piece.radius));
   } else {
-    whole = {0, 1};
-    for (int i = 0; i < 3; ++i) cut(whole, from[i], way[i], piece.half[i]);
+    whole = span_in(ray, Box<3>{-piece.half, piece.half});
   }
-  if (!(whole.from < whole.to)) return std::nullopt;
-  return std::pair{whole.from, whole.to};
+  if (!whole || !(whole->from < whole->to)) return std::nullopt;
+  return std::pair{whole->from, whole->to};
 }
 
 bool nearer(const Convex& a, const Convex& b, const Vec<3>& eye) {
@@ -184,7 +163,7 @@ std::optional<std::pair<double, double>> inside_of(const Outline& outline, const
   if (outline.size() < 3) return std::nullopt;
   Vec<2> middle{0.0};
   for (const Vec<2>& p : outline) middle += p / static_cast<double>(outline.size());
-  Slab part;
+  RaySpan part{0, 1};
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Vec<2> along = outline[(i + 1) % outline.size()] - outline[i];
     Vec<2> inwards{-along.y, along.x};

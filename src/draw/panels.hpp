@@ -11,7 +11,6 @@ namespace lantern {
 // Node cells, bodies as characters, candidate pairs and marks. A 2D world as large as
 // frame.bounds fit into the panel, y upwards; a 3D one as frame.camera sees it, with its floor.
 void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
-void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 
 // The structure or atlas as a node-link diagram, and under it what it was told and what it counts.
 // A tree too large for the panel is condensed (tree_fold.hpp); a node is never narrower than
@@ -21,12 +20,6 @@ void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& 
 inline constexpr double kLeastNode = 34;
 // The diagram alone, of a frame whose nodes are one tree.
 void draw_one_tree(const Frame& frame, const Box<2>& diagram, DrawList& list, Labels& labels);
-// The lines at the foot of the panel; gives the height they take.
-double draw_tree_facts(const Frame& frame, const Box<2>& panel, Labels& labels);
-// One row a body, in the order in which the sweep meets them; the rows of bodies that the step is
-// about are lit. Which axis is said in frame.settings ("along y"); x if it is not. Of many bodies
-// as many are drawn as have room, and the rest is counted.
-void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 
 // The packed image, and beside it the textures that wait or were refused. It wants this width at a
 // height.
@@ -35,11 +28,10 @@ double atlas_width(const Frame& frame, double height);
 
 // One count against another as lines, or counts as bars. Lines carry marks of different shapes and
 // their names at their ends; the newest point of each is larger and says its number. Bars lie
-// level in groups, type of `size`, their names before and their numbers behind them. Points that
+// level in groups, their names before and their numbers behind them. Points that
 // are not finite are left out; what there is no room for is said.
 void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
-void draw_bars(const FrameChart& chart, const Box<2>& panel, double size, DrawList& list,
-               Labels& labels);
+
 // A count's or measure's name as words: "pair tests" of "pair_tests", "energy: bob" of
 // "energy.bob".
 std::string chart_words(std::string name);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "draw/clip.hpp"
-#include "draw/metrics.hpp"
+#include "draw/draw_list.hpp"
+#include "draw/pen.hpp"
 
 namespace lantern {
 namespace {
@@ -98,24 +98,15 @@ void draw_pattern(std::uint32_t id, int color, const Box<2>& rect, double scale,
                 list);
   using Part = Swatch::Part;
   // Shifted once a round, so that equal colours eight textures apart get different patterns.
-  switch ((id + id / kPatterns) % kPatterns) {
-    case 0:
-      return swatch.diagonals(1);
-    case 1:
-      return swatch.grid(Part::disc, 0.28, false);
-    case 2:
-      return swatch.bars(0);
-    case 3:
-      return swatch.grid(Part::square, 0.5, true);
-    case 4:
-      return swatch.bars(1);
-    case 5:
-      return swatch.grid(Part::diamond, 0.36, false);
-    case 6:
-      return swatch.diagonals(-1);
-    default:
-      return swatch.frames();
-  }
+  const auto pattern = (id + id / kPatterns) % kPatterns;
+  if (pattern == 0) swatch.diagonals(1);
+  if (pattern == 1) swatch.grid(Part::disc, 0.28, false);
+  if (pattern == 2) swatch.bars(0);
+  if (pattern == 3) swatch.grid(Part::square, 0.5, true);
+  if (pattern == 4) swatch.bars(1);
+  if (pattern == 5) swatch.grid(Part::diamond, 0.36, false);
+  if (pattern == 6) swatch.diagonals(-1);
+  if (pattern == 7) swatch.frames();
 }
 
 }  // namespace lantern

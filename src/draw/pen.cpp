@@ -2,13 +2,75 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
-#include "draw/clip.hpp"
-#include "draw/metrics.hpp"
+#include "draw/draw_list.hpp"
 #include "geometry/not_finite.hpp"
+#include "geometry/polygon.hpp"
+#include "geometry/ray.hpp"
 
 namespace lantern {
+namespace {
+
+// A rectangle with round corners as a polygon; a circle gets 32 corners.
+std::vector<Vec<2>> outline_of(const RectShape& shape) {
+  const Vec<2> size = shape.box.size();
+  const double radius = std::min(shape.radius, std::min(size.x, size.y) / 2);
+  if (!(radius > 0)) return polygon_of(shape.box);
+  constexpr int kPerCorner = 8;
+  const Box<2> centers = shrunk(shape.box, radius);
+  std::vector<Vec<2>> points;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Vec<2> center{corner == 0 || corner == 3 ? centers.hi.x : centers.lo.x,
+                        corner < 2 ? centers.hi.y : centers.lo.y};
+    for (int i = 0; i <= kPerCorner; ++i) {
+      const double angle = (corner + i / double(kPerCorner)) * std::numbers::pi / 2;
+      points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vec<2>> cut_to(std::vector<Vec<2>> polygon, const Box<2>& rect) {
+  polygon = clipped(polygon, Plane<2>{{1, 0}, rect.lo.x}, true);
+  polygon = clipped(polygon, Plane<2>{{1, 0}, rect.hi.x}, false);
+  polygon = clipped(polygon, Plane<2>{{0, 1}, rect.lo.y}, true);
+  return clipped(polygon, Plane<2>{{0, 1}, rect.hi.y}, false);
+}
+
+void cut_shapes(DrawList& list, std::size_t first, const Box<2>& rect) {
+  const auto begin = list.shapes.begin() + static_cast<std::ptrdiff_t>(first);
+  std::vector<DrawShape> whole(std::make_move_iterator(begin),
+                               std::make_move_iterator(list.shapes.end()));
+  list.shapes.resize(first);
+  for (DrawShape& shape : whole) {
+    if (const auto* line = std::get_if<LineShape>(&shape))
+      if (contains(rect, line->from) && contains(rect, line->to)) list.shapes.push_back(shape);
+    if (const auto* s = std::get_if<RectShape>(&shape))
+      shape = PolygonShape{outline_of(*s), s->fill, s->stroke};
+    auto* polygon = std::get_if<PolygonShape>(&shape);
+    if (!polygon) continue;
+    polygon->points = cut_to(std::move(polygon->points), rect);
+    if (!polygon->points.empty()) list.shapes.push_back(std::move(shape));
+  }
+}
+
+std::optional<std::pair<Vec<2>, Vec<2>>> cut_line(const Vec<2>& from, const Vec<2>& to,
+                                                  const Box<2>& rect) {
+  if (!is_finite(from) || !is_finite(to - from)) return std::nullopt;
+  const auto seen = span_in(Ray<2>{from, to - from, 1}, rect);
+  if (!seen) return std::nullopt;
+  // Rounding may lead an end beside the rectangle by a hair.
+  const auto at = [&](double share) {
+    return glm::clamp(from + (to - from) * share, rect.lo, rect.hi);
+  };
+  return std::pair{contains(rect, from) ? from : at(seen->from),
+                   contains(rect, to) ? to : at(seen->to)};
+}
+
 void Pen::line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double casing) {
   const auto part = cut_line(from, to, place_);
   if (!part) return;
@@ -38,9 +100,9 @@ void Pen::dot(const Vec<2>& center, double radius, Role fill, const Stroke& stro
 }
 
 void Pen::polygon(std::vector<Vec<2>> points, Role fill, const Stroke& stroke) {
-  if (!std::all_of(points.begin(), points.end(), is_finite<2>)) return;
-  const bool whole = std::all_of(points.begin(), points.end(),
-                                 [&](const Vec<2>& p) { return contains(place_, p); });
+  if (!std::ranges::all_of(points, is_finite<2>)) return;
+  const bool whole =
+      std::ranges::all_of(points, [&](const Vec<2>& p) { return contains(place_, p); });
   if (!whole) points = cut_to(std::move(points), place_);
   if (points.size() >= 3) list_.polygon(std::move(points), fill, stroke);
 }

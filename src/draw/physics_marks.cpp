@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -27,22 +28,36 @@ struct Depth {
 std::vector<Depth> depths_of(const Frame& frame, const Projection& view) {
   std::vector<Depth> found;
   for (const FrameContact& contact : frame.contacts) {
-    Depth d;
-    bool seen = false;
+    Outline points;
+    double depth = 0;
     for (const FrameContact::Point& point : contact.points) {
       const auto at = view.seen(point.position);
       if (!at) continue;
-      d.points =
-          seen ? Box<2>{glm::min(d.points.lo, *at), glm::max(d.points.hi, *at)} : Box<2>{*at, *at};
-      d.depth = std::max(d.depth, -point.separation);
-      seen = true;
+      points.push_back(*at);
+      depth = std::max(depth, -point.separation);
     }
-    if (seen) found.push_back(d);
+    if (!points.empty()) found.push_back({depth, box_of(points)});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Depth& a, const Depth& b) { return a.depth > b.depth; });
+  std::ranges::stable_sort(found, std::greater(), &Depth::depth);
   if (found.size() > kMostDepths) found.resize(kMostDepths);
   return found;
+}
+
+// The part of its greatest length that a velocity's arrow has, in a world `extent` long. Speeds
+// far above the world's measure are pressed together, so that the scale depends on no other body
+// and an arrow changes from frame to frame only as its own body does.
+double arrow_share(double speed, double extent) {
+  const double half = 0.12 * extent;  // this far in a second: half the length
+  return speed > 0 && half > 0 ? speed / (speed + half) : 0;
+}
+
+// Of a spring or joint that is stretched, pressed together, or neither: by colour, and the more the
+// heavier. `strain` is the change of length, as a part of the length at rest.
+Stroke strain_stroke(double strain) {
+  constexpr double kRest = 0.005;
+  const double size = std::min(std::abs(strain), 1.0);
+  if (!(size > kRest)) return {Role::quiet_ink, 2.2};
+  return {strain > 0 ? Role::warning : Role::ray, 2.4 + 3.2 * size, 0};
 }
 
 }  // namespace
@@ -59,27 +74,23 @@ std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to) {
     const double at = end + (length - 2 * end) * (i + 0.5) / (2 * kTurns);
     points.push_back(from + along * at + side * (i % 2 == 0 ? reach : -reach));
   }
-  points.push_back(to - along * end);
-  points.push_back(to);
+  points.insert(points.end(), {to - along * end, to});
   return points;
 }
 
 void mark_links(const Frame& frame, Marks& marks) {
   for (const FrameLink& link : first_of(frame.links, kMostDrawnLinks)) {
     const Stroke stroke = strain_stroke(link.strain);
-    switch (link.kind) {
-      case FrameLink::Kind::pin:
-        marks.line(link.from, link.to, {Role::ink, 1.6});
-        marks.dot(link.to, 7.5, Role::panel, {Role::ink, 2.6});
-        marks.dot(link.to, 2, Role::ink);
-        continue;
-      case FrameLink::Kind::spring:
-        marks.spring(link.from, link.to, stroke);
-        break;
-      case FrameLink::Kind::distance:
-        marks.line(link.from, link.to, {stroke.role, std::max(3.0, stroke.width)}, 1.6);
-        break;
+    if (link.kind == FrameLink::Kind::pin) {
+      marks.line(link.from, link.to, {Role::ink, 1.6});
+      marks.dot(link.to, 7.5, Role::panel, {Role::ink, 2.6});
+      marks.dot(link.to, 2, Role::ink);
+      continue;
     }
+    if (link.kind == FrameLink::Kind::spring)
+      marks.spring(link.from, link.to, stroke);
+    else
+      marks.line(link.from, link.to, {stroke.role, std::max(3.0, stroke.width)}, 1.6);
     for (const Vec<3>& end : {link.from, link.to}) marks.dot(end, 5, Role::ink, {Role::panel, 1.6});
   }
 }
@@ -172,14 +183,10 @@ void write_depths(const Frame& frame, const Projection& view, const std::vector<
     const Anchor anchors[] = {{{right, above}, 0},      {{left, above}, 1},     {{right, below}, 0},
                               {{left, below}, 1},       {{right, middle}, 0},   {{left, middle}, 1},
                               {{far_right, middle}, 0}, {{far_left, middle}, 1}};
-    for (const bool clear : {true, false}) {
-      const Anchor* free = labels.free_anchor(
-          text, anchors, style, room,
-          [&](const Box<2>& extent) { return !clear || !touches(bodies, extent); });
-      if (!free) continue;
-      labels.add(text, *free, style, panel);
-      break;
-    }
+    for (const bool clear : {true, false})
+      if (labels.try_add(text, anchors, style, room, panel,
+                         [&](const Box<2>& extent) { return !clear || !touches(bodies, extent); }))
+        break;
   }
 }
 

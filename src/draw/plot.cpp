@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/clip.hpp"
-#include "draw/plot_bands.hpp"
+#include "draw/pen.hpp"
 #include "draw/plot_layout.hpp"
 #include "draw/plot_lines.hpp"
 
@@ -29,16 +28,18 @@ class Drawing : PlotLayout {
     if (!plot_.slide && (scaled().size().y < kLeastArea || area().size().x < kLeastArea)) return;
     placed_ = place_series();
     draw_axes(list_);
-    front_.draw(on_page(plot_.front), {scaled().lo, area().hi}, 1.15 * style_.mark,
-                0.3 * style_.mark, list_);
+    const double width = 1.15 * style_.mark;
+    const std::vector<Vec<2>> front =
+        draw_front(on_page(plot_.front), {scaled().lo, area().hi}, width, 0.3 * style_.mark, list_);
     PlotNamer namer({area().lo + Vec<2>{4, 0}, area().hi}, labels_);  // off the axis
+    std::vector<Pieces> guides;
     for (const PlotGuide& guide : plot_.guides)
-      guides_.emplace_back().draw(on_page(guide.points), scaled(), namer, list_);
+      guides.push_back(draw_guide(on_page(guide.points), scaled(), namer, list_));
     draw_series(namer);
     name_strip(namer);
-    for (std::size_t i = 0; i < guides_.size(); ++i)
-      guides_[i].name(plot_.guides[i].name, halo_.tick, namer);
-    front_.name(plot_.front_name, halo_.tick, namer);
+    for (std::size_t i = 0; i < guides.size(); ++i)
+      name_guide(plot_.guides[i].name, guides[i], halo_.tick, namer);
+    name_front(plot_.front_name, front, width, halo_.tick, namer);
     draw_slopes(namer);
     if (!with_legend_ && plot_.names == PlotNames::ends)
       for (const PlacedSeries& placed : placed_) all_named_ &= name_end(placed, namer);
@@ -182,8 +183,6 @@ class Drawing : PlotLayout {
   Labels& labels_;
   bool all_named_ = true;
   std::vector<PlacedSeries> placed_;
-  PlotFront front_;
-  std::vector<PlotGuideLine> guides_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A plot of points on two axes: a frame's chart, and what the reports are made of.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,7 +70,7 @@ struct Plot {
   std::vector<PlotGuide> guides;
   std::vector<PlotSlope> slopes;
   std::vector<PlotBand> bands;  // the lowest first; if there are any, y is no
-                                // scale (plot_bands.hpp)
+                                // scale
   std::vector<Vec<2>> front;    // the Pareto front's corners, ascending in x; drawn as stairs
   std::string front_name = "Pareto front";
   PlotNames names = PlotNames::ends;
@@ -86,11 +87,35 @@ struct Plot {
   std::optional<double> seconds;
   std::optional<double> least,
       most;  // ends of y; lines leave the picture beyond them
+
+  // On the axis of x.
+  bool has_place(const PlotPoint& p) const {
+    return std::isfinite(p.at.x) && (!log_x || p.at.x > 0);
+  }
 };
 
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that
 // are not finite are left out, and those in none of the bands; an empty plot says that there is
 // nothing to see.
 void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels);
+
+// The same of a plot that has bands: its values are no scale but a few outcomes: right, wrong by
+// one, wrong by more.
+//
+//   off by 1    |  . . . . . . . . . . . .
+//   Bullet      |            o---o             open: not in the lowest band
+//   exact       |  . . . . . . . . . . . .
+//   impulses    |     x---x---x                a lane for each series
+//   Bullet      |       *-------------*
+//               +-------------------------  seconds
+//
+// Every series has a lane of its own in each band that
+// it has points in, so that none hides another; bands without points are left out, but never the
+// lowest. The last corner of the plot's front, that of least error, is marked. Lanes are named at
+// the left if there is room, unless the plot's names are elsewhere.
+void draw_banded_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels);
+
+// Whether each lane of such a plot has its name beside it.
+bool names_its_lanes(const Plot& plot, const Box<2>& panel);
 
 }  // namespace lantern

@@ -1,10 +1,8 @@
-#include "draw/plot_bands.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "draw/plot_axes.hpp"
-#include "draw/plot_names.hpp"
+#include "draw/plot.hpp"
+#include "draw/plot_parts.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern {
@@ -56,9 +54,6 @@ class BandDrawing {
     const double wanted = plot_.mark > 0 ? plot_.mark : 0.31 * plot_.size;
     return std::min(wanted, 0.36 * pitch_);
   }
-  bool has_place(const PlotPoint& p) const {
-    return std::isfinite(p.at.x) && (!plot_.log_x || p.at.x > 0);
-  }
 
   void prepare() {
     paper_.heading(plot_.title, type_.title);
@@ -78,7 +73,7 @@ class BandDrawing {
       for (std::size_t b = 0; b < bands_.size(); ++b) {
         Lane lane{&series, {}};
         for (const PlotPoint& p : series.points)
-          if (has_place(p) && is_in(p, b)) lane.points.push_back(&p);
+          if (plot_.has_place(p) && is_in(p, b)) lane.points.push_back(&p);
         for (const PlotPoint* p : lane.points) {
           const Vec<2> reach = spread_of(*p);
           least_ = std::min(least_, reach.x);
@@ -155,26 +150,22 @@ class BandDrawing {
   void draw_front() {
     if (plot_.front.empty()) return;
     const Vec<2>& best = plot_.front.back();
-    for (const PlotBand& range : plot_.bands) {
-      if (!range.holds(best.y)) continue;
-      const auto band = std::ranges::find(bands_, range.name, &Band::name);
-      if (band != bands_.end()) stripe(*band, x_of(best.x), 1.15 * 0.31 * plot_.size);
-    }
-  }
-
-  void stripe(const Band& band, double x, double width) {
-    const Vec<2> from{x, band.top + heading_}, to{x, band.bottom - 3};
-    for (const auto& [role, w] :
-         {std::pair(Role::lit, width), std::pair(Role::lit_fill, 0.74 * width)})
-      list_.line(from, to, {role, w});
+    const auto range =
+        std::ranges::find_if(plot_.bands, [&](const PlotBand& b) { return b.holds(best.y); });
+    if (range == plot_.bands.end()) return;
+    const auto band = std::ranges::find(bands_, range->name, &Band::name);
+    if (band == bands_.end()) return;
+    const double x = x_of(best.x), width = 1.15 * 0.31 * plot_.size;
+    const Vec<2> from{x, band->top + heading_}, to{x, band->bottom - 3};
+    list_.line(from, to, {Role::lit, width});
+    list_.line(from, to, {Role::lit_fill, 0.74 * width});
     TextStyle style = type_.tick;
     style.role = Role::lit_ink;
     style.halo = Role::panel;
-    const double y = band.top + 1.08 * style.size;
-    if (!plot_.front_name.empty())
-      labels_.try_add(plot_.front_name,
-                      {{{x, y}, 0.5}, {{x, y}, 1}, {{std::max(x, band.named_to + 10), y}, 0}},
-                      style, area_);
+    const double y = band->top + 1.08 * style.size;
+    labels_.try_add(plot_.front_name,
+                    {{{x, y}, 0.5}, {{x, y}, 1}, {{std::max(x, band->named_to + 10), y}, 0}}, style,
+                    area_);
   }
 
   void draw_lane(const Lane& lane, bool open) {

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draw/clip.hpp"
 #include "draw/font.hpp"
+#include "draw/pen.hpp"
+#include "geometry/not_finite.hpp"
 
 namespace lantern {
 namespace {
@@ -46,57 +47,57 @@ std::vector<Vec<2>> thinned(const std::vector<Vec<2>>& points, std::size_t most)
   return kept;
 }
 
-void PlotFront::draw(const std::vector<Vec<2>>& corners, const Box<2>& area, double width,
-                     double rim, DrawList& list) {
-  width_ = width;
-  right_ = area.hi.x;
+std::vector<Vec<2>> draw_front(const std::vector<Vec<2>>& corners, const Box<2>& area, double width,
+                               double rim, DrawList& list) {
+  std::vector<Vec<2>> steps;
   for (const Vec<2>& p : corners) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    if (!steps_.empty()) steps_.push_back({p.x, steps_.back().y});
-    steps_.push_back(p);
+    if (!is_finite(p)) continue;
+    if (!steps.empty()) steps.push_back({p.x, steps.back().y});
+    steps.push_back(p);
   }
-  if (steps_.empty()) return;
-  steps_.insert(steps_.begin(), {steps_.front().x, area.lo.y});
-  steps_.push_back({area.hi.x, steps_.back().y});
-  const Box<2> inside = shrunk(area, width / 2 + 1);
-  for (const auto& [role, w] :
-       {std::pair(Role::lit, width), std::pair(Role::lit_fill, width - rim)})
-    for (std::size_t i = 1; i < steps_.size(); ++i)
-      if (const auto part = cut_line(steps_[i - 1], steps_[i], inside))
-        list.line(part->first, part->second, {role, w});
+  if (steps.empty()) return steps;
+  steps.insert(steps.begin(), {steps.front().x, area.lo.y});
+  steps.push_back({area.hi.x, steps.back().y});
+  Pen pen(list, shrunk(area, width / 2 + 1));
+  pen.path(steps, false, {Role::lit, width});
+  pen.path(steps, false, {Role::lit_fill, width - rim});
+  return steps;
 }
 
-void PlotFront::name(const std::string& text, TextStyle style, PlotNamer& namer) const {
+void name_front(const std::string& text, const std::vector<Vec<2>>& steps, double width,
+                TextStyle style, PlotNamer& namer) {
   std::vector<Anchor> anchors;
-  const double lift = width_ / 2 + 0.35 * style.size;
-  for (std::size_t i = steps_.size(); i-- > 1;) {
-    if (steps_[i].y != steps_[i - 1].y) continue;
-    const double right = std::min(steps_[i].x - width_ / 2, right_) - 4;
-    anchors.push_back({{right, steps_[i].y - lift}, 1});
-    anchors.push_back({{right, steps_[i].y + lift + 0.7 * style.size}, 1});
+  const double lift = width / 2 + 0.35 * style.size;
+  for (std::size_t i = steps.size(); i-- > 1;) {
+    if (steps[i].y != steps[i - 1].y) continue;
+    const double right = std::min(steps[i].x - width / 2, steps.back().x) - 4;
+    anchors.push_back({{right, steps[i].y - lift}, 1});
+    anchors.push_back({{right, steps[i].y + lift + 0.7 * style.size}, 1});
   }
   style.role = Role::lit_ink;
   namer.name(text, anchors, style, 0);
 }
 
-void PlotGuideLine::draw(const std::vector<Vec<2>>& points, const Box<2>& area, PlotNamer& namer,
-                         DrawList& list) {
+Pieces draw_guide(const std::vector<Vec<2>>& points, const Box<2>& area, PlotNamer& namer,
+                  DrawList& list) {
+  Pieces pieces;
   for (std::size_t i = 1; i < points.size(); ++i)
     if (const auto part = cut_line(points[i - 1], points[i], area)) {
-      parts_.push_back(*part);
+      pieces.push_back(*part);
       namer.cross(part->first, part->second);
       list.line(part->first, part->second, {Role::quiet_ink, 1.5, 7});
     }
+  return pieces;
 }
 
-void PlotGuideLine::name(const std::string& text, const TextStyle& style, PlotNamer& namer) const {
-  if (parts_.empty()) return;
+void name_guide(const std::string& text, const Pieces& pieces, const TextStyle& style,
+                PlotNamer& namer) {
+  if (pieces.empty()) return;
   std::vector<Anchor> anchors;
   for (const double t : {0.98, 0.02, 0.75, 0.25, 0.5})
     for (const double lift : {-0.45, 1.05}) {
-      const auto& part = t > 0.5 ? parts_.back() : parts_.front();
-      const Vec<2> p = part.first + t * (part.second - part.first);
-      anchors.push_back({p + Vec<2>{0, lift * style.size}, t});
+      const auto& [from, to] = t > 0.5 ? pieces.back() : pieces.front();
+      anchors.push_back({from + t * (to - from) + Vec<2>{0, lift * style.size}, t});
     }
   namer.name(text, anchors, style, 3);
 }

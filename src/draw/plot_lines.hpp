@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "draw/plot.hpp"
-#include "draw/plot_names.hpp"
+#include "draw/plot_parts.hpp"
 
 namespace lantern {
 
@@ -15,32 +15,22 @@ namespace lantern {
 // the line its first, lowest, highest and last one.
 std::vector<Vec<2>> thinned(const std::vector<Vec<2>>& points, std::size_t most);
 
-// From the upper edge down to the first corner, then in steps from corner to corner to the right
-// edge, under the marks.
-class PlotFront {
- public:
-  // The corners on the page, ascending in x; those that are not finite are left out. `area` is the
-  // part of the plot that has a scale, `rim` the width of the stairs' outline.
-  void draw(const std::vector<Vec<2>>& corners, const Box<2>& area, double width, double rim,
-            DrawList& list);
-  // Along the last step where it is free, else along the others.
-  void name(const std::string& text, TextStyle style, PlotNamer& namer) const;
+// The Pareto front: from the upper edge down to the first corner, then in steps from corner to
+// corner to the right edge, under the marks. Corners are on the page, ascending in x; those that
+// are not finite are left out. `area` is the part of the plot that has a scale, `rim` the width of
+// the stairs' outline. Gives the steps.
+std::vector<Vec<2>> draw_front(const std::vector<Vec<2>>& corners, const Box<2>& area, double width,
+                               double rim, DrawList& list);
+// Along the last step where it is free, else along the others.
+void name_front(const std::string& text, const std::vector<Vec<2>>& steps, double width,
+                TextStyle style, PlotNamer& namer);
 
- private:
-  std::vector<Vec<2>> steps_;
-  double width_ = 0, right_ = 0;
-};
-
-// Dashed, cut to the area.
-class PlotGuideLine {
- public:
-  void draw(const std::vector<Vec<2>>& points, const Box<2>& area, PlotNamer& namer,
-            DrawList& list);
-  void name(const std::string& text, const TextStyle& style, PlotNamer& namer) const;
-
- private:
-  std::vector<std::pair<Vec<2>, Vec<2>>> parts_;
-};
+// A guide, dashed and cut to the area. Gives the pieces.
+using Pieces = std::vector<std::pair<Vec<2>, Vec<2>>>;
+Pieces draw_guide(const std::vector<Vec<2>>& points, const Box<2>& area, PlotNamer& namer,
+                  DrawList& list);
+void name_guide(const std::string& text, const Pieces& pieces, const TextStyle& style,
+                PlotNamer& namer);
 
 // A key to slopes on logarithmic axes: lines that begin at one point and fall (or rise) as orders
 // would.

@@ -1,7 +1,12 @@
-// The marks and colours of a plot's series.
+// The marks and colours of a plot's series, and their legend: names beside a piece of the line, in
+// columns.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "draw/draw_list.hpp"
+#include "draw/labels.hpp"
 
 namespace lantern {
 
@@ -29,5 +34,20 @@ void draw_plot_whisker(const PlotInk& ink, const Vec<2>& from, const Vec<2>& to,
 // A line, so that pale colours stay visible on pale ground.
 void draw_plot_line(const PlotInk& ink, const Vec<2>& from, const Vec<2>& to, double width,
                     DrawList& list);
+
+struct LegendEntry {
+  std::string name;
+  int look = 0;
+  bool is_peer = false;
+  PlotInk ink() const { return {look, is_peer}; }
+};
+
+// The height that they take in a legend so wide, page units.
+double plot_legend_height(const std::vector<LegendEntry>& entries, double width, double size);
+
+// At the top of `place`, in columns as wide as the longest name, read downwards. Names that are
+// wider than the place are shortened; what has no room below is left out, and that is said.
+void draw_plot_legend(const std::vector<LegendEntry>& entries, const Box<2>& place, double size,
+                      DrawList& list, Labels& labels);
 
 }  // namespace lantern

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/clip.hpp"
+#include "draw/pen.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern {
@@ -34,13 +34,25 @@ bool parted_by_edge(const Outline& a, const Outline& b) {
   return false;
 }
 
+// Normals at an angle to a unit axis whose cosine is given: a circle.
+std::vector<Vec<3>> circle(const Vec<3>& axis, double cosine) {
+  constexpr int kPoints = 48;
+  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+  const Vec<3> side = across(axis);
+  const Vec<3> other = glm::cross(axis, side);
+  std::vector<Vec<3>> normals;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kPoints;
+    normals.push_back(axis * cosine + (side * std::cos(angle) + other * std::sin(angle)) * sine);
+  }
+  return normals;
+}
+
 }  // namespace
 
 // Andrew's monotone chain (1979).
 Outline hull_of(Outline points) {
-  std::sort(points.begin(), points.end(), [](const Vec<2>& a, const Vec<2>& b) {
-    return a.x < b.x || (a.x == b.x && a.y < b.y);
-  });
+  std::ranges::sort(points, {}, [](const Vec<2>& p) { return std::pair(p.x, p.y); });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   Outline hull;
@@ -185,25 +197,6 @@ std::optional<std::pair<Vec<2>, Vec<2>>> View3D::segment(const Vec<3>& a, const 
   if (!seen) return std::nullopt;
   return cut_line(to_page(seen->first), to_page(seen->second), panel_);
 }
-
-namespace {
-
-// Normals at an angle to a unit axis whose cosine is given: a circle.
-std::vector<Vec<3>> circle(const Vec<3>& axis, double cosine) {
-  constexpr int kPoints = 48;
-  const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  const Vec<3> side =
-      glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9 ? Vec<3>(0, 1, 0) : Vec<3>(1, 0, 0)));
-  const Vec<3> other = glm::cross(axis, side);
-  std::vector<Vec<3>> normals;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kPoints;
-    normals.push_back(axis * cosine + (side * std::cos(angle) + other * std::sin(angle)) * sine);
-  }
-  return normals;
-}
-
-}  // namespace
 
 //      axis          The eye sees the normals n with n . v >= r / d: v towards the eye, d the
 //     .-^-.          distance. The cap as seen is bounded by its own rim, as far as that is seen,

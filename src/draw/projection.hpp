@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "draw/metrics.hpp"
+#include "draw/draw_list.hpp"
 #include "geometry/flat.hpp"
 #include "scenario/frame.hpp"
 
@@ -28,6 +28,11 @@ Box<2> box_of(const Outline& points);
 // The part of a convex polygon in space where normal . x >= offset.
 std::vector<Vec<3>> clipped(const std::vector<Vec<3>>& polygon, const Vec<3>& normal,
                             double offset);
+
+// A unit vector at right angles to a unit vector.
+inline Vec<3> across(const Vec<3>& n) {
+  return glm::normalize(glm::cross(n, std::abs(n.y) < 0.9 ? Vec<3>(0, 1, 0) : Vec<3>(1, 0, 0)));
+}
 
 // The corners of a box: bit 0, 1, 2 of the index says high on x, y, z.
 std::vector<Vec<3>> corners_of(const Box<3>& box);

@@ -59,7 +59,7 @@ void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& pla
 void mark_views(const Frame& frame, Marks& marks) {
   for (const FrameView& view : first_of(frame.views, kMostViews)) {
     const std::vector<Vec<3>>& c = view.corners;
-    if (!std::all_of(c.begin(), c.end(), is_finite<3>)) continue;
+    if (!std::ranges::all_of(c, is_finite<3>)) continue;
     if (c.size() != 8) {
       for (std::size_t i = 0; i < c.size() && c.size() > 2; ++i)
         marks.line(c[i], c[(i + 1) % c.size()], {Role::frustum, 3.4});

@@ -3,10 +3,13 @@
 // panel.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <vector>
 
+#include "base/hash.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern {
@@ -33,28 +36,202 @@ struct Branch {
 class TreeFold {
  public:
   // The frame must outlive this.
-  explicit TreeFold(const Frame& frame);
+  explicit TreeFold(const Frame& frame)
+      : nodes_(frame.nodes),
+        children_(nodes_.size()),
+        size_(nodes_.size(), 1),
+        mark_(nodes_.size()),
+        shape_(nodes_.size()) {
+    // An atlas's free leaves differ by their names only.
+    const bool named = !frame.textures.empty();
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i)
+      if (nodes_[i].parent != kNone) children_[nodes_[i].parent].push_back(i);
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+      const FrameNode& node = nodes_[i];
+      auto& children = children_[i];
+      std::ranges::stable_sort(children, {}, [&](std::uint32_t c) { return nodes_[c].slot; });
+      Hash hash;
+      hash.add(static_cast<std::uint64_t>(node.mark)).add(std::uint64_t{node.leaf});
+      hash.add(std::uint64_t{node.awake});
+      hash.add(node.plane_name).add(named ? node.label : std::string());
+      for (const BodyId id : node.bodies) hash.add(std::uint64_t{id});
+      mark_[i] = node.mark;
+      for (const std::uint32_t child : children) {
+        hash.add(std::uint64_t{nodes_[child].slot}).add(shape_[child]);
+        size_[i] += size_[child];
+        mark_[i] = std::max(mark_[i], mark_[child]);
+      }
+      shape_[i] = hash.value();
+    }
+  }
 
   // Every node, parents before children, children in order.
-  std::vector<Branch> whole() const;
-  std::uint32_t rows() const { return rows_; }
+  std::vector<Branch> whole() const {
+    std::vector<Branch> list;
+    if (!nodes_.empty()) list.push_back({.mark = nodes_[0].mark});
+    for (std::uint32_t at = 0; at < list.size(); ++at)
+      for (const std::uint32_t child : children_[list[at].node])
+        list.push_back(
+            {.node = child, .parent = at, .row = list[at].row + 1, .mark = nodes_[child].mark});
+    return list;
+  }
 
   // At most `rows` (4 or more) rows. Empty leaves and equal subtrees of one parent become one
   // branch; the path to the deepest lit leaf is open; of the rest as much is opened, level by level
   // and what is lit first, as `fits` allows.
   using Fits = std::function<bool(const std::vector<Branch>&)>;
-  std::vector<Branch> condensed(std::uint32_t rows, const Fits& fits) const;
+
+  std::vector<Branch> condensed(std::uint32_t rows, const Fits& fits) const {
+    Opening opening;
+    opening.rows = rows;
+    opening.spine = spine();
+    const auto length = static_cast<std::uint32_t>(opening.spine.size());
+    if (length > rows) {
+      const std::uint32_t tail = rows >= 6 ? 3 : 2;
+      opening.hidden_from = rows - tail - 1;
+      opening.hidden_to = length - tail;
+    }
+    for (const std::uint32_t node : opening.spine)
+      if (!nodes_[node].leaf) opening.open.insert(node);
+    std::vector<Branch> list = build(opening);
+    if (!fits(list)) {
+      opening.lone_spine = true;
+      return build(opening);
+    }
+    open_rows(opening, list, fits);
+    return list;
+  }
 
  private:
-  struct Opening;
-  std::vector<std::uint32_t> spine() const;
-  Branch branch_for(std::uint32_t node, std::uint32_t copies, const Opening& opening) const;
-  std::vector<Branch> build(const Opening& opening) const;
-  void add_children(std::uint32_t at, const Opening& opening, std::vector<Branch>& list) const;
-  void open_rows(Opening& opening, std::vector<Branch>& list, const Fits& fits) const;
+  // What is open, and which part of the spine is left out.
+  struct Opening {
+    std::set<std::uint32_t> open;       // nodes whose children are shown
+    std::vector<std::uint32_t> spine;   // nodes from the root to the leaf that stays open
+    std::uint32_t hidden_from = kNone;  // positions in the spine that become one mark
+    std::uint32_t hidden_to = kNone;
+    std::uint32_t rows = 0;
+    bool lone_spine = false;  // its siblings share one mark
+
+    bool on_spine(std::uint32_t node, std::uint32_t position) const {
+      return position < spine.size() && spine[position] == node;
+    }
+  };
+
+  // To the deepest lit leaf; without one to the deepest leaf that holds too much; the first of
+  // them.
+  std::vector<std::uint32_t> spine() const {
+    std::uint32_t end = kNone;
+    const auto rank = [&](const FrameNode& node) {
+      const int kind = node.mark == Mark::lit ? 2 : node.over_capacity ? 1 : 0;
+      return std::pair{kind, node.depth};
+    };
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i)
+      if (rank(nodes_[i]).first > 0 && (end == kNone || rank(nodes_[end]) < rank(nodes_[i])))
+        end = i;
+    std::vector<std::uint32_t> path;
+    for (; end != kNone; end = nodes_[end].parent) path.push_back(end);
+    std::ranges::reverse(path);
+    return path;
+  }
+
+  Branch branch_for(std::uint32_t node, std::uint32_t copies, const Opening& opening) const {
+    Branch branch{.node = node, .copies = copies, .mark = nodes_[node].mark};
+    if (nodes_[node].leaf && nodes_[node].bodies.empty() && copies > 1) {
+      branch.kind = Branch::Kind::empties;
+      branch.count = copies;
+    } else if (!nodes_[node].leaf && !opening.open.contains(node)) {
+      branch.kind = Branch::Kind::folded;
+      branch.count = copies * size_[node] - 1;
+      branch.copies = 1;
+      branch.mark = mark_[node];
+    }
+    return branch;
+  }
+
+  std::vector<Branch> build(const Opening& opening) const {
+    std::vector<Branch> list;
+    if (nodes_.empty()) return list;
+    list.push_back(branch_for(0, 1, opening));
+    for (std::uint32_t at = 0; at < list.size(); ++at) add_children(at, opening, list);
+    return list;
+  }
+
+  void add_children(std::uint32_t at, const Opening& opening, std::vector<Branch>& list) const {
+    const Branch parent = list[at];
+    const std::uint32_t depth = nodes_[parent.node].depth;
+    const bool in_spine = opening.on_spine(parent.node, depth);
+    const auto push = [&](Branch branch) {
+      branch.parent = at;
+      branch.row = parent.row + 1;
+      branch.each = parent.each || parent.copies > 1;
+      list.push_back(branch);
+    };
+    if (parent.kind == Branch::Kind::levels)
+      return push(branch_for(opening.spine[opening.hidden_to], 1, opening));
+    if (parent.kind != Branch::Kind::node || !opening.open.contains(parent.node)) return;
+
+    Branch rest{.kind = Branch::Kind::folded, .copies = 0};  // the spine's siblings in one
+    std::vector<bool> taken(children_[parent.node].size());
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      if (taken[i]) continue;
+      const std::uint32_t child = children_[parent.node][i];
+      const bool spine_child = in_spine && opening.on_spine(child, depth + 1);
+      if (spine_child && depth + 1 == opening.hidden_from) {
+        push({.kind = Branch::Kind::levels,
+              .node = child,
+              .count = opening.hidden_to - opening.hidden_from,
+              .mark = nodes_[child].mark});
+        continue;
+      }
+      if (in_spine && opening.lone_spine && !spine_child) {
+        if (rest.count == 0) rest.node = child;
+        rest.count += size_[child];
+        rest.mark = std::max(rest.mark, mark_[child]);
+        continue;
+      }
+      std::uint32_t copies = 0;
+      for (std::size_t j = i; j < taken.size(); ++j) {
+        if (taken[j] || shape_[children_[parent.node][j]] != shape_[child]) continue;
+        taken[j] = true;
+        ++copies;
+      }
+      push(branch_for(child, copies, opening));
+    }
+    if (rest.count > 0) push(rest);
+  }
+
+  // Level by level: the whole level if it fits, otherwise branch by branch.
+  void open_rows(Opening& opening, std::vector<Branch>& list, const Fits& fits) const {
+    constexpr std::size_t kMostTries = 48;  // branches one by one, a bound on the layouts made
+    std::size_t tries = 0;
+    for (std::uint32_t row = 0; row + 1 < opening.rows; ++row) {
+      std::vector<Branch> closed;
+      for (const Branch& branch : list)
+        if (branch.row == row && branch.kind == Branch::Kind::folded) closed.push_back(branch);
+      const Opening before = opening;
+      for (const Branch& branch : closed) opening.open.insert(branch.node);
+      std::vector<Branch> opened = build(opening);
+      if (fits(opened)) {
+        list = std::move(opened);
+        continue;
+      }
+      opening = before;
+      // Not what was merely passed: that changes from frame to frame, and the diagram with it.
+      std::ranges::stable_partition(closed, [](const Branch& b) { return b.mark == Mark::lit; });
+      for (const Branch& branch : closed) {
+        if (++tries > kMostTries) return;
+        opening.open.insert(branch.node);
+        opened = build(opening);
+        if (fits(opened))
+          list = std::move(opened);
+        else
+          opening.open.erase(branch.node);
+      }
+    }
+  }
 
   const std::vector<FrameNode>& nodes_;
-  std::uint32_t rows_ = 0;
+
   std::vector<std::vector<std::uint32_t>> children_;
   std::vector<std::uint32_t> size_;   // nodes of each subtree
   std::vector<Mark> mark_;            // the strongest of each subtree

@@ -1,5 +1,7 @@
 #include "draw/tree_layout.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
@@ -36,9 +38,7 @@ double width_of(const Branch& branch, const Frame& frame, const TreeScale& scale
 }
 
 std::uint32_t row_count(const std::vector<Branch>& branches) {
-  std::uint32_t rows = 0;
-  for (const Branch& branch : branches) rows = std::max(rows, branch.row + 1);
-  return rows;
+  return branches.empty() ? 0 : std::ranges::max(branches, {}, &Branch::row).row + 1;
 }
 
 // That a panel of this height has room for; on a very low one rows stand closer.
@@ -200,16 +200,11 @@ BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& sc
                    const TreeWords& words) {
   const FrameNode& node = frame.nodes[branch.node];
   const char* each = branch.each && words.each ? " each" : "";
-  switch (branch.kind) {
-    case Branch::Kind::empties:
-      return {fmt::format("×{}{}", branch.count, each), 0};
-    case Branch::Kind::folded:
-      return {fmt::format("+{}{}", branch.count, words.nodes ? " nodes" : ""), 0};
-    case Branch::Kind::levels:
-      return {fmt::format("{} levels", branch.count), 0};
-    case Branch::Kind::node:
-      break;
-  }
+  using Kind = Branch::Kind;
+  if (branch.kind == Kind::empties) return {fmt::format("×{}{}", branch.count, each), 0};
+  if (branch.kind == Kind::folded)
+    return {fmt::format("+{}{}", branch.count, words.nodes ? " nodes" : ""), 0};
+  if (branch.kind == Kind::levels) return {fmt::format("{} levels", branch.count), 0};
   if (!node.leaf) {
     if (branch.copies > 1) return {fmt::format("×{}{}", branch.copies, each), 0};
     if (!frame.textures.empty()) return {};  // an atlas's inner node shows its cut

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/characters.hpp"
 #include "draw/font.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
@@ -22,7 +21,6 @@ class TreeView {
         labels_(labels),
         layout_(lay_out_tree(frame, panel)),
         bodies_(by_id(frame.bodies)) {
-    for (std::size_t i = 0; i < frame.textures.size(); ++i) texture_at_[frame.textures[i].id] = i;
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
   }
@@ -121,20 +119,16 @@ class TreeView {
 
   TextStyle text_style(const Branch& branch) const {
     const bool no_node = branch.kind != Branch::Kind::node || is_empty_leaf(branch);
-    TextStyle style{layout_.scale.text, Weight::semibold, Role::ink};
-    if (no_node && branch.mark != Mark::lit) {
-      style.weight = Weight::regular;
-      style.role = Role::quiet_ink;
-    }
-    return style;
+    if (no_node && branch.mark != Mark::lit)
+      return {layout_.scale.text, Weight::regular, Role::quiet_ink};
+    return {layout_.scale.text, Weight::semibold, Role::ink};
   }
 
   void draw_icon(BodyId id, const Box<2>& place) {
     if (is_atlas()) {
-      const FrameTexture& texture = frame_.textures[texture_at_.at(id)];
+      const FrameTexture& texture = *std::ranges::find(frame_.textures, id, &FrameTexture::id);
       draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_);
-      list_.rect(place, Role::none, {Role::body_line, 1.2});
-      return;
+      return list_.rect(place, Role::none, {Role::body_line, 1.2});
     }
     const auto found = bodies_.find(id);
     if (found == bodies_.end()) return;
@@ -284,8 +278,7 @@ class TreeView {
   Labels& labels_;
   TreeLayout layout_;
   std::vector<bool> says_holds_;  // by row
-  std::unordered_map<BodyId, const FrameBody*> bodies_;
-  std::unordered_map<std::uint32_t, std::size_t> texture_at_;
+  BodiesById bodies_;
 };
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include <cmath>
+#include <functional>
 #include <set>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
-#include "draw/characters.hpp"
-#include "draw/clip.hpp"
+#include "draw/body_shapes.hpp"
+#include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
 
 namespace lantern {
@@ -159,8 +160,7 @@ void name_stand(const std::string& text, const Stand& stand, const std::vector<B
 }
 
 bool is_lit(const Stand& stand) {
-  return std::any_of(stand.bodies.begin(), stand.bodies.end(),
-                     [](const FrameBody* body) { return body->lit; });
+  return std::ranges::any_of(stand.bodies, [](const FrameBody* body) { return body->lit; });
 }
 
 }  // namespace
@@ -171,7 +171,7 @@ std::vector<Stand> stands_of(const Frame& frame, const View2D& map) {
     stop_if_asked();
     if (is_half_space(body)) continue;
     Stand mine = stand_of(body, frame, map);
-    const auto same = std::find_if(stands.begin(), stands.end(), [&](const Stand& other) {
+    const auto same = std::ranges::find_if(stands, [&](const Stand& other) {
       const Vec<2> apart = other.center - mine.center;
       return other.outside == mine.outside && std::hypot(apart.x, apart.y) < kOnePlace;
     });
@@ -221,9 +221,7 @@ void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes
     order.push_back(&stand);
   }
   // A large body must not hide a small one.
-  std::stable_sort(order.begin(), order.end(), [&](const Stand* a, const Stand* b) {
-    return size_of(*a, map) > size_of(*b, map);
-  });
+  std::ranges::stable_sort(order, std::greater(), [&](const Stand* s) { return size_of(*s, map); });
   const bool plain = count > kMostDetailed;
   for (const Stand* stand : order) {
     if (stand->outside)
@@ -252,7 +250,7 @@ void name_bodies(const std::vector<Stand>& stands, const std::vector<Box<2>>& co
     if (is_lit(stand) ||
         (bodies <= kMostNamed && (bodies <= kMostStaticNamed || !stand.bodies.front()->is_static)))
       order.push_back(&stand);
-  std::stable_partition(order.begin(), order.end(), [](const Stand* s) { return is_lit(*s); });
+  std::ranges::stable_partition(order, [](const Stand* s) { return is_lit(*s); });
   if (order.size() > kMostNamed) order.resize(kMostNamed);
   for (const Stand* stand : order) {
     const double widest = stand->bodies.size() > 1 ? map.panel().size().x - 16 : kWidestName;

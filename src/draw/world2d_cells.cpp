@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "draw/borders.hpp"
-#include "draw/clip.hpp"
 #include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
 #include "geometry/not_finite.hpp"
@@ -27,48 +26,42 @@ std::size_t children_that_cover(StructureKind kind) {
   return kind == StructureKind::bsp ? 2 : 4;
 }
 
-// Which nodes are painted, and how. A node whose children cover it with one tone is painted as a
-// whole; a lit inner node is painted when the step is about it alone, with nothing lit inside.
-class Paint {
- public:
-  explicit Paint(const Frame& frame) : nodes_(frame.nodes) {
-    const std::size_t all = children_that_cover(frame.structure);
-    tone_.resize(nodes_.size());
-    child_tone_.resize(nodes_.size());
-    std::vector<std::size_t> alike(nodes_.size());
-    std::vector<bool> lit_inside(nodes_.size());
-    for (std::size_t i = nodes_.size(); i-- > 0;) {
-      const FrameNode& node = nodes_[i];
-      if (node.leaf || (node.mark == Mark::lit && !lit_inside[i]))
-        tone_[i] = node.mark;
-      else if (alike[i] == all)
-        tone_[i] = child_tone_[i];
-      if (node.parent == kNone) continue;
-      if (node.mark == Mark::lit || lit_inside[i]) lit_inside[node.parent] = true;
-      if (!tone_[i] || (alike[node.parent] > 0 && child_tone_[node.parent] != tone_[i])) continue;
-      ++alike[node.parent];
-      child_tone_[node.parent] = tone_[i];
-    }
-  }
-
-  // In order of painting. Parents stand before children, so whatever an ancestor covers falls out.
-  std::vector<std::size_t> painted() const {
-    std::vector<std::size_t> found;
-    std::vector<bool> covered(nodes_.size());
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const std::uint32_t parent = nodes_[i].parent;
-      covered[i] = parent != kNone && (covered[parent] || tone_[parent].has_value());
-      if (!covered[i] && tone_[i] && *tone_[i] != Mark::quiet) found.push_back(i);
-    }
-    return found;
-  }
-  Mark tone(std::size_t i) const { return *tone_[i]; }
-
- private:
-  const std::vector<FrameNode>& nodes_;
-  std::vector<std::optional<Mark>> tone_;        // of the whole node, if it has one tone
-  std::vector<std::optional<Mark>> child_tone_;  // of the children seen so far
+struct Painted {
+  std::size_t node;
+  Mark tone;
 };
+
+// Which nodes are painted, and how, in order of painting. A node whose children cover it with one
+// tone is painted as a whole; a lit inner node is painted when the step is about it alone, with
+// nothing lit inside.
+std::vector<Painted> painted_of(const Frame& frame) {
+  const std::vector<FrameNode>& nodes = frame.nodes;
+  const std::size_t all = children_that_cover(frame.structure);
+  std::vector<std::optional<Mark>> tone(nodes.size());        // of the whole node, if it has one
+  std::vector<std::optional<Mark>> child_tone(nodes.size());  // of the children seen so far
+  std::vector<std::size_t> alike(nodes.size());
+  std::vector<bool> lit_inside(nodes.size()), covered(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    const FrameNode& node = nodes[i];
+    if (node.leaf || (node.mark == Mark::lit && !lit_inside[i]))
+      tone[i] = node.mark;
+    else if (alike[i] == all)
+      tone[i] = child_tone[i];
+    if (node.parent == kNone) continue;
+    if (node.mark == Mark::lit || lit_inside[i]) lit_inside[node.parent] = true;
+    if (!tone[i] || (alike[node.parent] > 0 && child_tone[node.parent] != tone[i])) continue;
+    ++alike[node.parent];
+    child_tone[node.parent] = tone[i];
+  }
+  std::vector<Painted> found;
+  // Parents stand before children, so whatever an ancestor covers falls out.
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::uint32_t parent = nodes[i].parent;
+    covered[i] = parent != kNone && (covered[parent] || tone[parent].has_value());
+    if (!covered[i] && tone[i] && *tone[i] != Mark::quiet) found.push_back({i, *tone[i]});
+  }
+  return found;
+}
 
 bool is_drawn(const Box<2>& cell) { return std::min(cell.size().x, cell.size().y) >= kLeastCell; }
 
@@ -109,13 +102,13 @@ bool nearly_all_lit(const Frame& frame) {
 
 void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
   if (nearly_all_lit(frame)) return;
-  const Paint paint(frame);
-  std::vector<std::size_t> painted = paint.painted();
-  std::erase_if(painted, [&](std::size_t i) { return !is_drawn(map.to_page(frame.nodes[i].box)); });
+  std::vector<Painted> painted = painted_of(frame);
+  std::erase_if(painted,
+                [&](const Painted& p) { return !is_drawn(map.to_page(frame.nodes[p.node].box)); });
   if (painted.size() > kMostFills) return;  // some alone would say what is not so
-  for (const std::size_t i : painted) {
+  for (const auto& [i, tone] : painted) {
     const FrameNode& node = frame.nodes[i];
-    const Role role = ground_of(paint.tone(i));
+    const Role role = ground_of(tone);
     grounds.push_back({page_region(node, map), role});
     if (node.region.empty())
       list.crisp_rect(map.to_page(node.box), role);
@@ -161,19 +154,27 @@ void hatch_asleep(const Frame& frame, const View2D& map, DrawList& list) {
   }
 }
 
-// Long dashes, over the lines of the other tree, so that both can be told apart in one picture.
-bool draw_static_cells(const Frame& frame, const View2D& map, DrawList& list) {
+// The borders of the cells of what moves, or, in long dashes over them, of what never does, so that
+// both can be told apart in one picture.
+bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
+  const bool fitted = frame.structure == StructureKind::kd_tree && !of_static;
+  bool complete = true;
   Borders borders;
   for (const FrameNode& node : frame.nodes) {
+    // The root is the world, but for one that is fitted.
+    if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static != of_static)
+      continue;
     const Box<2> cell = map.to_page(node.box);
-    if (node.of_static && node.depth > 0 && node.region.empty() && is_drawn(cell))
+    if (is_drawn(cell))
       borders.add(cell, node.depth);
+    else
+      complete &= of_static;
   }
-  return borders.draw(
-      [](std::uint32_t depth) {
-        return Stroke{Role::cell_line_3, std::max(1.6, 0.6 * line_width(depth)), 16};
-      },
-      list);
+  const auto stroke = [&](std::uint32_t depth) {
+    if (!of_static) return Stroke{cell_line_role(depth), line_width(depth)};
+    return Stroke{Role::cell_line_3, std::max(1.6, 0.6 * line_width(depth)), 16};
+  };
+  return borders.draw(stroke, list) && complete;
 }
 
 void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
@@ -187,11 +188,10 @@ void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
     else if (outlined++ < kMostFills)
       list.polygon(inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2});
   }
-  borders.draw(
-      [](std::uint32_t depth) {
-        return Stroke{Role::lit, std::max(1.2, 3.6 - 0.4 * depth), 0};
-      },
-      list);
+  const auto stroke = [](std::uint32_t depth) {
+    return Stroke{Role::lit, std::max(1.2, 3.6 - 0.4 * depth)};
+  };
+  borders.draw(stroke, list);
 }
 
 // The grounds of views, which lie under the cells.
@@ -200,7 +200,7 @@ void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   for (const FrameView& view : first_of(frame.views, kMostViews)) {
     std::vector<Vec<2>> corners;
     for (const Vec<3>& corner : view.corners) corners.push_back(map.to_page(corner));
-    if (corners.size() < 3 || !std::all_of(corners.begin(), corners.end(), is_finite<2>)) continue;
+    if (corners.size() < 3 || !std::ranges::all_of(corners, is_finite<2>)) continue;
     pen.polygon(corners, Role::view_fill);
     grounds.push_back({cut_to(corners, map.picture()), Role::view_fill});
   }
@@ -221,23 +221,8 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   }
   grounds.insert(grounds.end(), under.begin(), under.end());
   hatch_asleep(frame, map, list);
-  bool complete = true;
-  Borders borders;
-  const bool fitted = frame.structure == StructureKind::kd_tree;  // its root is not the world
-  for (const FrameNode& node : frame.nodes) {
-    if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static) continue;
-    const Box<2> cell = map.to_page(node.box);
-    if (is_drawn(cell))
-      borders.add(cell, node.depth);
-    else
-      complete = false;
-  }
-  complete &= borders.draw(
-      [](std::uint32_t depth) {
-        return Stroke{cell_line_role(depth), line_width(depth)};
-      },
-      list);
-  complete &= draw_static_cells(frame, map, list);
+  bool complete = draw_borders(frame, map, false, list);
+  complete &= draw_borders(frame, map, true, list);
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
   const bool lit =

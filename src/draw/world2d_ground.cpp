@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
-#include "draw/clip.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/pen.hpp"
@@ -81,18 +81,15 @@ std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map,
 
 void draw_ground_pairs(const Frame& frame, Marks& marks) {
   constexpr std::size_t kMostLinks = 200;
-  const auto bodies = by_id(frame.bodies);
   std::size_t drawn = 0;
-  for (const FramePair& pair : frame.pairs) {
-    const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
-    if (a == bodies.end() || b == bodies.end()) continue;
-    const bool first = is_half_space(*a->second);
-    if (first == is_half_space(*b->second)) continue;
-    if (++drawn > kMostLinks) return;
-    const Vec<3>& from = (first ? b : a)->second->position;
-    const FrameBody& ground = *(first ? a : b)->second;
-    marks.line(from, foot_on(ground, from), {Role::pair, pair.lit ? 4.4 : 3.0}, 2);
-  }
+  for_each_pair(frame, by_id(frame.bodies),
+                [&](const FrameBody& a, const FrameBody& b, const FramePair& pair) {
+                  if (is_half_space(a) == is_half_space(b)) return true;
+                  const auto& [body, ground] = is_half_space(a) ? std::tie(b, a) : std::tie(a, b);
+                  marks.line(body.position, foot_on(ground, body.position),
+                             {Role::pair, pair.lit ? 4.4 : 3.0}, 2);
+                  return ++drawn < kMostLinks;
+                });
 }
 
 void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,

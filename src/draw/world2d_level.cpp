@@ -71,21 +71,14 @@ Vec<2> centroid(const Polygon& polygon) {
   return std::abs(area) > 1e-9 ? polygon[0] + sum / (3 * area) : polygon[0];
 }
 
-bool same_place(const Vec<2>& a, const Vec<2>& b) {
-  return std::abs(a.x - b.x) < 0.5 && std::abs(a.y - b.y) < 0.5;
-}
-
 // Short strokes across the wall where it was cut in two.
 void draw_cuts(const Frame& frame, const View2D& map, Pen& pen) {
-  const std::size_t count = std::min(frame.walls.size(), kMostWalls);
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < count; ++i) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return frame.walls[a].wall < frame.walls[b].wall;
-  });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const FrameWall &a = frame.walls[order[i]], &b = frame.walls[order[j]];
+  const auto drawn = first_of(frame.walls, kMostWalls);
+  std::vector<FrameWall> walls(drawn.begin(), drawn.end());
+  std::ranges::stable_sort(walls, {}, &FrameWall::wall);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    for (std::size_t j = i + 1; j < walls.size(); ++j) {
+      const FrameWall &a = walls[i], &b = walls[j];
       if (a.wall != b.wall) break;
       const Vec<2> way = map.to_page(a.to) - map.to_page(a.from);
       const double length = std::hypot(way.x, way.y);
@@ -93,7 +86,7 @@ void draw_cuts(const Frame& frame, const View2D& map, Pen& pen) {
       const Vec<2> across = Vec<2>(-way.y, way.x) / length * 9.0;
       for (const Vec<2>& p : {map.to_page(a.from), map.to_page(a.to)})
         for (const Vec<2>& q : {map.to_page(b.from), map.to_page(b.to)})
-          if (same_place(p, q)) {
+          if (std::abs(p.x - q.x) < 0.5 && std::abs(p.y - q.y) < 0.5) {
             pen.line(p - across, p + across, {Role::panel, 6});
             pen.line(p - across, p + across, {Role::ink, 2.4});
           }
@@ -104,8 +97,8 @@ void draw_cuts(const Frame& frame, const View2D& map, Pen& pen) {
 
 bool is_level(const Frame& frame) {
   if (!frame.walls.empty() || frame.eye) return true;
-  return std::any_of(frame.nodes.begin(), frame.nodes.end(),
-                     [](const FrameNode& n) { return n.solid || n.order != kNone; });
+  return std::ranges::any_of(frame.nodes,
+                             [](const FrameNode& n) { return n.solid || n.order != kNone; });
 }
 
 void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
@@ -143,18 +136,13 @@ void number_sectors(const Frame& frame, const View2D& map, const Grounds& ground
 
 void draw_walls(const Frame& frame, const View2D& map, DrawList& list) {
   Pen pen(list, mark_limit(map));
-  const std::size_t count = std::min(frame.walls.size(), kMostWalls);
   for (const Mark mark : {Mark::quiet, Mark::passed, Mark::lit})
-    for (std::size_t i = 0; i < count; ++i) {
-      const FrameWall& wall = frame.walls[i];
+    for (const FrameWall& wall : first_of(frame.walls, kMostWalls)) {
       if (wall.mark != mark) continue;
       const Vec<2> from = map.to_page(wall.from), to = map.to_page(wall.to);
-      if (mark == Mark::lit) {
-        pen.line(from, to, {Role::ink, 10});
-        pen.line(from, to, {Role::lit, 6});
-      } else {
-        pen.line(from, to, {Role::ink, mark == Mark::passed ? 6.5 : 5});
-      }
+      const double width = mark == Mark::lit ? 10 : mark == Mark::passed ? 6.5 : 5;
+      pen.line(from, to, {Role::ink, width});
+      if (mark == Mark::lit) pen.line(from, to, {Role::lit, 6});
     }
   draw_cuts(frame, map, pen);
 }

@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
-#include "draw/characters.hpp"
-#include "draw/clip.hpp"
 #include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
@@ -13,10 +12,6 @@ namespace lantern {
 namespace {
 
 constexpr double kLeastMarked = 22;  // page units across; smaller bodies carry no emblem
-
-bool is_character(const FrameBody& body) {
-  return body.look == Look::ghost || body.look == Look::player;
-}
 
 Role color_of(const FrameBody& body) {
   if (body.asleep) return Role::asleep;
@@ -28,12 +23,6 @@ Stroke outline_of(const Body3D& b) {
   const double pen = std::clamp(0.022 * std::min(size.x, size.y), 0.8, 2.2);
   if (b.body->lit) return {Role::lit, std::max(3.4, 1.5 * pen), 0};
   return {b.body->dimmed ? Role::quiet_ink : Role::body_line, pen, b.body->dimmed ? 5.0 : 0.0};
-}
-
-void add_polygon(Outline points, Role fill, const Stroke& stroke, const View3D& view,
-                 std::vector<DrawShape>& shapes) {
-  points = cut_to(std::move(points), view.panel());
-  if (points.size() >= 3) shapes.emplace_back(PolygonShape{std::move(points), fill, stroke});
 }
 
 // A face of a box: its middle, and half its extent along the two other axes.
@@ -114,24 +103,23 @@ std::vector<DrawShape> mark_of(const FrameBody& body, Tone ground) {
 }
 
 // Puts what is drawn on the unit square on a face in space. Its round parts become polygons.
-template <class ToPage>
 struct PutOn {
-  const ToPage& to_page;
+  std::function<Vec<2>(const Vec<2>&)> to_page;
   double unit;
   const View3D& view;
-  std::vector<DrawShape>& shapes;
+  Pen& pen;
 
   void operator()(LineShape line) const {
     line.from = to_page(line.from);
     line.to = to_page(line.to);
     line.stroke.width = wide(line.stroke.width);
     if (contains(view.panel(), line.from) && contains(view.panel(), line.to))
-      shapes.emplace_back(line);
+      pen.line(line.from, line.to, line.stroke);
   }
   void operator()(PolygonShape polygon) const {
     for (Vec<2>& p : polygon.points) p = to_page(p);
     polygon.stroke.width = wide(polygon.stroke.width);
-    add_polygon(polygon.points, polygon.fill, polygon.stroke, view, shapes);
+    pen.polygon(polygon.points, polygon.fill, polygon.stroke);
   }
   void operator()(const RectShape& rect) const {
     const Vec<2> c = rect.box.center(), half = rect.box.size() * 0.5;
@@ -148,20 +136,13 @@ struct PutOn {
   double wide(double width) const { return std::min(width * unit, view.panel().size().x); }
 };
 
-template <class ToPage>
-void put_on(const std::vector<DrawShape>& marks, const ToPage& to_page, double unit,
-            const View3D& view, std::vector<DrawShape>& shapes) {
-  const PutOn<ToPage> put{to_page, unit, view, shapes};
-  for (const DrawShape& mark : marks) std::visit(put, mark);
-}
-
 double least_side(const Outline& outline) {
   const Vec<2> size = box_of(outline).size();
   return std::min(size.x, size.y);
 }
 
 // Slanting lines across a face, a fixed way apart: it never moves.
-void hatch(const Face& face, const View3D& view, std::vector<DrawShape>& shapes) {
+void hatch(const Face& face, const View3D& view, Pen& pen) {
   const double u = glm::length(face.u), v = glm::length(face.v);
   if (!(u > 0) || !(v > 0)) return;
   const double step = std::max((u + v) / 14, std::min(u, v) * 0.45);
@@ -171,12 +152,11 @@ void hatch(const Face& face, const View3D& view, std::vector<DrawShape>& shapes)
     if (from >= to) continue;
     const auto line = view.segment(face.middle + along_u * from + along_v * (d - from),
                                    face.middle + along_u * to + along_v * (d - to));
-    if (line)
-      shapes.emplace_back(LineShape{line->first, line->second, {Role::cell_line_3, 1.3}, false});
+    if (line) pen.line(line->first, line->second, {Role::cell_line_3, 1.3});
   }
 }
 
-void draw_box(const Body3D& b, const View3D& view, std::vector<DrawShape>& shapes) {
+void draw_box(const Body3D& b, const View3D& view, Pen& pen) {
   Stroke stroke = outline_of(b);
   const Stroke rim = stroke;
   if (b.body->lit) stroke = {Role::body_line, 1.2};
@@ -188,50 +168,50 @@ void draw_box(const Body3D& b, const View3D& view, std::vector<DrawShape>& shape
     const Outline outline = view.polygon(face.corners());
     const Role fill =
         b.body->dimmed ? Role::panel : in_tone(color, tone_of(face.normal, view.light()));
-    add_polygon(outline, fill, stroke, view, shapes);
+    pen.polygon(outline, fill, stroke);
     if (outline.size() != 4 || least_side(outline) <= most) continue;
     most = least_side(outline);
     widest = &face;
   }
-  if (b.body->lit) add_polygon(b.outline, Role::none, rim, view, shapes);
+  if (b.body->lit) pen.polygon(b.outline, Role::none, rim);
   if (widest == nullptr || most < kLeastMarked || b.body->dimmed) return;
-  if (color == Role::static_body) return hatch(*widest, view, shapes);
+  if (color == Role::static_body) return hatch(*widest, view, pen);
   const double size = 0.34 * std::min(glm::length(widest->u), glm::length(widest->v));
   const Vec<3> u = glm::normalize(widest->u) * size, v = glm::normalize(widest->v) * size;
   const auto to_page = [&](const Vec<2>& p) {
     return view.to_page(widest->middle + u * p.x - v * p.y);
   };
-  const Tone tone = tone_of(widest->normal, view.light());
-  put_on(mark_of(*b.body, tone), to_page, size * view.scale_at(widest->middle), view, shapes);
+  const PutOn put{to_page, size * view.scale_at(widest->middle), view, pen};
+  for (const DrawShape& mark : mark_of(*b.body, tone_of(widest->normal, view.light())))
+    std::visit(put, mark);
 }
 
-void draw_round(const Body3D& b, const View3D& view, std::vector<DrawShape>& shapes) {
+void draw_round(const Body3D& b, const View3D& view, Pen& pen) {
   const Role color = color_of(*b.body);
   const Stroke stroke = outline_of(b);
-  if (b.body->dimmed) return add_polygon(b.outline, Role::panel, stroke, view, shapes);
-  add_polygon(b.outline, in_tone(color, Tone::shade), {}, view, shapes);
-  add_polygon(round_outline(b.space, view, 0.02), color, {}, view, shapes);
+  if (b.body->dimmed) return pen.polygon(b.outline, Role::panel, stroke);
+  pen.polygon(b.outline, in_tone(color, Tone::shade), {});
+  pen.polygon(round_outline(b.space, view, 0.02), color, {});
   if (std::min(b.box.size().x, b.box.size().y) > 12)
-    add_polygon(round_outline(b.space, view, 0.87), in_tone(color, Tone::lit), {}, view, shapes);
-  add_polygon(b.outline, Role::none, stroke, view, shapes);
+    pen.polygon(round_outline(b.space, view, 0.87), in_tone(color, Tone::lit), {});
+  pen.polygon(b.outline, Role::none, stroke);
   const double across = 2 * b.space.radius * view.scale_at(b.space.center);
   if (across < kLeastMarked) return;
   const Vec<2> center = view.to_page(b.space.center);
-  const auto to_page = [&](const Vec<2>& p) { return center + p * (0.14 * across); };
-  put_on(mark_of(*b.body, Tone::middle), to_page, 0.14 * across, view, shapes);
+  const double unit = 0.14 * across;
+  const PutOn put{[&](const Vec<2>& p) { return center + p * unit; }, unit, view, pen};
+  for (const DrawShape& mark : mark_of(*b.body, Tone::middle)) std::visit(put, mark);
 }
 
 // Characters stand upright and look at the viewer, wherever the camera is.
-void draw_upright(const Body3D& b, const View3D& view, std::vector<DrawShape>& shapes) {
+void draw_upright(const Body3D& b, const View3D& view, DrawList& list) {
   FrameBody facing = *b.body;
   const Vec<2> way = view.turned(b.body->velocity);
   facing.velocity = {way.x, -way.y, 0};
-  DrawList list;
   const Box<2> place = box_of(b.outline);
   draw_character(facing, place, false, list);
   if (b.body->lit) list.rect(shrunk(place, -3), Role::none, {Role::lit, 2.8}, 8);
   if (!holds(view.panel(), place)) cut_shapes(list, 0, view.panel());
-  shapes = std::move(list.shapes);
 }
 
 }  // namespace
@@ -252,14 +232,15 @@ std::vector<Body3D> bodies_in_view(const Frame& frame, const View3D& view) {
 }
 
 Piece body_piece(const Body3D& body, const View3D& view) {
-  Piece piece{body.space, body.outline, false, false, {}};
+  DrawList list;
+  Pen pen(list, view.panel());
   if (is_character(*body.body))
-    draw_upright(body, view, piece.shapes);
+    draw_upright(body, view, list);
   else if (body.space.radius > 0)
-    draw_round(body, view, piece.shapes);
+    draw_round(body, view, pen);
   else
-    draw_box(body, view, piece.shapes);
-  return piece;
+    draw_box(body, view, pen);
+  return {body.space, body.outline, false, false, std::move(list.shapes)};
 }
 
 void draw_crowd3d(const Frame& frame, const View3D& view, DrawList& list) {
@@ -267,9 +248,8 @@ void draw_crowd3d(const Frame& frame, const View3D& view, DrawList& list) {
   for (const FrameBody& body : frame.bodies)
     if (!is_half_space(body) && !view.lost(body.position) && view.in_front(body.position))
       order.push_back(&body);
-  std::stable_sort(order.begin(), order.end(), [&](const FrameBody* a, const FrameBody* b) {
-    return view.depth(a->position) > view.depth(b->position);
-  });
+  std::ranges::stable_sort(order, std::greater(),
+                           [&](const FrameBody* body) { return view.depth(body->position); });
   for (const FrameBody* body : order) {
     const Vec<3> half = body->box.size() * 0.5;
     const double radius =

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
-#include "draw/clip.hpp"
+#include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
 
 namespace lantern {
@@ -52,14 +53,12 @@ struct Edge {
 void merge(std::vector<Edge> on_line, std::vector<Edge>& merged) {
   std::vector<double> ends;
   for (const Edge& e : on_line) ends.insert(ends.end(), {e.from, e.to});
-  std::sort(ends.begin(), ends.end());
+  std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  std::stable_sort(on_line.begin(), on_line.end(),
-                   [](const Edge& a, const Edge& b) { return a.strength < b.strength; });
+  std::ranges::stable_sort(on_line, {}, &Edge::strength);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const auto strongest = std::find_if(on_line.begin(), on_line.end(), [&](const Edge& e) {
-      return e.from <= ends[i] && ends[i + 1] <= e.to;
-    });
+    const auto strongest = std::ranges::find_if(
+        on_line, [&](const Edge& e) { return e.from <= ends[i] && ends[i + 1] <= e.to; });
     if (strongest == on_line.end()) continue;
     Edge part = *strongest;
     part.from = ends[i];
@@ -88,29 +87,23 @@ class Edges {
         const bool high_j = (corner & 1) != 0, high_k = (corner & 2) != 0;
         const bool top = (j == 1 && high_j) || (k == 1 && high_k);
         if (column && axis != 1 && top && node.depth > 0 && node.mark != Mark::lit) continue;
-        Edge e;
-        e.axis = axis;
-        e.at[0] = rounded(high_j ? box.hi[j] : box.lo[j]);
-        e.at[1] = rounded(high_k ? box.hi[k] : box.lo[k]);
-        e.from = rounded(box.lo[axis]);
-        e.to = rounded(box.hi[axis]);
         const bool before = faces_eye(box, j, high_j) && faces_eye(box, k, high_k);
         const bool faint = column && (axis == 1 || top) && node.depth > 0;
-        e.strength = {node.mark == Mark::lit ? 0 : 1, node.depth,
-                      node.of_static ? 2
-                      : node.awake   ? 0
-                                     : 1,
-                      before || faint ? 1 : 0};
-        edges_.push_back(e);
+        const int dashed = node.of_static ? 2 : node.awake ? 0 : 1;
+        edges_.push_back(
+            {axis,
+             {rounded(high_j ? box.hi[j] : box.lo[j]), rounded(high_k ? box.hi[k] : box.lo[k])},
+             rounded(box.lo[axis]),
+             rounded(box.hi[axis]),
+             {node.mark != Mark::lit, node.depth, dashed, before || faint}});
       }
   }
 
   // In a fixed order; of too many the deepest levels are left out, but for lit cells, and the
   // answer is false.
   bool take(std::size_t most, std::vector<Edge>& merged) {
-    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.axis, a.at[0], a.at[1], a.from, a.to, a.strength) <
-             std::tie(b.axis, b.at[0], b.at[1], b.from, b.to, b.strength);
+    std::ranges::sort(edges_, {}, [](const Edge& e) {
+      return std::tie(e.axis, e.at[0], e.at[1], e.from, e.to, e.strength);
     });
     for (std::size_t i = 0; i < edges_.size();) {
       std::size_t end = i;
@@ -157,10 +150,9 @@ void fill_inside(const Box<3>& box, Role floor, Role wall, const View3D& view, D
       if (!back) continue;
       const unsigned a = 1u << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
       const unsigned base = high * a;
-      Outline points =
-          cut_to(view.polygon({c[base], c[base + u], c[base + u + v], c[base + v]}), view.panel());
-      const Role role = axis == 1 ? floor : wall;
-      if (points.size() >= 3) list.polygon(std::move(points), role);
+      Pen(list, view.panel())
+          .polygon(view.polygon({c[base], c[base + u], c[base + u + v], c[base + v]}),
+                   axis == 1 ? floor : wall);
     }
 }
 
@@ -181,11 +173,8 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
     if (shown && node.mark != Mark::quiet && is_valid(node.box)) filled.push_back(&node);
   }
   if (filled.size() > kMostFills3d) return;
-  std::stable_sort(filled.begin(), filled.end(), [&](const FrameNode* a, const FrameNode* b) {
-    const auto key = [&](const FrameNode* n) {
-      return std::pair{n->mark == Mark::lit, -view.depth(n->box.center())};
-    };
-    return key(a) < key(b);
+  std::ranges::stable_sort(filled, {}, [&](const FrameNode* n) {
+    return std::pair{n->mark == Mark::lit, -view.depth(n->box.center())};
   });
   for (const FrameNode* node : filled) {
     const bool lit = node->mark == Mark::lit;
@@ -207,8 +196,7 @@ bool add_cells(const Frame& frame, Marks3D& marks) {
   const bool crowd = marks.bodies.empty() && !frame.bodies.empty();
   const bool complete = edges.take(crowd ? kMostEdgesInCrowd : kMostEdges, merged);
   // Deep ones first: of pieces equally far away the stronger lies on top.
-  std::stable_sort(merged.begin(), merged.end(),
-                   [](const Edge& a, const Edge& b) { return b.strength < a.strength; });
+  std::ranges::stable_sort(merged, std::greater(), &Edge::strength);
   const std::size_t first = marks.pieces.size();
   for (const Edge& e : merged) marks.line(e.point(e.from), e.point(e.to), stroke_of(e.strength));
   for (std::size_t i = first; i < marks.pieces.size(); ++i) marks.pieces[i].yields = true;

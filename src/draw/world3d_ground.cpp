@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
-#include "draw/clip.hpp"
+#include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
 
@@ -25,8 +25,7 @@ double grid_step(const Box<3>& bounds) {
 
 void fill(const Corners& corners, Role role, const Stroke& stroke, const View3D& view,
           DrawList& list) {
-  Outline points = cut_to(view.polygon(corners), view.panel());
-  if (points.size() >= 3) list.polygon(std::move(points), role, stroke);
+  Pen(list, view.panel()).polygon(view.polygon(corners), role, stroke);
 }
 
 void line(const Vec<3>& a, const Vec<3>& b, const Stroke& stroke, const View3D& view,
@@ -50,12 +49,6 @@ Corners floor_of(const Box<3>& b) {
           {b.hi.x, b.lo.y, b.lo.z},
           {b.hi.x, b.lo.y, b.hi.z},
           {b.lo.x, b.lo.y, b.hi.z}};
-}
-
-void draw_floor(const View3D& view, DrawList& list) {
-  const Box<3>& b = view.bounds();
-  const bool from_above = view.eye().y > b.lo.y;
-  if (from_above) fill(floor_of(b), Role::panel, {}, view, list);
 }
 
 void draw_grid(const View3D& view, DrawList& list) {
@@ -85,9 +78,7 @@ void draw_half_space(const FrameBody& body, const View3D& view, DrawList& list) 
   if (!(glm::length(n) > 0) || view.lost(body.position)) return;
   const Vec<3> middle =
       view.bounds().center() - n * glm::dot(n, view.bounds().center() - body.position);
-  const Vec<3> u =
-      glm::normalize(glm::cross(n, std::abs(n.y) < 0.9 ? Vec<3>(0, 1, 0) : Vec<3>(1, 0, 0))) *
-      (2 * view.size());
+  const Vec<3> u = across(n) * (2 * view.size());
   const Vec<3> v = glm::cross(n, u);
   const Corners patch =
       cut_by({middle - u - v, middle + u - v, middle + u + v, middle - u + v}, view.bounds());
@@ -134,15 +125,6 @@ Outline seen_from_above(const Body3D& b) {
   return hull_of(std::move(points));
 }
 
-// Straight below a body, and cut off where the floor ends.
-void draw_shadow(const Body3D& b, const View3D& view, DrawList& list) {
-  const Box<3>& bounds = view.bounds();
-  if (b.body->box.center().y < bounds.lo.y || view.eye().y <= bounds.lo.y) return;
-  Corners rim;
-  for (const Vec<2>& p : seen_from_above(b)) rim.push_back({p.x, bounds.lo.y, p.y});
-  fill(cut_by(rim, bounds), Role::rule, {}, view, list);
-}
-
 // A view's inside, as the eye sees it from without, and the part of the floor that lies in it.
 void fill_view(const FrameView& seen, const View3D& view, DrawList& list) {
   if (seen.corners.size() != 8) return;
@@ -157,14 +139,13 @@ void fill_view(const FrameView& seen, const View3D& view, DrawList& list) {
     }
     for (const Vec<2>& p : view.polygon(corners)) points.push_back(p);
   }
-  points = cut_to(hull_of(std::move(points)), view.panel());
-  if (points.size() >= 3) list.polygon(std::move(points), Role::view_fill);
+  Pen(list, view.panel()).polygon(hull_of(std::move(points)), Role::view_fill);
 }
 
 }  // namespace
 
 void draw_ground3d(const Frame& frame, const View3D& view, DrawList& list) {
-  draw_floor(view, list);
+  if (view.eye().y > view.bounds().lo.y) fill(floor_of(view.bounds()), Role::panel, {}, view, list);
   for (const FrameBody& body : frame.bodies)
     if (is_half_space(body)) draw_half_space(body, view, list);
   for (const FrameView& seen : frame.views) fill_view(seen, view, list);
@@ -172,7 +153,13 @@ void draw_ground3d(const Frame& frame, const View3D& view, DrawList& list) {
 }
 
 void draw_shadows(const std::vector<Body3D>& bodies, const View3D& view, DrawList& list) {
-  for (const Body3D& b : bodies) draw_shadow(b, view, list);
+  const Box<3>& bounds = view.bounds();
+  for (const Body3D& b : bodies) {
+    if (b.body->box.center().y < bounds.lo.y || view.eye().y <= bounds.lo.y) continue;
+    Corners rim;
+    for (const Vec<2>& p : seen_from_above(b)) rim.push_back({p.x, bounds.lo.y, p.y});
+    fill(cut_by(rim, bounds), Role::rule, {}, view, list);  // cut off where the floor ends
+  }
 }
 
 void add_drop_lines(Marks3D& marks) {

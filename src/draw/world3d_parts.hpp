@@ -77,7 +77,4 @@ bool add_pairs(const Frame& frame, Marks3D& marks);
 // Where they meet, shown through whatever lies before it.
 void draw_joints(const Frame& frame, const Marks3D& marks);
 
-void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const View3D& view,
-                  DrawList& list, Labels& labels);
-
 }  // namespace lantern

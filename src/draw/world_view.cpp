@@ -1,20 +1,141 @@
+#include <algorithm>
+#include <functional>
+
 #include <fmt/format.h>
 
+#include "draw/body_shapes.hpp"
+#include "draw/font.hpp"
+#include "draw/page.hpp"
 #include "draw/panels.hpp"
+#include "draw/projection.hpp"
 #include "draw/world2d_parts.hpp"
+#include "draw/world3d_parts.hpp"
+#include "geometry/flat.hpp"
 
 namespace lantern {
 namespace {
 
-// What lies over the bodies. Gives what had to be left out.
-std::string draw_marks(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  Marks2D marks(map, mark_limit(map), list), inside(map, map.picture(), list);
+constexpr std::size_t kMostNamed = 35;          // of more bodies, only those that the step is about
+constexpr std::ptrdiff_t kMostQuietCells = 10;  // of more, only lit ones: in space names soon crowd
+constexpr std::size_t kMostCells = 16;
+constexpr double kWidestName = 210;
+
+// Where no body is covered, so that each name is read as its own body's.
+void name_body(const Body3D& b, const std::vector<Body3D>& bodies, const View3D& view,
+               Labels& labels) {
+  TextStyle style;
+  style.halo = Role::panel;
+  const std::string text = shortened(b.body->name, kWidestName, style);
+  const auto anchors = anchors_around(b.box, 6, style);
+  labels.try_add(text, anchors, style, shrunk(view.panel(), 4), view.panel(),
+                 [&](const Box<2>& extent) {
+                   return std::ranges::none_of(bodies, [&](const Body3D& other) {
+                     return cover_each_other(other.outline, polygon_of(extent));
+                   });
+                 });
+}
+
+// At the corner of the cell that lies farthest out on the page, so that no two of a node's eight
+// children take the same one; on the cell's own side of it.
+void name_cell(const FrameNode& node, const std::vector<Body3D>& bodies, const View3D& view,
+               DrawList& list, Labels& labels) {
+  const bool lit = node.mark == Mark::lit;
+  const TextStyle style{18, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink};
+  if (!view.in_front(node.box.center())) return;
+  const Vec<2> middle = view.to_page(view.bounds().center());
+  const Vec<2> own = view.to_page(node.box.center());
+  std::vector<Vec<2>> corners;
+  for (const Vec<3>& corner : corners_of(node.box)) {
+    if (!view.in_front(corner)) return;
+    corners.push_back(view.to_page(corner));
+  }
+  const Vec<2> size = box_of(corners).size();
+  if (size.x < 60 || size.y < 60) return;
+  std::ranges::stable_sort(corners, std::greater(),
+                           [&](const Vec<2>& corner) { return glm::length(corner - middle); });
+  const double half = text_width(node.label, style) / 2;
+  for (const Vec<2>& corner : corners) {
+    const Vec<2> inwards = own - corner;
+    const double length = glm::length(inwards);
+    if (!(length > 1)) continue;
+    const Vec<2> at = corner + inwards * (std::min(0.5 * length, half + 20) / length);
+    const Anchor anchor = centred(at, style);
+    const Box<2> plate = plate_of(node.label, at, style, {5, 5});
+    const Box<2> extent = Labels::extent(node.label, anchor, style);
+    const bool covers =
+        std::ranges::any_of(bodies, [&](const Body3D& b) { return overlap(b.box, plate); });
+    if (covers || !labels.is_free(extent, shrunk(view.panel(), 4))) continue;
+    // Edges cross everywhere: a plate keeps them off the name.
+    list.rect(plate, lit ? Role::lit_fill : Role::panel, {}, 5);
+    return labels.add(node.label, anchor, style, view.panel());
+  }
+}
+
+void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const View3D& view,
+                  DrawList& list, Labels& labels) {
+  for (const bool lit : {true, false})
+    for (const Body3D& b : bodies)
+      if (b.body->lit == lit && !b.body->name.empty() && (lit || bodies.size() <= kMostNamed))
+        name_body(b, bodies, view, labels);
+  std::vector<const FrameNode*> cells;
+  for (const FrameNode& node : frame.nodes)
+    if (node.leaf && node.depth > 0 && !node.of_static && !node.label.empty() &&
+        is_valid(node.box) && (node.mark == Mark::lit || !node.bodies.empty()))
+      cells.push_back(&node);
+  const auto is_quiet = [](const FrameNode* n) { return n->mark != Mark::lit; };
+  if (std::ranges::count_if(cells, is_quiet) > kMostQuietCells) std::erase_if(cells, is_quiet);
+  std::ranges::stable_sort(cells, {}, [](const FrameNode* n) {
+    return std::pair{n->mark != Mark::lit, n->depth};
+  });
+  if (cells.size() > kMostCells) cells.resize(kMostCells);
+  for (const FrameNode* cell : cells) name_cell(*cell, bodies, view, list, labels);
+}
+
+// What had to be left out of the picture, for its note.
+using LeftOut = std::vector<std::string>;
+
+void note(const LeftOut& left_out, const Box<2>& picture, Labels& labels) {
+  labels.add_note(fmt::format("{}", fmt::join(left_out, "; ")), picture);
+}
+
+// All that other bodies may hide.
+void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
+  constexpr std::size_t kMostBoxed3d = 60;
+  for (const Body3D& body : marks.bodies) marks.pieces.push_back(body_piece(body, marks.view));
+  if (!add_cells(frame, marks)) left_out.push_back("the deepest cells are not drawn");
+  add_drop_lines(marks);
+  if (!add_pairs(frame, marks)) left_out.push_back("not all pairs are drawn");
+  mark_links(frame, marks);
+  mark_velocities(frame, marks);
+  for (const Body3D& b : marks.bodies)
+    if (frame.show_boxes && (b.body->lit || marks.bodies.size() <= kMostBoxed3d))
+      marks.box(b.body->box, {b.body->lit ? Role::lit : Role::quiet_ink, 1.5, 5});
+  mark_views(frame, marks);
+  mark_rays(frame, marks);
+  mark_queries(frame, marks);
+}
+
+bool shows(const View3D& view, const FrameBody& body) {
+  const std::vector<Vec<3>> corners = corners_of(body.box);
+  const auto in_front =
+      std::ranges::count_if(corners, [&](const Vec<3>& p) { return view.in_front(p); });
+  if (in_front == 0 || view.lost(body.position)) return false;
+  if (in_front < std::ssize(corners)) return true;  // the eye is beside it, or in it
+  Outline outline;
+  for (const Vec<3>& corner : corners) outline.push_back(view.to_page(corner));
+  return overlap(box_of(outline), view.panel());
+}
+
+// What lies over the bodies.
+void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawList& list,
+                Labels& labels) {
+  Marks marks(map, mark_limit(map), list), inside(map, map.picture(), list);
   mark_links(frame, marks);
   mark_views(frame, inside);
   mark_eyes(frame, map, shrunk(map.picture(), -20), list);
   mark_queries(frame, inside);
   mark_velocities(frame, marks);
-  const bool all = mark_contacts(frame, marks);
+  if (!mark_contacts(frame, marks)) left_out.push_back("not all contacts are drawn");
   mark_rays(frame, marks);
   mark_hits(frame, marks, labels);
   if (frame.eye) {
@@ -22,33 +143,67 @@ std::string draw_marks(const Frame& frame, const View2D& map, DrawList& list, La
     draw_eye(eye, {1, 0}, Role::ink, shrunk(map.picture(), -20), list);
     labels.block(Box<2>::around(eye, {24, 18}));
   }
-  return all ? "" : "not all contacts are drawn";
+}
+void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  const View3D view(frame.bounds, frame.camera, panel);
+  LeftOut left_out;
+  const bool crowd = frame.bodies.size() > kCrowd;
+  const std::vector<Body3D> bodies = crowd ? std::vector<Body3D>() : bodies_in_view(frame, view);
+  draw_ground3d(frame, view, list);
+  draw_cell_grounds(frame, view, list);
+  draw_shadows(bodies, view, list);
+  Marks3D marks(view, bodies, list);
+  add_marks(frame, marks, left_out);
+  marks.paint();
+  if (crowd) {
+    draw_crowd3d(frame, view, list);
+    left_out.push_back(fmt::format("{} bodies as dots", frame.bodies.size()));
+  }
+  draw_joints(frame, marks);
+  if (!mark_contacts(frame, marks)) left_out.push_back("not all contacts are drawn");
+  mark_eyes(frame, view, panel, list);
+  mark_hits(frame, marks, labels);
+  note(left_out, panel, labels);
+  std::vector<Box<2>> covered;
+  for (const Body3D& body : bodies) covered.push_back(body.box);
+  write_depths(frame, view, covered, labels);
+  name_world3d(frame, bodies, view, list, labels);
 }
 
 }  // namespace
+
+bool shows_a_body(const Frame& frame) {
+  const auto is_seen = [&](auto&& shown) {
+    return std::ranges::any_of(
+        frame.bodies, [&](const FrameBody& body) { return !is_half_space(body) && shown(body); });
+  };
+  if (frame.dimension == 2)
+    return is_seen(
+        [&](const FrameBody& body) { return overlap(flat(body.box), flat(frame.bounds)); });
+  const View3D view(frame.bounds, frame.camera, {{0, 0}, {1600, 800}});
+  return is_seen([&](const FrameBody& body) { return shows(view, body); });
+}
 
 void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   if (frame.dimension == 3) return draw_world3d(frame, panel, list, labels);
   const View2D map(flat(frame.bounds), panel);
   Grounds grounds;
-  std::string note;
-  const auto leave_out = [&](const std::string& what) {
-    if (!what.empty()) note += (note.empty() ? "" : "; ") + what;
-  };
-  if (!draw_cells(frame, map, list, grounds)) leave_out("the smallest cells are not drawn");
+  LeftOut left_out;
+  if (!draw_cells(frame, map, list, grounds))
+    left_out.push_back("the smallest cells are not drawn");
   draw_walls(frame, map, list);
   if (frame.bodies.size() > kCrowd) {
     const std::size_t marks = draw_crowd(frame, map, list);
-    leave_out(fmt::format("{} bodies as {} marks", frame.bodies.size(), marks));
-    leave_out(draw_marks(frame, map, list, labels));
-    return labels.add_note(note, map.picture());
+    left_out.push_back(fmt::format("{} bodies as {} marks", frame.bodies.size(), marks));
+    draw_marks(frame, map, left_out, list, labels);
+    return note(left_out, map.picture(), labels);
   }
   const std::vector<GroundPlace> ground = draw_half_spaces(frame, map, list, grounds);
   const std::vector<Stand> stands = stands_of(frame, map);
   // A ray, view or region is about bodies, not about pairs.
   const bool asks = !frame.rays.empty() || !frame.views.empty() || !frame.queries.empty();
-  if (!asks && !draw_pairs(frame, stands, list)) leave_out("not all pairs are drawn");
-  Marks2D marks(map, mark_limit(map), list);
+  if (!asks && !draw_pairs(frame, stands, list)) left_out.push_back("not all pairs are drawn");
+  Marks marks(map, mark_limit(map), list);
   if (!asks) draw_ground_pairs(frame, marks);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.show_boxes;
   draw_bodies(stands, map, own_boxes, list);
@@ -56,8 +211,8 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
     if (!stand.outside) draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
   if (!asks) draw_joints(frame, stands, list);
   draw_broad_boxes(frame, map, list, labels);
-  leave_out(draw_marks(frame, map, list, labels));
-  if (!note.empty()) labels.add_note(note, map.picture());
+  draw_marks(frame, map, left_out, list, labels);
+  note(left_out, map.picture(), labels);
   std::vector<Box<2>> covered;
   for (const Stand& stand : stands) covered.push_back(stand.box);
   write_depths(frame, map, covered, labels);

@@ -3,25 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <optional>
 
 namespace lantern {
 namespace {
 
 using Pixel = std::array<std::uint8_t, 4>;
 
-bool has(const Image& image, int x, int y) { return x < image.width && y < image.height; }
-
-// Transparent black where the image has no pixel.
-Pixel pixel(const Image& image, int x, int y) {
+// Nothing where the image has none.
+std::optional<Pixel> pixel(const Image& image, int x, int y) {
+  if (x >= image.width || y >= image.height) return std::nullopt;
   Pixel p{};
-  if (has(image, x, y))
-    std::copy_n(image.rgba.begin() + 4 * (std::ptrdiff_t{y} * image.width + x), 4, p.begin());
+  std::copy_n(image.rgba.begin() + 4 * (std::ptrdiff_t{y} * image.width + x), 4, p.begin());
   return p;
 }
 
-int difference(const Pixel& a, const Pixel& b) {
+// A pixel that only one of them has differs as much as can be.
+int difference(const std::optional<Pixel>& a, const std::optional<Pixel>& b) {
+  if (!a || !b) return a || b ? 255 : 0;
   int largest = 0;
-  for (std::size_t c = 0; c < 4; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
+  for (std::size_t c = 0; c < 4; ++c) largest = std::max(largest, std::abs((*a)[c] - (*b)[c]));
   return largest;
 }
 
@@ -38,7 +39,7 @@ Pixel marked(const Pixel& expected, bool differs) {
 }
 
 void put(Image& image, int x, int y, const Pixel& p) {
-  std::copy(p.begin(), p.end(), image.rgba.begin() + 4 * (std::ptrdiff_t{y} * image.width + x));
+  std::ranges::copy(p, image.rgba.begin() + 4 * (std::ptrdiff_t{y} * image.width + x));
 }
 
 }  // namespace
@@ -49,12 +50,9 @@ Comparison compare(const Image& expected, const Image& actual, int tolerance) {
   if (result.same_size && expected.rgba == actual.rgba) return result;
   for (int y = 0; y < std::max(expected.height, actual.height); ++y)
     for (int x = 0; x < std::max(expected.width, actual.width); ++x) {
-      if (!has(expected, x, y) && !has(actual, x, y)) continue;
-      // A pixel that only one of them has differs as much as can be.
-      const bool both = has(expected, x, y) && has(actual, x, y);
-      const int d = both ? difference(pixel(expected, x, y), pixel(actual, x, y)) : 255;
+      const int d = difference(pixel(expected, x, y), pixel(actual, x, y));
       result.largest = std::max(result.largest, d);
-      if (d > tolerance) ++result.differing;
+      result.differing += d > tolerance;
     }
   return result;
 }
@@ -65,12 +63,11 @@ Image difference_picture(const Image& expected, const Image& actual, int toleran
   picture.rgba.assign(std::size_t{4} * picture.width * picture.height, 0);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < width; ++x) {
-      const Pixel e = pixel(expected, x, y), a = pixel(actual, x, y);
-      const bool none = !has(expected, x, y) && !has(actual, x, y);
-      const bool one = has(expected, x, y) != has(actual, x, y);
-      put(picture, x, y, e);
-      put(picture, width + x, y, a);
-      if (!none) put(picture, 2 * width + x, y, marked(e, one || difference(e, a) > tolerance));
+      const auto e = pixel(expected, x, y), a = pixel(actual, x, y);
+      if (e) put(picture, x, y, *e);
+      if (a) put(picture, width + x, y, *a);
+      const bool differs = !e || !a || difference(e, a) > tolerance;
+      if (e || a) put(picture, 2 * width + x, y, marked(e.value_or(Pixel{}), differs));
     }
   return picture;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/ray.hpp"
+
 namespace lantern {
 namespace {
 
@@ -16,21 +18,6 @@ double reach_at_corner(const Vec<2>& in, const Vec<2>& out, double width) {
 }
 
 }  // namespace
-
-Span clip(const Vec<2>& from, const Vec<2>& to, const Box<2>& box) {
-  Span span;
-  for (int i = 0; i < 2; ++i) {
-    const double way = to[i] - from[i];
-    if (way == 0) {
-      if (from[i] < box.lo[i] || from[i] > box.hi[i]) return {1, 0};
-      continue;
-    }
-    const double a = (box.lo[i] - from[i]) / way, b = (box.hi[i] - from[i]) / way;
-    span.first = std::max(span.first, std::min(a, b));
-    span.last = std::min(span.last, std::max(a, b));
-  }
-  return span;
-}
 
 std::vector<DashPiece> cut_dashes(const std::vector<Vec<2>>& points, bool closed, double dash,
                                   double width, const Box<2>& visible) {
@@ -48,11 +35,11 @@ std::vector<DashPiece> cut_dashes(const std::vector<Vec<2>>& points, bool closed
   for (std::size_t i = 0; i < segments; ++i) {
     const Vec<2> from = corners[i], to = corners[i + 1], along = direction(i);
     const double length = glm::length(to - from);
-    const Span seen = clip(from, to, near);
+    const RaySpan seen = span_in(Ray<2>{from, to - from, 1}, near).value_or(RaySpan{1, 0});
     const double before = i > 0 ? reach_at_corner(direction(i - 1), along, width) : 0;
     const double after = i + 1 < segments ? reach_at_corner(along, direction(i + 1), width) : 0;
-    double number = std::floor((start + seen.first * length) / period);
-    for (; !seen.empty() && number * period < start + seen.last * length; ++number) {
+    double number = std::floor((start + seen.from * length) / period);
+    for (; seen.from <= seen.to && number * period < start + seen.to * length; ++number) {
       const double a = number * period - start, b = a + dash;  // from the segment's first point
       if (b <= 0 || a >= length) continue;
       const double first = a < 0 ? -before : a;

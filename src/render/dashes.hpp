@@ -23,12 +23,4 @@ std::vector<DashPiece> cut_dashes(const std::vector<Vec<2>>& points, bool closed
 // SVG starts too. No corner of the polyline is farther from the arc than a tenth of a unit.
 std::vector<Vec<2>> outline_of(const Box<2>& box, double radius);
 
-// The part of a line from `from` to `to` within `box`, as shares 0 ... 1 of the way; `first` is
-// above `last` if there is none (Liang and Barsky 1984).
-struct Span {
-  double first = 0, last = 1;
-  bool empty() const { return first > last; }
-};
-Span clip(const Vec<2>& from, const Vec<2>& to, const Box<2>& box);
-
 }  // namespace lantern

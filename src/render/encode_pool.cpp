@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
-#include "render/png_parts.hpp"
+#include "render/png.hpp"
 
 namespace lantern {
 namespace {
@@ -52,10 +52,6 @@ EncodePool::~EncodePool() {
     jobs_.clear();
   }
   threads_.clear();  // stops and joins them
-}
-
-void EncodePool::rethrow_locked() {
-  if (error_) std::rethrow_exception(error_);
 }
 
 // A job lets go of its picture while it holds the mutex, so that a use count of one, seen here,

@@ -67,7 +67,9 @@ class EncodePool {
   std::shared_ptr<Picture> free_picture();
   void encode_jobs(const std::stop_token& stop);
   void encode(const Job& job);
-  void rethrow_locked();
+  void rethrow_locked() {
+    if (error_) std::rethrow_exception(error_);
+  }
 
   Config config_;
   Work& work_;

@@ -26,13 +26,23 @@ class Pipeline {
 
   // Counts the context, and each frame drawn and encoded, in `work`, which must outlive this.
   // Belongs to the calling thread, like the context.
-  Pipeline(std::unique_ptr<Context> context, Config config, Work& work);
+  Pipeline(std::unique_ptr<Context> context, Config config, Work& work)
+      : config_(std::move(config)),
+        work_(work),
+        renderer_(std::move(context), config_.width, config_.height),
+        pool_(config_, work) {
+    ++work_.graphics_contexts;
+  }
 
   // Draws at once; the file appears later. Waits while too many pictures are under way. An error of
   // an earlier file is thrown here or by finish(), as it was; after it nothing more is written.
   // The file is sealed if it says what it was made `from`.
   void submit(const DrawList& list, std::vector<PngText> texts, std::filesystem::path path,
-              std::optional<MadeFrom> from = std::nullopt);
+              std::optional<MadeFrom> from = std::nullopt) {
+    renderer_.draw(list, config_.theme, config_.transparent, pool_.blank());
+    ++work_.frames_drawn;
+    pool_.submit(std::move(texts), std::move(path), std::move(from));
+  }
 
   // Waits until every file is in place.
   void finish() { pool_.finish(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <new>
 #include <vector>
@@ -10,22 +11,30 @@
 
 #include "base/check.hpp"
 #include "base/stop.hpp"
-#include "render/png_parts.hpp"
 #include "render/run_deflate.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STBI_NO_LINEAR
+#define STBI_NO_HDR
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
 
 namespace lantern {
 namespace {
 
 constexpr int kLevel = 7;  // of libdeflate's 12
 
-struct FreeCompressor {
-  void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
-};
-using Compressor = std::unique_ptr<libdeflate_compressor, FreeCompressor>;
-
 // A zlib stream of these bytes, as small as is not slow.
 std::string deflated(std::string_view bytes) {
-  thread_local const Compressor compressor(libdeflate_alloc_compressor(kLevel));
+  thread_local const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)>
+      compressor(libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
   if (!compressor) throw std::bad_alloc();
   std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
   out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(),
@@ -68,14 +77,39 @@ void put_chunk(std::string& to, std::string_view type, std::string_view data) {
   put32(to, libdeflate_crc32(0, to.data() + checked, to.size() - checked));
 }
 
+constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+
+std::uint32_t big_endian(const char* at) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < 4; ++i) value = value << 8 | static_cast<std::uint8_t>(at[i]);
+  return value;
+}
+
+// stb checks no CRC and reads past missing chunks, so a damaged file could pass for a whole one.
+// True if the signature is there, all chunks are whole, their CRCs right, and IEND is the end.
+bool chunks_are_whole(std::string_view bytes) {
+  if (!bytes.starts_with(kSignature)) return false;
+  bytes.remove_prefix(kSignature.size());
+  while (bytes.size() >= 12) {
+    const std::size_t length = big_endian(bytes.data());
+    if (length > bytes.size() - 12) return false;
+    const std::string_view checked = bytes.substr(4, 4 + length);
+    if (libdeflate_crc32(0, checked.data(), checked.size()) != big_endian(&bytes[8 + length]))
+      return false;
+    bytes.remove_prefix(12 + length);
+    if (checked.starts_with("IEND")) return bytes.empty();
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string png_text(const PngText& text) {
   LANTERN_CHECK(text.key.size() - 1, <, 79u);
   std::string chunk;
   std::string value = text.value;
-  std::replace(value.begin(), value.end(), '\0', ' ');
-  const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return c > 0; });
+  std::ranges::replace(value, '\0', ' ');
+  const bool ascii = std::ranges::all_of(value, [](char c) { return c > 0; });
   if (ascii)
     put_chunk(chunk, "tEXt", text.key + '\0' + value);
   else  // not compressed, in no language, its key not translated
@@ -83,36 +117,28 @@ std::string png_text(const PngText& text) {
   return chunk;
 }
 
-namespace {
-
-PngBody body_of(const Image& image, bool opaque, std::string_view pixels) {
+PngBody compress(const Image& image, PngEffort effort) {
+  LANTERN_CHECK(image.rgba.size(), ==, std::size_t{4} * image.width * image.height);
+  LANTERN_CHECK(image.rgba.empty(), ==, false);
+  std::optional<std::string> pixels;
+  bool opaque = true;
+  if (effort == PngEffort::fast) {
+    pixels = run_deflate(image, 3);
+    opaque = pixels.has_value();
+    if (!opaque) pixels = run_deflate(image, 4);
+  } else {
+    stop_if_asked();
+    opaque = is_opaque(image);
+    pixels = deflated(filtered(image, opaque ? 3 : 4));
+  }
   std::string header;
   put32(header, static_cast<std::uint32_t>(image.width));
   put32(header, static_cast<std::uint32_t>(image.height));
   header += {8, opaque ? '\2' : '\6', 0, 0, 0};  // bits a channel; RGB or RGBA
-  PngBody body{"\x89PNG\r\n\x1a\n", {}};
+  PngBody body{std::string(kSignature), {}};
   put_chunk(body.header, "IHDR", header);
-  put_chunk(body.pixels, "IDAT", pixels);
+  put_chunk(body.pixels, "IDAT", *pixels);
   return body;
-}
-
-PngBody compress_small(const Image& image) {
-  stop_if_asked();
-  const bool opaque = is_opaque(image);
-  return body_of(image, opaque, deflated(filtered(image, opaque ? 3 : 4)));
-}
-
-PngBody compress_fast(const Image& image) {
-  const std::optional<std::string> opaque = run_deflate(image, 3);
-  return body_of(image, opaque.has_value(), opaque ? *opaque : *run_deflate(image, 4));
-}
-
-}  // namespace
-
-PngBody compress(const Image& image, PngEffort effort) {
-  LANTERN_CHECK(image.rgba.size(), ==, std::size_t{4} * image.width * image.height);
-  LANTERN_CHECK(image.rgba.empty(), ==, false);
-  return effort == PngEffort::fast ? compress_fast(image) : compress_small(image);
 }
 
 std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int pixels_per_metre) {
@@ -132,6 +158,22 @@ std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int
 std::string encode_png(const Image& image, PngEffort effort, const std::vector<PngText>& texts,
                        int pixels_per_metre) {
   return assemble(compress(image, effort), texts, pixels_per_metre);
+}
+
+std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels) {
+  if (bytes.size() > INT32_MAX || !chunks_are_whole(bytes)) return std::nullopt;
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const int size = static_cast<int>(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  if (!stbi_info_from_memory(data, size, &width, &height, &channels) || width < 1 || height < 1 ||
+      static_cast<std::size_t>(width) > most_pixels / static_cast<std::size_t>(height))
+    return std::nullopt;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
+  if (!pixels) return std::nullopt;
+  Image image{width, height, {}};
+  image.rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * width * height);
+  return image;
 }
 
 }  // namespace lantern

@@ -26,4 +26,21 @@ std::string encode_png(const Image& image, PngEffort effort, const std::vector<P
 // Nothing if these bytes are no PNG, are damaged, or are larger than `most_pixels`.
 std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels = 1u << 28);
 
+// The two halves of encoding: the pixels, which are costly, and the file around them, which is
+// cheap. Equal frames share the first half.
+struct PngBody {
+  std::string header;  // signature and IHDR
+  std::string pixels;  // IDAT
+};
+
+PngBody compress(const Image& image, PngEffort effort);
+
+// A chunk of one text.
+std::string png_text(const PngText& text);
+
+// The last chunk of every PNG.
+inline constexpr std::string_view kPngEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+
+std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int pixels_per_metre);
+
 }  // namespace lantern

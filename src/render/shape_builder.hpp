@@ -2,13 +2,17 @@
 // without a context.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
+#include "geometry/ray.hpp"
 #include "render/canvas.hpp"
+#include "render/check_list.hpp"
+#include "render/dashes.hpp"
 #include "render/instances.hpp"
-#include "render/mask_store.hpp"
 #include "render/polygon_masks.hpp"
 #include "render/text_masks.hpp"
 
@@ -20,16 +24,89 @@ class ShapeBuilder {
   ShapeBuilder(int width, int height) : width_(width), height_(height) {}
 
   // Replaces what the last call built.
-  void build(const DrawList& list, const Theme& theme);
+  void build(const DrawList& list, const Theme& theme) {
+    check_draw_list(list);
+    canvas_ = Canvas(list.page, width_, height_);
+    theme_ = &theme;
+    batches_.start(width_, height_);
+    if (masks_.start_frame()) {
+      text_.forget();
+      polygons_.forget();
+    }
+    for (const DrawShape& shape : list.shapes) std::visit([&](const auto& s) { add(s); }, shape);
+  }
 
   const BatchList& batches() const { return batches_; }
   const MaskStore& masks() const { return masks_; }
 
  private:
-  void add(const RectShape& shape);
-  void add(const LineShape& shape);
-  void add(const PolygonShape& shape);
-  void add(const TextShape& shape);
+  void add(const RectShape& shape) {
+    const Border border = border_of(shape);
+    const Box<2>& box = border.box;
+    if (box.hi.x < box.lo.x || box.hi.y < box.lo.y) return;
+    FramedBox framed{box.center(), {1, 0}, box.size() * 0.5, 0, 0.5 * border.width};
+    framed.radius =
+        std::clamp(shape.radius * canvas_.scale, 0.0, std::min(framed.half.x, framed.half.y));
+    if (border.width == 0 || !is_dashed(shape.stroke))
+      return add_upright(framed, paint(shape.fill, shape.stroke.role));
+
+    FramedBox ground = framed;
+    ground.half_line = 0;
+    if (shape.snapped) {  // an odd line's centre lies between two pixels, where no ground may end
+      const Vec<2> lo(rounded(box.lo.x), rounded(box.lo.y)),
+          hi(rounded(box.hi.x), rounded(box.hi.y));
+      ground.center = (lo + hi) * 0.5;
+      ground.half = (hi - lo) * 0.5;
+    }
+    add_upright(ground, paint(shape.fill, Role::none));
+    Stroke stroke = shape.stroke;
+    stroke.width = border.width / canvas_.scale;
+    add_dashes(outline_of(box, framed.radius), true, stroke);
+  }
+
+  void add(const LineShape& shape) {
+    if (shape.stroke.role == Role::none || shape.stroke.width <= 0) return;
+    if (shape.snapped && !is_dashed(shape.stroke) &&
+        (shape.from.x == shape.to.x || shape.from.y == shape.to.y))
+      return add_snapped_line(shape);
+    const Vec<2> from = canvas_.pixel(shape.from), to = canvas_.pixel(shape.to);
+    if (is_dashed(shape.stroke)) return add_dashes({from, to}, false, shape.stroke);
+    add_line(from, to, shape.stroke.width * canvas_.scale, true, shape.stroke.role);
+  }
+
+  void add(const PolygonShape& shape) {
+    std::vector<Vec<2>> points;
+    for (const Vec<2>& p : shape.points) points.push_back(canvas_.pixel(p));
+    const bool dashed = is_dashed(shape.stroke);
+    const Instance fill = paint(shape.fill, Role::none);
+    const Instance line = paint(dashed ? Role::none : shape.stroke.role, Role::none);
+    const double half_line = line.fill[3] == 0 ? 0 : 0.5 * shape.stroke.width * canvas_.scale;
+    const std::vector<PolygonTile>& tiles = polygons_.tiles(points, half_line, canvas_);
+    for (const PolygonTile& tile : tiles) {
+      if (fill.fill[3] == 0) break;
+      if (tile.fill != 0)
+        add_mask(fill, tile.fill, tile.rect);
+      else
+        add_inside(fill, tile.rect);
+    }
+    for (const PolygonTile& tile : tiles)
+      if (tile.stroke != 0) add_mask(line, tile.stroke, tile.rect);
+    if (dashed) add_dashes(points, true, shape.stroke);
+  }
+
+  void add(const TextShape& shape) {
+    const double pixels = shape.size * canvas_.scale;
+    if (shape.text.empty() || pixels <= 0) return;
+    const double width = shape.align == 0 ? 0 : text_width(shape.text, shape.size, shape.weight);
+    const Vec<2> at = canvas_.pixel({shape.at.x - shape.align * width, shape.at.y});
+    TextKey key{shape.text, shape.weight, pixels, 0, 0};
+    if (shape.halo != Role::none) {
+      key.halo = 3 * canvas_.scale;
+      add_text(key, at, shape.halo);
+      key.halo = 0;
+    }
+    add_text(key, at, shape.role);
+  }
 
   // A box in its own frame, with an axis of unit length.
   struct FramedBox {
@@ -40,19 +117,157 @@ class ShapeBuilder {
     Box<2> box;
     double width = 0;  // pixels
   };
-  Border border_of(const RectShape& shape) const;
-  void add_upright(const FramedBox& box, const Instance& paint);
-  void add_turned(const FramedBox& box, const Instance& paint);
-  void add_quad(Program program, Instance instance, const PixelRect& rect);
-  void add_line(const Vec<2>& from, const Vec<2>& to, double width, bool round, Role role);
-  void add_dashes(const std::vector<Vec<2>>& outline, bool closed, const Stroke& stroke);
-  void add_text(const TextKey& key, const Vec<2>& at, Role role);
-  void add_inside(const Instance& paint, const PixelRect& rect);
-  void add_mask(const Instance& paint, std::int32_t mask, const PixelRect& rect);
-  void add_snapped_line(const LineShape& shape);
-  bool is_dashed(const Stroke& stroke) const;
-  Instance paint(Role fill, Role stroke) const;
+
+  // Where a rect's outline runs, and how wide it is: 0 without one.
+  Border border_of(const RectShape& shape) const {
+    Border border{canvas_.pixels(shape.box), 0};
+    const bool has_line = shape.stroke.role != Role::none && shape.stroke.width > 0;
+    if (has_line) border.width = shape.stroke.width * canvas_.scale;
+    if (!shape.snapped) return border;
+    Box<2>& box = border.box;
+    if (has_line) border.width = snapped_width(border.width);
+    for (int i = 0; i < 2; ++i) {
+      box.lo[i] = has_line ? snapped(box.lo[i], border.width) : rounded(box.lo[i]);
+      box.hi[i] = has_line ? snapped(box.hi[i], border.width) : rounded(box.hi[i]);
+      if (!has_line && shape.box.hi[i] > shape.box.lo[i])
+        box.hi[i] = std::max(box.hi[i], box.lo[i] + 1);
+    }
+    return border;
+  }
+
+  void add_upright(const FramedBox& box, const Instance& paint) {
+    if (paint.fill[3] == 0 && paint.stroke[3] == 0) return;
+    Instance instance = paint;
+    instance.frame = floats(box.center.x, box.center.y, 1, 0);
+    instance.box = floats(box.half.x, box.half.y, box.radius, box.half_line);
+    // Round corners fade out half a pixel beyond the edge, sharp ones with the last pixel touched.
+    const double fade = box.radius > 0 ? 0.5 : 0;
+    const PixelRect outer =
+        canvas_.around(Box<2>::around(box.center, box.half + Vec<2>(box.half_line + fade)));
+    // Within a round corner of radius r the square inset by (1 - sqrt(1/2)) r is filled.
+    const double inset = box.half_line + (box.radius > 0 ? 0.3 * box.radius + 1 : 0);
+    const Vec<2> lo = box.center - box.half + Vec<2>(inset),
+                 hi = box.center + box.half - Vec<2>(inset);
+    const PixelRect inner =
+        canvas_.around({{std::ceil(lo.x), std::ceil(lo.y)}, {std::floor(hi.x), std::floor(hi.y)}});
+    if (inner.area() < kLargeArea) return add_quad(Program::box, instance, outer);
+    if (paint.fill[3] != 0) add_inside(paint, inner);
+    add_quad(Program::box, instance, {outer.x0, outer.y0, outer.x1, inner.y0});
+    add_quad(Program::box, instance, {outer.x0, inner.y0, inner.x0, inner.y1});
+    add_quad(Program::box, instance, {inner.x1, inner.y0, outer.x1, inner.y1});
+    add_quad(Program::box, instance, {outer.x0, inner.y1, outer.x1, outer.y1});
+  }
+
+  void add_turned(const FramedBox& box, const Instance& paint) {
+    const Vec<2> reach = box.half + Vec<2>(box.half_line + 1.5);
+    const Vec<2> across(-box.axis.y, box.axis.x);
+    const Vec<2> extent = glm::abs(box.axis) * reach.x + glm::abs(across) * reach.y;
+    const PixelRect bounds = canvas_.around(Box<2>::around(box.center, extent));
+    if (bounds.empty()) return;
+    const Vec<2> corner = box.center - box.axis * reach.x - across * reach.y;
+    Instance instance = paint;
+    instance.quad = floats(corner.x, corner.y, 2 * reach.x, 2 * reach.y);
+    instance.frame = floats(box.center.x, box.center.y, box.axis.x, box.axis.y);
+    instance.box = floats(box.half.x, box.half.y, box.radius, box.half_line);
+    batches_.add(Program::box, instance, bounds);
+  }
+
+  void add_quad(Program program, Instance instance, const PixelRect& rect) {
+    if (rect.empty()) return;
+    instance.quad = floats(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0);
+    batches_.add(program, instance, rect);
+  }
+
+  void add_line(const Vec<2>& from, const Vec<2>& to, double width, bool round, Role role) {
+    const Box<2> near{Vec<2>(-2 - width),
+                      Vec<2>(canvas_.width, canvas_.height) + Vec<2>(2 + width)};
+    const auto seen = span_in(Ray<2>{from, to - from, 1}, near);
+    if (!seen) return;
+    // What was cut off lies outside the image, so that round ends there are never seen.
+    const Vec<2> a = from + (to - from) * seen->from, b = from + (to - from) * seen->to;
+    const double length = glm::length(b - a);
+    FramedBox box;
+    box.center = (a + b) * 0.5;
+    if (length > 0) box.axis = (b - a) / length;
+    box.half = {0.5 * length + (round ? 0.5 * width : 0.0), 0.5 * width};
+    box.radius = round ? 0.5 * width : 0;
+    const Instance colors = paint(role, Role::none);
+    if (box.axis.x * box.axis.y != 0) return add_turned(box, colors);
+    if (box.axis.y != 0) box.half = {box.half.y, box.half.x};
+    box.axis = {1, 0};
+    add_upright(box, colors);
+  }
+
+  void add_dashes(const std::vector<Vec<2>>& outline, bool closed, const Stroke& stroke) {
+    const double width = stroke.width * canvas_.scale;
+    for (const DashPiece& piece :
+         cut_dashes(outline, closed, stroke.dash * canvas_.scale, width, image()))
+      add_line(piece.from, piece.to, width, false, stroke.role);
+  }
+
+  // The origin lies on a whole pixel vertically, on one of kGlyphPlaces parts of it horizontally.
+  void add_text(const TextKey& key, const Vec<2>& at, Role role) {
+    if (role == Role::none) return;
+    const auto x = static_cast<int>(rounded(kGlyphPlaces * at.x));
+    TextKey placed = key;
+    placed.place = x & (kGlyphPlaces - 1);
+    const Mask& mask = text_.mask(placed);
+    const int left = (x >> kGlyphBits) + mask.left,
+              top = static_cast<int>(rounded(at.y)) + mask.top;
+    add_mask(paint(role, Role::none), mask.offset,
+             {left, top, left + mask.width, top + mask.height});
+  }
+
+  // Whole pixels of one colour.
+  void add_inside(const Instance& paint, const PixelRect& rect) {
+    Instance instance = paint;
+    instance.box = floats(kEverywhere, kEverywhere, 0, 0);
+    instance.stroke = {};
+    add_quad(Program::solid, instance, rect);
+  }
+
+  // A mask's pixels, row by row in `rect`, of which the image may show only a part.
+  void add_mask(const Instance& paint, std::int32_t mask, const PixelRect& rect) {
+    const int width = rect.x1 - rect.x0;
+    Instance instance = paint;
+    instance.box = floats(kEverywhere, kEverywhere, 0, 0);
+    instance.data = {mask - rect.y0 * width - rect.x0, 1, width, 0};
+    add_quad(Program::mask, instance,
+             {std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, canvas_.width),
+              std::min(rect.y1, canvas_.height)});
+  }
+
+  void add_snapped_line(const LineShape& shape) {
+    const double width = snapped_width(shape.stroke.width * canvas_.scale);
+    const Box<2> ends =
+        canvas_.pixels({glm::min(shape.from, shape.to), glm::max(shape.from, shape.to)});
+    Box<2> box;
+    for (int i = 0; i < 2; ++i) {
+      box.lo[i] = first_pixel(ends.lo[i], width);
+      box.hi[i] = first_pixel(ends.hi[i], width) + width;
+    }
+    add_upright({box.center(), {1, 0}, box.size() * 0.5}, paint(shape.stroke.role, Role::none));
+  }
+
+  // A dash of less than a pixel is grey at best: such a line is drawn unbroken.
+  bool is_dashed(const Stroke& stroke) const {
+    return stroke.dash * canvas_.scale >= 1 && stroke.width > 0 && stroke.role != Role::none;
+  }
+
+  Instance paint(Role fill, Role stroke) const {
+    return {.fill = paint_of(*theme_, fill), .stroke = paint_of(*theme_, stroke)};
+  }
   Box<2> image() const { return {Vec<2>(0.0), Vec<2>(canvas_.width, canvas_.height)}; }
+
+  // A box larger than this is cut into its inside, which is one colour, and four strips of border.
+  static constexpr std::int64_t kLargeArea = 48 * 48;  // pixels
+
+  static constexpr double kEverywhere = 1e6;  // half size of a box that covers every pixel
+
+  static std::array<float, 4> floats(double a, double b, double c, double d) {
+    return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
+            static_cast<float>(d)};
+  }
 
   int width_, height_;
   Canvas canvas_;

@@ -1,15 +1,23 @@
-// Lines of text as coverage masks, made on the CPU and kept from frame to frame.
+// Lines of text, and their halos, as coverage masks, made on the CPU and kept from frame to frame.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "draw/font.hpp"
-#include "render/mask_store.hpp"
+#include "render/instances.hpp"
 
 namespace lantern {
+
+// The coverage of all points within `radius` pixels of `coverage` (width x height, rows from the
+// top), in an image that is larger by `margin` on each side. By the exact distance transform of
+// Felzenszwalb and Huttenlocher (2012), in time that does not depend on the radius.
+std::vector<std::uint8_t> dilated(std::span<const std::uint8_t> coverage, int width, int height,
+                                  int margin, double radius);
 
 // Where a letter may stand between two pixels: fine enough that words neither jitter when they move
 // nor look unevenly spaced, coarse enough that a letter is drawn once for most of its places.

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "draw/plot_bands.hpp"
-#include "draw/plot_legend.hpp"
+#include "draw/plot.hpp"
+#include "draw/plot_marks.hpp"
 #include "report/claims.hpp"
 #include "report/page_parts.hpp"
 #include "report/sentences.hpp"

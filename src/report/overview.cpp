@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
-#include "draw/plot_legend.hpp"
+#include "draw/plot_marks.hpp"
 #include "report/bars.hpp"
 #include "report/measure_plots.hpp"
 #include "report/sentences.hpp"

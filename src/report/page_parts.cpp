@@ -1,7 +1,7 @@
 #include "report/page_parts.hpp"
 
+#include "draw/draw_list.hpp"
 #include "draw/font.hpp"
-#include "draw/metrics.hpp"
 
 namespace lantern {
 

@@ -1,7 +1,7 @@
 // Whether a picture shows any body.
-#include "draw/in_sight.hpp"
-
 #include <gtest/gtest.h>
+
+#include "draw/page.hpp"
 
 namespace lantern::test {
 namespace {

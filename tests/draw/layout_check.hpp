@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "draw/metrics.hpp"
+#include "draw/draw_list.hpp"
 
 namespace lantern::test {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "draw/draw_list.hpp"
 #include "draw/layout_check.hpp"
-#include "draw/metrics.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
 

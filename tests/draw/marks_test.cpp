@@ -6,9 +6,7 @@
 
 #include "base/random.hpp"
 #include "draw/body_shapes.hpp"
-#include "draw/characters.hpp"
-#include "draw/clip.hpp"
-#include "draw/metrics.hpp"
+#include "draw/draw_list.hpp"
 #include "draw/page.hpp"
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
@@ -252,7 +250,7 @@ TEST(Marks, LookTheSameIn2DAnd3D) {
   frame.rays = {ray};
   DrawList in_2d, in_3d;
   const View2D plane(flat(frame.bounds), panel);
-  Marks2D flat_marks(plane, panel, in_2d);
+  Marks flat_marks(plane, panel, in_2d);
   const View3D front(frame.bounds, Camera{{0, 0, 50}, {0, 0, 0}, 0.7}, panel);
   const std::vector<Body3D> nobody;
   Marks3D deep_marks(front, nobody, in_3d);

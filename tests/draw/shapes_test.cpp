@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "draw/characters.hpp"
-#include "draw/clip.hpp"
-#include "draw/metrics.hpp"
+#include "draw/body_shapes.hpp"
+#include "draw/draw_list.hpp"
 #include "draw/page.hpp"
 #include "draw/pattern.hpp"
+#include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
 
 namespace lantern {

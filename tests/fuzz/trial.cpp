@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.hpp"
-#include "draw/in_sight.hpp"
 #include "draw/page.hpp"
 #include "fuzz/energy.hpp"
 #include "measure/plan.hpp"

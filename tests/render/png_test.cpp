@@ -8,7 +8,6 @@
 #include <libdeflate.h>
 
 #include "base/random.hpp"
-#include "render/huffman.hpp"
 #include "render/run_deflate.hpp"
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "draw/draw_list.hpp"
 #include "draw/layout_check.hpp"
-#include "draw/metrics.hpp"
 
 namespace lantern {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "draw/metrics.hpp"
+#include "draw/draw_list.hpp"
 #include "report/stability_picture.hpp"
 #include "report/stress_tables.hpp"
 

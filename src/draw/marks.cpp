@@ -1,10 +1,70 @@
+#include "draw/marks.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
-#include "draw/clip.hpp"
+#include "draw/body_shapes.hpp"
+#include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
+#include "geometry/polygon.hpp"
 
 namespace lantern {
+namespace {
+
+constexpr std::size_t kMostPairs = 900;
+constexpr std::size_t kMostCased = 60;  // links with a casing and joints
+
+// Those that are drawn; half-spaces, which are ground, always are.
+BodiesById drawn_of(const Frame& frame, const std::vector<Body3D>& bodies) {
+  BodiesById found;
+  for (const Body3D& b : bodies) found.emplace(b.body->id, b.body);
+  for (const FrameBody& body : frame.bodies)
+    if (is_half_space(body) && !bodies.empty()) found.emplace(body.id, &body);
+  return found;
+}
+
+}  // namespace
+
+void Marks::dot(const Vec<3>& at, double radius, Role fill, const Stroke& stroke) const {
+  if (const auto page = projection_.seen(at)) over().dot(*page, radius, fill, stroke);
+}
+
+void Marks::line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double casing) {
+  over().line(to_page(from), to_page(to), stroke, casing);
+}
+
+void Marks::arrow(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double head,
+                  double casing) {
+  over().arrow(to_page(from), to_page(to), stroke, head, casing);
+}
+
+void Marks::spring(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke) {
+  over().path(spring_bends(to_page(from), to_page(to)), false, stroke);
+}
+
+void Marks::box(const Box<3>& box, const Stroke& stroke) {
+  const Box<2> page{View2D::in_reach(to_page({box.lo.x, box.hi.y, 0})),
+                    View2D::in_reach(to_page({box.hi.x, box.lo.y, 0}))};
+  if (holds(place_, page))
+    list_.rect(page, Role::none, stroke);
+  else
+    over().path(polygon_of(page), true, stroke);
+}
+
+// With a cross at its centre.
+void Marks::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
+  constexpr double kArm = 6;
+  const Vec<2> page = to_page(center);
+  const double reach = radius * projection_.scale_at(center);
+  Pen pen = over();
+  if (holds(place_, Box<2>::around(page, Vec<2>(reach))))
+    list_.disc(page, reach, Role::none, stroke);
+  else if (std::isfinite(reach))
+    pen.path(ring_of(page, reach, 60), true, {stroke.role, stroke.width});
+  for (const Vec<2>& arm : {Vec<2>(kArm, 0), Vec<2>(0, kArm)})
+    pen.line(page - arm, page + arm, {stroke.role, 2.2});
+}
 
 void Marks3D::add(const Convex& space, Outline outline, std::vector<DrawShape> shapes) {
   pieces.push_back({space, std::move(outline), true, false, std::move(shapes)});
@@ -38,7 +98,7 @@ void Marks3D::line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, d
     if (!overlap(b.body->box, reach)) continue;
     if (const auto part = inside_of(b.space, from, to)) hidden.push_back(*part);
   }
-  std::sort(hidden.begin(), hidden.end());
+  std::ranges::sort(hidden);
   double start = 0;
   const auto add_until = [&](double end) {
     if (end - start > 1e-6)
@@ -98,6 +158,36 @@ void Marks3D::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
   const Outline hull = rim;
   add(Convex::line(center, center), hull,
       {PolygonShape{std::move(rim), Role::none, {stroke.role, stroke.width}}});
+}
+
+bool add_pairs(const Frame& frame, Marks3D& marks) {
+  const BodiesById bodies = drawn_of(frame, marks.bodies);
+  const bool many = frame.pairs.size() > kMostCased;
+  std::size_t count = 0;
+  const auto add = [&](bool lit) {
+    return for_each_pair(
+        frame, bodies, [&](const FrameBody& a, const FrameBody& b, const FramePair& pair) {
+          if (pair.lit != lit) return true;
+          if (++count > kMostPairs) return false;
+          marks.line(link_end(a, b), link_end(b, a),
+                     {Role::pair, (lit ? 4.4 : 3.0) * (many ? 0.6 : 1)}, many ? 0 : 2);
+          return true;
+        });
+  };
+  return add(false) && add(true);
+}
+
+void draw_joints(const Frame& frame, const Marks3D& marks) {
+  if (frame.pairs.size() > kMostCased) return;
+  for_each_pair(frame, drawn_of(frame, marks.bodies),
+                [&](const FrameBody& a, const FrameBody& b, const FramePair&) {
+                  if (!overlap(a.box, b.box)) return true;
+                  const Box<3> common{glm::max(a.box.lo, b.box.lo), glm::min(a.box.hi, b.box.hi)};
+                  const bool grounded = is_half_space(a) || is_half_space(b);
+                  const Vec<3> foot = is_half_space(a) ? link_end(a, b) : link_end(b, a);
+                  marks.dot(grounded ? foot : common.center(), 6, Role::pair, {Role::panel, 2});
+                  return true;
+                });
 }
 
 }  // namespace lantern
