@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spatial/frustum_cull.hpp"
 #include "spatial/overlap_query.hpp"
 #include "spatial/raycast.hpp"
 
@@ -52,7 +51,7 @@ class Queries {
   Finding answer(const Cull& view) {
     const Frustum<D> frustum = frustum_of(view);
     look([&](const auto& tree, auto& box_of, auto& told) {
-      return add(frustum_cull<D>(tree, frustum, box_of, AlwaysTrue(), told));
+      return add(overlap_query<D>(tree, frustum, box_of, told));
     });
     found_.view = FrameView{view.eye, corners_of(frustum)};
     return sorted();
@@ -62,8 +61,8 @@ class Queries {
     const Box<D> box = in_dimension<D>(region.box);
     const Ball<D> ball{box.center(), region.radius};
     look([&](const auto& tree, auto& box_of, auto& told) {
-      return add(region.radius > 0 ? overlap_query<D>(tree, ball, box_of, AlwaysTrue(), told)
-                                   : overlap_query<D>(tree, box, box_of, AlwaysTrue(), told));
+      return add(region.radius > 0 ? overlap_query<D>(tree, ball, box_of, told)
+                                   : overlap_query<D>(tree, box, box_of, told));
     });
     found_.region = FrameQuery{region.box, region.radius};
     return sorted();

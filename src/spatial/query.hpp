@@ -1,6 +1,5 @@
 // Walking through a structure with something that looks for bodies: a ray, a box, a ball, a view.
-// One walk for every structure; raycast.hpp, overlap_query.hpp and frustum_cull.hpp say what is
-// looked for.
+// One walk for every structure; raycast.hpp and overlap_query.hpp say what is looked for.
 //
 // A node is entered if what we look for reaches its zone: its box, without end where the box lies
 // at the rim of an orthtree's root (bodies outside the root are stored there), or its sides of the
@@ -165,14 +164,8 @@ QueryCounts walk(const Structure& structure, const Probe& probe, const Vec<D>& t
     }
     return true;
   };
-  if (toward == Vec<D>(0.0))
-    structure.visit(look);
-  else
-    structure.visit_toward(toward, look);
+  structure.visit_toward(toward, look);
   return counts;
 }
-
-// A probe without parts: it is in a zone or not.
-struct Everywhere {};
 
 }  // namespace lantern

@@ -7,9 +7,10 @@
 //   visit(f)                 the only door to the inside: f(NodeView) -> bool, parents before
 //                            children, children in the lecture's order; false skips the branch
 //   visit(f, room)           the same; `room` is scratch memory, so that nothing is allocated
-//   visit_toward(d, f)       the same, but siblings in the order in which a ray along d meets them
-//   query(box, f)            f(id) for each body in a leaf that the box reaches, once, ascending
-//   near(box, ids)           appends what `query` tells, but in any order and perhaps repeated
+//   visit_toward(d, f)       the same, but siblings in the order in which a ray along d meets them;
+//                            of zero length: as visit
+//   near(box, ids)           appends the bodies of all leaves that the box reaches, in any order
+//                            and perhaps repeated
 //   kZones                   where a node's bodies may be, see Zones
 //   kTraits                  what kind of structure it is, see StructureTraits
 //   made(config)             an empty one; throws Refused for settings that it does not allow
@@ -79,11 +80,11 @@ struct NodeView {
   std::uint32_t slot = 0;        // which child of its parent, in the lecture's order, from 0
   std::uint32_t depth = 0;       // the root has depth 0
   bool leaf = true;
-  Box<D> box;                       // its bounds, derived on the way down; of a BSP the world's
-  const Plane<D>* plane = nullptr;  // a BSP's inner nodes
-  std::span<const BodyId> bodies;   // a leaf's contents, ascending
-  std::uint32_t first = kNone;      // where they begin in the array that all leaves share, if there
-  std::uint32_t room = 0;           // is one, and how many places are theirs
+  Box<D> box = {};                      // its bounds, derived on the way down; of a BSP the world's
+  const Plane<D>* plane = nullptr;      // a BSP's inner nodes
+  std::span<const BodyId> bodies = {};  // a leaf's contents, ascending
+  std::uint32_t first = kNone;  // where they begin in the array that all leaves share, if there
+  std::uint32_t room = 0;       // is one, and how many places are theirs
 };
 
 // Where the bodies of a node, or at least the parts of them for which the node answers, may lie.

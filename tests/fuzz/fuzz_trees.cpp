@@ -117,8 +117,9 @@ void check_structure(const Structure& structure, const std::vector<Item<D>>& ite
   const auto expected = overlapping_pairs(brute, box_of, kMostPairs);
   LANTERN_CHECK(overlapping_pairs(structure, box_of, kMostPairs) == expected, ==, true);
   for (const Item<D>& a : items) {
-    std::set<BodyId> near;
-    structure.query(a.box, [&](BodyId id) { LANTERN_CHECK(near.insert(id).second, ==, true); });
+    std::vector<BodyId> found;
+    structure.near(a.box, found);
+    const std::set<BodyId> near(found.begin(), found.end());
     for (const Item<D>& b : items)
       LANTERN_CHECK(!overlap(a.box, b.box) || near.contains(b.id), ==, true);
   }

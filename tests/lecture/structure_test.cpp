@@ -54,8 +54,7 @@ void expect_exact(std::uint64_t seeds) {
                          << D << "D, sort " << static_cast<int>(sort) << ", seed " << seed;
       EXPECT_EQ(overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items)) << where;
       for (const Item<D>& a : items) {
-        std::set<BodyId> near;
-        tree.query(a.box, [&](BodyId id) { EXPECT_TRUE(near.insert(id).second); });
+        const std::set<BodyId> near = testing::near_in(tree, a.box);
         for (const Item<D>& b : items)
           EXPECT_TRUE(!overlap(a.box, b.box) || near.contains(b.id)) << where;
       }

@@ -82,7 +82,7 @@ TEST_F(HearsStop, AWalkThroughATree) {
   for (const Item<2>& item : stop_items(2000)) tree.insert(item);
   const std::vector<Item<2>> items = stop_items(2000);
   const auto box_of = [&](BodyId id) { return items[id].box; };
-  EXPECT_THROW(overlap_query(tree, kStopBounds, box_of, AlwaysTrue{}, wish_at(500)), Stopped);
+  EXPECT_THROW(overlap_query(tree, kStopBounds, box_of, wish_at(500)), Stopped);
   EXPECT_LE(after_, kMostAfter);
 }
 

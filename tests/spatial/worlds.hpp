@@ -111,4 +111,12 @@ std::vector<Pair> true_overlaps(const std::vector<Item<D>>& items) {
   return pairs;
 }
 
+// The bodies of all leaves that the box reaches.
+template <class Structure, int D>
+std::set<BodyId> near_in(const Structure& structure, const Box<D>& box) {
+  std::vector<BodyId> ids;
+  structure.near(box, ids);
+  return {ids.begin(), ids.end()};
+}
+
 }  // namespace lantern::testing
