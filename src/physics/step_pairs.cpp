@@ -109,21 +109,21 @@ std::vector<Proxy<D>> World<D>::Step::enlarged_boxes() const {
 
 template <int D>
 void World<D>::store(BodyId id, double h, const typename BroadPhase<D>::Watch& watch) {
-  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  BroadPhase<D>& broad_phase = structure();
   const Body<D>& body = bodies_[index_of(id)];
   const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
   const Box<D> box = body.box();
-  broad_phase_->insert({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()}, watch);
+  broad_phase.insert({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()}, watch);
 }
 
 // How all would fly on, and the structure in which the next step looks for pairs. A step that would
 // be refused is not foreseen: it will say so itself.
 template <int D>
 void World<D>::look_ahead(double h) {
-  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  BroadPhase<D>& broad_phase = structure();
   Step step{*this, h, {}};
   step.reach.resize(bodies_.size());
-  if (config_.contacts == ContactMethod::none) return broad_phase_->build(step.enlarged_boxes());
+  if (config_.contacts == ContactMethod::none) return broad_phase.build(step.enlarged_boxes());
   const WorldWork before = work_;
   try {
     step.find_forces();
@@ -134,7 +134,7 @@ void World<D>::look_ahead(double h) {
     step.reach.assign(bodies_.size(), 0);
   }
   work_ = before;
-  broad_phase_->build(step.enlarged_boxes());
+  broad_phase.build(step.enlarged_boxes());
 }
 
 template <int D>
@@ -151,11 +151,11 @@ void World<D>::Step::refresh_boxes() {
 template <int D>
 void World<D>::Step::broad_phase() {
   if (!looks_for_contacts()) return;
-  if (!world.broad_phase_) world.broad_phase_.emplace(world.config_.broad_phase);
-  world.broad_phase_->update(boxes);
-  pairs = world.broad_phase_->pairs();
+  BroadPhase<D>& structure = world.structure();
+  structure.update(boxes);
+  pairs = structure.pairs();
   ++world.work_.broad_phases;
-  world.work_.pair_tests += world.broad_phase_->counters().pair_tests;
+  world.work_.pair_tests += structure.counters().pair_tests;
   world.work_.candidate_pairs += pairs.size();
 }
 

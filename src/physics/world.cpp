@@ -356,6 +356,12 @@ void World<D>::wake(BodyId id) {
 }
 
 template <int D>
+BroadPhase<D>& World<D>::structure() {
+  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  return *broad_phase_;
+}
+
+template <int D>
 void World<D>::switch_broad_phase(const BroadPhaseConfig<D>& config) {
   broad_phase_.emplace(config);
   config_.broad_phase = config;

@@ -142,6 +142,7 @@ class World {
   void wake_from(const std::vector<BodyId>& ids);
   void forget_contacts_of(BodyId id);
   void list_pushes();
+  BroadPhase<D>& structure();  // made when it is first needed
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
