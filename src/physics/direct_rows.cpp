@@ -9,8 +9,6 @@
 namespace lantern {
 namespace {
 
-constexpr double kThin = 1e-6;  // a contact whose corners lie nearly in a line is no weld
-
 std::array<Vec<2>, 1> tangents(const Vec<2>& n) { return {Vec<2>(-n.y, n.x)}; }
 std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
   const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
@@ -79,7 +77,7 @@ bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
     for (int r = 0; r < kFreedoms; ++r)
       for (int c = 0; c <= r; ++c) square[r * kFreedoms + c] += part.share[r] * part.share[c];
   }
-  if (!factor_small<kFreedoms>(square, kThin)) {
+  if (!factor_small<kFreedoms>(square, kDirectSettings.least_spread)) {
     for (Part& part : parts) part.share = {1};
     return false;
   }

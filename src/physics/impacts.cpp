@@ -9,12 +9,6 @@
 namespace lantern {
 namespace {
 
-constexpr int kBouncingRounds = 64;    // through all touching pairs, in one impact
-constexpr int kMostImpactRounds = 96;  // the last ones without restitution
-constexpr int kMostPointSweeps = 200;  // over the points of one pair
-constexpr double kTouching = 1e-9;     // of the sizes: so near is touching
-constexpr double kGainByRounding = 1e-12;
-
 // Newton's law of restitution at all points of a pair at once: those that approach will part with
 // the given part of their speed.
 template <int D>
@@ -27,14 +21,14 @@ void strike(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double res
     p.pt = Vec<D>(0.0);
     p.separation = p.gap = 0;
   }
-  for (int i = 0; i < kMostPointSweeps; ++i) {
+  for (int i = 0; i < kImpactSettings.most_point_sweeps; ++i) {
     Sweep sweep;
-    solve_velocities(rows, a, b, 1, sweep);
+    rows.solve_velocities(a, b, 1, sweep);
     work.constraint_rows += sweep.normal_rows + sweep.friction_rows;
     work.normal_rows += sweep.normal_rows;
     work.friction_rows += sweep.friction_rows;
     if (rows.count == 1 && rows.friction == 0) break;
-    if (sweep.change <= 1e-15 * sweep.largest) break;
+    if (sweep.change <= kImpactSettings.change * sweep.largest) break;
   }
 }
 
@@ -68,7 +62,7 @@ void take_back_gained_energy(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<
                              WorldWork& work) {
   const double size = std::abs(power(rows, old_a, old_b));
   const double gained = (power(rows, old_a, old_b) + power(rows, a, b)) / 2;
-  if (!(gained > kGainByRounding * size)) return;
+  if (!(gained > kImpactSettings.gain_by_rounding * size)) return;
   ContactRows<D> dead_rows = rows;
   SolverBody<D> dead_a = old_a, dead_b = old_b;
   strike(dead_rows, dead_a, dead_b, 0, work);
@@ -128,11 +122,11 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     const double size = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
     pair.rows.count = 0;
     ++work.narrow_tests;
-    const auto manifold = collide(placed(a), placed(b), kTouching * size);
+    const auto manifold = collide(placed(a), placed(b), kImpactSettings.touching * size);
     if (!manifold) continue;
-    set_points<D>(pair.rows, *manifold, a, b, nullptr, 0);
-    refresh(pair.rows, a, b, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b],
-            0, 0);
+    pair.rows.set_points(*manifold, a, b, nullptr, 0);
+    pair.rows.refresh(a, b, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b], 0,
+                      0);
     renew_record(pair.record, *manifold);
     work.contact_points += static_cast<std::uint64_t>(pair.rows.count);
     touching.push_back(i);
@@ -150,10 +144,10 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
   const std::vector<std::size_t> touching = touching_pairs(island, work);
   int impacts = 0;
   bool any = true;
-  for (int round = 0; any && round < kMostImpactRounds; ++round) {
+  for (int round = 0; any && round < kImpactSettings.most_rounds; ++round) {
     any = false;
     // A blow that does not come to its end is ended without restitution.
-    const bool tired = round >= kBouncingRounds;
+    const bool tired = round >= kImpactSettings.bouncing_rounds;
     for (const std::size_t i : touching) {
       stop_if_asked();
       IslandPair<D>& pair = island.pairs[i];

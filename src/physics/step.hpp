@@ -9,6 +9,15 @@
 
 namespace lantern {
 
+// The numbers of a step, whatever the method.
+struct StepSettings {
+  int most_tries = 4;      // the last one counts even if a body went farther than was looked for
+  double slack = 1e-3;     // of a body's thickness: nearer is looked at, too
+  double fast = 0.5;       // of the thinner body's thickness in a step: may pass through
+  double rounding = 1e-9;  // of a step's time, when a push ends; of a reach, whether it was kept
+};
+inline constexpr StepSettings kStepSettings;
+
 template <int D>
 struct World<D>::Step {
   // Two bodies that may touch. Of what an IslandPair holds only what is known before the island is

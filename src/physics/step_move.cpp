@@ -156,7 +156,7 @@ bool World<D>::Step::stayed_within_reach() {
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (moved[i].kind != BodyKind::dynamic_body || moved[i].asleep) continue;
     const double way = glm::length(moved[i].position - world.bodies_[i].position);
-    if (way <= reach[i] * (1 + 1e-9)) continue;
+    if (way <= reach[i] * (1 + kStepSettings.rounding)) continue;
     reach[i] = 2 * std::max(way, glm::length(moved[i].velocity) * h);
     stayed = false;
   }

@@ -15,13 +15,10 @@
 namespace lantern {
 namespace {
 
-constexpr double kSlack = 1e-3;  // of a body's thickness: nearer is looked at, too
-constexpr double kFast = 0.5;    // of the thinner body's thickness in a step: may pass through
-
 template <int D>
 double slack(const Body<D>& body) {
   const double t = thickness<D>(body.shape);
-  return t < kEndless ? t * kSlack : 0;
+  return t < kEndless ? t * kStepSettings.slack : 0;
 }
 
 // How far a surface moves because its body turns.
@@ -50,7 +47,7 @@ template <int D>
 void World<D>::Step::find_forces() {
   std::vector<std::uint32_t> released;
   for (const TimedPush& push : world.pushes_) {
-    if (push.until && *push.until <= world.time_ + 1e-9 * h)
+    if (push.until && *push.until <= world.time_ + kStepSettings.rounding * h)
       released.push_back(place_of(push.push.body));
     else
       pushes.push_back(push);
@@ -190,7 +187,7 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   found.restitution = std::max(a.material.restitution, b.material.restitution);
   found.friction = std::sqrt(a.material.friction * b.material.friction);
   const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-  found.located = locates_impacts() && (found.restitution > 0 || way > kFast * thin);
+  found.located = locates_impacts() && (found.restitution > 0 || way > kStepSettings.fast * thin);
   found.touch = remembered(pair.a, pair.b);
   return found;
 }

@@ -9,9 +9,6 @@
 namespace lantern {
 namespace {
 
-constexpr double kBounceSteps = 2;     // slower than gravity makes in so many sub-steps: no bounce
-constexpr double kTouchingWay = 1e-4;  // of the way that forces make in a sub-step: so near touches
-
 // Which part of the new velocity's change the mean velocity lags behind: 0 for semi-implicit
 // Euler, 1/2 for velocity Verlet.
 template <int D>
@@ -38,7 +35,7 @@ void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
     const auto manifold = collide(placed(a), placed(b), pair.reach);
     if (!manifold) continue;
     const double scale = pair.seconds > 0 ? rescaled(scale_to, pair.seconds) : 0;
-    set_points(rows, *manifold, a, b, pair.remembered ? &pair.memory : nullptr, scale);
+    rows.set_points(*manifold, a, b, pair.remembered ? &pair.memory : nullptr, scale);
     renew_record(pair.record, *manifold);
     work.contact_points += static_cast<std::uint64_t>(rows.count);
   }
@@ -91,8 +88,8 @@ void SubStep<D>::begin() {
   find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
   refresh_rows();
   apply_forces();
-  each_joint([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
-  each_pair([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
+  each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
+  each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
 }
 
 template <int D>
@@ -103,11 +100,12 @@ void SubStep<D>::refresh_rows() {
   each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
     const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
-    refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b,
-            kBounceSteps * glm::length(kick_b - kick_a), kTouchingWay * way);
+    rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b,
+                 kRowSettings.bounce_steps * glm::length(kick_b - kick_a),
+                 kRowSettings.touching_way * way);
   });
   each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
-    refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b);
+    rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
   });
 }
 
@@ -133,12 +131,12 @@ void SubStep<D>::count(const Sweep& sweep) {
 template <int D>
 Sweep SubStep<D>::sweep_velocities(int turn) {
   Sweep sweep;
-  each_joint([&](auto& rows, auto& a, auto& b) { solve_velocities(rows, a, b, sweep); });
+  each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
   for (std::size_t i = 0; i < island.pairs.size(); ++i) {
     stop_if_asked();
     ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
     if (rows.count > 0)
-      solve_velocities(rows, island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
+      rows.solve_velocities(island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
   }
   count(sweep);
   return sweep;
@@ -155,15 +153,15 @@ void SubStep<D>::begin_position_correction() {
     body.mean_spin = body.spin;
   }
   each_pair([&](auto& rows, auto& a, auto& b) {
-    begin_correction(rows, a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
+    rows.begin_correction(a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
   });
 }
 
 template <int D>
 Sweep SubStep<D>::sweep_positions() {
   Sweep sweep;
-  each_joint([&](auto& rows, auto& a, auto& b) { correct_positions(rows, a, b, h, sweep); });
-  each_pair([&](auto& rows, auto& a, auto& b) { correct_positions(rows, a, b, h, sweep); });
+  each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
+  each_pair([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
   count(sweep);
   return sweep;
 }
@@ -172,7 +170,7 @@ template <int D>
 bool SubStep<D>::is_corrected(const Sweep& sweep, double largest) {
   largest_push_ = std::max(largest_push_, sweep.change);
   return sweep.change <=
-         std::max(kSweepTolerance.push * largest_push_, kSweepTolerance.no_matter * largest);
+         std::max(kRowSettings.push * largest_push_, kRowSettings.no_matter * largest);
 }
 
 template <int D>

@@ -8,6 +8,23 @@
 
 namespace lantern {
 
+// The numbers of impacts: how their times are found, and how the blows are resolved.
+struct ImpactSettings {
+  int most_advances = 200;            // towards one impact
+  double near = 1e-9;                 // of the sizes: points so near each other touch at a time;
+                                      // what gets no nearer in half of all advances is there
+  double touches = 1e-15;             // of the sizes: so near is at the moment of the impact
+  double shortest_bounce = 1.0 / 32;  // of a step: one that would be shorter is none
+  double speed_by_rounding = 1e-12;   // of both speeds: what approaches slower is at rest
+  int bouncing_rounds = 64;           // through all touching pairs, in one impact
+  int most_rounds = 96;               // the last ones without restitution
+  int most_point_sweeps = 200;        // over the points of one pair
+  double change = 1e-15;              // of the largest impulse: so small a one ends these sweeps
+  double touching = 1e-9;             // of the sizes: so near is struck, too
+  double gain_by_rounding = 1e-12;    // of the blow's energy: so small a gain of it is none
+};
+inline constexpr ImpactSettings kImpactSettings;
+
 // How a body flies for a while: x(t) = position + t velocity + t^2 bend.
 template <int D>
 struct Trajectory {
