@@ -100,12 +100,8 @@ bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
 
 template <int D>
 void DirectSolve<D>::list_joint(const Island<D>& island, JointRows<D>& joint) {
-  Part part;
-  part.a = joint.a;
-  part.b = joint.b;
-  part.joint = &joint;
-  part.arm_a = joint.arm_a;
-  part.arm_b = joint.arm_b;
+  Part part{
+      .a = joint.a, .b = joint.b, .joint = &joint, .arm_a = joint.arm_a, .arm_b = joint.arm_b};
   const std::size_t first = parts_.size();
   if (joint.joint.kind == JointKind::pin) {
     for (int axis = 0; axis < D; ++axis) {
@@ -125,13 +121,12 @@ void DirectSolve<D>::list_contact(const Island<D>& island, ContactRows<D>& conta
   const std::size_t first = parts_.size();
   for (ContactPoint<D>& point : contact.points()) {
     if (!(point.pn > 0) || !(point.inverse_normal_mass > 0)) continue;
-    Part part;
-    part.a = contact.a;
-    part.b = contact.b;
-    part.point = &point;
-    part.arm_a = point.arm_a;
-    part.arm_b = point.arm_b;
-    part.direction = contact.normal;
+    Part part{.a = contact.a,
+              .b = contact.b,
+              .point = &point,
+              .arm_a = point.arm_a,
+              .arm_b = point.arm_b,
+              .direction = contact.normal};
     parts_.push_back(part);
     if (contact.friction == 0 || !point.sticks) continue;
     part.most = contact.friction;

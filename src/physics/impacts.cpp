@@ -24,9 +24,7 @@ void strike(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double res
   for (int i = 0; i < kImpactSettings.most_point_sweeps; ++i) {
     Sweep sweep;
     rows.solve_velocities(a, b, 1, sweep);
-    work.constraint_rows += sweep.normal_rows + sweep.friction_rows;
-    work.normal_rows += sweep.normal_rows;
-    work.friction_rows += sweep.friction_rows;
+    count(sweep, work);
     if (rows.count == 1 && rows.friction == 0) break;
     if (sweep.change <= kImpactSettings.change * sweep.largest) break;
   }
@@ -100,16 +98,6 @@ bool resolve(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double re
   return true;
 }
 
-template <int D>
-void record_impulses(IslandPair<D>& pair) {
-  pair.touched = true;
-  for (int i = 0; i < pair.rows.count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    pair.record.normal_impulses[at] += pair.rows.room[at].pn;
-    pair.record.friction_impulses[at] += pair.rows.room[at].pt;
-  }
-}
-
 // Sets up the points of all pairs that touch now.
 template <int D>
 std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
@@ -120,15 +108,9 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     const Body<D>& a = island.bodies[pair.rows.a];
     const Body<D>& b = island.bodies[pair.rows.b];
     const double size = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-    pair.rows.count = 0;
-    ++work.narrow_tests;
-    const auto manifold = collide(placed(a), placed(b), kImpactSettings.touching * size);
-    if (!manifold) continue;
-    pair.rows.set_points(*manifold, a, b, nullptr, 0);
+    if (!island.find_points(pair, kImpactSettings.touching * size, nullptr, 0, work)) continue;
     pair.rows.refresh(a, b, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b], 0,
                       0);
-    renew_record(pair.record, *manifold);
-    work.contact_points += static_cast<std::uint64_t>(pair.rows.count);
     touching.push_back(i);
   }
   return touching;
@@ -139,8 +121,7 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
 // an end become contacts. Returns how many impacts there were.
 template <int D>
 int resolve_impacts(Island<D>& island, WorldWork& work) {
-  island.solver_bodies.clear();
-  for (const Body<D>& body : island.bodies) island.solver_bodies.push_back(solver_body_of(body));
+  island.set_solver_bodies();
   const std::vector<std::size_t> touching = touching_pairs(island, work);
   int impacts = 0;
   bool any = true;
@@ -155,7 +136,8 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
       if (!resolve(pair.rows, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b],
                    restitution, pair.slow, work))
         continue;
-      record_impulses(pair);
+      pair.record_impulses();
+      pair.touched = true;
       if (tired) {  // squeezed: nor may it bounce in the sub-steps that follow
         pair.pressed = true;
         pair.rows.restitution = 0;

@@ -126,12 +126,8 @@ void World<D>::Step::bring_back(Island<D>& island) {
     joint_memories[rows.place] = {rows.impulse, island.joint_seconds};
   for (const IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
-    if (!pair.touched) continue;
-    Touch touch;
-    touch.record = pair.record;
-    touch.memory = pair.memory;
-    touch.seconds = pair.remembered ? pair.seconds : 0;
-    touching.push_back(touch);
+    if (pair.touched)
+      touching.push_back({pair.record, pair.memory, pair.remembered ? pair.seconds : 0});
   }
 }
 

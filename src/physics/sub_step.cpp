@@ -25,19 +25,11 @@ double rescaled(double seconds, double old) { return std::min(seconds / old, 1.0
 template <int D>
 void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
   for (IslandPair<D>& pair : island.pairs) {
-    ContactRows<D>& rows = pair.rows;
     stop_if_asked();
-    rows.count = 0;
+    pair.rows.count = 0;
     if (!pair.pressed) continue;
-    const Body<D>& a = island.bodies[rows.a];
-    const Body<D>& b = island.bodies[rows.b];
-    ++work.narrow_tests;
-    const auto manifold = collide(placed(a), placed(b), pair.reach);
-    if (!manifold) continue;
     const double scale = pair.seconds > 0 ? rescaled(scale_to, pair.seconds) : 0;
-    rows.set_points(*manifold, a, b, pair.remembered ? &pair.memory : nullptr, scale);
-    renew_record(pair.record, *manifold);
-    work.contact_points += static_cast<std::uint64_t>(rows.count);
+    island.find_points(pair, pair.reach, pair.remembered ? &pair.memory : nullptr, scale, work);
   }
 }
 
@@ -94,8 +86,7 @@ void SubStep<D>::begin() {
 
 template <int D>
 void SubStep<D>::refresh_rows() {
-  island.solver_bodies.clear();
-  for (const Body<D>& body : island.bodies) island.solver_bodies.push_back(solver_body_of(body));
+  island.set_solver_bodies();
   const auto& kicks = island.increments;
   each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
@@ -121,14 +112,6 @@ void SubStep<D>::apply_forces() {
 }
 
 template <int D>
-void SubStep<D>::count(const Sweep& sweep) {
-  work.normal_rows += sweep.normal_rows;
-  work.friction_rows += sweep.friction_rows;
-  work.joint_rows += sweep.joint_rows;
-  work.constraint_rows += sweep.normal_rows + sweep.friction_rows + sweep.joint_rows;
-}
-
-template <int D>
 Sweep SubStep<D>::sweep_velocities(int turn) {
   Sweep sweep;
   each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
@@ -138,7 +121,7 @@ Sweep SubStep<D>::sweep_velocities(int turn) {
     if (rows.count > 0)
       rows.solve_velocities(island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
   }
-  count(sweep);
+  count(sweep, work);
   return sweep;
 }
 
@@ -162,7 +145,7 @@ Sweep SubStep<D>::sweep_positions() {
   Sweep sweep;
   each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
   each_pair([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
-  count(sweep);
+  count(sweep, work);
   return sweep;
 }
 
@@ -200,13 +183,9 @@ template <int D>
 void SubStep<D>::record() {
   for (IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
-    for (int i = 0; i < pair.rows.count; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const ContactPoint<D>& p = pair.rows.room[at];
-      pair.record.normal_impulses[at] += p.pn;
-      pair.record.friction_impulses[at] += p.pt;
+    pair.record_impulses();
+    for (const ContactPoint<D>& p : pair.rows.points())
       if (p.pn > 0 || p.separation <= 0) pair.touched = true;
-    }
   }
 }
 

@@ -51,7 +51,6 @@ class SubStep {
   void each_joint(F&& f);
   void refresh_rows();
   void apply_forces();
-  void count(const Sweep& sweep);
   void move_bodies();
   void record();
 

@@ -35,9 +35,7 @@ class Queries {
       if (nearest.hit) hits.push_back(*nearest.hit);
       return nearest.counts;
     });
-    std::sort(hits.begin(), hits.end(), [](const RayHit& a, const RayHit& b) {
-      return std::pair(a.distance, a.id) < std::pair(b.distance, b.id);
-    });
+    std::sort(hits.begin(), hits.end(), RayHit::before);
     if (!cast.all && hits.size() > 1) hits.resize(1);
     found_.ray = FrameRay{cast.from, cast.to, {}};
     for (const RayHit& hit : hits) {

@@ -52,7 +52,8 @@ void expect_exact(std::uint64_t seeds) {
       const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
       const auto where = ::testing::Message()
                          << D << "D, sort " << static_cast<int>(sort) << ", seed " << seed;
-      EXPECT_EQ(overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items)) << where;
+      EXPECT_EQ(testing::overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items))
+          << where;
       for (const Item<D>& a : items) {
         const std::set<BodyId> near = testing::near_in(tree, a.box);
         for (const Item<D>& b : items)
@@ -168,7 +169,8 @@ TEST(LectureQuadtree, ExtremeNumbersLoseNobody) {
         tree.insert(items.back());
       }
       const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
-      EXPECT_EQ(overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items)) << scale;
+      EXPECT_EQ(testing::overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items))
+          << scale;
     }
   }
 }

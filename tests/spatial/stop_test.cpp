@@ -94,7 +94,7 @@ TEST_F(HearsStop, ThePairsOfLeaves) {
     wish();
     return true;
   };
-  EXPECT_THROW(pairs_where(tree, 1'000'000, wanted), Stopped);
+  EXPECT_THROW(candidate_pairs(tree, 1'000'000, wanted), Stopped);
   EXPECT_LE(after_, 1000) << "more than the rest of one body's row";
   forget_stop();
   std::vector<Pair> pairs = candidate_pairs(tree, 1'000'000).pairs;
