@@ -56,6 +56,11 @@ struct Body {
     if (kind == BodyKind::dynamic_body) return !asleep;
     return moves() && (velocity != Vec<D>(0.0) || kinematic_spin != Spin<D>(0.0));
   }
+  bool turns_about_every_axis() const {
+    for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
+      if (!(spin_component(inverse_inertia, i) > 0)) return false;
+    return true;
+  }
   Box<D> box() const { return bounding_box(shape, position, orientation); }
 };
 

@@ -14,24 +14,21 @@ using Placing = std::variant<PlacedCore<D>, Wall<D>>;
 template <int D>
 Placing<D> placing_of(const Placed<D>& placed, const Vec<D>& center) {
   using Kind = typename PlacedCore<D>::Kind;
-  const auto core_of_kind = [&](Kind kind) {
-    return [&, kind](const Core<D>& core) -> Placing<D> {
-      const bool is_turned = core.turns && kind != Kind::point;
-      const Mat<D> axes = is_turned ? matrix(placed.orientation) : Mat<D>(1.0);
-      return PlacedCore<D>{kind, center, axes, core.half, core.radius};
-    };
+  const auto core = [&](Kind kind, const Core<D>& core) -> Placing<D> {
+    const bool is_turned = core.turns && kind != Kind::point;
+    const Mat<D> axes = is_turned ? matrix(placed.orientation) : Mat<D>(1.0);
+    return PlacedCore<D>{kind, center, axes, core.half, core.radius};
   };
-  return std::visit(
-      EachShape{
-          [&](const Sphere& s) { return core_of_kind(Kind::point)(core_of<D>(s)); },
-          [&](const AxisBox<D>& s) { return core_of_kind(Kind::box)(core_of<D>(s)); },
-          [&](const OrientedBox<D>& s) { return core_of_kind(Kind::box)(core_of<D>(s)); },
-          [&](const Capsule& s) { return core_of_kind(Kind::segment)(core_of<D>(s)); },
-          [&](const HalfSpace<D>& s) -> Placing<D> {
-            return Wall<D>{center, s.normal};
-          },
-      },
-      placed.shape);
+  return std::visit(EachShape{
+                        [&](const Sphere& s) { return core(Kind::point, core_of<D>(s)); },
+                        [&](const AxisBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
+                        [&](const OrientedBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
+                        [&](const Capsule& s) { return core(Kind::segment, core_of<D>(s)); },
+                        [&](const HalfSpace<D>& s) -> Placing<D> {
+                          return Wall<D>{center, s.normal};
+                        },
+                    },
+                    placed.shape);
 }
 
 template <int D>

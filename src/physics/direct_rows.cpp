@@ -23,15 +23,6 @@ Vec<D> axis_of(int axis) {
   return unit;
 }
 
-// About every axis.
-template <int D>
-bool turns(const Island<D>& island, std::uint32_t body) {
-  if (island.solver_bodies[body].inverse_mass == 0) return false;
-  for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
-    if (!(spin_component(island.bodies[body].inverse_inertia, i) > 0)) return false;
-  return true;
-}
-
 }  // namespace
 
 template <int D>
@@ -59,7 +50,11 @@ template <int D>
 bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
   const std::span<Part> parts{parts_.data() + first_part, parts_.size() - first_part};
   const std::uint32_t a = parts[0].a, b = parts[0].b;
-  if (parts.size() <= kFreedoms || (!turns(island, a) && !turns(island, b))) return false;
+  const auto turns = [&](std::uint32_t body) {
+    return island.solver_bodies[body].inverse_mass != 0 &&
+           island.bodies[body].turns_about_every_axis();
+  };
+  if (parts.size() <= kFreedoms || (!turns(a) && !turns(b))) return false;
   Vec<D> middle_a(0.0), middle_b(0.0);
   for (const Part& part : parts) {
     middle_a += part.arm_a / static_cast<double>(parts.size());

@@ -9,7 +9,7 @@ namespace lantern {
 
 template <int D>
 struct JointRows {
-  Joint<D> joint;
+  Joint<D> joint = {};
   std::uint32_t place = 0;     // among the world's joints
   std::uint32_t a = 0, b = 0;  // places among the island's bodies
   Vec<D> arm_a{0.0}, arm_b{0.0};

@@ -83,12 +83,10 @@ struct World<D>::Step {
   bool is_slow(std::size_t place) const;
   const Touch* remembered(BodyId a, BodyId b) const;
 
-  void find_increments();
   void find_reach();
   Box<D> enlarged_box(std::size_t place) const;
   bool looks_for_contacts() const;
   std::optional<NearPair> nearing(const Pair& pair);
-  void require_room_for_near_pairs() const;
   IslandPair<D> island_pair(const NearPair& from) const;
   void wake(std::vector<std::uint32_t> places);
 

@@ -55,19 +55,14 @@ void World<D>::Step::find_forces() {
   forces.pushes.clear();
   for (const TimedPush& push : pushes) forces.pushes.push_back(push.push);
   wake(std::move(released));
-  find_increments();
-  find_reach();
-}
-
-// Unless looking ahead has found them.
-template <int D>
-void World<D>::Step::find_increments() {
+  // Unless looking ahead has found them.
   if (world.ahead_ && world.ahead_->h == h) {
     increments = world.ahead_->increments;
     world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
-    return;
+  } else {
+    find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
   }
-  find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
+  find_reach();
 }
 
 template <int D>
@@ -164,7 +159,11 @@ void World<D>::Step::narrow_phase() {
     stop_if_asked();
     if (const auto found = nearing(pair)) near.push_back(*found);
   }
-  require_room_for_near_pairs();
+  // They are made when their islands are moved, and remembered for the next step.
+  constexpr std::uint64_t kEach =
+      sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch) + sizeof(Contact<D>));
+  require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
+                 "take fewer bodies that overlap");
 }
 
 // The pair, if the two may come to touch in this step.
@@ -192,15 +191,6 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   return found;
 }
 
-// They are made when their islands are moved, and remembered for the next step.
-template <int D>
-void World<D>::Step::require_room_for_near_pairs() const {
-  constexpr std::uint64_t kEach =
-      sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch) + sizeof(Contact<D>));
-  require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
-                 "take fewer bodies that overlap");
-}
-
 template <int D>
 IslandPair<D> World<D>::Step::island_pair(const NearPair& from) const {
   IslandPair<D> pair;
@@ -223,13 +213,9 @@ IslandPair<D> World<D>::Step::island_pair(const NearPair& from) const {
 
 template <int D>
 const typename World<D>::Touch* World<D>::Step::remembered(BodyId a, BodyId b) const {
-  const auto touch = std::lower_bound(world.touching_.begin(), world.touching_.end(), Pair{a, b},
-                                      [](const Touch& t, const Pair& pair) {
-                                        return Pair{t.record.a, t.record.b} < pair;
-                                      });
-  if (touch == world.touching_.end() || touch->record.a != a || touch->record.b != b)
-    return nullptr;
-  return &*touch;
+  const auto pair_of = [](const Touch& touch) { return touch.record.pair(); };
+  const auto touch = std::ranges::lower_bound(world.touching_, Pair{a, b}, {}, pair_of);
+  return touch != world.touching_.end() && pair_of(*touch) == Pair{a, b} ? &*touch : nullptr;
 }
 
 template <int D>

@@ -78,14 +78,6 @@ void SubStep<D>::begin() {
   stop_if_asked();
   ++work.sub_steps;
   find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
-  refresh_rows();
-  apply_forces();
-  each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
-  each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
-}
-
-template <int D>
-void SubStep<D>::refresh_rows() {
   island.set_solver_bodies();
   const auto& kicks = island.increments;
   each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
@@ -98,10 +90,6 @@ void SubStep<D>::refresh_rows() {
   each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
   });
-}
-
-template <int D>
-void SubStep<D>::apply_forces() {
   for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
     SolverBody<D>& body = island.solver_bodies[i];
     body.velocity += island.increments[i].kick;
@@ -109,6 +97,8 @@ void SubStep<D>::apply_forces() {
   }
   island.kicked.clear();
   for (const SolverBody<D>& body : island.solver_bodies) island.kicked.push_back(body.velocity);
+  each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
+  each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
 }
 
 template <int D>
@@ -157,7 +147,7 @@ bool SubStep<D>::is_corrected(const Sweep& sweep, double largest) {
 }
 
 template <int D>
-void SubStep<D>::move_bodies() {
+void SubStep<D>::end() {
   for (std::size_t i = 0; i < island.bodies.size(); ++i) {
     Body<D>& body = island.bodies[i];
     const SolverBody<D>& solved = island.solver_bodies[i];
@@ -173,26 +163,16 @@ void SubStep<D>::move_bodies() {
     const Spin<D> turning = body.angular_momentum + increment.lag;
     const Spin<D> pushed = solved.mean_spin - solved.spin;
     if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
-    turn_freely(body, increment.lag, h, body.rotation.value_or(config.rotation));
+    turn_freely(body, h, body.rotation.value_or(config.rotation), increment.lag);
     if (pushed != Spin<D>(0.0)) body.orientation = turned(body.orientation, pushed * h);
     ++work.rotations_integrated;
   }
-}
-
-template <int D>
-void SubStep<D>::record() {
   for (IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
     pair.record_impulses();
     for (const ContactPoint<D>& p : pair.rows.points())
       if (p.pn > 0 || p.separation <= 0) pair.touched = true;
   }
-}
-
-template <int D>
-void SubStep<D>::end() {
-  move_bodies();
-  record();
 }
 
 template <int D>

@@ -49,10 +49,6 @@ class SubStep {
  private:
   template <class F>
   void each_joint(F&& f);
-  void refresh_rows();
-  void apply_forces();
-  void move_bodies();
-  void record();
 
   double largest_push_ = 0;
 };

@@ -12,13 +12,6 @@
 namespace lantern {
 namespace {
 
-template <int D>
-WorldConfig<D> without_contacts() {
-  WorldConfig<D> config;
-  config.contacts = ContactMethod::none;
-  return config;
-}
-
 void require_count(int value, int most, const char* field) {
   if (value < 1 || value > most)
     throw Refused(fmt::format("world: {} is {}, must be 1 ... {}", field, value, most));
@@ -49,9 +42,6 @@ Spin<3> momentum_for(const Body<3>& body, const Vec<3>& spin) {
 }
 
 }  // namespace
-
-template <int D>
-World<D>::World() : World(without_contacts<D>()) {}
 
 template <int D>
 World<D>::World(const WorldConfig<D>& config) : config_(config) {
@@ -107,18 +97,13 @@ std::size_t World<D>::index_of(BodyId id) const {
 }
 
 template <int D>
-void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity) {
-  place(id, position, velocity, bodies_[index_of(id)].orientation);
-}
-
-template <int D>
 void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
-                     const Rotation<D>& orientation) {
+                     const std::optional<Rotation<D>>& orientation) {
   const std::size_t index = index_of(id);
   Body<D> moved = bodies_[index];
   moved.position = position;
   moved.velocity = velocity;
-  moved.orientation = orientation;
+  if (orientation) moved.orientation = *orientation;
   check_body(moved);
   wake_from({id});
   forget_contacts_of(id);

@@ -94,7 +94,7 @@ bool World<D>::joined(BodyId a, BodyId b) const {
 template <int D>
 std::vector<Pair> World<D>::links() const {
   std::vector<Pair> all;
-  for (const Touch& touch : touching_) all.push_back({touch.record.a, touch.record.b});
+  for (const Touch& touch : touching_) all.push_back(touch.record.pair());
   for (const Spring<D>& spring : forces_.springs) all.push_back({spring.a, spring.b});
   for (const auto& entry : joints_) all.push_back({entry.second.a, entry.second.b});
   return all;

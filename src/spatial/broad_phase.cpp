@@ -115,7 +115,11 @@ void BroadPhase<D>::forget() {
 template <int D>
 void BroadPhase<D>::build(Store& store) {
   store.names.clear();
-  for (const Proxy<D>& body : store.bodies) store.names.push_back(body.id);
+  items_.clear();
+  for (const Proxy<D>& body : store.bodies) {
+    items_.push_back({static_cast<BodyId>(items_.size()), body.box});
+    store.names.push_back(body.id);
+  }
   const auto make_anew = [&] {
     const auto count = [](const auto& structure) { return structure.counters().allocations; };
     past_allocations_ += std::visit(count, store.structure);
@@ -128,7 +132,7 @@ void BroadPhase<D>::build(Store& store) {
   }
   for (;;) {
     try {
-      fill(store);
+      build_structure<D>(store.structure, items_);
       break;
     } catch (const Refused&) {
       if (!config_.in_proportion || store.depth == 0) throw;
@@ -138,14 +142,6 @@ void BroadPhase<D>::build(Store& store) {
   }
   store.stands = true;
   ++(counters_.*store.builds);
-}
-
-template <int D>
-void BroadPhase<D>::fill(Store& store) {
-  items_.clear();
-  for (std::uint32_t i = 0; i < store.bodies.size(); ++i)
-    items_.push_back({i, store.bodies[i].box});
-  build_structure<D>(store.structure, items_);
 }
 
 template <int D>

@@ -202,7 +202,6 @@ class BroadPhase {
   void renew();
   void forget();
   void build(Store& store);
-  void fill(Store& store);
   void empty(Store& store);
   void find_pairs();
   void pair_dynamic();

@@ -2,7 +2,6 @@
 // is enough where the world is flat. Bodies above each other share a leaf.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "spatial/orthtree.hpp"
@@ -14,23 +13,17 @@ class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
   static constexpr Zones kZones = Zones::endless_rim;  // on y every node reaches from rim to rim
   static constexpr StructureTraits kTraits = Quadtree::kTraits;
 
-  static FlatQuadtree made(const StructureConfig<3>& config) {
-    return FlatQuadtree({config.bounds,
-                         {{},
-                          config.capacity,
-                          config.max_depth,
-                          config.eager_children,
-                          config.no_progress_stop,
-                          std::min(config.most_entries, Quadtree::kMost)}});
-  }
-
-  struct Config {
-    Box<3> bounds;
-    Quadtree::Config tree;  // its bounds are set from those above
-  };
+  static FlatQuadtree made(const StructureConfig<3>& config) { return FlatQuadtree(config); }
 
   // Throws Refused as the quadtree does.
-  explicit FlatQuadtree(const Config& config) : tree_(flat(config)), bounds_(config.bounds) {}
+  explicit FlatQuadtree(const StructureConfig<3>& config)
+      : tree_(Quadtree::made({.bounds = flat(config.bounds),
+                              .capacity = config.capacity,
+                              .max_depth = config.max_depth,
+                              .eager_children = config.eager_children,
+                              .no_progress_stop = config.no_progress_stop,
+                              .most_entries = config.most_entries})),
+        bounds_(config.bounds) {}
 
   template <class Observer = NoObserver>
   void insert(const Item<3>& item, Observer&& observer = {}) {
@@ -53,12 +46,6 @@ class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
 
  private:
   static Box<2> flat(const Box<3>& box) { return {{box.lo.x, box.lo.z}, {box.hi.x, box.hi.z}}; }
-
-  static Quadtree::Config flat(const Config& config) {
-    Quadtree::Config tree = config.tree;
-    tree.bounds = flat(config.bounds);
-    return tree;
-  }
 
   NodeView<3> risen(const NodeView<2>& view) const {
     return {.handle = view.handle,

@@ -67,13 +67,18 @@ class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
   void build(std::span<const Item<D>> items, Observer&& observer = {}) {
     for (const Item<D>& item : items) require_valid(item);
     most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
-    clear_lists();
+    nodes_.clear();
+    items_.clear();
+    stored_.clear();
+    work_.clear();
+    deepest_ = box_tests_ = 0;
+    cuts_.forget_tests();
     for (const Item<D>& item : items) append(items_, item);
     std::sort(items_.begin(), items_.end(),
               [](const Item<D>& a, const Item<D>& b) { return a.id < b.id; });
     for (std::uint32_t i = 0; i < items_.size(); ++i) append(work_, i);
     entries_expected_ = items_.size();
-    make_node();
+    append(nodes_, Node{});
     grow(Spot{}, 0, observer);
   }
 
@@ -178,7 +183,7 @@ class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
     nodes_[at.node].plane = cut.plane;
     nodes_[at.node].first_child = first_child;
     for (NodeHandle child = 0; child < 2; ++child) {
-      make_node();
+      append(nodes_, Node{});
       observer(Event{Event::Kind::make_child, first_child + child, last, 0, 0});
     }
     for (const bool front : {false, true}) {
@@ -194,28 +199,6 @@ class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
     work_.resize(begin);
     nodes_[at.node].box = united(nodes_[first_child].box, nodes_[first_child + 1].box);
   }
-
-  static Box<D> common_part(const Box<D>& box, const Box<D>& cell) {
-    Box<D> part;
-    for (int i = 0; i < D; ++i) {
-      part.lo[i] = std::max(box.lo[i], cell.lo[i]);
-      part.hi[i] = std::min(box.hi[i], cell.hi[i]);
-    }
-    return part;
-  }
-
-  // --- memory ---
-
-  void clear_lists() {
-    nodes_.clear();
-    items_.clear();
-    stored_.clear();
-    work_.clear();
-    deepest_ = box_tests_ = 0;
-    cuts_.forget_tests();
-  }
-
-  void make_node() { append(nodes_, Node{}); }
 
   // --- looking ---
 

@@ -81,11 +81,9 @@ class LectureQuadtree : public Visitable<LectureQuadtree<D>, D> {
   using Vector3 = lecture::Vector3;
 
   static const StructureConfig<D>& checked(const StructureConfig<D>& config) {
-    StructureConfig<2> same;  // the quadtree does the checking
-    same.bounds = flat_box(config.bounds);
-    same.capacity = config.capacity;
-    same.max_depth = config.max_depth;
-    Quadtree::made(same);
+    Quadtree::made({.bounds = flat_box(config.bounds),  // which does the checking
+                    .capacity = config.capacity,
+                    .max_depth = config.max_depth});
     return config;
   }
 

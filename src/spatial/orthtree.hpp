@@ -224,12 +224,7 @@ class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
       fresh = fresh.last(1);
     }
     Box<D>& common = common_parts_[leaf.link];
-    for (const std::uint32_t item : fresh) {
-      for (int i = 0; i < D; ++i) {
-        common.lo[i] = std::max(common.lo[i], items_[item].box.lo[i]);
-        common.hi[i] = std::min(common.hi[i], items_[item].box.hi[i]);
-      }
-    }
+    for (const std::uint32_t item : fresh) common = common_part(common, items_[item].box);
     return is_valid(common);
   }
 

@@ -50,7 +50,6 @@ struct Item {
 // Throws Refused, naming the body, unless its box is finite and nowhere inverted.
 template <int D>
 void require_valid(const Item<D>& item) {
-  if (is_valid(item.box)) return;
   for (int i = 0; i < D; ++i) {
     const double lo = item.box.lo[i];
     const double hi = item.box.hi[i];
@@ -110,7 +109,7 @@ struct StructureConfig {
   std::uint32_t max_depth = 7;
   bool eager_children = false;
   bool no_progress_stop = true;
-  std::vector<BspPlane<D>> planes;                      // of a BSP
+  std::vector<BspPlane<D>> planes = {};                 // of a BSP
   std::uint64_t most_entries = std::uint64_t{1} << 22;  // of a tree: entries, and nodes
 };
 

@@ -98,7 +98,11 @@ void expect_same_nodes(Engine engine) {
 TEST(LectureQuadtree, HasTheNodesOfTheEngines) {
   const Quadtree::Config same{{Vec<2>(0.0), Vec<2>(64.0)}, 2, 4, true};
   expect_same_nodes<2>(Quadtree(same));
-  expect_same_nodes<3>(FlatQuadtree({{Vec<3>(0.0), Vec<3>(64.0)}, same}));
+  expect_same_nodes<3>(FlatQuadtree({.bounds = {Vec<3>(0.0), Vec<3>(64.0)},
+                                     .capacity = 2,
+                                     .max_depth = 4,
+                                     .eager_children = true,
+                                     .no_progress_stop = false}));
 }
 
 TEST(LectureQuadtree, HandlesAreNumbersBelowTheCountAndStay) {

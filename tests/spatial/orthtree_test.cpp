@@ -185,7 +185,10 @@ TEST(FlatQuadtree, ShowsTheQuadtreeOfXAndZ) {
   Quadtree::Config config;
   config.bounds = {{0, 0}, {64, 64}};
   Quadtree tree(config);
-  FlatQuadtree tall({{{0, -5, 0}, {64, 5, 64}}, config});
+  FlatQuadtree tall({.bounds = {{0, -5, 0}, {64, 5, 64}},
+                     .capacity = config.capacity,
+                     .max_depth = config.max_depth,
+                     .no_progress_stop = config.no_progress_stop});
   for (const Item<3>& item : testing::random_world<3>(Sort::uniform, 40, random)) {
     tall.insert(item);
     tree.insert({item.id, {{item.box.lo.x, item.box.lo.z}, {item.box.hi.x, item.box.hi.z}}});

@@ -56,7 +56,10 @@ class Scene {
     f(sweep, "sort and sweep");
     f(kd, "kd-tree");
     if constexpr (D == 3) {
-      FlatQuadtree flat({config.bounds, {{}, config.capacity, config.max_depth}});
+      FlatQuadtree flat({.bounds = config.bounds,
+                         .capacity = config.capacity,
+                         .max_depth = config.max_depth,
+                         .no_progress_stop = false});
       for (const Item<D>& item : items_) flat.insert(item);
       f(flat, "flat quadtree");
     }
@@ -279,7 +282,7 @@ void siblings_are_in_order(std::uint64_t seed) {
   expect_order_of_ray<D>(kd, toward, "kd-tree");
   expect_order_of_ray<D>(bsp, toward, "bsp");
   if constexpr (D == 3) {
-    FlatQuadtree flat({bounds, {{}, 2, 6}});
+    FlatQuadtree flat({.bounds = bounds, .capacity = 2, .max_depth = 6, .no_progress_stop = false});
     for (const Item<D>& item : scene.items()) flat.insert(item);
     expect_order_of_ray<D>(flat, toward, "flat quadtree");
   }
