@@ -64,6 +64,14 @@ struct Body {
   Box<D> box() const { return bounding_box(shape, position, orientation); }
 };
 
+// Throws Refused, naming body and field, unless the world can take it; see World::add.
+template <int D>
+void check_body(const Body<D>& body);
+// Mass, inverse mass and inertia from shape, density and mass, checked. Throws Refused for a
+// dynamic body that has none. (Both: body_check.cpp)
+template <int D>
+void derive_mass(Body<D>& body);
+
 // As the narrow phase sees it.
 template <int D>
 Placed<D> placed(const Body<D>& body) {

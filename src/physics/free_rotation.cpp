@@ -97,22 +97,25 @@ Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, 
 
 template <int D>
 void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& lag) {
-  const bool naive = method == RotationMethod::explicit_gyroscopic;
-  if (D == 2 || !naive || body.kind != BodyKind::dynamic_body) {  // nothing wanders in the plane
-    const RotationMethod splitting = naive ? RotationMethod::splitting_2 : method;
-    body.orientation = freely_turned(body, body.angular_momentum + lag, h, splitting);
+  if (method != RotationMethod::explicit_gyroscopic) {
+    body.orientation = freely_turned(body, body.angular_momentum + lag, h, method);
     return;
   }
-  if constexpr (D == 3) {
-    if (body.asleep || !body.turns_about_every_axis()) return;
-    // Euler's equation in the body's axes: I w' = L x w.
-    const glm::dquat q = body.orientation.q;
-    const Vec<3> l = glm::conjugate(q) * (body.angular_momentum + lag);
-    const Vec<3> w = l * body.inverse_inertia;
-    const Vec<3> next = w + h * (body.inverse_inertia * glm::cross(l, w));
-    body.orientation = turned(body.orientation, q * (next * h));
-    body.angular_momentum = body.orientation.q * (next / body.inverse_inertia) - lag;
+  body.angular_momentum += lag;
+  if (D == 2 || body.kind != BodyKind::dynamic_body) {
+    body.orientation = freely_turned(body, h);  // nothing wanders in the plane
+  } else if constexpr (D == 3) {
+    if (!body.asleep && body.turns_about_every_axis()) {
+      // Euler's equation in the body's axes: I w' = L x w.
+      const glm::dquat q = body.orientation.q;
+      const Vec<3> l = glm::conjugate(q) * body.angular_momentum;
+      const Vec<3> w = l * body.inverse_inertia;
+      const Vec<3> next = w + h * (body.inverse_inertia * glm::cross(l, w));
+      body.orientation = turned(body.orientation, q * (next * h));
+      body.angular_momentum = body.orientation.q * (next / body.inverse_inertia);
+    }
   }
+  body.angular_momentum -= lag;
 }
 
 template Rotation<2> freely_turned(const Body<2>&, const Spin<2>&, double, RotationMethod);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/stop.hpp"
-#include "physics/time_of_impact.hpp"
 
 namespace lantern {
 namespace {

@@ -1,9 +1,10 @@
-#include "physics/time_of_impact.hpp"
+// When two bodies meet.
 
 #include <algorithm>
 #include <cmath>
 
 #include "physics/free_rotation.hpp"
+#include "physics/impacts.hpp"
 
 namespace lantern {
 namespace {

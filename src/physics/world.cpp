@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "geometry/not_finite.hpp"
-#include "physics/body_check.hpp"
 #include "physics/waking.hpp"
 
 namespace lantern {
