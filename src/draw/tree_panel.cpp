@@ -173,8 +173,7 @@ std::vector<const FrameBody*> swept(const Frame& frame, int axis) {
 }
 
 // One row a body, in the order in which the sweep meets them; the rows of bodies that the step is
-// about are lit. Which axis is said in frame.settings ("along y"); x if it is not. Of many bodies
-// as many are drawn as have room, and the rest is counted.
+// about are lit. Of many bodies as many are drawn as have room, and the rest is counted.
 void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const int axis = frame.sweep_axis;
   const Box<2> world{{frame.bounds.lo[axis], 0}, {frame.bounds.hi[axis], 1}};
