@@ -17,11 +17,7 @@ Atlas::Atlas(int width, int height) {
   if (width < 1 || width > kLargest || height < 1 || height > kLargest)
     throw Refused(fmt::format("an atlas of {} x {} pixels: both must be from 1 to {}", width,
                               height, kLargest));
-  Node root;
-  root.rect = {0, 0, width, height};
-  root.free_width = width;
-  root.free_height = height;
-  nodes_.push_back(root);
+  add_leaf({0, 0, width, height}, kNoNode);
 }
 
 void Atlas::require_size(TextureId id, int width, int height) {
@@ -39,30 +35,24 @@ std::uint32_t Atlas::after_branch(std::uint32_t node) const {
   return node == 0 ? kNoNode : node + 1;
 }
 
+void Atlas::add_leaf(const Rect& rect, std::uint32_t parent) {
+  Node& leaf = nodes_.emplace_back();
+  leaf.rect = rect;
+  leaf.parent = parent;
+  leaf.free_width = rect.width;
+  leaf.free_height = rect.height;
+}
+
 std::uint32_t Atlas::cut(std::uint32_t leaf, int width, int height) {
-  const Rect whole = nodes_[leaf].rect;
-  const bool vertically = whole.width - width > whole.height - height;
-  Node fitted, rest;
-  fitted.parent = rest.parent = leaf;
-  fitted.rect = rest.rect = whole;
-  if (vertically) {
-    fitted.rect.width = width;
-    rest.rect.x += width;
-    rest.rect.width -= width;
-  } else {
-    fitted.rect.height = height;
-    rest.rect.y += height;
-    rest.rect.height -= height;
-  }
-  for (Node* half : {&fitted, &rest}) {
-    half->free_width = half->rect.width;
-    half->free_height = half->rect.height;
-  }
+  const auto [x, y, wide, high] = nodes_[leaf].rect;
+  const bool vertically = wide - width > high - height;
   const auto first = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back(fitted);
-  nodes_.push_back(rest);
   nodes_[leaf].first_child = first;
   nodes_[leaf].cut_vertically = vertically;
+  add_leaf(vertically ? Rect{x, y, width, high} : Rect{x, y, wide, height}, leaf);
+  add_leaf(vertically ? Rect{x + width, y, wide - width, high}
+                      : Rect{x, y + height, wide, high - height},
+           leaf);
   return first;
 }
 

@@ -128,6 +128,7 @@ class Atlas {
   bool is_second(std::uint32_t node) const;              // of its parent's two
   std::uint32_t after_branch(std::uint32_t node) const;  // in order of descent; kNoNode at the end
   std::uint32_t cut(std::uint32_t leaf, int width, int height);  // gives the half that fits
+  void add_leaf(const Rect& rect, std::uint32_t parent);
   void take(std::uint32_t leaf, TextureId id);
 
   bool may_fit(std::uint32_t node, int width, int height) const {
@@ -181,17 +182,16 @@ void Atlas::visit(F&& f) const {
   for (std::uint32_t handle = 0; handle != kNoNode;) {
     stop_if_asked();
     const Node& node = nodes_[handle];
-    AtlasNodeView view;
-    view.handle = handle;
-    view.id = next_id++;
-    view.slot = is_second(handle);
-    view.depth = static_cast<std::uint32_t>(ids.size());
-    if (!ids.empty()) view.parent = ids.back();
-    view.rect = node.rect;
-    view.leaf = node.is_leaf();
-    view.cut_vertically = node.cut_vertically;
-    view.texture = node.texture;
-    if (f(std::as_const(view)) && !view.leaf) {
+    const AtlasNodeView view{.handle = handle,
+                             .id = next_id++,
+                             .parent = ids.empty() ? kNoNode : ids.back(),
+                             .slot = is_second(handle),
+                             .depth = static_cast<std::uint32_t>(ids.size()),
+                             .rect = node.rect,
+                             .leaf = node.is_leaf(),
+                             .cut_vertically = node.cut_vertically,
+                             .texture = node.texture};
+    if (f(view) && !view.leaf) {
       ids.push_back(view.id);
       handle = node.first_child;
       continue;

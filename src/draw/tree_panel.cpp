@@ -163,12 +163,6 @@ void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
 constexpr double kLeastBand = 22, kMostBand = 44;
 constexpr double kAxisHeading = 34, kAxis = 16;
 
-int axis_of(const Frame& frame) {
-  for (const int axis : {1, 2})
-    if (frame.settings.find(std::string("along ") + "xyz"[axis]) != std::string::npos) return axis;
-  return 0;
-}
-
 // In the order of their lower ends; ids break ties.
 std::vector<const FrameBody*> swept(const Frame& frame, int axis) {
   std::vector<const FrameBody*> order;
@@ -179,10 +173,9 @@ std::vector<const FrameBody*> swept(const Frame& frame, int axis) {
 }
 
 // One row a body, in the order in which the sweep meets them; the rows of bodies that the step is
-// about are lit. Which axis is said in frame.settings ("along y"); x if it is not. Of many bodies
-// as many are drawn as have room, and the rest is counted.
+// about are lit. Of many bodies as many are drawn as have room, and the rest is counted.
 void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  const int axis = axis_of(frame);
+  const int axis = frame.sweep_axis;
   const Box<2> world{{frame.bounds.lo[axis], 0}, {frame.bounds.hi[axis], 1}};
   std::vector<const FrameBody*> order = swept(frame, axis);
   const double length = world.size().x;

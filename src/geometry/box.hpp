@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 #include "geometry/vec.hpp"
 
 namespace lantern {
@@ -39,12 +41,13 @@ bool contains(const Box<D>& box, const Vec<D>& point) {
 // The smallest box that holds both.
 template <int D>
 Box<D> united(const Box<D>& a, const Box<D>& b) {
-  Box<D> u;
-  for (int i = 0; i < D; ++i) {
-    u.lo[i] = std::min(a.lo[i], b.lo[i]);
-    u.hi[i] = std::max(a.hi[i], b.hi[i]);
-  }
-  return u;
+  return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
+}
+
+// What lies in both; not valid if that is nothing.
+template <int D>
+Box<D> common_part(const Box<D>& a, const Box<D>& b) {
+  return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
 }
 
 // Finite, and nowhere is lo above hi.

@@ -32,18 +32,13 @@ Direction<D> direction_of(const Vec<D>& v, const Vec<D>& fallback) {
   return {scaled / length, length * most};
 }
 
-// Where along the segment, from 0 to 1, it comes closest to the point.
-template <int D>
-double closest_parameter(const Segment<D>& segment, const Vec<D>& point) {
-  const Vec<D> along = segment.b - segment.a;
-  const double square = glm::dot(along, along);
-  if (square <= 0) return 0;
-  return std::clamp(glm::dot(point - segment.a, along) / square, 0.0, 1.0);
-}
-
+// The point of the segment that is closest to the other one.
 template <int D>
 Vec<D> closest_point(const Segment<D>& segment, const Vec<D>& point) {
-  return segment.at(closest_parameter(segment, point));
+  const Vec<D> along = segment.b - segment.a;
+  const double square = glm::dot(along, along);
+  if (square <= 0) return segment.at(0);
+  return segment.at(std::clamp(glm::dot(point - segment.a, along) / square, 0.0, 1.0));
 }
 
 template <int D>

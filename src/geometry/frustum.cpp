@@ -80,17 +80,6 @@ Box<D> box_around(const Frustum<D>& frustum) {
   return box;
 }
 
-// What lies outside the box around the frustum has no part in any overlap. Without it numbers stay
-// as small as the frustum's, however large the box is. Inverted where nothing is left.
-template <int D>
-Box<D> clipped(Box<D> box, const Box<D>& around) {
-  for (int i = 0; i < D; ++i) {
-    box.lo[i] = std::max(box.lo[i], around.lo[i]);
-    box.hi[i] = std::min(box.hi[i], around.hi[i]);
-  }
-  return box;
-}
-
 template <int D>
 Extent extent(const Box<D>& box, const Vec<D>& axis) {
   Extent e{0, 0};
@@ -156,7 +145,9 @@ bool may_overlap(const Frustum<D>& frustum, const Box<D>& box) {
   double size = 0;  // of the numbers that are summed below
   for (int i = 0; i < D; ++i)
     size = std::max({size, std::abs(around.lo[i]), std::abs(around.hi[i])});
-  Box<D> part = clipped(box, around);
+  // What lies outside the box around the frustum has no part in any overlap. Without it numbers
+  // stay as small as the frustum's, however large the box is.
+  const Box<D> part = common_part(box, around);
   for (int i = 0; i < D; ++i)
     if (part.lo[i] > part.hi[i] + kError * size) return false;
   for (const Plane<D>& plane : frustum.planes)
@@ -166,7 +157,7 @@ bool may_overlap(const Frustum<D>& frustum, const Box<D>& box) {
 
 template <int D>
 bool overlap(const Frustum<D>& frustum, const Box<D>& box) {
-  const Box<D> part = clipped(box, box_around(frustum));
+  const Box<D> part = common_part(box, box_around(frustum));
   for (int i = 0; i < D; ++i)
     if (part.lo[i] > part.hi[i]) return false;
   for (const Plane<D>& plane : frustum.planes)

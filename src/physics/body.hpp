@@ -56,8 +56,21 @@ struct Body {
     if (kind == BodyKind::dynamic_body) return !asleep;
     return moves() && (velocity != Vec<D>(0.0) || kinematic_spin != Spin<D>(0.0));
   }
+  bool turns_about_every_axis() const {
+    for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
+      if (!(spin_component(inverse_inertia, i) > 0)) return false;
+    return true;
+  }
   Box<D> box() const { return bounding_box(shape, position, orientation); }
 };
+
+// Throws Refused, naming body and field, unless the world can take it; see World::add.
+template <int D>
+void check_body(const Body<D>& body);
+// Mass, inverse mass and inertia from shape, density and mass, checked. Throws Refused for a
+// dynamic body that has none. (Both: body_check.cpp)
+template <int D>
+void derive_mass(Body<D>& body);
 
 // As the narrow phase sees it.
 template <int D>

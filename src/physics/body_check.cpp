@@ -1,4 +1,4 @@
-#include "physics/body_check.hpp"
+// What makes a body one that the world can take.
 
 #include <cmath>
 
@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
+#include "physics/body.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern {

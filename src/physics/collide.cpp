@@ -1,4 +1,5 @@
-// Which closed form, or search, a pair of shapes has.
+// The narrow phase: the closed forms of pairs of shapes, and which pair has which, or a search.
+#include <algorithm>
 #include <array>
 #include <variant>
 
@@ -8,30 +9,162 @@ namespace lantern {
 namespace narrow {
 namespace {
 
+// --- a sphere against a sphere, a box, a capsule ---
+
+// The point of the other core that is closest to the centre.
+template <int D>
+Contact<D> touch_points(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+  const Direction<D> normal = direction_of(b.center - a.center, fallback_normal<D>());
+  if (normal.length - a.radius - b.radius > margin) return std::nullopt;
+  return one_point(a.center, a.radius, b.radius, normal);
+}
+
+// A centre inside the box leaves it by the closest face; the first of equally close ones.
+//
+//     ________
+//    |   <-x  |      x: the centre
+//    |________|
+template <int D>
+Contact<D> touch_point_and_box(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+  const Vec<D> center = b.local(a.center);
+  const Vec<D> outside = center - glm::clamp(center, -b.half, b.half);
+  Direction<D> normal = direction_of(-outside, Vec<D>(0.0));  // from the sphere into the box
+  if (normal.length == 0) {
+    int axis = 0;
+    for (int i = 1; i < D; ++i)
+      if (b.half[i] - std::abs(center[i]) < b.half[axis] - std::abs(center[axis])) axis = i;
+    normal.unit[axis] = center[axis] < 0 ? 1 : -1;
+    normal.length = std::abs(center[axis]) - b.half[axis];
+  }
+  normal.unit = b.axes * normal.unit;
+  if (normal.length - a.radius > margin) return std::nullopt;
+  return one_point(a.center, a.radius, 0.0, normal);
+}
+
+// A centre on the capsule's segment leaves it sideways.
+template <int D>
+Contact<D> touch_point_and_segment(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+  const Vec<D> to_segment = closest_point(b.segment(), a.center) - a.center;
+  const Direction<D> normal = direction_of(to_segment, b.axes[0]);
+  if (normal.length - a.radius - b.radius > margin) return std::nullopt;
+  return one_point(a.center, a.radius, b.radius, normal);
+}
+
+// --- two capsules ---
+
+// Segments at a larger angle than this (its sine, about 6 degrees) meet in one point.
+constexpr double kMostParallel = 0.1;
+
+// The two ends of where segment b lies along segment a.
+//
+//          b  o------------o            n: normal, from a to b
+//        x            x    |
+//   a  o-+------------+    | <- the points x are midway between the surfaces
+//
+// Nothing if they cross rather than lie along each other, or hardly overlap.
+template <int D>
+Contact<D> two_points(const PlacedCore<D>& a, const PlacedCore<D>& b, const Direction<D>& normal,
+                      double margin) {
+  const Vec<D> along = a.along(), n = normal.unit;
+  if (std::abs(glm::dot(along, n)) > kMostParallel) return std::nullopt;
+  const double turn = glm::dot(along, b.along());
+  if (std::abs(turn) < std::sqrt(1 - kMostParallel * kMostParallel)) return std::nullopt;
+
+  const double middle = glm::dot(b.center - a.center, along);
+  const double reach = b.half.y * std::abs(turn);
+  const double from = std::max(-a.half.y, middle - reach);
+  const double to = std::min(a.half.y, middle + reach);
+  const double shorter = std::min(a.half.y, b.half.y);
+  if (to - from <= 1e-3 * shorter) return std::nullopt;
+
+  const double radii = a.radius + b.radius;
+  Manifold<D> manifold;
+  manifold.normal = n;
+  double least = 0;
+  for (const double t : {from, to}) {
+    const Vec<D> on_a = a.center + along * t;
+    const Vec<D> on_b = b.center + b.along() * ((t - middle) / turn);
+    const double distance = glm::dot(on_b - on_a, n);
+    if (glm::length(on_b - on_a - n * distance) > kMostParallel * radii + kRounding * shorter)
+      return std::nullopt;
+    const double separation = distance - radii;
+    manifold.add({on_a + n * (a.radius + separation / 2), separation, t == from ? 1u : 2u});
+    least = t == from ? separation : std::min(least, separation);
+  }
+  // The deeper one stands for the closest points, whose distance is exact.
+  for (int i = 0; i < 2; ++i) {
+    ManifoldPoint<D>& point = manifold.room[static_cast<std::size_t>(i)];
+    if (point.separation == least) point.separation = normal.length - radii;
+  }
+  if (manifold.room[1].separation > margin) manifold.count = 1;
+  if (manifold.room[0].separation > margin) manifold.room[0] = manifold.room[--manifold.count];
+  return manifold;
+}
+
+template <int D>
+Contact<D> touch_segments(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+  const PointPair<D> closest = closest_points(a.segment(), b.segment());
+  const Direction<D> normal = direction_of(closest.b - closest.a, fallback_normal<D>());
+  const double size = a.half.y + b.half.y + glm::length(b.center - a.center);
+  // Segments that cross have no direction between them: they part by separating axes.
+  if (normal.length <= kRounding * size) return touch_blocks(a, b, margin);
+  if (normal.length - a.radius - b.radius > margin) return std::nullopt;
+  if (const Contact<D> contact = two_points(a, b, normal, margin)) return contact;
+  return one_point(closest.a, a.radius, b.radius, normal);
+}
+
+// --- a core against a half-space ---
+
+// As many of those that touch as a manifold holds. They stay in the order of their features,
+// whichever of them rounding makes the lowest.
+template <int D>
+Contact<D> touch_wall(const PlacedCore<D>& core, const Wall<D>& wall, double margin) {
+  std::array<ManifoldPoint<D>, 1u << D> room;
+  std::size_t count = 0;
+  each_corner(core, [&](const Vec<D>& corner, std::uint32_t) {
+    ManifoldPoint<D>& point = room[count];
+    point.feature = static_cast<std::uint32_t>(count++);
+    point.separation = glm::dot(corner - wall.point, wall.normal) - core.radius;
+    point.position = corner - wall.normal * (core.radius + point.separation / 2);
+  });
+  const std::span<const ManifoldPoint<D>> corners{room.data(), count};
+  const auto is_lower = [](const ManifoldPoint<D>& x, const ManifoldPoint<D>& y) {
+    return x.separation != y.separation ? x.separation < y.separation : x.feature < y.feature;
+  };
+  Manifold<D> manifold;
+  manifold.normal = -wall.normal;
+  for (const ManifoldPoint<D>& corner : corners) {
+    const auto lower = std::count_if(corners.begin(), corners.end(),
+                                     [&](const auto& other) { return is_lower(other, corner); });
+    if (corner.separation <= margin && lower < Manifold<D>::kMostPoints) manifold.add(corner);
+  }
+  if (manifold.count == 0) return std::nullopt;
+  return manifold;
+}
+
+// --- which form a pair has ---
+
 template <int D>
 using Placing = std::variant<PlacedCore<D>, Wall<D>>;
 
 template <int D>
 Placing<D> placing_of(const Placed<D>& placed, const Vec<D>& center) {
   using Kind = typename PlacedCore<D>::Kind;
-  const auto core_of_kind = [&](Kind kind) {
-    return [&, kind](const Core<D>& core) -> Placing<D> {
-      const bool is_turned = core.turns && kind != Kind::point;
-      const Mat<D> axes = is_turned ? matrix(placed.orientation) : Mat<D>(1.0);
-      return PlacedCore<D>{kind, center, axes, core.half, core.radius};
-    };
+  const auto core = [&](Kind kind, const Core<D>& of) -> Placing<D> {
+    const bool is_turned = of.turns && kind != Kind::point;
+    const Mat<D> axes = is_turned ? matrix(placed.orientation) : Mat<D>(1.0);
+    return PlacedCore<D>{kind, center, axes, of.half, of.radius};
   };
-  return std::visit(
-      EachShape{
-          [&](const Sphere& s) { return core_of_kind(Kind::point)(core_of<D>(s)); },
-          [&](const AxisBox<D>& s) { return core_of_kind(Kind::box)(core_of<D>(s)); },
-          [&](const OrientedBox<D>& s) { return core_of_kind(Kind::box)(core_of<D>(s)); },
-          [&](const Capsule& s) { return core_of_kind(Kind::segment)(core_of<D>(s)); },
-          [&](const HalfSpace<D>& s) -> Placing<D> {
-            return Wall<D>{center, s.normal};
-          },
-      },
-      placed.shape);
+  return std::visit(EachShape{
+                        [&](const Sphere& s) { return core(Kind::point, core_of<D>(s)); },
+                        [&](const AxisBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
+                        [&](const OrientedBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
+                        [&](const Capsule& s) { return core(Kind::segment, core_of<D>(s)); },
+                        [&](const HalfSpace<D>& s) -> Placing<D> {
+                          return Wall<D>{center, s.normal};
+                        },
+                    },
+                    placed.shape);
 }
 
 template <int D>

@@ -92,19 +92,9 @@ Manifold<D> one_point(const Vec<D>& a, double radius_a, double radius_b, const D
 template <int D>
 using Contact = std::optional<Manifold<D>>;
 
-// The closed forms, and what is found by search. None looks at the order of bodies: `collide` has
-// sorted them, kinds of cores in their order, walls last.
+// By search. It does not look at the order of bodies: `collide` has sorted them.
 template <int D>
-Contact<D> touch_points(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
-template <int D>
-Contact<D> touch_point_and_box(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
-template <int D>
-Contact<D> touch_point_and_segment(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
-template <int D>
-Contact<D> touch_segments(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);
-template <int D>
-Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin);  // any two
-template <int D>
-Contact<D> touch_wall(const PlacedCore<D>& a, const Wall<D>& b, double margin);
+Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b,
+                        double margin);  // any two but points
 
 }  // namespace lantern::narrow

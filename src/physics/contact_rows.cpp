@@ -6,14 +6,6 @@
 namespace lantern {
 namespace {
 
-// The part of penetration that one sub-step pushes out, and at most how fast. So stiffness grows
-// with the rate of sub-steps (Catto, "Soft Constraints", 2011; Macklin et al., "Small Steps in
-// Physics Simulation", 2019).
-constexpr double kPushedOut = 0.25;
-constexpr double kFastestPush = 4;  // units a second
-// Of full friction: what stops a body within so little of it does not slip in the end.
-constexpr double kSlipByRounding = 1e-6;
-
 template <int D>
 Mat<D> axes_of(const Body<D>& body) {
   return turns<D>(body.shape) ? matrix(body.orientation) : Mat<D>(1.0);
@@ -64,103 +56,6 @@ double softest(const SolverBody<3>& a, const SolverBody<3>& b, const ContactPoin
   return a.inverse_mass + b.inverse_mass + mean + std::sqrt(half * half + st * st);
 }
 
-}  // namespace
-
-template <int D>
-void set_points(ContactRows<D>& rows, const Manifold<D>& manifold, const Body<D>& a,
-                const Body<D>& b, const Contact<D>* remembered, double scale) {
-  rows.normal = manifold.normal;
-  rows.count = manifold.count;
-  rows.share = a.inverse_mass == 0 ? 1 : b.inverse_mass == 0 ? 0 : 0.5;
-  const Mat<D> axes_a = axes_of(a), axes_b = axes_of(b);
-  for (int i = 0; i < manifold.count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const ManifoldPoint<D>& from = manifold.room[at];
-    ContactPoint<D> p;
-    p.feature = from.feature;
-    p.round_a = rows.normal * roundness<D>(a.shape);
-    p.round_b = rows.normal * -roundness<D>(b.shape);
-    const Vec<D> half_gap = rows.normal * (from.separation / 2);
-    const Vec<D> to_a = from.position - half_gap - a.position;
-    const Vec<D> to_b = from.position + half_gap - b.position;
-    p.core_a = (to_a - p.round_a) * axes_a;  // a vector times a matrix: by its inverse
-    p.core_b = (to_b - p.round_b) * axes_b;
-    p.offset = from.separation - glm::dot(rows.normal, (b.position - a.position) + to_b - to_a);
-    if (remembered != nullptr)
-      for (int j = 0; j < remembered->manifold.count; ++j) {
-        const auto old = static_cast<std::size_t>(j);
-        if (remembered->manifold.room[old].feature != p.feature) continue;
-        p.pn = remembered->normal_impulses[old] * scale;
-        p.pt = across(remembered->friction_impulses[old] * scale, rows.normal);
-      }
-    rows.room[at] = p;
-  }
-}
-
-template <int D>
-void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b,
-             const SolverBody<D>& solver_a, const SolverBody<D>& solver_b, double threshold,
-             double touching) {
-  const Mat<D> axes_a = axes_of(a), axes_b = axes_of(b);
-  for (ContactPoint<D>& p : rows.points()) {
-    const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
-    const Vec<D> gap = (b.position - a.position) + to_b - to_a;
-    p.separation = glm::dot(rows.normal, gap) + p.offset;
-    p.gap = p.separation > touching ? p.separation : 0;
-    p.arm_a = to_a + gap * rows.share;
-    p.arm_b = to_b - gap * (1 - rows.share);
-    p.inverse_normal_mass =
-        inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, rows.normal);
-    if (rows.friction > 0) p.inverse_tangent_mass = softest(solver_a, solver_b, p, rows.normal);
-    const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
-    const double parting = glm::dot(velocity, rows.normal);
-    p.bounce = p.gap == 0 && parting < -threshold ? -rows.restitution * parting : 0;
-    p.slip = across(velocity, rows.normal);
-  }
-}
-
-template <int D>
-void warm_start(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
-  for (ContactPoint<D>& p : rows.points())
-    p.kicked_slip = across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
-  for (ContactPoint<D>& p : rows.points()) {
-    apply<D>(p, rows.normal * p.pn + p.pt, a, b);
-  }
-}
-
-template <int D>
-void solve_velocities(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
-                      Sweep& sweep) {
-  for (ContactPoint<D>& p : rows.points()) {
-    if (p.inverse_normal_mass == 0) continue;
-    const double parting =
-        glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal) - p.bounce;
-    // Bodies that are still apart may come as close as to touch.
-    const double before = p.pn;
-    p.pn = std::max(before - (parting + p.gap / h) / p.inverse_normal_mass, 0.0);
-    apply<D>(p, rows.normal * (p.pn - before), a, b);
-    sweep.change = std::max(sweep.change, std::abs(p.pn - before));
-    sweep.largest = std::max(sweep.largest, p.pn);
-    ++sweep.normal_rows;
-  }
-  if (rows.friction == 0) return;
-  for (ContactPoint<D>& p : rows.points()) {
-    if (p.inverse_tangent_mass == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
-    const Vec<D> slip = across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
-    const Vec<D> before = p.pt;
-    p.pt -= slip / p.inverse_tangent_mass;
-    const double most = rows.friction * p.pn, length = glm::length(p.pt);
-    p.sticks = length <= most * (1 + kSlipByRounding);
-    if (length > most) p.pt *= most / length;
-    const Vec<D> impulse = p.pt - before;
-    apply(p, impulse, a, b);
-    sweep.change = std::max(sweep.change, glm::length(impulse));
-    sweep.friction_rows += D - 1;
-  }
-}
-
-namespace {
-
 // Part of the sub-step for which a point that sticks in the end slides on: until full friction
 // would have stopped it, t / h = |slip_0| / |change of slip under full friction|.
 template <int D>
@@ -174,72 +69,148 @@ double sliding_share(const ContactPoint<D>& p, double friction) {
 }  // namespace
 
 template <int D>
-void begin_correction(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double lag_a,
-                      double lag_b) {
-  const ContactPoint<D>* firmest = nullptr;
-  for (const ContactPoint<D>& p : rows.points())
-    if (firmest == nullptr || p.pn > firmest->pn) firmest = &p;
-  for (ContactPoint<D>& p : rows.points()) {
-    p.correction = 0;
-    if (rows.friction == 0 || p.pn == 0) continue;
-    if (!p.sticks) {
-      // Slips through the whole sub-step, slowed evenly: the mean is half way.
-      a.correct(p.pt * (0.5 - lag_a), p.arm_a);
-      b.correct(p.pt * (lag_b - 0.5), p.arm_b);
-      continue;
-    }
-    // A point that presses by rounding only stops when the firmest does.
-    const bool hardly = p.pn <= 1e-9 * firmest->pn && firmest->sticks;
-    const double time = sliding_share(hardly ? *firmest : p, rows.friction);
-    p.wanted_slip =
-        p.slip * (time / 2) + across(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
+void ContactRows<D>::set_points(const Manifold<D>& manifold, const Body<D>& body_a,
+                                const Body<D>& body_b, const Contact<D>* remembered, double scale) {
+  normal = manifold.normal;
+  count = manifold.count;
+  share = body_a.inverse_mass == 0 ? 1 : body_b.inverse_mass == 0 ? 0 : 0.5;
+  const Mat<D> axes_a = axes_of(body_a), axes_b = axes_of(body_b);
+  for (int i = 0; i < manifold.count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const ManifoldPoint<D>& from = manifold.room[at];
+    ContactPoint<D> p;
+    p.feature = from.feature;
+    p.round_a = normal * roundness<D>(body_a.shape);
+    p.round_b = normal * -roundness<D>(body_b.shape);
+    const Vec<D> half_gap = normal * (from.separation / 2);
+    const Vec<D> to_a = from.position - half_gap - body_a.position;
+    const Vec<D> to_b = from.position + half_gap - body_b.position;
+    p.core_a = (to_a - p.round_a) * axes_a;  // a vector times a matrix: by its inverse
+    p.core_b = (to_b - p.round_b) * axes_b;
+    p.offset =
+        from.separation - glm::dot(normal, (body_b.position - body_a.position) + to_b - to_a);
+    if (remembered != nullptr)
+      for (int j = 0; j < remembered->manifold.count; ++j) {
+        const auto old = static_cast<std::size_t>(j);
+        if (remembered->manifold.room[old].feature != p.feature) continue;
+        p.pn = remembered->normal_impulses[old] * scale;
+        p.pt = across(remembered->friction_impulses[old] * scale, normal);
+      }
+    room[at] = p;
   }
 }
 
 template <int D>
-double wanted_mean_speed(const ContactPoint<D>& point, double h) {
-  if (point.gap > 0) return -point.gap / h;
-  return std::min(-point.separation * kPushedOut / h, kFastestPush);
+void ContactRows<D>::refresh(const Body<D>& body_a, const Body<D>& body_b,
+                             const SolverBody<D>& solver_a, const SolverBody<D>& solver_b,
+                             double threshold, double touching) {
+  const Mat<D> axes_a = axes_of(body_a), axes_b = axes_of(body_b);
+  for (ContactPoint<D>& p : points()) {
+    const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
+    const Vec<D> gap = (body_b.position - body_a.position) + to_b - to_a;
+    p.separation = glm::dot(normal, gap) + p.offset;
+    p.gap = p.separation > touching ? p.separation : 0;
+    p.arm_a = to_a + gap * share;
+    p.arm_b = to_b - gap * (1 - share);
+    p.inverse_normal_mass = inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, normal);
+    if (friction > 0) p.inverse_tangent_mass = softest(solver_a, solver_b, p, normal);
+    const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
+    const double parting = glm::dot(velocity, normal);
+    p.bounce = p.gap == 0 && parting < -threshold ? -restitution * parting : 0;
+    p.slip = across(velocity, normal);
+  }
 }
 
 template <int D>
-void correct_positions(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
-                       Sweep& sweep) {
-  for (ContactPoint<D>& p : rows.points()) {
+void ContactRows<D>::warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b) {
+  for (ContactPoint<D>& p : points())
+    p.kicked_slip = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+  for (ContactPoint<D>& p : points()) {
+    apply<D>(p, normal * p.pn + p.pt, body_a, body_b);
+  }
+}
+
+template <int D>
+void ContactRows<D>::solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h,
+                                      Sweep& sweep) {
+  for (ContactPoint<D>& p : points()) {
     if (p.inverse_normal_mass == 0) continue;
-    const double parting = glm::dot(relative_mean_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
-    const double wanted = wanted_mean_speed(p, h);
-    const double before = p.correction;
-    // Together with the impulse that is there already, it may push but not pull.
-    const double least = p.bounce > 0 ? 0 : -p.pn;
-    p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
-    correct<D>(p, rows.normal * (p.correction - before), a, b);
-    sweep.change = std::max(sweep.change, std::abs(p.correction - before));
+    const double parting =
+        glm::dot(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal) - p.bounce;
+    // Bodies that are still apart may come as close as to touch.
+    const double before = p.pn;
+    p.pn = std::max(before - (parting + p.gap / h) / p.inverse_normal_mass, 0.0);
+    apply<D>(p, normal * (p.pn - before), body_a, body_b);
+    sweep.change = std::max(sweep.change, std::abs(p.pn - before));
+    sweep.largest = std::max(sweep.largest, p.pn);
     ++sweep.normal_rows;
   }
-  for (ContactPoint<D>& p : rows.points()) {
-    if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
-    const Vec<D> slip = across(relative_mean_velocity(a, p.arm_a, b, p.arm_b), rows.normal);
-    const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
-    correct(p, impulse, a, b);
+  if (friction == 0) return;
+  for (ContactPoint<D>& p : points()) {
+    if (p.inverse_tangent_mass == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
+    const Vec<D> slip = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+    const Vec<D> before = p.pt;
+    p.pt -= slip / p.inverse_tangent_mass;
+    const double most = friction * p.pn, length = glm::length(p.pt);
+    p.sticks = length <= most * (1 + kRowSettings.slip_by_rounding);
+    if (length > most) p.pt *= most / length;
+    const Vec<D> impulse = p.pt - before;
+    apply(p, impulse, body_a, body_b);
     sweep.change = std::max(sweep.change, glm::length(impulse));
     sweep.friction_rows += D - 1;
   }
 }
 
-#define LANTERN_INSTANTIATE(D)                                                                     \
-  template void set_points(ContactRows<D>&, const Manifold<D>&, const Body<D>&, const Body<D>&,    \
-                           const Contact<D>*, double);                                             \
-  template void refresh(ContactRows<D>&, const Body<D>&, const Body<D>&, const SolverBody<D>&,     \
-                        const SolverBody<D>&, double, double);                                     \
-  template void warm_start(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&);                       \
-  template void solve_velocities(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&, double, Sweep&); \
-  template void begin_correction(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&, double, double); \
-  template double wanted_mean_speed(const ContactPoint<D>&, double);                               \
-  template void correct_positions(ContactRows<D>&, SolverBody<D>&, SolverBody<D>&, double, Sweep&);
+template <int D>
+void ContactRows<D>::begin_correction(SolverBody<D>& body_a, SolverBody<D>& body_b, double lag_a,
+                                      double lag_b) {
+  const ContactPoint<D>* firmest = nullptr;
+  for (const ContactPoint<D>& p : points())
+    if (firmest == nullptr || p.pn > firmest->pn) firmest = &p;
+  for (ContactPoint<D>& p : points()) {
+    p.correction = 0;
+    if (friction == 0 || p.pn == 0) continue;
+    if (!p.sticks) {
+      // Slips through the whole sub-step, slowed evenly: the mean is half way.
+      body_a.correct(p.pt * (0.5 - lag_a), p.arm_a);
+      body_b.correct(p.pt * (lag_b - 0.5), p.arm_b);
+      continue;
+    }
+    // A point that presses by rounding only stops when the firmest does.
+    const bool hardly = p.pn <= kRowSettings.presses_by_rounding * firmest->pn && firmest->sticks;
+    const double time = sliding_share(hardly ? *firmest : p, friction);
+    p.wanted_slip =
+        p.slip * (time / 2) + across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+  }
+}
 
-LANTERN_INSTANTIATE(2)
-LANTERN_INSTANTIATE(3)
-#undef LANTERN_INSTANTIATE
+template <int D>
+void ContactRows<D>::correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h,
+                                       Sweep& sweep) {
+  for (ContactPoint<D>& p : points()) {
+    if (p.inverse_normal_mass == 0) continue;
+    const double parting =
+        glm::dot(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+    const double wanted = p.wanted_mean_speed(h);
+    const double before = p.correction;
+    // Together with the impulse that is there already, it may push but not pull.
+    const double least = p.bounce > 0 ? 0 : -p.pn;
+    p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
+    correct<D>(p, normal * (p.correction - before), body_a, body_b);
+    sweep.change = std::max(sweep.change, std::abs(p.correction - before));
+    ++sweep.normal_rows;
+  }
+  for (ContactPoint<D>& p : points()) {
+    if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
+    const Vec<D> slip = across(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+    const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
+    correct(p, impulse, body_a, body_b);
+    sweep.change = std::max(sweep.change, glm::length(impulse));
+    sweep.friction_rows += D - 1;
+  }
+}
+
+template struct ContactRows<2>;
+template struct ContactRows<3>;
 
 }  // namespace lantern

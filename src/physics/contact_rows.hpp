@@ -9,6 +9,7 @@
 //   friction   |pt| <= mu pn: a cone, so all directions are alike
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -16,6 +17,33 @@
 #include "physics/solver_body.hpp"
 
 namespace lantern {
+
+// The numbers of all methods that solve rows.
+struct RowSettings {
+  // What approaches slower than gravity makes in so many sub-steps does not bounce.
+  double bounce_steps = 2;
+  // Of the way that forces make in a sub-step: what is so near has no gap. (A gap must be closed by
+  // a velocity, which the next sub-step must stop again: of gaps that are mere rounding that would
+  // make noise in all the impulses of a stack.)
+  double touching_way = 1e-4;
+  // The part of penetration that one sub-step pushes out, and at most how fast, in units a second.
+  // So stiffness grows with the rate of sub-steps (Catto, "Soft Constraints", 2011; Macklin et al.,
+  // "Small Steps in Physics Simulation", 2019).
+  double pushed_out = 0.25;
+  double fastest_push = 4;
+  // Of full friction: what stops a body within so little of it does not slip in the end.
+  double slip_by_rounding = 1e-6;
+  // Of the firmest point's impulse: one that presses less presses by rounding only.
+  double presses_by_rounding = 1e-9;
+  // When sweeps have done enough. Of the largest impulse: so small a change of any ends the sweeps.
+  // In a stack of n boxes the last change stands for an error of (2n / pi)^2 times as much; the
+  // motion that it leaves is a blow to the next direct solve, which would push as much the other
+  // way, and so on.
+  double change = 1e-12;
+  double push = 1e-3;       // of the largest push out of penetration, and
+  double no_matter = 1e-7;  // of the largest impulse: what is less than either is enough
+};
+inline constexpr RowSettings kRowSettings;
 
 template <int D>
 struct ContactPoint {
@@ -37,6 +65,22 @@ struct ContactPoint {
   Vec<D> wanted_slip{0.0};          // mean over this sub-step, if it sticks
   double correction = 0;            // impulse that pushes out penetration, along the normal
   bool sticks = false;
+
+  // The mean speed of parting, over `h` seconds, that a point which presses should have.
+  double wanted_mean_speed(double h) const {
+    if (gap > 0) return -gap / h;
+    return std::min(-separation * kRowSettings.pushed_out / h, kRowSettings.fastest_push);
+  }
+};
+
+// What one sweep did.
+struct Sweep {
+  double change = 0;   // largest change of an impulse
+  double largest = 0;  // largest impulse
+  // How many were solved.
+  std::uint64_t normal_rows = 0;
+  std::uint64_t friction_rows = 0;
+  std::uint64_t joint_rows = 0;
 };
 
 // The contact of two bodies of an island.
@@ -54,55 +98,25 @@ struct ContactRows {
   std::span<const ContactPoint<D>> points() const {
     return {room.data(), static_cast<std::size_t>(count)};
   }
+
+  // Points from the narrow phase, with the impulses per second of points of the same feature.
+  void set_points(const Manifold<D>& manifold, const Body<D>& body_a, const Body<D>& body_b,
+                  const Contact<D>* remembered, double scale);
+  // Arms, separations and effective masses where the bodies are now; velocities are those before
+  // the sub-step's forces. Points that approach faster than `threshold` bounce; those no farther
+  // apart than `touching` have no gap.
+  void refresh(const Body<D>& body_a, const Body<D>& body_b, const SolverBody<D>& solver_a,
+               const SolverBody<D>& solver_b, double threshold, double touching);
+  void warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b);
+  // One sweep over velocities, for a sub-step of `h` seconds.
+  void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep);
+  // What follows from the velocities found: the way that slipping points lag behind (see
+  // sub_step.hpp), and how far sticking ones may still slide. `lag_a` and `lag_b` are the lags that
+  // the integrator has already.
+  void begin_correction(SolverBody<D>& body_a, SolverBody<D>& body_b, double lag_a, double lag_b);
+  // One sweep over mean velocities: after `h` seconds, points that press touch without penetration,
+  // or with a part of it.
+  void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep);
 };
-
-// What one sweep did.
-struct Sweep {
-  double change = 0;   // largest change of an impulse
-  double largest = 0;  // largest impulse
-  // How many were solved.
-  std::uint64_t normal_rows = 0;
-  std::uint64_t friction_rows = 0;
-  std::uint64_t joint_rows = 0;
-};
-
-// Points from the narrow phase, with the impulses per second of points of the same feature.
-template <int D>
-void set_points(ContactRows<D>& rows, const Manifold<D>& manifold, const Body<D>& a,
-                const Body<D>& b, const Contact<D>* remembered, double scale);
-
-// Arms, separations and effective masses where the bodies are now; velocities are those before the
-// sub-step's forces. Points that approach faster than `threshold` bounce; those no farther apart
-// than `touching` have no gap. (A gap must be closed by a velocity, which the next sub-step must
-// stop again: of gaps that are mere rounding that would make noise in all the impulses of a stack.)
-template <int D>
-void refresh(ContactRows<D>& rows, const Body<D>& a, const Body<D>& b,
-             const SolverBody<D>& solver_a, const SolverBody<D>& solver_b, double threshold,
-             double touching);
-
-template <int D>
-void warm_start(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b);
-
-// One sweep over velocities, for a sub-step of `h` seconds.
-template <int D>
-void solve_velocities(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
-                      Sweep& sweep);
-
-// What follows from the velocities found: the way that slipping points lag behind (see
-// sub_step.hpp), and how far sticking ones may still slide. `lag_a` and `lag_b` are the lags that
-// the integrator has already.
-template <int D>
-void begin_correction(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double lag_a,
-                      double lag_b);
-
-// The mean speed of parting, over `h` seconds, that a point which presses should have.
-template <int D>
-double wanted_mean_speed(const ContactPoint<D>& point, double h);
-
-// One sweep over mean velocities: after `h` seconds, points that press touch without penetration,
-// or with a part of it.
-template <int D>
-void correct_positions(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
-                       Sweep& sweep);
 
 }  // namespace lantern

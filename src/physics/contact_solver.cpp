@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 
 #include "base/check.hpp"
 #include "lecture/physics_system.hpp"
@@ -20,6 +19,7 @@ void lecture_impulses(Island<D>&, const WorldConfig<D>&, double h, double whole,
 
 namespace {
 
+// In the order of the enumerators.
 template <int D>
 constexpr std::array<ContactSolver<D>, 5> kSolvers = {{
     {ContactMethod::none, "none", soft_sub_steps<D>},  // of joints alone
@@ -34,9 +34,9 @@ constexpr std::array<ContactSolver<D>, 5> kSolvers = {{
 
 template <int D>
 const ContactSolver<D>& contact_solver(ContactMethod method) {
-  const auto solver = std::ranges::find(kSolvers<D>, method, &ContactSolver<D>::method);
-  LANTERN_CHECK(solver - kSolvers<D>.begin(), <, std::ssize(kSolvers<D>));
-  return *solver;
+  const auto place = static_cast<std::size_t>(method);
+  LANTERN_CHECK(place, <, kSolvers<D>.size());
+  return kSolvers<D>[place];
 }
 
 std::string_view to_string(ContactMethod method) { return contact_solver<2>(method).name; }

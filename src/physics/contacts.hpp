@@ -18,6 +18,8 @@ struct Contact {
   Manifold<D> manifold;                                            // when last looked at
   std::array<double, Manifold<D>::kMostPoints> normal_impulses{};  // of each point, not negative
   std::array<Vec<D>, Manifold<D>::kMostPoints> friction_impulses{};
+
+  Pair pair() const { return {a, b}; }
 };
 
 // The record of a pair, which holds impulses already, gets a new manifold: impulses stay with their

@@ -9,8 +9,6 @@
 namespace lantern {
 namespace {
 
-constexpr double kThin = 1e-6;  // a contact whose corners lie nearly in a line is no weld
-
 std::array<Vec<2>, 1> tangents(const Vec<2>& n) { return {Vec<2>(-n.y, n.x)}; }
 std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
   const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
@@ -23,15 +21,6 @@ Vec<D> axis_of(int axis) {
   Vec<D> unit(0.0);
   unit[axis] = 1;
   return unit;
-}
-
-// About every axis.
-template <int D>
-bool turns(const Island<D>& island, std::uint32_t body) {
-  if (island.solver_bodies[body].inverse_mass == 0) return false;
-  for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
-    if (!(spin_component(island.bodies[body].inverse_inertia, i) > 0)) return false;
-  return true;
 }
 
 }  // namespace
@@ -61,7 +50,11 @@ template <int D>
 bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
   const std::span<Part> parts{parts_.data() + first_part, parts_.size() - first_part};
   const std::uint32_t a = parts[0].a, b = parts[0].b;
-  if (parts.size() <= kFreedoms || (!turns(island, a) && !turns(island, b))) return false;
+  const auto turns = [&](std::uint32_t body) {
+    return island.solver_bodies[body].inverse_mass != 0 &&
+           island.bodies[body].turns_about_every_axis();
+  };
+  if (parts.size() <= kFreedoms || (!turns(a) && !turns(b))) return false;
   Vec<D> middle_a(0.0), middle_b(0.0);
   for (const Part& part : parts) {
     middle_a += part.arm_a / static_cast<double>(parts.size());
@@ -79,7 +72,7 @@ bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
     for (int r = 0; r < kFreedoms; ++r)
       for (int c = 0; c <= r; ++c) square[r * kFreedoms + c] += part.share[r] * part.share[c];
   }
-  if (!factor_small<kFreedoms>(square, kThin)) {
+  if (!factor_small<kFreedoms>(square, kDirectSettings.least_spread)) {
     for (Part& part : parts) part.share = {1};
     return false;
   }
@@ -102,12 +95,8 @@ bool DirectSolve<D>::add_weld(const Island<D>& island, std::size_t first_part) {
 
 template <int D>
 void DirectSolve<D>::list_joint(const Island<D>& island, JointRows<D>& joint) {
-  Part part;
-  part.a = joint.a;
-  part.b = joint.b;
-  part.joint = &joint;
-  part.arm_a = joint.arm_a;
-  part.arm_b = joint.arm_b;
+  Part part{
+      .a = joint.a, .b = joint.b, .joint = &joint, .arm_a = joint.arm_a, .arm_b = joint.arm_b};
   const std::size_t first = parts_.size();
   if (joint.joint.kind == JointKind::pin) {
     for (int axis = 0; axis < D; ++axis) {
@@ -127,13 +116,12 @@ void DirectSolve<D>::list_contact(const Island<D>& island, ContactRows<D>& conta
   const std::size_t first = parts_.size();
   for (ContactPoint<D>& point : contact.points()) {
     if (!(point.pn > 0) || !(point.inverse_normal_mass > 0)) continue;
-    Part part;
-    part.a = contact.a;
-    part.b = contact.b;
-    part.point = &point;
-    part.arm_a = point.arm_a;
-    part.arm_b = point.arm_b;
-    part.direction = contact.normal;
+    Part part{.a = contact.a,
+              .b = contact.b,
+              .point = &point,
+              .arm_a = point.arm_a,
+              .arm_b = point.arm_b,
+              .direction = contact.normal};
     parts_.push_back(part);
     if (contact.friction == 0 || !point.sticks) continue;
     part.most = contact.friction;

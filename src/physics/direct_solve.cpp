@@ -5,25 +5,6 @@
 #include <cmath>
 
 namespace lantern {
-namespace {
-
-struct Limits {
-  // Sweeps of a sub-step, if they do not end earlier: more for small islands, which are cheap.
-  int fewest_sweeps = 24, most_sweeps = 256;
-  int most_solved = 2048;  // pairs times sweeps
-  // What slips or presses must be known before all is solved at once. A guess whose last change was
-  // less than this part of the largest impulse is good; and what presses less counts for nothing.
-  double good_guess = 0.05;
-  double presses = 0.01;
-  int most_guesses = 6;    // each lets go of what the last one found to pull or to slip
-  double most_work = 4e6;  // products, for one factor: a few milliseconds
-  // Rows that say the same twice have no factor without a little compliance. What it leaves undone
-  // is so small a part of the impulses.
-  double compliance = 1e-10;
-};
-constexpr Limits kLimits;
-
-}  // namespace
 
 // How much the velocity along one row changes by an impulse along another.
 template <int D>
@@ -52,11 +33,11 @@ bool DirectSolve<D>::factor(const Island<D>& island) {
       first = std::min(first, first_of[body]);
     }
     system_.add_line(first);
-    if (system_.work() > kLimits.most_work) return false;
+    if (system_.work() > kDirectSettings.most_work) return false;
   }
   return system_.factor([&](std::size_t i, std::size_t j) {
     const double value = link(island, rows_[i], rows_[j]);
-    return i == j ? value * (1 + kLimits.compliance) : value;
+    return i == j ? value * (1 + kDirectSettings.compliance) : value;
   });
 }
 
@@ -145,7 +126,7 @@ template <int D>
 bool DirectSolve<D>::solve_velocities(SubStep<D>& step) {
   Island<D>& island = step.island;
   keep_guess(island);
-  for (int round = 0; round < kLimits.most_guesses; ++round) {
+  for (int round = 0; round < kDirectSettings.most_guesses; ++round) {
     list_rows(island);
     if (rows_.empty() || !factor(island)) break;
     count(step.work);
@@ -190,8 +171,8 @@ bool DirectSolve<D>::correct_positions(SubStep<D>& step, bool factored) {
     const Vec<D> u = relative_mean_velocity(island.solver_bodies[part.a], part.arm_a,
                                             island.solver_bodies[part.b], part.arm_b);
     const double wanted = part.joint != nullptr
-                              ? wanted_mean_speed(*part.joint, part.direction, step.h)
-                          : part.tangent < 0 ? wanted_mean_speed(*part.point, step.h)
+                              ? part.joint->wanted_mean_speed(part.direction, step.h)
+                          : part.tangent < 0 ? part.point->wanted_mean_speed(step.h)
                                              : glm::dot(part.point->wanted_slip, part.direction);
     return wanted - glm::dot(u, part.direction);
   });
@@ -219,21 +200,21 @@ bool DirectSolve<D>::is_due(SubStep<D>& step, int sweeps, int most, const Sweep&
   bool slips = false;
   step.each_pair([&](const ContactRows<D>& rows, auto&, auto&) {
     for (const ContactPoint<D>& p : rows.points())
-      slips |= rows.friction > 0 && p.pn > kLimits.presses * last.largest && !p.sticks;
+      slips |= rows.friction > 0 && p.pn > kDirectSettings.presses * last.largest && !p.sticks;
   });
-  return !slips || last.change > kLimits.good_guess * last.largest;
+  return !slips || last.change > kDirectSettings.good_guess * last.largest;
 }
 
 template <int D>
 void DirectSolve<D>::settle(SubStep<D>& step) {
   const auto pairs = static_cast<int>(step.island.pairs.size() + step.island.joints.size());
-  const int most =
-      std::clamp(kLimits.most_solved / pairs, kLimits.fewest_sweeps, kLimits.most_sweeps);
+  const int most = std::clamp(kDirectSettings.most_solved / pairs, kDirectSettings.fewest_sweeps,
+                              kDirectSettings.most_sweeps);
   bool settled = false;
   Sweep sweep;
   for (int i = 0; i < most; ++i) {
     sweep = step.sweep_velocities(i);
-    const double enough = settled ? kSweepTolerance.no_matter : kSweepTolerance.change;
+    const double enough = settled ? kRowSettings.no_matter : kRowSettings.change;
     if (sweep.change <= enough * sweep.largest) break;
     if (is_due(step, i + 1, most, sweep)) settled = solve_velocities(step);
   }

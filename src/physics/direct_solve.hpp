@@ -21,6 +21,24 @@
 
 namespace lantern {
 
+// The numbers of the direct solve.
+struct DirectSettings {
+  // Sweeps of a sub-step, if they do not end earlier: more for small islands, which are cheap.
+  int fewest_sweeps = 24, most_sweeps = 256;
+  int most_solved = 2048;  // pairs times sweeps
+  // What slips or presses must be known before all is solved at once. A guess whose last change was
+  // less than this part of the largest impulse is good; and what presses less counts for nothing.
+  double good_guess = 0.05;
+  double presses = 0.01;
+  int most_guesses = 6;    // each lets go of what the last one found to pull or to slip
+  double most_work = 4e6;  // products, for one factor: a few milliseconds
+  // Rows that say the same twice have no factor without a little compliance. What it leaves undone
+  // is so small a part of the impulses.
+  double compliance = 1e-10;
+  double least_spread = 1e-6;  // a contact whose corners lie nearly in a line is no weld
+};
+inline constexpr DirectSettings kDirectSettings;
+
 template <int D>
 class DirectSolve {
  public:

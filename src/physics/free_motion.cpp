@@ -36,6 +36,17 @@ void find_increments_in_step(Integrator integrator, std::span<const Body<D>> bod
   }
 }
 
+// Whether there is a force, and a body that it could move.
+template <int D>
+bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
+  const bool on_any = forces.gravity != Vec<D>(0.0) || forces.gravitation > 0 ||
+                      !forces.springs.empty() || !forces.pushes.empty();
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Body<D>& body) {
+    if (body.kind != BodyKind::dynamic_body || body.asleep) return false;
+    return on_any || body.linear_drag > 0 || body.angular_drag > 0;
+  });
+}
+
 }  // namespace
 
 template <int D>
@@ -63,18 +74,8 @@ void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod 
                               : body.angular_momentum + increment.lag;
   if (turning == Spin<D>(0.0)) return;
   if (body.kind == BodyKind::dynamic_body && body.inverse_inertia == Spin<D>(0.0)) return;
-  turn_freely(body, increment.lag, h, body.rotation.value_or(worlds));
+  turn_freely(body, h, body.rotation.value_or(worlds), increment.lag);
   ++work.rotations_integrated;
-}
-
-template <int D>
-bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
-  const bool on_any = forces.gravity != Vec<D>(0.0) || forces.gravitation > 0 ||
-                      !forces.springs.empty() || !forces.pushes.empty();
-  return std::any_of(bodies.begin(), bodies.end(), [&](const Body<D>& body) {
-    if (body.kind != BodyKind::dynamic_body || body.asleep) return false;
-    return on_any || body.linear_drag > 0 || body.angular_drag > 0;
-  });
 }
 
 template <int D>
@@ -109,7 +110,6 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
 #define LANTERN_INSTANTIATE(D)                                                               \
   template SolverBody<D> solver_body_of(const Body<D>&);                                     \
   template void fly(Body<D>&, const Increment<D>&, double, RotationMethod, WorldWork&);      \
-  template bool any_force(std::span<const Body<D>>, const Forces<D>&);                       \
   template void find_increments_if_any(const WorldConfig<D>&, std::span<const Body<D>>,      \
                                        const Forces<D>&, double, std::vector<Increment<D>>&, \
                                        WorldWork&);

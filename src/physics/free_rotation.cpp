@@ -96,45 +96,31 @@ Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, 
 }
 
 template <int D>
-void turn_freely(Body<D>& body, double h, RotationMethod method) {
-  if (method != RotationMethod::explicit_gyroscopic || body.kind != BodyKind::dynamic_body) {
-    const auto exact = RotationMethod::splitting_2;
-    const bool naive = method == RotationMethod::explicit_gyroscopic;
-    body.orientation = freely_turned(body, body.angular_momentum, h, naive ? exact : method);
-    return;
-  }
-  if (body.asleep) return;
-  if constexpr (D == 2) {
-    body.orientation = freely_turned(body, h);  // nothing wanders in the plane
-  } else {
-    for (int i = 0; i < 3; ++i)
-      if (!(body.inverse_inertia[i] > 0)) return;  // cannot be turned
-    // Euler's equation in the body's axes: I w' = L x w.
-    const glm::dquat q = body.orientation.q;
-    const Vec<3> l = glm::conjugate(q) * body.angular_momentum;
-    const Vec<3> w = l * body.inverse_inertia;
-    const Vec<3> next = w + h * (body.inverse_inertia * glm::cross(l, w));
-    body.orientation = turned(body.orientation, q * (next * h));
-    body.angular_momentum = body.orientation.q * (next / body.inverse_inertia);
-  }
-}
-
-template <int D>
-void turn_freely(Body<D>& body, const Spin<D>& lag, double h, RotationMethod method) {
+void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& lag) {
   if (method != RotationMethod::explicit_gyroscopic) {
     body.orientation = freely_turned(body, body.angular_momentum + lag, h, method);
     return;
   }
   body.angular_momentum += lag;
-  turn_freely(body, h, method);
+  if (D == 2 || body.kind != BodyKind::dynamic_body) {
+    body.orientation = freely_turned(body, h);  // nothing wanders in the plane
+  } else if constexpr (D == 3) {
+    if (!body.asleep && body.turns_about_every_axis()) {
+      // Euler's equation in the body's axes: I w' = L x w.
+      const glm::dquat q = body.orientation.q;
+      const Vec<3> l = glm::conjugate(q) * body.angular_momentum;
+      const Vec<3> w = l * body.inverse_inertia;
+      const Vec<3> next = w + h * (body.inverse_inertia * glm::cross(l, w));
+      body.orientation = turned(body.orientation, q * (next * h));
+      body.angular_momentum = body.orientation.q * (next / body.inverse_inertia);
+    }
+  }
   body.angular_momentum -= lag;
 }
 
 template Rotation<2> freely_turned(const Body<2>&, const Spin<2>&, double, RotationMethod);
 template Rotation<3> freely_turned(const Body<3>&, const Spin<3>&, double, RotationMethod);
-template void turn_freely(Body<2>&, double, RotationMethod);
-template void turn_freely(Body<3>&, double, RotationMethod);
-template void turn_freely(Body<2>&, const Spin<2>&, double, RotationMethod);
-template void turn_freely(Body<3>&, const Spin<3>&, double, RotationMethod);
+template void turn_freely(Body<2>&, double, RotationMethod, const Spin<2>&);
+template void turn_freely(Body<3>&, double, RotationMethod, const Spin<3>&);
 
 }  // namespace lantern

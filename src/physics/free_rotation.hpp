@@ -23,13 +23,10 @@ Rotation<D> freely_turned(const Body<D>& body, double h) {
   return freely_turned(body, body.angular_momentum, h);
 }
 
-// Turns the body by any of the methods. Only `explicit_gyroscopic` changes its angular momentum,
-// which is wrong, and what it is there to show.
+// Turns the body by any of the methods, as if its angular momentum were more by `lag` meanwhile
+// (see integrator.hpp). Only `explicit_gyroscopic` changes it, which is wrong, and what it is there
+// to show.
 template <int D>
-void turn_freely(Body<D>& body, double h, RotationMethod method);
-
-// The same, as if the angular momentum were more by `lag` while it turns (see integrator.hpp).
-template <int D>
-void turn_freely(Body<D>& body, const Spin<D>& lag, double h, RotationMethod method);
+void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& lag = Spin<D>(0.0));
 
 }  // namespace lantern

@@ -4,16 +4,9 @@
 #include <cmath>
 
 #include "base/stop.hpp"
-#include "physics/time_of_impact.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr int kBouncingRounds = 64;    // through all touching pairs, in one impact
-constexpr int kMostImpactRounds = 96;  // the last ones without restitution
-constexpr int kMostPointSweeps = 200;  // over the points of one pair
-constexpr double kTouching = 1e-9;     // of the sizes: so near is touching
-constexpr double kGainByRounding = 1e-12;
 
 // Newton's law of restitution at all points of a pair at once: those that approach will part with
 // the given part of their speed.
@@ -27,14 +20,12 @@ void strike(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double res
     p.pt = Vec<D>(0.0);
     p.separation = p.gap = 0;
   }
-  for (int i = 0; i < kMostPointSweeps; ++i) {
+  for (int i = 0; i < kImpactSettings.most_point_sweeps; ++i) {
     Sweep sweep;
-    solve_velocities(rows, a, b, 1, sweep);
-    work.constraint_rows += sweep.normal_rows + sweep.friction_rows;
-    work.normal_rows += sweep.normal_rows;
-    work.friction_rows += sweep.friction_rows;
+    rows.solve_velocities(a, b, 1, sweep);
+    count(sweep, work);
     if (rows.count == 1 && rows.friction == 0) break;
-    if (sweep.change <= 1e-15 * sweep.largest) break;
+    if (sweep.change <= kImpactSettings.change * sweep.largest) break;
   }
 }
 
@@ -68,7 +59,7 @@ void take_back_gained_energy(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<
                              WorldWork& work) {
   const double size = std::abs(power(rows, old_a, old_b));
   const double gained = (power(rows, old_a, old_b) + power(rows, a, b)) / 2;
-  if (!(gained > kGainByRounding * size)) return;
+  if (!(gained > kImpactSettings.gain_by_rounding * size)) return;
   ContactRows<D> dead_rows = rows;
   SolverBody<D> dead_a = old_a, dead_b = old_b;
   strike(dead_rows, dead_a, dead_b, 0, work);
@@ -106,16 +97,6 @@ bool resolve(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double re
   return true;
 }
 
-template <int D>
-void record_impulses(IslandPair<D>& pair) {
-  pair.touched = true;
-  for (int i = 0; i < pair.rows.count; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    pair.record.normal_impulses[at] += pair.rows.room[at].pn;
-    pair.record.friction_impulses[at] += pair.rows.room[at].pt;
-  }
-}
-
 // Sets up the points of all pairs that touch now.
 template <int D>
 std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
@@ -126,15 +107,9 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     const Body<D>& a = island.bodies[pair.rows.a];
     const Body<D>& b = island.bodies[pair.rows.b];
     const double size = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-    pair.rows.count = 0;
-    ++work.narrow_tests;
-    const auto manifold = collide(placed(a), placed(b), kTouching * size);
-    if (!manifold) continue;
-    set_points<D>(pair.rows, *manifold, a, b, nullptr, 0);
-    refresh(pair.rows, a, b, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b],
-            0, 0);
-    renew_record(pair.record, *manifold);
-    work.contact_points += static_cast<std::uint64_t>(pair.rows.count);
+    if (!island.find_points(pair, kImpactSettings.touching * size, nullptr, 0, work)) continue;
+    pair.rows.refresh(a, b, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b], 0,
+                      0);
     touching.push_back(i);
   }
   return touching;
@@ -145,15 +120,14 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
 // an end become contacts. Returns how many impacts there were.
 template <int D>
 int resolve_impacts(Island<D>& island, WorldWork& work) {
-  island.solver_bodies.clear();
-  for (const Body<D>& body : island.bodies) island.solver_bodies.push_back(solver_body_of(body));
+  island.set_solver_bodies();
   const std::vector<std::size_t> touching = touching_pairs(island, work);
   int impacts = 0;
   bool any = true;
-  for (int round = 0; any && round < kMostImpactRounds; ++round) {
+  for (int round = 0; any && round < kImpactSettings.most_rounds; ++round) {
     any = false;
     // A blow that does not come to its end is ended without restitution.
-    const bool tired = round >= kBouncingRounds;
+    const bool tired = round >= kImpactSettings.bouncing_rounds;
     for (const std::size_t i : touching) {
       stop_if_asked();
       IslandPair<D>& pair = island.pairs[i];
@@ -161,7 +135,8 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
       if (!resolve(pair.rows, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b],
                    restitution, pair.slow, work))
         continue;
-      record_impulses(pair);
+      pair.record_impulses();
+      pair.touched = true;
       if (tired) {  // squeezed: nor may it bounce in the sub-steps that follow
         pair.pressed = true;
         pair.rows.restitution = 0;

@@ -8,6 +8,15 @@
 #include "physics/smooth_system.hpp"
 
 namespace lantern {
+namespace {
+
+// In the order of the enumerators.
+template <int D>
+constexpr void (*kMethods[])(SmoothSystem<D>&, double, std::vector<Increment<D>>&) = {
+    explicit_euler<D>, semi_implicit_euler<D>, velocity_verlet<D>,
+    runge_kutta_4<D>,  implicit_midpoint<D>,   implicit_euler<D>};
+
+}  // namespace
 
 template <int D>
 void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
@@ -16,20 +25,7 @@ void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
   if (!std::isfinite(h) || !(h > 0)) throw Refused(fmt::format("time step {} is not allowed", h));
   SmoothSystem<D> system(bodies, forces, evaluations);
   out.assign(bodies.size(), Increment<D>{});
-  switch (integrator) {
-    case Integrator::explicit_euler:
-      return explicit_euler(system, h, out);
-    case Integrator::semi_implicit_euler:
-      return semi_implicit_euler(system, h, out);
-    case Integrator::velocity_verlet:
-      return velocity_verlet(system, h, out);
-    case Integrator::runge_kutta_4:
-      return runge_kutta_4(system, h, out);
-    case Integrator::implicit_midpoint:
-      return implicit_midpoint(system, h, out);
-    case Integrator::implicit_euler:
-      return implicit_euler(system, h, out);
-  }
+  kMethods<D>[static_cast<std::size_t>(integrator)](system, h, out);
 }
 
 template void find_increments(Integrator, std::span<const Body<2>>, const Forces<2>&, double,

@@ -11,6 +11,11 @@
 
 namespace lantern {
 
+// The state of a body as constraints see it. (This, and what follows the island:
+// free_motion.cpp)
+template <int D>
+SolverBody<D> solver_body_of(const Body<D>& body);
+
 // Two bodies that may touch during the step.
 template <int D>
 struct IslandPair {
@@ -24,6 +29,13 @@ struct IslandPair {
   double seconds = 0;  // of that sub-step
   bool touched = false;
   Contact<D> record;  // what the step tells
+
+  void record_impulses() {
+    for (std::size_t i = 0; i < rows.points().size(); ++i) {
+      record.normal_impulses[i] += rows.room[i].pn;
+      record.friction_impulses[i] += rows.room[i].pt;
+    }
+  }
 };
 
 template <int D>
@@ -40,22 +52,41 @@ struct Island {
   std::vector<SolverBody<D>> solver_bodies;
   std::vector<Increment<D>> increments;
   std::vector<Vec<D>> kicked;  // velocities after the forces, before the constraints
+
+  void set_solver_bodies() {
+    solver_bodies.clear();
+    for (const Body<D>& body : bodies) solver_bodies.push_back(solver_body_of(body));
+  }
+
+  // The pair's points where its bodies are now, with the impulses of `remembered` scaled; none, and
+  // false, if they are farther apart than `margin`.
+  bool find_points(IslandPair<D>& pair, double margin, const Contact<D>* remembered, double scale,
+                   WorldWork& work) const {
+    const Body<D>& a = bodies[pair.rows.a];
+    const Body<D>& b = bodies[pair.rows.b];
+    pair.rows.count = 0;
+    ++work.narrow_tests;
+    const auto manifold = collide(placed(a), placed(b), margin);
+    if (!manifold) return false;
+    pair.rows.set_points(*manifold, a, b, remembered, scale);
+    renew_record(pair.record, *manifold);
+    work.contact_points += pair.rows.points().size();
+    return true;
+  }
 };
 
-// The state of a body as constraints see it. (This and what follows, up to increments:
-// free_motion.cpp)
-template <int D>
-SolverBody<D> solver_body_of(const Body<D>& body);
+inline void count(const Sweep& sweep, WorldWork& work) {
+  work.normal_rows += sweep.normal_rows;
+  work.friction_rows += sweep.friction_rows;
+  work.joint_rows += sweep.joint_rows;
+  work.constraint_rows += sweep.normal_rows + sweep.friction_rows + sweep.joint_rows;
+}
 
 // What the bodies' free motion would be: x += h (v + kick) + drift, and so on. Static and kinematic
 // bodies, too. Turned by the body's own method, or by the world's.
 template <int D>
 void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod worlds,
          WorldWork& work);
-
-// Whether there is a force, and a body that it could move; if not, none is evaluated.
-template <int D>
-bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces);
 
 // Increments, all zero if there is no force. Each body's by its own method, or by the world's.
 template <int D>

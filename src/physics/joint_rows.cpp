@@ -38,65 +38,55 @@ Vec<D> error(const JointRows<D>& rows) {
 }  // namespace
 
 template <int D>
-void refresh(JointRows<D>& rows, const Body<D>& a, const Body<D>& b, const SolverBody<D>& solver_a,
-             const SolverBody<D>& solver_b) {
-  rows.arm_a = matrix(a.orientation) * rows.joint.at_a;
-  rows.arm_b = matrix(b.orientation) * rows.joint.at_b;
-  rows.gap = (b.position - a.position) + rows.arm_b - rows.arm_a;
-  if (rows.joint.kind == JointKind::pin) {
-    rows.solve = glm::inverse(response(rows, solver_a, solver_b));
+void JointRows<D>::refresh(const Body<D>& body_a, const Body<D>& body_b,
+                           const SolverBody<D>& solver_a, const SolverBody<D>& solver_b) {
+  arm_a = matrix(body_a.orientation) * joint.at_a;
+  arm_b = matrix(body_b.orientation) * joint.at_b;
+  gap = (body_b.position - body_a.position) + arm_b - arm_a;
+  if (joint.kind == JointKind::pin) {
+    solve = glm::inverse(response(*this, solver_a, solver_b));
     return;
   }
-  const double length = glm::length(rows.gap);
-  rows.direction = length > 0 ? rows.gap / length : Vec<D>(0.0);
-  rows.inverse_mass =
-      inverse_effective_mass(solver_a, rows.arm_a, solver_b, rows.arm_b, rows.direction);
-  rows.impulse = rows.direction * glm::dot(rows.direction, rows.impulse);
+  const double length = glm::length(gap);
+  direction = length > 0 ? gap / length : Vec<D>(0.0);
+  inverse_mass = inverse_effective_mass(solver_a, arm_a, solver_b, arm_b, direction);
+  impulse = direction * glm::dot(direction, impulse);
 }
 
 template <int D>
-void warm_start(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
-  a.apply(-rows.impulse, rows.arm_a);
-  b.apply(rows.impulse, rows.arm_b);
+void JointRows<D>::warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b) {
+  body_a.apply(-impulse, arm_a);
+  body_b.apply(impulse, arm_b);
 }
 
 template <int D>
-void solve_velocities(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, Sweep& sweep) {
-  const Vec<D> impulse = impulse_for(rows, -relative_velocity(a, rows.arm_a, b, rows.arm_b));
-  rows.impulse += impulse;
-  a.apply(-impulse, rows.arm_a);
-  b.apply(impulse, rows.arm_b);
-  sweep.change = std::max(sweep.change, glm::length(impulse));
-  sweep.largest = std::max(sweep.largest, glm::length(rows.impulse));
-  sweep.joint_rows += rows.joint.kind == JointKind::pin ? D : 1;
+void JointRows<D>::solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, Sweep& sweep) {
+  const Vec<D> gained = impulse_for(*this, -relative_velocity(body_a, arm_a, body_b, arm_b));
+  impulse += gained;
+  body_a.apply(-gained, arm_a);
+  body_b.apply(gained, arm_b);
+  sweep.change = std::max(sweep.change, glm::length(gained));
+  sweep.largest = std::max(sweep.largest, glm::length(impulse));
+  sweep.joint_rows += joint.kind == JointKind::pin ? D : 1;
 }
 
 template <int D>
-double wanted_mean_speed(const JointRows<D>& rows, const Vec<D>& direction, double h) {
-  return -glm::dot(error(rows), direction) / h;
+double JointRows<D>::wanted_mean_speed(const Vec<D>& along, double h) const {
+  return -glm::dot(error(*this), along) / h;
 }
 
 template <int D>
-void correct_positions(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
-                       Sweep& sweep) {
-  const Vec<D> impulse =
-      impulse_for(rows, -error(rows) / h - relative_mean_velocity(a, rows.arm_a, b, rows.arm_b));
-  a.correct(-impulse, rows.arm_a);
-  b.correct(impulse, rows.arm_b);
-  sweep.change = std::max(sweep.change, glm::length(impulse));
-  sweep.joint_rows += rows.joint.kind == JointKind::pin ? D : 1;
+void JointRows<D>::correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h,
+                                     Sweep& sweep) {
+  const Vec<D> gained =
+      impulse_for(*this, -error(*this) / h - relative_mean_velocity(body_a, arm_a, body_b, arm_b));
+  body_a.correct(-gained, arm_a);
+  body_b.correct(gained, arm_b);
+  sweep.change = std::max(sweep.change, glm::length(gained));
+  sweep.joint_rows += joint.kind == JointKind::pin ? D : 1;
 }
 
-#define LANTERN_INSTANTIATE(D)                                                               \
-  template void refresh(JointRows<D>&, const Body<D>&, const Body<D>&, const SolverBody<D>&, \
-                        const SolverBody<D>&);                                               \
-  template void warm_start(JointRows<D>&, SolverBody<D>&, SolverBody<D>&);                   \
-  template void solve_velocities(JointRows<D>&, SolverBody<D>&, SolverBody<D>&, Sweep&);     \
-  template double wanted_mean_speed(const JointRows<D>&, const Vec<D>&, double);             \
-  template void correct_positions(JointRows<D>&, SolverBody<D>&, SolverBody<D>&, double, Sweep&);
-
-LANTERN_INSTANTIATE(2)
-LANTERN_INSTANTIATE(3)
-#undef LANTERN_INSTANTIATE
+template struct JointRows<2>;
+template struct JointRows<3>;
 
 }  // namespace lantern

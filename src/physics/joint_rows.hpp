@@ -9,7 +9,7 @@ namespace lantern {
 
 template <int D>
 struct JointRows {
-  Joint<D> joint;
+  Joint<D> joint = {};
   std::uint32_t place = 0;     // among the world's joints
   std::uint32_t a = 0, b = 0;  // places among the island's bodies
   Vec<D> arm_a{0.0}, arm_b{0.0};
@@ -19,25 +19,15 @@ struct JointRows {
   double inverse_mass = 0;  // effective, of a rod
   Vec<D> impulse{0.0};      // upon b, of this sub-step, N s
   double seconds = 0;       // of the sub-step of the last step that it is from; 0: there was none
+
+  void refresh(const Body<D>& body_a, const Body<D>& body_b, const SolverBody<D>& solver_a,
+               const SolverBody<D>& solver_b);
+  void warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b);
+  void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, Sweep& sweep);
+  // The mean relative velocity along `along` that mends the joint in `h` seconds.
+  double wanted_mean_speed(const Vec<D>& along, double h) const;
+  // After `h` seconds the points are where the joint wants them.
+  void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep);
 };
-
-template <int D>
-void refresh(JointRows<D>& rows, const Body<D>& a, const Body<D>& b, const SolverBody<D>& solver_a,
-             const SolverBody<D>& solver_b);
-
-template <int D>
-void warm_start(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b);
-
-template <int D>
-void solve_velocities(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, Sweep& sweep);
-
-// The mean relative velocity along `direction` that mends the joint in `h` seconds.
-template <int D>
-double wanted_mean_speed(const JointRows<D>& rows, const Vec<D>& direction, double h);
-
-// After `h` seconds the points are where the joint wants them.
-template <int D>
-void correct_positions(JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double h,
-                       Sweep& sweep);
 
 }  // namespace lantern

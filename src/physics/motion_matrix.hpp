@@ -80,9 +80,7 @@ class MotionMatrix {
       const Vec<D> motion = (system_.velocity(state, b) - system_.velocity(state, a)) +
                             cross(system_.angular_velocity(state, b), s.arm_b) -
                             cross(system_.angular_velocity(state, a), s.arm_a);
-      const Vec<D> momentum = sides.across * motion + (sides.along - sides.across) *
-                                                          glm::dot(motion, s.direction) *
-                                                          s.direction;
+      const Vec<D> momentum = sides.momentum(motion, s.direction);
       const auto columns_a = columns(a, s.arm_a), columns_b = columns(b, s.arm_b);
       for (int c = 0; c < B; ++c) {
         if (system_.moves(a)) rows[number_[a]][c] += glm::dot(columns_a[c], momentum);
@@ -144,6 +142,9 @@ class MotionMatrix {
   struct Sides {
     double along;
     double across;
+    Vec<D> momentum(const Vec<D>& motion, const Vec<D>& line) const {
+      return across * motion + (along - across) * glm::dot(motion, line) * line;
+    }
   };
   Sides sides_of(const Stretch<D>& s, double time_squared, double time) const {
     const double stiff = time_squared * s.stiffness;
@@ -186,8 +187,7 @@ class MotionMatrix {
       const auto momentum = [&](const Row& unknowns, const std::array<Vec<D>, B>& of_end) {
         Vec<D> motion(0.0);
         for (int c = 0; c < B; ++c) motion += unknowns[c] * of_end[c];
-        return sides.across * motion +
-               (sides.along - sides.across) * glm::dot(motion, s.direction) * s.direction;
+        return sides.momentum(motion, s.direction);
       };
       const Vec<D> of_a = momentum(x[number_[a]], columns_a);
       const Vec<D> of_b = momentum(x[number_[b]], columns_b);

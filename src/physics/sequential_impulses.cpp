@@ -17,7 +17,7 @@ void sequential_impulses(Island<D>& island, const WorldConfig<D>& config, double
     Sweep sweep;
     for (int i = 0; i < config.iterations; ++i) {
       sweep = step.sweep_velocities(i);
-      if (sweep.change <= kSweepTolerance.change * sweep.largest) break;
+      if (sweep.change <= kRowSettings.change * sweep.largest) break;
     }
     step.begin_position_correction();
     for (int i = 0; i < config.iterations; ++i)

@@ -6,18 +6,6 @@
 namespace lantern {
 namespace {
 
-template <int D>
-bool may_be_turned(const Body<D>& body) {
-  if (!body.may_turn) return false;
-  if constexpr (D == 2) {
-    return body.inverse_inertia > 0;
-  } else {
-    for (int i = 0; i < D; ++i)
-      if (!(body.inverse_inertia[i] > 0)) return false;
-    return true;
-  }
-}
-
 // At an orientation that need not be the body's.
 template <int D>
 Spin<D> spin_of(const Body<D>& body, const Rotation<D>& orientation, const Spin<D>& momentum) {
@@ -74,18 +62,16 @@ void SmoothSystem<D>::find_what_turns() {
   for (std::size_t k = 0; k < pushed_.size(); ++k)
     if (forces_.pushes[k].at != centre) turns_[pushed_[k]] = 1;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (moves_[i] == 0 || !may_be_turned(bodies_[i])) turns_[i] = 0;
+    const Body<D>& body = bodies_[i];
+    if (moves_[i] == 0 || !body.may_turn || !body.turns_about_every_axis()) turns_[i] = 0;
     if (turns_[i] != 0) any_turns_ = true;
   }
 }
 
 template <int D>
 SmoothState<D> SmoothSystem<D>::start() const {
-  SmoothState<D> state;
-  state.shift.assign(bodies_.size(), Vec<D>(0.0));
-  state.kick.assign(bodies_.size(), Vec<D>(0.0));
-  state.twist.assign(bodies_.size(), Spin<D>(0.0));
-  state.orientation.reserve(bodies_.size());
+  const std::vector<Vec<D>> none(bodies_.size(), Vec<D>(0.0));
+  SmoothState<D> state{none, none, std::vector<Spin<D>>(bodies_.size(), Spin<D>(0.0)), {}};
   for (const Body<D>& body : bodies_) state.orientation.push_back(body.orientation);
   return state;
 }

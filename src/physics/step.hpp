@@ -9,6 +9,15 @@
 
 namespace lantern {
 
+// The numbers of a step, whatever the method.
+struct StepSettings {
+  int most_tries = 4;      // the last one counts even if a body went farther than was looked for
+  double slack = 1e-3;     // of a body's thickness: nearer is looked at, too
+  double fast = 0.5;       // of the thinner body's thickness in a step: may pass through
+  double rounding = 1e-9;  // of a step's time, when a push ends; of a reach, whether it was kept
+};
+inline constexpr StepSettings kStepSettings;
+
 template <int D>
 struct World<D>::Step {
   // Two bodies that may touch. Of what an IslandPair holds only what is known before the island is
@@ -74,12 +83,10 @@ struct World<D>::Step {
   bool is_slow(std::size_t place) const;
   const Touch* remembered(BodyId a, BodyId b) const;
 
-  void find_increments();
   void find_reach();
   Box<D> enlarged_box(std::size_t place) const;
   bool looks_for_contacts() const;
   std::optional<NearPair> nearing(const Pair& pair);
-  void require_room_for_near_pairs() const;
   IslandPair<D> island_pair(const NearPair& from) const;
   void wake(std::vector<std::uint32_t> places);
 

@@ -104,9 +104,7 @@ Island<D> World<D>::Step::gather(const Group& group) const {
     rows.b = local(rows.b);
   }
   for (const std::size_t i : group.joints) {
-    JointRows<D> rows;
-    rows.joint = world.joints_[i].second;
-    rows.place = static_cast<std::uint32_t>(i);
+    JointRows<D> rows{.joint = world.joints_[i].second, .place = static_cast<std::uint32_t>(i)};
     rows.a = local(place_of(rows.joint.a));
     rows.b = local(place_of(rows.joint.b));
     const JointMemory& memory = world.joint_memories_[i];
@@ -126,12 +124,8 @@ void World<D>::Step::bring_back(Island<D>& island) {
     joint_memories[rows.place] = {rows.impulse, island.joint_seconds};
   for (const IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
-    if (!pair.touched) continue;
-    Touch touch;
-    touch.record = pair.record;
-    touch.memory = pair.memory;
-    touch.seconds = pair.remembered ? pair.seconds : 0;
-    touching.push_back(touch);
+    if (pair.touched)
+      touching.push_back({pair.record, pair.memory, pair.remembered ? pair.seconds : 0});
   }
 }
 
@@ -156,7 +150,7 @@ bool World<D>::Step::stayed_within_reach() {
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (moved[i].kind != BodyKind::dynamic_body || moved[i].asleep) continue;
     const double way = glm::length(moved[i].position - world.bodies_[i].position);
-    if (way <= reach[i] * (1 + 1e-9)) continue;
+    if (way <= reach[i] * (1 + kStepSettings.rounding)) continue;
     reach[i] = 2 * std::max(way, glm::length(moved[i].velocity) * h);
     stayed = false;
   }
@@ -224,13 +218,12 @@ void World<D>::Step::update_contact_events() {
   };
   for (const Touch& touch : world.touching_)
     if (rests(touch.record.a) && rests(touch.record.b)) touching.push_back(touch);
-  const auto pair_of = [](const Contact<D>& c) { return Pair{c.a, c.b}; };
   const auto less = [&](const Touch& x, const Touch& y) {
     stop_if_asked();
-    return pair_of(x.record) < pair_of(y.record);
+    return x.record.pair() < y.record.pair();
   };
-  const auto same = [&](const Touch& x, const Touch& y) {
-    return pair_of(x.record) == pair_of(y.record);
+  const auto same = [](const Touch& x, const Touch& y) {
+    return x.record.pair() == y.record.pair();
   };
   std::stable_sort(touching.begin(), touching.end(), less);
   touching.erase(std::unique(touching.begin(), touching.end(), same), touching.end());
@@ -242,9 +235,9 @@ void World<D>::Step::update_contact_events() {
   while (i < old.size() || j < contacts.size()) {
     stop_if_asked();
     const bool parted =
-        j == contacts.size() || (i < old.size() && old[i].pair < pair_of(contacts[j]));
-    const bool known = parted || (i < old.size() && old[i].pair == pair_of(contacts[j]));
-    const Told now = {parted ? old[i].pair : pair_of(contacts[j]),
+        j == contacts.size() || (i < old.size() && old[i].pair < contacts[j].pair());
+    const bool known = parted || (i < old.size() && old[i].pair == contacts[j].pair());
+    const Told now = {parted ? old[i].pair : contacts[j].pair(),
                       (parted ? std::min(old[i].frames_left, frames) : frames) - 1};
     if (parted && now.frames_left < 0)
       events.push_back({ContactEvent::Kind::end, now.pair.a, now.pair.b});

@@ -15,13 +15,10 @@
 namespace lantern {
 namespace {
 
-constexpr double kSlack = 1e-3;  // of a body's thickness: nearer is looked at, too
-constexpr double kFast = 0.5;    // of the thinner body's thickness in a step: may pass through
-
 template <int D>
 double slack(const Body<D>& body) {
   const double t = thickness<D>(body.shape);
-  return t < kEndless ? t * kSlack : 0;
+  return t < kEndless ? t * kStepSettings.slack : 0;
 }
 
 // How far a surface moves because its body turns.
@@ -50,7 +47,7 @@ template <int D>
 void World<D>::Step::find_forces() {
   std::vector<std::uint32_t> released;
   for (const TimedPush& push : world.pushes_) {
-    if (push.until && *push.until <= world.time_ + 1e-9 * h)
+    if (push.until && *push.until <= world.time_ + kStepSettings.rounding * h)
       released.push_back(place_of(push.push.body));
     else
       pushes.push_back(push);
@@ -58,19 +55,14 @@ void World<D>::Step::find_forces() {
   forces.pushes.clear();
   for (const TimedPush& push : pushes) forces.pushes.push_back(push.push);
   wake(std::move(released));
-  find_increments();
-  find_reach();
-}
-
-// Unless looking ahead has found them.
-template <int D>
-void World<D>::Step::find_increments() {
+  // Unless looking ahead has found them.
   if (world.ahead_ && world.ahead_->h == h) {
     increments = world.ahead_->increments;
     world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
-    return;
+  } else {
+    find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
   }
-  find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
+  find_reach();
 }
 
 template <int D>
@@ -109,21 +101,21 @@ std::vector<Proxy<D>> World<D>::Step::enlarged_boxes() const {
 
 template <int D>
 void World<D>::store(BodyId id, double h, const typename BroadPhase<D>::Watch& watch) {
-  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  BroadPhase<D>& broad_phase = structure();
   const Body<D>& body = bodies_[index_of(id)];
   const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
   const Box<D> box = body.box();
-  broad_phase_->insert({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()}, watch);
+  broad_phase.insert({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()}, watch);
 }
 
 // How all would fly on, and the structure in which the next step looks for pairs. A step that would
 // be refused is not foreseen: it will say so itself.
 template <int D>
 void World<D>::look_ahead(double h) {
-  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+  BroadPhase<D>& broad_phase = structure();
   Step step{*this, h, {}};
   step.reach.resize(bodies_.size());
-  if (config_.contacts == ContactMethod::none) return broad_phase_->build(step.enlarged_boxes());
+  if (config_.contacts == ContactMethod::none) return broad_phase.build(step.enlarged_boxes());
   const WorldWork before = work_;
   try {
     step.find_forces();
@@ -134,7 +126,7 @@ void World<D>::look_ahead(double h) {
     step.reach.assign(bodies_.size(), 0);
   }
   work_ = before;
-  broad_phase_->build(step.enlarged_boxes());
+  broad_phase.build(step.enlarged_boxes());
 }
 
 template <int D>
@@ -151,11 +143,11 @@ void World<D>::Step::refresh_boxes() {
 template <int D>
 void World<D>::Step::broad_phase() {
   if (!looks_for_contacts()) return;
-  if (!world.broad_phase_) world.broad_phase_.emplace(world.config_.broad_phase);
-  world.broad_phase_->update(boxes);
-  pairs = world.broad_phase_->pairs();
+  BroadPhase<D>& structure = world.structure();
+  structure.update(boxes);
+  pairs = structure.pairs();
   ++world.work_.broad_phases;
-  world.work_.pair_tests += world.broad_phase_->counters().pair_tests;
+  world.work_.pair_tests += structure.counters().pair_tests;
   world.work_.candidate_pairs += pairs.size();
 }
 
@@ -167,7 +159,11 @@ void World<D>::Step::narrow_phase() {
     stop_if_asked();
     if (const auto found = nearing(pair)) near.push_back(*found);
   }
-  require_room_for_near_pairs();
+  // They are made when their islands are moved, and remembered for the next step.
+  constexpr std::uint64_t kEach =
+      sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch) + sizeof(Contact<D>));
+  require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
+                 "take fewer bodies that overlap");
 }
 
 // The pair, if the two may come to touch in this step.
@@ -190,18 +186,9 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   found.restitution = std::max(a.material.restitution, b.material.restitution);
   found.friction = std::sqrt(a.material.friction * b.material.friction);
   const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-  found.located = locates_impacts() && (found.restitution > 0 || way > kFast * thin);
+  found.located = locates_impacts() && (found.restitution > 0 || way > kStepSettings.fast * thin);
   found.touch = remembered(pair.a, pair.b);
   return found;
-}
-
-// They are made when their islands are moved, and remembered for the next step.
-template <int D>
-void World<D>::Step::require_room_for_near_pairs() const {
-  constexpr std::uint64_t kEach =
-      sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch) + sizeof(Contact<D>));
-  require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
-                 "take fewer bodies that overlap");
 }
 
 template <int D>
@@ -226,13 +213,9 @@ IslandPair<D> World<D>::Step::island_pair(const NearPair& from) const {
 
 template <int D>
 const typename World<D>::Touch* World<D>::Step::remembered(BodyId a, BodyId b) const {
-  const auto touch = std::lower_bound(world.touching_.begin(), world.touching_.end(), Pair{a, b},
-                                      [](const Touch& t, const Pair& pair) {
-                                        return Pair{t.record.a, t.record.b} < pair;
-                                      });
-  if (touch == world.touching_.end() || touch->record.a != a || touch->record.b != b)
-    return nullptr;
-  return &*touch;
+  const auto pair_of = [](const Touch& touch) { return touch.record.pair(); };
+  const auto touch = std::ranges::lower_bound(world.touching_, Pair{a, b}, {}, pair_of);
+  return touch != world.touching_.end() && pair_of(*touch) == Pair{a, b} ? &*touch : nullptr;
 }
 
 template <int D>

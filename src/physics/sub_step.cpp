@@ -9,9 +9,6 @@
 namespace lantern {
 namespace {
 
-constexpr double kBounceSteps = 2;     // slower than gravity makes in so many sub-steps: no bounce
-constexpr double kTouchingWay = 1e-4;  // of the way that forces make in a sub-step: so near touches
-
 // Which part of the new velocity's change the mean velocity lags behind: 0 for semi-implicit
 // Euler, 1/2 for velocity Verlet.
 template <int D>
@@ -28,19 +25,11 @@ double rescaled(double seconds, double old) { return std::min(seconds / old, 1.0
 template <int D>
 void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
   for (IslandPair<D>& pair : island.pairs) {
-    ContactRows<D>& rows = pair.rows;
     stop_if_asked();
-    rows.count = 0;
+    pair.rows.count = 0;
     if (!pair.pressed) continue;
-    const Body<D>& a = island.bodies[rows.a];
-    const Body<D>& b = island.bodies[rows.b];
-    ++work.narrow_tests;
-    const auto manifold = collide(placed(a), placed(b), pair.reach);
-    if (!manifold) continue;
     const double scale = pair.seconds > 0 ? rescaled(scale_to, pair.seconds) : 0;
-    set_points(rows, *manifold, a, b, pair.remembered ? &pair.memory : nullptr, scale);
-    renew_record(pair.record, *manifold);
-    work.contact_points += static_cast<std::uint64_t>(rows.count);
+    island.find_points(pair, pair.reach, pair.remembered ? &pair.memory : nullptr, scale, work);
   }
 }
 
@@ -89,30 +78,18 @@ void SubStep<D>::begin() {
   stop_if_asked();
   ++work.sub_steps;
   find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
-  refresh_rows();
-  apply_forces();
-  each_joint([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
-  each_pair([](auto& rows, auto& a, auto& b) { warm_start(rows, a, b); });
-}
-
-template <int D>
-void SubStep<D>::refresh_rows() {
-  island.solver_bodies.clear();
-  for (const Body<D>& body : island.bodies) island.solver_bodies.push_back(solver_body_of(body));
+  island.set_solver_bodies();
   const auto& kicks = island.increments;
   each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
     const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
-    refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b,
-            kBounceSteps * glm::length(kick_b - kick_a), kTouchingWay * way);
+    rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b,
+                 kRowSettings.bounce_steps * glm::length(kick_b - kick_a),
+                 kRowSettings.touching_way * way);
   });
   each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
-    refresh(rows, island.bodies[rows.a], island.bodies[rows.b], a, b);
+    rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
   });
-}
-
-template <int D>
-void SubStep<D>::apply_forces() {
   for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
     SolverBody<D>& body = island.solver_bodies[i];
     body.velocity += island.increments[i].kick;
@@ -120,27 +97,21 @@ void SubStep<D>::apply_forces() {
   }
   island.kicked.clear();
   for (const SolverBody<D>& body : island.solver_bodies) island.kicked.push_back(body.velocity);
-}
-
-template <int D>
-void SubStep<D>::count(const Sweep& sweep) {
-  work.normal_rows += sweep.normal_rows;
-  work.friction_rows += sweep.friction_rows;
-  work.joint_rows += sweep.joint_rows;
-  work.constraint_rows += sweep.normal_rows + sweep.friction_rows + sweep.joint_rows;
+  each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
+  each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
 }
 
 template <int D>
 Sweep SubStep<D>::sweep_velocities(int turn) {
   Sweep sweep;
-  each_joint([&](auto& rows, auto& a, auto& b) { solve_velocities(rows, a, b, sweep); });
+  each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
   for (std::size_t i = 0; i < island.pairs.size(); ++i) {
     stop_if_asked();
     ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
     if (rows.count > 0)
-      solve_velocities(rows, island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
+      rows.solve_velocities(island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
   }
-  count(sweep);
+  count(sweep, work);
   return sweep;
 }
 
@@ -155,16 +126,16 @@ void SubStep<D>::begin_position_correction() {
     body.mean_spin = body.spin;
   }
   each_pair([&](auto& rows, auto& a, auto& b) {
-    begin_correction(rows, a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
+    rows.begin_correction(a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
   });
 }
 
 template <int D>
 Sweep SubStep<D>::sweep_positions() {
   Sweep sweep;
-  each_joint([&](auto& rows, auto& a, auto& b) { correct_positions(rows, a, b, h, sweep); });
-  each_pair([&](auto& rows, auto& a, auto& b) { correct_positions(rows, a, b, h, sweep); });
-  count(sweep);
+  each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
+  each_pair([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
+  count(sweep, work);
   return sweep;
 }
 
@@ -172,11 +143,11 @@ template <int D>
 bool SubStep<D>::is_corrected(const Sweep& sweep, double largest) {
   largest_push_ = std::max(largest_push_, sweep.change);
   return sweep.change <=
-         std::max(kSweepTolerance.push * largest_push_, kSweepTolerance.no_matter * largest);
+         std::max(kRowSettings.push * largest_push_, kRowSettings.no_matter * largest);
 }
 
 template <int D>
-void SubStep<D>::move_bodies() {
+void SubStep<D>::end() {
   for (std::size_t i = 0; i < island.bodies.size(); ++i) {
     Body<D>& body = island.bodies[i];
     const SolverBody<D>& solved = island.solver_bodies[i];
@@ -192,30 +163,16 @@ void SubStep<D>::move_bodies() {
     const Spin<D> turning = body.angular_momentum + increment.lag;
     const Spin<D> pushed = solved.mean_spin - solved.spin;
     if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
-    turn_freely(body, increment.lag, h, body.rotation.value_or(config.rotation));
+    turn_freely(body, h, body.rotation.value_or(config.rotation), increment.lag);
     if (pushed != Spin<D>(0.0)) body.orientation = turned(body.orientation, pushed * h);
     ++work.rotations_integrated;
   }
-}
-
-template <int D>
-void SubStep<D>::record() {
   for (IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
-    for (int i = 0; i < pair.rows.count; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const ContactPoint<D>& p = pair.rows.room[at];
-      pair.record.normal_impulses[at] += p.pn;
-      pair.record.friction_impulses[at] += p.pt;
+    pair.record_impulses();
+    for (const ContactPoint<D>& p : pair.rows.points())
       if (p.pn > 0 || p.separation <= 0) pair.touched = true;
-    }
   }
-}
-
-template <int D>
-void SubStep<D>::end() {
-  move_bodies();
-  record();
 }
 
 template <int D>

@@ -19,17 +19,6 @@
 
 namespace lantern {
 
-// When sweeps have done enough.
-struct SweepTolerance {
-  // Of the largest impulse: so small a change of any ends the sweeps. In a stack of n boxes the
-  // last change stands for an error of (2n / pi)^2 times as much; the motion that it leaves is a
-  // blow to the next direct solve, which would push as much the other way, and so on.
-  double change = 1e-12;
-  double push = 1e-3;       // of the largest push out of penetration, and
-  double no_matter = 1e-7;  // of the largest impulse: what is less than either is enough
-};
-inline constexpr SweepTolerance kSweepTolerance;
-
 template <int D>
 class SubStep {
  public:
@@ -60,11 +49,6 @@ class SubStep {
  private:
   template <class F>
   void each_joint(F&& f);
-  void refresh_rows();
-  void apply_forces();
-  void count(const Sweep& sweep);
-  void move_bodies();
-  void record();
 
   double largest_push_ = 0;
 };

@@ -1,15 +1,13 @@
-#include "physics/time_of_impact.hpp"
+// When two bodies meet.
 
 #include <algorithm>
 #include <cmath>
 
 #include "physics/free_rotation.hpp"
+#include "physics/impacts.hpp"
 
 namespace lantern {
 namespace {
-
-constexpr int kMostAdvances = 200;
-constexpr double kShortestBounce = 1.0 / 32;  // of a step
 
 template <int D>
 struct Gap {
@@ -36,11 +34,11 @@ class Approach {
 
   std::optional<TimeOfImpact> find() const {
     double t = 0;
-    for (int i = 0; i < kMostAdvances; ++i) {
+    for (int i = 0; i < kImpactSettings.most_advances; ++i) {
       const auto seen = gap_at(t);
       if (!seen) return std::nullopt;
       double next = t;
-      if (seen->gap <= size_ * 1e-15) {
+      if (seen->gap <= size_ * kImpactSettings.touches) {
         if (seen->closing > slow_) return TimeOfImpact{t, false};
         if (seen->closing > -slow_) {
           // They glide along each other, unless something presses them.
@@ -57,7 +55,8 @@ class Approach {
       }
       if (!(next < within_)) return std::nullopt;
       // No nearer in numbers, or so slowly that it is as good as there.
-      if (next == t || (i > kMostAdvances / 2 && seen->gap < size_ * 1e-9))
+      if (next == t ||
+          (i > kImpactSettings.most_advances / 2 && seen->gap < size_ * kImpactSettings.near))
         return seen->closing > slow_    ? std::optional(TimeOfImpact{t, false})
                : seen->closing > -slow_ ? std::optional(TimeOfImpact{t, true})
                                         : std::nullopt;
@@ -96,7 +95,7 @@ class Approach {
     seen.closing = -seen.bound - 1;
     bool first = true;
     for (const ManifoldPoint<D>& p : manifold->points()) {
-      if (p.separation > seen.gap + size_ * 1e-9) continue;
+      if (p.separation > seen.gap + size_ * kImpactSettings.near) continue;
       const Vec<D> va = turn_a_ > 0 ? velocity_at(a, p.position - a.position) : a.velocity;
       const Vec<D> vb = turn_b_ > 0 ? velocity_at(b, p.position - b.position) : b.velocity;
       const double closing = -glm::dot(vb - va, manifold->normal);
@@ -128,8 +127,9 @@ std::optional<TimeOfImpact> time_of_impact(const Trajectory<D>& a, const Traject
 template <int D>
 double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
   const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
-  return std::max(pull * step * kShortestBounce,
-                  1e-12 * (glm::length(a.velocity) + glm::length(b.velocity)));
+  return std::max(
+      pull * step * kImpactSettings.shortest_bounce,
+      kImpactSettings.speed_by_rounding * (glm::length(a.velocity) + glm::length(b.velocity)));
 }
 
 #define LANTERN_INSTANTIATE(D)                                                                    \

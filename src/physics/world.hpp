@@ -27,7 +27,8 @@ namespace lantern {
 template <int D>
 class World {
  public:
-  World();  // no gravity, no contacts
+  // No gravity, no contacts.
+  World() : World(WorldConfig<D>{.contacts = ContactMethod::none}) {}
   // Throws Refused, naming the field, for a number that is out of its range.
   explicit World(const WorldConfig<D>& config);
 
@@ -44,9 +45,8 @@ class World {
   const std::vector<Body<D>>& bodies() const { return bodies_; }  // in order of ids
 
   // Only `place` moves a static body.
-  void place(BodyId id, const Vec<D>& position, const Vec<D>& velocity);
   void place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
-             const Rotation<D>& orientation);
+             const std::optional<Rotation<D>>& orientation = std::nullopt);  // else as it is
   void set_velocity(BodyId id, const Vec<D>& velocity);
   void set_angular_velocity(BodyId id, const Spin<D>& spin);  // radians a second, world's axes
   // In N s, at a point in the world. Moves only dynamic bodies.
@@ -142,6 +142,7 @@ class World {
   void wake_from(const std::vector<BodyId>& ids);
   void forget_contacts_of(BodyId id);
   void list_pushes();
+  BroadPhase<D>& structure();  // made when it is first needed
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;

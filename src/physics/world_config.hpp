@@ -18,7 +18,7 @@ struct WorldConfig {
   Integrator integrator = Integrator::semi_implicit_euler;
   RotationMethod rotation = RotationMethod::splitting_2;  // where nothing holds a body
   ContactMethod contacts = ContactMethod::soft;
-  BroadPhaseConfig<D> broad_phase;
+  BroadPhaseConfig<D> broad_phase = {};
   int sub_steps = 8;          // of soft contacts, and of joints where nothing collides, 1 ... 1000
   int iterations = 10;        // of impulse contacts: sweeps a step, 1 ... 100000
   bool warm_start = true;     // begin with the impulses of the step before

@@ -19,7 +19,6 @@ void World<D>::step(double h) {
   if (!std::isfinite(h) || h < 0) throw Refused(fmt::format("time step {} is not allowed", h));
   stop_if_asked();
   if (h == 0) return;  // else -0.0 + 0.0 would change the sign of a zero
-  constexpr int kMostTries = 4;
   const WorldWork before = work_;
   std::vector<double> reach;
   try {
@@ -36,7 +35,7 @@ void World<D>::step(double h) {
       step.require_no_overflow();
       // An impact may send a body farther than it was looked for. Then the step is made anew,
       // looking farther.
-      if (tries == kMostTries || step.stayed_within_reach()) {
+      if (tries == kStepSettings.most_tries || step.stayed_within_reach()) {
         step.fall_asleep();
         step.update_contact_events();
         step.commit();

@@ -188,6 +188,7 @@ struct Frame {
   std::string caption;           // counts filled in
   StructureKind structure = StructureKind::none;
   std::string settings;          // "capacity 2, depth limit 4": what the tree was told
+  int sweep_axis = 0;            // along which a sweep sorted; of other structures of no matter
   std::vector<Panel> panels;
   Box<3> bounds;
   bool show_boxes = false;       // the bodies' broad-phase boxes

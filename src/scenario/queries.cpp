@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spatial/frustum_cull.hpp"
 #include "spatial/overlap_query.hpp"
 #include "spatial/raycast.hpp"
 
@@ -36,9 +35,7 @@ class Queries {
       if (nearest.hit) hits.push_back(*nearest.hit);
       return nearest.counts;
     });
-    std::sort(hits.begin(), hits.end(), [](const RayHit& a, const RayHit& b) {
-      return std::pair(a.distance, a.id) < std::pair(b.distance, b.id);
-    });
+    std::sort(hits.begin(), hits.end(), RayHit::before);
     if (!cast.all && hits.size() > 1) hits.resize(1);
     found_.ray = FrameRay{cast.from, cast.to, {}};
     for (const RayHit& hit : hits) {
@@ -52,7 +49,7 @@ class Queries {
   Finding answer(const Cull& view) {
     const Frustum<D> frustum = frustum_of(view);
     look([&](const auto& tree, auto& box_of, auto& told) {
-      return add(frustum_cull<D>(tree, frustum, box_of, AlwaysTrue(), told));
+      return add(overlap_query<D>(tree, frustum, box_of, told));
     });
     found_.view = FrameView{view.eye, corners_of(frustum)};
     return sorted();
@@ -62,8 +59,8 @@ class Queries {
     const Box<D> box = in_dimension<D>(region.box);
     const Ball<D> ball{box.center(), region.radius};
     look([&](const auto& tree, auto& box_of, auto& told) {
-      return add(region.radius > 0 ? overlap_query<D>(tree, ball, box_of, AlwaysTrue(), told)
-                                   : overlap_query<D>(tree, box, box_of, AlwaysTrue(), told));
+      return add(region.radius > 0 ? overlap_query<D>(tree, ball, box_of, told)
+                                   : overlap_query<D>(tree, box, box_of, told));
     });
     found_.region = FrameQuery{region.box, region.radius};
     return sorted();

@@ -38,7 +38,7 @@ std::string child_label(StructureKind kind, const std::string& parent, std::uint
   return parent == "root" ? way : parent + "." + way;
 }
 
-// "capacity 2, depth limit 4, all children made"; `sweep_axis`: of a sweep.
+// "capacity 2, depth limit 4, all children made"
 std::string settings_text(const StructureSpec& s, int sweep_axis) {
   const std::string split = s.split_static ? ", static bodies apart" : "";
   const StructureTraits traits = traits_of(s.kind);
@@ -74,9 +74,9 @@ class NodePicture {
         shows_memory_(std::ranges::find(frame.panels, Panel::memory) != frame.panels.end()),
         frame_(frame) {}
 
-  // `awake`: of each node, in the order of visiting; empty if nothing sleeps.
+  // `awake`: null if nothing sleeps.
   template <class Structure>
-  void add(const Structure& structure, const std::vector<bool>& awake, bool of_static) {
+  void add(const Structure& structure, const AwakeNodes* awake, bool of_static) {
     first_ = static_cast<std::uint32_t>(frame_.nodes.size());
     structure.visit([&](const NodeView<D>& view) {
       stop_if_asked();
@@ -88,7 +88,7 @@ class NodePicture {
         node.first = view.first;
         node.room = view.room;
       }
-      if (!awake.empty()) node.awake = awake[view.id];
+      if (awake) node.awake = (*awake)[view.handle];
       most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
       frame_.nodes.push_back(std::move(node));
       return true;
@@ -231,14 +231,18 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
     return;
   }
   const BroadPhase<D>& structure = *world.broad_phase();
-  frame.settings = settings_text(spec, structure.sweep_axis());
+  frame.sweep_axis = structure.sweep_axis().value_or(0);
+  frame.settings = settings_text(spec, frame.sweep_axis);
   const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
   NodePicture<D> picture(spec, touched, frame);
   structure.with_dynamic([&](const auto& tree) {
-    picture.add(tree, tells_sleepers ? awake_nodes(tree, awake) : std::vector<bool>(), false);
+    std::vector<BodyId> room;
+    AwakeNodes nodes;
+    if (tells_sleepers) nodes.find(tree, awake, room);
+    picture.add(tree, tells_sleepers ? &nodes : nullptr, false);
   });
   if (spec.split_static)
-    structure.with_static([&](const auto& tree) { picture.add(tree, {}, true); });
+    structure.with_static([&](const auto& tree) { picture.add(tree, nullptr, true); });
 
   const PairChain chain = structure.pair_chain(awake, kMostPairs);
   for (const Pair& pair : chain.pairs)

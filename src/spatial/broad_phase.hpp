@@ -1,6 +1,7 @@
 // The broad phase: which boxes overlap. One interface, many structures, the same pairs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -51,7 +52,7 @@ struct BroadPhaseCounters {
 
 // A structure whose bodies are numbered from 0 in the order of their ids, seen with the ids.
 template <int D, class Structure>
-class WithIds {
+class WithIds : public Visitable<WithIds<D, Structure>, D> {
  public:
   static constexpr Zones kZones = Structure::kZones;
 
@@ -59,28 +60,19 @@ class WithIds {
       : structure_(structure), names_(names) {}
 
   template <class F>
-  void visit(F&& f) const {
+  void take(Tour<D> tour, F&& f) const {
     std::vector<BodyId> room;
-    structure_.visit([&](const NodeView<D>& view) { return f(named(view, room)); });
-  }
-
-  template <class F>
-  void visit_toward(const Vec<D>& direction, F&& f) const {
-    std::vector<BodyId> room;
-    structure_.visit_toward(direction,
-                            [&](const NodeView<D>& view) { return f(named(view, room)); });
+    structure_.take(Tour<D>{room, tour.toward}, [&](NodeView<D> view) {
+      tour.ids.clear();
+      for (const BodyId number : view.bodies) tour.ids.push_back(names_[number]);
+      view.bodies = tour.ids;
+      return f(std::as_const(view));
+    });
   }
 
   Counters counters() const { return structure_.counters(); }
 
  private:
-  NodeView<D> named(NodeView<D> view, std::vector<BodyId>& room) const {
-    room.clear();
-    for (const BodyId number : view.bodies) room.push_back(names_[number]);
-    view.bodies = room;
-    return view;
-  }
-
   const Structure& structure_;
   std::span<const BodyId> names_;
 };
@@ -141,8 +133,8 @@ class BroadPhase {
   // Of these, which no longer lies where a structure that is fitted to its bodies has it.
   bool is_stale(const Item<D>& item) const;
 
-  // Of the dynamic structure, if it sweeps: the axis along which it sorted last; otherwise -1.
-  int sweep_axis() const;
+  // Of the dynamic structure, if it sweeps: the axis along which it sorted last.
+  std::optional<int> sweep_axis() const;
 
   // f(structure) with the real type of structure (see structure.hpp for what it offers: visit,
   // visit_toward, kZones, counters), its bodies named by their ids: for views and queries. The
@@ -165,27 +157,22 @@ class BroadPhase {
   }
 
   template <class F>
-  void visit_static(F&& f) const {
-    with_static([&](const auto& structure) { structure.visit(f); });
-  }
-  template <class F>
   void visit_dynamic(F&& f) const {
     with_dynamic([&](const auto& structure) { structure.visit(f); });
   }
-
-  // Which nodes of the dynamic structure are awake, in the order of visiting.
-  std::vector<bool> awake_dynamic_nodes() const;
 
  private:
   // A structure and its bodies, by id. The structure knows them by their places in this list.
   struct Store {
     Structure structure;
-    std::vector<Proxy<D>> bodies;
-    std::vector<std::uint32_t> ranks;  // of each body among all, by id
-    std::vector<BodyId> names;         // of the bodies that the structure holds
-    std::uint32_t depth = 0;           // of a tree; at most as configured
-    std::uint64_t room = 0;            // how many bodies its limits were made for
-    bool stands = true;                // the structure holds these bodies, ready to be asked
+    std::uint64_t BroadPhaseCounters::*builds;
+    std::uint32_t depth;  // of a tree; at most as configured
+    std::vector<Proxy<D>> bodies = {};
+    std::vector<Proxy<D>> fresh = {};       // those of the update that is being made
+    std::vector<std::uint32_t> ranks = {};  // of each body among all, by id
+    std::vector<BodyId> names = {};         // of the bodies that the structure holds
+    std::uint64_t room = 0;                 // how many bodies its limits were made for
+    bool stands = true;                     // the structure holds these bodies, ready to be asked
   };
   struct RankPair {
     std::uint32_t a = 0, b = 0;
@@ -201,38 +188,32 @@ class BroadPhase {
   }
 
   static bool stirs(const Proxy<D>& proxy) { return proxy.awake && !proxy.is_static; }
-  bool is_for_static(const Proxy<D>& proxy) const {
-    return config_.split_static && proxy.is_static;
+  std::array<Store*, 2> stores() { return {&static_, &dynamic_}; }
+  std::array<const Store*, 2> stores() const { return {&static_, &dynamic_}; }
+  Store& store_for(const Proxy<D>& proxy) {
+    return config_.split_static && proxy.is_static ? static_ : dynamic_;
   }
   const Store* store_of(BodyId id, std::size_t& place) const;
-  static bool same_boxes(const std::vector<Proxy<D>>& a, const std::vector<Proxy<D>>& b);
 
   Structure made(std::uint32_t depth, std::uint64_t room) const;
   template <class F>
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
-  void sort_and_check(std::span<const Proxy<D>> proxies);
-  void find_pairs();
+  void renew();
   void forget();
-  void deal_out();
-  bool take_static();
-  bool take_dynamic();
-  void build(Store& store, std::uint64_t& builds);
-  void fill(Store& store);
+  void build(Store& store);
   void empty(Store& store);
+  void find_pairs();
   void pair_dynamic();
   void pair_static();
   template <class Tree>
   void pair_leaves(const Tree& tree);
-  template <class Tree>
-  void find_awake_nodes(const Tree& tree);
   void pair_bodies(std::span<const BodyId> bodies);
   void add_pair(std::uint32_t rank_a, std::uint32_t rank_b) {
-    if (found_.size() == found_.capacity()) require_room(sorted_[rank_a].id);
-    if (found_.size() == config_.most_pairs) refuse_pair(sorted_[rank_a].id);
+    if (found_.size() == found_.capacity() || found_.size() == config_.most_pairs)
+      require_room(sorted_[rank_a].id);
     found_.push_back(rank_a < rank_b ? RankPair{rank_a, rank_b} : RankPair{rank_b, rank_a});
   }
-  [[noreturn]] void refuse_pair(BodyId body) const;
   void require_room(BodyId body) const;
   void sort_pairs();
   std::uint64_t structure_allocations() const;
@@ -248,13 +229,11 @@ class BroadPhase {
 
   // Scratch of an update, kept for its memory.
   std::vector<Proxy<D>> sorted_;  // all, by id
-  std::vector<Proxy<D>> fresh_static_, fresh_dynamic_;
   std::vector<Item<D>> items_;
   std::vector<BodyId> ids_;
-  std::vector<std::uint8_t> awake_;               // of each node, by handle
-  std::vector<std::uint32_t> parents_, handles_;  // of nodes, in the order of visiting
-  std::vector<RankPair> found_;                   // in any order, perhaps repeated
-  std::vector<std::uint32_t> first_, partners_;   // found_, sorted by the lower rank
+  AwakeNodes awake_;
+  std::vector<RankPair> found_;                  // in any order, perhaps repeated
+  std::vector<std::uint32_t> first_, partners_;  // found_, sorted by the lower rank
 };
 
 extern template class BroadPhase<2>;

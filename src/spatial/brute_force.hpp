@@ -4,13 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "spatial/ids.hpp"
-#include "spatial/structure.hpp"
+#include "spatial/tour.hpp"
 
 namespace lantern {
 
 template <int D>
-class BruteForce {
+class BruteForce : public Visitable<BruteForce<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::fitted;
   static constexpr StructureTraits kTraits{
@@ -23,9 +22,7 @@ class BruteForce {
   template <class Observer = NoObserver>
   void insert(const Item<D>& item, Observer&& observer = {}) {
     require_valid(item);
-    const std::size_t capacity = ids_.capacity();
-    ids_.push_back(item.id);
-    allocations_ += ids_.capacity() != capacity;
+    append(ids_, item.id);
     box_ = ids_.size() == 1 ? item.box : united(box_, item.box);
     observer(Event{Event::Kind::store, 0, item.id, static_cast<std::uint32_t>(ids_.size()), 0});
   }
@@ -37,28 +34,8 @@ class BruteForce {
 
   // The node's box is the smallest one that holds all bodies.
   template <class F>
-  void visit(F&& f) const {
-    std::vector<BodyId> room;
-    visit(f, room);
-  }
-
-  template <class F>
-  void visit(F&& f, std::vector<BodyId>& room) const {
-    NodeView<D> view;
-    view.box = box_;
-    view.bodies = ascending(ids_, room);
-    f(view);
-  }
-
-  template <class F>
-  void visit_toward(const Vec<D>&, F&& f) const {
-    visit(f);
-  }
-
-  // Calls f(id) for every body, ascending: the one leaf is always reached.
-  template <class F>
-  void query(const Box<D>&, F&& f) const {
-    each_once(ids_, f);
+  void take(Tour<D> tour, F&& f) const {
+    f(NodeView<D>{.box = box_, .bodies = tour.ascending(ids_)});
   }
 
   void near(const Box<D>&, std::vector<BodyId>& ids) const {
@@ -66,17 +43,12 @@ class BruteForce {
   }
 
   Counters counters() const {
-    Counters c;
-    c.nodes = c.leaves = 1;
-    c.entries = ids_.size();
-    c.allocations = allocations_;
-    return c;
+    return {.nodes = 1, .leaves = 1, .entries = ids_.size(), .allocations = allocations_};
   }
 
  private:
   std::vector<BodyId> ids_;
   Box<D> box_;
-  std::uint64_t allocations_ = 0;
 };
 
 }  // namespace lantern

@@ -21,14 +21,13 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
-#include "spatial/ids.hpp"
 #include "spatial/leaf_array.hpp"
-#include "spatial/structure.hpp"
+#include "spatial/tour.hpp"
 
 namespace lantern {
 
 template <int D>
-class Bsp {
+class Bsp : public Visitable<Bsp<D>, D> {
  public:
   static constexpr Zones kZones = Zones::half_spaces;
   static constexpr StructureTraits kTraits{.words = "BSP", .splits = false};
@@ -70,43 +69,20 @@ class Bsp {
   }
 
   template <class F>
-  void visit(F&& f) const {
-    std::vector<BodyId> room;
-    visit(f, room);
-  }
-
-  template <class F>
-  void visit(F&& f, std::vector<BodyId>& room) const {
-    Tour tour{0, Vec<D>(0.0), room};
+  void take(Tour<D> tour, F&& f) const {
     visit_from(0, kNone, tour, f);
-  }
-
-  template <class F>
-  void visit_toward(const Vec<D>& direction, F&& f) const {
-    std::vector<BodyId> room;
-    Tour tour{0, direction, room};
-    visit_from(0, kNone, tour, f);
-  }
-
-  template <class F>
-  void query(const Box<D>& box, F&& f) const {
-    std::vector<BodyId> ids;
-    near(box, ids);
-    each_once(std::move(ids), f);
   }
 
   void near(const Box<D>& box, std::vector<BodyId>& ids) const { collect(0, box, ids); }
 
   // `box_tests` counts tests against a plane.
   Counters counters() const {
-    Counters c;
-    c.nodes = nodes_.size();
-    c.leaves = planes_.size() + 1;
-    c.depth = deepest_;
-    c.entries = entries_;
-    c.box_tests = box_tests_;
-    c.allocations = allocations_ + contents_.allocations();
-    return c;
+    return {.nodes = nodes_.size(),
+            .leaves = planes_.size() + 1,
+            .depth = deepest_,
+            .entries = entries_,
+            .box_tests = box_tests_,
+            .allocations = allocations_ + contents_.allocations()};
   }
 
  private:
@@ -117,12 +93,6 @@ class Bsp {
     std::uint32_t depth = 0;
     LeafArray::Run contents;
     bool is_leaf() const { return plane == kNone; }
-  };
-
-  struct Tour {
-    std::uint32_t next_id = 0;
-    Vec<D> toward{0.0};  // zero: the lecture's order
-    std::vector<BodyId>& ids;
   };
 
   // The leaf at the plane's place becomes an inner node with two leaves.
@@ -182,20 +152,19 @@ class Bsp {
   }
 
   template <class F>
-  void visit_from(NodeHandle handle, std::uint32_t parent, Tour& tour, F& f) const {
+  void visit_from(NodeHandle handle, std::uint32_t parent, Tour<D>& tour, F& f) const {
     stop_if_asked();
     const Node& node = nodes_[handle];
-    NodeView<D> view;
-    view.handle = handle;
-    view.id = tour.next_id++;
-    view.parent = parent;
-    view.slot = node.slot;
-    view.depth = node.depth;
-    view.leaf = node.is_leaf();
-    view.box = bounds_;
-    if (!view.leaf) view.plane = &planes_[node.plane].plane;
-    view.bodies = ascending(contents_.values(node.contents), tour.ids);
-    if (!f(std::as_const(view)) || view.leaf) return;
+    const NodeView<D> view{.handle = handle,
+                           .id = tour.next_id++,
+                           .parent = parent,
+                           .slot = node.slot,
+                           .depth = node.depth,
+                           .leaf = node.is_leaf(),
+                           .box = bounds_,
+                           .plane = node.is_leaf() ? nullptr : &planes_[node.plane].plane,
+                           .bodies = tour.ascending(contents_.values(node.contents))};
+    if (!f(view) || view.leaf) return;
     double along = 0;  // a ray along the plane's normal comes from behind
     for (int i = 0; i < D; ++i) along += tested_[node.plane].normal[i] * tour.toward[i];
     const NodeHandle first = along < 0 ? 1 : 0;

@@ -2,35 +2,28 @@
 // is enough where the world is flat. Bodies above each other share a leaf.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "spatial/orthtree.hpp"
 
 namespace lantern {
 
-class FlatQuadtree {
+class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
  public:
   static constexpr Zones kZones = Zones::endless_rim;  // on y every node reaches from rim to rim
   static constexpr StructureTraits kTraits = Quadtree::kTraits;
 
-  static FlatQuadtree made(const StructureConfig<3>& config) {
-    return FlatQuadtree({config.bounds,
-                         {{},
-                          config.capacity,
-                          config.max_depth,
-                          config.eager_children,
-                          config.no_progress_stop,
-                          std::min(config.most_entries, Quadtree::kMost)}});
-  }
-
-  struct Config {
-    Box<3> bounds;
-    Quadtree::Config tree;  // its bounds are set from those above
-  };
+  static FlatQuadtree made(const StructureConfig<3>& config) { return FlatQuadtree(config); }
 
   // Throws Refused as the quadtree does.
-  explicit FlatQuadtree(const Config& config) : tree_(flat(config)), bounds_(config.bounds) {}
+  explicit FlatQuadtree(const StructureConfig<3>& config)
+      : tree_(Quadtree::made({.bounds = flat(config.bounds),
+                              .capacity = config.capacity,
+                              .max_depth = config.max_depth,
+                              .eager_children = config.eager_children,
+                              .no_progress_stop = config.no_progress_stop,
+                              .most_entries = config.most_entries})),
+        bounds_(config.bounds) {}
 
   template <class Observer = NoObserver>
   void insert(const Item<3>& item, Observer&& observer = {}) {
@@ -42,24 +35,9 @@ class FlatQuadtree {
 
   // In the quadtree's order: what it calls up is towards larger z.
   template <class F>
-  void visit(F&& f) const {
-    tree_.visit([&](const NodeView<2>& view) { return f(risen(view)); });
-  }
-
-  template <class F>
-  void visit(F&& f, std::vector<BodyId>& room) const {
-    tree_.visit([&](const NodeView<2>& view) { return f(risen(view)); }, room);
-  }
-
-  template <class F>
-  void visit_toward(const Vec<3>& direction, F&& f) const {
-    tree_.visit_toward(Vec<2>(direction.x, direction.z),
-                       [&](const NodeView<2>& view) { return f(risen(view)); });
-  }
-
-  template <class F>
-  void query(const Box<3>& box, F&& f) const {
-    tree_.query(flat(box), f);
+  void take(Tour<3> tour, F&& f) const {
+    tree_.take(Tour<2>{tour.ids, {tour.toward.x, tour.toward.z}},
+               [&](const NodeView<2>& view) { return f(risen(view)); });
   }
 
   void near(const Box<3>& box, std::vector<BodyId>& ids) const { tree_.near(flat(box), ids); }
@@ -69,26 +47,18 @@ class FlatQuadtree {
  private:
   static Box<2> flat(const Box<3>& box) { return {{box.lo.x, box.lo.z}, {box.hi.x, box.hi.z}}; }
 
-  static Quadtree::Config flat(const Config& config) {
-    Quadtree::Config tree = config.tree;
-    tree.bounds = flat(config.bounds);
-    return tree;
-  }
-
   NodeView<3> risen(const NodeView<2>& view) const {
-    NodeView<3> tall;
-    tall.handle = view.handle;
-    tall.id = view.id;
-    tall.parent = view.parent;
-    tall.slot = view.slot;
-    tall.depth = view.depth;
-    tall.leaf = view.leaf;
-    tall.box = {{view.box.lo.x, bounds_.lo.y, view.box.lo.y},
-                {view.box.hi.x, bounds_.hi.y, view.box.hi.y}};
-    tall.bodies = view.bodies;
-    tall.first = view.first;
-    tall.room = view.room;
-    return tall;
+    return {.handle = view.handle,
+            .id = view.id,
+            .parent = view.parent,
+            .slot = view.slot,
+            .depth = view.depth,
+            .leaf = view.leaf,
+            .box = {{view.box.lo.x, bounds_.lo.y, view.box.lo.y},
+                    {view.box.hi.x, bounds_.hi.y, view.box.hi.y}},
+            .bodies = view.bodies,
+            .first = view.first,
+            .room = view.room};
   }
 
   Quadtree tree_;

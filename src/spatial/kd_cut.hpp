@@ -22,7 +22,7 @@
 #include <tuple>
 #include <vector>
 
-#include "spatial/structure.hpp"
+#include "spatial/tour.hpp"
 
 namespace lantern {
 
@@ -47,7 +47,7 @@ struct KdCut {
 };
 
 template <int D>
-class KdCuts {
+class KdCuts : CountsAllocations {
  public:
   // The cut of those items that are chosen, which are at least one. Keeps its scratch memory.
   std::optional<KdCut> best(std::span<const Item<D>> items, std::span<const std::uint32_t> chosen) {
@@ -132,8 +132,8 @@ class KdCuts {
     lower_.clear();
     upper_.clear();
     for (const std::uint32_t i : chosen_) {
-      append(lower_, double{items_[i].box.lo[axis]});
-      append(upper_, double{items_[i].box.hi[axis]});
+      append(lower_, items_[i].box.lo[axis]);
+      append(upper_, items_[i].box.hi[axis]);
     }
     std::sort(lower_.begin(), lower_.end());
     std::sort(upper_.begin(), upper_.end());
@@ -148,16 +148,10 @@ class KdCuts {
     return best;
   }
 
-  void append(std::vector<double>& list, double value) {
-    allocations_ += list.size() == list.capacity();
-    list.push_back(value);
-  }
-
   std::span<const Item<D>> items_;
   std::span<const std::uint32_t> chosen_;
   std::vector<double> lower_, upper_;  // faces, or centres
   std::uint64_t tests_ = 0;
-  std::uint64_t allocations_ = 0;
 };
 
 }  // namespace lantern

@@ -28,14 +28,13 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
-#include "spatial/ids.hpp"
 #include "spatial/kd_cut.hpp"
-#include "spatial/structure.hpp"
+#include "spatial/tour.hpp"
 
 namespace lantern {
 
 template <int D>
-class KdTree {
+class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::fitted;
   static constexpr StructureTraits kTraits{.words = "kD-tree", .is_fitted = true};
@@ -68,13 +67,18 @@ class KdTree {
   void build(std::span<const Item<D>> items, Observer&& observer = {}) {
     for (const Item<D>& item : items) require_valid(item);
     most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
-    clear_lists();
+    nodes_.clear();
+    items_.clear();
+    stored_.clear();
+    work_.clear();
+    deepest_ = box_tests_ = 0;
+    cuts_.forget_tests();
     for (const Item<D>& item : items) append(items_, item);
     std::sort(items_.begin(), items_.end(),
               [](const Item<D>& a, const Item<D>& b) { return a.id < b.id; });
     for (std::uint32_t i = 0; i < items_.size(); ++i) append(work_, i);
     entries_expected_ = items_.size();
-    make_node();
+    append(nodes_, Node{});
     grow(Spot{}, 0, observer);
   }
 
@@ -94,29 +98,8 @@ class KdTree {
   }
 
   template <class F>
-  void visit(F&& f) const {
-    std::vector<BodyId> room;
-    visit(f, room);
-  }
-
-  template <class F>
-  void visit(F&& f, std::vector<BodyId>& room) const {
-    Tour tour{0, Vec<D>(0.0), room};
+  void take(Tour<D> tour, F&& f) const {
     visit_from(0, kNone, 0, 0, tour, f);
-  }
-
-  template <class F>
-  void visit_toward(const Vec<D>& direction, F&& f) const {
-    std::vector<BodyId> room;
-    Tour tour{0, direction, room};
-    visit_from(0, kNone, 0, 0, tour, f);
-  }
-
-  template <class F>
-  void query(const Box<D>& box, F&& f) const {
-    std::vector<BodyId> ids;
-    near(box, ids);
-    each_once(std::move(ids), f);
   }
 
   // The leaves whose fitted boxes the box overlaps.
@@ -124,16 +107,14 @@ class KdTree {
 
   // `box_tests` counts comparisons of a body with a plane.
   Counters counters() const {
-    Counters c;
-    c.nodes = nodes_.size();
-    c.leaves = (nodes_.size() + 1) / 2;
-    c.depth = deepest_;
-    c.entries = stored_.size();
-    c.box_tests = box_tests_ + cuts_.tests();
-    c.splits = nodes_.size() / 2;
-    c.allocations = allocations_ + cuts_.allocations();
-    c.nodes_reused = std::min(most_nodes_before_, nodes_.size());
-    return c;
+    return {.nodes = nodes_.size(),
+            .leaves = (nodes_.size() + 1) / 2,
+            .depth = deepest_,
+            .entries = stored_.size(),
+            .box_tests = box_tests_ + cuts_.tests(),
+            .splits = nodes_.size() / 2,
+            .allocations = allocations_ + cuts_.allocations(),
+            .nodes_reused = std::min(most_nodes_before_, nodes_.size())};
   }
 
  private:
@@ -155,12 +136,6 @@ class KdTree {
     std::uint32_t depth = 0;
     Box<D> cell{Vec<D>(-std::numeric_limits<double>::infinity()),
                 Vec<D>(std::numeric_limits<double>::infinity())};
-  };
-
-  struct Tour {
-    std::uint32_t next_id = 0;
-    Vec<D> toward{0.0};  // zero: behind before in front
-    std::vector<BodyId>& room;
   };
 
   // --- building ---
@@ -208,13 +183,13 @@ class KdTree {
     nodes_[at.node].plane = cut.plane;
     nodes_[at.node].first_child = first_child;
     for (NodeHandle child = 0; child < 2; ++child) {
-      make_node();
+      append(nodes_, Node{});
       observer(Event{Event::Kind::make_child, first_child + child, last, 0, 0});
     }
     for (const bool front : {false, true}) {
       for (std::size_t i = begin; i < end; ++i) {
         const Box<D>& box = items_[work_[i]].box;
-        if (front ? cut.in_front(box) : cut.behind(box)) append(work_, std::uint32_t{work_[i]});
+        if (front ? cut.in_front(box) : cut.behind(box)) append(work_, work_[i]);
       }
       box_tests_ += end - begin;
       Spot child{first_child + (front ? 1u : 0u), at.depth + 1, at.cell};
@@ -225,49 +200,20 @@ class KdTree {
     nodes_[at.node].box = united(nodes_[first_child].box, nodes_[first_child + 1].box);
   }
 
-  static Box<D> common_part(const Box<D>& box, const Box<D>& cell) {
-    Box<D> part;
-    for (int i = 0; i < D; ++i) {
-      part.lo[i] = std::max(box.lo[i], cell.lo[i]);
-      part.hi[i] = std::min(box.hi[i], cell.hi[i]);
-    }
-    return part;
-  }
-
-  // --- memory ---
-
-  void clear_lists() {
-    nodes_.clear();
-    items_.clear();
-    stored_.clear();
-    work_.clear();
-    deepest_ = box_tests_ = 0;
-    cuts_.forget_tests();
-  }
-
-  void make_node() { append(nodes_, Node{}); }
-
-  template <class T>
-  void append(std::vector<T>& list, const T& value) {
-    allocations_ += list.size() == list.capacity();
-    list.push_back(value);
-  }
-
   // --- looking ---
 
   template <class F>
   void visit_from(NodeHandle handle, std::uint32_t parent, std::uint32_t slot, std::uint32_t depth,
-                  Tour& tour, F& f) const {
+                  Tour<D>& tour, F& f) const {
     stop_if_asked();
     const Node& node = nodes_[handle];
-    NodeView<D> view;
-    view.handle = handle;
-    view.id = tour.next_id++;
-    view.parent = parent;
-    view.slot = slot;
-    view.depth = depth;
-    view.leaf = node.is_leaf();
-    view.box = node.box;
+    NodeView<D> view{.handle = handle,
+                     .id = tour.next_id++,
+                     .parent = parent,
+                     .slot = slot,
+                     .depth = depth,
+                     .leaf = node.is_leaf(),
+                     .box = node.box};
     Plane<D> plane;
     if (!view.leaf) {
       plane.normal[node.axis] = 1;
@@ -321,7 +267,6 @@ class KdTree {
   std::uint64_t entries_expected_ = 0;
   std::uint64_t deepest_ = 0;
   std::uint64_t box_tests_ = 0;
-  std::uint64_t allocations_ = 0;
 };
 
 }  // namespace lantern

@@ -15,14 +15,13 @@
 #include "base/stop.hpp"
 #include "lecture/quad_tree.hpp"
 #include "spatial/halving.hpp"
-#include "spatial/ids.hpp"
 #include "spatial/orthtree.hpp"
-#include "spatial/structure.hpp"
+#include "spatial/tour.hpp"
 
 namespace lantern {
 
 template <int D>
-class LectureQuadtree {
+class LectureQuadtree : public Visitable<LectureQuadtree<D>, D> {
   using Tree = lecture::QuadTree<BodyId>;
   using Node = lecture::QuadTreeNode<BodyId>;
   using Entries = std::list<lecture::QuadTreeEntry<BodyId>>;
@@ -56,29 +55,10 @@ class LectureQuadtree {
   }
 
   template <class F>
-  void visit(F&& f) const {
-    std::vector<BodyId> room;
-    visit(f, room);
-  }
-
-  template <class F>
-  void visit(F&& f, std::vector<BodyId>& room) const {
-    Tour tour{0, 0, room};
-    visit_from(tree_.GetRoot(), first_view(), tour, f);
-  }
-
-  template <class F>
-  void visit_toward(const Vec<D>& direction, F&& f) const {
-    std::vector<BodyId> room;
-    Tour tour{0, Halving<2>::first_toward({direction[0], direction[D - 1]}), room};
-    visit_from(tree_.GetRoot(), first_view(), tour, f);
-  }
-
-  template <class F>
-  void query(const Box<D>& box, F&& f) const {
-    std::vector<BodyId> ids;
-    near(box, ids);
-    each_once(std::move(ids), f);
+  void take(Tour<D> tour, F&& f) const {
+    const Vec<2> ahead(tour.toward[0], tour.toward[D - 1]);
+    const std::uint32_t first = tour.toward == Vec<D>(0.0) ? 0 : Halving<2>::first_toward(ahead);
+    visit_from(tree_.GetRoot(), NodeView<D>{.box = config_.bounds}, first, tour, f);
   }
 
   void near(const Box<D>& box, std::vector<BodyId>& ids) const {
@@ -101,11 +81,9 @@ class LectureQuadtree {
   using Vector3 = lecture::Vector3;
 
   static const StructureConfig<D>& checked(const StructureConfig<D>& config) {
-    StructureConfig<2> same;  // the quadtree does the checking
-    same.bounds = flat_box(config.bounds);
-    same.capacity = config.capacity;
-    same.max_depth = config.max_depth;
-    Quadtree::made(same);
+    Quadtree::made({.bounds = flat_box(config.bounds),  // which does the checking
+                    .capacity = config.capacity,
+                    .max_depth = config.max_depth});
     return config;
   }
 
@@ -178,24 +156,13 @@ class LectureQuadtree {
         config_.capacity));
   }
 
-  struct Tour {
-    std::uint32_t next_id = 0;
-    std::uint32_t first_slot = 0;
-    std::vector<BodyId>& ids;
-  };
-
   static NodeHandle handle(const Node& node) { return static_cast<NodeHandle>(node.number); }
-
-  NodeView<D> first_view() const {
-    NodeView<D> view;
-    view.box = config_.bounds;
-    return view;
-  }
 
   // Boxes are halved on the way down, so that neighbours share their borders exactly; the tree's
   // own centres and sizes are rounded.
   template <class F>
-  void visit_from(const Node& node, NodeView<D> view, Tour& tour, F& f) const {
+  void visit_from(const Node& node, NodeView<D> view, std::uint32_t first, Tour<D>& tour,
+                  F& f) const {
     stop_if_asked();
     view.handle = handle(node);
     view.id = tour.next_id++;
@@ -210,14 +177,14 @@ class LectureQuadtree {
     for (std::uint32_t i = 0; i < 4; ++i) {
       NodeView<D> child = view;
       child.parent = view.id;
-      child.slot = i ^ tour.first_slot;
+      child.slot = i ^ first;
       child.depth = view.depth + 1;
       const Box<2> part = Halving<2>::child(box, Halving<2>::middle(box), child.slot);
       for (const int axis : {0, 1}) {
         child.box.lo[axis == 0 ? 0 : D - 1] = part.lo[axis];
         child.box.hi[axis == 0 ? 0 : D - 1] = part.hi[axis];
       }
-      visit_from(node.GetChildren()[child.slot], child, tour, f);
+      visit_from(node.GetChildren()[child.slot], child, first, tour, f);
     }
   }
 

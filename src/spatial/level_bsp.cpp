@@ -43,14 +43,13 @@ std::vector<BspPlane<2>> LevelBsp::planes() const {
 }
 
 LevelCounters LevelBsp::counters() const {
-  LevelCounters c;
-  c.walls = walls_.size();
-  c.nodes = nodes_.size();
-  c.sectors = sectors_.size();
-  c.pieces = pieces_.size();
-  c.cuts = cuts_;
-  c.candidates = candidates_;
-  c.side_tests = side_tests_;
+  LevelCounters c{.walls = walls_.size(),
+                  .nodes = nodes_.size(),
+                  .sectors = sectors_.size(),
+                  .pieces = pieces_.size(),
+                  .cuts = cuts_,
+                  .candidates = candidates_,
+                  .side_tests = side_tests_};
   for (const LevelNode& node : nodes_) {
     c.depth = std::max<std::uint64_t>(c.depth, node.depth);
     c.chosen_score += node.chosen.score;

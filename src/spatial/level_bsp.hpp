@@ -151,14 +151,7 @@ class LevelBsp {
   template <class F>
   void front_to_back(const Vec<2>& eye, F&& f) const {
     require_eye(eye);
-    walk(0, eye, true, f);
-  }
-
-  // The reverse, for painters.
-  template <class F>
-  void back_to_front(const Vec<2>& eye, F&& f) const {
-    require_eye(eye);
-    walk(0, eye, false, f);
+    walk(0, eye, f);
   }
 
   // f(LevelNodeView) -> bool as every spatial structure does: parents before children, behind
@@ -179,32 +172,29 @@ class LevelBsp {
   static void require_eye(const Vec<2>& eye);
 
   template <class F>
-  bool walk(NodeHandle handle, const Vec<2>& eye, bool near_first, F& f) const {
+  bool walk(NodeHandle handle, const Vec<2>& eye, F& f) const {
     const LevelNode& node = nodes_[handle];
     if (node.is_leaf()) return f(node.sector);
-    const bool eye_in_front = height(eye, node.plane) >= 0;
-    const NodeHandle first = node.first_child + (eye_in_front == near_first ? 1u : 0u);
-    const NodeHandle second = node.first_child + (eye_in_front == near_first ? 0u : 1u);
-    return walk(first, eye, near_first, f) && walk(second, eye, near_first, f);
+    const NodeHandle near = height(eye, node.plane) >= 0 ? 1 : 0;
+    return walk(node.first_child + near, eye, f) && walk(node.first_child + 1 - near, eye, f);
   }
 
   template <class F>
   void visit_from(NodeHandle handle, std::uint32_t parent, std::uint32_t& next_id, F& f) const {
     stop_if_asked();
     const LevelNode& node = nodes_[handle];
-    LevelNodeView view;
-    view.handle = handle;
-    view.id = next_id++;
-    view.parent = parent;
-    view.slot = node.front ? 1 : 0;
-    view.depth = node.depth;
-    view.leaf = node.is_leaf();
-    view.box = bounds_;
-    if (!view.leaf) view.plane = &node.plane;
-    view.region = &node.region;
-    view.pieces = node.pieces;
-    view.sector = node.sector;
-    if (!f(std::as_const(view)) || view.leaf) return;
+    const LevelNodeView view{{.handle = handle,
+                              .id = next_id++,
+                              .parent = parent,
+                              .slot = node.front ? 1u : 0u,
+                              .depth = node.depth,
+                              .leaf = node.is_leaf(),
+                              .box = bounds_,
+                              .plane = node.is_leaf() ? nullptr : &node.plane},
+                             &node.region,
+                             node.pieces,
+                             node.sector};
+    if (!f(view) || view.leaf) return;
     visit_from(node.first_child, view.id, next_id, f);
     visit_from(node.first_child + 1, view.id, next_id, f);
   }

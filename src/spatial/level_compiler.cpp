@@ -56,6 +56,9 @@ class LevelCompiler {
   void tell(const LevelEvent& event) const {
     if (observer_) observer_(level_, event);
   }
+  void tell(LevelEvent::Kind kind, NodeHandle node, const LineChoice& line) const {
+    tell({kind, node, line, {}, kNone});
+  }
 
   void make_root() {
     LevelNode root;
@@ -140,11 +143,8 @@ class LevelCompiler {
   // Decides by which line the node is divided; false when none does, since it is convex.
   bool choose_line(NodeHandle handle) {
     LevelNode& node = level_.nodes_[handle];
-    tell({LevelEvent::Kind::consider,
-          handle,
-          {kNone, static_cast<std::uint32_t>(node.pieces.size()), 0, 0, 0},
-          {},
-          kNone});
+    tell(LevelEvent::Kind::consider, handle,
+         {.front = static_cast<std::uint32_t>(node.pieces.size())});
     const Candidates candidates = candidates_of(node);
     std::vector<char> tried(node.pieces.size(), 0);
     for (std::size_t k = 0; k < candidates.places.size(); ++k) {
@@ -153,14 +153,14 @@ class LevelCompiler {
         break;
       if (tried[candidates.places[k]]) continue;
       const LineChoice line = try_line(node, candidates.places[k], tried);
-      tell({LevelEvent::Kind::candidate, handle, line, {}, kNone});
+      tell(LevelEvent::Kind::candidate, handle, line);
       if (!line.divides()) continue;
       if (!found) node.first = line;
       if (!found || line.score < node.chosen.score) node.chosen = line;
     }
     if (node.chosen.wall == kNone) return false;
     node.plane = level_.lines_[node.chosen.wall];
-    tell({LevelEvent::Kind::choose, handle, node.chosen, {}, kNone});
+    tell(LevelEvent::Kind::choose, handle, node.chosen);
     return true;
   }
 
@@ -185,7 +185,7 @@ class LevelCompiler {
     for (LevelNode& child : children) level_.nodes_.push_back(std::move(child));
     for (const LevelEvent& event : cuts_) tell(event);
     cuts_.clear();
-    tell({LevelEvent::Kind::divide, handle, level_.nodes_[handle].chosen, {}, kNone});
+    tell(LevelEvent::Kind::divide, handle, level_.nodes_[handle].chosen);
   }
 
   void deal(NodeHandle handle, std::uint32_t p, std::vector<std::uint32_t>& back,

@@ -33,14 +33,13 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "spatial/halving.hpp"
-#include "spatial/ids.hpp"
 #include "spatial/leaf_array.hpp"
-#include "spatial/structure.hpp"
+#include "spatial/tour.hpp"
 
 namespace lantern {
 
 template <int D>
-class Orthtree {
+class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
   using Halves = Halving<D>;
 
  public:
@@ -100,29 +99,10 @@ class Orthtree {
   }
 
   template <class F>
-  void visit(F&& f) const {
-    std::vector<BodyId> room;
-    visit(f, room);
-  }
-
-  template <class F>
-  void visit(F&& f, std::vector<BodyId>& room) const {
-    Tour tour{0, 0, room};
-    visit_from(Spot{0, 0, config_.bounds}, kNone, 0, tour, f);
-  }
-
-  template <class F>
-  void visit_toward(const Vec<D>& direction, F&& f) const {
-    std::vector<BodyId> room;
-    Tour tour{0, Halves::first_toward(direction), room};
-    visit_from(Spot{0, 0, config_.bounds}, kNone, 0, tour, f);
-  }
-
-  template <class F>
-  void query(const Box<D>& box, F&& f) const {
-    std::vector<BodyId> ids;
-    near(box, ids);
-    each_once(std::move(ids), f);
+  void take(Tour<D> tour, F&& f) const {
+    const bool ahead = tour.toward != Vec<D>(0.0);
+    const Way way{ahead ? Halves::first_toward(tour.toward) : 0, tour};
+    visit_from(Spot{0, 0, config_.bounds}, kNone, 0, way, f);
   }
 
   void near(const Box<D>& box, std::vector<BodyId>& ids) const {
@@ -130,18 +110,16 @@ class Orthtree {
   }
 
   Counters counters() const {
-    Counters c;
-    c.nodes = nodes_.size();
-    c.leaves = nodes_.size() - families_.size();
-    c.depth = deepest_;
-    c.entries = entries_;
-    c.box_tests = box_tests_;
-    c.splits = splits_;
-    c.allocations = allocations_ + contents_.allocations();
-    c.nodes_reused = nodes_reused_;
-    c.places = contents_.places();
-    c.node_bytes = nodes_.size() * sizeof(Node) + families_.size() * sizeof(Family);
-    return c;
+    return {.nodes = nodes_.size(),
+            .leaves = nodes_.size() - families_.size(),
+            .depth = deepest_,
+            .entries = entries_,
+            .box_tests = box_tests_,
+            .splits = splits_,
+            .allocations = allocations_ + contents_.allocations(),
+            .nodes_reused = nodes_reused_,
+            .places = contents_.places(),
+            .node_bytes = nodes_.size() * sizeof(Node) + families_.size() * sizeof(Family)};
   }
 
  private:
@@ -161,10 +139,9 @@ class Orthtree {
     Box<D> bounds;
   };
 
-  struct Tour {
-    std::uint32_t next_id = 0;
-    std::uint32_t first_slot = 0;  // of each family; the others follow as they follow slot 0
-    std::vector<BodyId>& ids;
+  struct Way {
+    std::uint32_t first_slot;  // of each family; the others follow as they follow slot 0
+    Tour<D>& tour;
   };
 
   static constexpr std::uint32_t kLargestFirstRoom = 16;
@@ -247,12 +224,7 @@ class Orthtree {
       fresh = fresh.last(1);
     }
     Box<D>& common = common_parts_[leaf.link];
-    for (const std::uint32_t item : fresh) {
-      for (int i = 0; i < D; ++i) {
-        common.lo[i] = std::max(common.lo[i], items_[item].box.lo[i]);
-        common.hi[i] = std::min(common.hi[i], items_[item].box.hi[i]);
-      }
-    }
+    for (const std::uint32_t item : fresh) common = common_part(common, items_[item].box);
     return is_valid(common);
   }
 
@@ -307,12 +279,6 @@ class Orthtree {
                     entries_, config_.max_depth, config_.capacity));
   }
 
-  template <class T>
-  void append(std::vector<T>& list, const T& value) {
-    allocations_ += list.size() == list.capacity();
-    list.push_back(value);
-  }
-
   // --- looking ---
 
   // Adds the ids that the leaf holds, in order of storing.
@@ -324,18 +290,18 @@ class Orthtree {
   }
 
   template <class F>
-  void visit_from(const Spot& at, std::uint32_t parent, std::uint32_t slot, Tour& tour,
+  void visit_from(const Spot& at, std::uint32_t parent, std::uint32_t slot, const Way& way,
                   F& f) const {
     stop_if_asked();
     const Node& node = nodes_[at.node];
-    NodeView<D> view;
-    view.handle = at.node;
-    view.id = tour.next_id++;
-    view.parent = parent;
-    view.slot = slot;
-    view.depth = at.depth;
-    view.leaf = node.is_leaf();
-    view.box = at.bounds;
+    Tour<D>& tour = way.tour;
+    NodeView<D> view{.handle = at.node,
+                     .id = tour.next_id++,
+                     .parent = parent,
+                     .slot = slot,
+                     .depth = at.depth,
+                     .leaf = node.is_leaf(),
+                     .box = at.bounds};
     tour.ids.clear();
     if (view.leaf) {
       add_ids(node, tour.ids);
@@ -348,8 +314,8 @@ class Orthtree {
     if (!f(std::as_const(view)) || view.leaf) return;
     const Vec<D> mid = Halves::middle(at.bounds);
     for (std::uint32_t i = 0; i < kChildren; ++i)
-      if (const std::uint32_t s = i ^ tour.first_slot; child_of(at.node, s) != kNone)
-        visit_from(child_spot(at, mid, child_of(at.node, s), s), view.id, s, tour, f);
+      if (const std::uint32_t s = i ^ way.first_slot; child_of(at.node, s) != kNone)
+        visit_from(child_spot(at, mid, child_of(at.node, s), s), view.id, s, way, f);
   }
 
   void collect(const Spot& at, const Box<D>& box, std::vector<BodyId>& ids) const {
@@ -373,7 +339,6 @@ class Orthtree {
   std::uint64_t deepest_ = 0;
   std::uint64_t box_tests_ = 0;
   std::uint64_t splits_ = 0;
-  std::uint64_t allocations_ = 0;
   std::uint64_t nodes_reused_ = 0;
 };
 

@@ -1,4 +1,5 @@
-// Which bodies reach into a box or a ball, through any structure.
+// Which bodies reach into a box, a ball or what a camera sees (the lecture, "Further Work" 2),
+// through any structure.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "geometry/frustum.hpp"
 #include "spatial/query.hpp"
 
 namespace lantern {
@@ -31,85 +33,91 @@ bool overlap(const Ball<D>& ball, const Box<D>& box) {
   return squares <= 1;
 }
 
+// Whether it may lie within the zone of a node, which may be infinite. Of a frustum only its planes
+// are looked at, which is cheap and lets some in that lie outside, near its corners.
 template <int D>
-struct BoxProbe {
-  using Part = Everywhere;
-  const Box<D>& box;
-
-  Everywhere whole() const { return {}; }
-  std::optional<Everywhere> in_box(const Box<D>& zone) const {
-    return overlap(box, zone) ? std::optional(Everywhere{}) : std::nullopt;
-  }
-  std::optional<Everywhere> beside(Everywhere, const Plane<D>& plane, bool front) const {
-    const Reach sides = reach(box, plane);
-    return (front ? sides.front : sides.back) ? std::optional(Everywhere{}) : std::nullopt;
-  }
-};
-
+bool may_overlap(const Box<D>& box, const Box<D>& zone) {
+  return overlap(box, zone);
+}
 template <int D>
-struct BallProbe {
-  using Part = Everywhere;
-  const Ball<D>& ball;
-
-  Everywhere whole() const { return {}; }
-  std::optional<Everywhere> in_box(const Box<D>& zone) const {
-    return overlap(ball, zone) ? std::optional(Everywhere{}) : std::nullopt;
-  }
-  // Generous by more than the error of the height.
-  std::optional<Everywhere> beside(Everywhere, const Plane<D>& plane, bool front) const {
-    constexpr double kError = 64 * std::numeric_limits<double>::epsilon();
-    double sum = std::abs(plane.offset), square = 0;
-    for (int i = 0; i < D; ++i) {
-      sum += std::abs(plane.normal[i] * ball.center[i]);
-      square += plane.normal[i] * plane.normal[i];
-    }
-    const double h = height(ball.center, plane);
-    const double most = (front ? h : -h) + ball.radius * std::sqrt(square);
-    if (most < -kError * (sum + ball.radius)) return std::nullopt;
-    return Everywhere{};
-  }
-};
-
-struct AlwaysTrue {
-  bool operator()(BodyId) const { return true; }
-};
-
-// The bodies whose boxes overlap the box, and for which `exact(id) -> bool` holds, if given.
-// `box_of(id)` is the box with which the body was inserted. Throws Refused for a box that is not
-// valid.
-template <int D, class Structure, class BoxOf, class Exact = AlwaysTrue,
-          class Observer = NoQueryObserver>
-Found overlap_query(const Structure& structure, const Box<D>& box, BoxOf&& box_of,
-                    Exact&& exact = {}, Observer&& told = {}) {
-  if (!is_valid(box)) throw Refused("overlap query: the box is not finite or inverted");
-  Found found;
-  const auto test = [&](BodyId id) {
-    if (!overlap(box, box_of(id)) || !exact(id)) return false;
-    found.ids.push_back(id);
-    return true;
-  };
-  const auto enter = [](Everywhere) { return true; };
-  found.counts = walk<D>(structure, BoxProbe<D>{box}, Vec<D>(0.0), enter, test, told);
-  std::sort(found.ids.begin(), found.ids.end());
-  return found;
+bool may_overlap(const Ball<D>& ball, const Box<D>& zone) {
+  return overlap(ball, zone);
 }
 
-// The same with a ball. Throws Refused for a centre that is not finite and a radius that is
-// negative or not finite.
-template <int D, class Structure, class BoxOf, class Exact = AlwaysTrue,
-          class Observer = NoQueryObserver>
-Found overlap_query(const Structure& structure, const Ball<D>& ball, BoxOf&& box_of,
-                    Exact&& exact = {}, Observer&& told = {}) {
+// Whether it may reach that side of a plane; generous by more than the error of heights.
+template <int D>
+bool may_reach(const Box<D>& box, const Plane<D>& plane, bool front) {
+  const Reach sides = reach(box, plane);
+  return front ? sides.front : sides.back;
+}
+template <int D>
+bool may_reach(const Ball<D>& ball, const Plane<D>& plane, bool front) {
+  constexpr double kError = 64 * std::numeric_limits<double>::epsilon();
+  double sum = std::abs(plane.offset), square = 0;
+  for (int i = 0; i < D; ++i) {
+    sum += std::abs(plane.normal[i] * ball.center[i]);
+    square += plane.normal[i] * plane.normal[i];
+  }
+  const double h = height(ball.center, plane);
+  const double most = (front ? h : -h) + ball.radius * std::sqrt(square);
+  return !(most < -kError * (sum + ball.radius));
+}
+template <int D>
+bool may_reach(const Frustum<D>& frustum, const Plane<D>& plane, bool front) {
+  constexpr double kError = 1024 * std::numeric_limits<double>::epsilon();
+  for (const Vec<D>& corner : frustum.corners) {
+    double sum = std::abs(plane.offset);
+    for (int i = 0; i < D; ++i) sum += std::abs(plane.normal[i] * corner[i]);
+    const double h = height(corner, plane);
+    if (!((front ? h : -h) < -kError * sum)) return true;
+  }
+  return false;
+}
+
+template <int D>
+void require_valid(const Box<D>& box) {
+  if (!is_valid(box)) throw Refused("overlap query: the box is not finite or inverted");
+}
+template <int D>
+void require_valid(const Ball<D>& ball) {
   if (!is_valid(Box<D>{ball.center, ball.center}) || !std::isfinite(ball.radius) || ball.radius < 0)
     throw Refused("overlap query: the ball's centre or radius is not finite, or it is negative");
+}
+template <int D>
+void require_valid(const Frustum<D>&) {}  // was looked at when it was made
+
+// A volume is in a zone or not: it has no parts.
+template <int D, class Volume>
+struct VolumeProbe {
+  struct Part {};
+  const Volume& volume;
+
+  Part whole() const { return {}; }
+  std::optional<Part> in_box(const Box<D>& zone) const {
+    return may_overlap(volume, zone) ? std::optional(Part{}) : std::nullopt;
+  }
+  std::optional<Part> beside(Part, const Plane<D>& plane, bool front) const {
+    return may_reach(volume, plane, front) ? std::optional(Part{}) : std::nullopt;
+  }
+};
+
+// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum. `box_of(id)` is the box
+// with which the body was inserted. Throws Refused for a box that is not valid, a centre that is
+// not finite and a radius that is negative or not finite.
+template <int D, template <int> class Volume, class Structure, class BoxOf,
+          class Observer = NoQueryObserver>
+Found overlap_query(const Structure& structure, const Volume<D>& volume, BoxOf&& box_of,
+                    Observer&& told = {}) {
+  require_valid(volume);
   Found found;
   const auto test = [&](BodyId id) {
-    if (!overlap(ball, box_of(id)) || !exact(id)) return false;
+    if (!overlap(volume, box_of(id))) return false;
     found.ids.push_back(id);
     return true;
   };
-  const auto enter = [](Everywhere) { return true; };
-  found.counts = walk<D>(structure, BallProbe<D>{ball}, Vec<D>(0.0), enter, test, told);
+  const auto enter = [](const auto&) { return true; };
+  const VolumeProbe<D, Volume<D>> probe{volume};
+  found.counts = walk<D>(structure, probe, Vec<D>(0.0), enter, test, told);
   std::sort(found.ids.begin(), found.ids.end());
   return found;
 }

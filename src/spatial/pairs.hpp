@@ -53,11 +53,17 @@ std::uint64_t count_pair_tests(const Structure& structure) {
   return tests;
 }
 
-// The pairs that meet in the leaves and that `wanted(Pair) -> bool` lets through, each once, in
-// order of ids. A pair is met in each leaf that both reach, so duplicates are sorted out. Throws
-// Refused if more than `budget` pairs meet: coincident bodies have n(n-1)/2 of them.
-template <class Structure, class Wanted>
-CandidatePairs pairs_where(const Structure& structure, std::uint64_t budget, Wanted&& wanted) {
+struct EveryPair {
+  bool operator()(const Pair&) const { return true; }
+};
+
+// What the broad phase hands on: the pairs that meet in the leaves and that `wanted(Pair) -> bool`
+// lets through, each once, in order of ids. A pair is met in each leaf that both reach, so
+// duplicates are sorted out. Throws Refused if more than `budget` pairs meet: coincident bodies
+// have n(n-1)/2 of them.
+template <class Structure, class Wanted = EveryPair>
+CandidatePairs candidate_pairs(const Structure& structure, std::uint64_t budget,
+                               Wanted&& wanted = {}) {
   CandidatePairs found;
   found.pair_tests = count_pair_tests(structure);
   require_within(found.pair_tests, budget);
@@ -73,22 +79,6 @@ CandidatePairs pairs_where(const Structure& structure, std::uint64_t budget, Wan
   sort_pairs(found.pairs);
   found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
   return found;
-}
-
-// What the broad phase hands on.
-template <class Structure>
-CandidatePairs candidate_pairs(const Structure& structure, std::uint64_t budget) {
-  return pairs_where(structure, budget, [](const Pair&) { return true; });
-}
-
-// The candidate pairs whose boxes really overlap; touching counts. `box_of(id)` is the box with
-// which the body was inserted. Every structure gives the same pairs for the same bodies.
-template <class Structure, class BoxOf>
-std::vector<Pair> overlapping_pairs(const Structure& structure, BoxOf&& box_of,
-                                    std::uint64_t budget) {
-  return pairs_where(structure, budget,
-                     [&](const Pair& pair) { return overlap(box_of(pair.a), box_of(pair.b)); })
-      .pairs;
 }
 
 }  // namespace lantern

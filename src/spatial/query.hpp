@@ -1,6 +1,5 @@
 // Walking through a structure with something that looks for bodies: a ray, a box, a ball, a view.
-// One walk for every structure; raycast.hpp, overlap_query.hpp and frustum_cull.hpp say what is
-// looked for.
+// One walk for every structure; raycast.hpp and overlap_query.hpp say what is looked for.
 //
 // A node is entered if what we look for reaches its zone: its box, without end where the box lies
 // at the rim of an orthtree's root (bodies outside the root are stored there), or its sides of the
@@ -11,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <unordered_set>
 #include <vector>
 
 #include "base/stop.hpp"
@@ -46,43 +46,6 @@ struct NoQueryObserver {
 struct Found {
   std::vector<BodyId> ids;
   QueryCounts counts;
-};
-
-// Which bodies were met already: open addressing with linear probing. Nothing ever depends on the
-// order of its places.
-class IdSet {
- public:
-  // False if it was in already.
-  bool insert(BodyId id) {
-    if (2 * (count_ + 1) > places_.size()) grow();
-    if (!put(id)) return false;
-    ++count_;
-    return true;
-  }
-
- private:
-  static constexpr std::uint64_t kEmpty = std::numeric_limits<std::uint64_t>::max();
-
-  bool put(std::uint64_t id) {
-    const std::size_t mask = places_.size() - 1;
-    std::size_t place = static_cast<std::size_t>(id * 0x9e3779b97f4a7c15u >> 32) & mask;
-    while (places_[place] != kEmpty) {
-      if (places_[place] == id) return false;
-      place = (place + 1) & mask;
-    }
-    places_[place] = id;
-    return true;
-  }
-
-  void grow() {
-    const std::vector<std::uint64_t> old = std::move(places_);
-    places_.assign(old.empty() ? 64 : 2 * old.size(), kEmpty);
-    for (const std::uint64_t id : old)
-      if (id != kEmpty) put(id);
-  }
-
-  std::vector<std::uint64_t> places_;
-  std::size_t count_ = 0;
 };
 
 // The node's box, without end on the sides where it ends with the root.
@@ -146,7 +109,7 @@ QueryCounts walk(const Structure& structure, const Probe& probe, const Vec<D>& t
                  Enter&& enter, Test&& test, Observer& told) {
   QueryCounts counts;
   ZoneWalk<D, Structure, Probe> zones(probe);
-  IdSet met;
+  std::unordered_set<BodyId> met;  // only asked: its order does not matter
   const auto look = [&](const NodeView<D>& node) {
     const auto part = zones.part_in(node);
     if (!part || !enter(*part)) {
@@ -158,21 +121,15 @@ QueryCounts walk(const Structure& structure, const Probe& probe, const Vec<D>& t
     told(QueryEvent{QueryEvent::Kind::visit, node.handle, 0});
     for (const BodyId id : node.bodies) {
       stop_if_asked();
-      if (!met.insert(id)) continue;
+      if (!met.insert(id).second) continue;
       ++counts.objects_tested;
       told(QueryEvent{QueryEvent::Kind::test, node.handle, id});
       if (test(id)) told(QueryEvent{QueryEvent::Kind::hit, node.handle, id});
     }
     return true;
   };
-  if (toward == Vec<D>(0.0))
-    structure.visit(look);
-  else
-    structure.visit_toward(toward, look);
+  structure.visit_toward(toward, look);
   return counts;
 }
-
-// A probe without parts: it is in a zone or not.
-struct Everywhere {};
 
 }  // namespace lantern

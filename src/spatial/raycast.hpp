@@ -25,7 +25,11 @@ namespace lantern {
 struct RayHit {
   BodyId id = 0;
   double distance = 0;  // t along the ray
-  auto operator<=>(const RayHit&) const = default;
+  bool operator==(const RayHit&) const = default;
+  // The order in which a ray meets them.
+  static bool before(const RayHit& a, const RayHit& b) {
+    return a.distance < b.distance || (a.distance == b.distance && a.id < b.id);
+  }
 };
 
 struct NearestHit {
@@ -75,17 +79,18 @@ struct BoxIsShape {};
 
 namespace detail {
 
-// Where the ray meets a body, if it does.
+// Where the ray meets a body, if it does; not beyond its end.
 template <int D, class BoxOf, class Hit>
-std::optional<double> hit_of(const Ray<D>& ray, BodyId id, BoxOf& box_of, Hit& hit) {
+std::optional<RayHit> hit_of(const Ray<D>& ray, BodyId id, BoxOf& box_of, Hit& hit) {
   const auto span = span_in(ray, box_of(id));
   if (!span) return std::nullopt;
-  if constexpr (std::is_same_v<std::remove_cvref_t<Hit>, BoxIsShape>) {
-    return span->from;
-  } else {
+  double at = span->from;
+  if constexpr (!std::is_same_v<std::remove_cvref_t<Hit>, BoxIsShape>) {
     const std::optional<double> t = hit(id);
-    return t ? std::optional(std::max(*t, span->from)) : std::nullopt;
+    if (!t) return std::nullopt;
+    at = std::max(*t, at);
   }
+  return at > ray.length ? std::nullopt : std::optional(RayHit{id, at});
 }
 
 }  // namespace detail
@@ -103,14 +108,9 @@ NearestHit raycast_nearest(const Structure& structure, const Ray<D>& ray, BoxOf&
     return !nearest.hit || part.from <= nearest.hit->distance;
   };
   const auto test = [&](BodyId id) {
-    const auto t = detail::hit_of(ray, id, box_of, hit);
-    if (!t || *t > ray.length) return false;
-    const RayHit found{id, *t};
-    const auto nearer = [](const RayHit& a, const RayHit& b) {
-      return a.distance < b.distance || (a.distance == b.distance && a.id < b.id);
-    };
-    if (!nearest.hit || nearer(found, *nearest.hit)) nearest.hit = found;
-    return true;
+    const auto found = detail::hit_of(ray, id, box_of, hit);
+    if (found && (!nearest.hit || RayHit::before(*found, *nearest.hit))) nearest.hit = found;
+    return found.has_value();
   };
   nearest.counts = walk<D>(structure, RayProbe<D>{ray}, ray.direction, enter, test, told);
   return nearest;
@@ -125,15 +125,12 @@ AllHits raycast_all(const Structure& structure, const Ray<D>& ray, BoxOf&& box_o
   AllHits all;
   const auto enter = [](const RaySpan&) { return true; };
   const auto test = [&](BodyId id) {
-    const auto t = detail::hit_of(ray, id, box_of, hit);
-    if (!t || *t > ray.length) return false;
-    all.hits.push_back({id, *t});
-    return true;
+    const auto found = detail::hit_of(ray, id, box_of, hit);
+    if (found) all.hits.push_back(*found);
+    return found.has_value();
   };
   all.counts = walk<D>(structure, RayProbe<D>{ray}, ray.direction, enter, test, told);
-  std::sort(all.hits.begin(), all.hits.end(), [](const RayHit& a, const RayHit& b) {
-    return a.distance < b.distance || (a.distance == b.distance && a.id < b.id);
-  });
+  std::sort(all.hits.begin(), all.hits.end(), RayHit::before);
   return all;
 }
 

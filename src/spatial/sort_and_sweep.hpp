@@ -21,13 +21,12 @@
 
 #include "base/stop.hpp"
 #include "geometry/shape.hpp"
-#include "spatial/ids.hpp"
-#include "spatial/structure.hpp"
+#include "spatial/tour.hpp"
 
 namespace lantern {
 
 template <int D>
-class SortAndSweep {
+class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::fitted;
   static constexpr StructureTraits kTraits{
@@ -123,32 +122,11 @@ class SortAndSweep {
 
   // One leaf; its box is the smallest one that holds all bodies.
   template <class F>
-  void visit(F&& f) const {
-    std::vector<BodyId> room;
-    visit(f, room);
-  }
-
-  template <class F>
-  void visit(F&& f, std::vector<BodyId>& room) const {
-    room.clear();
-    for (const Item<D>& item : items_) room.push_back(item.id);
-    std::sort(room.begin(), room.end());
-    NodeView<D> view;
-    view.box = box_;
-    view.bodies = room;
-    f(std::as_const(view));
-  }
-
-  template <class F>
-  void visit_toward(const Vec<D>&, F&& f) const {
-    visit(f);
-  }
-
-  template <class F>
-  void query(const Box<D>& box, F&& f) const {
-    std::vector<BodyId> ids;
-    near(box, ids);
-    each_once(std::move(ids), f);
+  void take(Tour<D> tour, F&& f) const {
+    tour.ids.clear();
+    for (const Item<D>& item : items_) tour.ids.push_back(item.id);
+    std::sort(tour.ids.begin(), tour.ids.end());
+    f(NodeView<D>{.box = box_, .bodies = tour.ids});
   }
 
   // Those that the box reaches on the axis of the sweep; all, if `sort` was not called.
@@ -170,12 +148,11 @@ class SortAndSweep {
 
   // `box_tests` counts compared pairs.
   Counters counters() const {
-    Counters c;
-    c.nodes = c.leaves = 1;
-    c.entries = items_.size();
-    c.box_tests = pair_tests_;
-    c.allocations = allocations_;
-    return c;
+    return {.nodes = 1,
+            .leaves = 1,
+            .entries = items_.size(),
+            .box_tests = pair_tests_,
+            .allocations = allocations_};
   }
 
  private:
@@ -217,12 +194,6 @@ class SortAndSweep {
     return true;
   }
 
-  template <class T>
-  void append(std::vector<T>& list, const T& value) {
-    allocations_ += list.size() == list.capacity();
-    list.push_back(value);
-  }
-
   std::vector<Item<D>> items_;
   std::vector<std::uint32_t> order_;     // places in items_, by the lower end on the axis
   std::vector<double> ends_;             // the farthest upper end so far, in that order
@@ -231,7 +202,6 @@ class SortAndSweep {
   int axis_ = 0;
   bool sorted_ = false;
   std::uint64_t pair_tests_ = 0;
-  std::uint64_t allocations_ = 0;
 };
 
 }  // namespace lantern

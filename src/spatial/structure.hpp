@@ -7,9 +7,10 @@
 //   visit(f)                 the only door to the inside: f(NodeView) -> bool, parents before
 //                            children, children in the lecture's order; false skips the branch
 //   visit(f, room)           the same; `room` is scratch memory, so that nothing is allocated
-//   visit_toward(d, f)       the same, but siblings in the order in which a ray along d meets them
-//   query(box, f)            f(id) for each body in a leaf that the box reaches, once, ascending
-//   near(box, ids)           appends what `query` tells, but in any order and perhaps repeated
+//   visit_toward(d, f)       the same, but siblings in the order in which a ray along d meets them;
+//                            of zero length: as visit
+//   near(box, ids)           appends the bodies of all leaves that the box reaches, in any order
+//                            and perhaps repeated
 //   kZones                   where a node's bodies may be, see Zones
 //   kTraits                  what kind of structure it is, see StructureTraits
 //   made(config)             an empty one; throws Refused for settings that it does not allow
@@ -49,7 +50,6 @@ struct Item {
 // Throws Refused, naming the body, unless its box is finite and nowhere inverted.
 template <int D>
 void require_valid(const Item<D>& item) {
-  if (is_valid(item.box)) return;
   for (int i = 0; i < D; ++i) {
     const double lo = item.box.lo[i];
     const double hi = item.box.hi[i];
@@ -79,11 +79,11 @@ struct NodeView {
   std::uint32_t slot = 0;        // which child of its parent, in the lecture's order, from 0
   std::uint32_t depth = 0;       // the root has depth 0
   bool leaf = true;
-  Box<D> box;                       // its bounds, derived on the way down; of a BSP the world's
-  const Plane<D>* plane = nullptr;  // a BSP's inner nodes
-  std::span<const BodyId> bodies;   // a leaf's contents, ascending
-  std::uint32_t first = kNone;      // where they begin in the array that all leaves share, if there
-  std::uint32_t room = 0;           // is one, and how many places are theirs
+  Box<D> box = {};                      // its bounds, derived on the way down; of a BSP the world's
+  const Plane<D>* plane = nullptr;      // a BSP's inner nodes
+  std::span<const BodyId> bodies = {};  // a leaf's contents, ascending
+  std::uint32_t first = kNone;  // where they begin in the array that all leaves share, if there
+  std::uint32_t room = 0;       // is one, and how many places are theirs
 };
 
 // Where the bodies of a node, or at least the parts of them for which the node answers, may lie.
@@ -109,7 +109,7 @@ struct StructureConfig {
   std::uint32_t max_depth = 7;
   bool eager_children = false;
   bool no_progress_stop = true;
-  std::vector<BspPlane<D>> planes;                      // of a BSP
+  std::vector<BspPlane<D>> planes = {};                 // of a BSP
   std::uint64_t most_entries = std::uint64_t{1} << 22;  // of a tree: entries, and nodes
 };
 

@@ -2,37 +2,34 @@
 
 namespace lantern {
 
-std::string_view to_string(StructureKind kind) {
-  switch (kind) {
-    case StructureKind::none:
-      return "none";
-#define LANTERN_KIND(name, Type) \
-  case StructureKind::name:      \
-    return #name;
-      LANTERN_STRUCTURES(LANTERN_KIND)
+namespace {
+
+struct KindRow {
+  StructureKind kind;
+  std::string_view name;
+  StructureTraits traits;
+};
+constexpr KindRow kKinds[] = {
+    {StructureKind::none, "none", {.words = "none", .is_tree = false, .splits = false}},
+#define LANTERN_KIND(name, Type) {StructureKind::name, #name, Type<3>::kTraits},
+    LANTERN_STRUCTURES(LANTERN_KIND)
 #undef LANTERN_KIND
-  }
-  return "";
+};
+
+}  // namespace
+
+std::string_view to_string(StructureKind kind) {
+  return kKinds[static_cast<std::size_t>(kind)].name;
 }
 
 std::optional<StructureKind> structure_named(std::string_view name) {
-  for (const StructureKind kind : kStructureKinds)
-    if (to_string(kind) == name) return kind;
-  if (name == to_string(StructureKind::none)) return StructureKind::none;
+  for (const KindRow& row : kKinds)
+    if (row.name == name) return row.kind;
   return std::nullopt;
 }
 
 StructureTraits traits_of(StructureKind kind) {
-  switch (kind) {
-    case StructureKind::none:
-      break;
-#define LANTERN_KIND(name, Type) \
-  case StructureKind::name:      \
-    return Type<3>::kTraits;
-      LANTERN_STRUCTURES(LANTERN_KIND)
-#undef LANTERN_KIND
-  }
-  return {.words = "none", .is_tree = false, .splits = false};
+  return kKinds[static_cast<std::size_t>(kind)].traits;
 }
 
 template <int D>

@@ -52,10 +52,10 @@ void expect_exact(std::uint64_t seeds) {
       const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
       const auto where = ::testing::Message()
                          << D << "D, sort " << static_cast<int>(sort) << ", seed " << seed;
-      EXPECT_EQ(overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items)) << where;
+      EXPECT_EQ(testing::overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items))
+          << where;
       for (const Item<D>& a : items) {
-        std::set<BodyId> near;
-        tree.query(a.box, [&](BodyId id) { EXPECT_TRUE(near.insert(id).second); });
+        const std::set<BodyId> near = testing::near_in(tree, a.box);
         for (const Item<D>& b : items)
           EXPECT_TRUE(!overlap(a.box, b.box) || near.contains(b.id)) << where;
       }
@@ -98,7 +98,11 @@ void expect_same_nodes(Engine engine) {
 TEST(LectureQuadtree, HasTheNodesOfTheEngines) {
   const Quadtree::Config same{{Vec<2>(0.0), Vec<2>(64.0)}, 2, 4, true};
   expect_same_nodes<2>(Quadtree(same));
-  expect_same_nodes<3>(FlatQuadtree({{Vec<3>(0.0), Vec<3>(64.0)}, same}));
+  expect_same_nodes<3>(FlatQuadtree({.bounds = {Vec<3>(0.0), Vec<3>(64.0)},
+                                     .capacity = 2,
+                                     .max_depth = 4,
+                                     .eager_children = true,
+                                     .no_progress_stop = false}));
 }
 
 TEST(LectureQuadtree, HandlesAreNumbersBelowTheCountAndStay) {
@@ -169,7 +173,8 @@ TEST(LectureQuadtree, ExtremeNumbersLoseNobody) {
         tree.insert(items.back());
       }
       const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
-      EXPECT_EQ(overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items)) << scale;
+      EXPECT_EQ(testing::overlapping_pairs(tree, box_of, 1u << 26), testing::true_overlaps(items))
+          << scale;
     }
   }
 }

@@ -81,7 +81,7 @@ TEST(Refusals, OfScripts) {
     expect_refused(world, "velocity", [&] { world.set_velocity(1, {bad, 0}); });
     expect_refused(world, "velocity", [&] { world.set_angular_velocity(1, bad); });
     expect_refused(world, "position", [&] { world.place(1, {0, bad}, {0, 0}); });
-    expect_refused(world, "orientation", [&] { world.place(1, {0, 0}, {0, 0}, {bad}); });
+    expect_refused(world, "orientation", [&] { world.place(1, {0, 0}, {0, 0}, Rotation<2>{bad}); });
     expect_refused(world, "impulse", [&] { world.apply_impulse(1, {bad, 0}, {0, 0}); });
     expect_refused(world, "force", [&] { world.push(1, {bad, 0}, {0, 0}); });
     expect_refused(world, "seconds", [&] { world.push(1, {1, 0}, {0, 0}, bad); });

@@ -70,12 +70,9 @@ void expect_sound(Sort sort, std::uint64_t seed) {
   }
 
   // Asking with a body's own box finds at least whoever overlaps it.
-  std::vector<BodyId> near;
-  bsp.query(items[0].box, [&](BodyId id) { near.push_back(id); });
-  EXPECT_TRUE(std::adjacent_find(near.begin(), near.end(), std::greater_equal<>()) == near.end());
+  const std::set<BodyId> near = testing::near_in(bsp, items[0].box);
   for (const auto& item : items)
-    EXPECT_TRUE(!overlap(item.box, items[0].box) ||
-                std::binary_search(near.begin(), near.end(), item.id));
+    EXPECT_TRUE(!overlap(item.box, items[0].box) || near.contains(item.id));
 }
 
 TEST(Bsp, NeverPartsAnOverlappingPair) {

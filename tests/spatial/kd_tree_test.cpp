@@ -77,7 +77,7 @@ void is_exact_and_fitted(Sort sort, std::uint64_t seed) {
   KdTree<D> tree({capacity, static_cast<std::uint32_t>(random.whole(0, 12))});
   tree.build(items);
   const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
-  EXPECT_EQ(overlapping_pairs(tree, box_of, 1 << 20), testing::true_overlaps(items))
+  EXPECT_EQ(testing::overlapping_pairs(tree, box_of, 1 << 20), testing::true_overlaps(items))
       << "sort " << static_cast<int>(sort) << ", seed " << seed;
 
   std::vector<Box<D>> boxes;
@@ -153,7 +153,7 @@ TEST(KdTree, AslongAsEachObjectFitsNoPairIsLost) {
       ++moves;
     }
     const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
-    EXPECT_EQ(overlapping_pairs(tree, box_of, 1 << 20), testing::true_overlaps(items))
+    EXPECT_EQ(testing::overlapping_pairs(tree, box_of, 1 << 20), testing::true_overlaps(items))
         << "seed " << seed;
   }
   EXPECT_GT(moves, 30u) << "nothing was tried";

@@ -29,8 +29,7 @@ TEST(SortAndSweep, FindsEachPairOnceWhateverStoodThereBefore) {
       for (const auto& item : items) sweep.insert(item);
       EXPECT_EQ(swept(sweep), testing::true_overlaps(items)) << "sort " << static_cast<int>(sort);
       for (const auto& item : items) {
-        std::set<BodyId> near;
-        sweep.query(item.box, [&](BodyId id) { near.insert(id); });
+        const std::set<BodyId> near = testing::near_in(sweep, item.box);
         for (const auto& other : items)
           EXPECT_TRUE(!overlap(item.box, other.box) || near.contains(other.id));
       }

@@ -82,7 +82,7 @@ TEST_F(HearsStop, AWalkThroughATree) {
   for (const Item<2>& item : stop_items(2000)) tree.insert(item);
   const std::vector<Item<2>> items = stop_items(2000);
   const auto box_of = [&](BodyId id) { return items[id].box; };
-  EXPECT_THROW(overlap_query(tree, kStopBounds, box_of, AlwaysTrue{}, wish_at(500)), Stopped);
+  EXPECT_THROW(overlap_query(tree, kStopBounds, box_of, wish_at(500)), Stopped);
   EXPECT_LE(after_, kMostAfter);
 }
 
@@ -94,7 +94,7 @@ TEST_F(HearsStop, ThePairsOfLeaves) {
     wish();
     return true;
   };
-  EXPECT_THROW(pairs_where(tree, 1'000'000, wanted), Stopped);
+  EXPECT_THROW(candidate_pairs(tree, 1'000'000, wanted), Stopped);
   EXPECT_LE(after_, 1000) << "more than the rest of one body's row";
   forget_stop();
   std::vector<Pair> pairs = candidate_pairs(tree, 1'000'000).pairs;

@@ -11,7 +11,7 @@
 
 #include "base/random.hpp"
 #include "geometry/random_vec.hpp"
-#include "spatial/structure.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern::testing {
 
@@ -109,6 +109,23 @@ std::vector<Pair> true_overlaps(const std::vector<Item<D>>& items) {
         pairs.push_back({items[i].id, items[j].id});
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+// The candidate pairs whose boxes really overlap; touching counts. `box_of(id)` is the box with
+// which the body was inserted. Every structure gives the same pairs for the same bodies.
+template <class Structure, class BoxOf>
+std::vector<Pair> overlapping_pairs(const Structure& structure, BoxOf&& box_of,
+                                    std::uint64_t budget) {
+  const auto wanted = [&](const Pair& pair) { return overlap(box_of(pair.a), box_of(pair.b)); };
+  return candidate_pairs(structure, budget, wanted).pairs;
+}
+
+// The bodies of all leaves that the box reaches.
+template <class Structure, int D>
+std::set<BodyId> near_in(const Structure& structure, const Box<D>& box) {
+  std::vector<BodyId> ids;
+  structure.near(box, ids);
+  return {ids.begin(), ids.end()};
 }
 
 }  // namespace lantern::testing
