@@ -55,12 +55,14 @@ void World<D>::Step::find_forces() {
   forces.pushes.clear();
   for (const TimedPush& push : pushes) forces.pushes.push_back(push.push);
   wake(std::move(released));
-  // Unless looking ahead has found them.
-  if (world.ahead_ && world.ahead_->h == h) {
+  // Once a step, by looking ahead or in the first of several tries: they follow from the world as
+  // it was before.
+  if (!world.ahead_ || world.ahead_->h != h) {
+    find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
+    world.ahead_ = Ahead{h, increments, 0};
+  } else {
     increments = world.ahead_->increments;
     world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
-  } else {
-    find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
   }
   find_reach();
 }
@@ -123,6 +125,7 @@ void World<D>::look_ahead(double h) {
     const std::uint64_t evaluations = work_.force_evaluations - before.force_evaluations;
     ahead_ = Ahead{h, step.increments, evaluations};
   } catch (const Refused&) {
+    ahead_.reset();
     step.reach.assign(bodies_.size(), 0);
   }
   work_ = before;
