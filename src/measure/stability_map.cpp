@@ -5,7 +5,6 @@
 #include <complex>
 #include <limits>
 
-#include "measure/oscillator_world.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern {
@@ -20,7 +19,7 @@ struct State {
 
 // One step of 1 s.
 State stepped(Integrator method, double omega, double zeta, const State& start) {
-  World<2> world = oscillator_world(method, omega, zeta, start.x, start.v);
+  World<2> world = stress::oscillator_world(method, omega, zeta, start.x, start.v);
   world.step(1);
   const Body<2>& body = world.bodies()[1];
   return {body.position.x, body.velocity.x};

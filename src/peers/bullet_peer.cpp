@@ -103,11 +103,11 @@ class BulletRun : public PeerRun {
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     btRigidBody& body = *bodies_.back();
     body.setActivationState(DISABLE_DEACTIVATION);
-    const int all = scene_.contacts ? -1 : 0;
+    const int all = scene_.collides() ? -1 : 0;
     world_.addRigidBody(&body, all, all);
     if (!spec.is_dynamic()) return;
     body.setLinearVelocity(to_bullet(spec.velocity));
-    body.setAngularVelocity(to_bullet(spec.spin));
+    body.setAngularVelocity(to_bullet(spec.turning));
     if (scene_.is_flat()) {
       body.setLinearFactor({1, 1, 0});
       body.setAngularFactor({0, 0, 1});

@@ -6,8 +6,6 @@
 //
 // L stands still in the world and is the z axis there. Then tilt and spin are its polar angles in
 // the body, and the precession about it is an elliptic integral of the third kind.
-#include "measure/exact_free_top.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
+#include "measure/closed_forms.hpp"
 #include "measure/elliptic.hpp"
 #include "measure/precise.hpp"
 
