@@ -137,11 +137,8 @@ class Collisions : public ErrorMetric {
   Worst momentum_error_, energy_error_;
 };
 
-struct Point {
-  Real x = 0, y = 0;
-};
+using Point = glm::vec<2, Real>;
 Real turning(const Point& a, const Point& b) { return a.x * b.y - a.y * b.x; }
-Real dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y; }
 
 // A heavy block pushes a light one against a wall; all bounces are elastic. How often do they hit?
 // Galperin, "Playing Pool with pi", 2003: with the places scaled by the roots of the masses the two
@@ -191,14 +188,14 @@ class BlocksAndWall : public ErrorMetric {
 
   void look(const Observation& now) override {
     const Real t = now.time;
-    const Point place{start_.x + speed_.x * t, start_.y + speed_.y * t};
-    const Real angle =
-        std::atan2(start_.y, start_.x) + std::atan2(turning(start_, place), dot(start_, place));
+    const Point place = start_ + speed_ * t;
+    const Real angle = std::atan2(start_.y, start_.x) +
+                       std::atan2(turning(start_, place), glm::dot(start_, place));
     const Point found = scaled(now.states[inner_].velocity, now.states[outer_].velocity);
     measure_hits(angle / theta_, found, now.impacts);
     measure_speeds(std::floor(angle / theta_), found);
-    const Real energy = dot(speed_, speed_);
-    energy_.meet(static_cast<double>((dot(found, found) - energy) / energy));
+    const Real energy = glm::dot(speed_, speed_);
+    energy_.meet(static_cast<double>((glm::dot(found, found) - energy) / energy));
   }
 
   std::vector<Norm> norms() const override {
@@ -230,23 +227,22 @@ class BlocksAndWall : public ErrorMetric {
     const Real some = std::abs(std::floor(rays - kNearHit));
     const Real more = std::abs(std::floor(rays + kNearHit));
     hits_ = static_cast<double>(std::min(std::abs(hits - some), std::abs(hits - more)));
-    if (!std::isfinite(static_cast<double>(dot(found, found)))) hits_ = std::nan("");
+    if (!std::isfinite(static_cast<double>(glm::dot(found, found)))) hits_ = std::nan("");
   }
 
   void measure_speeds(Real cell, const Point& found) {
-    const Real size = std::sqrt(dot(speed_, speed_));
+    const Real size = glm::length(speed_);
     const Real from = std::numbers::pi_v<Real>;
     const bool mirrored = std::fmod(cell, 2.0L) != 0;
     const Real angle = mirrored ? (cell + 1) * theta_ - from : from - cell * theta_;
     const Point exact{size * std::cos(angle), size * std::sin(angle)};
-    const Point off{found.x - exact.x, found.y - exact.y};
-    speed_error_ = static_cast<double>(std::sqrt(dot(off, off)) / size);
+    speed_error_ = static_cast<double>(glm::length(found - exact) / size);
   }
 
   Footing wall_;
   std::size_t inner_ = 0, outer_ = 0;
   Real root_inner_ = 0, root_outer_ = 0, theta_ = 0;
-  Point start_, speed_;
+  Point start_{0.0L}, speed_{0.0L};
   double hits_ = 0, speed_error_ = 0;
   Worst energy_;
 };

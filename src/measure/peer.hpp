@@ -2,6 +2,7 @@
 // (src/peers), loaded only when it is measured: it is built with nothing of Lantern but headers.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,18 +38,15 @@ struct PeerScene : WorldSpec {
 };
 
 // One engine by one of its methods.
-class Peer {
- public:
-  virtual ~Peer() = default;
-  virtual std::string name() const = 0;
-  virtual std::string version() const = 0;
+struct Peer {
+  std::string name, version;
   // Why it cannot do this scene; nothing if it can.
-  virtual std::optional<std::string> cannot(const PeerScene& scene) const = 0;
+  std::function<std::optional<std::string>(const PeerScene& scene)> cannot;
   // Throws Refused for what `cannot` names, and for steps and speeds that it has no room for.
-  virtual std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const = 0;
+  std::function<std::unique_ptr<Simulation>(const PeerScene& scene, double h)> start;
 };
 
 // The one function of a module: adds its peers. By the name "lantern_peers", C linkage.
-using PeersOfModule = void (*)(std::vector<std::unique_ptr<Peer>>&);
+using PeersOfModule = void (*)(std::vector<Peer>&);
 
 }  // namespace lantern

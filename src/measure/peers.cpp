@@ -95,24 +95,24 @@ std::optional<std::string> only_lantern_can(const Scenario& scenario) {
 
 class PeerSolver : public Solver {
  public:
-  explicit PeerSolver(std::unique_ptr<Peer> peer) : peer_(std::move(peer)) {}
+  explicit PeerSolver(Peer peer) : peer_(std::move(peer)) {}
 
-  std::string name() const override { return peer_->name(); }
-  std::string version() const override { return peer_->version(); }
+  std::string name() const override { return peer_.name; }
+  std::string version() const override { return peer_.version; }
 
   std::optional<std::string> cannot(const Scenario& scenario) const override {
     if (auto reason = only_lantern_can(scenario)) return reason;
-    return peer_->cannot(peer_scene(scenario));
+    return peer_.cannot(peer_scene(scenario));
   }
 
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override {
     if (!(h > 0)) throw Refused(fmt::format("{}: a step of {}", name(), h));
     if (auto reason = cannot(scenario)) throw Refused(fmt::format("{}: {}", name(), *reason));
-    return peer_->start(peer_scene(scenario), h);
+    return peer_.start(peer_scene(scenario), h);
   }
 
  private:
-  std::unique_ptr<Peer> peer_;
+  Peer peer_;
 };
 
 struct Module {
@@ -153,9 +153,9 @@ std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
       missing.push_back(fmt::format("{}: cannot be loaded: {}", module.name, library.problem()));
       continue;
     }
-    std::vector<std::unique_ptr<Peer>> found;
+    std::vector<Peer> found;
     add(found);
-    for (auto& peer : found) solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
+    for (Peer& peer : found) solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
   }
   return solvers;
 }

@@ -91,10 +91,6 @@ double stability_limit(Integrator method, double zeta) {
 
 StabilityMap make_stability_map() {
   StabilityMap map;
-  map.omega_low = 1e-2;
-  map.omega_high = 1e2;
-  map.zeta_low = 1e-3;
-  map.zeta_high = 1e3;
   map.omega_h = middles(map.omega_low, kOmegaPerDecade, kOmegaDecades * kOmegaPerDecade);
   map.zeta = middles(map.zeta_low, kZetaPerDecade, kZetaDecades * kZetaPerDecade);
   map.zeta.insert(map.zeta.begin(), 0.0);

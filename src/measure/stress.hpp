@@ -30,7 +30,7 @@ struct StressCase {
   std::string_view name;   // "coincident_bodies"
   std::string_view group;  // "extreme input", "stiff", "stability", "bars"
   std::string_view what;   // one plain sentence: what must happen
-  std::function<StressResult()> run;
+  std::function<StressResult()> run{};
   bool slow = false;  // takes more than a few seconds: only run when asked for
 };
 
@@ -47,7 +47,7 @@ StressOutcome run_case(const StressCase& stress_case);
 
 // The tables of the topics, a file each (stress_<topic>.cpp), in the order of the whole table.
 using StressTopic = std::vector<StressCase>();
-StressTopic tree_cases, input_cases, shape_cases, origin_cases, step_cases, impact_cases,
-    friction_cases, stiff_cases, stability_cases, bar_cases;
+StressTopic tree_cases, input_cases, shape_cases, origin_cases, step_cases, contact_cases,
+    stiff_cases, stability_cases, bar_cases;
 
 }  // namespace lantern

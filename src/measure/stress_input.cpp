@@ -26,12 +26,12 @@ class Guard {
   void expect(const std::string& who, const std::string& field, Action&& action) {
     const std::uint64_t before = world_.hash();
     const auto why = refusal([&] { action(world_); });
-    ++tried_;
+    ++tried;
     const bool named =
         why && why->find(who) != std::string::npos && why->find(field) != std::string::npos;
     if (named && world_.hash() == before) return;
-    ++wrong_;
-    first_ = first_.empty() ? fmt::format("; first: {} {}", who, field) : first_;
+    ++wrong;
+    if (first.empty()) first = fmt::format("; first: {} {}", who, field);
   }
 
   // A body with one field spoilt, by each of the bad values.
@@ -45,14 +45,11 @@ class Guard {
     }
   }
 
-  int tried() const { return tried_; }
-  int wrong() const { return wrong_; }
-  const std::string& first() const { return first_; }
+  int tried = 0, wrong = 0;
+  std::string first;
 
  private:
   World<D> world_;
-  int tried_ = 0, wrong_ = 0;
-  std::string first_;
 };
 
 // The case for what `try_all(guard)` gives to worlds of both dimensions.
@@ -62,9 +59,9 @@ StressResult refused_case(TryAll&& try_all) {
   Guard<3> solid;
   try_all(flat, std::integral_constant<int, 2>());
   try_all(solid, std::integral_constant<int, 3>());
-  return at_most(0, flat.wrong() + solid.wrong(), "values",
+  return at_most(0, flat.wrong + solid.wrong, "values",
                  fmt::format("of {} not refused by name, or the world changed{}{}",
-                             flat.tried() + solid.tried(), flat.first(), solid.first()));
+                             flat.tried + solid.tried, flat.first, solid.first));
 }
 
 StressResult bad_sizes() {

@@ -244,44 +244,32 @@ class MujocoRun : public PeerRun {
   std::vector<Place> places_;
 };
 
-class MujocoPeer : public Peer {
- public:
-  MujocoPeer(const char* name, const char* integrator) : name_(name), integrator_(integrator) {}
-
-  std::string name() const override { return name_; }
-  std::string version() const override { return LANTERN_PEER_VERSION; }
-
-  std::optional<std::string> cannot(const PeerScene& scene) const override {
-    if (scene.gravitation > 0) return "MuJoCo has no forces between two bodies but tendons";
-    for (const PeerBody& body : scene.bodies) {
-      if (body.kind == BodyKind::kinematic_body)
-        return "body '" + body.name + "': MuJoCo has no bodies that keep their velocity";
-      if (!scene.collides()) continue;
-      if (body.material.restitution > 0)
-        return "body '" + body.name + "': MuJoCo's contacts know no restitution";
-      if (body.material.friction != scene.bodies[0].material.friction)
-        return "MuJoCo takes the larger friction of a pair";
-    }
-    if (scene.collides() && scene.bodies.size() > kMany) return "it has too many bodies for MuJoCo";
-    return solid_engine_cannot(scene);
+std::optional<std::string> cannot(const PeerScene& scene) {
+  if (scene.gravitation > 0) return "MuJoCo has no forces between two bodies but tendons";
+  for (const PeerBody& body : scene.bodies) {
+    if (body.kind == BodyKind::kinematic_body)
+      return "body '" + body.name + "': MuJoCo has no bodies that keep their velocity";
+    if (!scene.collides()) continue;
+    if (body.material.restitution > 0)
+      return "body '" + body.name + "': MuJoCo's contacts know no restitution";
+    if (body.material.friction != scene.bodies[0].material.friction)
+      return "MuJoCo takes the larger friction of a pair";
   }
-
-  std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const override {
-    return std::make_unique<MujocoRun>(scene, h, integrator_);
-  }
-
- private:
-  const char* name_;
-  const char* integrator_;
-};
+  if (scene.collides() && scene.bodies.size() > kMany) return "it has too many bodies for MuJoCo";
+  return solid_engine_cannot(scene);
+}
 
 }  // namespace
 }  // namespace lantern
 
-extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
+extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
+  using namespace lantern;
   // Else it writes a file into the current folder, and ends the program.
   mju_user_warning = [](const char*) {};
-  mju_user_error = [](const char* why) { throw lantern::Refused(why); };
-  peers.push_back(std::make_unique<lantern::MujocoPeer>("MuJoCo", "Euler"));
-  peers.push_back(std::make_unique<lantern::MujocoPeer>("MuJoCo:RK4", "RK4"));
+  mju_user_error = [](const char* why) { throw Refused(why); };
+  for (const auto& [name, integrator] :
+       {std::pair("MuJoCo", "Euler"), std::pair("MuJoCo:RK4", "RK4")})
+    peers.push_back({name, LANTERN_PEER_VERSION, cannot, [=](const PeerScene& scene, double h) {
+                       return std::make_unique<MujocoRun>(scene, h, integrator);
+                     }});
 }

@@ -204,36 +204,27 @@ class OdeRun : public PeerRun {
   std::set<std::pair<std::size_t, std::size_t>> joined_;
 };
 
-class OdePeer : public Peer {
- public:
-  explicit OdePeer(bool exact) : exact_(exact) {}
-
-  std::string name() const override { return exact_ ? "ODE:exact" : "ODE"; }
-  std::string version() const override { return LANTERN_PEER_VERSION; }
-
-  std::optional<std::string> cannot(const PeerScene& scene) const override {
-    const bool is_free = !scene.collides() && scene.links.empty();
-    if (exact_ && !is_free && scene.bodies.size() > kMany)
-      return "the exact solver's time grows with the cube of the bodies";
-    return solid_engine_cannot(scene);
-  }
-
-  std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const override {
-    return std::make_unique<OdeRun>(scene, h, exact_);
-  }
-
- private:
-  bool exact_;
-};
+std::optional<std::string> cannot(const PeerScene& scene, bool exact) {
+  const bool is_free = !scene.collides() && scene.links.empty();
+  if (exact && !is_free && scene.bodies.size() > kMany)
+    return "the exact solver's time grows with the cube of the bodies";
+  return solid_engine_cannot(scene);
+}
 
 }  // namespace
 }  // namespace lantern
 
-extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
+extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
+  using namespace lantern;
   [[maybe_unused]] static const int started = dInitODE2(0);
   // Else it writes to the terminal, and ends the program.
   dSetMessageHandler([](int, const char*, va_list) {});
-  dSetErrorHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
-  dSetDebugHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
-  for (const bool exact : {false, true}) peers.push_back(std::make_unique<lantern::OdePeer>(exact));
+  dSetErrorHandler([](int, const char* why, va_list) { throw Refused(why); });
+  dSetDebugHandler([](int, const char* why, va_list) { throw Refused(why); });
+  for (const bool exact : {false, true})
+    peers.push_back({exact ? "ODE:exact" : "ODE", LANTERN_PEER_VERSION,
+                     [=](const PeerScene& scene) { return cannot(scene, exact); },
+                     [=](const PeerScene& scene, double h) {
+                       return std::make_unique<OdeRun>(scene, h, exact);
+                     }});
 }

@@ -20,8 +20,7 @@ namespace {
 constexpr double kPlotMargin = 60;
 constexpr const char* kSeconds = "seconds for the whole run: median, quartiles";
 constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
-constexpr double kFarOff =
-    1e3;  // errors beyond this are at the edge, or the others would be a line
+constexpr double kFarOff = 1e3;      // errors beyond are at the edge, or the others would be a line
 
 PlotPoint point_of(const Row& row, double cost) {
   const auto error = row.error();
@@ -64,14 +63,8 @@ void add_floor(const ProblemRows& problem, const Cost& cost, double least, doubl
 
 // A slope for each order that was seen: work goes as 1 / h.
 void add_slopes(const std::set<int>& orders, Plot& plot) {
-  for (const int order : orders)
-    plot.slopes.push_back({order == 1 ? "h"
-                                      : fmt::format("h{}", order == 2   ? "²"
-                                                           : order == 3 ? "³"
-                                                           : order == 4 ? "⁴"
-                                                           : order == 5 ? "⁵"
-                                                                        : "⁶"),
-                           -1.0 * order});
+  constexpr const char* kPowers[] = {"h", "h²", "h³", "h⁴", "h⁵", "h⁶"};
+  for (const int order : orders) plot.slopes.push_back({kPowers[order - 1], -1.0 * order});
 }
 
 // Far-off errors go to the edge too, if there are others.

@@ -29,11 +29,7 @@ void put_into_bands(Plot& plot) {
 }
 
 PlotSeries series_of(const MethodRows& method, const std::map<std::string, int>& looks) {
-  PlotSeries series;
-  series.name = method.name();
-  series.look = looks.at(method.method);
-  series.is_peer = method.is_peer;
-  return series;
+  return {method.name(), {}, looks.at(method.method), method.is_peer};
 }
 
 Plot step_plot(const ProblemRows& problem, const Cost& value,

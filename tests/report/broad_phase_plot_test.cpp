@@ -1,5 +1,5 @@
 // The page of capacity and depth limit: everything is on it, and nothing covers anything.
-#include "report/broad_phase_plot.hpp"
+#include "report/pages.hpp"
 
 #include <algorithm>
 

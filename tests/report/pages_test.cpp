@@ -7,7 +7,7 @@
 #include "draw/layout_check.hpp"
 #include "render/check_list.hpp"
 #include "report/measure_plots.hpp"
-#include "report/overview.hpp"
+#include "report/pages.hpp"
 #include "report/sample_rows.hpp"
 #include "report/sentences.hpp"
 
