@@ -195,7 +195,7 @@ class OverviewPage {
   const Measurement& measurement_;
   const std::vector<Bar>& bars_;
   std::vector<ProblemRows> problems_;
-  std::map<std::string, int> looks_;
+  Looks looks_;
   std::vector<Plot> plots_;
   std::vector<LegendEntry> legend_;
   std::vector<std::vector<std::string>> said_;

@@ -147,8 +147,8 @@ bool has_whole_errors(const ProblemRows& problem) {
   return any;
 }
 
-std::map<std::string, int> looks_of(std::span<const Row> rows) {
-  std::map<std::string, int> looks;
+Looks looks_of(std::span<const Row> rows) {
+  Looks looks;
   std::set<int> taken;
   for (const KnownMethod& k : kKnown) taken.insert(k.look);
   for (const Row& row : rows) {
