@@ -6,7 +6,7 @@
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "report/broad_phase_plot.hpp"
+#include "report/pages.hpp"
 
 namespace lantern {
 namespace {

@@ -22,7 +22,7 @@
 #include "report/bars.hpp"
 #include "report/measure_plots.hpp"
 #include "report/measure_tables.hpp"
-#include "report/overview.hpp"
+#include "report/pages.hpp"
 #include "scenario/method.hpp"
 
 namespace lantern {

@@ -14,7 +14,7 @@
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
 #include "measure/stability_map.hpp"
-#include "report/stability_picture.hpp"
+#include "report/pages.hpp"
 #include "report/stress_tables.hpp"
 
 namespace lantern {

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "geometry/flat.hpp"
 #include "geometry/random_vec.hpp"
 #include "scenario/director.hpp"
 
@@ -16,30 +17,15 @@ constexpr double kFastest = 12;   // units from one update to the next, on each 
 constexpr int kClusters = 20;
 
 enum class Sort { uniform, clustered, one_huge, in_line, moving };
-constexpr std::array kSorts = {Sort::uniform, Sort::clustered, Sort::one_huge, Sort::in_line,
-                               Sort::moving};
-
-std::string words_of(Sort sort, std::size_t bodies) {
-  switch (sort) {
-    case Sort::uniform:
-      return fmt::format("{} evenly spread boxes", bodies);
-    case Sort::clustered:
-      return fmt::format("{} clustered boxes", bodies);
-    case Sort::one_huge:
-      return fmt::format("one huge box among {} small ones", bodies - 1);
-    case Sort::in_line:
-      return fmt::format("{} boxes in a line", bodies);
-    case Sort::moving:
-      return fmt::format("{} moving boxes", bodies);
-  }
-  return {};
-}
-
-std::string name_of(Sort sort) {
-  constexpr std::array<const char*, kSorts.size()> kNames = {"uniform", "clustered", "one_huge",
-                                                             "in_line", "moving"};
-  return kNames[static_cast<std::size_t>(sort)];
-}
+struct NamedSort {
+  Sort sort;
+  const char *name, *words;
+};
+constexpr NamedSort kSorts[] = {{Sort::uniform, "uniform", "{} evenly spread boxes"},
+                                {Sort::clustered, "clustered", "{} clustered boxes"},
+                                {Sort::one_huge, "one_huge", "one huge box among {} small ones"},
+                                {Sort::in_line, "in_line", "{} boxes in a line"},
+                                {Sort::moving, "moving", "{} moving boxes"}};
 
 // Sizes are such that a body meets about one other; in three dimensions there is more room.
 template <int D>
@@ -95,28 +81,19 @@ class Maker {
 };
 
 template <int D>
-BoxScene seeded(Sort sort, std::size_t bodies, std::uint64_t seed) {
-  const std::string place = D == 2 ? "" : " in space";
-  return {fmt::format("{}_{}d", name_of(sort), D), words_of(sort, bodies) + place,
-          Maker<D>(sort, seed).made(bodies)};
-}
-
-template <int D>
-Box<D> cut_to(const Box<3>& box) {
-  Box<D> b;
-  for (int i = 0; i < D; ++i) {
-    b.lo[i] = box.lo[i];
-    b.hi[i] = box.hi[i];
-  }
-  return b;
+BoxScene seeded(const NamedSort& s, std::size_t bodies, std::uint64_t seed) {
+  const std::size_t told = s.sort == Sort::one_huge ? bodies - 1 : bodies;
+  return {fmt::format("{}_{}d", s.name, D),
+          fmt::format(fmt::runtime(s.words), told) + (D == 2 ? "" : " in space"),
+          Maker<D>(s.sort, seed).made(bodies)};
 }
 
 template <int D>
 BoxUpdates<D> updates_of(const Scenario& scenario, const Frame& frame) {
-  BoxUpdates<D> scene{cut_to<D>(scenario.world.bounds), {{}}};
+  BoxUpdates<D> scene{in_dimension<D>(scenario.world.bounds), {{}}};
   for (std::size_t i = 0; i < frame.bodies.size(); ++i)
-    scene.frames[0].push_back(
-        {static_cast<BodyId>(i), cut_to<D>(frame.bodies[i].box), frame.bodies[i].is_static, true});
+    scene.frames[0].push_back({static_cast<BodyId>(i), in_dimension<D>(frame.bodies[i].box),
+                               frame.bodies[i].is_static, true});
   return scene;
 }
 
@@ -124,8 +101,8 @@ BoxUpdates<D> updates_of(const Scenario& scenario, const Frame& frame) {
 
 std::vector<BoxScene> seeded_box_scenes(std::size_t bodies, std::uint64_t seed) {
   std::vector<BoxScene> scenes;
-  for (const Sort sort : kSorts) scenes.push_back(seeded<2>(sort, bodies, seed));
-  for (const Sort sort : kSorts) scenes.push_back(seeded<3>(sort, bodies, seed));
+  for (const NamedSort& sort : kSorts) scenes.push_back(seeded<2>(sort, bodies, seed));
+  for (const NamedSort& sort : kSorts) scenes.push_back(seeded<3>(sort, bodies, seed));
   return scenes;
 }
 

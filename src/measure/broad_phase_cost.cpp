@@ -1,7 +1,9 @@
 #include "measure/broad_phase_cost.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -52,54 +54,47 @@ std::uint64_t count_candidates(const BroadPhase<D>& broad_phase, std::span<const
   return met.size();
 }
 
-// Halves the bodies at the median of their centres, across the axis of their widest spread.
+// Along which the boxes' centres are spread most.
 template <int D>
-class MedianPlanes {
- public:
-  MedianPlanes(std::span<const Proxy<D>> boxes, std::uint32_t capacity, std::uint32_t most_depth)
-      : boxes_(boxes), capacity_(capacity), most_depth_(most_depth) {
-    std::vector<BodyId> all(boxes.size());
-    std::iota(all.begin(), all.end(), BodyId{0});
-    halve(all, kNone, false, 0);
+int widest_axis(std::span<const Proxy<D>> boxes, const std::vector<BodyId>& bodies) {
+  const Vec<D> first = boxes[bodies[0]].box.center();
+  Box<D> around{first, first};
+  for (const BodyId i : bodies) {
+    const Vec<D> center = boxes[i].box.center();
+    around = united(around, {center, center});
   }
-  const std::vector<BspPlane<D>>& planes() const { return planes_; }
+  int widest = 0;
+  for (int i = 1; i < D; ++i)
+    if (around.size()[i] > around.size()[widest]) widest = i;
+  return widest;
+}
 
- private:
-  void halve(std::vector<BodyId> bodies, std::uint32_t parent, bool front, std::uint32_t depth) {
-    if (bodies.size() <= capacity_ || depth == most_depth_) return;
-    const int axis = widest_axis(bodies);
-    const auto at = [&](BodyId i) { return boxes_[i].box.center()[axis]; };
-    std::sort(bodies.begin(), bodies.end(),
-              [&](BodyId a, BodyId b) { return at(a) != at(b) ? at(a) < at(b) : a < b; });
+// Halve the bodies at the median of their centres, across the axis of their widest spread.
+template <int D>
+std::vector<BspPlane<D>> median_planes(std::span<const Proxy<D>> boxes, std::uint32_t capacity,
+                                       std::uint32_t most_depth) {
+  std::vector<BspPlane<D>> planes;
+  const auto halve = [&](const auto& self, std::vector<BodyId> bodies, std::uint32_t parent,
+                         bool front, std::uint32_t depth) {
+    if (bodies.size() <= capacity || depth == most_depth) return;
+    const int axis = widest_axis(boxes, bodies);
+    const auto at = [&](BodyId i) { return boxes[i].box.center()[axis]; };
+    std::ranges::sort(bodies, {}, [&](BodyId i) { return std::pair(at(i), i); });
     const auto middle = bodies.begin() + static_cast<std::ptrdiff_t>(bodies.size() / 2);
     const double offset = 0.5 * (at(*(middle - 1)) + at(*middle));
     if (at(bodies.front()) == at(bodies.back())) return;  // it would part nobody
     Vec<D> normal(0.0);
     normal[axis] = 1;
-    const auto own = static_cast<std::uint32_t>(planes_.size());
-    planes_.push_back({{normal, offset}, parent, front});
-    halve({bodies.begin(), middle}, own, false, depth + 1);
-    halve({middle, bodies.end()}, own, true, depth + 1);
-  }
-
-  // Along which the centres are spread most.
-  int widest_axis(const std::vector<BodyId>& bodies) const {
-    const Vec<D> first = boxes_[bodies[0]].box.center();
-    Box<D> around{first, first};
-    for (const BodyId i : bodies) {
-      const Vec<D> center = boxes_[i].box.center();
-      around = united(around, {center, center});
-    }
-    int widest = 0;
-    for (int i = 1; i < D; ++i)
-      if (around.size()[i] > around.size()[widest]) widest = i;
-    return widest;
-  }
-
-  std::span<const Proxy<D>> boxes_;
-  std::uint32_t capacity_, most_depth_;
-  std::vector<BspPlane<D>> planes_;
-};
+    const auto own = static_cast<std::uint32_t>(planes.size());
+    planes.push_back({{normal, offset}, parent, front});
+    self(self, {bodies.begin(), middle}, own, false, depth + 1);
+    self(self, {middle, bodies.end()}, own, true, depth + 1);
+  };
+  std::vector<BodyId> all(boxes.size());
+  std::iota(all.begin(), all.end(), BodyId{0});
+  halve(halve, all, kNone, false, 0);
+  return planes;
+}
 
 template <int D>
 void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
@@ -136,7 +131,7 @@ BroadPhaseCost measure_one(const BoxUpdates<D>& scene, const std::vector<std::ve
     config.max_depth = what.depth_limit;
   }
   if (what.kind == StructureKind::bsp)
-    config.planes = MedianPlanes<D>(scene.frames[0], what.capacity, what.depth_limit).planes();
+    config.planes = median_planes<D>(scene.frames[0], what.capacity, what.depth_limit);
   BroadPhase<D> broad_phase(config);
   BroadPhaseCost cost = what;
   for (std::size_t i = 0; i < scene.frames.size(); ++i)
@@ -196,13 +191,9 @@ template std::vector<Pair> pairs_by_force<2>(std::span<const Proxy<2>>);
 template std::vector<Pair> pairs_by_force<3>(std::span<const Proxy<3>>);
 
 std::uint64_t count_missing(std::span<const Pair> truth, std::span<const Pair> found) {
-  std::uint64_t missing = 0;
-  auto at = found.begin();
-  for (const Pair& pair : truth) {
-    while (at != found.end() && *at < pair) ++at;
-    missing += at == found.end() || *at != pair ? 1 : 0;
-  }
-  return missing;
+  std::vector<Pair> missing;
+  std::ranges::set_difference(truth, found, std::back_inserter(missing));
+  return missing.size();
 }
 
 std::size_t broad_phase_rows(const BoxScene& scene, const BroadPhaseCostConfig& config) {
@@ -230,16 +221,12 @@ const BroadPhaseCost* cheapest(std::span<const BroadPhaseCost> rows, const std::
                                StructureKind kind, CostBy by) {
   const BroadPhaseCost* best = nullptr;
   const auto cost = [&](const BroadPhaseCost& row) {
-    return by == CostBy::work ? static_cast<double>(row.counts.work()) : row.timing.least;
-  };
-  const auto before = [&](const BroadPhaseCost& a, const BroadPhaseCost& b) {
-    if (cost(a) != cost(b)) return cost(a) < cost(b);
-    if (a.depth_limit != b.depth_limit) return a.depth_limit < b.depth_limit;
-    return a.capacity > b.capacity;
+    const double spent =
+        by == CostBy::work ? static_cast<double>(row.counts.work()) : row.timing.least;
+    return std::tuple(spent, row.depth_limit, -std::int64_t{row.capacity});
   };
   for (const BroadPhaseCost& row : rows)
-    if (row.scene == scene && row.kind == kind && (best == nullptr || before(row, *best)))
-      best = &row;
+    if (row.scene == scene && row.kind == kind && (!best || cost(row) < cost(*best))) best = &row;
   return best;
 }
 

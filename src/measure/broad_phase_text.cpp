@@ -139,9 +139,8 @@ std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxSce
         json.value(fmt::format("{}: {}", to_string(kind), sentence_about(rows, scene, kind)));
     json.end_array().end_object();
   }
-  json.line().end_array().line().key("rows").begin_array();
-  for (const BroadPhaseCost& row : rows) write_json(row, json.line());
-  json.line().end_array().line().end_object();
+  write_rows("rows", rows, json.line().end_array());
+  json.line().end_object();
   return json.text() + "\n";
 }
 

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "measure/closed_forms.hpp"
 #include "measure/error_metrics.hpp"
-#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
@@ -15,7 +13,7 @@ struct Line {
   std::vector<std::size_t> bodies;
   std::vector<long double> masses, rest, velocities, displacements;  // rest: from the first point
   std::vector<long double> stiffnesses, lengths;                     // of springs, unstretched
-  LongVec3 from{0.0L}, direction{0.0L};
+  LongVec from{0.0L}, direction{0.0L};
 };
 
 struct Bond {
@@ -35,7 +33,7 @@ std::vector<Bond> read_bonds(const Scenario& scenario) {
 }
 
 // Follows the springs from a fixed point to the other, or to a free end. Gives the last point.
-std::optional<LongVec3> follow(const Scenario& scenario, std::vector<Bond>& bonds, Line& row) {
+std::optional<LongVec> follow(const Scenario& scenario, std::vector<Bond>& bonds, Line& row) {
   const auto first =
       std::find_if(bonds.begin(), bonds.end(), [](const Bond& b) { return !b.tie.b; });
   if (first == bonds.end()) refuse_problem(scenario, "no end of it is fixed");
@@ -55,9 +53,9 @@ std::optional<LongVec3> follow(const Scenario& scenario, std::vector<Bond>& bond
 }
 
 // Where the bodies come to rest: all springs pull alike, and not at all if one end is free.
-void find_rest(const Scenario& scenario, const std::optional<LongVec3>& end, Line& row) {
-  const LongVec3 first(scenario.bodies[row.bodies.front()].position);
-  const LongVec3 line = (end ? *end : first) - row.from;
+void find_rest(const Scenario& scenario, const std::optional<LongVec>& end, Line& row) {
+  const LongVec first(scenario.bodies[row.bodies.front()].position);
+  const LongVec line = (end ? *end : first) - row.from;
   if (!(glm::length(line) > 0)) refuse_problem(scenario, "its ends coincide");
   row.direction = line / glm::length(line);
   long double tension = 0, loose = 0, give = 0;
@@ -76,8 +74,8 @@ void find_rest(const Scenario& scenario, const std::optional<LongVec3>& end, Lin
 void read_motion(const Scenario& scenario, Line& row) {
   for (std::size_t i = 0; i < row.bodies.size(); ++i) {
     const BodySpec& body = scenario.bodies[row.bodies[i]];
-    const LongVec3 position = LongVec3(body.position) - row.from, velocity(body.velocity);
-    const LongVec3 aside = position - glm::dot(position, row.direction) * row.direction;
+    const LongVec position = LongVec(body.position) - row.from, velocity(body.velocity);
+    const LongVec aside = position - glm::dot(position, row.direction) * row.direction;
     if (glm::length(aside) > 1e-12L * glm::length(position) || !parallel(velocity, row.direction))
       refuse_problem(scenario, fmt::format("body '{}' does not move along the row", body.name));
     if (body.linear_drag != 0) refuse_problem(scenario, "nothing may brake it");
@@ -108,11 +106,11 @@ void require_no_passing(const Scenario& scenario, const Line& row) {
 
 }  // namespace
 
-std::unique_ptr<ErrorMetric> chain_metric(const Scenario& scenario) {
+OwnMetric chain_metric(const Scenario& scenario) {
   if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is no gravity");
   std::vector<Bond> bonds = read_bonds(scenario);
   Line row;
-  const std::optional<LongVec3> end = follow(scenario, bonds, row);
+  const std::optional<LongVec> end = follow(scenario, bonds, row);
   const bool all = std::all_of(bonds.begin(), bonds.end(), [](const Bond& b) { return b.used; });
   if (!all || row.bodies.size() != dynamic_bodies(scenario).size())
     refuse_problem(scenario, "its bodies are not one row from a fixed point on");

@@ -25,13 +25,8 @@ std::string processor() {
 }  // namespace
 
 Circumstances here(std::string_view version, std::string_view sources) {
-  Circumstances c;
-  c.version = version;
-  c.sources = sources;
-  c.compiler = compiler();
-  c.flags = LANTERN_FLAGS;
-  c.processor = processor();
-  return c;
+  return {
+      std::string(version), std::string(sources), compiler(), LANTERN_FLAGS, processor(), 1, ""};
 }
 
 }  // namespace lantern

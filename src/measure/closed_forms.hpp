@@ -1,11 +1,15 @@
-// Closed forms of motion, each in a file of its own: exact_projectile.cpp and so on.
+// Closed forms of motion.
 #pragma once
 
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 namespace lantern {
+
+using LongQuat = glm::qua<long double>;
+using LongVec = glm::vec<3, long double>;
 
 // A body that is thrown, with or without drag: x'' = g - rate x'.
 struct FlightState {
@@ -43,8 +47,7 @@ PendulumState exact_pendulum(long double omega, PendulumState start, long double
 
 // Two bodies that attract each other by Newton's law: the ellipse of one about the other.
 struct Orbit {
-  glm::vec<3, long double> position{0.0L};  // of one from the other
-  glm::vec<3, long double> velocity{0.0L};
+  LongVec position{0.0L}, velocity{0.0L};  // of one from the other
 };
 
 // `time` seconds after `start`, where `mu` > 0 is the constant of gravitation times both masses'
@@ -79,6 +82,46 @@ class ChainMotion {
   std::vector<std::vector<long double>> modes_;  // [mode][mass], of unit length
   std::vector<long double> root_mass_;
   std::vector<long double> cosines_, sines_;  // what of each mode there is at the start
+};
+
+// A body that turns freely, whatever its three moments of inertia.
+class FreeTop {
+ public:
+  // At time 0: inverse moments of inertia > 0 about the body's own axes, the orientation (from the
+  // body's axes to the world's, of unit length) and the angular momentum in the body's axes.
+  // Throws Refused on the boundary between tumbling about one axis and about another, where the
+  // body takes for ever to turn over.
+  FreeTop(const LongVec& inverse_inertia, const LongQuat& orientation, const LongVec& momentum);
+
+  LongQuat orientation(long double time) const;
+  LongVec momentum(long double time) const;  // in the body's axes
+
+ private:
+  struct Phase {
+    long double half_turns = 0;  // of L about axis 3, whole
+    long double rest = 0;        // within a quarter period
+  };
+  Phase phase(long double time) const;
+  LongVec named(long double time) const;  // L along axes 1, 2, 3
+  LongQuat to_momentum_frame(const LongVec& l, long double precession) const;
+  long double precession(long double time) const;
+  long double integral(long double rest) const;
+
+  bool fixed_ = false;  // L stands still in the body, and spin_ with it
+  LongQuat start_;
+  LongVec momentum_{0.0L};
+  LongVec spin_{0.0L};  // angular velocity in the body's axes
+
+  LongQuat names_;              // from the body's axes to those named 1, 2, 3
+  LongQuat base_;               // from the frame of L to the world's
+  long double inverse1_ = 1;    // a1
+  long double length_ = 0;      // of L
+  LongVec size_{0.0L};          // A1, A2, A3
+  long double rate_ = 0;        // of u
+  long double m1_ = 1, n_ = 0;  // complementary parameter, characteristic
+  long double wobble_ = 0;      // (a1 - a3) n
+  long double u0_ = 0;
+  long double half_period_ = 1, half_integral_ = 0, integral0_ = 0;
 };
 
 }  // namespace lantern

@@ -28,7 +28,6 @@ class DormandPrince {
     if (!(end > time)) return;
     for (State& k : k_) k.resize(y.size());
     slope(time, y, k_[0]);
-    ++evaluations_;
     if (!(step_ > 0)) step_ = first_step(y, end - time);
     const Real least = (end - time) * Real(1e-9);
     while (time < end) {
@@ -49,8 +48,7 @@ class DormandPrince {
     }
   }
 
-  std::uint64_t evaluations() const { return evaluations_; }  // so far
-  std::uint64_t steps() const { return steps_; }              // taken so far
+  std::uint64_t steps() const { return steps_; }  // taken so far
 
  private:
   // A step that changes nothing by more than a hundredth of its scale.
@@ -85,7 +83,6 @@ class DormandPrince {
         next_[i] = y[i] + h * sum / kA[stage][6];
       }
       slope(time + kC[stage] * h, next_, k_[stage + 1]);
-      ++evaluations_;
     }
     Real worst = 0;
     for (std::size_t i = 0; i < y.size(); ++i) {
@@ -115,7 +112,7 @@ class DormandPrince {
   State next_;
   Real step_ = 0;
   Real before_ = Real(1e-4);
-  std::uint64_t evaluations_ = 0, steps_ = 0;
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace lantern

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include "base/error.hpp"
 #include "measure/dormand_prince.hpp"
@@ -68,14 +66,14 @@ class PointSimulation : public Simulation {
   // Of places, how far apart the bodies and the ends of springs are; of velocities the greatest
   // one, or that which the forces give over this length.
   std::vector<double> scale(const Scenario& scenario) {
-    Box<3> box = empty_box();
+    Box<3> box{scenario.bodies.front().position, scenario.bodies.front().position};
     double speed = 0;
     for (const BodySpec& body : scenario.bodies) {
-      add(box, body.position);
+      box = united(box, {body.position, body.position});
       speed = std::max(speed, glm::length(body.velocity));
     }
     for (const LinkSpec& link : scenario.links)
-      if (!link.b) add(box, link.at_b);
+      if (!link.b) box = united(box, {link.at_b, link.at_b});
     double length = glm::length(box.size());
     const Pull<D> pull = system_.evaluate(state_);
     double most = 0;
@@ -89,15 +87,6 @@ class PointSimulation : public Simulation {
       all[k] = size > 0 ? size : 1;
     }
     return all;
-  }
-
-  static Box<3> empty_box() {
-    constexpr double kEndless = std::numeric_limits<double>::infinity();
-    return {Vec<3>(kEndless), Vec<3>(-kEndless)};
-  }
-  static void add(Box<3>& box, const Vec<3>& point) {
-    box.lo = glm::min(box.lo, point);
-    box.hi = glm::max(box.hi, point);
   }
 
   void put(const std::vector<double>& y) {

@@ -2,30 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "physics/energy.hpp"
 #include "physics/manifold.hpp"
 #include "scenario/players.hpp"
 
 namespace lantern {
-
-class Invariants::Model {
- public:
-  virtual ~Model() = default;
-  virtual Kept of(const std::vector<BodyState>& states) const = 0;
-};
-
 namespace {
 
 template <int D>
-class ModelOf : public Invariants::Model {
+class Model {
  public:
-  explicit ModelOf(const Scenario& scenario)
+  explicit Model(const Scenario& scenario)
       : collides_(scenario.world.contacts != ContactMethod::none), players_(scenario) {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
   }
 
-  Kept of(const std::vector<BodyState>& states) const override {
+  Kept operator()(const std::vector<BodyState>& states) const {
     std::vector<Body<D>> bodies = players_.world().bodies();
     for (Body<D>& body : bodies)
       if (const auto index = players_.index_of(body.id)) put(body, states[*index]);
@@ -93,8 +87,7 @@ class ModelOf : public Invariants::Model {
         if ((!a.moves() && !b.moves()) || !overlap(a.box(), b.box())) continue;
         if (!players_.index_of(a.id) || !players_.index_of(b.id) || are_joined(a.id, b.id))
           continue;
-        const auto manifold = collide<D>({a.shape, a.position, a.orientation},
-                                         {b.shape, b.position, b.orientation}, 0.0);
+        const auto manifold = collide<D>(placed(a), placed(b), 0.0);
         if (!manifold) continue;
         for (const ManifoldPoint<D>& point : manifold->points())
           depth = std::max(depth, -point.separation);
@@ -106,15 +99,15 @@ class ModelOf : public Invariants::Model {
   Players<D> players_;
 };
 
-std::unique_ptr<Invariants::Model> make_model(const Scenario& scenario) {
-  if (scenario.world.dimension == 3) return std::make_unique<ModelOf<3>>(scenario);
-  return std::make_unique<ModelOf<2>>(scenario);
-}
-
 }  // namespace
 
-Invariants::Invariants(const Scenario& scenario) : model_(make_model(scenario)) {
+Invariants::Invariants(const Scenario& scenario) {
   const WorldSpec& world = scenario.world;
+  const auto model = [&]<int D>(std::integral_constant<int, D>) {
+    of_ = [m = std::make_shared<Model<D>>(scenario)](const auto& states) { return (*m)(states); };
+  };
+  world.dimension == 3 ? model(std::integral_constant<int, 3>())
+                       : model(std::integral_constant<int, 2>());
   const bool collides = world.contacts != ContactMethod::none;
   bool drags = false, damps = false, tied = false, rough = false, walls = false, steered = false;
   for (const BodySpec& body : scenario.bodies) {
@@ -132,15 +125,14 @@ Invariants::Invariants(const Scenario& scenario) : model_(make_model(scenario)) 
     tied = tied || !link.b || held(link.a) || held(*link.b);
   }
   bool pushed = steered;  // a script may do what it likes
-  for (const Step& step : scenario.steps)
+  int inserts = 0;        // what enters late brings its own
+  for (const Step& step : scenario.steps) {
     pushed = pushed || std::holds_alternative<ApplyForce>(step.verb) ||
              std::holds_alternative<ApplyImpulse>(step.verb) ||
              std::holds_alternative<Move>(step.verb) || std::holds_alternative<Remove>(step.verb);
-  if (!scenario.problem && scenario.steps.size() > 0) {
-    int inserts = 0;  // what enters late brings its own
-    for (const Step& step : scenario.steps) inserts += std::holds_alternative<Insert>(step.verb);
-    pushed = pushed || inserts > 1;
+    inserts += std::holds_alternative<Insert>(step.verb);
   }
+  pushed = pushed || (!scenario.problem && inserts > 1);
   keeps_energy_ = !pushed && !drags && !damps && (!collides || !rough);
   // What attracts without moving itself holds the others; at the origin it does not turn them.
   bool held = false, held_aside = false;
@@ -155,10 +147,6 @@ Invariants::Invariants(const Scenario& scenario) : model_(make_model(scenario)) 
   keeps_momentum_ = alone && !meets && !held;
   keeps_angular_momentum_ = alone && !meets && !held_aside;
 }
-
-Invariants::~Invariants() = default;
-
-Kept Invariants::of(const std::vector<BodyState>& states) const { return model_->of(states); }
 
 void DriftMeter::look(const std::vector<BodyState>& states) {
   const Kept now = invariants_.of(states);

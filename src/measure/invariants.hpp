@@ -2,7 +2,7 @@
 // alone: by the same formulas for Lantern and for every peer.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <vector>
 
 #include "measure/row.hpp"
@@ -27,10 +27,9 @@ class Invariants {
  public:
   // Throws Refused as the world does if the scenario's bodies cannot enter it.
   explicit Invariants(const Scenario& scenario);
-  ~Invariants();
 
   // All states must be finite. Bodies that are not there count nothing.
-  Kept of(const std::vector<BodyState>& states) const;
+  Kept of(const std::vector<BodyState>& states) const { return of_(states); }
 
   // Whether the scene keeps it, by its own rules: no drag, no damping and elastic contacts without
   // friction for the energy; nothing that is tied to or meets the world for momentum.
@@ -38,13 +37,11 @@ class Invariants {
   bool keeps_momentum() const { return keeps_momentum_; }
   bool keeps_angular_momentum() const { return keeps_angular_momentum_; }
 
-  class Model;
-
  private:
   bool keeps_energy_ = false;
   bool keeps_momentum_ = false;
   bool keeps_angular_momentum_ = false;
-  std::unique_ptr<Model> model_;
+  std::function<Kept(const std::vector<BodyState>&)> of_;
 };
 
 // Follows a run and remembers the largest changes and the deepest penetration.

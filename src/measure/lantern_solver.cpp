@@ -38,29 +38,22 @@ class WorldSimulation : public Simulation {
 bool has_forces(const Scenario& scenario) {
   const WorldSpec& world = scenario.world;
   if (world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !scenario.links.empty()) return true;
-  for (const BodySpec& body : scenario.bodies)
-    if (body.linear_drag > 0 || body.angular_drag > 0) return true;
-  for (const Step& step : scenario.steps)
-    if (std::holds_alternative<ApplyForce>(step.verb)) return true;
-  return false;
+  const auto brakes = [](const BodySpec& b) { return b.linear_drag > 0 || b.angular_drag > 0; };
+  const auto pushes = [](const Step& s) { return std::holds_alternative<ApplyForce>(s.verb); };
+  return std::ranges::any_of(scenario.bodies, brakes) ||
+         std::ranges::any_of(scenario.steps, pushes);
 }
 
 // Boxes along the axes and half-spaces keep to them.
-bool can_turn(const BodySpec& body) {
-  return body.kind != BodyKind::static_body && !std::holds_alternative<AxisBox<3>>(body.shape) &&
+bool turns_in_space(const BodySpec& body) {
+  return body.spin != 0 && body.kind != BodyKind::static_body &&
+         !std::holds_alternative<AxisBox<3>>(body.shape) &&
          !std::holds_alternative<HalfSpace<3>>(body.shape);
 }
 
-bool turns_in_space(const Scenario& scenario) {
-  if (scenario.world.dimension != 3) return false;
-  for (const BodySpec& body : scenario.bodies)
-    if (can_turn(body) && body.spin != 0) return true;
-  return false;
-}
-
-std::vector<Method> named(std::initializer_list<std::string_view> names) {
+std::vector<Method> named(const std::vector<std::string>& names) {
   std::vector<Method> methods;
-  for (const std::string_view name : names) methods.push_back(*method_named(name));
+  for (const std::string& name : names) methods.push_back(*method_named(name));
   return methods;
 }
 
@@ -81,18 +74,15 @@ std::unique_ptr<Simulation> LanternSolver::start(const Scenario& scenario, doubl
 }
 
 std::vector<Method> methods_for(const Scenario& scenario) {
-  if (scenario.problem && !scenario.problem->methods.empty()) {
-    std::vector<Method> methods;
-    for (const std::string& name : scenario.problem->methods)
-      methods.push_back(*method_named(name));
-    return methods;
-  }
+  if (scenario.problem && !scenario.problem->methods.empty())
+    return named(scenario.problem->methods);
   if (scenario.world.contacts != ContactMethod::none)
     return named({"lecture", "impulse", "impulse:100", "soft", "soft:16"});
   if (has_forces(scenario))
     return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
                   "implicit_midpoint", "implicit_euler"});
-  if (turns_in_space(scenario)) return named({"explicit_gyroscopic", "splitting_2", "splitting_4"});
+  if (scenario.world.dimension == 3 && std::ranges::any_of(scenario.bodies, turns_in_space))
+    return named({"explicit_gyroscopic", "splitting_2", "splitting_4"});
   Method as_written;
   as_written.name = "as written";
   return {as_written};

@@ -1,38 +1,118 @@
 #include "measure/peers.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/library.hpp"
-#include "measure/peer_scene.hpp"
+#include "geometry/flat.hpp"
+#include "measure/peer.hpp"
+#include "physics/mass.hpp"
 
 namespace lantern {
 namespace {
 
 namespace fs = std::filesystem;
 
+// As World::add derives it.
+template <int D>
+void weigh(PeerBody& body) {
+  const double density = body.mass > 0 && body.density == 0 ? 1 : body.density;
+  MassProperties<D> properties = mass_of<D>(in_dimension<D>(body.shape), density);
+  if (body.mass > 0) properties = scaled_to<D>(properties, body.mass);
+  body.mass = properties.mass;
+  body.inertia = Vec<3>(properties.inertia);
+}
+
+PeerBody body_of(const BodySpec& spec, bool is_flat) {
+  PeerBody body{spec};
+  const Vec<3> axis = is_flat ? Vec<3>(0, 0, 1) : spec.axis;
+  body.orientation = turned(Rotation<3>(), axis * spec.angle);
+  body.turning = axis * spec.spin;
+  body.attracting_mass = spec.mass;
+  if (body.is_dynamic()) {
+    is_flat ? weigh<2>(body) : weigh<3>(body);
+    body.attracting_mass = body.mass;
+  } else {
+    body.mass = 0;
+  }
+  const bool has_inertia = std::min({body.inertia.x, body.inertia.y, body.inertia.z}) > 0;
+  body.may_turn = spec.may_turn && has_inertia && !std::holds_alternative<AxisBox<3>>(spec.shape);
+  if (body.is_dynamic() && !body.may_turn) body.turning = Vec<3>(0.0);
+  return body;
+}
+
+PeerLink link_of(const LinkSpec& spec, const std::vector<PeerBody>& bodies) {
+  const auto point = [&](std::size_t i, const Vec<3>& at) {
+    return bodies[i].position + matrix(bodies[i].orientation) * at;
+  };
+  PeerLink link{spec};
+  link.from = point(spec.a, spec.at_a);
+  link.to = spec.b ? point(*spec.b, spec.at_b) : spec.at_b;
+  link.length = spec.rest_length.value_or(glm::length(link.to - link.from));
+  return link;
+}
+
+// All bodies as the first frame has them.
+PeerScene peer_scene(const Scenario& scenario) {
+  PeerScene scene{scenario.world, {}, {}};
+  for (const BodySpec& spec : scenario.bodies)
+    scene.bodies.push_back(body_of(spec, scene.is_flat()));
+  for (const LinkSpec& spec : scenario.links) scene.links.push_back(link_of(spec, scene.bodies));
+  return scene;
+}
+
+// A script that only lets the bodies in and then watches them.
+bool only_watches(const std::vector<Step>& steps) {
+  bool runs = false;
+  for (const Step& step : steps) {
+    const Verb& verb = step.verb;
+    if (std::holds_alternative<Insert>(verb) && runs) return false;
+    if (std::holds_alternative<Remove>(verb) || std::holds_alternative<Move>(verb) ||
+        std::holds_alternative<ApplyForce>(verb) || std::holds_alternative<ApplyImpulse>(verb) ||
+        std::holds_alternative<Sleep>(verb) || std::holds_alternative<Wake>(verb))
+      return false;
+    runs |= traits_of(verb).passes_time;
+  }
+  return true;
+}
+
+// What no peer can do, whatever it is: bodies that are steered, levels, scripts that change the
+// scene on its way. Nothing if there is none of it.
+std::optional<std::string> only_lantern_can(const Scenario& scenario) {
+  if (scenario.level) return "it has a level";
+  if (scenario.bodies.empty()) return "it has no bodies";
+  for (const BodySpec& body : scenario.bodies) {
+    if (body.brain != Brain::none) return "body '" + body.name + "' is steered";
+    if (body.asleep) return "body '" + body.name + "' begins asleep";
+  }
+  if (!scenario.problem && !only_watches(scenario.steps))
+    return "its script changes bodies on their way";
+  return std::nullopt;
+}
+
 class PeerSolver : public Solver {
  public:
-  explicit PeerSolver(std::unique_ptr<Peer> peer) : peer_(std::move(peer)) {}
+  explicit PeerSolver(Peer peer) : peer_(std::move(peer)) {}
 
-  std::string name() const override { return peer_->name(); }
-  std::string version() const override { return peer_->version(); }
+  std::string name() const override { return peer_.name; }
+  std::string version() const override { return peer_.version; }
 
   std::optional<std::string> cannot(const Scenario& scenario) const override {
     if (auto reason = only_lantern_can(scenario)) return reason;
-    return peer_->cannot(peer_scene(scenario));
+    return peer_.cannot(peer_scene(scenario));
   }
 
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override {
     if (!(h > 0)) throw Refused(fmt::format("{}: a step of {}", name(), h));
     if (auto reason = cannot(scenario)) throw Refused(fmt::format("{}: {}", name(), *reason));
-    return peer_->start(peer_scene(scenario), h);
+    return peer_.start(peer_scene(scenario), h);
   }
 
  private:
-  std::unique_ptr<Peer> peer_;
+  Peer peer_;
 };
 
 struct Module {
@@ -73,9 +153,9 @@ std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
       missing.push_back(fmt::format("{}: cannot be loaded: {}", module.name, library.problem()));
       continue;
     }
-    std::vector<std::unique_ptr<Peer>> found;
+    std::vector<Peer> found;
     add(found);
-    for (auto& peer : found) solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
+    for (Peer& peer : found) solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
   }
   return solvers;
 }

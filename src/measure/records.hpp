@@ -165,6 +165,13 @@ void write_json(const Row& row, JsonWriter& json) {
   json.end_object();
 }
 
+// A member that is an array of such objects, one a line.
+void write_rows(std::string_view name, const auto& rows, JsonWriter& json) {
+  json.line().key(name).begin_array();
+  for (const auto& row : rows) write_json(row, json.line());
+  json.line().end_array();
+}
+
 // Seconds are there only if they were taken; `spread` is the name of the interquartile range.
 template <class T, class Visit>
 void each_timing(T& t, const char* group, const char* spread, const char* spread_column,

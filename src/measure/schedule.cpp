@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -20,38 +21,23 @@ std::uint32_t parts_of(std::uint64_t steps) {
   return parts;
 }
 
-// The file's own run, for as far as it is needed to learn how long a step waits.
-class FileRun {
- public:
-  explicit FileRun(const Scenario& scenario)
-      : h_(scenario.world.time_step), engine_(make_engine(scenario, work_)) {}
-
-  void act(const Verb& verb) { carry_out(verb, *engine_, h_); }
-
-  std::uint64_t steps_in(double seconds) const {
-    return static_cast<std::uint64_t>(std::llround(seconds / h_));
-  }
-
-  std::uint64_t wait(const Wait& wait) {
-    for (std::uint64_t i = 1; i <= steps_in(wait.at_most); ++i) {
-      engine_->step();
-      if (engine_->has_happened(wait.event, wait.bodies)) return i;
-    }
-    throw Refused(fmt::format("what a step waits for has not happened within {} s", wait.at_most));
-  }
-
- private:
-  double h_;
-  Work work_;
-  std::unique_ptr<Engine> engine_;
-};
-
 Schedule script_of(const Scenario& scenario) {
   const double h = scenario.world.time_step;
   const bool waits = std::ranges::any_of(
       scenario.steps, [](const Step& s) { return std::holds_alternative<Wait>(s.verb); });
-  std::optional<FileRun> own;
-  if (waits) own.emplace(scenario);
+  // The file's own run, for as far as it is needed to learn how long a step waits.
+  Work work;
+  const std::unique_ptr<Engine> own = waits ? make_engine(scenario, work) : nullptr;
+  const auto steps_in = [h](double seconds) {
+    return static_cast<std::uint64_t>(std::llround(seconds / h));
+  };
+  const auto waited = [&](const Wait& wait) {
+    for (std::uint64_t i = 1; i <= steps_in(wait.at_most); ++i) {
+      own->step();
+      if (own->has_happened(wait.event, wait.bodies)) return i;
+    }
+    throw Refused(fmt::format("what a step waits for has not happened within {} s", wait.at_most));
+  };
   Schedule schedule;
   Leg leg;
   const auto pass = [&](std::uint64_t steps) {
@@ -63,18 +49,16 @@ Schedule script_of(const Scenario& scenario) {
     leg = {};
   };
   for (const Step& step : scenario.steps) try {
-      if (const auto* run = std::get_if<Run>(&step.verb)) {
-        if (own) own->act(step.verb);
-        pass(static_cast<std::uint64_t>(std::llround(run->seconds / h)));
-      } else if (const auto* wait = std::get_if<Wait>(&step.verb)) {
-        pass(own->wait(*wait));
-      } else if (std::holds_alternative<Phases>(step.verb)) {
-        if (own) own->act(step.verb);
+      const auto* wait = std::get_if<Wait>(&step.verb);
+      if (own && !wait) carry_out(step.verb, *own, h);
+      if (const auto* run = std::get_if<Run>(&step.verb))
+        pass(steps_in(run->seconds));
+      else if (wait)
+        pass(waited(*wait));
+      else if (std::holds_alternative<Phases>(step.verb))
         pass(1);
-      } else {
-        if (own) own->act(step.verb);
+      else
         leg.before.push_back(step.verb);
-      }
     } catch (const Refused& refused) {
       throw ScenarioError(diagnose(scenario, step.where, refused.what()));
     }
@@ -87,13 +71,10 @@ double part_of(const Leg& leg) { return leg.seconds / leg.looks; }
 
 Schedule Schedule::of(const Scenario& scenario) {
   if (scenario.bodies.empty()) throw Refused("it has no bodies: there is nothing to measure");
-  Schedule schedule;
-  if (const auto& problem = scenario.problem) {
-    schedule.seconds = problem->seconds;
-    schedule.legs.push_back({{}, problem->seconds, problem->samples});
-  } else {
-    schedule = script_of(scenario);
-  }
+  const auto& problem = scenario.problem;
+  Schedule schedule = problem
+                          ? Schedule{{{{}, problem->seconds, problem->samples}}, problem->seconds}
+                          : script_of(scenario);
   if (schedule.legs.empty())
     throw Refused(
         "no time passes in it: there is nothing to measure; a step with do = \"run\" would");

@@ -5,7 +5,6 @@
 #include <complex>
 #include <limits>
 
-#include "measure/oscillator_world.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern {
@@ -20,7 +19,7 @@ struct State {
 
 // One step of 1 s.
 State stepped(Integrator method, double omega, double zeta, const State& start) {
-  World<2> world = oscillator_world(method, omega, zeta, start.x, start.v);
+  World<2> world = stress::oscillator_world(method, omega, zeta, start.x, start.v);
   world.step(1);
   const Body<2>& body = world.bodies()[1];
   return {body.position.x, body.velocity.x};
@@ -92,10 +91,6 @@ double stability_limit(Integrator method, double zeta) {
 
 StabilityMap make_stability_map() {
   StabilityMap map;
-  map.omega_low = 1e-2;
-  map.omega_high = 1e2;
-  map.zeta_low = 1e-3;
-  map.zeta_high = 1e3;
   map.omega_h = middles(map.omega_low, kOmegaPerDecade, kOmegaDecades * kOmegaPerDecade);
   map.zeta = middles(map.zeta_low, kZetaPerDecade, kZetaDecades * kZetaPerDecade);
   map.zeta.insert(map.zeta.begin(), 0.0);

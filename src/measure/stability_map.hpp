@@ -27,8 +27,9 @@ struct StabilityMap {
   };
   std::vector<double> omega_h;  // ascending, the logarithmic middles of the cells
   std::vector<double> zeta;     // 0 first, then ascending as those
-  double omega_low = 0, omega_high = 0, zeta_low = 0, zeta_high = 0;  // edges of the cells
-  std::vector<Panel> panels;                                          // one a method
+  double omega_low = 1e-2, omega_high = 1e2, zeta_low = 1e-3,
+         zeta_high = 1e3;     // edges of the cells
+  std::vector<Panel> panels;  // one a method
 
   double growth_at(const Panel& panel, std::size_t column, std::size_t row) const {
     return panel.growth[row * omega_h.size() + column];

@@ -1,6 +1,8 @@
 #include "measure/stress.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include "base/stop.hpp"
@@ -18,16 +20,9 @@ StressResult at_least(double bound, double figure, std::string unit, std::string
 std::span<const StressCase> stress_cases() {
   static const std::vector<StressCase> cases = [] {
     std::vector<StressCase> all;
-    add_tree_cases(all);
-    add_input_cases(all);
-    add_shape_cases(all);
-    add_origin_cases(all);
-    add_step_cases(all);
-    add_impact_cases(all);
-    add_friction_cases(all);
-    add_stiff_cases(all);
-    add_stability_cases(all);
-    add_bar_cases(all);
+    for (StressTopic* const topic : {tree_cases, input_cases, shape_cases, origin_cases, step_cases,
+                                     contact_cases, stiff_cases, stability_cases, bar_cases})
+      std::ranges::copy(topic(), std::back_inserter(all));
     return all;
   }();
   return cases;

@@ -3,6 +3,7 @@
 // must keep.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -29,7 +30,7 @@ struct StressCase {
   std::string_view name;   // "coincident_bodies"
   std::string_view group;  // "extreme input", "stiff", "stability", "bars"
   std::string_view what;   // one plain sentence: what must happen
-  StressResult (*run)() = nullptr;
+  std::function<StressResult()> run{};
   bool slow = false;  // takes more than a few seconds: only run when asked for
 };
 
@@ -45,15 +46,8 @@ std::span<const StressCase> stress_cases();
 StressOutcome run_case(const StressCase& stress_case);
 
 // The tables of the topics, a file each (stress_<topic>.cpp), in the order of the whole table.
-void add_tree_cases(std::vector<StressCase>& cases);
-void add_input_cases(std::vector<StressCase>& cases);
-void add_shape_cases(std::vector<StressCase>& cases);
-void add_origin_cases(std::vector<StressCase>& cases);
-void add_step_cases(std::vector<StressCase>& cases);
-void add_stiff_cases(std::vector<StressCase>& cases);
-void add_stability_cases(std::vector<StressCase>& cases);
-void add_impact_cases(std::vector<StressCase>& cases);
-void add_friction_cases(std::vector<StressCase>& cases);
-void add_bar_cases(std::vector<StressCase>& cases);
+using StressTopic = std::vector<StressCase>();
+StressTopic tree_cases, input_cases, shape_cases, origin_cases, step_cases, contact_cases,
+    stiff_cases, stability_cases, bar_cases;
 
 }  // namespace lantern

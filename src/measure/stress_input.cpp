@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "geometry/not_finite.hpp"
-#include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern {
@@ -27,12 +26,12 @@ class Guard {
   void expect(const std::string& who, const std::string& field, Action&& action) {
     const std::uint64_t before = world_.hash();
     const auto why = refusal([&] { action(world_); });
-    ++tried_;
+    ++tried;
     const bool named =
         why && why->find(who) != std::string::npos && why->find(field) != std::string::npos;
     if (named && world_.hash() == before) return;
-    ++wrong_;
-    first_ = first_.empty() ? fmt::format("; first: {} {}", who, field) : first_;
+    ++wrong;
+    if (first.empty()) first = fmt::format("; first: {} {}", who, field);
   }
 
   // A body with one field spoilt, by each of the bad values.
@@ -46,14 +45,11 @@ class Guard {
     }
   }
 
-  int tried() const { return tried_; }
-  int wrong() const { return wrong_; }
-  const std::string& first() const { return first_; }
+  int tried = 0, wrong = 0;
+  std::string first;
 
  private:
   World<D> world_;
-  int tried_ = 0, wrong_ = 0;
-  std::string first_;
 };
 
 // The case for what `try_all(guard)` gives to worlds of both dimensions.
@@ -63,9 +59,9 @@ StressResult refused_case(TryAll&& try_all) {
   Guard<3> solid;
   try_all(flat, std::integral_constant<int, 2>());
   try_all(solid, std::integral_constant<int, 3>());
-  return at_most(0, flat.wrong() + solid.wrong(), "values",
+  return at_most(0, flat.wrong + solid.wrong, "values",
                  fmt::format("of {} not refused by name, or the world changed{}{}",
-                             flat.tried() + solid.tried(), flat.first(), solid.first()));
+                             flat.tried + solid.tried, flat.first, solid.first));
 }
 
 StressResult bad_sizes() {
@@ -75,16 +71,15 @@ StressResult bad_sizes() {
     guard.expect_body("radius", bad, [](Body<D>& b, double v) { b.shape = Capsule{v, 1}; });
     guard.expect_body("half_length", bad, [](Body<D>& b, double v) { b.shape = Capsule{1, v}; });
     for (int i = 0; i < D; ++i) {
-      guard.expect_body("half_size", bad, [i](Body<D>& b, double v) {
-        AxisBox<D> box{Vec<D>(1.0)};
-        box.half_size[i] = v;
-        b.shape = box;
-      });
-      guard.expect_body("half_size", bad, [i](Body<D>& b, double v) {
-        OrientedBox<D> box{Vec<D>(1.0)};
-        box.half_size[i] = v;
-        b.shape = box;
-      });
+      const auto half = [i](double v) {
+        Vec<D> size(1.0);
+        size[i] = v;
+        return size;
+      };
+      guard.expect_body("half_size", bad,
+                        [&](Body<D>& b, double v) { b.shape = AxisBox<D>{half(v)}; });
+      guard.expect_body("half_size", bad,
+                        [&](Body<D>& b, double v) { b.shape = OrientedBox<D>{half(v)}; });
       guard.expect_body("normal", {0.0, 2.0, kNan, kInfinity}, [i](Body<D>& b, double v) {
         HalfSpace<D> space;
         space.normal[i] = v;
@@ -157,18 +152,12 @@ StressResult bad_scripts() {
 StressResult bad_links() {
   return refused_case([]<int D>(Guard<D>& guard, std::integral_constant<int, D>) {
     const auto spring = [&](const char* field, auto&& spoil) {
-      Spring<D> s;
-      s.a = 1;
-      s.b = 2;
+      Spring<D> s{.a = 1, .b = 2};
       spoil(s);
       guard.expect("", field, [&](World<D>& w) { w.add_spring(s); });
     };
     const auto joint = [&](const char* field, auto&& spoil) {
-      Joint<D> j;
-      j.kind = JointKind::distance;
-      j.a = 1;
-      j.b = 2;
-      j.length = 1;
+      Joint<D> j{.kind = JointKind::distance, .a = 1, .b = 2, .length = 1};
       spoil(j);
       guard.expect("", field, [&](World<D>& w) { w.add_joint(j); });
     };
@@ -221,21 +210,19 @@ StressResult bad_configs() {
 
 }  // namespace
 
-void add_input_cases(std::vector<StressCase>& cases) {
+std::vector<StressCase> input_cases() {
   constexpr const char* kGroup = "extreme input";
-  cases.insert(
-      cases.end(),
-      {{"bad_sizes", kGroup, "A size that is negative or no number is refused by name.", bad_sizes},
-       {"bad_masses", kGroup,
-        "A mass, density, drag or material that is negative or no number is refused by name.",
-        bad_masses},
-       {"bad_states", kGroup, "A pose, velocity or momentum that is no number is refused by name.",
-        bad_states},
-       {"bad_scripts", kGroup, "What a script tells a body is refused by name if it is no number.",
-        bad_scripts},
-       {"bad_links", kGroup, "A bad number of a spring or joint is refused by name.", bad_links},
-       {"bad_configs", kGroup, "A world with a setting out of its range is not made.",
-        bad_configs}});
+  return {
+      {"bad_sizes", kGroup, "A size that is negative or no number is refused by name.", bad_sizes},
+      {"bad_masses", kGroup,
+       "A mass, density, drag or material that is negative or no number is refused by name.",
+       bad_masses},
+      {"bad_states", kGroup, "A pose, velocity or momentum that is no number is refused by name.",
+       bad_states},
+      {"bad_scripts", kGroup, "What a script tells a body is refused by name if it is no number.",
+       bad_scripts},
+      {"bad_links", kGroup, "A bad number of a spring or joint is refused by name.", bad_links},
+      {"bad_configs", kGroup, "A world with a setting out of its range is not made.", bad_configs}};
 }
 
 }  // namespace lantern

@@ -1,4 +1,4 @@
-// Worlds that the stress cases share.
+// Worlds that the stress cases share, and their figures.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
+#include "measure/stress.hpp"
 #include "physics/energy.hpp"
 #include "physics/world.hpp"
 
@@ -30,6 +31,20 @@ inline double largest(std::initializer_list<double> values) {
   return most;
 }
 
+// The largest that `figure` gives for any of the values, or 0.
+template <class T, class Figure>
+double worst_over(std::initializer_list<T> values, Figure&& figure) {
+  double worst = 0;
+  for (const T& value : values) worst = largest(worst, figure(value));
+  return worst;
+}
+
+// A run of a case: none of the figures may be larger than the bound.
+template <class... Figures>
+auto none_above(double bound, const char* unit, const char* detail, Figures... figures) {
+  return [=] { return at_most(bound, largest({figures()...}), unit, detail); };
+}
+
 // (x, y) in either dimension.
 template <int D>
 Vec<D> at(double x, double y = 0) {
@@ -41,9 +56,7 @@ Vec<D> at(double x, double y = 0) {
 
 template <int D>
 WorldConfig<D> with_gravity() {
-  WorldConfig<D> config;
-  config.gravity = at<D>(0, -kGravity);
-  return config;
+  return {.gravity = at<D>(0, -kGravity)};
 }
 
 // Those that there are in so many dimensions.
@@ -56,11 +69,7 @@ std::vector<StructureKind> broad_phases_of() {
 
 template <int D>
 Body<D> make_body(const Shape<D>& shape, const Vec<D>& position, const char* name = "body") {
-  Body<D> body;
-  body.name = name;
-  body.shape = shape;
-  body.position = position;
-  return body;
+  return {.name = name, .shape = shape, .position = position};
 }
 
 template <int D>
@@ -89,6 +98,19 @@ Body<D> make_anchor() {
   body.name = "anchor";
   body.kind = BodyKind::static_body;
   return body;
+}
+
+// One body on a damped spring: x'' + 2 zeta omega x' + omega^2 x = 0. Mass 1, body 1 of the world,
+// on the x axis. The spring has no rest length, so the force is linear however far the body swings;
+// but it pulls nothing while x is exactly 0.
+inline World<2> oscillator_world(Integrator integrator, double omega, double zeta, double x,
+                                 double v) {
+  World<2> world({.integrator = integrator, .contacts = ContactMethod::none, .may_sleep = false});
+  const Shape<2> ball = Sphere{0.5};
+  world.add({.name = "anchor", .shape = ball, .kind = BodyKind::static_body});
+  world.add({.name = "mass", .shape = ball, .position = {x, 0}, .velocity = {v, 0}, .mass = 1});
+  world.add_spring({.b = 1, .stiffness = omega * omega, .damping = 2 * zeta * omega});
+  return world;
 }
 
 template <int D>

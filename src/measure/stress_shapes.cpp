@@ -6,7 +6,6 @@
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
 #include "geometry/random_vec.hpp"
-#include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 #include "physics/manifold.hpp"
 
@@ -132,11 +131,6 @@ double ratio_error() {
   return worst;
 }
 
-StressResult contact_size_ratio() {
-  return at_most(4e-12, largest(ratio_error<2>(), ratio_error<3>()), "of the size",
-                 "separations of balls and boxes, ratios 1e-6 ... 1e6");
-}
-
 // Boxes of 1 : 1e4 turned about: parted along the normal by what the contact says, they touch no
 // more. The largest rest, in parts of the longer side.
 template <int D>
@@ -167,11 +161,6 @@ double needle_error() {
     worst = largest(worst, std::abs(least_separation(*parted)) / 1e4);
   }
   return worst;
-}
-
-StressResult contact_aspect_ratio() {
-  return at_most(1e-6, largest(needle_error<2>(), needle_error<3>()), "of the size",
-                 "left over when boxes of 1 : 1e4 are parted as their contact says");
 }
 
 // Points and lines that meet, or miss each other by 5e-7.
@@ -207,29 +196,28 @@ double zero_size_error() {
   return is_finite(world) ? std::abs(world.bodies()[2].position.y + 2) : kInfinity;
 }
 
-StressResult zero_size() {
-  return at_most(1e-3, largest(zero_size_error<2>(), zero_size_error<3>()), "m",
-                 "a point with a mass on the floor, 2D and 3D; without one it is refused");
-}
-
 }  // namespace
 
-void add_shape_cases(std::vector<StressCase>& cases) {
+std::vector<StressCase> shape_cases() {
   constexpr const char* kGroup = "extreme input";
-  cases.insert(
-      cases.end(),
-      {{"parallel_edges", kGroup, "Nearly parallel box edges keep their normal.", parallel_edges},
-       {"parallel_capsules", kGroup, "Nearly parallel capsules keep their normal.",
-        parallel_capsules},
-       {"fallback_normal", kGroup, "Shapes with a common centre get a fixed normal of unit length.",
-        fallback_normal},
-       {"contact_size_ratio", kGroup, "Contacts are exact at size ratios from 1e-6 to 1e6.",
-        contact_size_ratio},
-       {"contact_aspect_ratio", kGroup, "Contacts of boxes of 1 : 1e4 part them.",
-        contact_aspect_ratio},
-       {"zero_size_contacts", kGroup, "Shapes of no size have exact contacts.", zero_size_contacts},
-       {"zero_size", kGroup, "A shape of no size is legal if static, or with an explicit mass.",
-        zero_size}});
+  return {
+      {"parallel_edges", kGroup, "Nearly parallel box edges keep their normal.", parallel_edges},
+      {"parallel_capsules", kGroup, "Nearly parallel capsules keep their normal.",
+       parallel_capsules},
+      {"fallback_normal", kGroup, "Shapes with a common centre get a fixed normal of unit length.",
+       fallback_normal},
+      {"contact_size_ratio", kGroup, "Contacts are exact at size ratios from 1e-6 to 1e6.",
+       none_above(4e-12, "of the size", "separations of balls and boxes, ratios 1e-6 ... 1e6",
+                  ratio_error<2>, ratio_error<3>)},
+      {"contact_aspect_ratio", kGroup, "Contacts of boxes of 1 : 1e4 part them.",
+       none_above(1e-6, "of the size",
+                  "left over when boxes of 1 : 1e4 are parted as their contact says",
+                  needle_error<2>, needle_error<3>)},
+      {"zero_size_contacts", kGroup, "Shapes of no size have exact contacts.", zero_size_contacts},
+      {"zero_size", kGroup, "A shape of no size is legal if static, or with an explicit mass.",
+       none_above(1e-3, "m",
+                  "a point with a mass on the floor, 2D and 3D; without one it is refused",
+                  zero_size_error<2>, zero_size_error<3>)}};
 }
 
 }  // namespace lantern

@@ -1,13 +1,10 @@
-// The methods' limits of stability from both sides, and their laws of energy, on the spring of
-// oscillator_world.hpp.
+// The methods' limits of stability from both sides, and their laws of energy, on a damped spring.
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
-#include "measure/oscillator_world.hpp"
 #include "measure/stability_map.hpp"
-#include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern {
@@ -82,57 +79,29 @@ StressResult at_every_step() {
 
 // (v^2 + omega^2 x^2) / 2
 double energy_of(const World<2>& world, double omega) {
-  const Body<2>& body = world.bodies()[1];
-  return (body.velocity.x * body.velocity.x + omega * omega * body.position.x * body.position.x) /
-         2;
+  const double x = world.bodies()[1].position.x, v = world.bodies()[1].velocity.x;
+  return (v * v + omega * omega * x * x) / 2;
 }
 
-// How far the energy of the undamped spring after `steps` steps is from `law(omega h)` to the power
-// of `steps` times the first, worst over omega h; relative.
+// A run of a case: how far the energy of the undamped spring after `steps` steps is from
+// `law(omega h)` to the power of `steps` times the first, worst over omega h; relative.
 template <class Law>
-double misses_law(Integrator method, std::initializer_list<double> omega_hs, int steps, Law&& law) {
-  double worst = 0;
-  for (const double w : omega_hs) {
-    World<2> world = oscillator_world(method, w, 0, 1, 0.3 * w);
-    const double before = energy_of(world, w);
-    double expected = before;
-    for (int i = 0; i < steps; ++i) {
-      world.step(1);
-      expected *= law(w * w);
+auto keeps_law(double bound, const char* detail, Integrator method, std::vector<double> omega_hs,
+               int steps, Law law) {
+  return none_above(bound, "relative", detail, [=] {
+    double worst = 0;
+    for (const double w : omega_hs) {
+      World<2> world = oscillator_world(method, w, 0, 1, 0.3 * w);
+      const double before = energy_of(world, w);
+      double expected = before;
+      for (int i = 0; i < steps; ++i) {
+        world.step(1);
+        expected *= law(w * w);
+      }
+      worst = largest(worst, std::abs(energy_of(world, w) / expected - 1));
     }
-    worst = largest(worst, std::abs(energy_of(world, w) / expected - 1));
-  }
-  return worst;
-}
-
-StressResult explicit_euler_energy() {
-  return at_most(1e-10,
-                 misses_law(Integrator::explicit_euler, {0.01, 0.1, 1.0}, 500,
-                            [](double w2) { return 1 + w2; }),
-                 "relative", "500 steps, omega h from 0.01 to 1");
-}
-
-StressResult implicit_euler_energy() {
-  return at_most(1e-10,
-                 misses_law(Integrator::implicit_euler, {0.01, 0.1, 1.0}, 500,
-                            [](double w2) { return 1 / (1 + w2); }),
-                 "relative", "500 steps, omega h from 0.01 to 1");
-}
-
-StressResult midpoint_energy() {
-  return at_most(1e-11,
-                 misses_law(Integrator::implicit_midpoint, {0.01, 0.1, 1.0, 10.0, 100.0}, 1000,
-                            [](double) { return 1.0; }),
-                 "relative", "1000 steps, omega h from 0.01 to 100");
-}
-
-// |R(iw)|^2 = 1 - w^6/72 + w^8/576, exactly.
-StressResult runge_kutta_energy() {
-  return at_most(
-      1e-10,
-      misses_law(Integrator::runge_kutta_4, {0.01, 0.1, 1.0, 2.0}, 200,
-                 [](double w2) { return 1 - w2 * w2 * w2 / 72 + w2 * w2 * w2 * w2 / 576; }),
-      "relative", "200 steps, omega h from 0.01 to 2");
+    return worst;
+  });
 }
 
 // The largest change of the undamped spring's energy over the steps, relative.
@@ -143,20 +112,13 @@ double wavering(Integrator method, double omega_h, int steps) {
                            [&] { return std::abs(energy_of(world, omega_h) / before - 1); });
 }
 
-// The energy wavers by (omega h)^2/4 of itself at most, for ever.
-StressResult verlet_energy() {
-  double worst = 0;
-  for (const double w : {0.01, 0.1, 0.5})
-    worst = largest(worst, wavering(Integrator::velocity_verlet, w, 20000) / (w * w / 4));
-  return at_most(1.01, worst, "x (omega h)^2/4", "20000 steps, omega h 0.01, 0.1, 0.5");
-}
-
-// Half of omega h: the modified energy v^2 + w^2 x^2 - h w^2 x v is kept.
-StressResult semi_implicit_energy() {
-  double worst = 0;
-  for (const double w : {0.01, 0.1, 0.5})
-    worst = largest(worst, wavering(Integrator::semi_implicit_euler, w, 20000) / (w / (2 - w)));
-  return at_most(1.01, worst, "x bound", "20000 steps; the bound is omega h/(2 - omega h)");
+// Over 20000 steps of each omega h: of the method's bound, as a function of omega h.
+template <class Bound>
+auto keeps_bound(const char* unit, const char* detail, Integrator method, Bound bound) {
+  return none_above(1.01, unit, detail, [=] {
+    return worst_over({0.01, 0.1, 0.5},
+                      [=](double w) { return wavering(method, w, 20000) / bound(w); });
+  });
 }
 
 // Without damping, a million periods: nothing that a symplectic method loses may add up.
@@ -180,43 +142,54 @@ StressResult map_agrees() {
 
 }  // namespace
 
-void add_stability_cases(std::vector<StressCase>& cases) {
+std::vector<StressCase> stability_cases() {
   using enum Integrator;
   constexpr const char* kGroup = "stability";
   constexpr const char* kBelow =
       "At 0.99 times its limit the spring stays bounded, at any damping.";
   constexpr const char* kBeyond = "At 1.01 times its limit the spring grows, at any damping.";
   constexpr const char* kEvery = "The spring stays bounded at any step and damping.";
-  cases.insert(
-      cases.end(),
-      {{"explicit_euler_below_limit", kGroup, kBelow, below_limit<explicit_euler>},
-       {"explicit_euler_beyond_limit", kGroup, kBeyond, beyond_limit<explicit_euler>},
-       {"semi_implicit_euler_below_limit", kGroup, kBelow, below_limit<semi_implicit_euler>},
-       {"semi_implicit_euler_beyond_limit", kGroup, kBeyond, beyond_limit<semi_implicit_euler>},
-       {"velocity_verlet_below_limit", kGroup, kBelow, below_limit<velocity_verlet>},
-       {"velocity_verlet_beyond_limit", kGroup, kBeyond, beyond_limit<velocity_verlet>},
-       {"runge_kutta_4_below_limit", kGroup, kBelow, below_limit<runge_kutta_4>},
-       {"runge_kutta_4_beyond_limit", kGroup, kBeyond, beyond_limit<runge_kutta_4>},
-       {"implicit_midpoint_any_step", kGroup, kEvery, at_every_step<implicit_midpoint>},
-       {"implicit_euler_any_step", kGroup, kEvery, at_every_step<implicit_euler>},
-       {"stability_map_agrees", kGroup,
-        "Every cell of every method's map is on the side of its limit that theory says.",
-        map_agrees},
-       {"explicit_euler_energy", kGroup,
-        "Each step multiplies an undamped spring's energy by 1 + (omega h)^2.",
-        explicit_euler_energy},
-       {"semi_implicit_euler_energy", kGroup, "The energy of an undamped spring stays bounded.",
-        semi_implicit_energy},
-       {"velocity_verlet_energy", kGroup,
-        "The energy of an undamped spring wavers by (omega h)^2/4 at most.", verlet_energy},
-       {"runge_kutta_4_energy", kGroup,
-        "Each step loses (omega h)^6/72 of an undamped spring's energy.", runge_kutta_energy},
-       {"implicit_midpoint_energy", kGroup,
-        "The energy of an undamped spring is kept to rounding, at any step.", midpoint_energy},
-       {"implicit_euler_energy", kGroup,
-        "Each step divides an undamped spring's energy by 1 + (omega h)^2.", implicit_euler_energy},
-       {"million_periods", kGroup,
-        "Over a million periods Verlet's energy wavers, but does not drift.", many_periods, true}});
+  return {
+      {"explicit_euler_below_limit", kGroup, kBelow, below_limit<explicit_euler>},
+      {"explicit_euler_beyond_limit", kGroup, kBeyond, beyond_limit<explicit_euler>},
+      {"semi_implicit_euler_below_limit", kGroup, kBelow, below_limit<semi_implicit_euler>},
+      {"semi_implicit_euler_beyond_limit", kGroup, kBeyond, beyond_limit<semi_implicit_euler>},
+      {"velocity_verlet_below_limit", kGroup, kBelow, below_limit<velocity_verlet>},
+      {"velocity_verlet_beyond_limit", kGroup, kBeyond, beyond_limit<velocity_verlet>},
+      {"runge_kutta_4_below_limit", kGroup, kBelow, below_limit<runge_kutta_4>},
+      {"runge_kutta_4_beyond_limit", kGroup, kBeyond, beyond_limit<runge_kutta_4>},
+      {"implicit_midpoint_any_step", kGroup, kEvery, at_every_step<implicit_midpoint>},
+      {"implicit_euler_any_step", kGroup, kEvery, at_every_step<implicit_euler>},
+      {"stability_map_agrees", kGroup,
+       "Every cell of every method's map is on the side of its limit that theory says.",
+       map_agrees},
+      {"explicit_euler_energy", kGroup,
+       "Each step multiplies an undamped spring's energy by 1 + (omega h)^2.",
+       keeps_law(1e-10, "500 steps, omega h from 0.01 to 1", explicit_euler, {0.01, 0.1, 1}, 500,
+                 [](double w2) { return 1 + w2; })},
+      // The modified energy v^2 + w^2 x^2 - h w^2 x v is kept.
+      {"semi_implicit_euler_energy", kGroup, "The energy of an undamped spring stays bounded.",
+       keeps_bound("x bound", "20000 steps; the bound is omega h/(2 - omega h)",
+                   semi_implicit_euler, [](double w) { return w / (2 - w); })},
+      {"velocity_verlet_energy", kGroup,
+       "The energy of an undamped spring wavers by (omega h)^2/4 at most.",
+       keeps_bound("x (omega h)^2/4", "20000 steps, omega h 0.01, 0.1, 0.5", velocity_verlet,
+                   [](double w) { return w * w / 4; })},
+      // |R(iw)|^2 = 1 - w^6/72 + w^8/576, exactly.
+      {"runge_kutta_4_energy", kGroup,
+       "Each step loses (omega h)^6/72 of an undamped spring's energy.",
+       keeps_law(1e-10, "200 steps, omega h from 0.01 to 2", runge_kutta_4, {0.01, 0.1, 1, 2}, 200,
+                 [](double w2) { return 1 - w2 * w2 * w2 / 72 + w2 * w2 * w2 * w2 / 576; })},
+      {"implicit_midpoint_energy", kGroup,
+       "The energy of an undamped spring is kept to rounding, at any step.",
+       keeps_law(1e-11, "1000 steps, omega h from 0.01 to 100", implicit_midpoint,
+                 {0.01, 0.1, 1, 10, 100}, 1000, [](double) { return 1.0; })},
+      {"implicit_euler_energy", kGroup,
+       "Each step divides an undamped spring's energy by 1 + (omega h)^2.",
+       keeps_law(1e-10, "500 steps, omega h from 0.01 to 1", implicit_euler, {0.01, 0.1, 1}, 500,
+                 [](double w2) { return 1 / (1 + w2); })},
+      {"million_periods", kGroup,
+       "Over a million periods Verlet's energy wavers, but does not drift.", many_periods, true}};
 }
 
 }  // namespace lantern

@@ -11,7 +11,6 @@
 #include "geometry/not_finite.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "measure/stress.hpp"
 #include "measure/stress_scene.hpp"
 #include "spatial/pairs.hpp"
 
@@ -65,60 +64,54 @@ std::size_t wrong_pairs(Make&& make, std::size_t& true_count) {
   return wrong;
 }
 
-// `make` is a generic lambda: make(random, std::integral_constant<int, D>).
+// Of boxes that `make(random, std::integral_constant<int, D>)` makes.
 template <class Make>
-StressResult pairs_case(Make&& make) {
-  std::size_t count = 0;
-  const std::size_t wrong =
-      wrong_pairs<2>([&](Random& r) { return make(r, std::integral_constant<int, 2>()); }, count) +
-      wrong_pairs<3>([&](Random& r) { return make(r, std::integral_constant<int, 3>()); }, count);
-  if (count == 0) return at_most(0, kNan, "pairs", "no overlap");
-  return at_most(0, static_cast<double>(wrong), "pairs",
-                 fmt::format("missed, invented or repeated, of {}; all broad phases", count));
+auto pairs_case(Make make) {
+  return [make] {
+    std::size_t count = 0;
+    const auto wrong_in = [&]<int D>(std::integral_constant<int, D> dimension) {
+      return wrong_pairs<D>([&](Random& random) { return make(random, dimension); }, count);
+    };
+    const std::size_t wrong =
+        wrong_in(std::integral_constant<int, 2>()) + wrong_in(std::integral_constant<int, 3>());
+    if (count == 0) return at_most(0, kNan, "pairs", "no overlap");
+    return at_most(0, static_cast<double>(wrong), "pairs",
+                   fmt::format("missed, invented or repeated, of {}; all broad phases", count));
+  };
 }
 
-StressResult outside_the_root() {
-  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
-    return Box<D>::around(random_point<D>(random, -2 * kSide, 3 * kSide),
-                          random_point<D>(random, 0, 25));
-  });
-}
+const auto outside_the_root = []<int D>(Random& random, std::integral_constant<int, D>) {
+  return Box<D>::around(random_point<D>(random, -2 * kSide, 3 * kSide),
+                        random_point<D>(random, 0, 25));
+};
 
 // Corners on multiples of 4: on the planes at which every tree splits.
-StressResult on_splitting_planes() {
-  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
-    Box<D> box;
-    for (int i = 0; i < D; ++i) {
-      box.lo[i] = 4.0 * static_cast<double>(random.whole(0, 15));
-      box.hi[i] = box.lo[i] + 4.0 * static_cast<double>(random.whole(0, 2));
-    }
-    return box;
-  });
-}
+const auto on_splitting_planes = []<int D>(Random& random, std::integral_constant<int, D>) {
+  Box<D> box;
+  for (int i = 0; i < D; ++i) {
+    box.lo[i] = 4.0 * static_cast<double>(random.whole(0, 15));
+    box.hi[i] = box.lo[i] + 4.0 * static_cast<double>(random.whole(0, 2));
+  }
+  return box;
+};
 
-StressResult size_ratio() {
-  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
-    const double size = std::pow(10.0, static_cast<double>(random.whole(-6, 6)));
-    return Box<D>::around(random_point<D>(random, 0, kSide),
-                          random_point<D>(random, 0.1 * size, size));
-  });
-}
+const auto size_ratio = []<int D>(Random& random, std::integral_constant<int, D>) {
+  const double size = std::pow(10.0, static_cast<double>(random.whole(-6, 6)));
+  return Box<D>::around(random_point<D>(random, 0, kSide),
+                        random_point<D>(random, 0.1 * size, size));
+};
 
-StressResult aspect_ratio() {
-  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
-    Vec<D> half(10.0);
-    half[static_cast<int>(random.whole(0, D - 1))] = 1e-3;
-    return Box<D>::around(random_point<D>(random, 0, kSide), half);
-  });
-}
+const auto aspect_ratio = []<int D>(Random& random, std::integral_constant<int, D>) {
+  Vec<D> half(10.0);
+  half[static_cast<int>(random.whole(0, D - 1))] = 1e-3;
+  return Box<D>::around(random_point<D>(random, 0, kSide), half);
+};
 
-StressResult zero_size_boxes() {
-  return pairs_case([]<int D>(Random& random, std::integral_constant<int, D>) {
-    Vec<D> p;  // few places, so that some coincide
-    for (int i = 0; i < D; ++i) p[i] = 8.0 * static_cast<double>(random.whole(0, 3));
-    return Box<D>{p, p};
-  });
-}
+const auto zero_size_boxes = []<int D>(Random& random, std::integral_constant<int, D>) {
+  Vec<D> p;  // few places, so that some coincide
+  for (int i = 0; i < D; ++i) p[i] = 8.0 * static_cast<double>(random.whole(0, 3));
+  return Box<D>{p, p};
+};
 
 // --- 1e5 objects at one point ---
 
@@ -159,11 +152,6 @@ double futile_nodes() {
   return most;
 }
 
-StressResult coincident_bodies() {
-  return at_most(1, largest(futile_nodes<2>(), futile_nodes<3>()), "nodes",
-                 "quadtree, octree and kD-trees of 100000 equal boxes, depth limit 32");
-}
-
 // Without the no-progress stop the depth limit alone ends the splits. A box of 1 on a corner of
 // cells of 1/4 reaches up to 6 of them on each axis, however many bodies there are: entries a body
 // over those of a single body.
@@ -181,22 +169,12 @@ double memory_growth() {
   return most;
 }
 
-StressResult coincident_memory() {
-  return at_most(1, largest(memory_growth<2>(), memory_growth<3>()), "x",
-                 "entries a body, 10000 equal boxes over 100, stopped by the depth limit 8 only");
-}
-
 template <int D>
 double miscounted_pairs() {
   Orthtree<D> tree = deep_tree<D>(true);
   for (const Item<D>& item : coincident<D>(Vec<D>(21.3))) tree.insert(item);
   return std::abs(static_cast<double>(count_pair_tests(tree)) -
                   static_cast<double>(all_pairs(kMany)));
-}
-
-StressResult coincident_pairs_counted() {
-  return at_most(0, largest(miscounted_pairs<2>(), miscounted_pairs<3>()), "pairs",
-                 "off n(n-1)/2 = 4999950000, counted without being collected");
 }
 
 // The n(n-1)/2 pairs are refused by the stated budget, and the broad phase goes on.
@@ -242,31 +220,19 @@ double nodes_of_root(const Box<D>& bounds) {
   return static_cast<double>(tree.counters().nodes);
 }
 
-template <int D>
 double worst_root(std::initializer_list<double> lows) {
-  double worst = 0;
-  for (const double low : lows) {
+  return worst_over(lows, [](double low) {
     const double next = std::nextafter(low, kInfinity);
-    worst = largest(worst, nodes_of_root<D>({Vec<D>(low), Vec<D>(next)}));
-  }
-  return worst;
+    return largest(nodes_of_root<2>({Vec<2>(low), Vec<2>(next)}),
+                   nodes_of_root<3>({Vec<3>(low), Vec<3>(next)}));
+  });
 }
-
-StressResult root_too_small() {
-  const auto lows = {0.0, 1.0, 1 + 0x1p-52, 2 * 0x1p-1074, -1.0};
-  return at_most(1, largest(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
-                 "roots from one number to the next, near 0 and 1");
-}
-
-StressResult root_too_far() {
-  const auto lows = {1e9, 1e16, 1e300, 1.7e308};
-  return at_most(1, largest(worst_root<2>(lows), worst_root<3>(lows)), "nodes",
-                 "roots from one number to the next, at 1e9 ... 1.7e308");
-}
+double root_too_small() { return worst_root({0.0, 1.0, 1 + 0x1p-52, 2 * 0x1p-1074, -1.0}); }
+double root_too_far() { return worst_root({1e9, 1e16, 1e300, 1.7e308}); }
 
 // Two bodies at the ends of the largest world: its middle must not overflow.
 template <int D>
-int wrong_largest() {
+double wrong_largest() {
   constexpr double kHuge = std::numeric_limits<double>::max();
   typename Orthtree<D>::Config config;
   config.bounds = {Vec<D>(-kHuge), Vec<D>(kHuge)};
@@ -274,45 +240,47 @@ int wrong_largest() {
   Orthtree<D> tree(config);
   tree.insert({0, {Vec<D>(-kHuge), Vec<D>(-1e308)}});
   tree.insert({1, {Vec<D>(1e308), Vec<D>(kHuge)}});
-  return static_cast<int>(candidate_pairs(tree, 100).pairs.size());
-}
-
-StressResult root_too_large() {
-  return at_most(0, wrong_largest<2>() + wrong_largest<3>(), "pairs",
-                 "invented, of bodies at both ends of all numbers");
+  return static_cast<double>(candidate_pairs(tree, 100).pairs.size());
 }
 
 }  // namespace
 
-void add_tree_cases(std::vector<StressCase>& cases) {
+std::vector<StressCase> tree_cases() {
   constexpr const char* kGroup = "extreme input";
-  cases.insert(
-      cases.end(),
-      {{"coincident_bodies", kGroup, "A tree does not split 1e5 objects at one point.",
-        coincident_bodies},
-       {"coincident_memory", kGroup, "Memory grows with n where only the depth limit stops a tree.",
-        coincident_memory},
-       {"coincident_pairs_counted", kGroup, "The n(n-1)/2 pairs at one point can be counted.",
-        coincident_pairs_counted},
-       {"coincident_pairs_refused", kGroup,
-        "More pairs than the budget are refused, and the broad phase goes on.",
-        coincident_pairs_refused},
-       {"root_too_small", kGroup, "A node whose middle equals a bound stops splitting.",
-        root_too_small},
-       {"root_too_far", kGroup, "A root too far away to have a middle stops splitting.",
-        root_too_far},
-       {"root_too_large", kGroup, "The middle of the largest possible root does not overflow.",
-        root_too_large},
-       {"outside_the_root", kGroup,
-        "Objects outside the root's box are kept, and their pairs found.", outside_the_root},
-       {"on_splitting_planes", kGroup,
-        "Objects on splitting planes, or touching exactly, give each pair once.",
-        on_splitting_planes},
-       {"zero_size_boxes", kGroup, "Boxes of no size give the pairs of brute force.",
-        zero_size_boxes},
-       {"size_ratio", kGroup, "Sizes from 1e-6 to 1e6 give the pairs of brute force.", size_ratio},
-       {"aspect_ratio", kGroup, "Aspects of 1 : 1e4 give the pairs of brute force.",
-        aspect_ratio}});
+  return {
+      {"coincident_bodies", kGroup, "A tree does not split 1e5 objects at one point.",
+       none_above(1, "nodes", "quadtree, octree and kD-trees of 100000 equal boxes, depth limit 32",
+                  futile_nodes<2>, futile_nodes<3>)},
+      {"coincident_memory", kGroup, "Memory grows with n where only the depth limit stops a tree.",
+       none_above(1, "x",
+                  "entries a body, 10000 equal boxes over 100, stopped by the depth limit 8 only",
+                  memory_growth<2>, memory_growth<3>)},
+      {"coincident_pairs_counted", kGroup, "The n(n-1)/2 pairs at one point can be counted.",
+       none_above(0, "pairs", "off n(n-1)/2 = 4999950000, counted without being collected",
+                  miscounted_pairs<2>, miscounted_pairs<3>)},
+      {"coincident_pairs_refused", kGroup,
+       "More pairs than the budget are refused, and the broad phase goes on.",
+       coincident_pairs_refused},
+      {"root_too_small", kGroup, "A node whose middle equals a bound stops splitting.",
+       none_above(1, "nodes", "roots from one number to the next, near 0 and 1", root_too_small)},
+      {"root_too_far", kGroup, "A root too far away to have a middle stops splitting.",
+       none_above(1, "nodes", "roots from one number to the next, at 1e9 ... 1.7e308",
+                  root_too_far)},
+      {"root_too_large", kGroup, "The middle of the largest possible root does not overflow.",
+       none_above(0, "pairs", "invented, of bodies at both ends of all numbers", wrong_largest<2>,
+                  wrong_largest<3>)},
+      {"outside_the_root", kGroup,
+       "Objects outside the root's box are kept, and their pairs found.",
+       pairs_case(outside_the_root)},
+      {"on_splitting_planes", kGroup,
+       "Objects on splitting planes, or touching exactly, give each pair once.",
+       pairs_case(on_splitting_planes)},
+      {"zero_size_boxes", kGroup, "Boxes of no size give the pairs of brute force.",
+       pairs_case(zero_size_boxes)},
+      {"size_ratio", kGroup, "Sizes from 1e-6 to 1e6 give the pairs of brute force.",
+       pairs_case(size_ratio)},
+      {"aspect_ratio", kGroup, "Aspects of 1 : 1e4 give the pairs of brute force.",
+       pairs_case(aspect_ratio)}};
 }
 
 }  // namespace lantern

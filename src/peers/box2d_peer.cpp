@@ -68,14 +68,14 @@ class Box2dRun : public PeerRun {
     def.position = to_box2d(spec.position);
     def.angle = number(spec.angle);
     def.linearVelocity = to_box2d(spec.velocity);
-    def.angularVelocity = number(spec.spin.z);
+    def.angularVelocity = number(spec.turning.z);
     // It keeps 1 / (1 + h damping) of a velocity: the same drag, by implicit Euler.
     def.linearDamping = number(spec.linear_drag * spec.inverse_mass());
     def.angularDamping = spec.may_turn ? number(spec.angular_drag / spec.inertia.z) : 0;
     def.fixedRotation = spec.is_dynamic() && !spec.may_turn;
     def.bullet = true;  // meets what moves at the moment of impact, too
     bodies_.push_back(world_.CreateBody(&def));
-    if (scene_.contacts) add_shape(spec, *bodies_.back());
+    if (scene_.collides()) add_shape(spec, *bodies_.back());
     if (spec.is_dynamic()) {
       const b2MassData mass{number(spec.mass), b2Vec2(0, 0), number(spec.inertia.z)};
       bodies_.back()->SetMassData(&mass);
@@ -110,25 +110,24 @@ class Box2dRun : public PeerRun {
   void add(const PeerLink& link) {
     b2Body* a = bodies_[link.a];
     b2Body* b = link.b ? bodies_[*link.b] : ground_;
-    if (link.kind == LinkSpec::Kind::pin) {
-      b2RevoluteJointDef def;
+    const auto attach = [&](auto& def) {
       def.bodyA = a;
       def.bodyB = b;
       def.localAnchorA = to_box2d(link.at_a);
       def.localAnchorB = to_box2d(link.at_b);
+    };
+    if (link.kind == LinkSpec::Kind::pin) {
+      b2RevoluteJointDef def;
+      attach(def);
       def.referenceAngle = b->GetAngle() - a->GetAngle();
       world_.CreateJoint(&def);
       return;
     }
     const bool is_spring = link.kind == LinkSpec::Kind::spring;
-    if (is_spring && (is_soft(link) || link.rest_length < b2_linearSlop))
-      return pull_by_force(link);
+    if (is_spring && (is_soft(link) || link.length < b2_linearSlop)) return pull_by_force(link);
     b2DistanceJointDef def;
-    def.bodyA = a;
-    def.bodyB = b;
-    def.localAnchorA = to_box2d(link.at_a);
-    def.localAnchorB = to_box2d(link.at_b);
-    def.length = number(link.rest_length);
+    attach(def);
+    def.length = number(link.length);
     def.collideConnected = is_spring;
     if (is_spring) {
       def.stiffness = number(link.stiffness);
@@ -146,45 +145,39 @@ class Box2dRun : public PeerRun {
 
 bool fits(double value) { return std::isfinite(number(value)); }
 
-class Box2dPeer : public Peer {
- public:
-  std::string name() const override { return "Box2D"; }
-  std::string version() const override { return LANTERN_PEER_VERSION; }
-
-  std::optional<std::string> cannot(const PeerScene& scene) const override {
-    if (!scene.is_flat()) return "Box2D is flat";
-    for (const PeerBody& body : scene.bodies) {
-      if (scene.contacts && std::holds_alternative<Capsule>(body.shape))
-        return "body '" + body.name + "': Box2D 2.4 has no capsules";
-      if (body.is_dynamic() && (!fits(body.mass) || !(number(body.mass) > 0)))
-        return "body '" + body.name + "': its mass does not fit single precision";
-      if (!fits(body.position.x) || !fits(body.position.y))
-        return "body '" + body.name + "': its position does not fit single precision";
-    }
-    for (const PeerLink& link : scene.links) {
-      if (link.kind == LinkSpec::Kind::distance && link.rest_length < b2_linearSlop)
-        return "Box2D has no rod shorter than 0.005";
-      if (!fits(link.stiffness) || !fits(link.damping))
-        return "a spring does not fit single precision";
-    }
-    return solid_engine_cannot(scene);
+std::optional<std::string> cannot(const PeerScene& scene) {
+  if (!scene.is_flat()) return "Box2D is flat";
+  for (const PeerBody& body : scene.bodies) {
+    if (scene.collides() && std::holds_alternative<Capsule>(body.shape))
+      return "body '" + body.name + "': Box2D 2.4 has no capsules";
+    if (body.is_dynamic() && (!fits(body.mass) || !(number(body.mass) > 0)))
+      return "body '" + body.name + "': its mass does not fit single precision";
+    if (!fits(body.position.x) || !fits(body.position.y))
+      return "body '" + body.name + "': its position does not fit single precision";
   }
-
-  std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const override {
-    if (!(number(h) > 0) || !fits(h)) throw Refused("the step does not fit single precision");
-    for (const PeerBody& body : scene.bodies) {
-      if (glm::length(body.velocity) * h > b2_maxTranslation)
-        throw Refused("body '" + body.name + "': Box2D moves a body by no more than 2 a step");
-      if (std::abs(body.spin.z) * h > b2_maxRotation)
-        throw Refused("body '" + body.name + "': Box2D turns a body by no more than pi/2 a step");
-    }
-    return std::make_unique<Box2dRun>(scene, h);
+  for (const PeerLink& link : scene.links) {
+    if (link.kind == LinkSpec::Kind::distance && link.length < b2_linearSlop)
+      return "Box2D has no rod shorter than 0.005";
+    if (!fits(link.stiffness) || !fits(link.damping))
+      return "a spring does not fit single precision";
   }
-};
+  return solid_engine_cannot(scene);
+}
+
+std::unique_ptr<Simulation> start(const PeerScene& scene, double h) {
+  if (!(number(h) > 0) || !fits(h)) throw Refused("the step does not fit single precision");
+  for (const PeerBody& body : scene.bodies) {
+    if (glm::length(body.velocity) * h > b2_maxTranslation)
+      throw Refused("body '" + body.name + "': Box2D moves a body by no more than 2 a step");
+    if (std::abs(body.turning.z) * h > b2_maxRotation)
+      throw Refused("body '" + body.name + "': Box2D turns a body by no more than pi/2 a step");
+  }
+  return std::make_unique<Box2dRun>(scene, h);
+}
 
 }  // namespace
 }  // namespace lantern
 
-extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
-  peers.push_back(std::make_unique<lantern::Box2dPeer>());
+extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
+  peers.push_back({"Box2D", LANTERN_PEER_VERSION, lantern::cannot, lantern::start});
 }

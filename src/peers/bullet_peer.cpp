@@ -103,11 +103,11 @@ class BulletRun : public PeerRun {
     bodies_.push_back(std::make_unique<btRigidBody>(info));
     btRigidBody& body = *bodies_.back();
     body.setActivationState(DISABLE_DEACTIVATION);
-    const int all = scene_.contacts ? -1 : 0;
+    const int all = scene_.collides() ? -1 : 0;
     world_.addRigidBody(&body, all, all);
     if (!spec.is_dynamic()) return;
     body.setLinearVelocity(to_bullet(spec.velocity));
-    body.setAngularVelocity(to_bullet(spec.spin));
+    body.setAngularVelocity(to_bullet(spec.turning));
     if (scene_.is_flat()) {
       body.setLinearFactor({1, 1, 0});
       body.setAngularFactor({0, 0, 1});
@@ -136,34 +136,23 @@ class BulletRun : public PeerRun {
   std::vector<std::unique_ptr<btTypedConstraint>> pins_;
 };
 
-class BulletPeer : public Peer {
- public:
-  explicit BulletPeer(int iterations) : iterations_(iterations) {}
-
-  std::string name() const override { return "Bullet:" + std::to_string(iterations_); }
-  std::string version() const override { return LANTERN_PEER_VERSION; }
-
-  std::optional<std::string> cannot(const PeerScene& scene) const override {
-    for (const PeerBody& body : scene.bodies)
-      if (body.kind == BodyKind::kinematic_body)
-        return "body '" + body.name + "': Bullet has no bodies that keep their velocity";
-    for (const PeerLink& link : scene.links)
-      if (link.kind == LinkSpec::Kind::distance) return "Bullet has no rod between two points";
-    return solid_engine_cannot(scene);
-  }
-
-  std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const override {
-    return std::make_unique<BulletRun>(scene, h, iterations_);
-  }
-
- private:
-  int iterations_;
-};
+std::optional<std::string> cannot(const PeerScene& scene) {
+  for (const PeerBody& body : scene.bodies)
+    if (body.kind == BodyKind::kinematic_body)
+      return "body '" + body.name + "': Bullet has no bodies that keep their velocity";
+  for (const PeerLink& link : scene.links)
+    if (link.kind == LinkSpec::Kind::distance) return "Bullet has no rod between two points";
+  return solid_engine_cannot(scene);
+}
 
 }  // namespace
 }  // namespace lantern
 
-extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
+extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
+  using namespace lantern;
   for (const int iterations : {10, 50})  // 10 is what Bullet takes if it is not told
-    peers.push_back(std::make_unique<lantern::BulletPeer>(iterations));
+    peers.push_back({"Bullet:" + std::to_string(iterations), LANTERN_PEER_VERSION, cannot,
+                     [=](const PeerScene& scene, double h) {
+                       return std::make_unique<BulletRun>(scene, h, iterations);
+                     }});
 }

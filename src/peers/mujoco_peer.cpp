@@ -49,7 +49,7 @@ class Mjcf {
     out_.precision(17);
     out_ << "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/><option timestep=\"" << h
          << "\" gravity=\"" << text(scene.gravity) << "\" integrator=\"" << integrator
-         << "\" cone=\"elliptic\"><flag contact=\"" << (scene.contacts ? "enable" : "disable")
+         << "\" cone=\"elliptic\"><flag contact=\"" << (scene.collides() ? "enable" : "disable")
          << "\"/></option><worldbody>";
     for (std::size_t i = 0; i < scene.links.size(); ++i)
       if (!scene.links[i].b) site(i, 'b', scene.links[i].at_b);
@@ -82,7 +82,7 @@ class Mjcf {
            << "\"/>";
       joints(scene, body);
     }
-    if (scene.contacts) out_ << geom_of(body, scene.is_flat());
+    if (scene.collides()) out_ << geom_of(body, scene.is_flat());
     for (std::size_t k = 0; k < scene.links.size(); ++k) {
       if (scene.links[k].a == i) site(k, 'a', scene.links[k].at_a);
       if (scene.links[k].b == i) site(k, 'b', scene.links[k].at_b);
@@ -108,7 +108,7 @@ class Mjcf {
     if (link.kind == LinkSpec::Kind::pin) return;
     out_ << "<spatial name=\"t" << i << "\"";
     if (link.kind == LinkSpec::Kind::spring)
-      out_ << " springlength=\"" << link.rest_length << "\" stiffness=\"" << link.stiffness
+      out_ << " springlength=\"" << link.length << "\" stiffness=\"" << link.stiffness
            << "\" damping=\"" << link.damping << "\"";
     out_ << "><site site=\"s" << i << "a\"/><site site=\"s" << i << "b\"/></spatial>";
   }
@@ -119,7 +119,7 @@ class Mjcf {
       if (link.b) out_ << " body2=\"b" << *link.b << "\"";
       out_ << "/>";
     } else if (link.kind == LinkSpec::Kind::distance) {
-      const double longer = link.rest_length - glm::length(link.to - link.from);
+      const double longer = link.length - glm::length(link.to - link.from);
       out_ << "<tendon tendon1=\"t" << i << "\" polycoef=\"" << longer << " 0 0 0 0\"/>";
     }
   }
@@ -228,10 +228,10 @@ class MujocoRun : public PeerRun {
     for (int axis = 0; axis < scene_.dimension; ++axis) v[axis] = body.velocity[axis];
     if (!body.may_turn) return;
     if (scene_.is_flat()) {
-      v[2] = body.spin.z;
+      v[2] = body.turning.z;
       return;
     }
-    const Vec<3> spin = glm::transpose(matrix(body.orientation)) * body.spin;
+    const Vec<3> spin = glm::transpose(matrix(body.orientation)) * body.turning;
     for (int axis = 0; axis < 3; ++axis) {
       v[3 + axis] = spin[axis];
       model_->dof_damping[at + axis] = body.linear_drag;
@@ -244,44 +244,32 @@ class MujocoRun : public PeerRun {
   std::vector<Place> places_;
 };
 
-class MujocoPeer : public Peer {
- public:
-  MujocoPeer(const char* name, const char* integrator) : name_(name), integrator_(integrator) {}
-
-  std::string name() const override { return name_; }
-  std::string version() const override { return LANTERN_PEER_VERSION; }
-
-  std::optional<std::string> cannot(const PeerScene& scene) const override {
-    if (scene.gravitation > 0) return "MuJoCo has no forces between two bodies but tendons";
-    for (const PeerBody& body : scene.bodies) {
-      if (body.kind == BodyKind::kinematic_body)
-        return "body '" + body.name + "': MuJoCo has no bodies that keep their velocity";
-      if (!scene.contacts) continue;
-      if (body.material.restitution > 0)
-        return "body '" + body.name + "': MuJoCo's contacts know no restitution";
-      if (body.material.friction != scene.bodies[0].material.friction)
-        return "MuJoCo takes the larger friction of a pair";
-    }
-    if (scene.contacts && scene.bodies.size() > kMany) return "it has too many bodies for MuJoCo";
-    return solid_engine_cannot(scene);
+std::optional<std::string> cannot(const PeerScene& scene) {
+  if (scene.gravitation > 0) return "MuJoCo has no forces between two bodies but tendons";
+  for (const PeerBody& body : scene.bodies) {
+    if (body.kind == BodyKind::kinematic_body)
+      return "body '" + body.name + "': MuJoCo has no bodies that keep their velocity";
+    if (!scene.collides()) continue;
+    if (body.material.restitution > 0)
+      return "body '" + body.name + "': MuJoCo's contacts know no restitution";
+    if (body.material.friction != scene.bodies[0].material.friction)
+      return "MuJoCo takes the larger friction of a pair";
   }
-
-  std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const override {
-    return std::make_unique<MujocoRun>(scene, h, integrator_);
-  }
-
- private:
-  const char* name_;
-  const char* integrator_;
-};
+  if (scene.collides() && scene.bodies.size() > kMany) return "it has too many bodies for MuJoCo";
+  return solid_engine_cannot(scene);
+}
 
 }  // namespace
 }  // namespace lantern
 
-extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
+extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
+  using namespace lantern;
   // Else it writes a file into the current folder, and ends the program.
   mju_user_warning = [](const char*) {};
-  mju_user_error = [](const char* why) { throw lantern::Refused(why); };
-  peers.push_back(std::make_unique<lantern::MujocoPeer>("MuJoCo", "Euler"));
-  peers.push_back(std::make_unique<lantern::MujocoPeer>("MuJoCo:RK4", "RK4"));
+  mju_user_error = [](const char* why) { throw Refused(why); };
+  for (const auto& [name, integrator] :
+       {std::pair("MuJoCo", "Euler"), std::pair("MuJoCo:RK4", "RK4")})
+    peers.push_back({name, LANTERN_PEER_VERSION, cannot, [=](const PeerScene& scene, double h) {
+                       return std::make_unique<MujocoRun>(scene, h, integrator);
+                     }});
 }

@@ -44,7 +44,7 @@ class OdeRun : public PeerRun {
 
  protected:
   void step() override {
-    if (scene_.contacts) dSpaceCollide(ode_.space, this, &OdeRun::meet);
+    if (scene_.collides()) dSpaceCollide(ode_.space, this, &OdeRun::meet);
     if (exact_)
       dWorldStep(ode_.world, h_);
     else
@@ -100,12 +100,12 @@ class OdeRun : public PeerRun {
       dBodySetPosition(body, spec.position.x, spec.position.y, spec.position.z);
       dBodySetQuaternion(body, q);
       dBodySetLinearVel(body, spec.velocity.x, spec.velocity.y, spec.velocity.z);
-      dBodySetAngularVel(body, spec.spin.x, spec.spin.y, spec.spin.z);
+      dBodySetAngularVel(body, spec.turning.x, spec.turning.y, spec.turning.z);
     }
     if (spec.kind == BodyKind::kinematic_body) dBodySetKinematic(body);
     if (spec.is_dynamic()) set_mass(body, spec);
     bodies_.push_back(body);
-    if (!scene_.contacts) return;
+    if (!scene_.collides()) return;
     const dGeomID geom = shape_of(spec);
     dGeomSetData(geom, reinterpret_cast<void*>(index));
     const bool is_capsule = std::holds_alternative<Capsule>(spec.shape);
@@ -165,7 +165,7 @@ class OdeRun : public PeerRun {
     dJointAttach(rod, a, b);
     dJointSetDBallAnchor1(rod, link.from.x, link.from.y, link.from.z);
     dJointSetDBallAnchor2(rod, link.to.x, link.to.y, link.to.z);
-    dJointSetDBallDistance(rod, link.rest_length);
+    dJointSetDBallDistance(rod, link.length);
     if (!is_spring) return;
     // ODE's manual: a joint that gives way acts as an implicit spring.
     const double yielding = h_ * link.stiffness + link.damping;
@@ -204,36 +204,27 @@ class OdeRun : public PeerRun {
   std::set<std::pair<std::size_t, std::size_t>> joined_;
 };
 
-class OdePeer : public Peer {
- public:
-  explicit OdePeer(bool exact) : exact_(exact) {}
-
-  std::string name() const override { return exact_ ? "ODE:exact" : "ODE"; }
-  std::string version() const override { return LANTERN_PEER_VERSION; }
-
-  std::optional<std::string> cannot(const PeerScene& scene) const override {
-    const bool is_free = !scene.contacts && scene.links.empty();
-    if (exact_ && !is_free && scene.bodies.size() > kMany)
-      return "the exact solver's time grows with the cube of the bodies";
-    return solid_engine_cannot(scene);
-  }
-
-  std::unique_ptr<Simulation> start(const PeerScene& scene, double h) const override {
-    return std::make_unique<OdeRun>(scene, h, exact_);
-  }
-
- private:
-  bool exact_;
-};
+std::optional<std::string> cannot(const PeerScene& scene, bool exact) {
+  const bool is_free = !scene.collides() && scene.links.empty();
+  if (exact && !is_free && scene.bodies.size() > kMany)
+    return "the exact solver's time grows with the cube of the bodies";
+  return solid_engine_cannot(scene);
+}
 
 }  // namespace
 }  // namespace lantern
 
-extern "C" void lantern_peers(std::vector<std::unique_ptr<lantern::Peer>>& peers) {
+extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
+  using namespace lantern;
   [[maybe_unused]] static const int started = dInitODE2(0);
   // Else it writes to the terminal, and ends the program.
   dSetMessageHandler([](int, const char*, va_list) {});
-  dSetErrorHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
-  dSetDebugHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
-  for (const bool exact : {false, true}) peers.push_back(std::make_unique<lantern::OdePeer>(exact));
+  dSetErrorHandler([](int, const char* why, va_list) { throw Refused(why); });
+  dSetDebugHandler([](int, const char* why, va_list) { throw Refused(why); });
+  for (const bool exact : {false, true})
+    peers.push_back({exact ? "ODE:exact" : "ODE", LANTERN_PEER_VERSION,
+                     [=](const PeerScene& scene) { return cannot(scene, exact); },
+                     [=](const PeerScene& scene, double h) {
+                       return std::make_unique<OdeRun>(scene, h, exact);
+                     }});
 }

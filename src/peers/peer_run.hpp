@@ -22,7 +22,7 @@ struct PeerMotion {
 class PeerRun : public Simulation {
  public:
   PeerRun(PeerScene scene, double h) : scene_(std::move(scene)), h_(h) {
-    for (const PeerBody& body : scene_.bodies) turns_.push_back({body.angle, body.spin.z, 0});
+    for (const PeerBody& body : scene_.bodies) turns_.push_back({body.angle, body.turning.z, 0});
     find_attractions();
   }
 
@@ -139,7 +139,7 @@ class PeerRun : public Simulation {
     const Vec<3> direction = line / length;
     const double rate = glm::dot(b.velocity - a.velocity, direction);
     const Vec<3> force =
-        direction * (link.stiffness * (length - link.rest_length) + link.damping * rate);
+        direction * (link.stiffness * (length - link.length) + link.damping * rate);
     push(link.a, force, a.arm);
     if (link.b) push(*link.b, -force, b.arm);
   }
@@ -164,7 +164,7 @@ class PeerRun : public Simulation {
 
 // The motion of what the peer does not move.
 inline PeerMotion motion_at_start(const PeerBody& body) {
-  return {body.position, body.velocity, body.orientation, body.spin};
+  return {body.position, body.velocity, body.orientation, body.turning};
 }
 
 // A flat box is as deep as it is wide in an engine that knows no flat bodies.
@@ -194,7 +194,7 @@ inline std::optional<std::string> solid_engine_cannot(const PeerScene& scene) {
     const auto* capsule = std::get_if<Capsule>(&body.shape);
     const bool is_nothing = (ball && ball->radius == 0) || (capsule && capsule->radius == 0) ||
                             (half && std::min(half->x, half->y) == 0);
-    if (scene.contacts && is_nothing) return "body '" + body.name + "' has no size";
+    if (scene.collides() && is_nothing) return "body '" + body.name + "' has no size";
   }
   return std::nullopt;
 }

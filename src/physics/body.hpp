@@ -26,24 +26,24 @@ struct Material {
 template <int D>
 struct Body {
   BodyId id = 0;  // given by the world
-  std::string name;
-  Shape<D> shape;
+  std::string name{};
+  Shape<D> shape{};
   BodyKind kind = BodyKind::dynamic_body;
   Vec<D> position{0.0};
-  Rotation<D> orientation;
+  Rotation<D> orientation{};
   Vec<D> velocity{0.0};           // of the centre, units a second
   Spin<D> angular_momentum{0.0};  // about the centre, in the world's axes
   Spin<D> kinematic_spin{0.0};    // radians a second, of a kinematic body
   double density = 1;             // mass a unit of area (2D) or volume (3D)
   double mass = 0;                // 0: from shape and density
-  Material material;
+  Material material{};
   double linear_drag = 0;   // force = -linear_drag * velocity
   double angular_drag = 0;  // torque = -angular_drag * angular velocity
   bool may_turn = true;     // false: contacts and forces never turn it
   bool asleep = false;
-  bool collides = true;                    // false: nothing meets it, no structure holds it
-  std::optional<Integrator> integrator;    // of this body; none: the world's
-  std::optional<RotationMethod> rotation;  // the same
+  bool collides = true;                      // false: nothing meets it, no structure holds it
+  std::optional<Integrator> integrator{};    // of this body; none: the world's
+  std::optional<RotationMethod> rotation{};  // the same
 
   // Derived by the world when the body is added. Zero for what cannot be moved or turned. Inertia
   // is about the body's own axes, which are principal for every shape.

@@ -52,7 +52,7 @@ class Measurer {
       if (times > 1) box_filter(large, times, small);
     };
     draw(list_);
-    PictureRow row = made("coverage", fmt::format("{0} x {0}", times), small);
+    PictureRow row = made("coverage", fmt::format("{0} x {0}", times), error_of(small, reference_));
     DrawList moving = list_;
     row.timing = timed(config_.timing, [&] {
       nudge(moving);
@@ -66,7 +66,7 @@ class Measurer {
     Image image;
     peer.draw(list_, theme_);
     peer.read(image);
-    PictureRow row = made("cairo", choice, image);
+    PictureRow row = made("cairo", choice, error_of(image, reference_));
     row.version = peer.version();
     DrawList moving = list_;
     row.timing = timed(config_.timing, [&] {
@@ -85,39 +85,27 @@ class Measurer {
         reference_picture(list, theme_, width, height, config_.backend);
     Image image;
     Renderer(Context::create(config_.backend), width, height).draw(list, theme_, false, image);
-    std::vector<PictureRow> rows = {{name_,
-                                     "coverage",
-                                     "1 x 1",
-                                     "",
-                                     error_of(image, reference),
-                                     {},
-                                     kParts[kind],
-                                     width,
-                                     height}};
+    std::vector<PictureRow> rows{
+        made("coverage", "1 x 1", error_of(image, reference), kParts[kind])};
     if (!with_cairo) return rows;
     CairoPeer peer(width, height);
     peer.draw(list, theme_);
     peer.read(image);
-    rows.push_back({name_,
-                    "cairo",
-                    "default",
-                    peer.version(),
-                    error_of(image, reference),
-                    {},
-                    kParts[kind],
-                    width,
-                    height});
+    rows.push_back(made("cairo", "default", error_of(image, reference), kParts[kind]));
+    rows.back().version = peer.version();
     return rows;
   }
 
   PictureRow samples(std::size_t which) const {
-    return made("samples", std::to_string(kSampleCounts[which]), reference_.sampled[which]);
+    return made("samples", std::to_string(kSampleCounts[which]),
+                error_of(reference_.sampled[which], reference_));
   }
 
  private:
-  PictureRow made(std::string family, std::string choice, const Image& image) const {
-    return {name_, std::move(family), std::move(choice), "", error_of(image, reference_), {},
-            "",    config_.width,     config_.height};
+  PictureRow made(std::string family, std::string choice, const PictureError& error,
+                  std::string part = "") const {
+    return {name_,           std::move(family), std::move(choice), "", error, {},
+            std::move(part), config_.width,     config_.height};
   }
 
   std::string name_;

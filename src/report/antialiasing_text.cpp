@@ -54,14 +54,6 @@ const PictureRow* row_of(const PictureReport& report, const std::string& scene,
   return nullptr;
 }
 
-std::vector<Vec<2>> front_of(const std::vector<const PictureRow*>& rows) {
-  std::vector<Vec<2>> points, front;
-  for (const PictureRow* row : rows)
-    if (is_timed(*row)) points.push_back({milliseconds(*row), row->error.rms});
-  for (const std::size_t i : pareto_front(points)) front.push_back(points[i]);
-  return front;
-}
-
 }  // namespace
 
 Plot picture_plot(const PictureReport& report, const std::string& scene) {
@@ -73,19 +65,15 @@ Plot picture_plot(const PictureReport& report, const std::string& scene) {
   plot.size = 23;
   plot.x_name = "milliseconds a frame";
   plot.y_name = "error at edges (root mean square, levels of 255)";
+  std::vector<Vec<2>> points;
   double least = 1e300, most = 0;
   for (const PictureRow* row : rows) {
     if (!is_timed(*row)) continue;
-    const bool fresh = plot.series.empty() || plot.series.back().name != row->family;
-    if (fresh) {
-      PlotSeries series;
-      series.name = row->family;
-      series.look = static_cast<int>(plot.series.size());
-      series.is_peer = !row->version.empty();
-      plot.series.push_back(series);
-    }
-    plot.series.back().points.push_back(
-        {{milliseconds(*row), row->error.rms}, false, printed(row->choice)});
+    if (plot.series.empty() || plot.series.back().name != row->family)
+      plot.series.push_back(
+          {row->family, {}, static_cast<int>(plot.series.size()), !row->version.empty()});
+    points.push_back({milliseconds(*row), row->error.rms});
+    plot.series.back().points.push_back({points.back(), false, printed(row->choice)});
     least = std::min(least, milliseconds(*row));
     most = std::max(most, milliseconds(*row));
   }
@@ -94,7 +82,7 @@ Plot picture_plot(const PictureReport& report, const std::string& scene) {
       plot.guides.push_back(
           {row->choice == "1" ? "1 sample a pixel" : row->choice + " samples a pixel",
            {{least, row->error.rms}, {most, row->error.rms}}});
-  plot.front = front_of(rows);
+  for (const std::size_t i : pareto_front(points)) plot.front.push_back(points[i]);
   return plot;
 }
 
@@ -203,9 +191,8 @@ std::string to_json(const PictureReport& report) {
   for (const std::string& scene : report.scenes) json.value(picture_sentence(report, scene));
   json.end_array().line().key("cheapest").begin_array();
   for (const std::string& scene : report.scenes) json.value(cheapest_picture(report, scene));
-  json.end_array().line().key("rows").begin_array();
-  for (const PictureRow& row : report.rows) write_json(row, json.line());
-  json.line().end_array().line().end_object();
+  write_rows("rows", report.rows, json.end_array());
+  json.line().end_object();
   return json.text() + "\n";
 }
 

@@ -50,11 +50,6 @@ struct FrameBenchResult {
 FrameBenchResult bench_frames(std::span<const DrawList> lists, const std::filesystem::path& folder,
                               const FrameBenchConfig& config);
 
-// `rounds` new processes for each of the two times. Writes one file into `folder` and removes it.
-// Throws BackendError if a process fails.
-StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
-                         const FrameBenchConfig& config, bool shaders_known);
-
 std::string to_table(const FrameBenchResult& result);
 std::string to_json(const FrameBenchResult& result);  // lantern.bench.frames/1
 

@@ -1,5 +1,3 @@
-#include "report/broad_phase_plot.hpp"
-
 #include <algorithm>
 #include <set>
 
@@ -8,6 +6,7 @@
 #include "draw/labels.hpp"
 #include "draw/number_text.hpp"
 #include "report/page_parts.hpp"
+#include "report/pages.hpp"
 
 namespace lantern {
 namespace {
@@ -42,8 +41,6 @@ std::string ratio_text(double ratio) {
 }
 
 double milliseconds(const BroadPhaseCost& row) { return 1e3 * row.timing.least; }
-
-std::string time_text(const BroadPhaseCost& row) { return short_number(milliseconds(row)) + " ms"; }
 
 double work_of(const BroadPhaseCost& row) {
   return static_cast<double>(row.counts.work()) / static_cast<double>(row.updates);
@@ -85,11 +82,6 @@ class GridPage {
     const std::string text = fmt::format("Where to set capacity and depth limit of {} {}",
                                          words_of(kind_)[0] == 'o' ? "an" : "a", words_of(kind_));
     draw_page_title(text, scene_.words, kGridMargin, list_, labels_);
-  }
-
-  void rule(double y) {
-    list_.shapes.emplace_back(
-        LineShape{{kGridMargin, y}, {list_.page.x - kGridMargin, y}, {Role::rule, 1.6, 0}, true});
   }
 
   // Depth limits go down the page, as a tree does; capacities to the right.
@@ -148,23 +140,18 @@ class GridPage {
     const double least = large ? work_of(best) : milliseconds(best);
     const double ratio = least > 0 ? (large ? work_of(row) : milliseconds(row)) / least : 1;
     const GridTone& tone = tone_of(ratio);
-    list_.shapes.emplace_back(
-        RectShape{box, 0, tone.fill, {Role::paper, large ? 3.0 : 2.0, 0}, true});
+    list_.crisp_rect(box, tone.fill, {Role::paper, large ? 3.0 : 2.0});
     const bool cut_back = was_cut_back(rows_, row);
     const std::string mark = !cut_back ? "" : large ? " †" : "†";
     some_cut_back_ |= cut_back;
-    if (&row != &best)
-      return cell_text(ratio_text(ratio) + mark, box, large ? 23 : 17.4, tone.ink, false);
-
-    if (!large) return cell_text(short_number(milliseconds(row)) + mark, box, 17.4, tone.ink, true);
-    cell_text(number_text(work_of(row)) + mark, box, 24, tone.ink, true);
-  }
-
-  void cell_text(const std::string& text, const Box<2>& box, double size, Role ink, bool bold) {
-    const TextStyle style{size, bold ? Weight::semibold : Weight::regular, ink, Role::none};
-    const Vec<2> middle = box.center();
-    labels_.add(shortened(text, box.size().x - 4, style), {{middle.x, middle.y + 0.36 * size}, 0.5},
-                style, box);
+    const bool is_best = &row == &best;
+    const std::string text = !is_best ? ratio_text(ratio)
+                             : large  ? number_text(work_of(row))
+                                      : short_number(milliseconds(row));
+    const double size = !large ? 17.4 : is_best ? 24 : 23;
+    const TextStyle style{size, is_best ? Weight::semibold : Weight::regular, tone.ink, Role::none};
+    labels_.add(shortened(text + mark, box.size().x - 4, style),
+                {box.center() + Vec<2>(0, 0.36 * size), 0.5}, style, box);
   }
 
   // The frame round the best cell, over its neighbours.
@@ -173,11 +160,9 @@ class GridPage {
     const auto row = std::distance(depths_.begin(), depths_.find(best.depth_limit));
     const Vec<2> lo = corner + cell * Vec<2>(static_cast<double>(column), static_cast<double>(row));
     const double width = large ? 6 : 4;
-    const Box<2> frame{lo, lo + cell};
-    list_.shapes.emplace_back(
-        RectShape{shrunk(frame, -0.5 * width), 2, Role::none, {Role::paper, width + 5, 0}, true});
-    list_.shapes.emplace_back(
-        RectShape{shrunk(frame, -0.5 * width), 2, Role::none, {Role::lit, width, 0}, true});
+    const Box<2> frame = shrunk({lo, lo + cell}, -0.5 * width);
+    for (const Stroke& stroke : {Stroke{Role::paper, width + 5}, Stroke{Role::lit, width}})
+      list_.shapes.emplace_back(RectShape{frame, 2, Role::none, stroke, true});
   }
 
   // What each structure needs at its best.
@@ -198,7 +183,7 @@ class GridPage {
     const double step = std::min(42.0, (place.hi.y - y) / static_cast<double>(lines));
     for (const StructureKind kind : kStructureKinds) {
       const BroadPhaseCost* row = cheapest(rows_, scene_.name, kind, CostBy::work);
-      if (row == nullptr) continue;
+      if (!row) continue;
       const TextStyle& style = kind == kind_ ? strong : plain;
       const std::string name = row->has_settings() ? fmt::format("{} {} / {}", words_of(kind),
                                                                  row->capacity, row->depth_limit)
@@ -207,14 +192,15 @@ class GridPage {
       const double room = middle - text_width(work, style) - 12 - place.lo.x;
       labels_.add(shortened(name, room, style), {{place.lo.x, y}, 0}, style, place);
       labels_.add(work, {{middle, y}, 1}, style, place);
-      if (with_time) labels_.add(time_text(*row), {{right, y}, 1}, style, place);
+      if (with_time)
+        labels_.add(short_number(milliseconds(*row)) + " ms", {{right, y}, 1}, style, place);
       y += step;
     }
   }
 
   // Three lines need smaller type, or there is no room for what the dagger means.
   void sentence() {
-    rule(752);
+    list_.crisp_line({kGridMargin, 752}, {list_.page.x - kGridMargin, 752}, {Role::rule, 1.6});
     TextStyle style{28, Weight::regular, Role::ink, Role::none};
     const Box<2> place{{kGridMargin, 756}, {list_.page.x - kGridMargin, 894}};
     const std::string text = sentence_about(rows_, scene_, kind_);

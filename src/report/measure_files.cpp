@@ -1,12 +1,56 @@
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
+#include "measure/records.hpp"
 #include "report/measure_tables.hpp"
-#include "report/row_fields.hpp"
 
 namespace lantern {
+
+// What CSV and JSON hold, and what is read back from JSON.
+// `R` is Row or const Row.
+template <class R, class Visit>
+requires std::same_as<std::remove_const_t<R>, Row>
+void each_field(R& row, Visit&& visit) {
+  visit(Field("problem"), row.problem);
+  visit(Field("family"), row.family);
+  visit(Field("variant"), row.variant);
+  visit(Field("file"), row.file);
+  visit(Field("text_hash"), Hashed(row.text_hash));
+  visit(Field("method"), row.method);
+  visit(Field("version"), row.version);
+  visit(Field("step"), row.step);
+  visit(Field("status"), row.status);
+  visit(Field("reference"), row.reference);
+  visit(Field("reference_error"), row.reference_error);
+  visit(Field("reason"), row.reason);
+  visit(Field("norms"), row.norms);
+  visit(Field("energy", "drift_energy", "drift"), row.drift.energy);
+  visit(Field("momentum", "drift_momentum", "drift"), row.drift.momentum);
+  visit(Field("angular_momentum", "drift_angular_momentum", "drift"), row.drift.angular_momentum);
+  visit(Field("penetration"), row.penetration);
+  each_timing(row.timing, "timing", "spread", "seconds_spread", visit);
+  visit(Field("steps", "steps", "counted"), row.counted.steps);
+  visit(Field("force_evaluations", "force_evaluations", "counted"), row.counted.force_evaluations);
+  visit(Field("constraint_rows", "constraint_rows", "counted"), row.counted.constraint_rows);
+  visit(Field("pair_tests", "pair_tests", "counted"), row.counted.pair_tests);
+  visit(Field("hash"), Hashed(row.hash));
+}
+
+template <class C, class Visit>
+requires std::same_as<std::remove_const_t<C>, Circumstances>
+void each_field(C& c, Visit&& visit) {
+  visit(Field("version"), c.version);
+  visit(Field("sources"), c.sources);
+  visit(Field("compiler"), c.compiler);
+  visit(Field("flags"), c.flags);
+  visit(Field("processor"), c.processor);
+  visit(Field("seed"), c.seed);
+  visit(Field("effort"), c.effort);
+}
+
 namespace {
 
 constexpr std::string_view kFormat = "lantern.measure/1";
@@ -15,28 +59,14 @@ using Json = nlohmann::json;
 
 struct Damaged {};
 
-const Json& part(const Json& json, std::string_view name) {
-  if (!json.is_object() || !json.contains(name)) throw Damaged();
-  return json.at(std::string(name));
-}
-
-void take(const Json& json, std::string& text) {
-  if (!json.is_string()) throw Damaged();
-  text = json.get<std::string>();
-}
+void take(const Json& json, std::string& text) { text = json.get_ref<const std::string&>(); }
 
 void take(const Json& json, double& number) {
-  if (json.is_null()) {
-    number = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
-  if (!json.is_number()) throw Damaged();
-  number = json.get<double>();
+  number = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
 void take(const Json& json, std::uint64_t& count) {
-  if (!json.is_number_unsigned()) throw Damaged();
-  count = json.get<std::uint64_t>();
+  count = json.get_ref<const Json::number_unsigned_t&>();
 }
 
 void take(const Json& json, int& repeats) {
@@ -63,13 +93,12 @@ void take(const Json& json, Hashed<std::uint64_t> hash) {
 }
 
 void take(const Json& json, std::vector<Norm>& norms) {
-  if (!json.is_array()) throw Damaged();
-  for (const Json& one : json) {
+  for (const Json& one : json.get_ref<const Json::array_t&>()) {
     Norm& norm = norms.emplace_back();
-    take(part(one, "name"), norm.name);
-    take(part(one, "value"), norm.value);
-    take(part(one, "unit"), norm.unit);
-    take(part(one, "meaning"), norm.meaning);
+    take(one.at("name"), norm.name);
+    take(one.at("value"), norm.value);
+    take(one.at("unit"), norm.unit);
+    take(one.at("meaning"), norm.meaning);
   }
 }
 
@@ -77,12 +106,13 @@ template <class T>
 T read_fields(const Json& json) {
   T read;
   each_field(read, [&]<class V>(const Field& field, V&& value) {
-    const Json& object = field.group.empty() ? json : part(json, field.group);
+    const Json& object = field.group.empty() ? json : json.at(std::string(field.group));
+    const std::string name(field.name);
     const auto take_if_there = [&](double& number) {
-      if (!object.is_object()) throw Damaged();
-      const bool there = object.contains(field.name);
-      if (there) take(part(object, field.name), number);
-      return there;
+      const auto& members = object.get_ref<const Json::object_t&>();
+      const auto there = members.find(name);
+      if (there != members.end()) take(there->second, number);
+      return there != members.end();
     };
     using Value = std::remove_cvref_t<V>;
     if constexpr (std::same_as<Value, IfTimed<double>>) {
@@ -91,7 +121,7 @@ T read_fields(const Json& json) {
       double number = 0;
       if (take_if_there(number)) value = number;
     } else if constexpr (!std::same_as<Value, IfTimed<const double>>) {  // that is derived
-      take(part(object, field.name), value);
+      take(object.at(name), value);
     }
   });
   return read;
@@ -122,9 +152,8 @@ std::string to_json(const Measurement& measurement) {
   JsonWriter json;
   json.begin_object().line().member("format", kFormat).line().key("circumstances");
   write_json(measurement.circumstances, json);
-  json.line().key("rows").begin_array();
-  for (const Row& row : measurement.rows) write_json(row, json.line());
-  json.line().end_array().line().end_object();
+  write_rows("rows", measurement.rows, json);
+  json.line().end_object();
   return json.text() + "\n";
 }
 
@@ -132,13 +161,14 @@ std::optional<Measurement> read_measurement(std::string_view text) {
   const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
   if (json.is_discarded()) return std::nullopt;
   try {
-    if (part(json, "format") != kFormat) return std::nullopt;
-    Measurement measurement{read_fields<Circumstances>(part(json, "circumstances")), {}};
-    const Json& rows = part(json, "rows");
-    if (!rows.is_array()) throw Damaged();
-    for (const Json& row : rows) measurement.rows.push_back(read_fields<Row>(row));
+    if (json.at("format") != kFormat) return std::nullopt;
+    Measurement measurement{read_fields<Circumstances>(json.at("circumstances")), {}};
+    for (const Json& row : json.at("rows").get_ref<const Json::array_t&>())
+      measurement.rows.push_back(read_fields<Row>(row));
     return measurement;
   } catch (const Damaged&) {
+    return std::nullopt;
+  } catch (const Json::exception&) {  // what is missing, or of another type
     return std::nullopt;
   }
 }

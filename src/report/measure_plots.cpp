@@ -20,8 +20,7 @@ namespace {
 constexpr double kPlotMargin = 60;
 constexpr const char* kSeconds = "seconds for the whole run: median, quartiles";
 constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
-constexpr double kFarOff =
-    1e3;  // errors beyond this are at the edge, or the others would be a line
+constexpr double kFarOff = 1e3;      // errors beyond are at the edge, or the others would be a line
 
 PlotPoint point_of(const Row& row, double cost) {
   const auto error = row.error();
@@ -64,14 +63,8 @@ void add_floor(const ProblemRows& problem, const Cost& cost, double least, doubl
 
 // A slope for each order that was seen: work goes as 1 / h.
 void add_slopes(const std::set<int>& orders, Plot& plot) {
-  for (const int order : orders)
-    plot.slopes.push_back({order == 1 ? "h"
-                                      : fmt::format("h{}", order == 2   ? "²"
-                                                           : order == 3 ? "³"
-                                                           : order == 4 ? "⁴"
-                                                           : order == 5 ? "⁵"
-                                                                        : "⁶"),
-                           -1.0 * order});
+  constexpr const char* kPowers[] = {"h", "h²", "h³", "h⁴", "h⁵", "h⁶"};
+  for (const int order : orders) plot.slopes.push_back({kPowers[order - 1], -1.0 * order});
 }
 
 // Far-off errors go to the edge too, if there are others.
@@ -100,13 +93,7 @@ std::string error_words(const ProblemRows& problem) {
   return words;
 }
 
-// Whether a peer that was run has no point, because it does not count its work.
-bool any_without(const Plot& plot) {
-  return std::any_of(plot.series.begin(), plot.series.end(),
-                     [](const PlotSeries& s) { return s.is_peer && s.points.empty(); });
-}
-
-Plot left_plot(const ProblemRows& problem, const std::map<std::string, int>& looks) {
+Plot left_plot(const ProblemRows& problem, const Looks& looks) {
   Plot plot = cost_plot(problem, seconds_of, looks, true);
   plot.title = "Error against time";
   plot.x_name = kSeconds;
@@ -115,7 +102,7 @@ Plot left_plot(const ProblemRows& problem, const std::map<std::string, int>& loo
   return plot;
 }
 
-Plot right_plot(const ProblemRows& problem, const std::map<std::string, int>& looks) {
+Plot right_plot(const ProblemRows& problem, const Looks& looks) {
   const WorkCount work = work_count(problem);
   Plot plot;
   if (is_one_count(problem, work)) {  // nothing to be seen: what does the step do?
@@ -130,7 +117,8 @@ Plot right_plot(const ProblemRows& problem, const std::map<std::string, int>& lo
     plot.title = "Error against " + work.name;
     plot.x_name = work.name + " in the whole run";
     plot.empty = "no work was counted";
-    if (any_without(plot)) plot.x_name += " (not told by peers)";
+    const auto tells_none = [](const PlotSeries& s) { return s.is_peer && s.points.empty(); };
+    if (std::ranges::any_of(plot.series, tells_none)) plot.x_name += " (not told by peers)";
   }
   plot.y_name = error_words(problem);
   return plot;
@@ -138,8 +126,7 @@ Plot right_plot(const ProblemRows& problem, const std::map<std::string, int>& lo
 
 // Left and right of a problem's page. Runs that are only right or wrong are shown by their outcome,
 // and what they cost against the step: in seconds, or where none is timed in work.
-std::pair<Plot, Plot> plots_of(const ProblemRows& problem,
-                               const std::map<std::string, int>& looks) {
+std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks) {
   if (!has_whole_errors(problem)) return {left_plot(problem, looks), right_plot(problem, looks)};
   const WorkCount work = work_count(problem);
   const bool timed =
@@ -188,8 +175,7 @@ std::string circumstances_text(const Circumstances& c) {
          fmt::format(" · seed {}{}", c.seed, c.effort.empty() ? "" : " · effort: " + c.effort);
 }
 
-Plot cost_plot(const ProblemRows& problem, const Cost& cost,
-               const std::map<std::string, int>& looks, bool with_orders) {
+Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks, bool with_orders) {
   Plot plot;
   std::set<int> orders;
   double least = 1e300, most = 0;
@@ -230,8 +216,59 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost,
   return plot;
 }
 
+// --- where error against work says little: what is right or wrong, and work that does not depend
+// on the step ---
+
+void put_into_bands(Plot& plot) {
+  double most = 0;
+  for (PlotSeries& series : plot.series)
+    for (PlotPoint& p : series.points) {
+      if (p.beyond) continue;
+      most = std::max(most, p.at.y);
+      if (p.at.y > 1) p.note = figure(p.at.y);
+    }
+  plot.bands = {{"exact", 0, 0}, {"off by 1", 1, 1}};
+  for (double from = 2, to = 9; from <= most && to < 1e3; from = to + 1, to = 10 * to + 9)
+    plot.bands.push_back({fmt::format("off by {} to {}", from, to), from, to});
+  if (most >= 1e3) plot.bands.push_back({"off by 1000 or more", 1e3, most});
+  plot.guides.clear();
+  plot.slopes.clear();
+  plot.front_name = "cheapest";
+}
+
+PlotSeries series_of(const MethodRows& method, const Looks& looks) {
+  return {method.name(), {}, looks.at(method.method), method.is_peer};
+}
+
+Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks) {
+  Plot plot;
+  const bool whole = has_whole_errors(problem);
+  for (const MethodRows& c : by_method(problem)) {
+    PlotSeries series = series_of(c, looks);
+    for (const Row& row : c.rows)
+      if (const auto y = value(row)) {
+        PlotPoint point{{row.step, *y}, !std::isfinite(*y), "", false, {}};
+        point.open = whole && row.error() > 0.0;
+        if (y == seconds_of(row))
+          point.spread =
+              Box<2>{{row.step, row.timing.lower_quartile}, {row.step, row.timing.upper_quartile}};
+        series.points.push_back(point);
+      }
+    plot.series.push_back(std::move(series));
+  }
+  plot.x_name = "step h, seconds";
+  return plot;
+}
+
+bool is_one_count(const ProblemRows& problem, const WorkCount& work) {
+  std::set<double> counts;
+  for (const Row& row : problem.rows)
+    if (const auto count = work.of(row)) counts.insert(*count);
+  return counts.size() == 1;
+}
+
 DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement) {
-  const std::map<std::string, int> looks = looks_of(measurement.rows);
+  const Looks looks = looks_of(measurement.rows);
   DrawList list;
   Labels labels(list);
   draw_page_title(problem_words(problem),

@@ -13,8 +13,7 @@ namespace lantern {
 // One plot of a problem: its methods as series, the observed order behind each name if
 // `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
 // front. `looks` must hold every method (looks_of).
-Plot cost_plot(const ProblemRows& problem, const Cost& cost,
-               const std::map<std::string, int>& looks, bool with_orders);
+Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks, bool with_orders);
 
 // A page of 1600 x 900: error against seconds at the left, against counted work at the right, one
 // legend, the sentence below. Where no row is timed, the left plot says so. Looks and circumstances
@@ -31,7 +30,7 @@ std::string problem_words(const ProblemRows& problem);
 std::string file_name(const ProblemRows& problem);
 
 // A method as a line of a plot, without points. `looks` must hold it (looks_of).
-PlotSeries series_of(const MethodRows& method, const std::map<std::string, int>& looks);
+PlotSeries series_of(const MethodRows& method, const Looks& looks);
 
 // Of a plot whose errors are whole numbers: bands "exact", "off by 1", "off by 2 to 9", ..., as
 // many as its points need, each wrong point with its number beside it.
@@ -40,8 +39,7 @@ void put_into_bands(Plot& plot);
 // A value of each run against its step: its seconds, say. Nothing is left out, what is not finite
 // goes to the upper edge. Where errors are whole numbers, wrong runs are open marks. `looks` must
 // hold every method (looks_of).
-Plot step_plot(const ProblemRows& problem, const Cost& value,
-               const std::map<std::string, int>& looks);
+Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks);
 
 // Whether a count of work is the same for all runs that have it, so that nothing is to be seen.
 bool is_one_count(const ProblemRows& problem, const WorkCount& work);

@@ -1,5 +1,3 @@
-#include "report/overview.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,7 @@
 #include "draw/plot_marks.hpp"
 #include "report/bars.hpp"
 #include "report/measure_plots.hpp"
+#include "report/pages.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern {
@@ -113,9 +112,8 @@ class OverviewPage {
     return entries;
   }
 
-  void rule(double y, double weight = 1.4) {
-    list_.shapes.emplace_back(LineShape{
-        {kOverviewMargin, y}, {width_ - kOverviewMargin, y}, {Role::ink, weight, 0}, true});
+  void rule(double y) {
+    list_.crisp_line({kOverviewMargin, y}, {width_ - kOverviewMargin, y}, {Role::ink, 2});
   }
 
   double draw_head() {
@@ -131,7 +129,7 @@ class OverviewPage {
     labels_.add(shortened(how, inner(), {19, Weight::regular, Role::quiet_ink, Role::none}),
                 {{kOverviewMargin, 110}, 0}, {19, Weight::regular, Role::quiet_ink, Role::none},
                 place);
-    rule(126, 2);
+    rule(126);
     return 140;
   }
 
@@ -188,7 +186,7 @@ class OverviewPage {
 
   void draw_foot() {
     const double y = list_.page.y - 62;
-    rule(y, 2);
+    rule(y);
     const Box<2> place = band(y, list_.page.y - 16);
     labels_.add(shortened(circumstances_text(measurement_.circumstances), inner(), kSmallPrint),
                 {{kOverviewMargin, y + 30}, 0}, kSmallPrint, place);
@@ -197,7 +195,7 @@ class OverviewPage {
   const Measurement& measurement_;
   const std::vector<Bar>& bars_;
   std::vector<ProblemRows> problems_;
-  std::map<std::string, int> looks_;
+  Looks looks_;
   std::vector<Plot> plots_;
   std::vector<LegendEntry> legend_;
   std::vector<std::vector<std::string>> said_;

@@ -30,8 +30,7 @@ void draw_page_title(const std::string& title, const std::string& rest, double m
   labels.add(name, {{margin, kBaseline}, 0}, bold, band);
   const double x = margin + text_width(name, bold) + 11;
   labels.add(shortened("·  " + rest, band.hi.x - x, quiet), {{x, kBaseline}, 0}, quiet, band);
-  list.shapes.emplace_back(
-      LineShape{{margin, kRule}, {list.page.x - margin, kRule}, {Role::rule, 1.6, 0}, true});
+  list.crisp_line({margin, kRule}, {list.page.x - margin, kRule}, {Role::rule, 1.6});
 }
 
 double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
@@ -52,19 +51,17 @@ double draw_page_foot(const std::string& sentence, const std::vector<std::string
   const double top = list.page.y - 62 - kLineHeight * static_cast<double>(lines.size()) -
                      kNoteHeight * static_cast<double>(told.size());
   const Box<2> band{{margin, top}, {list.page.x - margin, list.page.y - 14}};
-  double y = top + 36;
-  for (const std::string& words : lines) {
-    labels.add(words, {{margin, y}, 0}, style, band);
-    y += kLineHeight;
-  }
-  y = list.page.y - 26 - kNoteHeight * static_cast<double>(told.size());
-  for (const std::string& words : told) {
-    labels.add(words, {{margin, y}, 0}, quiet, band);
-    y += kNoteHeight;
-  }
+  const auto put = [&](const std::vector<std::string>& rows, double y, double height,
+                       const TextStyle& of) {
+    for (const std::string& words : rows) {
+      labels.add(words, {{margin, y}, 0}, of, band);
+      y += height;
+    }
+  };
+  put(lines, top + 36, kLineHeight, style);
+  put(told, list.page.y - 26 - kNoteHeight * static_cast<double>(told.size()), kNoteHeight, quiet);
   labels.add(shortened(small, width, quiet), {{margin, list.page.y - 26}, 0}, quiet, band);
-  list.shapes.emplace_back(
-      LineShape{{margin, top}, {list.page.x - margin, top}, {Role::rule, 1.6, 0}, true});
+  list.crisp_line({margin, top}, {list.page.x - margin, top}, {Role::rule, 1.6});
   return top;
 }
 

@@ -2,38 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace lantern {
-namespace {
-
-struct Priced {
-  const Row* row = nullptr;
-  double cost = 0;
-};
-
-bool is_less(const Priced& a, const Priced& b) {
-  return a.cost < b.cost || (a.cost == b.cost && *a.row->error() < *b.row->error());
-}
-
-// Each method's cheapest run, in order of their first rows.
-std::vector<Priced> best_of_each(std::span<const Row* const> rows, const Cost& cost) {
-  std::vector<Priced> best;
-  for (const Row* row : rows) {
-    const auto price = cost(*row);
-    if (!price) continue;
-    const Priced one{row, *price};
-    const auto known = std::ranges::find_if(
-        best, [&](const Priced& other) { return other.row->method == row->method; });
-    if (known == best.end())
-      best.push_back(one);
-    else if (is_less(one, *known))
-      *known = one;
-  }
-  return best;
-}
-
-}  // namespace
-
 // A sweep in order of cost: a point is on the front if it has less error than all cheaper ones
 // (Kung, Luccio, Preparata, "On Finding the Maxima of a Set of Vectors", 1975, for two dimensions).
 std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error) {
@@ -72,14 +45,21 @@ bool costs_the_same(const Timing& faster, const Timing& slower) {
 
 std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Cost& cost,
                                       bool timed) {
-  std::vector<Priced> best = best_of_each(rows, cost);
-  std::ranges::stable_sort(best, is_less);
+  struct Priced {
+    const Row* row = nullptr;
+    double cost = 0;
+  };
+  std::vector<Priced> all;
+  for (const Row* row : rows)
+    if (const auto price = cost(*row)) all.push_back({row, *price});
+  std::ranges::stable_sort(all, {},
+                           [](const Priced& p) { return std::pair(p.cost, *p.row->error()); });
+  std::set<std::string> methods;  // each by its cheapest run
   std::vector<const Row*> group;
-  for (const Priced& one : best) {
-    const Priced& first = best[0];
-    if (timed ? costs_the_same(first.row->timing, one.row->timing) : one.cost == first.cost)
-      group.push_back(one.row);
-  }
+  for (const auto& [row, price] : all)
+    if (methods.insert(row->method).second &&
+        (timed ? costs_the_same(all[0].row->timing, row->timing) : price == all[0].cost))
+      group.push_back(row);
   return group;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include <fmt/format.h>
@@ -43,6 +44,13 @@ const KnownMethod* known(std::string_view name) {
   return nullptr;
 }
 
+// The one of them with the same name; `fresh`, which comes last, if there is none.
+template <class Rows>
+Rows& with_name(std::vector<Rows>& all, std::string Rows::*name, Rows fresh) {
+  const auto found = std::ranges::find(all, fresh.*name, name);
+  return found == all.end() ? all.emplace_back(std::move(fresh)) : *found;
+}
+
 struct Sample {
   double step = 0, error = 0;
 };
@@ -70,32 +78,18 @@ double fitted(std::span<const Sample> samples) {
 
 std::vector<ProblemRows> by_problem(std::span<const Row> rows) {
   std::vector<ProblemRows> problems;
-  for (const Row& row : rows) {
-    auto found = std::find_if(problems.begin(), problems.end(),
-                              [&](const ProblemRows& p) { return p.problem == row.problem; });
-    if (found == problems.end()) {
-      problems.push_back({row.problem, row.family, row.variant, {}});
-      found = problems.end() - 1;
-    }
-    found->rows.push_back(row);
-  }
+  for (const Row& row : rows)
+    with_name(problems, &ProblemRows::problem, {row.problem, row.family, row.variant, {}})
+        .rows.push_back(row);
   return problems;
 }
 
 std::vector<MethodRows> by_method(const ProblemRows& problem) {
   std::vector<MethodRows> all;
-  for (const Row& row : problem.rows) {
-    auto found = std::find_if(all.begin(), all.end(),
-                              [&](const MethodRows& c) { return c.method == row.method; });
-    if (found == all.end()) {
-      all.push_back({row.method, row.is_peer(), row.version, {}});
-      found = all.end() - 1;
-    }
-    found->rows.push_back(row);
-  }
-  for (MethodRows& c : all)
-    std::stable_sort(c.rows.begin(), c.rows.end(),
-                     [](const Row& a, const Row& b) { return a.step > b.step; });
+  for (const Row& row : problem.rows)
+    with_name(all, &MethodRows::method, {row.method, row.is_peer(), row.version, {}})
+        .rows.push_back(row);
+  for (MethodRows& c : all) std::ranges::stable_sort(c.rows, std::greater(), &Row::step);
   return all;
 }
 
@@ -105,19 +99,14 @@ std::string MethodRows::name() const {
 
 std::string method_words(std::string_view method) {
   if (const KnownMethod* k = known(method)) return std::string(k->words);
-  const std::size_t colon = method.find(':');
-  const std::string_view kind = method.substr(0, colon);
-  const std::string_view effort =
-      colon == std::string_view::npos ? std::string_view() : method.substr(colon + 1);
-  const bool one = effort == "1";
-  if (kind == "soft")
-    return effort.empty() ? "soft contacts"
-                          : fmt::format("soft contacts ({} sub-step{})", effort, one ? "" : "s");
-  if (kind == "impulse")
-    return effort.empty() ? "impulses"
-                          : fmt::format("impulses ({} sweep{})", effort, one ? "" : "s");
+  const bool soft = method.starts_with("soft:");
+  if (soft || method.starts_with("impulse:")) {
+    const std::string_view effort = method.substr(method.find(':') + 1);
+    return fmt::format("{} ({} {}{})", soft ? "soft contacts" : "impulses", effort,
+                       soft ? "sub-step" : "sweep", effort == "1" ? "" : "s");
+  }
   std::string words(method);
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::ranges::replace(words, '_', ' ');
   return words;
 }
 
@@ -158,8 +147,8 @@ bool has_whole_errors(const ProblemRows& problem) {
   return any;
 }
 
-std::map<std::string, int> looks_of(std::span<const Row> rows) {
-  std::map<std::string, int> looks;
+Looks looks_of(std::span<const Row> rows) {
+  Looks looks;
   std::set<int> taken;
   for (const KnownMethod& k : kKnown) taken.insert(k.look);
   for (const Row& row : rows) {

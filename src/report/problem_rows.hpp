@@ -50,7 +50,8 @@ bool has_whole_errors(const ProblemRows& problem);
 
 // A look for each method: the known methods have always the same, others in order of their
 // first row, peers from kFirstPeerLook on.
-std::map<std::string, int> looks_of(std::span<const Row> rows);
+using Looks = std::map<std::string, int>;
+Looks looks_of(std::span<const Row> rows);
 
 // p in error ~ step^p: least squares through the logarithms of the rows above the rounding floor,
 // where the error has begun to shrink evenly. Nothing for fewer than three such rows, or if no even

@@ -1,5 +1,3 @@
-#include "report/stability_picture.hpp"
-
 #include <array>
 #include <cmath>
 #include <string>
@@ -10,6 +8,8 @@
 #include "draw/labels.hpp"
 #include "draw/pen.hpp"
 #include "report/page_parts.hpp"
+#include "report/pages.hpp"
+#include "report/problem_rows.hpp"
 
 namespace lantern {
 namespace {
@@ -50,26 +50,19 @@ std::size_t band_of(double growth) {
   return band;
 }
 
-struct Words {
-  std::string_view name, limit;
-};
-
-Words words_for(Integrator method) {
+std::string_view limit_of(Integrator method) {
   switch (method) {
     case Integrator::explicit_euler:
-      return {"explicit Euler", "ωh = 2ζ, then 2(ζ − √(ζ² − 1))"};
+      return "ωh = 2ζ, then 2(ζ − √(ζ² − 1))";
     case Integrator::semi_implicit_euler:
-      return {"semi-implicit Euler", "ωh = 2(√(1 + ζ²) − ζ)"};
+      return "ωh = 2(√(1 + ζ²) − ζ)";
     case Integrator::velocity_verlet:
-      return {"velocity Verlet", "ωh = 2"};
+      return "ωh = 2";
     case Integrator::runge_kutta_4:
-      return {"Runge–Kutta 4", "ωh = 2.83 at ζ = 0, 2.79 at 1"};
-    case Integrator::implicit_midpoint:
-      return {"implicit midpoint", "no limit"};
-    case Integrator::implicit_euler:
-      return {"implicit Euler", "no limit"};
+      return "ωh = 2.83 at ζ = 0, 2.79 at 1";
+    default:
+      return "no limit";
   }
-  return {};
 }
 
 class Picture {
@@ -113,8 +106,7 @@ class Picture {
     for (std::size_t band = 0; band < kBands.size(); ++band) {
       const Box<2> swatch{{x, kLegendLine - 18}, {x + 40, kLegendLine + 4}};
       paint(swatch, band);
-      list_.shapes.emplace_back(
-          RectShape{swatch, 0, Role::none, {Role::cell_line_2, 1.2, 0}, true});
+      list_.crisp_rect(swatch, Role::none, {Role::cell_line_2, 1.2});
       x = swatch.hi.x + 9;
       word(kBands[band].text, kName);
       x += 26;
@@ -126,7 +118,7 @@ class Picture {
   }
 
   void paint(const Box<2>& box, std::size_t band) {
-    list_.shapes.emplace_back(RectShape{box, 0, kBands[band].role, {}, true});
+    list_.crisp_rect(box, kBands[band].role);
     if (band < kFirstGrowing) return;
     Pen(list_, box)
         .hatch({box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}}, 16, 1,
@@ -161,16 +153,13 @@ class Picture {
   }
 
   void draw_panel(const StabilityMap::Panel& panel, const Box<2>& plot, bool first, bool last) {
-    draw_heading(panel.method, plot);
+    const double heading = plot.lo.y - 12;
+    labels_.add(method_words(to_string(panel.method)), {{plot.lo.x, heading}, 0}, kPanelName,
+                page());
+    labels_.add(limit_of(panel.method), {{plot.hi.x, heading}, 1}, kName, page());
     draw_cells(panel, plot);
     draw_limits(panel.method, plot);
     draw_ticks(plot, first, last);
-  }
-
-  void draw_heading(Integrator method, const Box<2>& plot) {
-    const auto [name, limit] = words_for(method);
-    labels_.add(name, {{plot.lo.x, plot.lo.y - 12}, 0}, kPanelName, page());
-    labels_.add(limit, {{plot.hi.x, plot.lo.y - 12}, 1}, kName, page());
   }
 
   // Neighbours in a row that look the same are one rectangle, and so are equal rows.
@@ -206,7 +195,7 @@ class Picture {
     Box<2> rest = plot;
     rest.hi.y = none.lo.y - kRowGap;
     for (const Box<2>& frame : {none, rest})
-      list_.shapes.emplace_back(RectShape{frame, 0, Role::none, {Role::cell_line_2, 1.4, 0}, true});
+      list_.crisp_rect(frame, Role::none, {Role::cell_line_2, 1.4});
     if (std::isinf(stability_limit(method, 1))) return;
     std::vector<Vec<2>> points;
     constexpr int kPoints = 240;
@@ -224,7 +213,7 @@ class Picture {
 
   void draw_ticks(const Box<2>& plot, bool first, bool last) {
     const auto mark = [&](const Vec<2>& from, const Vec<2>& to) {
-      list_.shapes.emplace_back(LineShape{from, to, {Role::ink, 1.8, 0}, true});
+      list_.crisp_line(from, to, {Role::ink, 1.8});
     };
     const Axis steps = Axis::logarithmic(map_.omega_low, map_.omega_high, 9);
     for (const Axis::Tick& tick : steps.ticks()) {

@@ -79,9 +79,8 @@ std::string to_json(const StressReport& report) {
   JsonWriter json;
   json.begin_object().line().member("format", "lantern.stress/1");
   json.line().member("version", report.version).line().member("finished", report.finished);
-  json.line().key("cases").begin_array();
-  for (const StressOutcome& outcome : report.outcomes) write_json(outcome, json.line());
-  json.line().end_array().line().end_object();
+  write_rows("cases", report.outcomes, json);
+  json.line().end_object();
   return json.text() + "\n";
 }
 

@@ -7,7 +7,6 @@
 #include "measure/closed_forms.hpp"
 #include "measure/dormand_prince.hpp"
 #include "measure/elliptic.hpp"
-#include "measure/exact_free_top.hpp"
 #include "measure/precise.hpp"
 
 namespace lantern {

@@ -1,12 +1,11 @@
 // The page of capacity and depth limit: everything is on it, and nothing covers anything.
-#include "report/broad_phase_plot.hpp"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "draw/draw_list.hpp"
 #include "draw/layout_check.hpp"
+#include "report/pages.hpp"
 
 namespace lantern {
 namespace {

@@ -1,4 +1,6 @@
 // The pages of a measurement: layout, what they say, and that they can be drawn at all.
+#include "report/pages.hpp"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,7 +9,6 @@
 #include "draw/layout_check.hpp"
 #include "render/check_list.hpp"
 #include "report/measure_plots.hpp"
-#include "report/overview.hpp"
 #include "report/sample_rows.hpp"
 #include "report/sentences.hpp"
 

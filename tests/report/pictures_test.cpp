@@ -10,7 +10,7 @@
 #include "render/svg.hpp"
 #include "report/measure_plots.hpp"
 #include "report/measure_tables.hpp"
-#include "report/overview.hpp"
+#include "report/pages.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern {

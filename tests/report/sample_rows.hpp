@@ -6,7 +6,7 @@
 #include <string>
 
 #include "measure/row.hpp"
-#include "report/overview.hpp"
+#include "report/pages.hpp"
 
 namespace lantern::samples {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "draw/draw_list.hpp"
-#include "report/stability_picture.hpp"
+#include "report/pages.hpp"
 #include "report/stress_tables.hpp"
 
 namespace lantern {

@@ -1,9 +1,11 @@
-#include "measure/problem_scene.hpp"
+#include "measure/error_metrics.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "base/check.hpp"
 #include "base/error.hpp"
 #include "physics/mass.hpp"
 
@@ -86,11 +88,11 @@ Tie read_tie(const Scenario& scenario, const LinkSpec& link) {
   const Vec<3> other = tie.b ? scenario.bodies[*tie.b].position : end;
   tie.rest_length = link.rest_length
                         ? static_cast<long double>(*link.rest_length)
-                        : glm::length(LongVec3(other) - LongVec3(scenario.bodies[tie.a].position));
+                        : glm::length(LongVec(other) - LongVec(scenario.bodies[tie.a].position));
   return tie;
 }
 
-bool parallel(const LongVec3& a, const LongVec3& b) {
+bool parallel(const LongVec& a, const LongVec& b) {
   return glm::length(glm::cross(a, b)) <= 1e-15L * glm::length(a) * glm::length(b);
 }
 
@@ -140,6 +142,12 @@ void require_on_ground(const Scenario& scenario, const Footing& ground, std::siz
   const double size = reach + std::abs(ground.height);
   if (std::abs(above) > kNear * size)
     refuse_problem(scenario, fmt::format("'{}' does not lie on the ground", body.name));
+}
+
+void require_at_rest(const Scenario& scenario, std::size_t index) {
+  const BodySpec& body = scenario.bodies[index];
+  if (body.velocity != Vec<3>(0.0) || body.spin != 0)
+    refuse_problem(scenario, fmt::format("'{}' does not begin at rest", body.name));
 }
 
 Slope slope_of(const Scenario& scenario, const Footing& ground) {
@@ -194,26 +202,57 @@ bool are_parallel(const Vec<3>& a, const Vec<3>& b) {
   return glm::length(glm::cross(a, b)) <= 1e-12 * glm::length(a) * glm::length(b);
 }
 
-Burdens::Burdens(const Scenario& scenario, std::vector<std::size_t> bodies)
-    : bodies_(std::move(bodies)), gravity_(glm::length(scenario.world.gravity)) {
-  up_ = -scenario.world.gravity / gravity_;
-  for (const std::size_t i : bodies_) {
-    masses_.push_back(mass_of_body(scenario, i));
-    speeds_.push_back(glm::dot(scenario.bodies[i].velocity, up_));
-  }
+std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario) {
+  constexpr std::pair<Solution, MakeErrorMetric*> kMetrics[] = {
+      {Solution::projectile, projectile_metric},
+      {Solution::oscillator, oscillator_metric},
+      {Solution::chain, chain_metric},
+      {Solution::kepler, kepler_metric},
+      {Solution::pendulum, pendulum_metric},
+      {Solution::free_top, free_top_metric},
+      {Solution::bouncing_ball, bouncing_ball_metric},
+      {Solution::blocks_and_wall, blocks_and_wall_metric},
+      {Solution::collisions, collisions_metric},
+      {Solution::billiards, billiards_metric},
+      {Solution::slide, slide_metric},
+      {Solution::slip_then_roll, slip_then_roll_metric},
+      {Solution::incline, incline_metric},
+      {Solution::topple, topple_metric},
+      {Solution::stack, stack_metric},
+      {Solution::hanging_chain, hanging_chain_metric}};
+  if (!scenario.problem) throw Refused("the scenario has no [problem]");
+  for (const auto& [solution, make] : kMetrics)
+    if (solution == scenario.problem->solution) return make(scenario);
+  LANTERN_CHECK(to_string(scenario.problem->solution), ==, std::string_view("a known solution"));
+  return nullptr;
 }
 
-void Burdens::look(const Observation& now) {
-  const double passed = now.time - time_;
-  long double gained = 0, weight = 0;  // momentum and mass of all from the last body down to here
-  for (std::size_t i = bodies_.size(); i-- > 0;) {
-    const double speed = glm::dot(now.states[bodies_[i]].velocity, up_);
-    gained += static_cast<long double>(masses_[i]) * (speed - speeds_[i]);
-    weight += masses_[i];
-    speeds_[i] = speed;
-    if (passed > 0) worst_.meet(static_cast<double>(gained / (weight * gravity_ * passed)));
+Norm trajectory_norm(double value, double length, double speed) {
+  return {"traj", value, "1",
+          fmt::format("largest distance from the reference over the run: |Δx| / {:.3g} units or "
+                      "|Δv| / {:.3g} units/s, whichever is larger",
+                      length, speed)};
+}
+
+TrajectoryMetric::TrajectoryMetric(long double length, long double speed, ExactStates exact)
+    : length_(static_cast<double>(length)),
+      speed_(static_cast<double>(speed)),
+      exact_at_(std::move(exact)) {}
+
+void TrajectoryMetric::look(const Observation& now) {
+  exact_.clear();
+  exact_at_(now.time, exact_);
+  for (const Exact& e : exact_) {
+    LANTERN_CHECK(e.body, <, now.states.size());
+    const BodyState& state = now.states[e.body];
+    if (!state.there) throw Refused("a body of the problem is not there");
+    const double error = std::max(glm::length(state.position - e.position) / length_,
+                                  glm::length(state.velocity - e.velocity) / speed_);
+    // What is not a number stays so.
+    const bool finite = std::isfinite(glm::dot(state.position, state.velocity));
+    if (!finite) worst_ = std::numeric_limits<double>::quiet_NaN();
+    if (error > worst_) worst_ = error;
   }
-  time_ = now.time;
 }
 
 }  // namespace lantern

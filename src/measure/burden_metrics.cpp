@@ -1,14 +1,115 @@
-// A chain that hangs straight down from a fixed point. No link should grow, and the pull in each is
-// the weight of all below it.
+// Bodies that should hang or stand still, each carrying all later ones.
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "measure/error_metrics.hpp"
-#include "measure/problem_scene.hpp"
 
 namespace lantern {
 namespace {
+
+// Newton's second law gives the mean force that held the bodies i, i+1, ... up between two looks:
+//
+//   F_i = sum over j >= i of m_j (g + dv_j / dt)        exact: sum of m_j g
+//
+// so that forces are measured whoever moves the bodies.
+class Burdens {
+ public:
+  Burdens(const Scenario& scenario, std::vector<std::size_t> bodies)
+      : bodies_(std::move(bodies)), gravity_(glm::length(scenario.world.gravity)) {
+    up_ = -scenario.world.gravity / gravity_;
+    for (const std::size_t i : bodies_) {
+      masses_.push_back(mass_of_body(scenario, i));
+      speeds_.push_back(glm::dot(scenario.bodies[i].velocity, up_));
+    }
+  }
+
+  void look(const Observation& now) {
+    const double passed = now.time - time_;
+    long double gained = 0, weight = 0;  // momentum and mass of all from the last body down to here
+    for (std::size_t i = bodies_.size(); i-- > 0;) {
+      const double speed = glm::dot(now.states[bodies_[i]].velocity, up_);
+      gained += static_cast<long double>(masses_[i]) * (speed - speeds_[i]);
+      weight += masses_[i];
+      speeds_[i] = speed;
+      if (passed > 0) worst_.meet(static_cast<double>(gained / (weight * gravity_ * passed)));
+    }
+    time_ = now.time;
+  }
+  double worst() const { return worst_.value(); }  // share of the exact force
+
+ private:
+  std::vector<std::size_t> bodies_;
+  std::vector<double> masses_;
+  Vec<3> up_{0.0};
+  double gravity_ = 0;
+  double time_ = 0;
+  std::vector<double> speeds_;  // upwards, at the look before
+  Worst worst_;
+};
+
+std::vector<std::size_t> from_below(const Scenario& scenario, const Vec<3>& up) {
+  std::vector<std::size_t> bodies = moving_bodies(scenario);
+  std::stable_sort(bodies.begin(), bodies.end(), [&](std::size_t a, std::size_t b) {
+    return glm::dot(scenario.bodies[a].position, up) < glm::dot(scenario.bodies[b].position, up);
+  });
+  return bodies;
+}
+
+// Boxes that lie one on the other and should go on to do so. The contact below each must carry it
+// and all above: in a step of h seconds by the impulse h g (sum of their masses).
+class Stack : public ErrorMetric {
+ public:
+  explicit Stack(const Scenario& scenario)
+      : ground_(ground_of(scenario)),
+        bodies_(from_below(scenario, ground_.normal)),
+        burdens_(scenario, bodies_) {
+    require_links(scenario, 0);
+    pull_onto(scenario, ground_);
+    require_on_ground(scenario, ground_, bodies_.front());
+    const Vec<3>& foot = scenario.bodies[bodies_.front()].position;
+    double face = ground_.height;
+    for (const std::size_t i : bodies_) {
+      const BodySpec& body = scenario.bodies[i];
+      require_at_rest(scenario, i);
+      const double reach = reach_along(body, ground_.normal);
+      const double at = glm::dot(body.position, ground_.normal);
+      if (std::abs(at - reach - face) > 1e-9 * (reach + std::abs(face)))
+        refuse_problem(scenario, fmt::format("'{}' does not lie on the one below", body.name));
+      const Vec<3> off = body.position - foot;
+      if (glm::length(off - ground_.normal * glm::dot(off, ground_.normal)) > 1e-9 * reach)
+        refuse_problem(scenario, fmt::format("'{}' does not lie in one line", body.name));
+      face = at + reach;
+      reaches_.push_back(reach);
+    }
+  }
+
+  void look(const Observation& now) override {
+    double face = ground_.height;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const double at = glm::dot(now.states[bodies_[i]].position, ground_.normal);
+      depth_.meet(face - (at - reaches_[i]));
+      face = at + reaches_[i];
+    }
+    burdens_.look(now);
+  }
+
+  std::vector<Norm> norms() const override {
+    return {{"depth", depth_.value(), "units",
+             "deepest overlap or widest gap of a contact over the run, by the heights of the "
+             "centres; it starts at rest with neither, so 0 means undisturbed"},
+            {"impulse", burdens_.worst(), "1",
+             "largest error of a contact's mean impulse between two samples, relative"}};
+  }
+
+ private:
+  Footing ground_;
+  std::vector<std::size_t> bodies_;  // from below
+  std::vector<double> reaches_;      // half heights
+  Burdens burdens_;
+  Worst depth_;
+};
 
 bool are_nearly_parallel(const Vec<3>& a, const Vec<3>& b) {
   return glm::length(glm::cross(a, b)) <= 1e-9 * (glm::length(a) + 1) * glm::length(b);
@@ -54,15 +155,14 @@ std::vector<std::size_t> lower_ends(const std::vector<LinkSpec>& links) {
   return bodies;
 }
 
+// A chain that hangs straight down from a fixed point. No link should grow, and the pull in each is
+// the weight of all below it.
 class HangingChain : public ErrorMetric {
  public:
   explicit HangingChain(const Scenario& scenario)
       : links_(from_above(scenario)), bodies_(lower_ends(links_)), burdens_(scenario, bodies_) {
     const Vec<3>& g = scenario.world.gravity;
-    for (const std::size_t i : moving_bodies(scenario))
-      if (scenario.bodies[i].velocity != Vec<3>(0.0) || scenario.bodies[i].spin != 0)
-        refuse_problem(scenario,
-                       fmt::format("'{}' does not begin at rest", scenario.bodies[i].name));
+    for (const std::size_t i : moving_bodies(scenario)) require_at_rest(scenario, i);
     const std::vector<BodyState> states = first_states(scenario);
     for (const LinkSpec& link : links_) {
       const Vec<3> span = upper(link, states) - lower(link, states);
@@ -124,8 +224,7 @@ class HangingChain : public ErrorMetric {
 
 }  // namespace
 
-std::unique_ptr<ErrorMetric> hanging_chain_metric(const Scenario& scenario) {
-  return std::make_unique<HangingChain>(scenario);
-}
+OwnMetric stack_metric(const Scenario& s) { return std::make_unique<Stack>(s); }
+OwnMetric hanging_chain_metric(const Scenario& s) { return std::make_unique<HangingChain>(s); }
 
 }  // namespace lantern
