@@ -160,7 +160,6 @@ void lecture_impulses(Island<D>& island, const WorldConfig<D>& config, double h,
     island.increments[i].twist = Spin<D>(0.0);
   }
   LecturePass<D>(island, work).run();
-  ++work.sub_steps;
   for (std::size_t i = 0; i < island.bodies.size(); ++i)  // its IntegrateVelocity
     if (is_pushed(island.bodies[i]))
       fly(island.bodies[i], island.increments[i], h, config.rotation, work);

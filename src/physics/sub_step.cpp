@@ -76,7 +76,6 @@ void SubStep<D>::each_joint(F&& f) {
 template <int D>
 void SubStep<D>::begin() {
   stop_if_asked();
-  ++work.sub_steps;
   find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
   island.set_solver_bodies();
   const auto& kicks = island.increments;
@@ -192,6 +191,7 @@ void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, dou
     return;
   }
   scale_joint_impulses(island, seconds, whole / sub_steps, config.warm_start);
+  if (sub_steps > 1) work.sub_steps += static_cast<std::uint64_t>(count);
   for (int i = 0; i < count; ++i) {
     SubStep<D> part(island, config, seconds, work);
     part.begin();

@@ -42,7 +42,7 @@ struct WorldWork {
   std::uint64_t narrow_tests = 0;    // made: a pair may be looked at again in each part of a step
   std::uint64_t contact_points = 0;  // that it found, and that were solved
   std::uint64_t islands_solved = 0;  // groups of bodies that the contact solver was given
-  std::uint64_t sub_steps = 0;       // of islands whose rows were solved; at least one a solve
+  std::uint64_t sub_steps = 0;       // into which their steps were cut; 0 where none is cut
   // Rows solved: one by one in a sweep, each as often as it was; or all of an island at once.
   std::uint64_t constraint_rows = 0;  // the sum of the next four
   std::uint64_t normal_rows = 0;
