@@ -90,10 +90,10 @@ KeyDoc pace_key() {
   return key(&Step::pace, "pace", "Of this step alone.", or_else("the scenario's"));
 }
 
-KeyDoc events_key(std::vector<std::string_view> names) {
+KeyDoc events_key(std::initializer_list<std::string_view> names) {
   using namespace keys;
   return key(&Step::events, "events", "When the pace is `event`, only these give frames.",
-             one_of(std::move(names)), or_else("all"));
+             one_of(names), or_else("all"));
 }
 
 const KeyDoc* TableDoc::find(std::string_view key) const {

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -70,10 +69,11 @@ struct KeyDoc {
   std::string_view of = {};
   std::string_view form = {};  // of two numbers: "[x, y]"
 
-  // Writes a good value into the member of `*object` that the key is bound to. A key without an
-  // owner is read by the reader of its table.
+  // Writes a good value, times `scale`, into the member that the key is bound to, `offset` bytes
+  // into an `owner`. A key without an owner is read by the reader of its table.
   const std::type_info* owner = nullptr;
-  std::function<void(const TomlValue& value, const KeyDoc& key, void* object)> fill = {};
+  std::size_t offset = 0;
+  void (*fill)(const TomlValue& value, double scale, void* member) = nullptr;
 };
 
 // How the reference calls a type, and a value of it; of some types the value depends on the key.

@@ -1,6 +1,8 @@
 // The parts that the language's list of tables is put together from, each in a file of its own.
 #pragma once
 
+#include <initializer_list>
+#include <string_view>
 #include <vector>
 
 #include "scenario/language.hpp"
@@ -29,6 +31,6 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);
 KeyDoc body_key();  // read by the verb, as is "bodies"
 KeyDoc bodies_key();
 KeyDoc pace_key();  // of a verb that can be watched while it works, as is "events"
-KeyDoc events_key(std::vector<std::string_view> names);
+KeyDoc events_key(std::initializer_list<std::string_view> names);
 
 }  // namespace lantern

@@ -79,38 +79,40 @@ class NodePicture {
   void add(const Structure& structure, const AwakeNodes* awake, bool of_static) {
     first_ = static_cast<std::uint32_t>(frame_.nodes.size());
     structure.visit([&](const NodeView<D>& view) {
-      stop_if_asked();
-      FrameNode node = frame_node(view);
-      node.of_static = of_static;
-      if (!of_static) node.mark = touched_.mark_of(view.handle);
-      // The array of what moves is pictured; that of what does not is another one.
-      if (shows_memory_ && !of_static) {
-        node.first = view.first;
-        node.room = view.room;
-      }
-      if (awake) node.awake = (*awake)[view.handle];
-      most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
-      frame_.nodes.push_back(std::move(node));
+      add_node(view, awake, of_static);
       return true;
     });
-    const Counters c = structure.counters();
-    counters.nodes += c.nodes;
-    counters.leaves += c.leaves;
-    counters.depth = std::max(counters.depth, c.depth);
-    counters.entries += c.entries;
-    counters.box_tests += c.box_tests;
-    counters.splits += c.splits;
-    counters.nodes_reused += c.nodes_reused;
-    counters.allocations += c.allocations;
-    counters.places += c.places;
-    counters.node_bytes += c.node_bytes;
-    if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
+    add_counters(structure.counters(), of_static);
   }
 
   Counters counters;  // of all structures together
   std::uint64_t most_in_leaf = 0;
 
  private:
+  void add_node(const NodeView<D>& view, const AwakeNodes* awake, bool of_static) {
+    stop_if_asked();
+    FrameNode node = frame_node(view);
+    node.of_static = of_static;
+    if (!of_static) node.mark = touched_.mark_of(view.handle);
+    // The array of what moves is pictured; that of what does not is another one.
+    if (shows_memory_ && !of_static) {
+      node.first = view.first;
+      node.room = view.room;
+    }
+    if (awake) node.awake = (*awake)[view.handle];
+    most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
+    frame_.nodes.push_back(std::move(node));
+  }
+
+  void add_counters(const Counters& c, bool of_static) {
+    using C = Counters;
+    for (const auto count : {&C::nodes, &C::leaves, &C::entries, &C::box_tests, &C::splits,
+                             &C::nodes_reused, &C::allocations, &C::places, &C::node_bytes})
+      counters.*count += c.*count;
+    counters.depth = std::max(counters.depth, c.depth);
+    if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
+  }
+
   FrameNode frame_node(const NodeView<D>& view) const {
     FrameNode node;
     node.id = first_ + view.id;

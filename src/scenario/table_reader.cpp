@@ -95,6 +95,13 @@ void TableReader::check_groups() {
                   doc_.groups.exactly_one ? "give one of them" : "give at least one of them");
 }
 
+void TableReader::fill(const std::type_info& owner, void* object) const {
+  for (const KeyDoc& key : doc_.keys)
+    if (key.owner && *key.owner == owner)
+      if (const TomlValue* value = good(key.key))
+        key.fill(*value, key.scale, static_cast<char*>(object) + key.offset);
+}
+
 const TomlEntry* TableReader::entry(std::string_view key) const {
   const auto found =
       std::find_if(table_.begin(), table_.end(), [&](const TomlEntry& e) { return e.key == key; });

@@ -38,9 +38,7 @@ class TableReader {
   // The members of `to` that keys are bound to; what is not given, or not good, stays as it is.
   template <class T>
   void fill(T& to) const {
-    for (const KeyDoc& key : doc_.keys)
-      if (key.owner && *key.owner == typeid(T))
-        if (const TomlValue* value = good(key.key)) key.fill(*value, key, &to);
+    fill(typeid(T), &to);
   }
 
   // The value of one key, of the type that the language gives it (see toml_value.hpp).
@@ -76,6 +74,7 @@ class TableReader {
   bool is_list(std::string_view key) const;
 
  private:
+  void fill(const std::type_info& owner, void* object) const;
   const TomlEntry* entry(std::string_view key) const;
   const TomlValue* good(std::string_view key) const;
   void check_unknown(const TomlEntry& entry);
