@@ -13,7 +13,6 @@
 #include <typeinfo>
 #include <vector>
 
-#include "scenario/name_pattern.hpp"
 #include "scenario/toml_tree.hpp"
 
 namespace lantern {
@@ -51,6 +50,25 @@ enum class KeyType {
   name_numbers,    // a table from names to numbers
   name_points,     // a table from names to points
 };
+
+// Which letters a name may have. Groups of letters are written as between the brackets of a regular
+// expression: "a-z0-9_".
+struct NamePattern {
+  std::string_view first;  // what it may begin with
+  std::string_view rest;   // and what may follow
+  std::size_t most = 1;    // letters
+  std::string_view words;  // the same for people
+
+  // The same as a regular expression, for the JSON Schema.
+  std::string expression() const;
+};
+
+// Does the whole text match?
+bool matches(std::string_view text, const NamePattern& pattern);
+
+// A name that matches and looks like `text`: small letters where large ones are not allowed, '_'
+// for what else is not.
+std::string legal_name(std::string_view text, const NamePattern& pattern);
 
 struct KeyDoc {
   std::string_view key;

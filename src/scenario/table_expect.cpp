@@ -6,7 +6,6 @@
 
 #include "geometry/angle.hpp"
 #include "scenario/key.hpp"
-#include "scenario/language_parts.hpp"
 #include "scenario/script_reading.hpp"
 
 namespace lantern {

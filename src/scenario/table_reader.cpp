@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "base/suggest.hpp"
-#include "scenario/value_check.hpp"
 
 namespace lantern {
 namespace {

@@ -15,6 +15,11 @@
 
 namespace lantern {
 
+// Does one value fit its key? Adds a problem for each thing that is wrong with it; true if there
+// was none. What is in a table of its own (KeyType::table and tables) is left to that table's
+// reader. `dimension` is the world's, 0 where it is not known.
+bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Problems& problems);
+
 // Checks a table as a whole when it is made: unknown and missing keys, types, ranges, choices. What
 // is asked for afterwards is either good or not given; so the reader of a bad file goes on and
 // finds the other mistakes, too.
