@@ -11,10 +11,10 @@
 namespace lantern {
 namespace {
 
-using Kind = Expectation::Kind;
-
 class ExpectationReader {
  public:
+  using Kind = Expectation::Kind;
+
   ExpectationReader(const TableReader& table, Draft& draft, ScriptState& state)
       : table_(table),
         draft_(draft),
