@@ -52,10 +52,8 @@ void write(JsonWriter& json, const char* key, const std::vector<Diagnostic>& dia
   json.key(key).begin_array();
   for (const Diagnostic& d : diagnostics)
     json.begin_object()
-        .member("line", d.where.line)
-        .member("column", d.where.column)
-        .member("message", d.message)
-        .member("suggestion", d.suggestion)
+        .members("line", d.where.line, "column", d.where.column, "message", d.message, "suggestion",
+                 d.suggestion)
         .end_object();
   json.end_array();
 }

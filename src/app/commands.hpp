@@ -31,7 +31,7 @@ struct RenderOptions {
   std::string backend = "auto";  // auto, osmesa, egl
   bool transparent = false;
   bool strict = false;  // warnings are errors
-  int threads = 0;  // that encode; 0 for one a core
+  int threads = 0;      // that encode; 0 for one a core
   bool json = false;
 };
 int render_command(const RenderOptions& options);
@@ -104,24 +104,18 @@ struct StressOptions {
   bool json = false;
 };
 int stress_command(const StressOptions& options);
-// Error of antialiasing against milliseconds a frame.
-struct MeasurePicturesOptions {
-  std::vector<std::string> files;  // scenarios; empty for three of the lecture's
-  std::string output;              // folder of table, CSV, JSON and plots; empty: only the table
-  std::string theme = "light";     // of the plots
-  bool full = false;               // 1280 x 720 and 15 repeats instead of 640 x 360 and 5
-  bool json = false;
-};
-int measure_pictures_command(const MeasurePicturesOptions& options);
 
-// Pairs missed, work and time of the broad phases over capacity and depth limit.
-struct MeasureBroadPhaseOptions {
-  std::vector<std::string> files;  // scenarios, whose bodies are measured; empty for seeded scenes
+// What is measured beside the problems.
+struct MeasureMoreOptions {
+  std::vector<std::string> files;  // scenarios; empty for a choice of its own
   std::string output;              // folder of table, CSV, JSON and plots; empty: only the table
   std::string theme = "light";     // of the plots
-  bool full = false;               // 15 repeats of 50 ms instead of 5 of 2 ms
+  bool full = false;               // larger pictures, more and longer repeats
   bool json = false;
 };
-int measure_broad_phase_command(const MeasureBroadPhaseOptions& options);
+// Error of antialiasing against milliseconds a frame.
+int measure_pictures_command(const MeasureMoreOptions& options);
+// Pairs missed, work and time of the broad phases over capacity and depth limit.
+int measure_broad_phase_command(const MeasureMoreOptions& options);
 
 }  // namespace lantern

@@ -2,7 +2,6 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
-#include "app/table.hpp"
 #include "app/terminal.hpp"
 #include "base/clock.hpp"
 #include "base/file.hpp"

@@ -32,8 +32,9 @@ std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList
   json.line().key("textures").begin_array();
   for (const FrameTexture& t : frame.textures) {
     if (!t.packed) continue;
-    json.line().begin_object().member("name", t.name).member("x", t.x).member("y", t.y);
-    json.member("width", t.width).member("height", t.height).end_object();
+    json.line().begin_object().members("name", t.name, "x", t.x, "y", t.y, "width", t.width,
+                                       "height", t.height);
+    json.end_object();
   }
   json.line().end_array().line().key("refused").begin_array();
   for (const FrameTexture& t : frame.textures)

@@ -5,8 +5,13 @@
 #include <optional>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/json_writer.hpp"
+#include "embedded/version.hpp"
 
 namespace lantern {
 namespace {
@@ -49,7 +54,62 @@ bool is_of_the_first_version(FileKind kind, std::string_view bytes) {
          bytes.ends_with("\n}\n") && !has("\"made_from\"");
 }
 
+std::string text_of(const Hash& hash) { return fmt::format("{:016x}", hash.value()); }
+
+Hash facts_of(const Manifest& m) {
+  return Hash().add(kVersion).add(m.scenario).add(m.scenario_hash).add(m.pace).add(m.facts);
+}
+
+// `png`, the effort of encoding, counts only where it shows.
+Hash style_of(const Manifest& m) {
+  Hash hash = Hash().add(m.theme).add(m.format).add(std::uint64_t{m.transparent});
+  if (m.format == "png") hash.add(m.png);
+  return hash;
+}
+
 }  // namespace
+
+MadeFrom Manifest::frame_from(std::uint32_t index) const {
+  return {text_of(facts_of(*this).add(std::uint64_t{index})),
+          text_of(style_of(*this).add(size).add(std::uint64_t{index}))};
+}
+
+MadeFrom Manifest::atlas_from() const {
+  return {text_of(facts_of(*this).add("atlas")), text_of(style_of(*this).add("atlas"))};
+}
+
+// As to_json() writes it: within a text of the file, a quote has a backslash before it.
+bool is_of_this_build(const std::filesystem::path& manifest) try {
+  constexpr std::size_t kMostBytes = 1u << 28;
+  const std::string text = read_file(manifest, kMostBytes);
+  return text.find(fmt::format("\n\"sources\": \"{}\"", kSourceHash)) != text.npos;
+} catch (const IoError&) {
+  return false;
+}
+
+std::string frame_file(const std::string& scenario, std::uint32_t index, std::string_view ending) {
+  return fmt::format("{}_{:04}.{}", scenario, index, ending);
+}
+
+std::string to_json(const Manifest& m) {
+  JsonWriter json;
+  json.begin_object().lines(
+      "format", "lantern.manifest/2", "scenario", m.scenario, "title", m.title, "version", kVersion,
+      "sources", kSourceHash, "scenario_hash", fmt::format("{:016x}", m.scenario_hash), "seed",
+      m.seed, "pace", m.pace, "size", m.size, "theme", m.theme, "facts_format",
+      "lantern.frame/" + m.facts, "picture_format", m.format, "png", m.png, "transparent",
+      m.transparent, "finished", m.finished, "expectations", m.expectations, "unmet", m.unmet);
+  json.line().key("frames").begin_array();
+  for (const auto& [index, frame] : m.frames) {
+    json.line().begin_object().members(
+        "frame", index, "file", frame_file(m.scenario, index, m.format), "facts",
+        frame_file(m.scenario, index, "json"), "step", frame.step, "event", frame.event, "time",
+        frame.time, "caption", frame.caption, "hash", fmt::format("{:016x}", frame.hash));
+    json.end_object();
+  }
+  json.line().end_array().line().end_object();
+  return json.text() + "\n";
+}
 
 FrameFolder::FrameFolder(const fs::path& path, const Manifest& wanted, bool whole)
     : path_(made(path)), wanted_(wanted), lock_(path_) {

@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "app/table.hpp"
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern {
 namespace {
@@ -43,18 +42,12 @@ int list_command(const ListOptions& options) {
   json.begin_array();
   int code = kGood;
   for (const fs::path& folder : folders)
-    for (const fs::path& file : scenario_files(folder)) try {
-        const Scenario s = load_scenario(file.string());
-        rows.push_back({s.name, s.title, s.source, file.string()});
-        json.line().begin_object().member("name", s.name).member("title", s.title);
-        json.member("source", s.source).member("steps", s.steps.size());
-        json.member("file", file.string()).end_object();
-      } catch (const ScenarioError& e) {
-        complain(e);
-        code = std::max<int>(code, kBadScenario);
-      } catch (const IoError& e) {
-        complain(e.what());
-        code = std::max<int>(code, kFailed);
+    for (const fs::path& file : scenario_files(folder))
+      if (const auto s = load_or_complain(file.string(), code)) {
+        rows.push_back({s->name, s->title, s->source, file.string()});
+        json.line().begin_object().members("name", s->name, "title", s->title, "source", s->source,
+                                           "steps", s->steps.size(), "file", file.string());
+        json.end_object();
       }
   json.line().end_array();
   options.json ? write_stdout(json.text() + "\n") : print(table(rows));

@@ -11,7 +11,6 @@
 #include "app/measure_unsuited.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
-#include "app/table.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/stop.hpp"
@@ -280,16 +279,15 @@ int measure_problems(const MeasureOptions& options) {
 
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems();
-  std::vector<std::string> words = options.problems;
+  const std::vector<std::string>& words = options.problems;
   const std::string first = words.empty() ? "" : words[0];
-  if (first == "pictures" || first == "broad_phase") words.erase(words.begin());
-  if (first == "pictures")
-    return measure_pictures_command(
-        {words, options.output, options.theme, options.full, options.json});
-  if (first == "broad_phase")
-    return measure_broad_phase_command(
-        {words, options.output, options.theme, options.full, options.json});
-  return measure_problems(options);
+  if (first != "pictures" && first != "broad_phase") return measure_problems(options);
+  const auto measure = first == "pictures" ? measure_pictures_command : measure_broad_phase_command;
+  return measure({{words.begin() + 1, words.end()},
+                  options.output,
+                  options.theme,
+                  options.full,
+                  options.json});
 }
 
 }  // namespace lantern

@@ -55,7 +55,6 @@ class Progress {
   // Of the thread alone.
   double last_change_ = 0;  // when something was finished
   std::uint64_t last_frames_ = 0;
-  bool stepping_ = false;
 
   Stopwatch watch_;
   std::mutex lock_;  // of the words and the end

@@ -55,18 +55,9 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
   std::vector<Scenario> scenarios;
   std::set<std::string> names;
   for (const std::string& file : files) {
-    try {
-      scenarios.push_back(load_scenario(file));
-    } catch (const ScenarioError& e) {
-      complain(e);
-      code = std::max<int>(code, kBadScenario);
-      continue;
-    } catch (const IoError& e) {
-      complain(e.what());
-      code = std::max<int>(code, kFailed);
-      continue;
-    }
-    const Scenario& s = scenarios.back();
+    auto scenario = load_or_complain(file, code);
+    if (!scenario) continue;
+    const Scenario& s = scenarios.emplace_back(std::move(*scenario));
     if (!names.insert(s.name).second)
       throw UsageError(
           fmt::format("two of the files are scenarios named '{}'; they would "
@@ -79,10 +70,10 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 // What came of the frames of one scenario, for a program and for a person.
 void tell_of(const FolderSink& sink, const Scenario& scenario, const DirectorReport& report,
              JsonWriter& json) {
-  json.line().begin_object().member("scenario", scenario.name);
-  json.member("folder", sink.path().string()).member("drawn", sink.drawn());
-  json.member("kept", sink.kept()).member("expectations", report.expectations);
-  json.member("unmet", report.unmet.size()).end_object();
+  json.line().begin_object().members("scenario", scenario.name, "folder", sink.path().string(),
+                                     "drawn", sink.drawn(), "kept", sink.kept(), "expectations",
+                                     report.expectations, "unmet", report.unmet.size());
+  json.end_object();
   say(fmt::format("{}: {} frames in {}{}", scenario.name, sink.drawn() + sink.kept(),
                   sink.path().string(),
                   sink.kept() ? fmt::format(", {} of them there already", sink.kept()) : ""));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "app/manifest.hpp"
+#include "app/frame_folder.hpp"
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
 #include "render/pipeline.hpp"

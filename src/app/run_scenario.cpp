@@ -19,6 +19,18 @@ Pace pace_of(std::string_view word, const Scenario& scenario) {
 
 std::string_view to_string(Pace pace) { return pace == Pace::event ? "event" : "step"; }
 
+std::optional<Scenario> load_or_complain(const std::string& file, int& code) try {
+  return load_scenario(file);
+} catch (const ScenarioError& e) {
+  complain(e);
+  code = std::max<int>(code, kBadScenario);
+  return std::nullopt;
+} catch (const IoError& e) {
+  complain(e.what());
+  code = std::max<int>(code, kFailed);
+  return std::nullopt;
+}
+
 RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Work& work,
                        std::optional<std::uint64_t> chosen) {
   RunExtent extent = extent_of(scenario, pace);

@@ -6,7 +6,6 @@
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
-#include "app/table.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"

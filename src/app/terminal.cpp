@@ -1,5 +1,6 @@
 #include "app/terminal.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <mutex>
 
@@ -8,6 +9,7 @@
 
 #include "base/file.hpp"
 #include "base/printable.hpp"
+#include "base/utf8.hpp"
 
 namespace lantern {
 namespace {
@@ -76,6 +78,25 @@ void complain(const std::vector<Diagnostic>& diagnostics) noexcept {
 }
 
 void print(std::string_view text) { write_stdout(printable_lines(text)); }
+
+std::string table(std::vector<std::vector<std::string>> rows) {
+  std::vector<std::size_t> widths;
+  for (auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      row[i] = printable(row[i]);
+      widths[i] = std::max(widths[i], letters(row[i]));
+    }
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      text += row[i] + (i + 1 < row.size() ? std::string(widths[i] - letters(row[i]) + 2, ' ')
+                                           : std::string());
+    text += '\n';
+  }
+  return text;
+}
 
 void show_status(std::string_view line) noexcept {
   if (!animated()) return;

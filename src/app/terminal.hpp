@@ -26,6 +26,9 @@ void complain(const std::vector<Diagnostic>& diagnostics) noexcept;  // errors a
 // Lines for a person on standard output, printable, too. Throws IoError as write_stdout does.
 void print(std::string_view text);
 
+// Columns of text: rows of equally many cells, each a printable line, padded to columns.
+std::string table(std::vector<std::vector<std::string>> rows);
+
 // What a bad word on the command line gets. Exit code 2.
 class UsageError : public std::runtime_error {
  public:

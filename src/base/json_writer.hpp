@@ -51,6 +51,20 @@ class JsonWriter {
     return key(name).value(v);
   }
 
+  // Names and values in turn: within a line, or each on a line of its own.
+  template <class T, class... More>
+  JsonWriter& members(std::string_view name, const T& v, const More&... more) {
+    member(name, v);
+    if constexpr (sizeof...(more) > 0) members(more...);
+    return *this;
+  }
+  template <class T, class... More>
+  JsonWriter& lines(std::string_view name, const T& v, const More&... more) {
+    line().member(name, v);
+    if constexpr (sizeof...(more) > 0) lines(more...);
+    return *this;
+  }
+
   const std::string& text() const { return text_; }
 
  private:

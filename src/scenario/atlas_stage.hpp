@@ -10,7 +10,6 @@
 #include "atlas/atlas.hpp"
 #include "base/work.hpp"
 #include "scenario/frame.hpp"
-#include "scenario/touched.hpp"
 
 namespace lantern {
 

@@ -8,7 +8,7 @@
 namespace lantern {
 
 struct BodyState {
-  bool there = false; // it may not have entered yet, or have left
+  bool there = false;  // it may not have entered yet, or have left
   Vec<3> position{0.0};
   Vec<3> velocity{0.0};  // units a second
   Rotation<3> orientation;

@@ -32,20 +32,9 @@ Place place_within(std::string_view file, Place where, std::string_view text, st
   return {where.line, where.column + 1 + static_cast<int>(letters(before))};
 }
 
-bool has_contacts(const ScenarioSpec& s) { return s.world.contacts != ContactMethod::none; }
-
 // Those that are built of an orthtree's nodes.
 bool shares_an_array(StructureKind kind) {
   return kind == StructureKind::quadtree || kind == StructureKind::octree;
-}
-
-// Is what rests told apart from what is awake?
-bool tells_sleepers(const ScenarioSpec& s) {
-  return has_contacts(s) || s.world.may_sleep || s.structure.split_static;
-}
-
-bool has_physics(const ScenarioSpec& s) {
-  return has_contacts(s) || s.world.gravity != Vec<3>(0.0) || !s.links.empty();
 }
 
 // Of the structure that stands at this step.
@@ -57,7 +46,7 @@ std::string why_not_in(const StructureSpec& structure, CountNeed need,
     return "there is no kd_tree at this step";
   if (need == CountNeed::split && !structure.split_static)
     return "the structure has no split_static";
-  if (need == CountNeed::asleep_nodes && !tells_sleepers(scenario))
+  if (need == CountNeed::asleep_nodes && !scenario.tells_sleepers())
     return "in this world nothing sleeps";
   if (need == CountNeed::array && !shares_an_array(kind))
     return fmt::format("the leaves of a {} share no array", to_string(kind));
@@ -80,18 +69,18 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
     case CountNeed::asleep_nodes:
       return why_not_in(state.structure, need, s);
     case CountNeed::contacts:
-      return has_contacts(s) ? "" : "this world has no contacts";
+      return s.has_contacts() ? "" : "this world has no contacts";
     case CountNeed::sleep:
-      return tells_sleepers(s) ? "" : "in this world nothing sleeps";
+      return s.tells_sleepers() ? "" : "in this world nothing sleeps";
     case CountNeed::physics:
-      return has_physics(s) ? "" : "this world has no contacts, gravity, springs or joints";
+      return s.has_physics() ? "" : "this world has no contacts, gravity, springs or joints";
     case CountNeed::query:
       return state.queried ? "" : "no step has sent a ray, culled or queried yet";
     case CountNeed::compiled:
-      if (!s.level) return "the scenario has no [level]";
-      return state.compiled ? "" : "no step has compiled the level yet";
     case CountNeed::located:
       if (!s.level) return "the scenario has no [level]";
+      if (need == CountNeed::compiled)
+        return state.compiled ? "" : "no step has compiled the level yet";
       return state.located ? "" : "no step has located a point yet";
   }
   return {};
@@ -105,7 +94,7 @@ constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
 
 // Empty if a body of this world has it.
 std::string why_not_measured(const CountDoc& doc, const Draft& draft) {
-  if (doc.need == CountNeed::contacts && draft.scenario.world.contacts == ContactMethod::none)
+  if (doc.need == CountNeed::contacts && !draft.scenario.has_contacts())
     return "this world has no contacts";
   const bool is_3d = doc.name == "z" || doc.name.starts_with("own_spin");
   return is_3d && draft.dimension == 2 ? "this world is 2D" : "";

@@ -3,34 +3,13 @@
 #include <algorithm>
 
 #include "base/check.hpp"
-#include "scenario/body_measure.hpp"
 #include "scenario/brains.hpp"
 #include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
-#include "scenario/world_watch.hpp"
 
 namespace lantern {
 namespace {
-
-template <int D>
-BodyState state_of(const Body<D>& body) {
-  BodyState state;
-  state.there = true;
-  state.position = solid(body.position);
-  state.velocity = solid(body.velocity);
-  if constexpr (D == 2) {
-    state.angle = body.orientation.angle;
-    state.orientation = turned(Rotation<3>(), Vec<3>(0, 0, state.angle));
-    state.angular_velocity.z = angular_velocity(body);
-    state.angular_momentum.z = body.angular_momentum;
-  } else {
-    state.orientation = body.orientation;
-    state.angular_velocity = angular_velocity(body);
-    state.angular_momentum = body.angular_momentum;
-  }
-  return state;
-}
 
 template <int D>
 class EngineOf : public Engine {
@@ -121,9 +100,13 @@ class EngineOf : public Engine {
     rebuild();
   }
 
-  Finding ask(const CastRay& ray) override { return answer(ray); }
-  Finding ask(const Cull& view) override { return answer(view); }
-  Finding ask(const Query& region) override { return answer(region); }
+  // Of a world without a structure of its own every body is asked.
+  Finding ask(const Question& question) override {
+    ++work_.queries;
+    if (!has_structure()) outdated_ = true;
+    bring_up_to_date();
+    return asked<D>(question, players_.world());
+  }
 
   std::optional<BodyId> id_of(std::size_t body) const override { return players_.id_of(body); }
 
@@ -168,12 +151,12 @@ class EngineOf : public Engine {
     if (has_structure()) bring_up_to_date();
     picture_world(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
-    picture_structure(structure_, players_.world(), tells_sleepers(), touched, frame);
+    picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, frame);
     work_.pair_searches += has_structure();
     work_.pairs_found += frame.pairs.size();
     count_builds();
     count(frame);
-    if (has_physics()) measure_world(players_, has_contacts(), frame);
+    if (scenario_.has_physics()) measure_world(players_, scenario_.has_contacts(), frame);
     measure_bodies(players_, scenario_, frame);
   }
 
@@ -206,7 +189,7 @@ class EngineOf : public Engine {
   // needs it: it is built only then.
   void bring_up_to_date() {
     if (being_stored_) return;
-    if (outdated_ || has_contacts() || !world().broad_phase()) look_ahead();
+    if (outdated_ || scenario_.has_contacts() || !world().broad_phase()) look_ahead();
     outdated_ = false;
   }
 
@@ -215,59 +198,34 @@ class EngineOf : public Engine {
     world().look_ahead(scenario_.world.time_step);
   }
 
-  // Of a world without a structure of its own every body is asked.
-  template <class Verb>
-  Finding answer(const Verb& verb) {
-    ++work_.queries;
-    if (!has_structure()) outdated_ = true;
-    bring_up_to_date();
-    return asked<D>(verb, players_.world());
-  }
-
-  bool has_contacts() const { return scenario_.world.contacts != ContactMethod::none; }
-
-  // Where bodies may rest, those that do are told from those that do not.
-  bool tells_sleepers() const {
-    return has_contacts() || scenario_.world.may_sleep || scenario_.structure.split_static;
-  }
-
-  // More than free flight.
-  bool has_physics() const {
-    return has_contacts() || scenario_.world.gravity != Vec<3>(0.0) ||
-           scenario_.world.gravitation > 0 || !scenario_.links.empty();
-  }
-
   void count(Frame& frame) const {
-    const auto add = [&](const char* name, std::uint64_t n) {
-      frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
-    };
-    if (has_contacts()) {
+    if (scenario_.has_contacts()) {
       std::uint64_t points = 0, impulses = 0;
       for (const FrameContact& c : frame.contacts) {
         points += c.points.size();
         impulses += static_cast<std::uint64_t>(std::ranges::count_if(
             c.points, [](const FrameContact::Point& p) { return p.impulse != 0; }));
       }
-      add("contacts", frame.contacts.size());
-      add("contact_points", points);
-      add("impulses", impulses);
-      add("begins", begins_);
-      add("ends", ends_);
-      add("pairs_tested", last_.narrow_pairs);
-      add("narrow_tests", last_.narrow_tests);
-      add("constraint_rows", last_.constraint_rows);
-      add("friction_rows", last_.friction_rows);
+      frame.add_count("contacts", frame.contacts.size());
+      frame.add_count("contact_points", points);
+      frame.add_count("impulses", impulses);
+      frame.add_count("begins", begins_);
+      frame.add_count("ends", ends_);
+      frame.add_count("pairs_tested", last_.narrow_pairs);
+      frame.add_count("narrow_tests", last_.narrow_tests);
+      frame.add_count("constraint_rows", last_.constraint_rows);
+      frame.add_count("friction_rows", last_.friction_rows);
     }
-    if (tells_sleepers()) {
+    if (scenario_.tells_sleepers()) {
       std::uint64_t asleep = 0, awake = 0;
       for (const FrameBody& body : frame.bodies)
         if (!body.is_static) ++(body.asleep ? asleep : awake);
-      add("asleep", asleep);
-      add("awake", awake);
+      frame.add_count("asleep", asleep);
+      frame.add_count("awake", awake);
     }
-    if (!has_physics()) return;
-    add("force_evaluations", last_.force_evaluations);
-    add("rotations", last_.rotations_integrated);
+    if (!scenario_.has_physics()) return;
+    frame.add_count("force_evaluations", last_.force_evaluations);
+    frame.add_count("rotations", last_.rotations_integrated);
   }
 
   const Scenario& scenario_;

@@ -12,7 +12,6 @@
 #include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
 #include "scenario/frame.hpp"
-#include "scenario/touched.hpp"
 #include "spatial/query.hpp"
 
 namespace lantern {
@@ -44,16 +43,14 @@ class Engine {
   virtual void sleep(std::size_t body) = 0;
   virtual void wake(std::size_t body) = 0;
   virtual void solve_by(const SolveBy& method) = 0;
-  virtual void step() = 0;     // one world step
+  virtual void step() = 0;  // one world step
   // From now on the structure is that of the bodies as they are. It is built, its memory reused,
   // when a frame, a query or the next step of a world with contacts needs it.
   virtual void rebuild() = 0;
   // Another structure, all bodies anew; the world's broad phase becomes the same kind.
   virtual void rebuild_as(const StructureSpec& structure) = 0;
 
-  virtual Finding ask(const CastRay& ray) = 0;
-  virtual Finding ask(const Cull& view) = 0;
-  virtual Finding ask(const Query& region) = 0;
+  virtual Finding ask(const Question& question) = 0;
 
   virtual std::optional<BodyId> id_of(std::size_t body) const = 0;
   virtual bool is_moving(std::size_t body) const = 0;

@@ -5,6 +5,10 @@
 namespace lantern {
 namespace {
 
+std::string place_of(const std::string& node) {
+  return node == "root" ? "the root" : "node " + node;
+}
+
 // Of an ASCII letter; other scripts are left as they are.
 std::string capitalised(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
@@ -14,46 +18,19 @@ std::string capitalised(std::string text) {
 }  // namespace
 
 std::string_view event_name(Event::Kind kind) {
-  switch (kind) {
-    case Event::Kind::test:
-      return "test";
-    case Event::Kind::miss:
-      return "miss";
-    case Event::Kind::make_child:
-      return "make_child";
-    case Event::Kind::store:
-      return "store";
-    case Event::Kind::split:
-      return "split";
-    case Event::Kind::hand_down:
-      return "hand_down";
-    case Event::Kind::depth_limit:
-      return "depth_limit";
-    case Event::Kind::no_progress:
-      return "no_progress";
-  }
-  return "";
+  static constexpr std::string_view kNames[] = {"test",  "miss",      "make_child",  "store",
+                                                "split", "hand_down", "depth_limit", "no_progress"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string_view event_name(AtlasEvent::Kind kind) {
-  switch (kind) {
-    case AtlasEvent::Kind::too_small:
-      return "too_small";
-    case AtlasEvent::Kind::used:
-      return "used";
-    case AtlasEvent::Kind::cut:
-      return "cut";
-    case AtlasEvent::Kind::store:
-      return "store";
-    case AtlasEvent::Kind::refuse:
-      return "refuse";
-  }
-  return "";
+  static constexpr std::string_view kNames[] = {"too_small", "used", "cut", "store", "refuse"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string event_text(const Event& e, const std::string& node, const std::string& body,
                        std::uint32_t depth_limit) {
-  const std::string place = node == "root" ? "the root" : "node " + node;
+  const std::string place = place_of(node);
   const std::string name = capitalised(place);
   switch (e.kind) {
     case Event::Kind::test:
@@ -106,7 +83,7 @@ std::string event_text(const AtlasEvent& e, const std::string& node, const std::
 }
 
 std::string query_text(std::string_view event, const std::string& node, const std::string& body) {
-  const std::string place = node == "root" ? "the root" : "node " + node;
+  const std::string place = place_of(node);
   if (event == "visit") return fmt::format("{} is reached: look inside.", capitalised(place));
   if (event == "skip")
     return fmt::format("{} is not reached: it is skipped, with all below it.", capitalised(place));

@@ -1,5 +1,4 @@
-#include "scenario/expectations.hpp"
-
+// Does a frame meet the expectations of its step?
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/angle.hpp"
+#include "scenario/frame.hpp"
 
 namespace lantern {
 namespace {
@@ -143,32 +143,13 @@ Unmet unmet_turn(const Expectation& e, const Frame& frame) {
 
 }  // namespace
 
+// In the order of Expectation::Kind.
 Unmet unmet(const Expectation& e, const Frame& frame) {
-  using Kind = Expectation::Kind;
-  switch (e.kind) {
-    case Kind::count:
-    case Kind::at_most:
-    case Kind::at_least:
-    case Kind::measure:
-      return unmet_number(e, frame);
-    case Kind::leaves:
-      return unmet_leaves(e, frame);
-    case Kind::pairs:
-    case Kind::contacts:
-      return unmet_pairs(e, frame);
-    case Kind::hits:
-      return unmet_hits(e, frame);
-    case Kind::asleep:
-    case Kind::awake:
-      return unmet_sleep(e, frame);
-    case Kind::position:
-    case Kind::velocity:
-    case Kind::half_size:
-      return unmet_vector(e, frame);
-    case Kind::turned:
-      return unmet_turn(e, frame);
-  }
-  return std::nullopt;
+  static constexpr Unmet (*kChecks[])(const Expectation&, const Frame&) = {
+      unmet_number, unmet_number, unmet_number, unmet_leaves, unmet_pairs,
+      unmet_pairs,  unmet_hits,   unmet_sleep,  unmet_sleep,  unmet_vector,
+      unmet_vector, unmet_vector, unmet_turn,   unmet_number};
+  return kChecks[static_cast<std::size_t>(e.kind)](e, frame);
 }
 
 }  // namespace lantern

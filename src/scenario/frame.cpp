@@ -1,7 +1,5 @@
 #include "scenario/frame.hpp"
 
-#include <algorithm>
-
 #include "base/hash.hpp"
 
 namespace lantern {
@@ -22,6 +20,14 @@ void add(Hash& hash, const FrameBody& body, int dimension) {
   const auto& q = body.orientation.q;
   for (const double x : {q.w, q.x, q.y, q.z}) hash.add(x);
   add(hash, body.angular_momentum, dimension);
+}
+
+template <class V>
+std::optional<V> value_of(std::string_view name,
+                          const std::vector<std::pair<std::string, V>>& list) {
+  for (const auto& [key, value] : list)
+    if (key == name) return value;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -45,17 +51,11 @@ std::uint64_t state_hash(const Frame& frame) {
 }
 
 std::optional<std::int64_t> Frame::count(std::string_view name) const {
-  const auto found =
-      std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == name; });
-  if (found == counts.end()) return std::nullopt;
-  return found->second;
+  return value_of(name, counts);
 }
 
 std::optional<double> Frame::measure(std::string_view name) const {
-  const auto found = std::find_if(measures.begin(), measures.end(),
-                                  [&](const auto& m) { return m.first == name; });
-  if (found == measures.end()) return std::nullopt;
-  return found->second;
+  return value_of(name, measures);
 }
 
 std::optional<double> Frame::number(std::string_view name) const {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "geometry/flat.hpp"
 #include "geometry/polygon.hpp"
 #include "physics/world_config.hpp"
+#include "scenario/body_state.hpp"
 #include "scenario/scenario.hpp"
 #include "spatial/structure.hpp"
 
@@ -20,35 +22,41 @@ namespace lantern {
 // What the current step did to a node.
 enum class Mark { quiet, passed, lit };
 
+// The same by their handles.
+struct Touched {
+  std::set<NodeHandle> lit;
+  std::set<NodeHandle> passed;
+
+  Mark mark_of(NodeHandle node) const {
+    if (lit.contains(node)) return Mark::lit;
+    return passed.contains(node) ? Mark::passed : Mark::quiet;
+  }
+};
+
 // Points are of three dimensions; in a flat world z is 0, and so are the half sizes along it.
-struct FrameBody {
+struct FrameBody : BodyState {
   BodyId id = 0;
   std::string name;
   Look look = Look::box;
   int color = 1;
   Shape<3> shape;
-  Vec<3> position{0.0};
-  Vec<3> velocity{0.0};
-  double angle = 0;             // of a flat world: radians, counter-clockwise
-  Rotation<3> orientation;      // the same turn about z, or a solid body's
-  Vec<3> angular_momentum{0.0}; // about z in a flat world
-  Box<3> box;                   // the smallest one around it
+  Box<3> box;                        // the smallest one around it
   std::optional<Box<3>> stored_box;  // that the structure holds: with contacts enlarged by how far
                                      // it may come in the next step; of a tree that was not
                                      // rebuilt, the old one
   bool is_static = false;
   bool asleep = false;
-  bool lit = false;             // the step is about it
-  bool dimmed = false;          // the step has ruled it out: culled, or not met by the ray
+  bool lit = false;     // the step is about it
+  bool dimmed = false;  // the step has ruled it out: culled, or not met by the ray
 };
 
 struct FrameNode {
-  std::uint32_t id = 0;         // position in the order of visiting
+  std::uint32_t id = 0;  // position in the order of visiting
   std::uint32_t parent = kNone;
-  std::uint32_t slot = 0;       // which child of its parent
+  std::uint32_t slot = 0;  // which child of its parent
   std::uint32_t depth = 0;
-  std::string label;            // "root", "1", "1.3"; of a BSP "back", "front.back"; of an atlas "C"
-  Box<3> box;                   // an atlas counts pixels, y down
+  std::string label;  // "root", "1", "1.3"; of a BSP "back", "front.back"; of an atlas "C"
+  Box<3> box;         // an atlas counts pixels, y down
   std::optional<Plane<3>> plane;  // inner nodes of a BSP or a kD-tree
   std::string plane_name;
   Polygon region;               // a flat BSP's, cut to the world's bounds; otherwise empty
@@ -76,27 +84,27 @@ struct FrameTexture {
   int height = 0;
   bool packed = false;
   bool refused = false;
-  int x = 0;                    // of a packed one, upper left corner
+  int x = 0;  // of a packed one, upper left corner
   int y = 0;
 };
 
 struct FramePair {
   Pair pair;
-  bool lit = false;             // new since the frame before
-  bool overlaps = false;        // their stored boxes do: the narrow phase will test them
+  bool lit = false;       // new since the frame before
+  bool overlaps = false;  // their stored boxes do: the narrow phase will test them
 };
 
 // Two bodies that touch, as the narrow phase says, and what the solver did about it.
 struct FrameContact {
   struct Point {
     Vec<3> position{0.0};
-    double separation = 0;      // below 0 they overlap
-    double impulse = 0;         // along the normal, N s, over the last world step
+    double separation = 0;  // below 0 they overlap
+    double impulse = 0;     // along the normal, N s, over the last world step
   };
   Pair pair;
-  Vec<3> normal{0.0};           // unit, from a to b
+  Vec<3> normal{0.0};  // unit, from a to b
   std::vector<Point> points;
-  bool begins = false;          // they did not touch a step before
+  bool begins = false;  // they did not touch a step before
 };
 
 // A spring, a distance joint or a pin, between two points.
@@ -105,21 +113,22 @@ struct FrameLink {
   Kind kind = Kind::spring;
   Vec<3> from{0.0};
   Vec<3> to{0.0};
-  double strain = 0;            // (length - rest) / rest; 0 for a pin
+  double strain = 0;  // (length - rest) / rest; 0 for a pin
 };
 
 struct FrameRay {
   Vec<3> from{0.0};
-  Vec<3> to{0.0};               // where it ends: its length, or the nearest hit
+  Vec<3> to{0.0};  // where it ends: its length, or the nearest hit
   struct Hit {
     BodyId body = 0;
     Vec<3> position{0.0};
   };
-  std::vector<Hit> hits;        // in order along the ray
+  std::vector<Hit> hits;  // in order along the ray
 };
 
-// A view that bodies are culled against. In a flat world a wedge: `corners` goes round it. In a solid
-// one a frustum: four corners of the near plane, then four of the far plane, each going round.
+// A view that bodies are culled against. In a flat world a wedge: `corners` goes round it. In a
+// solid one a frustum: four corners of the near plane, then four of the far plane, each going
+// round.
 struct FrameView {
   Vec<3> eye{0.0};
   std::vector<Vec<3>> corners;
@@ -128,39 +137,39 @@ struct FrameView {
 // A region that was asked for what it overlaps.
 struct FrameQuery {
   Box<3> box;
-  double radius = 0;            // above 0: a disc or ball about the box's centre
+  double radius = 0;  // above 0: a disc or ball about the box's centre
 };
 
 // A piece of a level's wall.
 struct FrameWall {
   Vec<2> from{0.0};
   Vec<2> to{0.0};
-  std::uint32_t wall = 0;       // of the scenario's walls
-  std::uint32_t node = kNone;   // of frame.nodes: where it lies, once it does
+  std::uint32_t wall = 0;      // of the scenario's walls
+  std::uint32_t node = kNone;  // of frame.nodes: where it lies, once it does
   Mark mark = Mark::quiet;
 };
 
 // A line of a chart: what one count was against another, step by step.
 struct FrameSeries {
-  std::string name;             // of the count or measure, or of the body it is of
-  std::vector<Vec<2>> points;   // in the order of the steps
-  int color = 0;                // of the body; 0: whichever is next
+  std::string name;            // of the count or measure, or of the body it is of
+  std::vector<Vec<2>> points;  // in the order of the steps
+  int color = 0;               // of the body; 0: whichever is next
 };
 
 // How often each structure, or each step, counted something, as bars.
 struct FrameBar {
   std::string label;
   double value = 0;
-  int group = 0;                // bars of one group stand together
+  int group = 0;  // bars of one group stand together
 };
 
 struct FrameChart {
-  std::string x_name;           // of the count along x; empty for bars
+  std::string x_name;  // of the count along x; empty for bars
   std::string y_name;
-  bool logarithmic = false;     // both axes, but for time
-  bool over_time = false;       // x is seconds
+  bool logarithmic = false;       // both axes, but for time
+  bool over_time = false;         // x is seconds
   std::optional<double> seconds;  // over time: how far the x axis goes; none: as far as the lines
-  std::optional<double> least;  // of the y axis; lines leave the picture beyond it
+  std::optional<double> least;    // of the y axis; lines leave the picture beyond it
   std::optional<double> most;
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;
@@ -170,7 +179,7 @@ struct FrameChart {
 struct Camera {
   Vec<3> eye{0.0};
   Vec<3> target{0.0};
-  double field_of_view = 0.7;   // radians, from bottom to top
+  double field_of_view = 0.7;  // radians, from bottom to top
 };
 
 struct Frame {
@@ -180,20 +189,20 @@ struct Frame {
   std::string title;
   std::string part;
   std::uint64_t seed = 1;
-  std::uint32_t index = 0;       // of this frame, from 0
-  std::uint32_t step = 0;        // of the script, from 0
+  std::uint32_t index = 0;  // of this frame, from 0
+  std::uint32_t step = 0;   // of the script, from 0
   std::uint32_t steps = 0;
-  std::string event;             // the step's name or the algorithm's event; for --at
-  double time = 0;               // seconds of world time
-  std::string caption;           // counts filled in
+  std::string event;    // the step's name or the algorithm's event; for --at
+  double time = 0;      // seconds of world time
+  std::string caption;  // counts filled in
   StructureKind structure = StructureKind::none;
-  std::string settings;          // "capacity 2, depth limit 4": what the tree was told
-  int sweep_axis = 0;            // along which a sweep sorted; of other structures of no matter
+  std::string settings;  // "capacity 2, depth limit 4": what the tree was told
+  int sweep_axis = 0;    // along which a sweep sorted; of other structures of no matter
   std::vector<Panel> panels;
   Box<3> bounds;
-  bool show_boxes = false;       // the bodies' broad-phase boxes
+  bool show_boxes = false;  // the bodies' broad-phase boxes
   bool show_velocities = false;
-  bool show_depths = false;      // beside contacts
+  bool show_depths = false;  // beside contacts
   std::vector<FrameBody> bodies;
   std::vector<FrameNode> nodes;  // parents before children
   std::vector<FramePair> pairs;  // in order of ids
@@ -202,9 +211,9 @@ struct Frame {
   std::vector<FrameRay> rays;
   std::vector<FrameView> views;
   std::vector<FrameQuery> queries;
-  std::vector<BodyId> hits;      // what the ray, view or query found; of a ray in order along it
+  std::vector<BodyId> hits;  // what the ray, view or query found; of a ray in order along it
   std::vector<FrameWall> walls;
-  std::optional<Vec<2>> eye;     // where a level is looked at from
+  std::optional<Vec<2>> eye;                  // where a level is looked at from
   std::optional<WorldWork> since_last_frame;  // of its steps, summed up; none if there was none
   FrameChart chart;
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
@@ -212,8 +221,11 @@ struct Frame {
   std::vector<std::pair<std::string, std::int64_t>> counts;  // in a fixed order
   // What is measured rather than counted: energies, in a fixed order.
   std::vector<std::pair<std::string, double>> measures;
-  std::uint64_t hash = 0;        // of all of the above that is state
+  std::uint64_t hash = 0;  // of all of the above that is state
 
+  void add_count(std::string_view name, std::uint64_t n) {
+    counts.emplace_back(name, static_cast<std::int64_t>(n));
+  }
   // Nothing if the scene does not count or measure this.
   std::optional<std::int64_t> count(std::string_view name) const;
   std::optional<double> measure(std::string_view name) const;
@@ -223,11 +235,15 @@ struct Frame {
 // Of time, bodies, nodes, pairs and textures; not of the counts of work.
 std::uint64_t state_hash(const Frame& frame);
 
-// `lantern.frame/1` has no way of pairs: neither `overlaps`, `stored_box` and `since_last_frame` nor
-// the counts that came with them. It will go with the next release.
+// `lantern.frame/1` has no way of pairs: neither `overlaps`, `stored_box` and `since_last_frame`
+// nor the counts that came with them. It will go with the next release.
 enum class FactsVersion { v1, v2 };
 
 // The frame as JSON, one line a body, node and pair.
 std::string to_json(const Frame& frame, FactsVersion version = FactsVersion::v2);
+
+// Does the frame meet an expectation of its step? Nothing if it does; otherwise what was expected
+// and what was found.
+std::optional<std::string> unmet(const Expectation& expectation, const Frame& frame);
 
 }  // namespace lantern

@@ -1,6 +1,8 @@
 // The frame as `lantern.frame/2`, or as the version before.
 #include <algorithm>
+#include <concepts>
 #include <iterator>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -18,26 +20,19 @@ class FrameWriter {
       : frame_(frame), whole_way_(version == FactsVersion::v2) {}
 
   std::string written() {
-    json_.begin_object().line().member("format",
-                                       whole_way_ ? "lantern.frame/2" : "lantern.frame/1");
-    json_.line().member("scenario", frame_.scenario);
-    json_.line().member("frame", frame_.index);
-    json_.line().member("time", frame_.time);
-    json_.line().member("step", frame_.step);
-    json_.line().member("event", frame_.event);
-    json_.line().member("caption", frame_.caption);
-    json_.line().member("seed", frame_.seed);
+    json_.begin_object();
+    lines("format", whole_way_ ? "lantern.frame/2" : "lantern.frame/1", "scenario", frame_.scenario,
+          "frame", frame_.index, "time", frame_.time, "step", frame_.step, "event", frame_.event,
+          "caption", frame_.caption, "seed", frame_.seed);
     write_list("bodies", frame_.bodies);
     write_list("nodes", frame_.nodes);
-    json_.line().key("pairs").begin_array();
-    for (const FramePair& p : frame_.pairs) write(p.pair);
-    json_.end_array();
-    if (whole_way_) {
-      json_.line().key("overlaps").begin_array();
-      for (const FramePair& p : frame_.pairs)
-        if (p.overlaps) write(p.pair);
-      json_.end_array();
+    std::vector<Pair> pairs, overlaps;
+    for (const FramePair& p : frame_.pairs) {
+      pairs.push_back(p.pair);
+      if (p.overlaps) overlaps.push_back(p.pair);
     }
+    lines("pairs", pairs);
+    if (whole_way_) lines("overlaps", overlaps);
     write_list("contacts", frame_.contacts);
     if (!frame_.links.empty()) write_list("links", frame_.links);
     if (!frame_.rays.empty()) write_list("rays", frame_.rays);
@@ -48,40 +43,39 @@ class FrameWriter {
     json_.line().key("counts").begin_object();
     for (const auto& [name, number] : frame_.counts)
       if (whole_way_ || std::ranges::find(kNewCounts, name) == std::end(kNewCounts))
-        json_.line().member(name, number);
+        lines(name, number);
     if (!frame_.counts.empty()) json_.line();
     json_.end_object();
     if (!frame_.measures.empty()) {
       json_.line().key("measures").begin_object();
-      for (const auto& [name, number] : frame_.measures) json_.line().member(name, number);
+      for (const auto& [name, number] : frame_.measures) lines(name, number);
       json_.line().end_object();
     }
-    if (whole_way_ && frame_.since_last_frame) write(*frame_.since_last_frame);
-    json_.line().member("hash", fmt::format("{:016x}", frame_.hash));
+    if (whole_way_ && frame_.since_last_frame) lines("since_last_frame", *frame_.since_last_frame);
+    lines("hash", fmt::format("{:016x}", frame_.hash));
     json_.line().end_object();
     return json_.text() + "\n";
   }
 
  private:
-  void write(const Vec<2>& v) { json_.begin_array().value(v.x).value(v.y).end_array(); }
-
-  void write(const Vec<3>& v) {
-    json_.begin_array().value(v.x).value(v.y);
-    if (frame_.dimension == 3) json_.value(v.z);
-    json_.end_array();
-  }
-
-  template <class V>
-  void member(std::string_view name, const V& value) {
+  // Names and values in turn: within a line, each on a line of its own, or as an object.
+  template <class V, class... More>
+  void members(std::string_view name, const V& value, const More&... more) {
     json_.key(name);
     write(value);
+    if constexpr (sizeof...(more) > 0) members(more...);
   }
-
-  template <class T>
-  void list(std::string_view name, const std::vector<T>& elements) {
-    json_.key(name).begin_array();
-    for (const T& element : elements) write(element);
-    json_.end_array();
+  template <class V, class... More>
+  void lines(std::string_view name, const V& value, const More&... more) {
+    json_.line();
+    members(name, value);
+    if constexpr (sizeof...(more) > 0) lines(more...);
+  }
+  template <class... Members>
+  void object(const Members&... all) {
+    json_.begin_object();
+    members(all...);
+    json_.end_object();
   }
 
   // One element a line.
@@ -97,155 +91,115 @@ class FrameWriter {
     json_.end_array();
   }
 
-  void write(const Box<3>& box) {
-    json_.begin_object();
-    member("min", box.lo);
-    member("max", box.hi);
-    json_.end_object();
+  template <class V>
+  requires(std::is_arithmetic_v<V> ||
+           std::convertible_to<V, std::string_view>) void write(const V& value) {
+    json_.value(value);
   }
+
+  template <class T>
+  void write(const std::vector<T>& elements) {
+    json_.begin_array();
+    for (const T& element : elements) write(element);
+    json_.end_array();
+  }
+
+  void write(const Vec<2>& v) { json_.begin_array().value(v.x).value(v.y).end_array(); }
+  void write(const Vec<3>& v) {
+    json_.begin_array().value(v.x).value(v.y);
+    if (frame_.dimension == 3) json_.value(v.z);
+    json_.end_array();
+  }
+  void write(const Box<3>& box) { object("min", box.lo, "max", box.hi); }
+  void write(const Pair& pair) { json_.begin_array().value(pair.a).value(pair.b).end_array(); }
 
   void write(const WorldWork& work) {
-    json_.line().key("since_last_frame").begin_object();
-    for (const WorldCounter& counter : kWorldCounters)
-      json_.member(counter.name, work.*counter.count);
+    json_.begin_object();
+    for (const WorldCounter& counter : kWorldCounters) members(counter.name, work.*counter.count);
     json_.end_object();
   }
 
-  void write(const Pair& pair) { json_.begin_array().value(pair.a).value(pair.b).end_array(); }
-  void write(BodyId id) { json_.value(id); }
-
-  void write(const Sphere& s) { json_.member("kind", "sphere").member("radius", s.radius); }
-  void write(const AxisBox<3>& s) {
-    json_.member("kind", "box");
-    member("half_size", s.half_size);
-  }
-  void write(const OrientedBox<3>& s) {
-    json_.member("kind", "oriented_box");
-    member("half_size", s.half_size);
-  }
+  void write(const Sphere& s) { object("kind", "sphere", "radius", s.radius); }
+  void write(const AxisBox<3>& s) { object("kind", "box", "half_size", s.half_size); }
+  void write(const OrientedBox<3>& s) { object("kind", "oriented_box", "half_size", s.half_size); }
   void write(const Capsule& s) {
-    json_.member("kind", "capsule").member("radius", s.radius);
-    json_.member("half_length", s.half_length);
+    object("kind", "capsule", "radius", s.radius, "half_length", s.half_length);
   }
-  void write(const HalfSpace<3>& s) {
-    json_.member("kind", "half_space");
-    member("normal", s.normal);
-  }
+  void write(const HalfSpace<3>& s) { object("kind", "half_space", "normal", s.normal); }
 
   void write(const FrameBody& body) {
-    json_.begin_object().member("id", body.id).member("name", body.name).key("shape");
     json_.begin_object();
+    members("id", body.id, "name", body.name);
+    json_.key("shape");
     std::visit([&](const auto& shape) { write(shape); }, body.shape);
-    json_.end_object();
-    member("position", body.position);
+    members("position", body.position);
     if (frame_.dimension == 2) {
-      json_.member("orientation", body.angle);
+      members("orientation", body.angle, "velocity", body.velocity, "angular_momentum",
+              body.angular_momentum.z);
     } else {
       const auto& q = body.orientation.q;
-      json_.key("orientation").begin_array();
-      json_.value(q.w).value(q.x).value(q.y).value(q.z).end_array();
+      members("orientation", std::vector{q.w, q.x, q.y, q.z}, "velocity", body.velocity,
+              "angular_momentum", body.angular_momentum);
     }
-    member("velocity", body.velocity);
-    if (frame_.dimension == 2)
-      json_.member("angular_momentum", body.angular_momentum.z);
-    else
-      member("angular_momentum", body.angular_momentum);
-    member("box", body.box);
+    members("box", body.box);
     if (whole_way_ && body.stored_box && !(*body.stored_box == body.box))
-      member("stored_box", *body.stored_box);
-    json_.member("static", body.is_static).member("asleep", body.asleep).end_object();
+      members("stored_box", *body.stored_box);
+    members("static", body.is_static, "asleep", body.asleep);
+    json_.end_object();
   }
 
   void write(const FrameNode& node) {
-    json_.begin_object().member("id", node.id).key("parent");
-    if (node.parent == kNone)
-      json_.null();
-    else
-      json_.value(node.parent);
-    json_.member("depth", node.depth).member("label", node.label);
+    json_.begin_object();
+    members("id", node.id);
+    json_.key("parent");
+    node.parent == kNone ? json_.null() : json_.value(node.parent);
+    members("depth", node.depth, "label", node.label);
     if (node.plane) {
-      json_.key("plane").begin_object().member("name", node.plane_name);
-      member("normal", node.plane->normal);
-      json_.member("offset", node.plane->offset).end_object();
+      json_.key("plane");
+      object("name", node.plane_name, "normal", node.plane->normal, "offset", node.plane->offset);
     } else {
-      member("box", node.box);
+      members("box", node.box);
     }
-    if (!node.region.empty()) list("region", node.region);
-    json_.member("leaf", node.leaf);
-    list("bodies", node.bodies);
-    if (node.first != kNone) json_.member("first", node.first).member("room", node.room);
-    if (node.of_static) json_.member("of_static", true);
-    if (node.solid) json_.member("solid", true);
-    if (node.order != kNone) json_.member("order", node.order);
-    json_.member("awake", node.awake).end_object();
+    if (!node.region.empty()) members("region", node.region);
+    members("leaf", node.leaf, "bodies", node.bodies);
+    if (node.first != kNone) members("first", node.first, "room", node.room);
+    if (node.of_static) members("of_static", true);
+    if (node.solid) members("solid", true);
+    if (node.order != kNone) members("order", node.order);
+    members("awake", node.awake);
+    json_.end_object();
   }
 
-  void write(const FrameContact::Point& point) {
-    json_.begin_object();
-    member("position", point.position);
-    json_.member("separation", point.separation).member("impulse", point.impulse).end_object();
+  void write(const FrameContact::Point& p) {
+    object("position", p.position, "separation", p.separation, "impulse", p.impulse);
   }
-
-  void write(const FrameContact& contact) {
-    json_.begin_object();
-    member("pair", contact.pair);
-    member("normal", contact.normal);
-    list("points", contact.points);
-    json_.member("begins", contact.begins).end_object();
+  void write(const FrameContact& c) {
+    object("pair", c.pair, "normal", c.normal, "points", c.points, "begins", c.begins);
   }
-
   void write(const FrameLink& link) {
-    static constexpr const char* kKinds[] = {"spring", "distance", "pin"};
-    json_.begin_object().member("kind", kKinds[static_cast<int>(link.kind)]);
-    member("from", link.from);
-    member("to", link.to);
-    json_.member("strain", link.strain).end_object();
+    static constexpr std::string_view kKinds[] = {"spring", "distance", "pin"};
+    object("kind", kKinds[static_cast<int>(link.kind)], "from", link.from, "to", link.to, "strain",
+           link.strain);
   }
-
-  void write(const FrameRay::Hit& hit) {
-    json_.begin_object().member("body", hit.body);
-    member("position", hit.position);
-    json_.end_object();
-  }
-
-  void write(const FrameRay& ray) {
-    json_.begin_object();
-    member("from", ray.from);
-    member("to", ray.to);
-    list("hits", ray.hits);
-    json_.end_object();
-  }
-
-  void write(const FrameView& view) {
-    json_.begin_object();
-    member("eye", view.eye);
-    list("corners", view.corners);
-    json_.end_object();
-  }
-
-  void write(const FrameQuery& query) {
-    json_.begin_object();
-    member("box", query.box);
-    json_.member("radius", query.radius).end_object();
-  }
+  void write(const FrameRay::Hit& hit) { object("body", hit.body, "position", hit.position); }
+  void write(const FrameRay& ray) { object("from", ray.from, "to", ray.to, "hits", ray.hits); }
+  void write(const FrameView& view) { object("eye", view.eye, "corners", view.corners); }
+  void write(const FrameQuery& query) { object("box", query.box, "radius", query.radius); }
 
   void write(const FrameWall& wall) {
-    json_.begin_object().member("wall", wall.wall);
-    member("from", wall.from);
-    member("to", wall.to);
-    if (wall.node != kNone) json_.member("node", wall.node);
+    json_.begin_object();
+    members("wall", wall.wall, "from", wall.from, "to", wall.to);
+    if (wall.node != kNone) members("node", wall.node);
     json_.end_object();
   }
 
-  void write(const FrameTexture& texture) {
-    json_.begin_object().member("id", texture.id).member("name", texture.name);
-    json_.key("size").begin_array().value(texture.width).value(texture.height).end_array();
+  void write(const FrameTexture& t) {
+    json_.begin_object();
+    members("id", t.id, "name", t.name, "size", std::vector{t.width, t.height});
     json_.key("position");
-    if (texture.packed)
-      json_.begin_array().value(texture.x).value(texture.y).end_array();
-    else
-      json_.null();
-    json_.member("refused", texture.refused).end_object();
+    t.packed ? write(std::vector{t.x, t.y}) : static_cast<void>(json_.null());
+    members("refused", t.refused);
+    json_.end_object();
   }
 
   static constexpr std::string_view kNewCounts[] = {"testable_pairs", "pairs_tested", "impulses",

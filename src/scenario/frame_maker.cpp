@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "scenario/caption.hpp"
-#include "scenario/expectations.hpp"
+#include "scenario/frame.hpp"
 
 namespace lantern {
 namespace {
@@ -127,10 +127,10 @@ void FrameMaker::fail(std::string message) {
 
 void FrameMaker::add_finding(Frame& frame) const {
   if (counted_) {
-    frame.counts.emplace_back("nodes_visited", counted_->counts.nodes_visited);
-    frame.counts.emplace_back("nodes_skipped", counted_->counts.nodes_skipped);
-    frame.counts.emplace_back("objects_tested", counted_->counts.objects_tested);
-    frame.counts.emplace_back("hits", counted_->hits);
+    frame.add_count("nodes_visited", counted_->counts.nodes_visited);
+    frame.add_count("nodes_skipped", counted_->counts.nodes_skipped);
+    frame.add_count("objects_tested", counted_->counts.objects_tested);
+    frame.add_count("hits", counted_->hits);
   }
   if (!finding_) return;
   frame.hits = finding_->hits;

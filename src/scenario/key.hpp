@@ -2,13 +2,19 @@
 // then what else holds. A key that is bound to a member takes its type and its default from it.
 #pragma once
 
+#include <concepts>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
-#include <utility>
+#include <typeinfo>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "geometry/angle.hpp"
 #include "scenario/language.hpp"
 #include "scenario/toml_value.hpp"
 
@@ -54,11 +60,7 @@ struct Filled<bool> {
 template <>
 struct Filled<double> {
   static constexpr KeyType type = KeyType::number;
-  static std::string literal(double value) {
-    std::string text = fmt::format("{:.12g}", value);
-    if (const std::size_t zero = text.find("e-0"); zero != text.npos) text.erase(zero + 2, 1);
-    return text;
-  }
+  static std::string literal(double value);
 };
 template <>
 struct Filled<std::string> {
@@ -76,60 +78,6 @@ struct Filled<std::vector<E>> : FilledWithoutDefault<KeyType::choices_list> {};
 template <class T>
 struct Filled<std::optional<T>> : FilledWithoutDefault<Filled<T>::type> {};
 
-// What may stand behind a key's meaning.
-namespace keys {
-
-inline auto must() {
-  return [](KeyDoc& doc) { doc.required = true; };
-}
-inline auto range(double least, double most) {
-  return [=](KeyDoc& doc) { doc.least = least, doc.most = most; };
-}
-inline auto above(double least, double most) {
-  return [=](KeyDoc& doc) { doc.least = least, doc.most = most, doc.above_least = true; };
-}
-inline auto at_most(double most) {
-  return [=](KeyDoc& doc) { doc.most = most; };
-}
-// The member of a key in degrees is in radians.
-inline auto in(std::string_view unit) {
-  return [=](KeyDoc& doc) {
-    doc.unit = unit;
-    if (unit.starts_with("°")) doc.scale = kDegree;
-  };
-}
-inline auto like(const NamePattern& pattern) {
-  return [=](KeyDoc& doc) { doc.pattern = pattern; };
-}
-inline auto holds(std::string_view table) {
-  return [=](KeyDoc& doc) { doc.of = table; };
-}
-inline auto written(std::string_view form) {
-  return [=](KeyDoc& doc) { doc.form = form; };
-}
-// Of a key that is bound to nothing.
-inline auto by_default(std::string_view literal) {
-  return [=](KeyDoc& doc) { doc.fallback = literal; };
-}
-inline auto or_else(std::string_view words) {
-  return [=](KeyDoc& doc) { doc.otherwise = words; };
-}
-// Only these, in this order.
-inline auto one_of(std::vector<std::string_view> choices) {
-  return [choices = std::move(choices)](KeyDoc& doc) {
-    if (doc.type == KeyType::texts) doc.type = KeyType::choices_list;
-    doc.choices = choices;
-  };
-}
-
-// Read by the reader of its table.
-template <class... More>
-KeyDoc key(KeyType type, std::string_view name, std::string_view meaning, const More&... more) {
-  KeyDoc doc{.key = name, .type = type, .doc = meaning};
-  (more(doc), ...);
-  return doc;
-}
-
 template <class M>
 struct ChoiceOf {
   using type = M;
@@ -139,30 +87,122 @@ struct ChoiceOf<std::optional<E>> : ChoiceOf<E> {};
 template <class E>
 struct ChoiceOf<std::vector<E>> : ChoiceOf<E> {};
 
+// What a member is to its key, the same for all members of one type.
+struct MemberKind {
+  KeyType type;
+  EnumNames (*choices)();  // null if there are none
+  void (*fill)(const TomlValue& value, double scale, void* member);
+  std::string (*literal)(const void* member, double scale);
+};
+
+template <class M>
+inline constexpr MemberKind kMemberKind = {
+    Filled<M>::type,
+    [] {
+      if constexpr (Filled<M>::type == KeyType::choice || Filled<M>::type == KeyType::choices_list)
+        return +[] { return names(typename ChoiceOf<M>::type()); };
+      else
+        return static_cast<EnumNames (*)()>(nullptr);
+    }(),
+    [](const TomlValue& value, double scale, void* member) {
+      M& to = *static_cast<M*>(member);
+      assign(value, to);
+      if constexpr (std::is_same_v<M, double>) to *= scale;
+      if constexpr (std::is_same_v<M, std::optional<double>>) *to *= scale;
+    },
+    [](const void* member, double scale) {
+      M value = *static_cast<const M*>(member);
+      if constexpr (std::is_same_v<M, double>) value /= scale;
+      return Filled<M>::literal(value);
+    }};
+
+// What may stand behind a key's meaning. There are some two hundred keys: what is made for each is
+// plain values, so that a table compiles fast. The words that a note refers to must outlive the
+// statement it stands in.
+namespace keys {
+
+struct Note {  // of KeyDoc's members, those that it sets
+  bool required = false;
+  bool above_least = false;
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  std::string_view fallback = {}, otherwise = {}, unit = {}, of = {}, form = {};
+  const NamePattern* pattern = nullptr;
+  std::span<const std::string_view> choices = {};
+};
+
+Note must();
+Note range(double least, double most);
+Note above(double least, double most);
+Note at_most(double most);
+Note in(std::string_view unit);  // the member of a key in degrees is in radians
+Note like(const NamePattern& pattern);
+Note holds(std::string_view table);
+Note written(std::string_view form);
+Note by_default(std::string_view literal);  // of a key that is bound to nothing
+Note or_else(std::string_view words);
+// Only these, in this order.
+Note one_of(std::span<const std::string_view> choices);
+inline Note one_of(std::initializer_list<std::string_view> choices) {
+  return one_of(std::span(choices.begin(), choices.size()));
+}
+
+// Read by the reader of its table.
+KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
+            std::initializer_list<Note> notes);
+// Fills a member, `offset` bytes into an object of type `owner`, that is `initial` at first.
+KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t offset,
+            const void* initial, std::string_view name, std::string_view meaning,
+            std::initializer_list<Note> notes);
+
+template <std::same_as<Note>... Notes>
+KeyDoc key(KeyType type, std::string_view name, std::string_view meaning, const Notes&... notes) {
+  return made(type, name, meaning, {notes...});
+}
+
+// One of each kind, as it is before anything is read.
+template <class T>
+const T& blank() {
+  static const T object{};
+  return object;
+}
+
 // Fills the member of a T.
-template <class T, class M, class... More>
-KeyDoc key(M T::*member, std::string_view name, std::string_view meaning, const More&... more) {
-  KeyDoc doc{.key = name, .type = Filled<M>::type, .doc = meaning};
-  if constexpr (Filled<M>::type == KeyType::choice || Filled<M>::type == KeyType::choices_list)
-    doc.choices = names(typename ChoiceOf<M>::type());
-  (more(doc), ...);
-  doc.owner = &typeid(T);
-  doc.fill = [member](const TomlValue& value, const KeyDoc& filled, void* object) {
-    M& to = static_cast<T*>(object)->*member;
-    assign(value, to);
-    if constexpr (std::is_same_v<M, double>) to *= filled.scale;
-    if constexpr (std::is_same_v<M, std::optional<double>>) *to *= filled.scale;
-  };
-  if (doc.required || !doc.otherwise.empty()) return doc;
-  M value = T{}.*member;
-  if constexpr (std::is_same_v<M, double>) value /= doc.scale;
-  doc.fallback = Filled<M>::literal(value);
-  if (doc.fallback == "\"\"" && doc.least > 0) doc.fallback.clear();  // no text may be empty here
-  return doc;
+template <class T, class M, std::same_as<Note>... Notes>
+KeyDoc key(M T::*member, std::string_view name, std::string_view meaning, const Notes&... notes) {
+  const void* initial = &(blank<T>().*member);
+  const auto offset = static_cast<std::size_t>(static_cast<const char*>(initial) -
+                                               reinterpret_cast<const char*>(&blank<T>()));
+  return made(kMemberKind<M>, typeid(T), offset, initial, name, meaning, {notes...});
 }
 
 }  // namespace keys
 
 using keys::key;
+
+// The parts that the language's list of tables is put together from, each in a file of its own.
+TableDoc world_table();
+TableDoc structure_table();
+TableDoc planes_table();
+TableDoc body_table();
+TableDoc pattern_table();
+TableDoc spring_table();
+TableDoc joint_table();
+TableDoc level_table();
+TableDoc chart_table();
+TableDoc problem_table();
+TableDoc atlas_table();
+TableDoc texture_table();
+TableDoc texture_pattern_table();
+TableDoc expect_table();
+
+// Those of a table for a body or a pattern: `own` and what both have.
+std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);
+
+// The keys that several verbs have.
+KeyDoc body_key();  // read by the verb, as is "bodies"
+KeyDoc bodies_key();
+KeyDoc pace_key();  // of a verb that can be watched while it works, as is "events"
+KeyDoc events_key(std::initializer_list<std::string_view> names);
 
 }  // namespace lantern

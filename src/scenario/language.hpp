@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -14,7 +13,6 @@
 #include <typeinfo>
 #include <vector>
 
-#include "scenario/name_pattern.hpp"
 #include "scenario/toml_tree.hpp"
 
 namespace lantern {
@@ -53,6 +51,25 @@ enum class KeyType {
   name_points,     // a table from names to points
 };
 
+// Which letters a name may have. Groups of letters are written as between the brackets of a regular
+// expression: "a-z0-9_".
+struct NamePattern {
+  std::string_view first;  // what it may begin with
+  std::string_view rest;   // and what may follow
+  std::size_t most = 1;    // letters
+  std::string_view words;  // the same for people
+
+  // The same as a regular expression, for the JSON Schema.
+  std::string expression() const;
+};
+
+// Does the whole text match?
+bool matches(std::string_view text, const NamePattern& pattern);
+
+// A name that matches and looks like `text`: small letters where large ones are not allowed, '_'
+// for what else is not.
+std::string legal_name(std::string_view text, const NamePattern& pattern);
+
 struct KeyDoc {
   std::string_view key;
   KeyType type = KeyType::text;
@@ -70,10 +87,11 @@ struct KeyDoc {
   std::string_view of = {};
   std::string_view form = {};  // of two numbers: "[x, y]"
 
-  // Writes a good value into the member of `*object` that the key is bound to. A key without an
-  // owner is read by the reader of its table.
+  // Writes a good value, times `scale`, into the member that the key is bound to, `offset` bytes
+  // into an `owner`. A key without an owner is read by the reader of its table.
   const std::type_info* owner = nullptr;
-  std::function<void(const TomlValue& value, const KeyDoc& key, void* object)> fill = {};
+  std::size_t offset = 0;
+  void (*fill)(const TomlValue& value, double scale, void* member) = nullptr;
 };
 
 // How the reference calls a type, and a value of it; of some types the value depends on the key.

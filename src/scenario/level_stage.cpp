@@ -148,28 +148,25 @@ void LevelStage::picture_nodes(const LevelBsp& level, Frame& frame) const {
 
 void LevelStage::picture_counts(const LevelBsp& level, Frame& frame) const {
   const LevelCounters c = level.counters();
-  const auto count = [&](const char* name, std::uint64_t n) {
-    frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
-  };
   if (!frame.count("nodes")) {  // of the bodies' tree, if there is one
     std::uint64_t leaves = 0;
     for (const FrameNode& node : frame.nodes) leaves += node.leaf;
-    count("nodes", c.nodes);
-    count("leaves", leaves);
-    count("depth", c.depth);
+    frame.add_count("nodes", c.nodes);
+    frame.add_count("leaves", leaves);
+    frame.add_count("depth", c.depth);
   }
-  count("walls", c.walls);
-  count("wall_pieces", c.pieces);
-  count("sectors", c.sectors);
-  count("cuts", c.cuts);
+  frame.add_count("walls", c.walls);
+  frame.add_count("wall_pieces", c.pieces);
+  frame.add_count("sectors", c.sectors);
+  frame.add_count("cuts", c.cuts);
   const LevelNode& root = level.nodes()[0];
   if (!root.is_leaf()) {
-    count("plane_score", static_cast<std::uint64_t>(root.chosen.score));
-    count("first_wall_score", static_cast<std::uint64_t>(root.first.score));
+    frame.add_count("plane_score", static_cast<std::uint64_t>(root.chosen.score));
+    frame.add_count("first_wall_score", static_cast<std::uint64_t>(root.first.score));
   }
   if (!place_) return;
-  count("sector", place_->sector + 1);
-  count("planes_tested", place_->nodes_visited - 1);
+  frame.add_count("sector", place_->sector + 1);
+  frame.add_count("planes_tested", place_->nodes_visited - 1);
 }
 
 void LevelStage::picture(Frame& frame) const {

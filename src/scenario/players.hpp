@@ -81,6 +81,14 @@ Spin<D> spin_about(const Vec<3>& axis, double radians) {
     return axis * radians;
 }
 
+// Whoever looks on while a world moves, whichever its dimension.
+class WorldWatch {
+ public:
+  virtual ~WorldWatch() = default;
+  virtual void see_world(const Players<2>& players) = 0;
+  virtual void see_world(const Players<3>& players) = 0;
+};
+
 extern template class Players<2>;
 extern template class Players<3>;
 

@@ -121,16 +121,12 @@ class Queries {
 
 }  // namespace
 
-template <int D, class V>
-Finding asked(const V& verb, const World<D>& world) {
-  return Queries<D>(world).answer(verb);
+template <int D>
+Finding asked(const Question& question, const World<D>& world) {
+  return std::visit([&](const auto& verb) { return Queries<D>(world).answer(verb); }, question);
 }
 
-template Finding asked(const CastRay&, const World<2>&);
-template Finding asked(const CastRay&, const World<3>&);
-template Finding asked(const Cull&, const World<2>&);
-template Finding asked(const Cull&, const World<3>&);
-template Finding asked(const Query&, const World<2>&);
-template Finding asked(const Query&, const World<3>&);
+template Finding asked(const Question&, const World<2>&);
+template Finding asked(const Question&, const World<3>&);
 
 }  // namespace lantern

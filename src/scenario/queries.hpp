@@ -6,9 +6,9 @@
 
 namespace lantern {
 
-// Of a CastRay, Cull or Query. Walks the world's structure, which has looked ahead. Throws Refused
+// Walks the world's structure, which has looked ahead. Throws Refused
 // for a ray, view or region that is not valid.
-template <int D, class V>
-Finding asked(const V& verb, const World<D>& world);
+template <int D>
+Finding asked(const Question& question, const World<D>& world);
 
 }  // namespace lantern

@@ -1,6 +1,8 @@
 // Whatever is named is there.
 #include "scenario/scenario.hpp"
 
+#include <algorithm>
+
 #include "base/check.hpp"
 
 namespace lantern {
@@ -41,6 +43,18 @@ class Indices {
 };
 
 }  // namespace
+
+bool ScenarioSpec::has_forces() const {
+  return world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !links.empty();
+}
+
+bool ScenarioSpec::tells_sleepers() const {
+  return has_contacts() || world.may_sleep || structure.split_static;
+}
+
+bool ScenarioSpec::has_body_of(BodyKind kind) const {
+  return std::ranges::find(bodies, kind, &BodySpec::kind) != bodies.end();
+}
 
 Scenario::Scenario(ScenarioSpec spec) : ScenarioSpec(std::move(spec)) { Indices(*this).check(); }
 

@@ -90,6 +90,12 @@ struct ScenarioSpec {
   std::string text;               // the file's bytes, for diagnostics of the run
   std::uint64_t most_frames = 0;  // in step pace; a step that waits may give fewer
   std::uint64_t world_steps = 0;  // at most, for the same reason
+
+  bool has_contacts() const { return world.contacts != ContactMethod::none; }
+  bool has_forces() const;  // gravity, gravitation, springs or joints
+  bool has_physics() const { return has_contacts() || has_forces(); }  // more than free flight
+  bool tells_sleepers() const;  // bodies may rest: those that do are told from those that do not
+  bool has_body_of(BodyKind kind) const;
 };
 
 // One that is right, and the only one that can be walked, explained, run or drawn: whatever is

@@ -76,7 +76,7 @@ std::optional<std::size_t> ScriptReading::present_body(const TableReader& table,
 }
 
 void ScriptReading::require_contacts(Place where) {
-  if (draft.dimension != 0 && draft.scenario.world.contacts == ContactMethod::none)
+  if (draft.dimension != 0 && !draft.scenario.has_contacts())
     draft.problems.add(where, kNothingTouches, kGiveContacts);
 }
 

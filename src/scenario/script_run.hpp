@@ -5,7 +5,6 @@
 #include <string>
 
 #include "scenario/frame_maker.hpp"
-#include "scenario/stage.hpp"
 #include "scenario/warnings.hpp"
 
 namespace lantern {

@@ -79,38 +79,40 @@ class NodePicture {
   void add(const Structure& structure, const AwakeNodes* awake, bool of_static) {
     first_ = static_cast<std::uint32_t>(frame_.nodes.size());
     structure.visit([&](const NodeView<D>& view) {
-      stop_if_asked();
-      FrameNode node = frame_node(view);
-      node.of_static = of_static;
-      if (!of_static) node.mark = touched_.mark_of(view.handle);
-      // The array of what moves is pictured; that of what does not is another one.
-      if (shows_memory_ && !of_static) {
-        node.first = view.first;
-        node.room = view.room;
-      }
-      if (awake) node.awake = (*awake)[view.handle];
-      most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
-      frame_.nodes.push_back(std::move(node));
+      add_node(view, awake, of_static);
       return true;
     });
-    const Counters c = structure.counters();
-    counters.nodes += c.nodes;
-    counters.leaves += c.leaves;
-    counters.depth = std::max(counters.depth, c.depth);
-    counters.entries += c.entries;
-    counters.box_tests += c.box_tests;
-    counters.splits += c.splits;
-    counters.nodes_reused += c.nodes_reused;
-    counters.allocations += c.allocations;
-    counters.places += c.places;
-    counters.node_bytes += c.node_bytes;
-    if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
+    add_counters(structure.counters(), of_static);
   }
 
   Counters counters;  // of all structures together
   std::uint64_t most_in_leaf = 0;
 
  private:
+  void add_node(const NodeView<D>& view, const AwakeNodes* awake, bool of_static) {
+    stop_if_asked();
+    FrameNode node = frame_node(view);
+    node.of_static = of_static;
+    if (!of_static) node.mark = touched_.mark_of(view.handle);
+    // The array of what moves is pictured; that of what does not is another one.
+    if (shows_memory_ && !of_static) {
+      node.first = view.first;
+      node.room = view.room;
+    }
+    if (awake) node.awake = (*awake)[view.handle];
+    most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
+    frame_.nodes.push_back(std::move(node));
+  }
+
+  void add_counters(const Counters& c, bool of_static) {
+    using C = Counters;
+    for (const auto count : {&C::nodes, &C::leaves, &C::entries, &C::box_tests, &C::splits,
+                             &C::nodes_reused, &C::allocations, &C::places, &C::node_bytes})
+      counters.*count += c.*count;
+    counters.depth = std::max(counters.depth, c.depth);
+    if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
+  }
+
   FrameNode frame_node(const NodeView<D>& view) const {
     FrameNode node;
     node.id = first_ + view.id;
@@ -221,13 +223,10 @@ std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, 
 template <int D>
 void picture_structure(const StructureSpec& spec, const World<D>& world, bool tells_sleepers,
                        const Touched& touched, Frame& frame) {
-  const auto count = [&](const char* name, std::uint64_t n) {
-    frame.counts.emplace_back(name, static_cast<std::int64_t>(n));
-  };
   frame.structure = spec.kind;
   if (spec.kind == StructureKind::none) {
-    count("all_pairs", all_pairs(frame.bodies.size()));
-    count("testable_pairs", testable_pairs_of(frame));
+    frame.add_count("all_pairs", all_pairs(frame.bodies.size()));
+    frame.add_count("testable_pairs", testable_pairs_of(frame));
     return;
   }
   const BroadPhase<D>& structure = *world.broad_phase();
@@ -251,36 +250,36 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
     if (const auto stored = structure.box_of(body.id)) body.stored_box = solid(*stored);
 
   const Counters& c = picture.counters;
-  count("nodes", c.nodes);
-  count("leaves", c.leaves);
-  count("depth", c.depth);
-  count("entries", c.entries);
-  count("most_in_leaf", picture.most_in_leaf);
-  count("pairs", chain.pairs.size());
-  count("pair_tests", chain.met);
-  count("all_pairs", all_pairs(frame.bodies.size()));
-  count("testable_pairs", testable_pairs_of(frame));
-  count("overlaps", chain.overlapping.size());
-  count("box_tests", c.box_tests);
-  count("splits", c.splits);
-  count("nodes_reused", c.nodes_reused);
-  count("allocations", c.allocations);
+  frame.add_count("nodes", c.nodes);
+  frame.add_count("leaves", c.leaves);
+  frame.add_count("depth", c.depth);
+  frame.add_count("entries", c.entries);
+  frame.add_count("most_in_leaf", picture.most_in_leaf);
+  frame.add_count("pairs", chain.pairs.size());
+  frame.add_count("pair_tests", chain.met);
+  frame.add_count("all_pairs", all_pairs(frame.bodies.size()));
+  frame.add_count("testable_pairs", testable_pairs_of(frame));
+  frame.add_count("overlaps", chain.overlapping.size());
+  frame.add_count("box_tests", c.box_tests);
+  frame.add_count("splits", c.splits);
+  frame.add_count("nodes_reused", c.nodes_reused);
+  frame.add_count("allocations", c.allocations);
   if (c.node_bytes > 0) {
-    count("slots", c.places);
-    count("node_bytes", c.node_bytes);
-    count("node_bytes_with_bounds", c.node_bytes + c.nodes * sizeof(Box<D>));
+    frame.add_count("slots", c.places);
+    frame.add_count("node_bytes", c.node_bytes);
+    frame.add_count("node_bytes_with_bounds", c.node_bytes + c.nodes * sizeof(Box<D>));
   }
   if (tells_sleepers) {
     const Sleepers asleep = count_sleepers(frame);
-    count("nodes_asleep", asleep.nodes);
-    count("leaves_asleep", asleep.leaves);
-    count("branches_asleep", asleep.branches);
+    frame.add_count("nodes_asleep", asleep.nodes);
+    frame.add_count("leaves_asleep", asleep.leaves);
+    frame.add_count("branches_asleep", asleep.branches);
   }
   if (spec.split_static) {
-    count("static_builds", structure.counters().static_builds);
-    count("dynamic_builds", structure.counters().dynamic_builds);
+    frame.add_count("static_builds", structure.counters().static_builds);
+    frame.add_count("dynamic_builds", structure.counters().dynamic_builds);
   }
-  if (traits_of(spec.kind).is_fitted) count("stale", count_stale(world));
+  if (traits_of(spec.kind).is_fitted) frame.add_count("stale", count_stale(world));
 }
 
 template BroadPhaseConfig<2> broad_phase_of(const StructureSpec&, const Box<2>&);

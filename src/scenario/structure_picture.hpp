@@ -6,7 +6,6 @@
 
 #include "physics/world.hpp"
 #include "scenario/frame.hpp"
-#include "scenario/touched.hpp"
 
 namespace lantern {
 

@@ -6,16 +6,15 @@
 
 #include "geometry/angle.hpp"
 #include "scenario/key.hpp"
-#include "scenario/language_parts.hpp"
 #include "scenario/script_reading.hpp"
 
 namespace lantern {
 namespace {
 
-using Kind = Expectation::Kind;
-
 class ExpectationReader {
  public:
+  using Kind = Expectation::Kind;
+
   ExpectationReader(const TableReader& table, Draft& draft, ScriptState& state)
       : table_(table),
         draft_(draft),

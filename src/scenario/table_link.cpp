@@ -3,7 +3,6 @@
 
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
-#include "scenario/language_parts.hpp"
 
 namespace lantern {
 namespace {

@@ -9,7 +9,6 @@
 #include "geometry/random_vec.hpp"
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
-#include "scenario/language_parts.hpp"
 
 namespace lantern {
 namespace {

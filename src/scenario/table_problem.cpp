@@ -4,7 +4,6 @@
 #include "base/suggest.hpp"
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
-#include "scenario/language_parts.hpp"
 #include "scenario/method.hpp"
 
 namespace lantern {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "base/suggest.hpp"
-#include "scenario/value_check.hpp"
 
 namespace lantern {
 namespace {
@@ -93,6 +92,13 @@ void TableReader::check_groups() {
   if (given == 0 && !doc_.groups.groups.empty())
     problems_.add(where_, fmt::format("{} has no {}", called_, wanted),
                   doc_.groups.exactly_one ? "give one of them" : "give at least one of them");
+}
+
+void TableReader::fill(const std::type_info& owner, void* object) const {
+  for (const KeyDoc& key : doc_.keys)
+    if (key.owner && *key.owner == owner)
+      if (const TomlValue* value = good(key.key))
+        key.fill(*value, key.scale, static_cast<char*>(object) + key.offset);
 }
 
 const TomlEntry* TableReader::entry(std::string_view key) const {

@@ -15,6 +15,11 @@
 
 namespace lantern {
 
+// Does one value fit its key? Adds a problem for each thing that is wrong with it; true if there
+// was none. What is in a table of its own (KeyType::table and tables) is left to that table's
+// reader. `dimension` is the world's, 0 where it is not known.
+bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Problems& problems);
+
 // Checks a table as a whole when it is made: unknown and missing keys, types, ranges, choices. What
 // is asked for afterwards is either good or not given; so the reader of a bad file goes on and
 // finds the other mistakes, too.
@@ -38,9 +43,7 @@ class TableReader {
   // The members of `to` that keys are bound to; what is not given, or not good, stays as it is.
   template <class T>
   void fill(T& to) const {
-    for (const KeyDoc& key : doc_.keys)
-      if (key.owner && *key.owner == typeid(T))
-        if (const TomlValue* value = good(key.key)) key.fill(*value, key, &to);
+    fill(typeid(T), &to);
   }
 
   // The value of one key, of the type that the language gives it (see toml_value.hpp).
@@ -76,6 +79,7 @@ class TableReader {
   bool is_list(std::string_view key) const;
 
  private:
+  void fill(const std::type_info& owner, void* object) const;
   const TomlEntry* entry(std::string_view key) const;
   const TomlValue* good(std::string_view key) const;
   void check_unknown(const TomlEntry& entry);

@@ -1,5 +1,4 @@
-#include "scenario/value_check.hpp"
-
+// Does one value fit its key of the language?
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.hpp"
+#include "scenario/table_reader.hpp"
 
 namespace lantern {
 namespace {

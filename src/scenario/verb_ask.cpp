@@ -3,7 +3,6 @@
 
 #include "scenario/event_text.hpp"
 #include "scenario/key.hpp"
-#include "scenario/language_parts.hpp"
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 

@@ -1,11 +1,10 @@
-// `insert` and `remove`: bodies enter and leave the world and the structure.
+// `insert`, `remove` and `rebuild`: bodies enter and leave the world and the structure.
 #include "base/stop.hpp"
-#include "scenario/language_parts.hpp"
+#include "scenario/key.hpp"
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
 namespace lantern {
-
 TableDoc Insert::table() {
   return {.doc = "Bodies enter the world and the structure, one after another.",
           .keys = {bodies_key(), pace_key(),
@@ -66,6 +65,38 @@ void Remove::act(ScriptRun& run) const {
   change(run.engine());
   run.engine().rebuild();
   run.frames.settle("remove");
+}
+
+TableDoc Rebuild::table() {
+  TableDoc verb = {.doc = "The structure is made anew with the settings given; the others stay.",
+                   .keys = language_table("structure").keys,
+                   .example = R"([[step]]
+do = "rebuild"
+kind = "bsp"
+planes = [{ name = "middle", point = [8, 0], normal = [1, 0] }]
+expect = { nodes = 3 }
+
+[[step]]
+do = "rebuild"
+kind = "quadtree"
+children = "eager"
+expect = { nodes = 5 }
+)"};
+  for (KeyDoc& key : verb.keys) {
+    key.required = false;
+    key.fallback = {};
+    key.otherwise = "as it was";
+  }
+  return verb;
+}
+
+void Rebuild::read(const TableReader& table, ScriptReading& script) {
+  structure = script.state.structure = read_structure(table, script.state.structure, script.draft);
+}
+
+void Rebuild::act(ScriptRun& run) const {
+  run.engine().rebuild_as(structure);
+  run.frames.settle("rebuild");
 }
 
 }  // namespace lantern

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "scenario/key.hpp"
-#include "scenario/language_parts.hpp"
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 

@@ -76,21 +76,16 @@ struct Move {
   bool rebuild = true;           // false: the structure is left as it was
 };
 
-struct Sleep {
-  static constexpr VerbTraits kTraits{.name = "sleep", .changes_bodies = true};
+template <bool kAsleep>
+struct Rest {
+  static constexpr VerbTraits kTraits{.name = kAsleep ? "sleep" : "wake", .changes_bodies = true};
   static TableDoc table();
   void read(const TableReader& table, ScriptReading& script);
   void change(Engine& engine) const;
   std::vector<std::size_t> bodies;
 };
-
-struct Wake {
-  static constexpr VerbTraits kTraits{.name = "wake", .changes_bodies = true};
-  static TableDoc table();
-  void read(const TableReader& table, ScriptReading& script);
-  void change(Engine& engine) const;
-  std::vector<std::size_t> bodies;
-};
+using Sleep = Rest<true>;
+using Wake = Rest<false>;
 
 // From now on; a force of 0 ends it.
 struct ApplyForce {
@@ -202,6 +197,9 @@ struct Query {
   Box<3> box;
   double radius = 0;  // above 0: a ball about the box's centre
 };
+
+// What the structure is asked.
+using Question = std::variant<CastRay, Cull, Query>;
 
 // The BSP of the level.
 struct CompileLevel {

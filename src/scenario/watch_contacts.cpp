@@ -14,14 +14,13 @@ namespace {
 
 constexpr double kDeep = 0.01;  // of the thinner body's width
 
-// What forces does the scenario have? Bodies that only fly straight on are not meant to collide.
-bool has_forces(const Scenario& scenario) {
-  const WorldSpec& world = scenario.world;
-  if (world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !scenario.links.empty()) return true;
-  return std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& step) {
-    return std::holds_alternative<ApplyForce>(step.verb) ||
-           std::holds_alternative<ApplyImpulse>(step.verb);
-  });
+// Bodies that only fly straight on are not meant to collide.
+bool anything_pushes(const Scenario& scenario) {
+  return scenario.has_forces() ||
+         std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& step) {
+           return std::holds_alternative<ApplyForce>(step.verb) ||
+                  std::holds_alternative<ApplyImpulse>(step.verb);
+         });
 }
 
 struct Overlapping {
@@ -148,9 +147,9 @@ class ContactsWatch : public Watcher {
 }  // namespace
 
 Watching watch_contacts(const Scenario& scenario) {
-  if (scenario.world.contacts != ContactMethod::none || !has_forces(scenario)) return nullptr;
-  const bool two = scenario.bodies.size() > 1;
-  return two ? std::make_unique<ContactsWatch>(scenario) : nullptr;
+  if (scenario.has_contacts() || !anything_pushes(scenario) || scenario.bodies.size() < 2)
+    return nullptr;
+  return std::make_unique<ContactsWatch>(scenario);
 }
 
 }  // namespace lantern

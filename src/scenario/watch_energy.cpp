@@ -175,17 +175,12 @@ class EnergyWatch : public Watcher {
 }  // namespace
 
 Watching watch_energy(const Scenario& scenario) {
-  const WorldSpec& world = scenario.world;
-  const bool forces = world.contacts != ContactMethod::none || world.gravity != Vec<3>(0.0) ||
-                      world.gravitation > 0 || !scenario.links.empty();
-  const bool dynamic =
-      std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
-                  [](const BodySpec& body) { return body.kind == BodyKind::dynamic_body; });
+  const bool forces = scenario.has_physics();
   // A free body's energy can grow only by the way it turns.
-  const bool turns =
-      world.dimension == 3 && std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
-                                          [](const BodySpec& body) { return body.spin != 0; });
-  if (!dynamic || (!forces && !turns)) return nullptr;
+  const bool turns = scenario.world.dimension == 3 &&
+                     std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
+                                 [](const BodySpec& body) { return body.spin != 0; });
+  if (!scenario.has_body_of(BodyKind::dynamic_body) || (!forces && !turns)) return nullptr;
   return std::make_unique<EnergyWatch>(scenario, !forces);
 }
 

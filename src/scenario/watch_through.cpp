@@ -125,12 +125,8 @@ class ThroughWatch : public Watcher {
 }  // namespace
 
 Watching watch_through(const Scenario& scenario) {
-  const auto any = [&](BodyKind kind) {
-    return std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
-                       [&](const BodySpec& body) { return body.kind == kind; });
-  };
-  if (scenario.world.contacts == ContactMethod::none || !any(BodyKind::dynamic_body) ||
-      !any(BodyKind::static_body))
+  if (!scenario.has_contacts() || !scenario.has_body_of(BodyKind::dynamic_body) ||
+      !scenario.has_body_of(BodyKind::static_body))
     return nullptr;
   return std::make_unique<ThroughWatch>(scenario);
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenario/frame.hpp"
-#include "scenario/world_watch.hpp"
+#include "scenario/players.hpp"
 
 namespace lantern {
 

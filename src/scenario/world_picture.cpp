@@ -14,24 +14,15 @@ namespace {
 template <int D>
 FrameBody frame_body(const Body<D>& body, const BodySpec& spec) {
   FrameBody b;
+  static_cast<BodyState&>(b) = state_of(body);
   b.id = body.id;
   b.name = body.name;
   b.look = spec.look;
   b.color = spec.color;
   b.shape = in_dimension<3>(body.shape);
-  b.position = solid(body.position);
-  b.velocity = solid(body.velocity);
   b.box = solid(body.box());
   b.is_static = !body.moves();
   b.asleep = body.asleep;
-  if constexpr (D == 2) {
-    b.angle = body.orientation.angle;
-    b.orientation = turned(Rotation<3>(), Vec<3>(0, 0, b.angle));
-    b.angular_momentum = {0, 0, body.angular_momentum};
-  } else {
-    b.orientation = body.orientation;
-    b.angular_momentum = body.angular_momentum;
-  }
   return b;
 }
 
@@ -54,7 +45,63 @@ FrameContact frame_contact(const Contact<D>& contact, const std::vector<ContactE
   return c;
 }
 
+double size_of(double value) { return value; }
+double size_of(const Vec<3>& value) { return glm::length(value); }
+
+double about_own_axis(const Body<2>&, int) { return 0; }
+double about_own_axis(const Body<3>& body, int axis) {
+  return (glm::conjugate(body.orientation.q) * angular_velocity(body))[axis];
+}
+
+double deepest_of(BodyId id, const Frame& frame) {
+  double deepest = 0;
+  for (const FrameContact& contact : frame.contacts)
+    if (contact.pair.a == id || contact.pair.b == id)
+      for (const FrameContact::Point& point : contact.points)
+        deepest = std::max(deepest, -point.separation);
+  return deepest;
+}
+
+template <int D>
+double measured(BodyMeasure what, const Body<D>& body, const World<D>& world, const Frame& frame) {
+  const auto energy = [&] { return energy_of<D>(body, world.bodies(), world.forces()); };
+  const Vec<3> position = solid(body.position);
+  using M = BodyMeasure;
+  if (what == M::energy) return energy().total();
+  if (what == M::kinetic_energy) return energy().kinetic();
+  if (what == M::potential_energy) return energy().potential();
+  if (what == M::speed) return glm::length(body.velocity);
+  if (what == M::spin) return size_of(angular_velocity(body));
+  if (what == M::angular_momentum) return size_of(body.angular_momentum);
+  if (what == M::own_spin_x) return about_own_axis(body, 0);
+  if (what == M::own_spin_y) return about_own_axis(body, 1);
+  if (what == M::own_spin_z) return about_own_axis(body, 2);
+  if (what == M::x) return position.x;
+  if (what == M::y) return position.y;
+  if (what == M::z) return position.z;
+  return deepest_of(body.id, frame);
+}
+
 }  // namespace
+
+template <int D>
+BodyState state_of(const Body<D>& body) {
+  BodyState state;
+  state.there = true;
+  state.position = solid(body.position);
+  state.velocity = solid(body.velocity);
+  if constexpr (D == 2) {
+    state.angle = body.orientation.angle;
+    state.orientation = turned(Rotation<3>(), Vec<3>(0, 0, state.angle));
+    state.angular_velocity.z = angular_velocity(body);
+    state.angular_momentum.z = body.angular_momentum;
+  } else {
+    state.orientation = body.orientation;
+    state.angular_velocity = angular_velocity(body);
+    state.angular_momentum = body.angular_momentum;
+  }
+  return state;
+}
 
 template <int D>
 void picture_world(const Players<D>& players, Frame& frame) {
@@ -95,9 +142,21 @@ void measure_world(const Players<D>& players, bool has_contacts, Frame& frame) {
   frame.measures.emplace_back("penetration", deepest);
 }
 
+template <int D>
+void measure_bodies(const Players<D>& players, const Scenario& scenario, Frame& frame) {
+  for (const BodyMeasureSpec& asked : scenario.body_measures)
+    if (const Body<D>* body = players.body(asked.body))
+      frame.measures.emplace_back(asked.name,
+                                  measured(asked.measure, *body, players.world(), frame));
+}
+
+template BodyState state_of(const Body<2>&);
+template BodyState state_of(const Body<3>&);
 template void picture_world(const Players<2>&, Frame&);
 template void picture_world(const Players<3>&, Frame&);
 template void measure_world(const Players<2>&, bool, Frame&);
 template void measure_world(const Players<3>&, bool, Frame&);
+template void measure_bodies(const Players<2>&, const Scenario&, Frame&);
+template void measure_bodies(const Players<3>&, const Scenario&, Frame&);
 
 }  // namespace lantern

@@ -1,9 +1,14 @@
 // Bodies, contacts, springs and joints of a world, as a frame shows them.
 #pragma once
 
+#include "scenario/frame.hpp"
 #include "scenario/players.hpp"
 
 namespace lantern {
+
+// How a body lies and moves now.
+template <int D>
+BodyState state_of(const Body<D>& body);
 
 // Bodies that the world shows, contacts and links; no counts.
 template <int D>
@@ -13,9 +18,18 @@ void picture_world(const Players<D>& players, Frame& frame);
 template <int D>
 void measure_world(const Players<D>& players, bool has_contacts, Frame& frame);
 
+// Measures of single bodies that the scenario asks for, as "energy.bob", of bodies that are there.
+// Contacts must be in the frame.
+template <int D>
+void measure_bodies(const Players<D>& players, const Scenario& scenario, Frame& frame);
+
+extern template BodyState state_of(const Body<2>&);
+extern template BodyState state_of(const Body<3>&);
 extern template void picture_world(const Players<2>&, Frame&);
 extern template void picture_world(const Players<3>&, Frame&);
 extern template void measure_world(const Players<2>&, bool, Frame&);
 extern template void measure_world(const Players<3>&, bool, Frame&);
+extern template void measure_bodies(const Players<2>&, const Scenario&, Frame&);
+extern template void measure_bodies(const Players<3>&, const Scenario&, Frame&);
 
 }  // namespace lantern

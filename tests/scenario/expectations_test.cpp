@@ -1,10 +1,9 @@
 // Each kind of promise: it holds where it should, and says what it found where it does not.
-#include "scenario/expectations.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "scenario/directing.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::test {

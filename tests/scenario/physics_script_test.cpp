@@ -251,6 +251,7 @@ TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
     expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"nothing sleeps"});
   for (const std::string count : {"rotations", "force_evaluations", "energy", "momentum"})
     expect_mistakes(free + steps({show + "@" + count + " = 1 }"}), {"no contacts, gravity"});
+  good(kFree + "gravitation = 1\n" + kTree + kBodies + steps({show + "force_evaluations = 0 }"}));
   expect_mistakes(std::string(kSolid) + steps({show + "@turned = { ball = 1 } }"}), {"2D world"});
   expect_mistakes(kPhysicsScene + steps({show + "@tolerance = 1 }"}), {"without a 'position'"});
   expect_mistakes("title = \"x\"\n[atlas]\nsize = [8, 8]\n" + steps({show + "@energy = 1 }"}),
