@@ -10,8 +10,8 @@
 #include "embedded/version.hpp"
 #include "measure/broad_phase_cost.hpp"
 #include "report/antialiasing.hpp"
-#include "report/pages.hpp"
 #include "report/measure_plots.hpp"
+#include "report/pages.hpp"
 #include "scenario/director.hpp"
 
 namespace lantern {

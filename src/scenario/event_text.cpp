@@ -102,9 +102,12 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
                        counted(pairs, "candidate pair", "candidate pairs"),
                        frame.count("testable_pairs").value_or(0));
   if (phase == "narrow_phase")
-    return fmt::format("Narrow phase: the true shapes of {} are tested. {} really {}.",
-                       counted(frame.count("pairs_tested").value_or(0), "pair", "pairs"), contacts,
-                       contacts == 1 ? "touches" : "touch");
+    return fmt::format(
+        "Narrow phase: the boxes of {} overlap, and the true shapes of {} are tested. {} really "
+        "{}.",
+        frame.count("overlaps").value_or(0),
+        counted(frame.count("pairs_tested").value_or(0), "pair", "pairs"), contacts,
+        contacts == 1 ? "touches" : "touch");
   return fmt::format(
       "Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
       counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));

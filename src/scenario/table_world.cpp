@@ -90,7 +90,8 @@ TableDoc world_table() {
           "How free bodies rotate. `explicit_gyroscopic` is there to be seen failing."),
       key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
           range(1, 64)),
-      key(&W::iterations, "iterations", "Sweeps over the impulses in a world step.",
+      key(&W::iterations, "iterations",
+          "Sweeps over the velocities in a world step, and as many over the positions.",
           range(1, 1000)),
       key(&W::impact_budget, "impact_budget",
           "How many impacts are located in one world step; later ones are treated as soft. "

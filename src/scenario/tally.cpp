@@ -1,6 +1,7 @@
 #include "scenario/tally.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -52,7 +53,7 @@ void Tally::see(const Frame& frame) {
   with_bodies_ += !frame.bodies.empty();
   with_walls_ += !frame.walls.empty();
   with_nodes_ += !frame.nodes.empty();
-  with_textures_ += !frame.textures.empty();
+  with_textures_ += counted(frame, "textures") > 0;
   with_points_ += points_of(frame.chart) > 0;
   with_array_ += frame.array_size > 0;
   solid_ += frame.dimension == 3;
@@ -102,15 +103,17 @@ void Tally::list_structures(const WorldWork& world, Stages& all) const {
                  work_.static_builds == 0 ? "nothing is stored apart" : ""});
   all.push_back({"broad phase",
                  {amount(world.broad_phases, "search in steps", "searches in steps"),
+                  amount(world.candidate_pairs, "pair handed on", "pairs handed on"),
                   amount(work_.pair_searches, "search for frames", "searches for frames"),
-                  amount(world.candidate_pairs + work_.pairs_found, "candidate pair")},
+                  amount(work_.pairs_found, "pair listed", "pairs listed")},
                  ""});
 }
 
 void Tally::list_contacts(const WorldWork& world, Stages& all) const {
-  std::string methods;  // that the file names
+  std::string methods;  // that the file names, in its order
+  ContactMethod last = ContactMethod::none;
   const auto add = [&](ContactMethod method) {
-    if (method == ContactMethod::none) return;
+    if (method == std::exchange(last, method)) return;
     methods +=
         fmt::format("{}{}", methods.empty() ? "the file names " : ", then ", to_string(method));
   };
@@ -122,11 +125,12 @@ void Tally::list_contacts(const WorldWork& world, Stages& all) const {
                  {amount(world.narrow_pairs, "pair"), amount(world.narrow_tests, "test")},
                  off});
   all.push_back({"contact solver",
-                 {amount(world.constraint_rows - world.direct_rows, "row swept", "rows swept"),
+                 {amount(world.islands_solved, "island"),
+                  amount(world.constraint_rows - world.direct_rows, "row swept", "rows swept"),
                   amount(world.direct_solves, "direct solve"),
                   amount(world.direct_rows, "row solved at once", "rows solved at once"),
                   amount(world.sub_steps, "sub-step")},
-                 world.sub_steps > 0 ? methods : off});
+                 world.islands_solved > 0 ? methods : off});
   all.push_back({"friction", {amount(world.friction_rows, "row")}, off});
   all.push_back({"sleeping",
                  {amount(asleep_, "body at most", "bodies at most"),

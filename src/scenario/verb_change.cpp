@@ -191,7 +191,8 @@ TableDoc SolveBy::table() {
                   key(&S::sub_steps, "sub_steps",
                       "How many parts soft contacts divide a world step into.", range(1, 64),
                       or_else("as it was")),
-                  key(&S::iterations, "iterations", "Sweeps over the impulses in a world step.",
+                  key(&S::iterations, "iterations",
+                      "Sweeps over the velocities in a world step, and as many over the positions.",
                       range(1, 1000), or_else("as it was")),
               },
           .example = R"([[step]]
