@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-namespace lantern::test {
+namespace lantern {
 
 // Empty, and this process's own: tests may run at the same time. It goes when the process ends.
 inline std::filesystem::path fresh_folder(const std::string& name) {
@@ -25,4 +25,4 @@ inline std::filesystem::path fresh_folder(const std::string& name) {
   return folder;
 }
 
-}  // namespace lantern::test
+}  // namespace lantern

@@ -10,7 +10,7 @@
 #include "report/bench_frames.hpp"
 #include "scenario/director.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ int bench_frames_command(const BenchOptions& options) {
   return kGood;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

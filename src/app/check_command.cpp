@@ -6,7 +6,7 @@
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // Frames that nobody looks at.
@@ -93,4 +93,4 @@ int check_command(const CheckOptions& options) {
   return code;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

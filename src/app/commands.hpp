@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace lantern {
+namespace lantern::app {
 
 // What a run of the program ends with.
 enum ExitCode {
@@ -118,4 +118,4 @@ int measure_pictures_command(const MeasureMoreOptions& options);
 // Pairs missed, work and time of the broad phases over capacity and depth limit.
 int measure_broad_phase_command(const MeasureMoreOptions& options);
 
-}  // namespace lantern
+}  // namespace lantern::app

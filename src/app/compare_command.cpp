@@ -12,7 +12,7 @@
 #include "render/compare.hpp"
 #include "render/png.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ int compare_command(const CompareOptions& options) {
   return equal ? kGood : kFailed;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

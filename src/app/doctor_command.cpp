@@ -13,7 +13,7 @@
 #include "measure/peers.hpp"
 #include "render/context.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // The program in PATH, if there is one: ffmpeg makes films of frames, but is never needed.
@@ -36,7 +36,7 @@ struct PeerReport {
 
 PeerReport examine_peers() {
   PeerReport report;
-  for (const auto& peer : peers(report.missing))
+  for (const auto& peer : load_peers(report.missing))
     report.found.push_back(peer->name() + " " + peer->version());
   return report;
 }
@@ -81,4 +81,4 @@ int doctor_command(const DoctorOptions& options) {
   return any ? kGood : kNoBackend;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

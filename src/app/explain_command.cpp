@@ -10,7 +10,7 @@
 #include "base/memory.hpp"
 #include "scenario/tally.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // "60 searches, 1 candidate pair; 10.3 s passed": of amounts behind the first only what there is.
@@ -69,4 +69,4 @@ int explain_command(const ExplainOptions& options) {
   return kGood;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

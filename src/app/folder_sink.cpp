@@ -11,7 +11,7 @@
 #include "base/json_writer.hpp"
 #include "draw/page.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ void FolderSink::write_atlas(const Frame& frame) {
 
 void FolderSink::write_manifest() { write_file(path_ / "manifest.json", to_json(manifest_)); }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -14,7 +14,7 @@
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // Each chosen frame is drawn when it comes by, unless its picture stands there already. The disk is
 // left as it was until the first one. All that is given to it must outlive this.
@@ -57,4 +57,4 @@ class FolderSink : public FrameSink {
   std::optional<Frame> last_;  // of an atlas
 };
 
-}  // namespace lantern
+}  // namespace lantern::app

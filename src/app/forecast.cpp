@@ -7,7 +7,7 @@
 #include "base/grouped.hpp"
 #include "base/memory.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 std::string grouped_plainly(std::uint64_t number) {
@@ -82,4 +82,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.0f} days", seconds / 86400);
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

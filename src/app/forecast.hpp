@@ -7,7 +7,7 @@
 
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // How much a run has to do, as far as it is known beforehand.
 struct RunExtent {
@@ -49,4 +49,4 @@ std::string progress_text(const RunExtent& extent, const RunState& state);
 
 std::string duration_text(double seconds);  // "3 h"
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -13,7 +13,7 @@
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ bool FrameFolder::atlas_stands(std::string_view ending) const {
   return standing_.contains(atlas(ending).filename().string());
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -10,7 +10,7 @@
 #include "render/seal.hpp"
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // manifest.json: what a folder of frames holds, and how it came to be. It is written before the
 // first frame and after the last one.
@@ -82,4 +82,4 @@ class FrameFolder {
   std::vector<std::string> removed_, strange_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -10,7 +10,7 @@
 #include "app/commands.hpp"
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // Sanitizers make everything slower, and look for leaks at the end.
@@ -86,4 +86,4 @@ void give_time_to_save() {
   if (stop_asked()) end_in(kTimeToSave);
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -1,7 +1,7 @@
 // Ctrl-C and kill: the program ends within 0.2 s, wherever it is.
 #pragma once
 
-namespace lantern {
+namespace lantern::app {
 
 // From here on SIGINT and SIGTERM are a wish to stop (base/stop.hpp), which our own loops hear. For
 // what cannot hear it (a driver, a compiler of shaders, another engine, a pipe that nobody reads) a
@@ -16,4 +16,4 @@ bool interrupted();
 // then ends the process at once.
 void give_time_to_save();
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -9,7 +9,7 @@
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,4 +54,4 @@ int list_command(const ListOptions& options) {
   return code;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

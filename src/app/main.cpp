@@ -22,7 +22,7 @@
 #include "embedded/version.hpp"
 #include "scenario/reference.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 using Run = std::function<int()>;
@@ -311,10 +311,10 @@ int run_words(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::app
 
 int main(int argc, char** argv) {
   lantern::hold_standard_streams();
-  lantern::catch_interrupts();
-  return lantern::run_and_report([&] { return lantern::run_words(argc, argv); });
+  lantern::app::catch_interrupts();
+  return lantern::app::run_and_report([&] { return lantern::app::run_words(argc, argv); });
 }

@@ -24,7 +24,7 @@
 #include "report/pages.hpp"
 #include "scenario/method.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 constexpr double kSaveEvery = 5;                                   // seconds
@@ -150,7 +150,7 @@ class Measuring {
 
  private:
   void save() {
-    if (!measurement_.rows.empty()) folder_.write("measure.json", to_json(measurement_));
+    if (!measurement_.rows.empty()) folder_.write("measure.json", report::to_json(measurement_));
   }
 
   // Rows of an earlier run that this one did not come to.
@@ -264,7 +264,7 @@ int measure_problems(const MeasureOptions& options) {
     complain("nothing was measured: no method applies, or every run is too long (--full)");
     return kFailed;
   }
-  options.json ? write_stdout(to_json(m)) : print(to_table(m));
+  options.json ? write_stdout(report::to_json(m)) : print(to_table(m));
   if (interrupted()) {
     say("interrupted; the same command goes on from here");
     return kInterrupted;
@@ -290,4 +290,4 @@ int measure_command(const MeasureOptions& options) {
                   options.json});
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -14,7 +14,7 @@
 #include "report/pages.hpp"
 #include "scenario/director.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // Upright lines and text, slanted edges, and a solid world.
@@ -124,4 +124,4 @@ int measure_broad_phase_command(const MeasureMoreOptions& options) {
   return kFailed;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

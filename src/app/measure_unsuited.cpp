@@ -8,7 +8,7 @@
 #include "measure/peers.hpp"
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -69,7 +69,7 @@ std::vector<std::string> unsuited_words(std::span<const Unsuited> unsuited, bool
 std::optional<std::string> about_peer(const std::string& name,
                                       const std::vector<Scenario>& scenarios) {
   Names missing;
-  std::vector<std::unique_ptr<Solver>> same = peers(missing);
+  std::vector<std::unique_ptr<Solver>> same = load_peers(missing);
   std::erase_if(same, [&](const auto& peer) { return engine_of(peer->name()) != engine_of(name); });
   for (const std::string& line : missing)
     if (engine_of(line) == engine_of(name))
@@ -86,4 +86,4 @@ std::optional<std::string> about_peer(const std::string& name,
   return text;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -8,7 +8,7 @@
 
 #include "measure/plan.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // A line for each reason: "kepler is not run by MuJoCo and MuJoCo:RK4: MuJoCo has no forces between
 // two bodies but tendons". Of other engines only if `with_peers`.
@@ -19,4 +19,4 @@ std::vector<std::string> unsuited_words(std::span<const Unsuited> unsuited, bool
 std::optional<std::string> about_peer(const std::string& name,
                                       const std::vector<Scenario>& scenarios);
 
-}  // namespace lantern
+}  // namespace lantern::app

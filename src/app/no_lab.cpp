@@ -5,7 +5,7 @@
 #include "app/terminal.hpp"
 #include "measure/peers.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 constexpr const char* kNoLab = "this build has no lab; configure it with -DLANTERN_LAB=ON";
@@ -21,10 +21,11 @@ int measure_command(const MeasureOptions&) { return refused("measure"); }
 int stress_command(const StressOptions&) { return refused("stress"); }
 int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
 
+}  // namespace lantern::app
+
 // As doctor asks for them.
-std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
+std::vector<std::unique_ptr<lantern::measure::Solver>> lantern::measure::load_peers(
+    std::vector<std::string>& missing) {
   missing.emplace_back(kNoLab);
   return {};
 }
-
-}  // namespace lantern

@@ -10,7 +10,7 @@
 
 #include "app/terminal.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 constexpr double kRedraw = 0.1;     // seconds between two drawings on a terminal
@@ -126,4 +126,4 @@ std::string Progress::words() {
                      duration_text(static_cast<double>(total_ - count) / rate));
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -13,7 +13,7 @@
 #include "base/clock.hpp"
 #include "base/work.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // Tells of a piece of work while it lasts: on a terminal in one line that is rewritten every 0.1 s,
 // elsewhere in a plain line every 5 s. It does so from a thread of its own, so that it goes on
@@ -64,4 +64,4 @@ class Progress {
   std::thread thread_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::app

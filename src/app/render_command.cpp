@@ -18,7 +18,7 @@
 #include "base/stop.hpp"
 #include "draw/page.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // The picture of the one chosen frame to standard output.
@@ -125,4 +125,4 @@ int render_command(const RenderOptions& options) {
   return code;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

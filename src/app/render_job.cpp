@@ -11,7 +11,7 @@
 #include "embedded/version.hpp"
 #include "render/svg.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // 160 pixels to the inch, so that a frame of 1600 pixels is 10 inches wide in a document.
@@ -69,4 +69,4 @@ std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const F
                 from);
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

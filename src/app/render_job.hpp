@@ -11,7 +11,7 @@
 #include "render/pipeline.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 struct RenderJob {
   // Throws UsageError for a size that cannot be. The options must outlive this.
@@ -34,4 +34,4 @@ std::vector<PngText> texts_of(const Frame& frame);
 std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
                        const DrawList& list, const MadeFrom& from, Work& work);
 
-}  // namespace lantern
+}  // namespace lantern::app

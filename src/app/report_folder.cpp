@@ -5,7 +5,7 @@
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 namespace fs = std::filesystem;
 
@@ -56,4 +56,4 @@ void ReportFolder::finish() const {
   if (wanted()) make_durable(path_);
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

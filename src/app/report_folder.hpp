@@ -10,7 +10,7 @@
 #include "base/folder_lock.hpp"
 #include "report/pictures.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // Without a path everything is dropped.
 class ReportFolder {
@@ -45,4 +45,4 @@ class ReportFolder {
   std::vector<std::filesystem::path> made_;  // folders, the innermost first
 };
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -10,7 +10,7 @@
 #include "draw/page.hpp"
 #include "scenario/warnings.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 Pace pace_of(std::string_view word, const Scenario& scenario) {
   if (word.empty()) return scenario.pace;
@@ -68,4 +68,4 @@ void write(JsonWriter& json, const Work& work) {
   json.end_object();
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -11,7 +11,7 @@
 #include "base/work.hpp"
 #include "scenario/director.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // Where the frames of a run go: to files, to standard output, nowhere.
 class FrameSink {
@@ -47,4 +47,4 @@ int tell(const RunResult& result, bool strict);
 // The counters of the stages, as an object.
 void write(JsonWriter& json, const Work& work);
 
-}  // namespace lantern
+}  // namespace lantern::app

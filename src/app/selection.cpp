@@ -11,7 +11,7 @@
 #include "app/terminal.hpp"
 #include "base/suggest.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 template <class T>
@@ -91,4 +91,4 @@ void Selection::require_some() const {
       fmt::format("--at {}: no frame is chosen; the last one is at {:.6g} s", at_, end_));
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -9,7 +9,7 @@
 
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // "1280x720" as width and height. Throws UsageError unless both are 16 ... `most`.
 std::pair<int, int> parse_size(const std::string& text, int most);
@@ -49,4 +49,4 @@ class Selection {
   std::set<std::string> events_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -16,7 +16,7 @@
 #include "report/pages.hpp"
 #include "report/stress_tables.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 // The cases named, in the order of the table; without names all that are not slow, with --full all.
@@ -98,4 +98,4 @@ int stress_command(const StressOptions& options) {
   return good ? kGood : kFailed;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -11,7 +11,7 @@
 #include "base/printable.hpp"
 #include "base/utf8.hpp"
 
-namespace lantern {
+namespace lantern::app {
 namespace {
 
 constexpr std::string_view kClear = "\r\033[K";  // the line that the cursor is in
@@ -115,4 +115,4 @@ void clear_status() noexcept {
   status_shown = false;
 }
 
-}  // namespace lantern
+}  // namespace lantern::app

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace lantern {
+namespace lantern::app {
 
 // Standard error is a terminal, and NO_COLOR is not set.
 bool colourful();
@@ -40,4 +40,4 @@ class UsageError : public std::runtime_error {
 void show_status(std::string_view line) noexcept;
 void clear_status() noexcept;
 
-}  // namespace lantern
+}  // namespace lantern::app

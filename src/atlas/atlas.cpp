@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace lantern {
+namespace lantern::atlas {
 namespace {
 
 constexpr int kLargest = 65536;  // pixels on one side
@@ -72,4 +72,4 @@ void Atlas::take(std::uint32_t leaf, TextureId id) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::atlas

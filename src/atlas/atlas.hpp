@@ -24,7 +24,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::atlas {
 
 using TextureId = std::uint32_t;
 
@@ -201,4 +201,4 @@ void Atlas::visit(F&& f) const {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::atlas

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "rooms.hpp"
+
 namespace lantern {
 
 // A place in a text file. Lines and columns count from 1; 0 means "the file as a whole".

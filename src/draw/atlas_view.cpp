@@ -10,7 +10,7 @@
 #include "draw/pattern.hpp"
 #include "geometry/flat.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kStrip = 190;  // width of the strip of textures beside the atlas
@@ -241,4 +241,4 @@ DrawList draw_atlas_image(const Frame& frame) {
   return list;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

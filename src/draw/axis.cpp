@@ -7,7 +7,7 @@
 
 #include "draw/number_text.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // 1, 2 or 5 times a power of ten: the least that is not below `step`. `decimals` of it after the
@@ -154,4 +154,4 @@ Axis Axis::cut_to(std::optional<double> low, std::optional<double> high) const {
   return axis;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace lantern {
+namespace lantern::draw {
 
 class Axis {
  public:
@@ -43,4 +43,4 @@ class Axis {
   std::vector<Tick> ticks_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -6,7 +6,7 @@
 #include "geometry/flat.hpp"
 #include "geometry/polygon.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // Round the ends of a segment along y, in the body's own axes, counter-clockwise.
@@ -24,10 +24,15 @@ std::vector<Vec<2>> capsule_outline(const Capsule& capsule) {
 
 // In the body's own axes; empty for what looks the same however it is turned, or never turns.
 std::vector<Vec<2>> turning_outline(const Shape<3>& shape) {
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule_outline(*capsule);
-  const auto* box = std::get_if<OrientedBox<3>>(&shape);
-  if (!box) return {};
-  return polygon_of({-flat(box->half_size), flat(box->half_size)});
+  using Points = std::vector<Vec<2>>;
+  return std::visit(
+      EachShape{[](const Sphere&) { return Points(); }, [](const AxisBox<3>&) { return Points(); },
+                [](const OrientedBox<3>& box) {
+                  return polygon_of({-flat(box.half_size), flat(box.half_size)});
+                },
+                [](const Capsule& capsule) { return capsule_outline(capsule); },
+                [](const HalfSpace<3>&) { return Points(); }},
+      shape);
 }
 
 }  // namespace
@@ -69,4 +74,4 @@ Plane<2> page_surface(const FrameBody& body, const Vec<2>& through) {
   return Plane<2>::through(through, on_page / std::hypot(on_page.x, on_page.y));
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -10,7 +10,7 @@
 #include "geometry/plane.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 inline bool is_half_space(const FrameBody& body) {
   return std::holds_alternative<HalfSpace<3>>(body.shape);
@@ -65,4 +65,4 @@ void draw_z(const Box<2>& box, const Stroke& stroke, DrawList& list);
 // "z z", for what sleeps; the first letter's upper left corner lies `unit` / 5 under `corner`.
 void draw_zz(const Vec<2>& corner, double unit, double width, DrawList& list);
 
-}  // namespace lantern
+}  // namespace lantern::draw

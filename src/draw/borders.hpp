@@ -8,7 +8,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // Borders of many cells as few long lines: pieces on one line that touch are joined.
 class Borders {
@@ -85,4 +85,4 @@ class Borders {
   std::vector<Piece> pieces_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::draw

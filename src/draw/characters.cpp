@@ -7,7 +7,7 @@
 #include "draw/pen.hpp"
 #include "geometry/polygon.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -216,4 +216,4 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
     draw_emblem(body.color, f.center, 0.3 * f.unit, list);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

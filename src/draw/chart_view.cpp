@@ -11,7 +11,7 @@
 #include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kLeastRow = 25;  // a name has room in it
@@ -197,4 +197,4 @@ void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   draw_plot(plot, place, list, labels);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

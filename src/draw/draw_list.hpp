@@ -14,7 +14,7 @@
 #include "draw/role.hpp"
 #include "geometry/box.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 struct Stroke {
   Role role = Role::none;
@@ -135,4 +135,4 @@ inline std::vector<Box<2>> split(const Box<2>& area, int axis, const std::vector
   return parts;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

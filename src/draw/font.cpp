@@ -13,7 +13,7 @@
 #include "base/utf8.hpp"
 #include "embedded/font.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr int kReplacement = 0xfffd;
@@ -137,4 +137,4 @@ std::string glyph_path(int glyph, Weight weight) {
   return path;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -8,7 +8,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // Width of a line of text, page units, at an em of `size`; kerning included.
 double text_width(std::string_view text, double size, Weight weight);
@@ -35,4 +35,4 @@ GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shif
 // A glyph's outline in units of one em, y down, as an SVG path; empty for a space.
 std::string glyph_path(int glyph, Weight weight);
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/font.hpp"
 #include "draw/panels.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kCaption = 30;
@@ -155,4 +155,4 @@ double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& la
   return top;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

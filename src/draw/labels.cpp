@@ -8,7 +8,7 @@
 #include "base/stop.hpp"
 #include "draw/font.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // Reach of Inter's letters and brackets above and below the baseline, as parts of the em.
@@ -146,4 +146,4 @@ std::vector<std::string> wrapped(std::string_view text, double width, const Text
   return lines;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -11,7 +11,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 struct TextStyle {
   double size = kLabel;
@@ -114,4 +114,4 @@ std::string shortened(std::string_view text, double width, const TextStyle& styl
 // itself is broken anywhere.
 std::vector<std::string> wrapped(std::string_view text, double width, const TextStyle& style);
 
-}  // namespace lantern
+}  // namespace lantern::draw

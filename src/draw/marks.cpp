@@ -9,7 +9,7 @@
 #include "draw/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostPairs = 900;
@@ -71,7 +71,7 @@ void Marks3D::add(const Convex& space, Outline outline, std::vector<DrawShape> s
 }
 
 void Marks3D::paint() {
-  lantern::paint(std::move(pieces), view, list_);
+  draw::paint(std::move(pieces), view, list_);
   std::ranges::move(above_.shapes, std::back_inserter(list_.shapes));
   over_ = &list_;
 }
@@ -190,4 +190,4 @@ void draw_joints(const Frame& frame, const Marks3D& marks) {
                 });
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

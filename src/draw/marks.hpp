@@ -10,7 +10,7 @@
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // In a 2D world they are drawn as they come, cut to `place`; in a 3D one (Marks3D) they are sorted
 // with what hides them.
@@ -87,4 +87,4 @@ std::span<const T> first_of(const std::vector<T>& all, std::size_t most) {
 inline constexpr std::size_t kMostViews = 8;
 inline constexpr std::size_t kCrowd = 700;  // more bodies than this are not drawn one by one
 
-}  // namespace lantern
+}  // namespace lantern::draw

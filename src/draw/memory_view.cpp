@@ -9,7 +9,7 @@
 #include "draw/number_text.hpp"
 #include "draw/panels.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kMemoryHeading = 38;
@@ -246,4 +246,4 @@ double memory_height(const Frame& frame, double width) {
   return kMemoryHeading + 8 + std::min<double>(s.rows, kMostRows) * s.pitch;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

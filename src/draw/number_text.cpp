@@ -7,7 +7,7 @@
 
 #include "base/grouped.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kLongest = 1e12;  // from here on as a power of ten
@@ -56,4 +56,4 @@ std::string short_number(double number) {
   return number_text(number, number == std::floor(number) ? 0 : decimals);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/labels.hpp"
 #include "draw/panels.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kLeast3D = 0.95,
@@ -208,4 +208,4 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
   return list;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -5,7 +5,7 @@
 #include "draw/draw_list.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // The page for an output of this many pixels: 1600 x 900 units for 16 : 9, longer on one side for
 // other aspects, never shorter.
@@ -22,4 +22,4 @@ bool shows_a_body(const Frame& frame);
 // The finished atlas alone, one page unit a pixel: what is written as a real texture atlas.
 DrawList draw_atlas_image(const Frame& frame);
 
-}  // namespace lantern
+}  // namespace lantern::draw

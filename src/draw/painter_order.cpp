@@ -7,7 +7,7 @@
 #include "geometry/not_finite.hpp"
 #include "geometry/ray.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // The point of the piece's box that is nearest to `p`.
@@ -224,4 +224,4 @@ void paint(std::vector<Piece> pieces, const View3D& view, DrawList& list) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

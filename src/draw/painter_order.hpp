@@ -7,7 +7,7 @@
 #include "draw/projection.hpp"
 #include "geometry/rotation.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // A convex piece of space: all points within `radius` of a box that may be thin. A ball is a point
 // with a radius, a capsule a segment with one, a line a segment without.
@@ -47,4 +47,4 @@ std::optional<std::pair<double, double>> inside_of(const Outline& outline, const
 // the farthest goes first.
 void paint(std::vector<Piece> pieces, const View3D& view, DrawList& list);
 
-}  // namespace lantern
+}  // namespace lantern::draw

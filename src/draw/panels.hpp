@@ -6,7 +6,7 @@
 #include "draw/labels.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // Node cells, bodies as characters, candidate pairs and marks. A 2D world as large as
 // frame.bounds fit into the panel, y upwards; a 3D one as frame.camera sees it, with its floor.
@@ -46,4 +46,4 @@ double memory_height(const Frame& frame, double width);
 // The caption, and the counters at its right; gives the y of the hairline above them.
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels);
 
-}  // namespace lantern
+}  // namespace lantern::draw

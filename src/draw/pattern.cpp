@@ -5,7 +5,7 @@
 #include "draw/draw_list.hpp"
 #include "draw/pen.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // A rectangle under the pattern's pen. Columns and rows are counted so that whole cells fill it.
@@ -109,4 +109,4 @@ void draw_pattern(std::uint32_t id, int color, const Box<2>& rect, double scale,
   if (pattern == 7) swatch.frames();
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -5,7 +5,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 inline constexpr int kPatterns = 8;
 inline constexpr int kMostPatternParts = 27;  // of one rectangle, on its ground
@@ -16,4 +16,4 @@ inline constexpr int kMostPatternParts = 27;  // of one rectangle, on its ground
 void draw_pattern(std::uint32_t id, int color, const Box<2>& rect, double scale, int most_parts,
                   DrawList& list);
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -10,7 +10,7 @@
 #include "geometry/polygon.hpp"
 #include "geometry/ray.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // A rectangle with round corners as a polygon; a circle gets 32 corners.
@@ -154,4 +154,4 @@ Vec<2> middle_of(const std::vector<Vec<2>>& points) {
   return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

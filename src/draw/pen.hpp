@@ -9,7 +9,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // The part of a polygon that lies in the rectangle; empty if there is none. Of a polygon that is
 // not convex, parts may stay joined along the rectangle's edge.
@@ -57,4 +57,4 @@ std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, do
 // The mean of the points; the origin if there are none.
 Vec<2> middle_of(const std::vector<Vec<2>>& points);
 
-}  // namespace lantern
+}  // namespace lantern::draw

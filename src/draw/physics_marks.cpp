@@ -7,7 +7,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostDrawnLinks = 120;
@@ -190,4 +190,4 @@ void write_depths(const Frame& frame, const Projection& view, const std::vector<
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/plot_layout.hpp"
 #include "draw/plot_lines.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kLeastArea = 24;  // page units: what is smaller shows nothing
@@ -201,4 +201,4 @@ void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& la
   Drawing(plot, panel, with_legend, list, labels).draw();
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

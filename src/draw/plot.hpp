@@ -9,7 +9,7 @@
 #include "draw/labels.hpp"
 #include "draw/plot_marks.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 struct PlotPoint {
   Vec<2> at{0.0};         // x, y in the axes' units
@@ -118,4 +118,4 @@ void draw_banded_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Lab
 // Whether each lane of such a plot has its name beside it.
 bool names_its_lanes(const Plot& plot, const Box<2>& panel);
 
-}  // namespace lantern
+}  // namespace lantern::draw

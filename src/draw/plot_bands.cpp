@@ -5,7 +5,7 @@
 #include "draw/plot_parts.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kMostForNames = 0.45;  // of the panel's width, for the lanes' names
@@ -223,4 +223,4 @@ void draw_banded_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Lab
   BandDrawing(plot, panel, list, labels).draw();
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -14,7 +14,7 @@
 #include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // What differs between a page that is read closely and a slide.
 struct PlotStyle {
@@ -259,4 +259,4 @@ class PlotLayout {
   PlotRange xs_, ys_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/pen.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // The ends of lines `reach` long from the origin.
@@ -133,4 +133,4 @@ void draw_slope_fan(const std::vector<PlotSlope>& slopes, const Vec<2>& decade, 
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -9,7 +9,7 @@
 #include "draw/plot.hpp"
 #include "draw/plot_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // Many points become about as many as `most`, so that the page can tell them apart: of each part of
 // the line its first, lowest, highest and last one.
@@ -45,4 +45,4 @@ void name_guide(const std::string& text, const Pieces& pieces, const TextStyle& 
 void draw_slope_fan(const std::vector<PlotSlope>& slopes, const Vec<2>& decade, const Box<2>& area,
                     const PlotType& type, const PlotNamer& namer, DrawList& list, Labels& labels);
 
-}  // namespace lantern
+}  // namespace lantern::draw

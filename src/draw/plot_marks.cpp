@@ -11,7 +11,7 @@
 #include "draw/pen.hpp"
 #include "draw/plot_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kQuarter = 0.785398163397448, kUp = -1.570796326794897;
@@ -159,4 +159,4 @@ void draw_plot_legend(const std::vector<LegendEntry>& entries, const Box<2>& pla
                    style, place);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -8,7 +8,7 @@
 #include "draw/draw_list.hpp"
 #include "draw/labels.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 inline constexpr int kPlotMarks = 14;     // shapes; with 8 colours, 56 looks are unlike
 inline constexpr int kFirstPeerLook = 8;  // from here on crosses and stars: what peers take
@@ -50,4 +50,4 @@ double plot_legend_height(const std::vector<LegendEntry>& entries, double width,
 void draw_plot_legend(const std::vector<LegendEntry>& entries, const Box<2>& place, double size,
                       DrawList& list, Labels& labels);
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 
 #include "draw/pen.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kNameBeside = 16;  // between the area and a name in the column
@@ -167,4 +167,4 @@ void draw_column(std::vector<ColumnName> names, std::size_t all, const PlotPaper
                    panel);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -9,7 +9,7 @@
 #include "draw/axis.hpp"
 #include "draw/labels.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // The type of a plot: `size` is that of its names, all else follows it.
 struct PlotType {
@@ -117,4 +117,4 @@ double column_width(const std::vector<ColumnName>& names, const PlotPaper& paper
 void draw_column(std::vector<ColumnName> names, std::size_t all, const PlotPaper& paper,
                  DrawList& list, Labels& labels);
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -6,7 +6,7 @@
 #include "draw/pen.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 double cross(const Vec<2>& o, const Vec<2>& a, const Vec<2>& b) {
@@ -218,4 +218,4 @@ Outline View3D::ball_cap(const Vec<3>& center, double radius, const Vec<3>& axis
   return hull_of(polygon(rim));
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -13,7 +13,7 @@
 #include "geometry/flat.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 using Outline = std::vector<Vec<2>>;  // on the page
 
@@ -146,4 +146,4 @@ class View3D : public Projection {
   Vec<2> origin_{0.0};
 };
 
-}  // namespace lantern
+}  // namespace lantern::draw

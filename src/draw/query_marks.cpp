@@ -6,7 +6,7 @@
 #include "draw/marks.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostQueries = 60;
@@ -112,4 +112,4 @@ void mark_hits(const Frame& frame, const Marks& marks, Labels& labels) {
   for (const FrameRay& ray : rays) mark_hits_of(ray, marks, labels);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

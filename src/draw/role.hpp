@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace lantern {
+namespace lantern::draw {
 
 enum class Role : std::uint8_t {
   none,         // not painted
@@ -90,4 +90,4 @@ constexpr Role cell_line_role(std::uint32_t depth) {
   return static_cast<Role>(static_cast<unsigned>(Role::cell_line_0) + (depth < 3 ? depth : 3u));
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -1,6 +1,6 @@
 #include "draw/theme.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr Color rgb(std::uint32_t hex) {
@@ -108,4 +108,4 @@ std::optional<Theme> theme_named(std::string_view name) {
   return std::nullopt;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -9,7 +9,7 @@
 
 #include "draw/role.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 struct Color {
   std::uint8_t r = 0, g = 0, b = 0;
@@ -26,4 +26,4 @@ struct Theme {
 std::span<const Theme> themes();
 std::optional<Theme> theme_named(std::string_view name);
 
-}  // namespace lantern
+}  // namespace lantern::draw

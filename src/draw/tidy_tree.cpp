@@ -4,7 +4,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 using Index = std::uint32_t;
@@ -151,4 +151,4 @@ std::vector<double> tidy_tree(std::span<const TidyNode> nodes, double gap) {
   return Tidy(nodes, gap).run();
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

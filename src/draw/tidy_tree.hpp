@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace lantern {
+namespace lantern::draw {
 
 struct TidyNode {
   std::uint32_t parent = 0xffffffff;  // the first node is the root and has none
@@ -22,4 +22,4 @@ struct TidyNode {
 // left to right. `gap` is what stays free between two neighbours.
 std::vector<double> tidy_tree(std::span<const TidyNode> nodes, double gap);
 
-}  // namespace lantern
+}  // namespace lantern::draw

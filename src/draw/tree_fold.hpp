@@ -12,7 +12,7 @@
 #include "base/hash.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // One mark of the diagram.
 struct Branch {
@@ -238,4 +238,4 @@ class TreeFold {
   std::vector<std::uint64_t> shape_;  // equal for subtrees that look alike
 };
 
-}  // namespace lantern
+}  // namespace lantern::draw

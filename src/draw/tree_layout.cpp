@@ -8,7 +8,7 @@
 #include "draw/panels.hpp"
 #include "draw/tidy_tree.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // Trees of a few levels may be drawn larger than others.
@@ -243,4 +243,4 @@ TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel) {
   return layout;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/labels.hpp"
 #include "draw/tree_fold.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // Measures at one scale; 1 is the size for a small tree. Boxes are as high as `rows` rows of them
 // leave room for in `height`.
@@ -66,4 +66,4 @@ struct TreeLayout {
 // The largest and least condensed layout that the panel has room for, centred between its sides.
 TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel);
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -12,7 +12,7 @@
 #include "draw/font.hpp"
 #include "draw/panels.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 // One fact of the line under the diagram: words, or a number and what it counts.
@@ -235,4 +235,4 @@ void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& 
   draw_one_tree(frame, diagram, list, labels);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

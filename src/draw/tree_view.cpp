@@ -9,7 +9,7 @@
 #include "draw/pattern.hpp"
 #include "draw/tree_layout.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 class TreeView {
@@ -287,4 +287,4 @@ void draw_one_tree(const Frame& frame, const Box<2>& diagram, DrawList& list, La
   TreeView(frame, shrunk(diagram, 6), list, labels).draw();
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

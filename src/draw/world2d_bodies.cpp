@@ -10,7 +10,7 @@
 #include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kOnePlace = 6;        // page units between centres that count as one place
@@ -273,4 +273,4 @@ std::size_t draw_crowd(const Frame& frame, const View2D& map, DrawList& list) {
   return taken.size();
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/world2d_parts.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostFills = 500;
@@ -246,4 +246,4 @@ void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place,
   borders.draw([](std::uint32_t) { return Stroke{Role::body_line, 1}; }, list);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

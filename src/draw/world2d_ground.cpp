@@ -7,7 +7,7 @@
 #include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kLeastDepth = 10;  // page units of ground that can be seen as such
@@ -127,4 +127,4 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostSectors = 400;
@@ -147,4 +147,4 @@ void draw_walls(const Frame& frame, const View2D& map, DrawList& list) {
   draw_cuts(frame, map, pen);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

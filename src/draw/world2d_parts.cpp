@@ -6,7 +6,7 @@
 
 #include "draw/font.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostLabels = 120;
@@ -181,4 +181,4 @@ void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>
   label_unmade(frame, map, bodies, labels);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -9,7 +9,7 @@
 #include "draw/labels.hpp"
 #include "draw/marks.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // A node's region on the page.
 Polygon page_region(const FrameNode& node, const View2D& map);
@@ -107,4 +107,4 @@ void number_sectors(const Frame& frame, const View2D& map, const Grounds& ground
 // Where marks may be drawn: the bounds and a little beyond.
 inline Box<2> mark_limit(const View2D& map) { return shrunk(map.picture(), -8); }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -8,7 +8,7 @@
 #include "draw/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kLeastMarked = 22;  // page units across; smaller bodies carry no emblem
@@ -262,4 +262,4 @@ void draw_crowd3d(const Frame& frame, const View3D& view, DrawList& list) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

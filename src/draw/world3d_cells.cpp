@@ -6,7 +6,7 @@
 #include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostEdges = 500;
@@ -203,4 +203,4 @@ bool add_cells(const Frame& frame, Marks3D& marks) {
   return complete;
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -6,7 +6,7 @@
 #include "draw/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 using Corners = std::vector<Vec<3>>;
@@ -179,4 +179,4 @@ void add_drop_lines(Marks3D& marks) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

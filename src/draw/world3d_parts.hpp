@@ -7,7 +7,7 @@
 #include "draw/marks.hpp"
 #include "draw/painter_order.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 
 // A body that is drawn: where it is in space and on the page.
 struct Body3D {
@@ -77,4 +77,4 @@ bool add_pairs(const Frame& frame, Marks3D& marks);
 // Where they meet, shown through whatever lies before it.
 void draw_joints(const Frame& frame, const Marks3D& marks);
 
-}  // namespace lantern
+}  // namespace lantern::draw

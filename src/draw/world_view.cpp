@@ -12,7 +12,7 @@
 #include "draw/world3d_parts.hpp"
 #include "geometry/flat.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostNamed = 35;          // of more bodies, only those that the step is about
@@ -222,4 +222,4 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   name_bodies(stands, covered, map, grounds, labels);
 }
 
-}  // namespace lantern
+}  // namespace lantern::draw

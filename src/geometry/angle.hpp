@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-namespace lantern {
+namespace lantern::geometry {
 
 inline constexpr double kDegree = std::numbers::pi / 180;  // in radians
 
-}  // namespace lantern
+}  // namespace lantern::geometry

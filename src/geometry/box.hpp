@@ -8,7 +8,7 @@
 
 #include "geometry/vec.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 template <int D>
 struct Box {
@@ -59,4 +59,4 @@ bool is_valid(const Box<D>& box) {
   return true;
 }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

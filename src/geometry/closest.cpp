@@ -2,7 +2,7 @@
 
 #include "geometry/rotation.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 // Where on `a` the endless lines of both segments come closest, from 0 to 1; 0 if they are
@@ -53,4 +53,4 @@ template PointPair<3> crossing_points(const Segment<3>&, const Segment<3>&);
 template PointPair<2> closest_points(const Segment<2>&, const Segment<2>&);
 template PointPair<3> closest_points(const Segment<3>&, const Segment<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -6,7 +6,7 @@
 
 #include "geometry/segment.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 // A vector as a length and a unit direction.
 template <int D>
@@ -59,4 +59,4 @@ PointPair<D> crossing_points(const Segment<D>& a, const Segment<D>& b);
 template <int D>
 PointPair<D> closest_points(const Segment<D>& a, const Segment<D>& b);
 
-}  // namespace lantern
+}  // namespace lantern::geometry

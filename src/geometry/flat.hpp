@@ -7,7 +7,7 @@
 #include "geometry/plane.hpp"
 #include "geometry/shape.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 inline Vec<2> flat(const Vec<3>& v) { return {v.x, v.y}; }
 inline Box<2> flat(const Box<3>& box) { return {flat(box.lo), flat(box.hi)}; }
@@ -53,4 +53,4 @@ Shape<To> in_dimension(const Shape<From>& shape) {
       shape);
 }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 void require_view(double angle, double near, double far) {
@@ -170,4 +170,4 @@ template bool may_overlap(const Frustum<3>&, const Box<3>&);
 template bool overlap(const Frustum<2>&, const Box<2>&);
 template bool overlap(const Frustum<3>&, const Box<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::geometry

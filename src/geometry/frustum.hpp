@@ -5,7 +5,7 @@
 
 #include "geometry/plane.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 //            far                 All planes look inward: inside is where normal . x >= offset.
 //     \-------------/
@@ -43,4 +43,4 @@ bool may_overlap(const Frustum<D>& frustum, const Box<D>& box);
 template <int D>
 bool overlap(const Frustum<D>& frustum, const Box<D>& box);
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "geometry/vec.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -37,4 +37,4 @@ inline void require_not_negative(double value, const std::string& who, const cha
     throw Refused(fmt::format("{}: {} is {}, must be finite and not negative", who, field, value));
 }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -3,7 +3,7 @@
 
 #include "geometry/box.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 // The points x with normal . x = offset. In front is where normal . x > offset. The normal need not
 // have unit length; it must be finite and not zero.
@@ -59,4 +59,4 @@ Reach reach(const Box<D>& box, const Plane<D>& plane) {
   return {least <= plane.offset, most >= plane.offset};
 }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

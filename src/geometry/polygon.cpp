@@ -1,6 +1,6 @@
 #include "geometry/polygon.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 Polygon polygon_of(const Box<2>& box) {
   return {box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}};
@@ -23,4 +23,4 @@ Polygon clipped(const Polygon& polygon, const Plane<2>& line, bool keep_front) {
   return kept;
 }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -5,7 +5,7 @@
 
 #include "geometry/plane.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 // Corners in counter-clockwise order; fewer than three corners mean an empty region.
 using Polygon = std::vector<Vec<2>>;
@@ -16,4 +16,4 @@ Polygon polygon_of(const Box<2>& box);
 // The part of a convex polygon on one side of a line (Sutherland and Hodgman 1974).
 Polygon clipped(const Polygon& polygon, const Plane<2>& line, bool keep_front);
 
-}  // namespace lantern
+}  // namespace lantern::geometry

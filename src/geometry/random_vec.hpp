@@ -6,7 +6,7 @@
 #include "base/random.hpp"
 #include "geometry/vec.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 // Each coordinate between `lo` and `hi`, in order of the axes.
 template <int D>
@@ -31,4 +31,4 @@ Vec<D> random_direction(Random& random) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

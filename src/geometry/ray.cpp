@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 // Where, on the whole line, |m + t * d| <= r: between the roots of a t^2 + 2 b t + c, of which the
@@ -117,4 +117,4 @@ template std::optional<double> entry(const Ray<2>&, const Shape<2>&, const Vec<2
 template std::optional<double> entry(const Ray<3>&, const Shape<3>&, const Vec<3>&,
                                      const Rotation<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -6,7 +6,7 @@
 
 #include "geometry/shape.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 // The points origin + t * direction for 0 <= t <= length. `t` is a distance if the direction has
 // unit length; it need not, but must be finite and not zero.
@@ -66,4 +66,4 @@ template <int D>
 std::optional<double> entry(const Ray<D>& ray, const Shape<D>& shape, const Vec<D>& position,
                             const Rotation<D>& orientation = {});
 
-}  // namespace lantern
+}  // namespace lantern::geometry

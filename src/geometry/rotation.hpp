@@ -10,7 +10,7 @@
 
 #include "geometry/vec.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 template <int D>
 using Mat = glm::mat<D, D, double>;
@@ -74,4 +74,4 @@ inline Vec<3> cross(const Vec<3>& a, const Vec<3>& b) { return glm::cross(a, b);
 // The velocity of a point at `arm` from the centre of a body that turns: spin x arm.
 inline Vec<2> cross(double spin, const Vec<2>& arm) { return {-spin * arm.y, spin * arm.x}; }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -7,7 +7,7 @@
 
 #include "geometry/plane.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 // All points a + t (b - a) with t in [0, 1]; the ends may coincide.
 template <int D>
@@ -31,4 +31,4 @@ inline Plane<2> line_of(const Segment<2>& s) {
   return Plane<2>::through(s.a, {-along.y, along.x});
 }
 
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -1,6 +1,6 @@
 #include "geometry/shape.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 template <int D>
@@ -74,4 +74,4 @@ LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
 #undef LANTERN_INSTANTIATE
 
-}  // namespace lantern
+}  // namespace lantern::geometry

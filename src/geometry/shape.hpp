@@ -6,7 +6,7 @@
 #include "geometry/box.hpp"
 #include "geometry/rotation.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 
 // A disc in 2D, a ball in 3D.
 struct Sphere {
@@ -114,4 +114,4 @@ double turning_reach(const Shape<D>& shape);
 template <int D>
 double thickness(const Shape<D>& shape);
 
-}  // namespace lantern
+}  // namespace lantern::geometry

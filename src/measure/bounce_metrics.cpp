@@ -7,7 +7,7 @@
 
 #include "measure/error_metrics.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using Real = long double;
@@ -216,4 +216,4 @@ class Billiards : public ErrorMetric {
 OwnMetric bouncing_ball_metric(const Scenario& s) { return std::make_unique<BouncingBall>(s); }
 OwnMetric billiards_metric(const Scenario& s) { return std::make_unique<Billiards>(s); }
 
-}  // namespace lantern
+}  // namespace lantern::measure

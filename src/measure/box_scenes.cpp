@@ -8,7 +8,7 @@
 #include "geometry/random_vec.hpp"
 #include "scenario/director.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr double kHalf = 512;     // of the world
@@ -127,4 +127,4 @@ BoxScene box_scene_of(const Scenario& scenario) {
   return scene;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -10,7 +10,7 @@
 #include "scenario/scenario.hpp"
 #include "spatial/broad_phase.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // The boxes' ids are their places in the list, from 0. All updates have equally many.
 template <int D>
@@ -36,4 +36,4 @@ std::vector<BoxScene> seeded_box_scenes(std::size_t bodies, std::uint64_t seed);
 // scenario, if fewer than two bodies enter; ScenarioError as its script does.
 BoxScene box_scene_of(const Scenario& scenario);
 
-}  // namespace lantern
+}  // namespace lantern::measure

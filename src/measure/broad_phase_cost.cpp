@@ -11,7 +11,7 @@
 #include "base/stop.hpp"
 #include "spatial/pairs.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 // Pairs of n bodies, each a bit.
@@ -247,4 +247,4 @@ const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::st
   return found == rows.end() ? nullptr : &*found;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

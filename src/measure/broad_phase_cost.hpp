@@ -13,7 +13,7 @@
 #include "measure/box_scenes.hpp"
 #include "measure/timed.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // Sums over the scene's updates.
 struct BroadPhaseCounts {
@@ -111,4 +111,4 @@ std::string to_csv(const std::vector<BroadPhaseCost>& rows);
 // lantern.measure.broad_phase/1
 std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
 
-}  // namespace lantern
+}  // namespace lantern::measure

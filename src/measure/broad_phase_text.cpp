@@ -8,7 +8,7 @@
 #include "measure/broad_phase_cost.hpp"
 #include "measure/records.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 template <class Visit>
 void each_field(const BroadPhaseCost& row, Visit&& visit) {
@@ -144,4 +144,4 @@ std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxSce
   return json.text() + "\n";
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -6,7 +6,7 @@
 
 #include "measure/error_metrics.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 // Newton's second law gives the mean force that held the bodies i, i+1, ... up between two looks:
@@ -227,4 +227,4 @@ class HangingChain : public ErrorMetric {
 OwnMetric stack_metric(const Scenario& s) { return std::make_unique<Stack>(s); }
 OwnMetric hanging_chain_metric(const Scenario& s) { return std::make_unique<HangingChain>(s); }
 
-}  // namespace lantern
+}  // namespace lantern::measure

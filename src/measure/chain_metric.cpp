@@ -5,7 +5,7 @@
 
 #include "measure/error_metrics.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 // In order from the first fixed point on.
@@ -138,4 +138,4 @@ OwnMetric chain_metric(const Scenario& scenario) {
   });
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -5,7 +5,7 @@
 #include "measure/closed_forms.hpp"
 #include "measure/precise.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using Column = std::vector<long double>;
@@ -117,4 +117,4 @@ void ChainMotion::at(long double time, Column& displacements, Column& velocities
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

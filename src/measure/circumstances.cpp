@@ -4,7 +4,7 @@
 
 #include "measure/row.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 std::string compiler() {
@@ -29,4 +29,4 @@ Circumstances here(std::string_view version, std::string_view sources) {
       std::string(version), std::string(sources), compiler(), LANTERN_FLAGS, processor(), 1, ""};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -10,7 +10,7 @@
 #include "measure/elliptic.hpp"
 #include "measure/precise.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 // (1 - e^-z) / z, which is 1 at 0.
@@ -267,4 +267,4 @@ LongVec FreeTop::momentum(long double time) const {
   return fixed_ ? momentum_ : glm::conjugate(names_) * named(time);
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

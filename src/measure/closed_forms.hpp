@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-namespace lantern {
+namespace lantern::measure {
 
 using LongQuat = glm::qua<long double>;
 using LongVec = glm::vec<3, long double>;
@@ -124,4 +124,4 @@ class FreeTop {
   long double half_period_ = 1, half_integral_ = 0, integral0_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

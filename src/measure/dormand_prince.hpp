@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 template <class Real>
 class DormandPrince {
@@ -115,4 +115,4 @@ class DormandPrince {
   std::uint64_t steps_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

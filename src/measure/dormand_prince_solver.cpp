@@ -10,7 +10,7 @@
 #include "physics/smooth_system.hpp"
 #include "scenario/players.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 double tolerance_of(const Scenario& scenario, double h) {
@@ -152,4 +152,4 @@ std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario,
   return std::make_unique<PointSimulation<2>>(scenario, h);
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

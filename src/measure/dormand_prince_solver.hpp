@@ -3,7 +3,7 @@
 
 #include "measure/simulation.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // For scenes of points: bodies that neither collide nor are turned, without rods. It chooses its
 // steps itself; what it is given as a step says how exact it is to be: 1e-3 of the scene's size and
@@ -16,4 +16,4 @@ class DormandPrinceSolver : public Solver {
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override;
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -5,7 +5,7 @@
 
 #include "measure/precise.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr long double kEpsilon = 0x1p-64L;
@@ -127,4 +127,4 @@ long double carlson_rj(long double x, long double y, long double z, long double 
   return series / (four * a * std::sqrt(a)) + 6 * sum;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

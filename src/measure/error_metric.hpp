@@ -9,7 +9,7 @@
 
 #include "measure/simulation.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // A moment of a run.
 struct Observation {
@@ -68,4 +68,4 @@ class TrajectoryMetric : public ErrorMetric {
   std::vector<Exact> exact_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "physics/mass.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr double kNear = 1e-9;  // of a body's size: so near is touching
@@ -179,22 +179,18 @@ double restitution_between(const Scenario& scenario, std::size_t a, std::size_t 
 }
 
 double reach_along(const BodySpec& body, const Vec<3>& along) {
-  if (const auto* ball = std::get_if<Sphere>(&body.shape)) return ball->radius;
   const Vec<3> local = glm::transpose(matrix(orientation_of(body))) * along;
-  if (const auto* box = std::get_if<AxisBox<3>>(&body.shape))
-    return glm::dot(box->half_size, glm::abs(along));
-  if (const auto* box = std::get_if<OrientedBox<3>>(&body.shape))
-    return glm::dot(box->half_size, glm::abs(local));
-  if (const auto* rod = std::get_if<Capsule>(&body.shape))
-    return rod->radius + rod->half_length * std::abs(local.y);
-  return 0;
+  return visit_shape<3>(
+      body.shape,
+      [&](const Core<3>& core) {
+        return core.radius + glm::dot(core.half, glm::abs(core.turns ? local : along));
+      },
+      [](const HalfSpace<3>&) { return 0.0; });
 }
 
 bool is_ball(const BodySpec& body) { return std::holds_alternative<Sphere>(body.shape); }
 
-bool turns(const BodySpec& body) {
-  return body.may_turn && !std::holds_alternative<AxisBox<3>>(body.shape);
-}
+bool turns(const BodySpec& body) { return body.may_turn && geometry::turns<3>(body.shape); }
 
 double roundness(const Scenario& scenario) { return scenario.world.dimension == 3 ? 0.4 : 0.5; }
 
@@ -255,4 +251,4 @@ void TrajectoryMetric::look(const Observation& now) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -11,7 +11,7 @@
 #include "measure/closed_forms.hpp"
 #include "measure/error_metric.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 using OwnMetric = std::unique_ptr<ErrorMetric>;
 using MakeErrorMetric = OwnMetric(const Scenario&);
@@ -132,4 +132,4 @@ bool turns(const BodySpec& body);  // contacts may turn it
 // Inertia over m r²: 2/5 of a ball, 1/2 of a disc.
 double roundness(const Scenario& scenario);
 
-}  // namespace lantern
+}  // namespace lantern::measure

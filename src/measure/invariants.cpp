@@ -8,7 +8,7 @@
 #include "physics/manifold.hpp"
 #include "scenario/players.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 template <int D>
@@ -24,7 +24,7 @@ class Model {
     for (Body<D>& body : bodies)
       if (const auto index = players_.index_of(body.id)) put(body, states[*index]);
     const std::span<const Body<D>> all(bodies);
-    const Energy energy = lantern::energy(all, players_.world().forces());
+    const Energy energy = physics::energy(all, players_.world().forces());
     Kept kept;
     kept.energy = energy.total();
     kept.kinetic_energy = energy.kinetic();
@@ -177,4 +177,4 @@ Drift DriftMeter::drift() const {
   return drift;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -9,7 +9,7 @@
 #include "scenario/body_state.hpp"
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // The scenario's bodies as they were at some moment.
 struct Kept {
@@ -61,4 +61,4 @@ class DriftMeter {
   double penetration_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -4,7 +4,7 @@
 
 #include "scenario/engine.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 class WorldSimulation : public Simulation {
@@ -46,9 +46,7 @@ bool has_forces(const Scenario& scenario) {
 
 // Boxes along the axes and half-spaces keep to them.
 bool turns_in_space(const BodySpec& body) {
-  return body.spin != 0 && body.kind != BodyKind::static_body &&
-         !std::holds_alternative<AxisBox<3>>(body.shape) &&
-         !std::holds_alternative<HalfSpace<3>>(body.shape);
+  return body.spin != 0 && body.kind != BodyKind::static_body && geometry::turns<3>(body.shape);
 }
 
 std::vector<Method> named(const std::vector<std::string>& names) {
@@ -88,4 +86,4 @@ std::vector<Method> methods_for(const Scenario& scenario) {
   return {as_written};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -4,7 +4,7 @@
 #include "measure/simulation.hpp"
 #include "scenario/method.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 class LanternSolver : public Solver {
  public:
@@ -25,4 +25,4 @@ class LanternSolver : public Solver {
 // solid world turns, else the file's own method under the name "as written".
 std::vector<Method> methods_for(const Scenario& scenario);
 
-}  // namespace lantern
+}  // namespace lantern::measure

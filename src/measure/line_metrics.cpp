@@ -9,7 +9,7 @@
 
 #include "measure/error_metrics.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using Real = long double;
@@ -252,4 +252,4 @@ class BlocksAndWall : public ErrorMetric {
 OwnMetric collisions_metric(const Scenario& s) { return std::make_unique<Collisions>(s); }
 OwnMetric blocks_and_wall_metric(const Scenario& s) { return std::make_unique<BlocksAndWall>(s); }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -10,7 +10,7 @@
 
 #include "measure/simulation.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // A body with everything derived that Lantern's engine would derive: its mass is 0 for what no
 // force moves, its shape in a flat world without extent along z.
@@ -49,4 +49,4 @@ struct Peer {
 // The one function of a module: adds its peers. By the name "lantern_peers", C linkage.
 using PeersOfModule = void (*)(std::vector<Peer>&);
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -11,7 +11,7 @@
 #include "measure/peer.hpp"
 #include "physics/mass.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,7 +39,7 @@ PeerBody body_of(const BodySpec& spec, bool is_flat) {
     body.mass = 0;
   }
   const bool has_inertia = std::min({body.inertia.x, body.inertia.y, body.inertia.z}) > 0;
-  body.may_turn = spec.may_turn && has_inertia && !std::holds_alternative<AxisBox<3>>(spec.shape);
+  body.may_turn = spec.may_turn && has_inertia && turns<3>(spec.shape);
   if (body.is_dynamic() && !body.may_turn) body.turning = Vec<3>(0.0);
   return body;
 }
@@ -138,7 +138,7 @@ fs::path place_of(const Module& module) {
 
 }  // namespace
 
-std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
+std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing) {
   std::vector<std::unique_ptr<Solver>> solvers;
   for (const Module& module : kModules) {
     const fs::path path = place_of(module);
@@ -160,4 +160,4 @@ std::vector<std::unique_ptr<Solver>> peers(std::vector<std::string>& missing) {
   return solvers;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -10,7 +10,7 @@
 #include "measure/lantern_solver.hpp"
 #include "measure/peers.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr std::string_view kAdaptive = "dormand_prince";
@@ -48,7 +48,7 @@ std::optional<std::string> why_not(const Solver& solver, const Scenario& scenari
 
 Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
     : options_(std::move(options)), prepared_(options_.scenarios.size()) {
-  if (options_.peers) solvers_ = peers(missing_peers_);
+  if (options_.peers) solvers_ = load_peers(missing_peers_);
   peers_ = solvers_.size();
   adaptive_ = solvers_.size();
   solvers_.push_back(std::make_unique<DormandPrinceSolver>());
@@ -178,4 +178,4 @@ std::vector<Row> Plan::run(std::span<const Job> jobs, const std::function<void(d
   return rows;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

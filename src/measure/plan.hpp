@@ -11,7 +11,7 @@
 
 #include "measure/run.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 enum class Effort {
   quick,   // a minute: plain problems, few repeats, no long runs
@@ -101,4 +101,4 @@ class Plan {
   std::map<std::pair<std::size_t, std::size_t>, double> per_step_;  // seconds, by scenario, solver
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

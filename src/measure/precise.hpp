@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace lantern {
+namespace lantern::measure {
 
 constexpr long double kPi = std::numbers::pi_v<long double>;
 
@@ -45,4 +45,4 @@ inline CosSin cos_sin(Precise angle) {
   return {c - s * angle.low, s + c * angle.low};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

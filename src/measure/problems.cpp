@@ -7,7 +7,7 @@
 #include "base/check.hpp"
 #include "embedded/problems.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 std::vector<std::string_view> problem_names() {
   std::vector<std::string_view> names;
@@ -23,4 +23,4 @@ Scenario known_problem(std::string_view name) {
   return Scenario(ScenarioSpec());
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // Names of the files of scenarios/problems/, in alphabetical order.
 std::vector<std::string_view> problem_names();
@@ -15,4 +15,4 @@ std::vector<std::string_view> problem_names();
 // One of them; it must be there.
 Scenario known_problem(std::string_view name);
 
-}  // namespace lantern
+}  // namespace lantern::measure

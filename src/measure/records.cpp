@@ -1,6 +1,6 @@
 #include "measure/records.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 void CsvTable::add(std::string_view field) {
   if (!fresh_) text_ += ',';
@@ -41,4 +41,4 @@ void JsonFields::write(std::string_view name, const std::vector<Norm>& norms) {
   json_.end_array();
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -19,7 +19,7 @@
 #include "base/json_writer.hpp"
 #include "measure/row.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 struct Field {
   std::string_view name;    // in JSON; empty: not there
@@ -186,4 +186,4 @@ void each_timing(T& t, const char* group, const char* spread, const char* spread
   visit(Field("upper_quartile", "seconds_upper_quartile", group), IfTimed(t.upper_quartile, timed));
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -11,7 +11,7 @@
 #include "measure/error_metric.hpp"
 #include "measure/simulation.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 enum class Status {
   ok,
@@ -96,4 +96,4 @@ struct Measurement {
   std::vector<Row> rows;  // in order of problems, methods and steps
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -14,7 +14,7 @@
 #include "geometry/not_finite.hpp"
 #include "measure/lantern_solver.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr double kBeyondSense = 100;  // times the scale: the run has diverged
@@ -276,4 +276,4 @@ double estimated_seconds(const Scenario& scenario, const Schedule& schedule, con
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

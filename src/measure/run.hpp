@@ -12,7 +12,7 @@
 #include "measure/schedule.hpp"
 #include "measure/timed.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // What the runs of one scenario are held against.
 struct Reference {
@@ -60,4 +60,4 @@ void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
 double estimated_seconds(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
                          double h);
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "scenario/engine.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr std::uint32_t kMostLooks = 20;  // at one step of a script
@@ -112,4 +112,4 @@ std::uint64_t Schedule::steps(double h) const {
   return n;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // Some verbs, then a piece of time with `looks` equal parts.
 struct Leg {
@@ -35,4 +35,4 @@ struct Schedule {
   std::uint64_t steps(double h) const;
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

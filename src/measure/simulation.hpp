@@ -12,7 +12,7 @@
 #include "scenario/body_state.hpp"
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // Work that is counted, not timed: the same on every machine. Zero for what a peer does not tell.
 struct Counted {
@@ -57,4 +57,4 @@ class Solver {
   virtual std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -6,7 +6,7 @@
 
 #include "measure/error_metrics.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 // Blocks that slide over level ground until friction has stopped them: after v / (mu g) seconds and
@@ -163,4 +163,4 @@ class SlipThenRoll : public ErrorMetric {
 OwnMetric slide_metric(const Scenario& s) { return std::make_unique<Slide>(s); }
 OwnMetric slip_then_roll_metric(const Scenario& s) { return std::make_unique<SlipThenRoll>(s); }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -6,7 +6,7 @@
 
 #include "measure/error_metrics.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 // Blocks and balls that are put on a slope. A block stays iff tan a <= mu, else it slides with
@@ -177,4 +177,4 @@ class Topple : public ErrorMetric {
 OwnMetric incline_metric(const Scenario& s) { return std::make_unique<Incline>(s); }
 OwnMetric topple_metric(const Scenario& s) { return std::make_unique<Topple>(s); }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 #include "measure/error_metrics.hpp"
 #include "physics/mass.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 OwnMetric projectile_metric(const Scenario& scenario) {
   struct Thrown {
@@ -242,7 +242,7 @@ OwnMetric free_top_metric(const Scenario& scenario) {
   const BodySpec& body = scenario.bodies[i];
   if (scenario.world.dimension != 3) refuse_problem(scenario, "the world must be solid");
   if (body.angular_drag != 0) refuse_problem(scenario, "nothing may brake it");
-  if (!body.may_turn || std::holds_alternative<AxisBox<3>>(body.shape))
+  if (!body.may_turn || !geometry::turns<3>(body.shape))
     refuse_problem(scenario, "its body cannot turn; give a box `oriented = true`");
   MassProperties<3> mass = mass_of<3>(body.shape, body.density);
   if (body.mass > 0) mass = scaled_to<3>(mass, body.mass);
@@ -259,4 +259,4 @@ OwnMetric free_top_metric(const Scenario& scenario) {
   return std::make_unique<FreeTopMetric>(i, FreeTop(inverse, orientation, momentum));
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 
 #include "measure/stress_scene.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr int kOmegaDecades = 4, kOmegaPerDecade = 12;
@@ -104,4 +104,4 @@ StabilityMap make_stability_map() {
   return map;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

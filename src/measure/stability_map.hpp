@@ -6,7 +6,7 @@
 
 #include "physics/integrator.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // The growth a step: the spectral radius of the step's matrix, which takes (x, v) to the next
 // (x, v). The spring is linear, so a step is, too: two steps of the engine from independent starts
@@ -39,4 +39,4 @@ struct StabilityMap {
 // From 0.01 to 100 in omega h, 0.001 to 1000 in zeta.
 StabilityMap make_stability_map();
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 StressResult at_most(double bound, double figure, std::string unit, std::string detail) {
   return {figure, std::move(unit), bound, false, figure <= bound, std::move(detail)};
@@ -40,4 +40,4 @@ StressOutcome run_case(const StressCase& stress_case) {
   return outcome;
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

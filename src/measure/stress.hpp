@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lantern {
+namespace lantern::measure {
 
 struct StressResult {
   double figure = std::numeric_limits<double>::quiet_NaN();  // not a number: the case broke off
@@ -50,4 +50,4 @@ using StressTopic = std::vector<StressCase>();
 StressTopic tree_cases, input_cases, shape_cases, origin_cases, step_cases, contact_cases,
     stiff_cases, stability_cases, bar_cases;
 
-}  // namespace lantern
+}  // namespace lantern::measure

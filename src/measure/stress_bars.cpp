@@ -8,7 +8,7 @@
 #include "base/random.hpp"
 #include "measure/stress_scene.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -207,4 +207,4 @@ std::vector<StressCase> bar_cases() {
       {"one_hash_3d", kGroup, kOne, one_hash<3>}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -8,7 +8,7 @@
 
 #include "measure/stress_scene.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -285,4 +285,4 @@ std::vector<StressCase> contact_cases() {
        none_above(1e-6, "relative", "speed after 2 s, slopes 0.01, 0.3, 1 rad", rolling)}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

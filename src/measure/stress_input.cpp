@@ -5,7 +5,7 @@
 #include "geometry/not_finite.hpp"
 #include "measure/stress_scene.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -225,4 +225,4 @@ std::vector<StressCase> input_cases() {
       {"bad_configs", kGroup, "A world with a setting out of its range is not made.", bad_configs}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

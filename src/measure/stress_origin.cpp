@@ -7,7 +7,7 @@
 #include "measure/stress_scene.hpp"
 #include "physics/manifold.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -115,4 +115,4 @@ std::vector<StressCase> origin_cases() {
        "Shapes that touch have boxes that do, however far from the origin.", boxes_round_outward}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

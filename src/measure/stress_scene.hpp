@@ -14,7 +14,7 @@
 #include "physics/energy.hpp"
 #include "physics/world.hpp"
 
-namespace lantern::stress {
+namespace lantern::measure::stress {
 
 inline constexpr double kStep = 1.0 / 60;  // s
 inline constexpr double kGravity = 10;     // units / s^2
@@ -167,7 +167,7 @@ double deepest(const World<D>& world) {
 template <int D>
 bool is_finite(const World<D>& world) {
   return std::all_of(world.bodies().begin(), world.bodies().end(), [](const Body<D>& body) {
-    return lantern::is_finite<D>(body.position) && lantern::is_finite<D>(body.velocity);
+    return geometry::is_finite<D>(body.position) && geometry::is_finite<D>(body.velocity);
   });
 }
 
@@ -182,4 +182,4 @@ std::optional<std::string> refusal(Action&& action) {
   return std::nullopt;
 }
 
-}  // namespace lantern::stress
+}  // namespace lantern::measure::stress

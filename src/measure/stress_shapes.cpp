@@ -9,7 +9,7 @@
 #include "measure/stress_scene.hpp"
 #include "physics/manifold.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -17,7 +17,7 @@ using namespace stress;
 template <int D>
 bool is_sane(const Manifold<D>& manifold) {
   for (const ManifoldPoint<D>& point : manifold.points())
-    if (!is_finite<D>(point.position) || !std::isfinite(point.separation)) return false;
+    if (!geometry::is_finite<D>(point.position) || !std::isfinite(point.separation)) return false;
   return manifold.count > 0 && std::abs(glm::length(manifold.normal) - 1) <= 1e-14;
 }
 
@@ -220,4 +220,4 @@ std::vector<StressCase> shape_cases() {
                   zero_size_error<2>, zero_size_error<3>)}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

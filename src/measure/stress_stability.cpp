@@ -7,7 +7,7 @@
 #include "measure/stability_map.hpp"
 #include "measure/stress_scene.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -192,4 +192,4 @@ std::vector<StressCase> stability_cases() {
        "Over a million periods Verlet's energy wavers, but does not drift.", many_periods, true}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

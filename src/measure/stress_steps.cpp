@@ -7,7 +7,7 @@
 #include "geometry/not_finite.hpp"
 #include "measure/stress_scene.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -214,4 +214,4 @@ std::vector<StressCase> step_cases() {
                   coincident_centres)}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "measure/stress_scene.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -182,4 +182,4 @@ std::vector<StressCase> stiff_cases() {
        none_above(0.01, "m", "the rod's length, 10 s at 1/60 s", stiff_pendulum)}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -14,7 +14,7 @@
 #include "measure/stress_scene.hpp"
 #include "spatial/pairs.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using namespace stress;
@@ -283,4 +283,4 @@ std::vector<StressCase> tree_cases() {
        pairs_case(aspect_ratio)}};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

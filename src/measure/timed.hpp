@@ -10,7 +10,7 @@
 #include "base/stop.hpp"
 #include "measure/row.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // How a run is timed, after a warm-up. A repeat runs as often as it takes to fill `least_seconds`.
 struct TimingRule {
@@ -60,4 +60,4 @@ Timing timed(const TimingRule& rule, F&& work) {
   return timing_of(seconds);
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -5,7 +5,7 @@
 
 #include "peers/peer_run.hpp"
 
-namespace lantern {
+namespace lantern::peers {
 namespace {
 
 constexpr int kVelocitySweeps = 8, kPositionSweeps = 3;  // as Box2D's manual advises
@@ -87,20 +87,25 @@ class Box2dRun : public PeerRun {
     b2PolygonShape box;
     b2EdgeShape edge;
     b2FixtureDef def;
-    if (const auto* ball = std::get_if<Sphere>(&spec.shape)) {
-      disc.m_radius = number(ball->radius);
-      def.shape = &disc;
-    } else if (const Vec<3>* half = half_size_of(spec.shape)) {
-      box.SetAsBox(number(half->x), number(half->y));
-      def.shape = &box;
-    } else {
-      // Its edge, as far as bodies are likely to go; the normal lies left of the way back.
-      const Vec<3> normal = std::get<HalfSpace<3>>(spec.shape).normal;
-      const Vec<3> along = Vec<3>(normal.y, -normal.x, 0) * (4 * glm::length(scene_.bounds.size()));
-      edge.SetTwoSided(to_box2d(-along), to_box2d(along));
-      def.shape = &edge;
-      body.SetTransform(body.GetPosition(), 0);
-    }
+    visit_peer_shape(
+        spec.shape,
+        [&](const Sphere& s) {
+          disc.m_radius = number(s.radius);
+          def.shape = &disc;
+        },
+        [&](const Vec<3>& half) {
+          box.SetAsBox(number(half.x), number(half.y));
+          def.shape = &box;
+        },
+        [](const Capsule&) { throw Refused("Box2D has no capsules"); },
+        [&](const HalfSpace<3>& s) {
+          // Its edge, as far as bodies are likely to go; the normal lies left of the way back.
+          const Vec<3> along =
+              Vec<3>(s.normal.y, -s.normal.x, 0) * (4 * glm::length(scene_.bounds.size()));
+          edge.SetTwoSided(to_box2d(-along), to_box2d(along));
+          def.shape = &edge;
+          body.SetTransform(body.GetPosition(), 0);
+        });
     def.friction = number(spec.material.friction);
     def.restitution = number(spec.material.restitution);
     def.restitutionThreshold = 0;  // slow bounces bounce, too
@@ -176,8 +181,8 @@ std::unique_ptr<Simulation> start(const PeerScene& scene, double h) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::peers
 
-extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
-  peers.push_back({"Box2D", LANTERN_PEER_VERSION, lantern::cannot, lantern::start});
+extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
+  peers.push_back({"Box2D", LANTERN_PEER_VERSION, lantern::peers::cannot, lantern::peers::start});
 }

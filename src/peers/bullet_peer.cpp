@@ -5,7 +5,7 @@
 
 #include "peers/peer_run.hpp"
 
-namespace lantern {
+namespace lantern::peers {
 namespace {
 
 btVector3 to_bullet(const Vec<3>& v) { return {v.x, v.y, v.z}; }
@@ -20,13 +20,18 @@ btScalar mean_friction(const btCollisionObject* a, const btCollisionObject* b) {
 }
 
 std::unique_ptr<btCollisionShape> shape_of(const PeerBody& body, bool is_flat) {
-  if (const auto* ball = std::get_if<Sphere>(&body.shape))
-    return std::make_unique<btSphereShape>(ball->radius);
-  if (const auto* c = std::get_if<Capsule>(&body.shape))
-    return std::make_unique<btCapsuleShape>(c->radius, 2 * c->half_length);
-  if (const auto* space = std::get_if<HalfSpace<3>>(&body.shape))
-    return std::make_unique<btStaticPlaneShape>(to_bullet(space->normal), 0.0);
-  return std::make_unique<btBoxShape>(to_bullet(with_depth(*half_size_of(body.shape), is_flat)));
+  using Made = std::unique_ptr<btCollisionShape>;
+  return visit_peer_shape(
+      body.shape, [](const Sphere& s) -> Made { return std::make_unique<btSphereShape>(s.radius); },
+      [&](const Vec<3>& half) -> Made {
+        return std::make_unique<btBoxShape>(to_bullet(with_depth(half, is_flat)));
+      },
+      [](const Capsule& c) -> Made {
+        return std::make_unique<btCapsuleShape>(c.radius, 2 * c.half_length);
+      },
+      [](const HalfSpace<3>& space) -> Made {
+        return std::make_unique<btStaticPlaneShape>(to_bullet(space.normal), 0.0);
+      });
 }
 
 // Bullet keeps (1 - damping)^h of a velocity: exact for a drag that is the same about all axes.
@@ -146,10 +151,10 @@ std::optional<std::string> cannot(const PeerScene& scene) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::peers
 
-extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
-  using namespace lantern;
+extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
+  using namespace lantern::peers;
   for (const int iterations : {10, 50})  // 10 is what Bullet takes if it is not told
     peers.push_back({"Bullet:" + std::to_string(iterations), LANTERN_PEER_VERSION, cannot,
                      [=](const PeerScene& scene, double h) {

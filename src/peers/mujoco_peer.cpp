@@ -9,7 +9,7 @@
 
 #include "peers/peer_run.hpp"
 
-namespace lantern {
+namespace lantern::peers {
 namespace {
 
 constexpr std::size_t kMany = 200;  // bodies with contacts: its matrices are dense
@@ -31,15 +31,14 @@ std::string text(const glm::dquat& q) {
 std::string geom_of(const PeerBody& body, bool is_flat) {
   const std::string friction =
       " condim=\"3\" friction=\"" + text({body.material.friction, 0, 0}) + "\"/>";
-  if (const auto* ball = std::get_if<Sphere>(&body.shape))
-    return "<geom type=\"sphere\" size=\"" + text(Vec<3>(ball->radius)) + "\"" + friction;
-  if (const auto* c = std::get_if<Capsule>(&body.shape))  // MuJoCo's lies along z
-    return "<geom type=\"capsule\" quat=\"1 1 0 0\" size=\"" +
-           text({c->radius, c->half_length, 0}) + "\"" + friction;
-  if (const auto* space = std::get_if<HalfSpace<3>>(&body.shape))
-    return "<geom type=\"plane\" size=\"0 0 1\" zaxis=\"" + text(space->normal) + "\"" + friction;
-  return "<geom type=\"box\" size=\"" + text(with_depth(*half_size_of(body.shape), is_flat)) +
-         "\"" + friction;
+  const std::string of_shape = visit_peer_shape(
+      body.shape, [](const Sphere& s) { return "sphere\" size=\"" + text(Vec<3>(s.radius)); },
+      [&](const Vec<3>& half) { return "box\" size=\"" + text(with_depth(half, is_flat)); },
+      [](const Capsule& c) {  // MuJoCo's lies along z
+        return "capsule\" quat=\"1 1 0 0\" size=\"" + text({c.radius, c.half_length, 0});
+      },
+      [](const HalfSpace<3>& s) { return "plane\" size=\"0 0 1\" zaxis=\"" + text(s.normal); });
+  return "<geom type=\"" + of_shape + "\"" + friction;
 }
 
 // The scene as an MJCF file.
@@ -260,13 +259,13 @@ std::optional<std::string> cannot(const PeerScene& scene) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::peers
 
-extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
-  using namespace lantern;
+extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
+  using namespace lantern::peers;
   // Else it writes a file into the current folder, and ends the program.
   mju_user_warning = [](const char*) {};
-  mju_user_error = [](const char* why) { throw Refused(why); };
+  mju_user_error = [](const char* why) { throw lantern::Refused(why); };
   for (const auto& [name, integrator] :
        {std::pair("MuJoCo", "Euler"), std::pair("MuJoCo:RK4", "RK4")})
     peers.push_back({name, LANTERN_PEER_VERSION, cannot, [=](const PeerScene& scene, double h) {

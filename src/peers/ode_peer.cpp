@@ -10,7 +10,7 @@
 
 #include "peers/peer_run.hpp"
 
-namespace lantern {
+namespace lantern::peers {
 namespace {
 
 constexpr int kMostPoints = 8;     // of a pair that touches
@@ -137,16 +137,17 @@ class OdeRun : public PeerRun {
   }
 
   dGeomID shape_of(const PeerBody& body) const {
-    if (const auto* ball = std::get_if<Sphere>(&body.shape))
-      return dCreateSphere(ode_.space, ball->radius);
-    if (const auto* c = std::get_if<Capsule>(&body.shape))
-      return dCreateCapsule(ode_.space, c->radius, 2 * c->half_length);
-    if (const auto* space = std::get_if<HalfSpace<3>>(&body.shape)) {
-      const Vec<3>& n = space->normal;
-      return dCreatePlane(ode_.space, n.x, n.y, n.z, glm::dot(n, body.position));
-    }
-    const Vec<3> size = 2.0 * with_depth(*half_size_of(body.shape), scene_.is_flat());
-    return dCreateBox(ode_.space, size.x, size.y, size.z);
+    return visit_peer_shape(
+        body.shape, [&](const Sphere& s) { return dCreateSphere(ode_.space, s.radius); },
+        [&](const Vec<3>& half) {
+          const Vec<3> size = 2.0 * with_depth(half, scene_.is_flat());
+          return dCreateBox(ode_.space, size.x, size.y, size.z);
+        },
+        [&](const Capsule& c) { return dCreateCapsule(ode_.space, c.radius, 2 * c.half_length); },
+        [&](const HalfSpace<3>& s) {
+          const Vec<3>& n = s.normal;
+          return dCreatePlane(ode_.space, n.x, n.y, n.z, glm::dot(n, body.position));
+        });
   }
 
   void add(const PeerLink& link) {
@@ -212,15 +213,15 @@ std::optional<std::string> cannot(const PeerScene& scene, bool exact) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::peers
 
-extern "C" void lantern_peers(std::vector<lantern::Peer>& peers) {
-  using namespace lantern;
+extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
+  using namespace lantern::peers;
   [[maybe_unused]] static const int started = dInitODE2(0);
   // Else it writes to the terminal, and ends the program.
   dSetMessageHandler([](int, const char*, va_list) {});
-  dSetErrorHandler([](int, const char* why, va_list) { throw Refused(why); });
-  dSetDebugHandler([](int, const char* why, va_list) { throw Refused(why); });
+  dSetErrorHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
+  dSetDebugHandler([](int, const char* why, va_list) { throw lantern::Refused(why); });
   for (const bool exact : {false, true})
     peers.push_back({exact ? "ODE:exact" : "ODE", LANTERN_PEER_VERSION,
                      [=](const PeerScene& scene) { return cannot(scene, exact); },

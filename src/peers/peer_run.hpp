@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "measure/peer.hpp"
 
-namespace lantern {
+namespace lantern::peers {
 
 // How a body lies and moves in the peer's world.
 struct PeerMotion {
@@ -173,11 +173,17 @@ inline Vec<3> with_depth(Vec<3> half, bool is_flat) {
   return half;
 }
 
-// Half sizes of either kind of box; null for other shapes.
-inline const Vec<3>* half_size_of(const Shape<3>& shape) {
-  if (const auto* box = std::get_if<AxisBox<3>>(&shape)) return &box->half_size;
-  if (const auto* box = std::get_if<OrientedBox<3>>(&shape)) return &box->half_size;
-  return nullptr;
+// What an engine makes of a shape: of a sphere, of either kind of box by its half sizes, of a
+// capsule, of a half-space.
+template <class OfSphere, class OfBox, class OfCapsule, class OfHalfSpace>
+auto visit_peer_shape(const Shape<3>& shape, OfSphere&& of_sphere, OfBox&& of_box,
+                      OfCapsule&& of_capsule, OfHalfSpace&& of_half_space) {
+  return std::visit(EachShape{[&](const Sphere& s) { return of_sphere(s); },
+                              [&](const AxisBox<3>& s) { return of_box(s.half_size); },
+                              [&](const OrientedBox<3>& s) { return of_box(s.half_size); },
+                              [&](const Capsule& s) { return of_capsule(s); },
+                              [&](const HalfSpace<3>& s) { return of_half_space(s); }},
+                    shape);
 }
 
 // What no engine of solid bodies does as Lantern does. Drag turns a body alike about all axes only
@@ -189,14 +195,14 @@ inline std::optional<std::string> solid_engine_cannot(const PeerScene& scene) {
       return "body '" + body.name + "': its drag depends on the axis";
     if (std::holds_alternative<HalfSpace<3>>(body.shape) && body.kind != BodyKind::static_body)
       return "body '" + body.name + "': a half-space must be static";
-    const Vec<3>* half = half_size_of(body.shape);
-    const auto* ball = std::get_if<Sphere>(&body.shape);
-    const auto* capsule = std::get_if<Capsule>(&body.shape);
-    const bool is_nothing = (ball && ball->radius == 0) || (capsule && capsule->radius == 0) ||
-                            (half && std::min(half->x, half->y) == 0);
+    const bool is_nothing = visit_peer_shape(
+        body.shape, [](const Sphere& ball) { return ball.radius == 0; },
+        [](const Vec<3>& half) { return std::min(half.x, half.y) == 0; },
+        [](const Capsule& capsule) { return capsule.radius == 0; },
+        [](const HalfSpace<3>&) { return false; });
     if (scene.collides() && is_nothing) return "body '" + body.name + "' has no size";
   }
   return std::nullopt;
 }
 
-}  // namespace lantern
+}  // namespace lantern::peers

@@ -15,7 +15,7 @@
 #include "base/stop.hpp"
 #include "physics/block_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int B>
 class BlockIteration {
@@ -132,4 +132,4 @@ class BlockIteration {
   std::vector<Block> diagonal_, factors_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -19,7 +19,7 @@
 #include "base/stop.hpp"
 #include "physics/small_cholesky.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int B>
 class BlockSystem {
@@ -183,4 +183,4 @@ class BlockSystem {
   std::vector<std::vector<Entry>> columns_;  // below the diagonal, by row
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -9,7 +9,7 @@
 #include "physics/motion_method.hpp"
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 enum class BodyKind {
   dynamic_body,    // moved by forces and contacts
@@ -100,4 +100,4 @@ Vec<D> velocity_at(const Body<D>& body, const Vec<D>& arm) {
   return body.velocity + cross(angular_velocity(body), arm);
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -9,7 +9,7 @@
 #include "physics/body.hpp"
 #include "physics/mass.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 std::string named(const std::string& name) { return fmt::format("body '{}'", name); }
@@ -99,4 +99,4 @@ template void check_body(const Body<3>&);
 template void derive_mass(Body<2>&);
 template void derive_mass(Body<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

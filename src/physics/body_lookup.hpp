@@ -12,7 +12,7 @@
 #include "base/error.hpp"
 #include "physics/body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 class BodyLookup {
@@ -36,4 +36,4 @@ class BodyLookup {
   std::vector<std::pair<BodyId, std::size_t>> places_;  // by id
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

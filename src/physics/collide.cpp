@@ -5,7 +5,7 @@
 
 #include "physics/collide_cores.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace narrow {
 namespace {
 
@@ -248,4 +248,4 @@ std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, doubl
 template std::optional<Manifold<2>> collide(const Placed<2>&, const Placed<2>&, double);
 template std::optional<Manifold<3>> collide(const Placed<3>&, const Placed<3>&, double);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -1,7 +1,7 @@
 // Two boxes, or a box and a capsule, or capsules whose segments cross.
 #include "physics/collide_blocks.hpp"
 
-namespace lantern::narrow {
+namespace lantern::physics::narrow {
 namespace {
 
 // Kinds of contact, in the upper bits of feature names.
@@ -154,4 +154,4 @@ Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double m
 template Contact<2> touch_blocks(const PlacedCore<2>&, const PlacedCore<2>&, double);
 template Contact<3> touch_blocks(const PlacedCore<3>&, const PlacedCore<3>&, double);
 
-}  // namespace lantern::narrow
+}  // namespace lantern::physics::narrow

@@ -10,7 +10,7 @@
 
 #include "physics/collide_cores.hpp"
 
-namespace lantern::narrow {
+namespace lantern::physics::narrow {
 
 // A direction along which the cores were measured.
 template <int D>
@@ -75,4 +75,4 @@ template <int D>
 ClosestFeatures<D> closest_features(const PlacedCore<D>& a, const PlacedCore<D>& b,
                                     const SeparatingAxis<D>& axis);
 
-}  // namespace lantern::narrow
+}  // namespace lantern::physics::narrow

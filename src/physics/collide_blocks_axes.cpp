@@ -2,7 +2,7 @@
 
 #include "physics/collide_blocks.hpp"
 
-namespace lantern::narrow {
+namespace lantern::physics::narrow {
 namespace {
 
 // Edges that are nearer to parallel than this (the sine of their angle) have no axis of their own:
@@ -108,4 +108,4 @@ template double smallest_half(const PlacedCore<3>&, const PlacedCore<3>&);
 template SeparatingAxes<2> separating_axes(const PlacedCore<2>&, const PlacedCore<2>&);
 template SeparatingAxes<3> separating_axes(const PlacedCore<3>&, const PlacedCore<3>&);
 
-}  // namespace lantern::narrow
+}  // namespace lantern::physics::narrow

@@ -3,7 +3,7 @@
 
 #include "physics/collide_blocks.hpp"
 
-namespace lantern::narrow {
+namespace lantern::physics::narrow {
 namespace {
 
 // Calls f(edge, name) for each edge, as each_corner does.
@@ -113,4 +113,4 @@ template ClosestFeatures<2> closest_features(const PlacedCore<2>&, const PlacedC
 template ClosestFeatures<3> closest_features(const PlacedCore<3>&, const PlacedCore<3>&,
                                              const SeparatingAxis<3>&);
 
-}  // namespace lantern::narrow
+}  // namespace lantern::physics::narrow

@@ -14,7 +14,7 @@
 
 #include "physics/collide_blocks.hpp"
 
-namespace lantern::narrow {
+namespace lantern::physics::narrow {
 namespace {
 
 // Corners that lie outside the reference face by this part of the smallest half size still count as
@@ -216,4 +216,4 @@ template FaceContact<2> face_contact(const PlacedCore<2>&, const PlacedCore<2>&,
 template FaceContact<3> face_contact(const PlacedCore<3>&, const PlacedCore<3>&, int, const Vec<3>&,
                                      double);
 
-}  // namespace lantern::narrow
+}  // namespace lantern::physics::narrow

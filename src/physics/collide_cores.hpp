@@ -12,7 +12,7 @@
 #include "geometry/shape.hpp"
 #include "physics/manifold.hpp"
 
-namespace lantern::narrow {
+namespace lantern::physics::narrow {
 
 // A computed length is trusted to this part of the sizes that went into it: about 4500 roundings.
 inline constexpr double kRounding = 1e-12;
@@ -97,4 +97,4 @@ template <int D>
 Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b,
                         double margin);  // any two but points
 
-}  // namespace lantern::narrow
+}  // namespace lantern::physics::narrow

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lantern {
+namespace lantern::physics {
 
 enum class ContactMethod {
   none,     // bodies pass through each other; joints are held as by `soft`
@@ -21,4 +21,4 @@ std::string_view to_string(ContactMethod method);
 std::optional<ContactMethod> contact_method_named(std::string_view name);
 std::vector<std::string_view> contact_method_names();  // in the order of the enumerators
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -213,4 +213,4 @@ void ContactRows<D>::correct_positions(SolverBody<D>& body_a, SolverBody<D>& bod
 template struct ContactRows<2>;
 template struct ContactRows<3>;
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -16,7 +16,7 @@
 #include "physics/contacts.hpp"
 #include "physics/solver_body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The numbers of all methods that solve rows.
 struct RowSettings {
@@ -119,4 +119,4 @@ struct ContactRows {
   void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep);
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

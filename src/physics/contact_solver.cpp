@@ -6,7 +6,7 @@
 #include "base/check.hpp"
 #include "lecture/physics_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void sequential_impulses(Island<D>&, const WorldConfig<D>&, double h, double whole, WorldWork&);
@@ -56,4 +56,4 @@ std::vector<std::string_view> contact_method_names() {
 template const ContactSolver<2>& contact_solver(ContactMethod);
 template const ContactSolver<3>& contact_solver(ContactMethod);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -8,7 +8,7 @@
 #include "physics/contact_method.hpp"
 #include "physics/island.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // Moves the island by `h` of the step's `whole` seconds, under forces, joints and those of its
 // pairs that are pressed: turns its bodies' state into that at the end, and notes in each pair
@@ -33,4 +33,4 @@ struct ContactSolver {
 template <int D>
 const ContactSolver<D>& contact_solver(ContactMethod method);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -7,7 +7,7 @@
 #include "physics/manifold.hpp"
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // Two bodies that touched during a step, and how hard they pressed. Impulses in N s, summed over
 // the whole step, upon b; a gets the opposite.
@@ -52,4 +52,4 @@ struct ContactEvent {
   bool operator==(const ContactEvent&) const = default;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

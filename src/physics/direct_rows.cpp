@@ -6,7 +6,7 @@
 #include "physics/direct_solve.hpp"
 #include "physics/small_cholesky.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 std::array<Vec<2>, 1> tangents(const Vec<2>& n) { return {Vec<2>(-n.y, n.x)}; }
@@ -145,4 +145,4 @@ void DirectSolve<D>::list_rows(Island<D>& island) {
 template void DirectSolve<2>::list_rows(Island<2>&);
 template void DirectSolve<3>::list_rows(Island<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

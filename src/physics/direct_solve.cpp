@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-namespace lantern {
+namespace lantern::physics {
 
 // How much the velocity along one row changes by an impulse along another.
 template <int D>
@@ -243,4 +243,4 @@ LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
 #undef LANTERN_INSTANTIATE
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -19,7 +19,7 @@
 #include "physics/envelope_system.hpp"
 #include "physics/sub_step.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The numbers of the direct solve.
 struct DirectSettings {
@@ -108,4 +108,4 @@ class DirectSolve {
   std::vector<Guess> kept_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

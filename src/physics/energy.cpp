@@ -3,7 +3,7 @@
 #include "base/stop.hpp"
 #include "physics/body_lookup.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -109,4 +109,4 @@ template Vec<3> momentum(std::span<const Body<3>>);
 template Spin<2> angular_momentum<2>(std::span<const Body<2>>);
 template Spin<3> angular_momentum<3>(std::span<const Body<3>>);
 
-}  // namespace lantern
+}  // namespace lantern::physics

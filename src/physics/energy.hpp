@@ -6,7 +6,7 @@
 #include "physics/body.hpp"
 #include "physics/forces.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // In joules. Pushes have no potential, drag and damping eat energy.
 struct Energy {
@@ -39,4 +39,4 @@ Vec<D> momentum(std::span<const Body<D>> bodies);
 template <int D>
 Spin<D> angular_momentum(std::span<const Body<D>> bodies);
 
-}  // namespace lantern
+}  // namespace lantern::physics

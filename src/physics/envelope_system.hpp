@@ -11,7 +11,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 class EnvelopeSystem {
  public:
@@ -75,4 +75,4 @@ class EnvelopeSystem {
   double work_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

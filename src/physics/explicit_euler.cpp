@@ -2,7 +2,7 @@
 // gains energy at every step, however short.
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void explicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
@@ -17,4 +17,4 @@ void explicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>
 template void explicit_euler(SmoothSystem<2>&, double, std::vector<Increment<2>>&);
 template void explicit_euler(SmoothSystem<3>&, double, std::vector<Increment<3>>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

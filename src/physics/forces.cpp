@@ -1,6 +1,6 @@
 #include "physics/forces.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 template <int D>
 Stretch<D> stretched(const Spring<D>& spring, const Vec<D>& between, const EndMotion<D>& a,
                      const EndMotion<D>& b) {
@@ -47,4 +47,4 @@ template double attracting_mass(const Body<3>&);
 template Stretch<2> attracted(double, const Vec<2>&);
 template Stretch<3> attracted(double, const Vec<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

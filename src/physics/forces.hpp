@@ -5,7 +5,7 @@
 
 #include "physics/body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // A damped spring between points of two bodies, given in the bodies' own axes from their centres:
 // force = -stiffness * (length - rest) - damping * (rate of length), along the line between the
@@ -80,4 +80,4 @@ double attracting_mass(const Body<D>& body);
 template <int D>
 Stretch<D> attracted(double strength, const Vec<D>& between);
 
-}  // namespace lantern
+}  // namespace lantern::physics

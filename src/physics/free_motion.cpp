@@ -8,7 +8,7 @@
 #include "physics/free_rotation.hpp"
 #include "physics/island.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // Those of the dynamic bodies, each once; the world's own if there are none.
@@ -118,4 +118,4 @@ LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
 #undef LANTERN_INSTANTIATE
 
-}  // namespace lantern
+}  // namespace lantern::physics

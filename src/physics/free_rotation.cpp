@@ -19,7 +19,7 @@
 
 #include "base/check.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // Turned about its own axis `axis`.
@@ -123,4 +123,4 @@ template Rotation<3> freely_turned(const Body<3>&, const Spin<3>&, double, Rotat
 template void turn_freely(Body<2>&, double, RotationMethod, const Spin<2>&);
 template void turn_freely(Body<3>&, double, RotationMethod, const Spin<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

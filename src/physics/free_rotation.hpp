@@ -7,7 +7,7 @@
 
 #include "physics/body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The orientation `h` seconds later (h may be negative: back in time), of a body whose angular
 // momentum in the world is L. Both dimensions: exact if the inertia about two axes is equal, as in
@@ -29,4 +29,4 @@ Rotation<D> freely_turned(const Body<D>& body, double h) {
 template <int D>
 void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& lag = Spin<D>(0.0));
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -5,7 +5,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // Newton's law of restitution at all points of a pair at once: those that approach will part with
@@ -238,4 +238,4 @@ template void move_through_impacts(Island<2>&, const ContactSolver<2>&, const Wo
 template void move_through_impacts(Island<3>&, const ContactSolver<3>&, const WorldConfig<3>&,
                                    double, int&, WorldWork&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

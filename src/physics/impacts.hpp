@@ -6,7 +6,7 @@
 
 #include "physics/contact_solver.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The numbers of impacts: how their times are found, and how the blows are resolved.
 struct ImpactSettings {
@@ -61,4 +61,4 @@ template <int D>
 void move_through_impacts(Island<D>& island, const ContactSolver<D>& solver,
                           const WorldConfig<D>& config, double h, int& budget, WorldWork& work);
 
-}  // namespace lantern
+}  // namespace lantern::physics

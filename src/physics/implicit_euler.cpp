@@ -4,7 +4,7 @@
 #include "physics/implicit_stage.hpp"
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
@@ -16,4 +16,4 @@ void implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>
 template void implicit_euler(SmoothSystem<2>&, double, std::vector<Increment<2>>&);
 template void implicit_euler(SmoothSystem<3>&, double, std::vector<Increment<3>>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

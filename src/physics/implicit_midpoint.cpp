@@ -4,7 +4,7 @@
 #include "physics/implicit_stage.hpp"
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void implicit_midpoint(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
@@ -19,4 +19,4 @@ void implicit_midpoint(SmoothSystem<D>& system, double h, std::vector<Increment<
 template void implicit_midpoint(SmoothSystem<2>&, double, std::vector<Increment<2>>&);
 template void implicit_midpoint(SmoothSystem<3>&, double, std::vector<Increment<3>>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -15,7 +15,7 @@
 #include "base/error.hpp"
 #include "physics/motion_matrix.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 constexpr double kEpsilon = 0x1p-52;
@@ -295,4 +295,4 @@ template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_vie
 template void damped_kick(SmoothSystem<2>&, SmoothState<2>&, double, LinearSolver);
 template void damped_kick(SmoothSystem<3>&, SmoothState<3>&, double, LinearSolver);
 
-}  // namespace lantern
+}  // namespace lantern::physics

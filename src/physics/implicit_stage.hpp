@@ -6,7 +6,7 @@
 #include "physics/motion_matrix.hpp"
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The state `time` after the start whose own forces lead to it: v = v0 + time a(x0 + time v, v), an
 // implicit Euler step, solved to rounding. Throws Refused, naming the method and the step `h`, if
@@ -22,4 +22,4 @@ template <int D>
 void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time,
                  LinearSolver solver = LinearSolver::by_size);
 
-}  // namespace lantern
+}  // namespace lantern::physics

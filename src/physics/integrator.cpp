@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // In the order of the enumerators.
@@ -33,4 +33,4 @@ template void find_increments(Integrator, std::span<const Body<2>>, const Forces
 template void find_increments(Integrator, std::span<const Body<3>>, const Forces<3>&, double,
                               std::vector<Increment<3>>&, std::uint64_t&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

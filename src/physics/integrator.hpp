@@ -16,7 +16,7 @@
 #include "physics/forces.hpp"
 #include "physics/motion_method.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 struct Increment {
@@ -37,4 +37,4 @@ void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
                      const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                      std::uint64_t& evaluations);
 
-}  // namespace lantern
+}  // namespace lantern::physics

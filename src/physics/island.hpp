@@ -9,7 +9,7 @@
 #include "physics/joint_rows.hpp"
 #include "physics/world_config.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The state of a body as constraints see it. (This, and what follows the island:
 // free_motion.cpp)
@@ -94,4 +94,4 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                             WorldWork& work);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace lantern {
+namespace lantern::physics {
 
 // Union-find (Galler and Fischer, "An improved equivalence algorithm", 1964), with path halving.
 // The root of a set is always its lowest member, so that nothing depends on the order of uniting.
@@ -30,4 +30,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

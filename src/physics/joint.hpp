@@ -3,7 +3,7 @@
 
 #include "physics/body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 using JointId = std::uint32_t;
 using SpringId = std::uint32_t;
@@ -26,4 +26,4 @@ struct Joint {
   bool collide = false;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

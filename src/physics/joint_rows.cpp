@@ -4,7 +4,7 @@
 
 #include <glm/matrix.hpp>
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // Column j is the relative velocity that an impulse of 1 along axis j gives.
@@ -89,4 +89,4 @@ void JointRows<D>::correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_
 template struct JointRows<2>;
 template struct JointRows<3>;
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -5,7 +5,7 @@
 #include "physics/joint.hpp"
 #include "physics/solver_body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 struct JointRows {
@@ -30,4 +30,4 @@ struct JointRows {
   void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep);
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -13,7 +13,7 @@
 #include "lecture/physics_system.hpp"
 #include "physics/contact_solver.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 using lecture::CollisionDetection;
@@ -168,4 +168,4 @@ void lecture_impulses(Island<D>& island, const WorldConfig<D>& config, double h,
 template void lecture_impulses(Island<2>&, const WorldConfig<2>&, double, double, WorldWork&);
 template void lecture_impulses(Island<3>&, const WorldConfig<3>&, double, double, WorldWork&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -14,7 +14,7 @@
 
 #include "geometry/shape.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 struct ManifoldPoint {
@@ -63,4 +63,4 @@ struct Placed {
 template <int D>
 std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 MassProperties<2> of_sphere(const Sphere& disc, Vec<2>, double density) {
@@ -80,4 +80,4 @@ template MassProperties<3> mass_of(const Shape<3>&, double);
 template MassProperties<2> scaled_to(MassProperties<2>, double);
 template MassProperties<3> scaled_to(MassProperties<3>, double);
 
-}  // namespace lantern
+}  // namespace lantern::physics

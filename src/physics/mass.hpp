@@ -3,7 +3,7 @@
 
 #include "geometry/shape.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 struct MassProperties {
@@ -24,4 +24,4 @@ MassProperties<D> mass_of(const Shape<D>& shape, double density);
 template <int D>
 MassProperties<D> scaled_to(MassProperties<D> properties, double mass);
 
-}  // namespace lantern
+}  // namespace lantern::physics

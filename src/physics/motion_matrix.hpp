@@ -19,7 +19,7 @@
 #include "physics/block_system.hpp"
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 enum class LinearSolver {
   by_size,    // direct up to kMostFactorBytes, and up to kMostAttracting bodies
@@ -238,4 +238,4 @@ class MotionMatrix {
   bool buckling_ = true;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

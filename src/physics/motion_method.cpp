@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // In the order of the enumerators.
@@ -35,4 +35,4 @@ std::optional<RotationMethod> rotation_method_named(std::string_view name) {
   return named_in<RotationMethod>(kRotations, name);
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

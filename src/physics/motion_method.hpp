@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace lantern {
+namespace lantern::physics {
 
 enum class Integrator {
   explicit_euler,
@@ -31,4 +31,4 @@ enum class RotationMethod {
 std::string_view to_string(RotationMethod method);
 std::optional<RotationMethod> rotation_method_named(std::string_view name);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -2,7 +2,7 @@
 // in the middle and one at the end, each from where the one before leads.
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void runge_kutta_4(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
@@ -36,4 +36,4 @@ void runge_kutta_4(SmoothSystem<D>& system, double h, std::vector<Increment<D>>&
 template void runge_kutta_4(SmoothSystem<2>&, double, std::vector<Increment<2>>&);
 template void runge_kutta_4(SmoothSystem<3>&, double, std::vector<Increment<3>>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

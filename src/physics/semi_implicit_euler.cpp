@@ -2,7 +2,7 @@
 // moves the body. As cheap as explicit Euler, yet the energy of a spring stays bounded.
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void semi_implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
@@ -14,4 +14,4 @@ void semi_implicit_euler(SmoothSystem<D>& system, double h, std::vector<Incremen
 template void semi_implicit_euler(SmoothSystem<2>&, double, std::vector<Increment<2>>&);
 template void semi_implicit_euler(SmoothSystem<3>&, double, std::vector<Increment<3>>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

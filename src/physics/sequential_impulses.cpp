@@ -8,7 +8,7 @@
 // mass ratio of r about r.
 #include "physics/sub_step.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void sequential_impulses(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
@@ -28,4 +28,4 @@ void sequential_impulses(Island<D>& island, const WorldConfig<D>& config, double
 template void sequential_impulses(Island<2>&, const WorldConfig<2>&, double, double, WorldWork&);
 template void sequential_impulses(Island<3>&, const WorldConfig<3>&, double, double, WorldWork&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

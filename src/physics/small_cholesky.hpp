@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int N>
 using SmallMatrix = std::array<double, N * N>;
@@ -42,4 +42,4 @@ void solve_upper(const SmallMatrix<N>& factor, std::array<double, N>& x) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

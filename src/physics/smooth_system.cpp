@@ -3,7 +3,7 @@
 #include "physics/body_lookup.hpp"
 #include "physics/free_rotation.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // At an orientation that need not be the body's.
@@ -172,4 +172,4 @@ Pull<D> SmoothSystem<D>::evaluate(const SmoothState<D>& state) {
 template class SmoothSystem<2>;
 template class SmoothSystem<3>;
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -12,7 +12,7 @@
 #include "physics/forces.hpp"
 #include "physics/integrator.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // All that moves, at some moment within the step, one entry a body. Everything is kept as the
 // difference from the start of the step: so nothing is lost by rounding far from the origin.
@@ -150,4 +150,4 @@ void implicit_midpoint(SmoothSystem<D>& system, double h, std::vector<Increment<
 template <int D>
 void implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out);
 
-}  // namespace lantern
+}  // namespace lantern::physics

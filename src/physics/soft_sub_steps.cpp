@@ -7,7 +7,7 @@
 // solve of all rows at once does in each sub-step (direct_solve.hpp).
 #include "physics/direct_solve.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void soft_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
@@ -20,4 +20,4 @@ void soft_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, d
 template void soft_sub_steps(Island<2>&, const WorldConfig<2>&, double, double, WorldWork&);
 template void soft_sub_steps(Island<3>&, const WorldConfig<3>&, double, double, WorldWork&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

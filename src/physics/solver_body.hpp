@@ -5,7 +5,7 @@
 
 #include "physics/body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // Inverse inertia in the world's axes.
 template <int D>
@@ -70,4 +70,4 @@ double inverse_effective_mass(const SolverBody<D>& a, const Vec<D>& arm_a, const
   return a.inverse_mass + b.inverse_mass + dot(turn_a, gained_a) + dot(turn_b, gained_b);
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -7,7 +7,7 @@
 #include "physics/islands.hpp"
 #include "physics/world.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The numbers of a step, whatever the method.
 struct StepSettings {
@@ -95,4 +95,4 @@ struct World<D>::Step {
   void bring_back(Island<D>& island);
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

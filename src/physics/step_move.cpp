@@ -10,7 +10,7 @@
 #include "physics/impacts.hpp"
 #include "physics/step.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // Which bodies, pairs and joints the solver is given together: those of each island, or of the
 // whole world. What neither touches nor is joined is in none of them, but flies.
@@ -281,4 +281,4 @@ LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
 #undef LANTERN_INSTANTIATE
 
-}  // namespace lantern
+}  // namespace lantern::physics

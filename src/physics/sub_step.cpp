@@ -6,7 +6,7 @@
 #include "base/stop.hpp"
 #include "physics/free_rotation.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // Which part of the new velocity's change the mean velocity lags behind: 0 for semi-implicit
@@ -210,4 +210,4 @@ LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
 #undef LANTERN_INSTANTIATE
 
-}  // namespace lantern
+}  // namespace lantern::physics

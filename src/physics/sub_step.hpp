@@ -17,7 +17,7 @@
 #include "base/stop.hpp"
 #include "physics/island.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 class SubStep {
@@ -71,4 +71,4 @@ template <int D>
 void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
                   int sub_steps, WorldWork& work, const std::function<void(SubStep<D>&)>& solve);
 
-}  // namespace lantern
+}  // namespace lantern::physics

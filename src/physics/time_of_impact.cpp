@@ -6,7 +6,7 @@
 #include "physics/free_rotation.hpp"
 #include "physics/impacts.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -141,4 +141,4 @@ LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
 #undef LANTERN_INSTANTIATE
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -8,7 +8,7 @@
 #include "physics/implicit_stage.hpp"
 #include "physics/smooth_system.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 void velocity_verlet(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
@@ -34,4 +34,4 @@ void velocity_verlet(SmoothSystem<D>& system, double h, std::vector<Increment<D>
 template void velocity_verlet(SmoothSystem<2>&, double, std::vector<Increment<2>>&);
 template void velocity_verlet(SmoothSystem<3>&, double, std::vector<Increment<3>>&);
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -8,7 +8,7 @@
 #include "base/stop.hpp"
 #include "physics/body.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 enum class Disturbed {
   all,       // those awake, too, must now rest anew before they may sleep
@@ -48,4 +48,4 @@ void wake_together(std::vector<Body<D>>& bodies, std::vector<double>& rested,
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -8,7 +8,7 @@
 #include "geometry/not_finite.hpp"
 #include "physics/waking.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 void require_count(int value, int most, const char* field) {
@@ -218,4 +218,4 @@ void World<D>::switch_contacts(ContactMethod method, int sub_steps, int iteratio
 template class World<2>;
 template class World<3>;
 
-}  // namespace lantern
+}  // namespace lantern::physics

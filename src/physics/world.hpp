@@ -19,7 +19,7 @@
 #include "physics/joint.hpp"
 #include "physics/world_config.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // All functions that take a body, spring or joint throw Refused if it is not there, and for numbers
 // that are not finite; the world is then as it was, and its hash the same. What changes a body
@@ -167,4 +167,4 @@ class World {
   WorldWork work_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

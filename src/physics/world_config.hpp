@@ -9,7 +9,7 @@
 #include "physics/motion_method.hpp"
 #include "spatial/broad_phase.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 template <int D>
 struct WorldConfig {
@@ -92,4 +92,4 @@ inline WorldWork work_between(const WorldWork& before, WorldWork after) {
   return after;
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

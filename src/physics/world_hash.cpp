@@ -2,7 +2,7 @@
 #include "base/hash.hpp"
 #include "physics/world.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 void add_to(Hash& hash, double value) { hash.add(value); }
@@ -65,4 +65,4 @@ std::uint64_t World<D>::hash() const {
 template std::uint64_t World<2>::hash() const;
 template std::uint64_t World<3>::hash() const;
 
-}  // namespace lantern
+}  // namespace lantern::physics

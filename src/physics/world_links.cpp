@@ -8,7 +8,7 @@
 #include "geometry/not_finite.hpp"
 #include "physics/world.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -155,4 +155,4 @@ LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
 #undef LANTERN_INSTANTIATE
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -6,7 +6,7 @@
 #include "base/stop.hpp"
 #include "physics/step.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 // The lecture's update has four of these phases: it refreshes the boxes, finds pairs in the broad
 // phase, tests them in the narrow phase, and resolves each pair that touches as it is found. An
@@ -55,4 +55,4 @@ void World<D>::step(double h) {
 template void World<2>::step(double);
 template void World<3>::step(double);
 
-}  // namespace lantern
+}  // namespace lantern::physics

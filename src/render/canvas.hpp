@@ -7,7 +7,7 @@
 #include "draw/draw_list.hpp"
 #include "render/instances.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // Half upwards, on every machine and in every rounding mode.
 inline double rounded(double x) { return std::floor(x + 0.5); }
@@ -46,4 +46,4 @@ struct Canvas {
   }
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "draw/draw_list.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // Throws Refused, naming the shape's number, if a coordinate, size or width is not finite or is
 // beyond a million page units, or if the page has no area.
@@ -30,4 +30,4 @@ inline void check_draw_list(const DrawList& list) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 using Pixel = std::array<std::uint8_t, 4>;
@@ -72,4 +72,4 @@ Image difference_picture(const Image& expected, const Image& actual, int toleran
   return picture;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

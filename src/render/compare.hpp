@@ -5,7 +5,7 @@
 
 #include "render/image.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 struct Comparison {
   bool same_size = false;
@@ -20,4 +20,4 @@ Comparison compare(const Image& expected, const Image& actual, int tolerance);
 // expected image. Images of different sizes are laid over each other from the upper left corner.
 Image difference_picture(const Image& expected, const Image& actual, int tolerance);
 
-}  // namespace lantern
+}  // namespace lantern::render

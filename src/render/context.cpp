@@ -13,7 +13,7 @@
 #include "render/gl.hpp"
 #include "render/headroom.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 // --- OSMesa, Mesa's off-screen interface: a context without any window system. Gone since Mesa
@@ -247,4 +247,4 @@ std::vector<BackendReport> examine_backends() {
   return reports;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lantern {
+namespace lantern::render {
 
 enum class Backend { automatic, osmesa, egl };
 std::optional<Backend> backend_named(std::string_view name);  // auto, osmesa, egl
@@ -35,4 +35,4 @@ struct BackendReport {
 };
 std::vector<BackendReport> examine_backends();
 
-}  // namespace lantern
+}  // namespace lantern::render

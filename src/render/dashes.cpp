@@ -5,7 +5,7 @@
 
 #include "geometry/ray.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 // How far square ends must reach beyond a corner to close its notch: tan of half the turn times
@@ -71,4 +71,4 @@ std::vector<Vec<2>> outline_of(const Box<2>& box, double radius) {
   return points;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -5,7 +5,7 @@
 
 #include "geometry/box.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // A straight piece of a dash. Its ends are square; where the dash goes on round a corner, the end
 // reaches beyond it so that the two pieces meet without a notch.
@@ -23,4 +23,4 @@ std::vector<DashPiece> cut_dashes(const std::vector<Vec<2>>& points, bool closed
 // SVG starts too. No corner of the polyline is farther from the arc than a tenth of a unit.
 std::vector<Vec<2>> outline_of(const Box<2>& box, double radius);
 
-}  // namespace lantern
+}  // namespace lantern::render

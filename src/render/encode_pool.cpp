@@ -10,7 +10,7 @@
 #include "base/memory.hpp"
 #include "render/png.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 // Pictures under way take at most this much memory, unless two are already more.
@@ -135,4 +135,4 @@ void EncodePool::encode(const Job& job) {
   config_.written(job.path);
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

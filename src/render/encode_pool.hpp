@@ -20,7 +20,7 @@
 #include "render/png.hpp"
 #include "render/seal.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // The files are the same for every number of threads. An image equal to the one before it is
 // encoded once; each file still has its own texts.
@@ -88,4 +88,4 @@ class EncodePool {
   std::vector<std::jthread> threads_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

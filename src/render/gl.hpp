@@ -21,7 +21,7 @@
   X(VertexAttribPointer) X(Viewport)
 // clang-format on
 
-namespace lantern {
+namespace lantern::render {
 
 struct Gl {
   // Throws BackendError naming the first function that the context does not have.
@@ -32,4 +32,4 @@ struct Gl {
 #undef LANTERN_GL_MEMBER
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

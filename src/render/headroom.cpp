@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 // Measured with the Mesa of Debian 12: 300 MB with libraries and shaders, of these 100 MB once
@@ -64,4 +64,4 @@ void require_room_for_pixels(std::uint64_t pixels) {
   require_room(kShaders + kBytesPerPixel * pixels);
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

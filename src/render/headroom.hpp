@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace lantern {
+namespace lantern::render {
 
 // Throws BackendError unless an OpenGL context, its threads and its shaders find room within the
 // limits of this process (ulimit -v, ulimit -d). Under such a limit all threads share one arena of
@@ -14,4 +14,4 @@ void require_room_for_context();
 // The same for a framebuffer of so many pixels, in a context that is there.
 void require_room_for_pixels(std::uint64_t pixels);
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lantern {
+namespace lantern::render {
 
 // Rows from the top, 4 bytes a pixel: red, green, blue, alpha (not premultiplied).
 struct Image {
@@ -14,4 +14,4 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -9,7 +9,7 @@
 
 #include "draw/theme.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // A rectangle of whole pixels, hi excluded.
 struct PixelRect {
@@ -139,4 +139,4 @@ class MaskStore {
   std::uint64_t generation_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

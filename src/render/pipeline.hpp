@@ -13,7 +13,7 @@
 #include "render/encode_pool.hpp"
 #include "render/renderer.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // The files are the same for every number of threads. A picture equal to the one before it is
 // encoded once; each file still has its own texts.
@@ -54,4 +54,4 @@ class Pipeline {
   EncodePool pool_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -26,7 +26,7 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 constexpr int kLevel = 7;  // of libdeflate's 12
@@ -176,4 +176,4 @@ std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels)
   return image;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

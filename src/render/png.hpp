@@ -9,7 +9,7 @@
 
 #include "render/image.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 enum class PngEffort { fast, small };
 
@@ -43,4 +43,4 @@ inline constexpr std::string_view kPngEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
 
 std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int pixels_per_metre);
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -7,7 +7,7 @@
 
 #include "geometry/closest.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 std::uint8_t byte(double share) { return static_cast<std::uint8_t>(share * 255 + 0.5); }
@@ -173,4 +173,4 @@ const std::vector<PolygonTile>& PolygonMasks::tiles(const std::vector<Vec<2>>& c
   return it->second;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -14,7 +14,7 @@
 #include "render/canvas.hpp"
 #include "render/instances.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // A directed edge in pixels: x and y of its first point, x and y of its last.
 using Edge = std::array<double, 4>;
@@ -54,4 +54,4 @@ class PolygonMasks {
   std::map<std::vector<double>, std::vector<PolygonTile>> known_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

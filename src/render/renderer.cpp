@@ -14,7 +14,7 @@
 #include "render/headroom.hpp"
 #include "render/shape_builder.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 // The shaders give colours multiplied by their coverage; an Image holds them undivided.
@@ -241,4 +241,4 @@ void Renderer::draw(const DrawList& list, const Theme& theme, bool transparent, 
   if (transparent) unpremultiply(image.rgba);
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -8,7 +8,7 @@
 #include "render/context.hpp"
 #include "render/image.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 class Renderer {
  public:
@@ -28,4 +28,4 @@ class Renderer {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -12,7 +12,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 // The depth of each leaf in the tree that Huffman (1952) builds for these weights.
@@ -258,4 +258,4 @@ std::optional<std::string> run_deflate(const Image& image, int channels) {
   return stream;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

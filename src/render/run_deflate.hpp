@@ -17,7 +17,7 @@
 
 #include "render/image.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // --- Huffman codes as deflate wants them (RFC 1951, section 3.2) ---
 
@@ -63,4 +63,4 @@ class BitWriter {
 // if there are 3 and a pixel is not opaque.
 std::optional<std::string> run_deflate(const Image& image, int channels);
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -6,7 +6,7 @@
 #include "base/check.hpp"
 #include "render/png.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 constexpr std::size_t kKey = 16;  // hexadecimal digits
@@ -58,4 +58,4 @@ std::optional<MadeFrom> made_from(FileKind kind, std::string_view bytes) {
   return from;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

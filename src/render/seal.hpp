@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace lantern {
+namespace lantern::render {
 
 enum class FileKind { png, svg, json };
 
@@ -27,4 +27,4 @@ std::string sealed(FileKind kind, std::string bytes, const MadeFrom& from);
 // Nothing if there is no seal, or if a single bit is not as it was written.
 std::optional<MadeFrom> made_from(FileKind kind, std::string_view bytes);
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -16,7 +16,7 @@
 #include "render/polygon_masks.hpp"
 #include "render/text_masks.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 class ShapeBuilder {
  public:
@@ -278,4 +278,4 @@ class ShapeBuilder {
   PolygonMasks polygons_{masks_};
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -12,7 +12,7 @@
 #include "draw/font.hpp"
 #include "render/check_list.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 // At most three decimals, always with a point, never "-0". Values of a draw list are below a
@@ -161,4 +161,4 @@ std::string to_svg(const DrawList& list, const Theme& theme, bool transparent, i
   return SvgWriter(list, theme).write(transparent, width, height);
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

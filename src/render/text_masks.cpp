@@ -5,7 +5,7 @@
 
 #include "render/canvas.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 constexpr float kFar = 1e12f;
@@ -141,4 +141,4 @@ Mask TextMasks::halo(const TextKey& key) {
   return mask;
 }
 
-}  // namespace lantern
+}  // namespace lantern::render

@@ -11,7 +11,7 @@
 #include "draw/font.hpp"
 #include "render/instances.hpp"
 
-namespace lantern {
+namespace lantern::render {
 
 // The coverage of all points within `radius` pixels of `coverage` (width x height, rows from the
 // top), in an image that is larger by `margin` on each side. By the exact distance transform of
@@ -59,4 +59,4 @@ class TextMasks {
   std::map<TextKey, Mask> masks_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::render

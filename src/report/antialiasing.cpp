@@ -12,7 +12,7 @@
 #include "report/cairo_peer.hpp"
 #include "report/settled.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 // A frame of a film: every polygon is elsewhere, if by less than can be seen.
@@ -164,4 +164,4 @@ PictureReport measure_pictures(std::span<const PictureScene> scenes, const Pictu
   return report;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

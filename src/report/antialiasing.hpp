@@ -15,7 +15,7 @@
 #include "render/context.hpp"
 #include "report/reference_picture.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 struct PictureScene {
   std::string name;
@@ -89,4 +89,4 @@ std::string to_table(const PictureReport& report);
 std::string to_csv(const PictureReport& report);
 std::string to_json(const PictureReport& report);  // lantern.measure.pictures/1
 
-}  // namespace lantern
+}  // namespace lantern::report

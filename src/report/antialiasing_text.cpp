@@ -10,7 +10,7 @@
 #include "report/pareto.hpp"
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 template <class Visit>
 void each_field(const PictureRow& row, Visit&& visit) {
@@ -196,4 +196,4 @@ std::string to_json(const PictureReport& report) {
   return json.text() + "\n";
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

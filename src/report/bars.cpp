@@ -8,7 +8,7 @@
 #include "measure/stress.hpp"
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 // The best that we saw of other engines, or read in their own tests: for orientation only, the
@@ -160,4 +160,4 @@ void draw_bars_table(const std::vector<Bar>& bars, const Box<2>& place, DrawList
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

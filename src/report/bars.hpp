@@ -8,7 +8,7 @@
 
 #include "draw/labels.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // A bound that one quantity must keep. `value` is what was measured; nothing if it was not.
 struct Bar {
@@ -34,4 +34,4 @@ double bars_table_height(const std::vector<Bar>& bars);  // page units
 void draw_bars_table(const std::vector<Bar>& bars, const Box<2>& place, DrawList& list,
                      Labels& labels);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -25,7 +25,7 @@
 #include "render/renderer.hpp"
 #include "report/cairo_peer.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 template <class Visit>
 void each_field(const FrameWriter& f, Visit&& visit) {
@@ -274,4 +274,4 @@ std::string to_json(const FrameBenchResult& result) {
   return json.text() + "\n";
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -10,7 +10,7 @@
 #include "draw/theme.hpp"
 #include "render/context.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 struct FrameBenchConfig {
   int width = 1920, height = 1080;
@@ -53,4 +53,4 @@ FrameBenchResult bench_frames(std::span<const DrawList> lists, const std::filesy
 std::string to_table(const FrameBenchResult& result);
 std::string to_json(const FrameBenchResult& result);  // lantern.bench.frames/1
 
-}  // namespace lantern
+}  // namespace lantern::report

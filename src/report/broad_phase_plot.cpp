@@ -8,7 +8,7 @@
 #include "report/page_parts.hpp"
 #include "report/pages.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr double kGridMargin = 60;
@@ -238,4 +238,4 @@ DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxSc
   return GridPage(rows, scene, kind).drawn();
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

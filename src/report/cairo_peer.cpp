@@ -10,7 +10,7 @@
 #include "base/library.hpp"
 #include "draw/font.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // Result, name without "cairo_", parameters: the part of <cairo.h> that is used. Surfaces and
 // contexts are opaque, statuses are 0 when good.
@@ -256,4 +256,4 @@ const std::vector<CairoPeer::PathStep>& CairoPeer::glyph(int index, Weight weigh
   return it->second;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -14,7 +14,7 @@
 #include "render/canvas.hpp"
 #include "render/image.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 struct CairoFunctions;
 
@@ -61,4 +61,4 @@ class CairoPeer {
   std::map<std::pair<int, Weight>, std::vector<PathStep>> glyphs_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -7,7 +7,7 @@
 
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 // The same run by two methods: did it end alike, with the same error?
@@ -115,4 +115,4 @@ std::string within_runs_made(std::span<const Shortfall> all) {
              : " within the runs made";
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

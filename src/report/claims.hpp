@@ -8,7 +8,7 @@
 
 #include "report/problem_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // Whether the method's run at the problem's finest step was really made, whatever came of it: it
 // was neither refused nor left out for its time. Only then may it be said what the method cannot
@@ -55,4 +55,4 @@ bool is_plural(const std::string& name);
 // who is measured otherwise than the rest. A sentence each.
 std::vector<std::string> notes_on(const ProblemRows& problem);
 
-}  // namespace lantern
+}  // namespace lantern::report

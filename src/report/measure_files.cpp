@@ -7,7 +7,8 @@
 #include "measure/records.hpp"
 #include "report/measure_tables.hpp"
 
-namespace lantern {
+// Where the rows are, since they are found by the rows' type.
+namespace lantern::measure {
 
 // What CSV and JSON hold, and what is read back from JSON.
 // `R` is Row or const Row.
@@ -51,6 +52,9 @@ void each_field(C& c, Visit&& visit) {
   visit(Field("effort"), c.effort);
 }
 
+}  // namespace lantern::measure
+
+namespace lantern::report {
 namespace {
 
 constexpr std::string_view kFormat = "lantern.measure/1";
@@ -173,4 +177,4 @@ std::optional<Measurement> read_measurement(std::string_view text) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

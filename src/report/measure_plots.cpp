@@ -14,7 +14,7 @@
 #include "report/page_parts.hpp"
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr double kPlotMargin = 60;
@@ -296,4 +296,4 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
   return list;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

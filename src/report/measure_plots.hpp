@@ -8,7 +8,7 @@
 #include "draw/plot.hpp"
 #include "report/problem_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // One plot of a problem: its methods as series, the observed order behind each name if
 // `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
@@ -44,4 +44,4 @@ Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks
 // Whether a count of work is the same for all runs that have it, so that nothing is to be seen.
 bool is_one_count(const ProblemRows& problem, const WorkCount& work);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -9,7 +9,7 @@
 #include "report/problem_rows.hpp"
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr std::size_t kLineWidth = 100;
@@ -100,4 +100,4 @@ std::string to_table(const Measurement& measurement) {
   return text;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -7,7 +7,7 @@
 
 #include "measure/row.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // RFC 4180: a header, one record a row, lines end with CR LF. As many pairs norm1_name, norm1, ...
 // as the longest list of norms needs. Numbers have 17 digits; what is not there, or not finite, is
@@ -28,4 +28,4 @@ std::optional<Measurement> read_measurement(std::string_view json);
 // columns wide.
 std::string to_table(const Measurement& measurement);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -10,7 +10,7 @@
 #include "report/pages.hpp"
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr double kLeastWidth = 1600;
@@ -211,4 +211,4 @@ DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& b
   return OverviewPage(measurement, bars).draw();
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

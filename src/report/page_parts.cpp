@@ -3,7 +3,7 @@
 #include "draw/draw_list.hpp"
 #include "draw/font.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 namespace {
 
@@ -65,4 +65,4 @@ double draw_page_foot(const std::string& sentence, const std::vector<std::string
   return top;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -6,7 +6,7 @@
 
 #include "draw/labels.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // The title in bold, behind it what else is to be said, and a rule below, at y = 78 page units.
 void draw_page_title(const std::string& title, const std::string& rest, double margin,
@@ -18,4 +18,4 @@ void draw_page_title(const std::string& title, const std::string& rest, double m
 double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
                       const std::string& small, double margin, DrawList& list, Labels& labels);
 
-}  // namespace lantern
+}  // namespace lantern::report

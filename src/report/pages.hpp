@@ -9,7 +9,7 @@
 #include "measure/stability_map.hpp"
 #include "report/bars.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // All of a measurement on one page: a small plot of each problem, and the bars.
 // In the proportions of A3, 1600 units wide (2263 high) or as much larger as many problems need;
@@ -32,4 +32,4 @@ DrawList draw_stability_map(const StabilityMap& map);
 DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
                                StructureKind kind);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace lantern {
+namespace lantern::report {
 // A sweep in order of cost: a point is on the front if it has less error than all cheaper ones
 // (Kung, Luccio, Preparata, "On Finding the Maxima of a Set of Vectors", 1975, for two dimensions).
 std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error) {
@@ -63,4 +63,4 @@ std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Co
   return group;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

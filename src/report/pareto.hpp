@@ -9,7 +9,7 @@
 
 #include "measure/row.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // What a run costs; nothing for one that cannot be compared.
 using Cost = std::function<std::optional<double>(const Row&)>;
@@ -37,4 +37,4 @@ bool costs_the_same(const Timing& faster, const Timing& slower);
 std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Cost& cost,
                                       bool timed);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -13,7 +13,7 @@
 #include "render/seal.hpp"
 #include "render/svg.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 struct Pixels {
@@ -71,4 +71,4 @@ bool is_page_of(std::string_view report, const std::filesystem::path& file) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

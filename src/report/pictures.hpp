@@ -9,7 +9,7 @@
 #include "draw/theme.hpp"
 #include "render/context.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 struct ReportPage {
   std::string name;  // of its files, without an ending
@@ -25,4 +25,4 @@ void save_pictures(const std::filesystem::path& folder, std::string_view report,
 // Is the file a page that save_pictures wrote for such a report, and that nobody has changed since?
 bool is_page_of(std::string_view report, const std::filesystem::path& file);
 
-}  // namespace lantern
+}  // namespace lantern::report

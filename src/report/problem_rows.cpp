@@ -10,7 +10,7 @@
 
 #include "draw/plot_marks.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 struct KnownMethod {
@@ -219,4 +219,4 @@ WorkCount work_count(const ProblemRows& problem) {
   return counts[2];
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -12,7 +12,7 @@
 #include "measure/row.hpp"
 #include "report/pareto.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // Rows that stand together in a measurement and are of one problem.
 struct ProblemRows {
@@ -72,4 +72,4 @@ struct WorkCount {
 };
 WorkCount work_count(const ProblemRows& problem);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -10,7 +10,7 @@
 #include "render/renderer.hpp"
 #include "report/settled.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr int kTimes = kReferenceTimes;
@@ -157,4 +157,4 @@ PictureError error_of(const Image& image, const ReferencePicture& reference) {
   return error;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -9,7 +9,7 @@
 #include "render/context.hpp"
 #include "render/image.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // Sub-pixels along a pixel's side.
 inline constexpr int kReferenceTimes = 16;
@@ -50,4 +50,4 @@ struct PictureError {
 };
 PictureError error_of(const Image& image, const ReferencePicture& reference);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -9,7 +9,7 @@
 #include "report/claims.hpp"
 #include "report/pareto.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 using Rows = std::vector<const Row*>;
@@ -237,4 +237,4 @@ std::string figure(double number) {
   return fmt::format("{}e{}", lead, std::stoi(text.substr(e + 1)));
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

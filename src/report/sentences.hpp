@@ -5,7 +5,7 @@
 
 #include "report/problem_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // The error that a method should stay under: 1e-6 if somebody does, else the least power of ten
 // that somebody does. Nothing if no row has an error.
@@ -32,4 +32,4 @@ std::string listed(const std::vector<std::string>& names);
 // With a capital at its beginning, if that is a letter of ASCII.
 std::string capital(std::string text);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -5,7 +5,7 @@
 #include "draw/font.hpp"
 #include "render/canvas.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 class Settler {
@@ -141,4 +141,4 @@ DrawList window_of(const DrawList& list, const Box<2>& window) {
   return part;
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

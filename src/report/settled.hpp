@@ -4,7 +4,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // The list as it is drawn at this size, with nothing left to be put on pixels: snapped rects and
 // lines lie where they come to lie, baselines of texts too, and dashes too short to be seen are
@@ -16,4 +16,4 @@ DrawList settled(const DrawList& list, int width, int height);
 // reach it are left out.
 DrawList window_of(const DrawList& list, const Box<2>& window);
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -11,7 +11,7 @@
 #include "report/pages.hpp"
 #include "report/problem_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr double kMapMargin = 48;
@@ -253,4 +253,4 @@ class Picture {
 
 DrawList draw_stability_map(const StabilityMap& map) { return Picture(map).draw(); }
 
-}  // namespace lantern
+}  // namespace lantern::report

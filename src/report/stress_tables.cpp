@@ -7,19 +7,23 @@
 
 #include "measure/records.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 std::string_view verdict_of(const StressResult& result) { return result.good ? "good" : "FAILED"; }
 
 }  // namespace
 
+}  // namespace lantern::report
+
+namespace lantern::measure {
+
 template <class Visit>
 void each_field(const StressOutcome& outcome, Visit&& visit) {
   const StressResult& result = outcome.result;
   visit(Field("name"), outcome.of.name);
   visit(Field("group"), outcome.of.group);
-  visit(Field("", "verdict"), verdict_of(result));
+  visit(Field("", "verdict"), report::verdict_of(result));
   visit(Field("good", ""), result.good);
   visit(Field("figure"), result.figure);
   visit(Field("sense"), result.at_least ? "at least" : "at most");
@@ -29,6 +33,9 @@ void each_field(const StressOutcome& outcome, Visit&& visit) {
   visit(Field("detail"), result.detail);
 }
 
+}  // namespace lantern::measure
+
+namespace lantern::report {
 namespace {
 
 constexpr std::string_view kGroups[] = {"extreme input", "stiff", "stability", "bars"};
@@ -96,4 +103,4 @@ std::string summary(const StressReport& report) {
                      report.finished ? "" : "; interrupted before the end");
 }
 
-}  // namespace lantern
+}  // namespace lantern::report

@@ -6,7 +6,7 @@
 
 #include "measure/stress.hpp"
 
-namespace lantern {
+namespace lantern::report {
 
 // Where and by what the cases were run.
 struct StressReport {
@@ -28,4 +28,4 @@ std::string to_json(const StressReport& report);
 // "70 of 72 good, 2 failed: overflow, ..."
 std::string summary(const StressReport& report);
 
-}  // namespace lantern
+}  // namespace lantern::report

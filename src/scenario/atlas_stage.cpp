@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace lantern {
+namespace lantern::scenario {
 
 AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
     : atlas_(scenario.atlas->width, scenario.atlas->height) {
@@ -130,4 +130,4 @@ void AtlasStage::picture(const Touched& touched, Frame& frame) const {
   if (room_) frame.counts.emplace_back("room", *room_);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -11,7 +11,7 @@
 #include "base/work.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // Textures are named by their index in the scenario.
 class AtlasStage {
@@ -39,4 +39,4 @@ class AtlasStage {
   std::optional<bool> room_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

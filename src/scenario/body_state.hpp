@@ -5,7 +5,7 @@
 #include "geometry/flat.hpp"
 #include "geometry/rotation.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 struct BodyState {
   bool there = false;  // it may not have entered yet, or have left
@@ -17,4 +17,4 @@ struct BodyState {
   Vec<3> angular_momentum{0.0};  // about the body's centre, world's axes
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

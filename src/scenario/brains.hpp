@@ -13,7 +13,7 @@
 #include "physics/world.hpp"
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 template <int D>
 class Brains {
@@ -93,4 +93,4 @@ class Brains {
   std::map<BodyId, Random> random_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

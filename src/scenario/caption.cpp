@@ -4,7 +4,7 @@
 
 #include "base/grouped.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // A stretch of a caption: plain letters, a placeholder with what stands between its braces, or a
@@ -116,4 +116,4 @@ std::vector<CaptionProblem> caption_problems(
   return problems;
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lantern {
+namespace lantern::scenario {
 
 using TextLookup = std::function<std::optional<std::string>(std::string_view name)>;
 using CountLookup = std::function<std::optional<std::int64_t>(std::string_view name)>;
@@ -37,4 +37,4 @@ enum class Placeholder { unknown, text, count };
 std::vector<CaptionProblem> caption_problems(
     std::string_view caption, const std::function<Placeholder(std::string_view name)>& kind_of);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "scenario/caption.hpp"
 #include "scenario/script_reading.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Names that can be counted or quoted here, for suggestions.
@@ -201,4 +201,4 @@ bool note_body_measure(const Named& name, Draft& draft) {
   return true;
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

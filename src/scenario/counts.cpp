@@ -3,7 +3,7 @@
 
 #include "scenario/language.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 using enum CountNeed;
@@ -153,4 +153,4 @@ std::string_view when_counted(CountNeed need) {
   return kWhen[static_cast<std::size_t>(need)];
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "scenario/event_text.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 std::uint32_t ScriptRun::ticks_in(double seconds) const {
   return static_cast<std::uint32_t>(std::llround(seconds / scenario.world.time_step));
@@ -103,4 +103,4 @@ DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
   return report;
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

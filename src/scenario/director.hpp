@@ -9,7 +9,7 @@
 #include "physics/world_config.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 struct DirectorReport {
   std::uint32_t frames = 0;
@@ -26,4 +26,4 @@ class RunWatch;
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
                       const std::function<bool(const Frame&)>& sink, RunWatch* watch = nullptr);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

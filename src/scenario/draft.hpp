@@ -11,7 +11,7 @@
 #include "scenario/scenario.hpp"
 #include "scenario/table_reader.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 inline constexpr const char* kNothingTouches = "in this world nothing touches";
 inline constexpr const char* kGiveContacts = "give [world] contacts = \"impulse\" or \"soft\"";
@@ -114,4 +114,4 @@ int cycled_color(std::int64_t color, std::size_t index);
 // Of a pattern without one of its own: from the scenario's seed and the pattern's name.
 std::uint64_t derived_seed(const TableReader& table, const std::string& name, const Draft& draft);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

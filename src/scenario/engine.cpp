@@ -8,7 +8,7 @@
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 template <int D>
@@ -130,7 +130,7 @@ class EngineOf : public Engine {
   }
 
   std::string label_of(NodeHandle node) const override {
-    return lantern::label_of(structure_, *players_.world().broad_phase(), node);
+    return scenario::label_of(structure_, *players_.world().broad_phase(), node);
   }
   const StructureSpec& structure() const override { return structure_; }
   void observe(std::vector<BodyState>& states) const override {
@@ -249,4 +249,4 @@ std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work) {
   return std::make_unique<EngineOf<2>>(scenario, work);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

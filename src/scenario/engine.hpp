@@ -14,7 +14,7 @@
 #include "scenario/frame.hpp"
 #include "spatial/query.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // What a ray, a view or a region found, and the walk that found it.
 struct Finding {
@@ -72,4 +72,4 @@ class Engine {
 
 std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 std::string place_of(const std::string& node) {
@@ -113,4 +113,4 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
       counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

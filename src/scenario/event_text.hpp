@@ -8,7 +8,7 @@
 #include "scenario/frame.hpp"
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // "test", "hand_down", ...: names for --at.
 std::string_view event_name(Event::Kind kind);
@@ -26,4 +26,4 @@ std::string query_text(std::string_view event, const std::string& node, const st
 // Of a world step shown phase by phase: "broad_phase", "narrow_phase" or "solve".
 std::string phase_text(std::string_view phase, const Frame& frame);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -8,7 +8,7 @@
 #include "geometry/angle.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 using Unmet = std::optional<std::string>;
@@ -152,4 +152,4 @@ Unmet unmet(const Expectation& e, const Frame& frame) {
   return kChecks[static_cast<std::size_t>(e.kind)](e, frame);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

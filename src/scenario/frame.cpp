@@ -2,7 +2,7 @@
 
 #include "base/hash.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 void add(Hash& hash, const Vec<3>& v, int dimension) {
@@ -63,4 +63,4 @@ std::optional<double> Frame::number(std::string_view name) const {
   return measure(name);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -17,7 +17,7 @@
 #include "scenario/scenario.hpp"
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // What the current step did to a node.
 enum class Mark { quiet, passed, lit };
@@ -246,4 +246,4 @@ std::string to_json(const Frame& frame, FactsVersion version = FactsVersion::v2)
 // and what was found.
 std::optional<std::string> unmet(const Expectation& expectation, const Frame& frame);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

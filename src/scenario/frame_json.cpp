@@ -10,7 +10,7 @@
 #include "base/stop.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Points have as many numbers as the world has dimensions.
@@ -216,4 +216,4 @@ std::string to_json(const Frame& frame, FactsVersion version) {
   return FrameWriter(frame, version).written();
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -10,7 +10,7 @@
 #include "scenario/caption.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Frames of one run, all paces together.
@@ -193,4 +193,4 @@ void FrameMaker::verify(const std::vector<Expectation>& expectations, const Fram
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -15,7 +15,7 @@
 #include "scenario/level_stage.hpp"
 #include "scenario/plotter.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // The pieces that a scenario needs, and none that it does not.
 struct Stage {
@@ -98,4 +98,4 @@ class FrameMaker {
   bool stopped_ = false;
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -4,7 +4,7 @@
 
 #include "geometry/angle.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 std::string Filled<double>::literal(double value) {
   std::string text = fmt::format("{:.12g}", value);
@@ -71,4 +71,4 @@ KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t off
 }
 
 }  // namespace keys
-}  // namespace lantern
+}  // namespace lantern::scenario

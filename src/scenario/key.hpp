@@ -18,7 +18,7 @@
 #include "scenario/language.hpp"
 #include "scenario/toml_value.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 inline constexpr NamePattern kFilePattern = {"a-z0-9_", "a-z0-9_", 64, "1 to 64 of a–z, 0–9 and _"};
 inline constexpr NamePattern kNamePattern = {
@@ -205,4 +205,4 @@ KeyDoc bodies_key();
 KeyDoc pace_key();  // of a verb that can be watched while it works, as is "events"
 KeyDoc events_key(std::initializer_list<std::string_view> names);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

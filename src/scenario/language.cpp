@@ -9,7 +9,7 @@
 #include "scenario/key.hpp"
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 TableDoc file_table() {
@@ -195,4 +195,4 @@ std::string range_text(const KeyDoc& doc) {
   return to ? fmt::format("at most {}", doc.most) : "";
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -15,7 +15,7 @@
 
 #include "scenario/toml_tree.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // Bounds on a scenario as a whole; what a single key may hold is in the tables.
 inline constexpr std::size_t kMostFileBytes = std::size_t{4} << 20;
@@ -185,4 +185,4 @@ const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name);
 const CountDoc* find_count(std::string_view name);
 std::vector<std::string_view> names_of_counts();
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 std::string counted(std::uint64_t n, std::string_view one) {
@@ -176,4 +176,4 @@ void LevelStage::picture(Frame& frame) const {
   picture_counts(*current_, frame);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

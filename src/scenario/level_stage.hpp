@@ -10,7 +10,7 @@
 #include "scenario/frame.hpp"
 #include "spatial/level_bsp.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // What the compiler does, while it does it.
 struct LevelMoment {
@@ -54,4 +54,4 @@ class LevelStage {
   std::optional<Vec<2>> eye_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // One of each name, but for the numbers.
@@ -77,4 +77,4 @@ Scenario moved_by(Scenario scenario, const Method& method, double h) {
   return scenario;
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -11,7 +11,7 @@
 #include "physics/motion_method.hpp"
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 struct Method {
   std::string name;
@@ -31,4 +31,4 @@ std::vector<std::string_view> method_names();
 // it names holds for every body and throughout the script.
 Scenario moved_by(Scenario scenario, const Method& method, double h);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

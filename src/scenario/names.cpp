@@ -4,7 +4,7 @@
 #include "base/hash.hpp"
 #include "scenario/draft.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 bool Names::add(const std::string& name, const NamedRange& range, bool declared,
                 Problems& problems) {
@@ -68,4 +68,4 @@ void find_the_followed(Draft& draft) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -10,7 +10,7 @@
 #include "scenario/draft.hpp"
 #include "spatial/structure_kinds.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr Place kTop{1, 1};
@@ -136,4 +136,4 @@ Scenario load_scenario(const std::string& path) {
   return parse_scenario(read_file(path, kMostFileBytes), path);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -2,7 +2,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 template <int D>
@@ -130,4 +130,4 @@ BodyId Players<D>::add_anchor(const Vec<D>& at) {
 template class Players<2>;
 template class Players<3>;
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -11,7 +11,7 @@
 #include "scenario/scenario.hpp"
 #include "scenario/structure_picture.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // Bodies are named by their index in the scenario. Each call throws Refused as the world does.
 template <int D>
@@ -92,4 +92,4 @@ class WorldWatch {
 extern template class Players<2>;
 extern template class Players<3>;
 
-}  // namespace lantern
+}  // namespace lantern::scenario

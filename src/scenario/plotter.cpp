@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // How long the script runs, or only this part of it. Nothing if that depends on what happens.
@@ -90,4 +90,4 @@ void Plotter::add_moment(const Frame& frame) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 class Plotter {
  public:
@@ -37,4 +37,4 @@ class Plotter {
   double begun_ = 0;  // when the part's time began
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

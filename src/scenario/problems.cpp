@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr std::size_t kMostShown = 50;
@@ -60,4 +60,4 @@ std::string nearest(std::string_view name, std::vector<std::string_view> candida
   return suggestion(name, candidates, 20);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

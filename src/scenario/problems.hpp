@@ -8,7 +8,7 @@
 
 #include "scenario/source_text.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 class Problems {
  public:
@@ -41,4 +41,4 @@ class Problems {
 // The nearest of `candidates`, or all of them if they are few.
 std::string nearest(std::string_view name, std::vector<std::string_view> candidates);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "spatial/overlap_query.hpp"
 #include "spatial/raycast.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 template <int D>
@@ -129,4 +129,4 @@ Finding asked(const Question& question, const World<D>& world) {
 template Finding asked(const Question&, const World<2>&);
 template Finding asked(const Question&, const World<3>&);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

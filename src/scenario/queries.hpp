@@ -4,11 +4,11 @@
 #include "physics/world.hpp"
 #include "scenario/engine.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // Walks the world's structure, which has looked ahead. Throws Refused
 // for a ray, view or region that is not valid.
 template <int D>
 Finding asked(const Question& question, const World<D>& world);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

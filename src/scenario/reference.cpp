@@ -7,7 +7,7 @@
 
 #include "scenario/language.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr std::string_view kWorldExample = R"(title = "Three bodies, four cells"
@@ -269,4 +269,4 @@ std::string reference_page() {
   return page;
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace lantern {
+namespace lantern::scenario {
 
 // A JSON Schema, draft 2020-12, for editors and other checkers: what it refuses, the parser
 // refuses, too. Names, places in the script and sums are left to the parser.
@@ -18,4 +18,4 @@ std::string_view world_example();
 std::string_view atlas_example();
 std::string_view level_example();
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -5,7 +5,7 @@
 
 #include "base/check.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Every index that the spec holds.
@@ -58,4 +58,4 @@ bool ScenarioSpec::has_body_of(BodyKind kind) const {
 
 Scenario::Scenario(ScenarioSpec spec) : ScenarioSpec(std::move(spec)) { Indices(*this).check(); }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

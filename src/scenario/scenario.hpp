@@ -12,7 +12,7 @@
 #include "scenario/specs.hpp"
 #include "scenario/verbs.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // What must hold. Exactly one of the forms:
 //   count, at_most, at_least   the count or measure `name` against `number`
@@ -117,4 +117,4 @@ Scenario parse_scenario(std::string_view text, const std::string& path);
 Diagnostic diagnose(const Scenario& scenario, const SourcePosition& where, std::string message,
                     std::string suggestion = {});
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "scenario/language.hpp"
 #include "scenario/reference.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -147,4 +147,4 @@ std::string json_schema() {
   return root.dump(2) + "\n";
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace lantern {
+namespace lantern::scenario {
 
 std::vector<std::size_t> NameResolver::take(const std::vector<Named>& written,
                                             std::vector<bool>& marks, bool mark,
@@ -220,4 +220,4 @@ void read_script(const TableReader& file, Draft& draft) {
                        "give steps a label in 'plot'");
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

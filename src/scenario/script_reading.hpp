@@ -7,7 +7,7 @@
 
 #include "scenario/draft.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // What steps have brought about so far, as far as it can be known without the engine.
 struct ScriptState {
@@ -80,4 +80,4 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
 // Can the chart's counts be counted at this step?
 void check_plot(const TableReader& step, Draft& draft, ScriptState& state);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -7,7 +7,7 @@
 #include "scenario/frame_maker.hpp"
 #include "scenario/warnings.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 struct ScriptRun {
   ScriptRun(const Scenario& of, Pace pace, Work& work,
@@ -35,4 +35,4 @@ struct ScriptRun {
   std::string name_of(BodyId body) const;
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

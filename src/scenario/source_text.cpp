@@ -5,7 +5,7 @@
 #include "base/printable.hpp"
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr std::string_view kMark = "\xef\xbb\xbf";  // U+FEFF, the byte order mark
@@ -70,4 +70,4 @@ Diagnostic diagnose(const Scenario& scenario, const SourcePosition& where, std::
           Severity::error};
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -9,7 +9,7 @@
 
 #include "base/utf8.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // A line and a column of a file, both from 1; columns count letters, not bytes. {0, 0} is the file
 // as a whole.
@@ -35,4 +35,4 @@ std::string in_quotes(std::string_view text);
 // `text` without the byte order mark that some editors put first.
 std::string_view without_mark(std::string_view text);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

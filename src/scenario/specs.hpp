@@ -17,7 +17,7 @@
 #include "physics/motion_method.hpp"
 #include "spatial/structure_kinds.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 enum class Children { lazy, eager };  // each made when something enters it, or all at a split
 enum class Panel { world, tree, atlas, chart, memory };
@@ -253,4 +253,4 @@ inline EnumNames names(RotationMethod) { return names_up_to(RotationMethod::expl
 inline std::string_view to_string(Solution s) { return names(s)[std::size_t(s)]; }
 inline std::string_view to_string(ProblemVariant v) { return names(v)[std::size_t(v)]; }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -8,7 +8,7 @@
 #include "base/stop.hpp"
 #include "spatial/pairs.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 template <int D>
@@ -291,4 +291,4 @@ template void picture_structure(const StructureSpec&, const World<2>&, bool, con
 template void picture_structure(const StructureSpec&, const World<3>&, bool, const Touched&,
                                 Frame&);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

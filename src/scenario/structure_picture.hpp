@@ -7,7 +7,7 @@
 #include "physics/world.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // Pairs met on one frame; more are refused.
 inline constexpr std::uint64_t kMostPairs = 2'000'000;
@@ -38,4 +38,4 @@ extern template void picture_structure(const StructureSpec&, const World<2>&, bo
 extern template void picture_structure(const StructureSpec&, const World<3>&, bool, const Touched&,
                                        Frame&);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -7,7 +7,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 enum class Order { as_made, tallest_first };
@@ -161,4 +161,4 @@ void read_atlas(const TableReader& file, Draft& draft) {
   for (const TomlValue* value : patterns) read_texture_pattern(*value, draft);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

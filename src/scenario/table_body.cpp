@@ -7,7 +7,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Keys that make a box one that turns.
@@ -60,7 +60,7 @@ BodyKind read_kind(const TableReader& table, BodyKind kind) {
   if (table.is_good("static") && table.is_good("kind") && table.truth("static") != is_static)
     table.bad_value("kind",
                     fmt::format("kind = \"{}\" contradicts static = {}",
-                                names(kind)[static_cast<std::size_t>(kind)], !is_static),
+                                scenario::names(kind)[static_cast<std::size_t>(kind)], !is_static),
                     "give one of them");
   if (table.truth("static")) kind = BodyKind::static_body;
   if (!table.has("ground")) return kind;
@@ -284,4 +284,4 @@ void read_bodies(const TableReader& file, Draft& draft) {
   find_the_followed(draft);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // A count, a measure, or a measure of one body.
@@ -93,4 +93,4 @@ void read_chart(const TableReader& file, Draft& draft) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -8,7 +8,7 @@
 #include "scenario/key.hpp"
 #include "scenario/script_reading.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 class ExpectationReader {
@@ -229,4 +229,4 @@ std::vector<Expectation> read_expectations(const TomlValue& value, std::string_v
   return ExpectationReader(table, draft, state).read();
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -5,7 +5,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Walls of no length have no line.
@@ -70,4 +70,4 @@ void read_level(const TableReader& file, Draft& draft) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

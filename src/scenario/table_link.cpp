@@ -4,7 +4,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // What both have.
@@ -166,4 +166,4 @@ void read_links(const TableReader& file, Draft& draft) {
     for (const TomlValue* value : file.tables(kind)) read_link(*value, kind, draft);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -10,7 +10,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 enum class Arrange { random, grid, line, stack };
@@ -187,4 +187,4 @@ void read_pattern(const TomlValue& value, Draft& draft) {
   unroll(like, pattern, table, draft);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "scenario/key.hpp"
 #include "scenario/method.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 TableDoc problem_table() {
   using namespace keys;
@@ -52,4 +52,4 @@ void read_problem(const TableReader& file, Draft& draft) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 
 #include "base/suggest.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 bool is_verb(const TableDoc& table) {
@@ -136,4 +136,4 @@ std::vector<const TomlValue*> TableReader::tables(std::string_view key) const {
   return found;
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

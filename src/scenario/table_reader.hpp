@@ -13,7 +13,7 @@
 #include "scenario/problems.hpp"
 #include "scenario/toml_value.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // Does one value fit its key? Adds a problem for each thing that is wrong with it; true if there
 // was none. What is in a table of its own (KeyType::table and tables) is left to that table's
@@ -95,4 +95,4 @@ class TableReader {
   std::set<std::string_view> bad_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

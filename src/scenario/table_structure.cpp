@@ -7,7 +7,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Where the file's own kind is bad: the mistakes in what follows are found as if it were this, and
@@ -157,4 +157,4 @@ void read_structures(const TableReader& file, Draft& draft) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

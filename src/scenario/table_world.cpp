@@ -4,7 +4,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr double kLeastExtent = 1e-6;
@@ -136,4 +136,4 @@ void read_world(const TableReader& file, Draft& draft) {
   read_structures(file, draft);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

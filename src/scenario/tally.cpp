@@ -7,7 +7,7 @@
 
 #include "physics/contact_method.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 Amount amount(std::uint64_t n, std::string name, std::string many = {}) {
@@ -184,4 +184,4 @@ void Tally::list_pictures(Stages& all) const {
                  "nothing is drawn here; of all output only PNG files need it"});
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -11,7 +11,7 @@
 #include "base/work.hpp"
 #include "scenario/director.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 struct Amount {
   std::uint64_t n = 0;
@@ -59,4 +59,4 @@ class Tally {
   std::uint64_t builds_before_ = 0;  // of the frame that is seen
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

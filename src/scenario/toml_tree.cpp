@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr int kMostKeyParts = 16;
@@ -267,4 +267,4 @@ TomlTable read_toml(std::string_view text, Problems& problems) {
   return {};
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

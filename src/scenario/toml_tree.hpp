@@ -11,7 +11,7 @@
 #include "scenario/problems.hpp"
 #include "scenario/source_text.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 struct TomlValue;
 struct TomlEntry;
@@ -35,4 +35,4 @@ struct TomlEntry {
 // is nested too deeply. `text` has no byte order mark.
 TomlTable read_toml(std::string_view text, Problems& problems);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

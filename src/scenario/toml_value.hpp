@@ -13,7 +13,7 @@
 #include "scenario/specs.hpp"
 #include "scenario/toml_tree.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // A name with the place where it is written.
 struct Named {
@@ -83,4 +83,4 @@ void assign(const TomlValue& value,
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

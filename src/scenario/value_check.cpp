@@ -8,7 +8,7 @@
 #include "base/printable.hpp"
 #include "scenario/table_reader.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // "a text", "a whole number", ...: what the file has.
@@ -270,4 +270,4 @@ bool check_value(const TomlValue& value, const KeyDoc& doc, int dimension, Probl
   return Check(doc, dimension, problems)(value);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

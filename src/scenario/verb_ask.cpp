@@ -6,7 +6,7 @@
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // A ray and a view need a direction.
@@ -154,4 +154,4 @@ void Query::read(const TableReader& table, ScriptReading& script) {
 
 void Query::act(ScriptRun& run) const { answer(run.engine().ask(*this), "query", run); }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -5,13 +5,10 @@
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
-bool never_turns(const BodySpec& body) {
-  return std::holds_alternative<AxisBox<3>>(body.shape) ||
-         std::holds_alternative<HalfSpace<3>>(body.shape);
-}
+bool never_turns(const BodySpec& body) { return !turns<3>(body.shape); }
 
 // Adds a problem if the body cannot go, or turn, as the key says.
 void check_can(const TableReader& table, const char* key, const BodySpec& body) {
@@ -208,4 +205,4 @@ void SolveBy::read(const TableReader& table, ScriptReading& script) {
 
 void SolveBy::change(Engine& engine) const { engine.solve_by(*this); }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -4,7 +4,7 @@
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 TableDoc Insert::table() {
   return {.doc = "Bodies enter the world and the structure, one after another.",
           .keys = {bodies_key(), pace_key(),
@@ -99,4 +99,4 @@ void Rebuild::act(ScriptRun& run) const {
   run.frames.settle("rebuild");
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

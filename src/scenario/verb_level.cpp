@@ -5,7 +5,7 @@
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 void require_compiled(const TableReader& table, std::string_view verb,
@@ -84,4 +84,4 @@ void OrderFrom::act(ScriptRun& run) const {
   run.frames.settle("order");
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 void witness(const AtlasEvent& event, const TextureSpec& texture, ScriptRun& run) {
@@ -103,4 +103,4 @@ void AskRoom::act(ScriptRun& run) const {
   run.frames.settle("ask_room");
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

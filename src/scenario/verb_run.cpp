@@ -9,7 +9,7 @@
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // World steps in the seconds that `key` gives; 1 and a problem if they are not a whole number, or
@@ -209,4 +209,4 @@ void Phases::act(ScriptRun& run) const {
   run.frames.settle("integrate");
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -9,7 +9,7 @@
 #include "scenario/language.hpp"
 #include "scenario/script_run.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // The verb's own keys, then those of every step.
@@ -53,4 +53,4 @@ caption = "Three bodies, and {pairs:pair} to test."
 
 void Show::act(ScriptRun& run) const { run.frames.settle("show"); }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

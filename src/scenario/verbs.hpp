@@ -11,7 +11,7 @@
 #include "geometry/angle.hpp"
 #include "scenario/specs.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 class Engine;
 class TableReader;
@@ -261,4 +261,4 @@ inline const VerbTraits& traits_of(const Verb& verb) {
 // does nothing, one that passes time takes its steps. Throws Refused as the engine does.
 void carry_out(const Verb& verb, Engine& engine, double time_step);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 
 #include "scenario/watcher.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body) {
   const std::vector<Warning>& quiet = scenario.world.quiet;
@@ -87,4 +87,4 @@ const SourcePosition& place_of_firmness(const WorldSpec& world) {
                                                   : world.place_of({"sub_steps", "time_step"});
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

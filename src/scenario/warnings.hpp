@@ -10,7 +10,7 @@
 
 #include "scenario/engine.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 class Watcher;
 
@@ -36,4 +36,4 @@ class RunWatch {
   std::vector<std::pair<Warning, std::unique_ptr<Watcher>>> watchers_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::scenario

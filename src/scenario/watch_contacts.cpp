@@ -9,7 +9,7 @@
 #include "scenario/watcher.hpp"
 #include "spatial/sort_and_sweep.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr double kDeep = 0.01;  // of the thinner body's width
@@ -152,4 +152,4 @@ Watching watch_contacts(const Scenario& scenario) {
   return std::make_unique<ContactsWatch>(scenario);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -11,7 +11,7 @@
 #include "physics/mass.hpp"
 #include "scenario/watcher.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Growth above the least since the last drive, as a part of what the motion has had at most. Good
@@ -23,8 +23,8 @@ constexpr double kStir = 0.01;
 
 double mass_of(const BodySpec& body, int dimension) {
   if (body.mass > 0) return body.mass;
-  return dimension == 2 ? mass_of<2>(in_dimension<2>(body.shape), body.density).mass
-                        : mass_of<3>(body.shape, body.density).mass;
+  return dimension == 2 ? physics::mass_of<2>(in_dimension<2>(body.shape), body.density).mass
+                        : physics::mass_of<3>(body.shape, body.density).mass;
 }
 
 class EnergyWatch : public Watcher {
@@ -184,4 +184,4 @@ Watching watch_energy(const Scenario& scenario) {
   return std::make_unique<EnergyWatch>(scenario, !forces);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -7,7 +7,7 @@
 #include "base/check.hpp"
 #include "scenario/watcher.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 constexpr double kMostGap = 0.01;  // of the smaller body's length
@@ -107,4 +107,4 @@ Watching watch_joints(const Scenario& scenario) {
   return joints ? std::make_unique<JointWatch>(scenario) : nullptr;
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

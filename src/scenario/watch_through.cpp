@@ -9,7 +9,7 @@
 #include "geometry/shape.hpp"
 #include "scenario/watcher.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // Half sizes of the box around a shape, along its own axes. Nothing for a half-space.
@@ -28,7 +28,7 @@ bool crossed(const Body<D>& obstacle, const Vec<D>& from, const Vec<D>& to) {
   const std::optional<Vec<D>> half = half_sizes(obstacle.shape);
   if (!half) return false;
   Mat<D> axes(1.0);
-  if (!std::holds_alternative<AxisBox<D>>(obstacle.shape)) axes = matrix(obstacle.orientation);
+  if (turns<D>(obstacle.shape)) axes = matrix(obstacle.orientation);
   const Vec<D> a = glm::transpose(axes) * (from - obstacle.position);
   const Vec<D> b = glm::transpose(axes) * (to - obstacle.position);
   int thin = 0;
@@ -131,4 +131,4 @@ Watching watch_through(const Scenario& scenario) {
   return std::make_unique<ThroughWatch>(scenario);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

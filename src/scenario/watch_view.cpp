@@ -5,7 +5,7 @@
 
 #include "scenario/watcher.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 // A half-space ends nowhere: it is ground, and never the thing that is looked at.
@@ -113,4 +113,4 @@ Watching watch_outside(const Scenario& scenario) {
   return std::make_unique<OutsideWatch>(scenario);
 }
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -11,7 +11,7 @@
 #include "scenario/frame.hpp"
 #include "scenario/players.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 class Watcher : public WorldWatch {
  public:
@@ -66,4 +66,4 @@ std::string firmer(const WorldSpec& world);
 // Where those keys stand.
 const SourcePosition& place_of_firmness(const WorldSpec& world);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

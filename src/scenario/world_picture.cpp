@@ -8,7 +8,7 @@
 #include "base/stop.hpp"
 #include "physics/energy.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 namespace {
 
 template <int D>
@@ -159,4 +159,4 @@ template void measure_world(const Players<3>&, bool, Frame&);
 template void measure_bodies(const Players<2>&, const Scenario&, Frame&);
 template void measure_bodies(const Players<3>&, const Scenario&, Frame&);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -4,7 +4,7 @@
 #include "scenario/frame.hpp"
 #include "scenario/players.hpp"
 
-namespace lantern {
+namespace lantern::scenario {
 
 // How a body lies and moves now.
 template <int D>
@@ -32,4 +32,4 @@ extern template void measure_world(const Players<3>&, bool, Frame&);
 extern template void measure_bodies(const Players<2>&, const Scenario&, Frame&);
 extern template void measure_bodies(const Players<3>&, const Scenario&, Frame&);
 
-}  // namespace lantern
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 class AwakeNodes {
  public:
@@ -40,4 +40,4 @@ class AwakeNodes {
   std::vector<std::uint32_t> parents_, handles_;  // in the order of visiting
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 // More entries or nodes than this are out of proportion.
@@ -240,4 +240,4 @@ std::size_t BroadPhase<D>::own_places() const {
 template class BroadPhase<2>;
 template class BroadPhase<3>;
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -14,7 +14,7 @@
 #include "spatial/awake.hpp"
 #include "spatial/structure_kinds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 struct BroadPhaseConfig : StructureConfig<D> {
@@ -239,4 +239,4 @@ class BroadPhase {
 extern template class BroadPhase<2>;
 extern template class BroadPhase<3>;
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -9,7 +9,7 @@
 #include "base/stop.hpp"
 #include "spatial/broad_phase.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 // One that must be sorted before it is asked, and into which was inserted since.
@@ -151,4 +151,4 @@ void BroadPhase<D>::sort_pairs() {
 template void BroadPhase<2>::find_pairs();
 template void BroadPhase<3>::find_pairs();
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -6,7 +6,7 @@
 
 #include "spatial/tour.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 class BruteForce : public Visitable<BruteForce<D>, D>, CountsAllocations {
@@ -51,4 +51,4 @@ class BruteForce : public Visitable<BruteForce<D>, D>, CountsAllocations {
   Box<D> box_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -24,7 +24,7 @@
 #include "spatial/leaf_array.hpp"
 #include "spatial/tour.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 class Bsp : public Visitable<Bsp<D>, D> {
@@ -197,4 +197,4 @@ class Bsp : public Visitable<Bsp<D>, D> {
   std::uint64_t allocations_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

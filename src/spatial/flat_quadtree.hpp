@@ -6,7 +6,7 @@
 
 #include "spatial/orthtree.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
  public:
@@ -65,4 +65,4 @@ class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
   Box<3> bounds_;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -11,7 +11,7 @@
 
 #include "geometry/box.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 struct Halving {
@@ -70,4 +70,4 @@ struct Halving {
   }
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -24,7 +24,7 @@
 
 #include "spatial/tour.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 struct KdCut {
   int axis = 0;
@@ -154,4 +154,4 @@ class KdCuts : CountsAllocations {
   std::uint64_t tests_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

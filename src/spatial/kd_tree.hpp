@@ -31,7 +31,7 @@
 #include "spatial/kd_cut.hpp"
 #include "spatial/tour.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
@@ -269,4 +269,4 @@ class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
   std::uint64_t box_tests_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -23,7 +23,7 @@
 #include "base/error.hpp"
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 class LeafArray {
  public:
@@ -109,4 +109,4 @@ class LeafArray {
   std::uint64_t allocations_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -18,7 +18,7 @@
 #include "spatial/orthtree.hpp"
 #include "spatial/tour.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 class LectureQuadtree : public Visitable<LectureQuadtree<D>, D> {
@@ -193,4 +193,4 @@ class LectureQuadtree : public Visitable<LectureQuadtree<D>, D> {
   Counters counters_{.nodes = 1};
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

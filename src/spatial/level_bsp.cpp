@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lantern {
+namespace lantern::spatial {
 
 LevelBsp::LevelBsp(std::span<const Wall> walls, const Box<2>& bounds)
     : bounds_(bounds), grid_(bounds), walls_(checked_walls(walls, bounds, grid_)) {
@@ -58,4 +58,4 @@ LevelCounters LevelBsp::counters() const {
   return c;
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial

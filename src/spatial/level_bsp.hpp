@@ -26,7 +26,7 @@
 #include "spatial/bsp.hpp"
 #include "spatial/wall.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 // A part of one side of a wall. Its floor lies on the left.
 struct WallPiece {
@@ -218,4 +218,4 @@ class LevelBsp {
 LevelBsp compile_level(std::span<const Wall> walls, const Box<2>& bounds,
                        const LevelConfig& config = {}, const LevelObserver& observer = {});
 
-}  // namespace lantern
+}  // namespace lantern::spatial

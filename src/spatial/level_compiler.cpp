@@ -5,7 +5,7 @@
 #include "base/stop.hpp"
 #include "spatial/level_bsp.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 namespace {
 
@@ -249,4 +249,4 @@ LevelBsp compile_level(std::span<const Wall> walls, const Box<2>& bounds, const 
   return LevelCompiler(walls, bounds, config, observer).run();
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial

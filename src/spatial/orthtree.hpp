@@ -36,7 +36,7 @@
 #include "spatial/leaf_array.hpp"
 #include "spatial/tour.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
@@ -345,4 +345,4 @@ class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
 using Quadtree = Orthtree<2>;
 using Octree = Orthtree<3>;
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -10,7 +10,7 @@
 #include "geometry/frustum.hpp"
 #include "spatial/query.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 // All points within `radius` of the centre.
 template <int D>
@@ -122,4 +122,4 @@ Found overlap_query(const Structure& structure, const Volume<D>& volume, BoxOf&&
   return found;
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -5,7 +5,7 @@
 #include "spatial/broad_phase.hpp"
 #include "spatial/pairs.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 // f(place, place) for each pair met in the leaves of which at least one stirs.
@@ -81,4 +81,4 @@ template PairChain BroadPhase<2>::pair_chain(const std::function<bool(BodyId)>&,
 template PairChain BroadPhase<3>::pair_chain(const std::function<bool(BodyId)>&,
                                              std::uint64_t) const;
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -10,7 +10,7 @@
 #include "base/stop.hpp"
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 struct CandidatePairs {
   std::vector<Pair> pairs;       // each once, in order of ids
@@ -81,4 +81,4 @@ CandidatePairs candidate_pairs(const Structure& structure, std::uint64_t budget,
   return found;
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -17,7 +17,7 @@
 #include "geometry/not_finite.hpp"
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 struct QueryCounts {
   std::uint64_t nodes_visited = 0;
@@ -132,4 +132,4 @@ QueryCounts walk(const Structure& structure, const Probe& probe, const Vec<D>& t
   return counts;
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -20,7 +20,7 @@
 #include "geometry/ray.hpp"
 #include "spatial/query.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 struct RayHit {
   BodyId id = 0;
@@ -134,4 +134,4 @@ AllHits raycast_all(const Structure& structure, const Ray<D>& ray, BoxOf&& box_o
   return all;
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -23,7 +23,7 @@
 #include "geometry/shape.hpp"
 #include "spatial/tour.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 template <int D>
 class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
@@ -204,4 +204,4 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   std::uint64_t pair_tests_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -36,7 +36,7 @@
 #include "geometry/box.hpp"
 #include "geometry/plane.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 using BodyId = std::uint32_t;
 
@@ -164,4 +164,4 @@ struct Counters {
   std::uint64_t node_bytes = 0;    // that all nodes take, contents apart
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

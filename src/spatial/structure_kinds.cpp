@@ -1,6 +1,6 @@
 #include "spatial/structure_kinds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 namespace {
 
@@ -66,4 +66,4 @@ template AnyStructure<3> make_structure(StructureKind, const StructureConfig<3>&
 template void build_structure(AnyStructure<2>&, std::span<const Item<2>>);
 template void build_structure(AnyStructure<3>&, std::span<const Item<3>>);
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -17,7 +17,7 @@
 #include "spatial/orthtree.hpp"
 #include "spatial/sort_and_sweep.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 // In three dimensions a quadtree looks at x and z only.
 template <int D>
@@ -93,4 +93,4 @@ AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& con
 template <int D>
 void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items);
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -8,7 +8,7 @@
 
 #include "spatial/structure.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 // A walk through all nodes, while it is made.
 template <int D>
@@ -57,4 +57,4 @@ class CountsAllocations {
   std::uint64_t allocations_ = 0;
 };
 
-}  // namespace lantern
+}  // namespace lantern::spatial

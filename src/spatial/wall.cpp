@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 namespace {
 
@@ -128,4 +128,4 @@ std::vector<Wall> walls_of_loops(std::span<const std::vector<Vec<2>>> loops) {
   return walls;
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial

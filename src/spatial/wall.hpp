@@ -9,7 +9,7 @@
 #include "geometry/polygon.hpp"
 #include "geometry/segment.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 
 // A wall's floor lies on its left, so the walls of a room run counter-clockwise, those of a pillar
 // in it clockwise:
@@ -65,4 +65,4 @@ std::vector<Wall> checked_walls(std::span<const Wall> walls, const Box<2>& bound
 // that is not finite, and two equal corners in succession.
 std::vector<Wall> walls_of_loops(std::span<const std::vector<Vec<2>>> loops);
 
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -5,7 +5,7 @@
 #include "app/process.hpp"
 #include "base/random.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -200,4 +200,4 @@ TEST(BadInput, MutatedScenariosNeverCrash) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -4,7 +4,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,4 +163,4 @@ TEST(CommandLine, CompareTellsEqualFromDifferent) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

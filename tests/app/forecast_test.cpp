@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 constexpr RunExtent kBomb{1001, 600'000};
@@ -86,4 +86,4 @@ TEST(Forecast, UnitsFitTheSize) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -20,7 +20,7 @@
 #include "render/compare.hpp"
 #include "render/png.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,4 +177,4 @@ TEST(GoldenFolders, BelongToScenarios) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -4,7 +4,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ TEST(Memory, ASizeThatIsNoneIsAUsageError) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -4,7 +4,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,4 +106,4 @@ TEST(LeaveOut, OtherEnginesAreLoadedOnlyToBeMeasured) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

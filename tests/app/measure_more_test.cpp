@@ -7,7 +7,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST(MeasureCommand, AnEngineIsNoMethodAndThisIsSaid) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -4,7 +4,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ TEST(MeasureCommand, ListsEveryProblemFile) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -7,7 +7,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ TEST_F(OlderFolder, OneProcessAtATimeWritesIntoIt) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

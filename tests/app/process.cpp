@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace lantern::test {
+namespace lantern::app {
 
 namespace fs = std::filesystem;
 
@@ -50,4 +50,4 @@ Outcome shell(const std::string& command) {
   return outcome;
 }
 
-}  // namespace lantern::test
+}  // namespace lantern::app

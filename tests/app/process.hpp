@@ -6,7 +6,7 @@
 
 #include "fresh_folder.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 
 struct Outcome {
   int code = -1;    // exit code; 128 + number for a signal
@@ -27,4 +27,4 @@ std::filesystem::path repository(const std::string& path);
 std::string scenario(const std::string& name);
 inline const std::string kGhosts = LANTERN_ROOT "/scenarios/ghost_quadtree.toml";
 
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -8,7 +8,7 @@
 #include "app/process.hpp"
 #include "render/png.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ TEST(Readme, RunTellsWhatItDoes) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -4,12 +4,13 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,6 +44,7 @@ TEST(Rooms, IncludeOnlyWhatTheTableAllows) {
   for (const auto& entry : fs::recursive_directory_iterator(repository("src"))) {
     if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
     const std::string room = entry.path().parent_path().filename();
+    if (room == "src") continue;  // rooms.hpp, which is in none
     ASSERT_TRUE(kRooms.contains(room)) << entry.path() << " stands in no room of the table";
     const std::set<std::string> allowed = seen_from(room);
     std::ifstream file(entry.path());
@@ -55,6 +57,40 @@ TEST(Rooms, IncludeOnlyWhatTheTableAllows) {
     }
   }
   EXPECT_GT(includes, 100u) << "the search for includes found next to none: is it broken?";
+}
+
+// The sources and headers of src/.
+std::vector<fs::path> sources() {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::recursive_directory_iterator(repository("src")))
+    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
+      found.push_back(entry.path());
+  return found;
+}
+
+TEST(Rooms, HaveANamespaceEach) {
+  for (const fs::path& path : sources()) {
+    const std::string room = path.parent_path().filename();
+    if (room == "src" || room == "base") continue;  // what is in base is in lantern itself
+    EXPECT_NE(read_text(path).find("namespace lantern::" + room), std::string::npos) << path;
+  }
+}
+
+// src/rooms.hpp says the same as the table above, but that nobody sees the lecture's names.
+TEST(Rooms, SeeTheNamesOfThoseThatTheyMayInclude) {
+  const std::regex line("namespace ([a-z]+) \\{|using namespace ([a-z]+);");
+  const std::string text = read_text(repository("src/rooms.hpp"));
+  std::map<std::string, std::set<std::string>> seen;
+  std::string room;
+  for (std::sregex_iterator it(text.begin(), text.end(), line), end; it != end; ++it) {
+    if ((*it)[1].matched) room = (*it)[1];
+    if ((*it)[2].matched) seen[room].merge(std::set{seen[(*it)[2]]}), seen[room].insert((*it)[2]);
+  }
+  for (const auto& entry : kRooms) {
+    std::set<std::string> expected = seen_from(entry.first);
+    for (const char* unnamed : {"base", "lecture", entry.first.c_str()}) expected.erase(unnamed);
+    EXPECT_EQ(seen[entry.first], expected) << entry.first;
+  }
 }
 
 // A page that names a file which is gone misleads.
@@ -79,4 +115,4 @@ TEST(Rooms, OnlyRenderKnowsGl) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

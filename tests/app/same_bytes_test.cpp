@@ -6,7 +6,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,4 +139,4 @@ TEST_F(SameBytes, AfterCtrlC) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

@@ -6,7 +6,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ TEST(AddressSpace, ASmallOneIsToldAndNotRunInto) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

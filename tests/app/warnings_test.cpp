@@ -7,7 +7,7 @@
 
 #include "app/process.hpp"
 
-namespace lantern::test {
+namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ TEST(Warnings, AreGivenOfNothingThatComesWithLantern) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::app

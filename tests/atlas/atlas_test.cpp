@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 
-namespace lantern {
+namespace lantern::atlas {
 namespace {
 
 using Kind = AtlasEvent::Kind;
@@ -305,4 +305,4 @@ TEST(Atlas, TenThousandTextures) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::atlas

@@ -13,7 +13,7 @@
 #include "base/stop.hpp"
 #include "render/encode_pool.hpp"
 
-namespace lantern {
+namespace lantern::render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,6 +111,6 @@ int run(const fs::path& folder) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::render
 
-int main(int argc, char** argv) { return argc == 2 ? lantern::run(argv[1]) : 2; }
+int main(int argc, char** argv) { return argc == 2 ? lantern::render::run(argv[1]) : 2; }

@@ -9,11 +9,10 @@
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 using samples::page_of;
-using test::says;
 
 Frame charted(FrameChart chart) {
   Frame frame;
@@ -217,4 +216,4 @@ TEST(Chart, ALongLineKeepsItsPeaks) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 
 #include "draw/theme.hpp"
 
-namespace lantern::vision {
+namespace lantern::draw::vision {
 
 using Linear = std::array<double, 3>;
 enum class Eye { normal, protan, deutan, tritan };
@@ -65,4 +65,4 @@ inline double distance(Eye eye, const Color& a, const Color& b) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-}  // namespace lantern::vision
+}  // namespace lantern::draw::vision

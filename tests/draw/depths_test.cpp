@@ -4,7 +4,7 @@
 #include "draw/marks.hpp"
 #include "draw/page.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 TEST(Depths, HaveTwoFiguresAndAUnitThatFits) {
@@ -77,4 +77,4 @@ TEST(Depths, AreSilentUnlessAsked) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -3,7 +3,7 @@
 
 #include "draw/page.hpp"
 
-namespace lantern::test {
+namespace lantern::draw {
 namespace {
 
 FrameBody ball(const Vec<3>& at, double radius, int dimension) {
@@ -58,4 +58,4 @@ TEST(InSight, IsNotTheGround) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::draw

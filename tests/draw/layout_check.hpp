@@ -6,7 +6,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern::test {
+namespace lantern::draw {
 
 inline Box<2> reach_of(const DrawShape& shape) {
   Box<2> box;
@@ -63,4 +63,4 @@ inline bool says_part(const DrawList& list, const std::string& text) {
   return false;
 }
 
-}  // namespace lantern::test
+}  // namespace lantern::draw

@@ -8,7 +8,7 @@
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kHair = 0.01;  // page units that rounding may cost
@@ -30,7 +30,7 @@ void for_each_page(
 std::string written(const DrawList& list) {
   std::string text = fmt::format("{} {}\n", list.page.x, list.page.y);
   for (const DrawShape& shape : list.shapes) {
-    const Box<2> r = test::reach_of(shape);
+    const Box<2> r = reach_of(shape);
     text += fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g}", shape.index(), r.lo.x, r.lo.y, r.hi.x,
                         r.hi.y);
     if (const auto* t = std::get_if<TextShape>(&shape)) text += t->text;
@@ -65,7 +65,7 @@ TEST(Layout, EveryShapeLiesOnThePage) {
   for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
     const Box<2> page{Vec<2>(0.0), list.page};
     for (const DrawShape& shape : list.shapes) {
-      const Box<2> r = test::reach_of(shape);
+      const Box<2> r = reach_of(shape);
       EXPECT_TRUE(is_valid(r) && holds(page, r))
           << where << ": a shape of kind " << shape.index() << " reaches from (" << r.lo.x << ", "
           << r.lo.y << ") to (" << r.hi.x << ", " << r.hi.y << ")";
@@ -249,4 +249,4 @@ TEST(Layout, PageIsNeverSmallerThanItsUnits) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -13,7 +13,7 @@
 #include "draw/world3d_parts.hpp"
 #include "geometry/flat.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 using samples::page_of;
@@ -267,4 +267,4 @@ TEST(Marks, LookTheSameIn2DAnd3D) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -3,7 +3,7 @@
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 std::string texts_of(const Frame& frame) {
@@ -82,4 +82,4 @@ TEST(Memory, AnArrayOfAnyLengthIsDrawn) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

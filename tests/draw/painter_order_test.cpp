@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 const Box<3> kWorld{{-5, -5, -5}, {5, 5, 5}};
@@ -211,4 +211,4 @@ TEST(PainterOrder, ALineIsThinnerBeforeABody) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

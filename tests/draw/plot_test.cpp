@@ -15,11 +15,9 @@
 #include "draw/plot_marks.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
-using test::expect_laid_out;
-using test::says;
 
 // Where a mark of that colour is, filled or open.
 std::optional<Vec<2>> place_of(const DrawShape& shape, Role role) {
@@ -255,7 +253,7 @@ TEST(Plot, NoMarkHidesAnotherOfTheSamePlace) {
     plot.series.push_back({"a", {{{1, 1}, false, ""}, {{100, s ? 1e-3 : 1e-2}, false, ""}}, 6});
   std::vector<double> sizes;
   for (const DrawShape& shape : drawn(plot).shapes)
-    if (place_of(shape, plot_role(6))) sizes.push_back(test::reach_of(shape).size().x);
+    if (place_of(shape, plot_role(6))) sizes.push_back(reach_of(shape).size().x);
   ASSERT_EQ(sizes.size(), 4u);
   EXPECT_GT(sizes[0], 1.2 * sizes[2]) << "the first mark is under the third and cannot be seen";
   EXPECT_EQ(sizes[1], sizes[3]) << "marks by themselves are of one size";
@@ -376,4 +374,4 @@ TEST(PlotLegend, TakesTheHeightItSays) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

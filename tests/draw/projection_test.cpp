@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 const Box<2> kProjectionPanel{{100, 50}, {700, 450}};
@@ -152,4 +152,4 @@ TEST(Outline, HullsAndCovers) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -10,7 +10,7 @@
 #include "draw/world3d_samples.hpp"
 #include "geometry/flat.hpp"
 
-namespace lantern::samples {
+namespace lantern::draw::samples {
 namespace {
 
 Vec<2> corner_of(std::uint32_t slot) { return {slot % 2 == 0 ? 0.0 : 0.5, slot < 2 ? 0.5 : 0.0}; }
@@ -448,4 +448,4 @@ const Named& all() {
   return frames;
 }
 
-}  // namespace lantern::samples
+}  // namespace lantern::draw::samples

@@ -9,7 +9,7 @@
 #include "draw/draw_list.hpp"
 #include "scenario/frame.hpp"
 
-namespace lantern::samples {
+namespace lantern::draw::samples {
 
 Frame ghosts(std::size_t objects);                      // 2, 3 or 4 of the lecture's ghosts
 Frame pong(double ball_x);                              // court 32 x 18 with a BSP
@@ -40,4 +40,4 @@ Frame base(std::string title, const Box<2>& bounds, std::vector<Panel> panels);
 // The whole page of 1600 x 900 pixels.
 DrawList page_of(const Frame& frame);
 
-}  // namespace lantern::samples
+}  // namespace lantern::draw::samples

@@ -6,7 +6,7 @@
 #include "base/random.hpp"
 #include "draw/sample_frames.hpp"
 
-namespace lantern::samples {
+namespace lantern::draw::samples {
 namespace {
 
 Frame alone(Panel panel, std::string title) {
@@ -189,4 +189,4 @@ Named memories() {
   return frames;
 }
 
-}  // namespace lantern::samples
+}  // namespace lantern::draw::samples

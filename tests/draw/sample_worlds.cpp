@@ -6,7 +6,7 @@
 #include "draw/sample_frames.hpp"
 #include "geometry/flat.hpp"
 
-namespace lantern::samples {
+namespace lantern::draw::samples {
 namespace {
 
 FrameBody wall(BodyId id, std::string name, Vec<2> at, Vec<2> half) {
@@ -300,4 +300,4 @@ Named worlds() {
   return frames;
 }
 
-}  // namespace lantern::samples
+}  // namespace lantern::draw::samples

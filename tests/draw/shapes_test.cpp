@@ -9,7 +9,7 @@
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 Box<2> painted(const DrawShape& shape) {
@@ -133,4 +133,4 @@ TEST(Clip, KeepsWhatLiesInside) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

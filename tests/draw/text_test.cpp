@@ -7,7 +7,7 @@
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 TEST(Font, KernsPairs) {
@@ -150,4 +150,4 @@ TEST(Labels, DigitsHaveCells) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -11,7 +11,7 @@
 #include "draw/sample_frames.hpp"
 #include "draw/world2d_parts.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 using vision::Eye;
@@ -107,4 +107,4 @@ TEST(Theme, TextCanBeReadWhereverItIsPainted) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

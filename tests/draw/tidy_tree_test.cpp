@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 constexpr double kGap = 7;
@@ -95,4 +95,4 @@ TEST(TidyTree, SpreadsSmallSubtreesEvenly) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include "draw/sample_frames.hpp"
 #include "draw/tree_layout.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 using Kind = Branch::Kind;
@@ -133,4 +133,4 @@ TEST(TreeLayout, SmallTreesAreNotFolded) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

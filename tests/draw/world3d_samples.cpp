@@ -10,7 +10,7 @@
 #include "geometry/flat.hpp"
 #include "spatial/orthtree.hpp"
 
-namespace lantern::samples {
+namespace lantern::draw::samples {
 namespace {
 
 Rotation<3> turn(const Vec<3>& axis, double angle) {
@@ -267,4 +267,4 @@ std::vector<std::pair<std::string, Frame>> all_solid() {
           {"pit", pit_frame()}};
 }
 
-}  // namespace lantern::samples
+}  // namespace lantern::draw::samples

@@ -7,7 +7,7 @@
 
 #include "scenario/frame.hpp"
 
-namespace lantern::samples {
+namespace lantern::draw::samples {
 
 FrameBody solid_body(BodyId id, std::string name, const Shape<3>& shape, const Vec<3>& position,
                      int color);
@@ -22,4 +22,4 @@ Frame pit_frame();      // bodies of all shapes and turns, with a camera of its 
 
 std::vector<std::pair<std::string, Frame>> all_solid();
 
-}  // namespace lantern::samples
+}  // namespace lantern::draw::samples

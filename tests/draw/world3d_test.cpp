@@ -10,7 +10,7 @@
 #include "draw/theme.hpp"
 #include "draw/world3d_samples.hpp"
 
-namespace lantern {
+namespace lantern::draw {
 namespace {
 
 const Box<2> kPanel{{60, 104}, {1540, 720}};
@@ -182,4 +182,4 @@ TEST(World3D, TonesOfAColourDiffer) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::draw

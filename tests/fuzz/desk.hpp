@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fuzz/sees_all.hpp"
+
 namespace lantern::fuzz {
 
 inline constexpr std::size_t kMostText = std::size_t{1} << 16;  // longer files are not tried

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fuzz/sees_all.hpp"
 #include "scenario/language.hpp"
 
 namespace lantern::fuzz {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fuzz/sees_all.hpp"
 #include "scenario/frame.hpp"
 #include "scenario/scenario.hpp"
 

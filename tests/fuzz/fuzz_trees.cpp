@@ -21,7 +21,10 @@
 #include "spatial/picture.hpp"
 #include "spatial/raycast.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
+
+using namespace atlas;
+
 namespace {
 
 constexpr std::size_t kMostBodies = 24;
@@ -327,11 +330,11 @@ void fuzz_trees(std::span<const std::uint8_t> input) {
   }
 }
 
-}  // namespace lantern
+}  // namespace lantern::spatial
 
 #ifdef LANTERN_LIBFUZZER
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  lantern::fuzz_trees({data, size});
+  lantern::spatial::fuzz_trees({data, size});
   return 0;
 }
 #endif

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "fuzz/sees_all.hpp"
 #include "fuzz/values.hpp"
 
 namespace lantern::fuzz {

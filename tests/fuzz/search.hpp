@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/sees_all.hpp"
+
 namespace lantern::fuzz {
 
 struct SearchOptions {

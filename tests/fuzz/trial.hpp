@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "fuzz/sees_all.hpp"
 #include "fuzz/values.hpp"
 #include "fuzz/watch.hpp"
 #include "render/renderer.hpp"

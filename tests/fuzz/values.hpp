@@ -8,6 +8,7 @@
 
 #include "base/random.hpp"
 #include "fuzz/document.hpp"
+#include "fuzz/sees_all.hpp"
 
 namespace lantern::fuzz {
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/stop.hpp"
+#include "fuzz/sees_all.hpp"
 
 namespace lantern::fuzz {
 

@@ -12,7 +12,7 @@
 #include "base/random.hpp"
 #include "geometry/random_vec.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 using std::numbers::pi;
@@ -196,4 +196,4 @@ TEST(Frustum, RefusesWhatIsNoView) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::geometry

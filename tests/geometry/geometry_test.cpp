@@ -7,7 +7,7 @@
 #include "geometry/polygon.hpp"
 #include "geometry/shape.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 template <int D>
@@ -176,4 +176,4 @@ TEST(Polygon, ClippingOutsideGivesAllOrNothing) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::geometry

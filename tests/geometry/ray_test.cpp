@@ -11,7 +11,7 @@
 #include "geometry/not_finite.hpp"
 #include "geometry/random_vec.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 using std::numbers::pi;
@@ -153,4 +153,4 @@ TEST(Ray, RefusesNamingTheField) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -12,7 +12,7 @@
 #include "geometry/random_vec.hpp"
 #include "geometry/segment.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 TEST(Rotation, IsCounterClockwiseInThePlane) {
@@ -154,4 +154,4 @@ TEST(RandomDirection, PrefersNone) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::geometry

@@ -9,7 +9,7 @@
 #include "geometry/closest.hpp"
 #include "geometry/random_vec.hpp"
 
-namespace lantern {
+namespace lantern::geometry {
 namespace {
 
 template <int D>
@@ -168,4 +168,4 @@ TEST(Segment, ParallelOnesMeetSomewhereOnBoth) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::geometry

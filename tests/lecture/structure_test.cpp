@@ -15,7 +15,7 @@
 #include "spatial/raycast.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::kSorts;
@@ -180,4 +180,4 @@ TEST(LectureQuadtree, ExtremeNumbersLoseNobody) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

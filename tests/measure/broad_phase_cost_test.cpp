@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr std::size_t kBodies = 150;
@@ -199,4 +199,4 @@ TEST(BroadPhaseCost, TextsTellEveryRow) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

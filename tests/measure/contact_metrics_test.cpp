@@ -6,7 +6,7 @@
 
 #include "measure/contact_runs.hpp"
 
-namespace lantern::test {
+namespace lantern::measure {
 namespace {
 
 constexpr double kRounding = 1e-12;
@@ -256,4 +256,4 @@ TEST(HangingChain, TellsStretchAndTension) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "measure/contact_runs.hpp"
 
-namespace lantern::test {
+namespace lantern::measure {
 namespace {
 
 TEST(ContactProblems, RefuseWhatIsAnother) {
@@ -119,4 +119,4 @@ TEST(ContactProblems, WhatRestsStaysAtRest) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::measure

@@ -8,7 +8,7 @@
 #include "scenario/engine.hpp"
 #include "scenario/method.hpp"
 
-namespace lantern::test {
+namespace lantern::measure {
 namespace {
 
 class EngineRun : public Simulation {
@@ -80,4 +80,4 @@ Norms run(const Scenario& scenario, const std::string& method, double step) {
   return norms_of(*metric);
 }
 
-}  // namespace lantern::test
+}  // namespace lantern::measure

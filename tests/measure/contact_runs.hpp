@@ -8,7 +8,7 @@
 
 #include "measure/error_metric.hpp"
 
-namespace lantern::test {
+namespace lantern::measure {
 
 using Changes = std::vector<std::pair<std::string, std::string>>;
 using Norms = std::map<std::string, double>;
@@ -40,4 +40,4 @@ Norms looked_at(const Scenario& scenario, F&& moved) {
   return norms_of(*metric);
 }
 
-}  // namespace lantern::test
+}  // namespace lantern::measure

@@ -6,7 +6,7 @@
 #include "measure/scenes.hpp"
 #include "scenario/engine.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 std::vector<BodyState> states_after(const Scenario& scenario, int steps) {
@@ -91,4 +91,4 @@ bodies = ["a", "b", "c"]
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -10,7 +10,7 @@
 
 #include "measure/peers.hpp"
 
-namespace lantern::test {
+namespace lantern::measure {
 
 inline BodySpec ball(const Vec<3>& position, const Vec<3>& velocity = Vec<3>(0.0)) {
   BodySpec body;
@@ -53,7 +53,7 @@ inline std::vector<BodyState> after(const Solver& peer, const Scenario& s, doubl
 class Peers : public testing::Test {
  protected:
   void SetUp() override {
-    found_ = peers(missing_);
+    found_ = load_peers(missing_);
     if (!found_.empty()) return;
     for (const std::string& line : missing_) std::puts(line.c_str());
     GTEST_SKIP() << "no other engine is built in";
@@ -73,4 +73,4 @@ class Peers : public testing::Test {
   std::vector<std::unique_ptr<Solver>> found_;
 };
 
-}  // namespace lantern::test
+}  // namespace lantern::measure

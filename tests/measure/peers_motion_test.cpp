@@ -5,7 +5,7 @@
 
 #include "measure/peer_scenes.hpp"
 
-namespace lantern::test {
+namespace lantern::measure {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -196,4 +196,4 @@ TEST_F(Peers, VelocitiesAreTurnedRoundWhenAsked) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::measure

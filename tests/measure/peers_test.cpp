@@ -5,7 +5,7 @@
 
 #include "measure/peer_scenes.hpp"
 
-namespace lantern::test {
+namespace lantern::measure {
 namespace {
 
 TEST_F(Peers, HaveNamesAndVersions) {
@@ -94,4 +94,4 @@ TEST_F(Peers, RunOrRefuseEveryScenario) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::measure

@@ -9,7 +9,7 @@
 #include "measure/elliptic.hpp"
 #include "measure/precise.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 using State = std::vector<long double>;
@@ -272,4 +272,4 @@ TEST(FreeTop, KeepsItsMomentumInTheWorld) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -9,7 +9,7 @@
 #include "measure/plan.hpp"
 #include "measure/scenes.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 std::vector<Row> rows_of(Scenario scenario, std::vector<std::string> methods,
@@ -190,4 +190,4 @@ TEST(Methods, NamesAreReadBack) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -7,7 +7,7 @@
 
 #include "scenario/scenario.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 
 // A ball thrown in a flat world without walls.
 inline std::string thrown_text(const std::string& world = "gravity = [0, -10]",
@@ -41,4 +41,4 @@ inline Scenario thrown(const std::string& world = "gravity = [0, -10]",
   return parse_scenario(thrown_text(world, steps), "throw.toml");
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

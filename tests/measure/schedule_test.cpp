@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "measure/scenes.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 TEST(Schedule, AScriptsRunsAreItsLegs) {
@@ -100,4 +100,4 @@ seconds = 0.07
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

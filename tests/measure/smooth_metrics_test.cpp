@@ -10,7 +10,7 @@
 #include "measure/error_metric.hpp"
 #include "measure/problems.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 Scenario scene(const std::string& solution, const std::string& world, const std::string& rest) {
@@ -176,4 +176,4 @@ TEST(SmoothMetrics, TheRodsDriftIsANormOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -13,7 +13,7 @@
 #include "measure/run.hpp"
 #include "physics/free_rotation.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 Row run(const Scenario& scenario, const Solver& solver, double step) {
@@ -148,4 +148,4 @@ TEST(SmoothOrders, DormandPrinceIsAsExactAsItIsAsked) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

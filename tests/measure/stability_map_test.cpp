@@ -8,7 +8,7 @@
 
 #include "base/stop.hpp"
 
-namespace lantern {
+namespace lantern::measure {
 namespace {
 
 constexpr Integrator kAll[] = {Integrator::explicit_euler,    Integrator::semi_implicit_euler,
@@ -103,4 +103,4 @@ TEST(StabilityMap, EndsWhenToldTo) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lantern {
+namespace lantern::measure {
 
 // Else a case is shown as bytes, among them addresses.
 void PrintTo(const StressCase& one, std::ostream* out) { *out << one.name; }
@@ -88,4 +88,4 @@ TEST(Stress, WhatIsThrownIsAFailedCase) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::measure

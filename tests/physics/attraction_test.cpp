@@ -8,7 +8,7 @@
 #include "physics/world.hpp"
 #include "smooth_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 WorldConfig<2> attracting(double gravitation, ContactMethod contacts) {
@@ -119,4 +119,4 @@ TEST(Attraction, RefusesAConstantThatIsNone) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -5,7 +5,7 @@
 
 #include "base/random.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 constexpr std::size_t kAny = 1'000'000;  // entries
@@ -108,4 +108,4 @@ TEST(BlockSystem, RefusesWhatIsNotPositiveDefinite) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

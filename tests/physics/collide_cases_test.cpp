@@ -6,7 +6,7 @@
 
 #include "physics/collide_oracle.hpp"
 
-namespace lantern::test {
+namespace lantern::physics {
 namespace {
 
 const double kQuarterTurn = 2 * std::atan(1.0);
@@ -270,4 +270,4 @@ TEST(Collide, AHoveringBoxKeepsItsPointsAndTheirNames) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::physics

@@ -6,7 +6,7 @@
 
 #include "physics/collide_oracle.hpp"
 
-namespace lantern::test {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -194,4 +194,4 @@ TEST(CollideExtreme, TinyAndHugeNumbersStayFinite) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::physics

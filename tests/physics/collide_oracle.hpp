@@ -8,7 +8,7 @@
 #include "base/random.hpp"
 #include "physics/manifold.hpp"
 
-namespace lantern::test {
+namespace lantern::physics {
 
 template <int D>
 struct Thing {
@@ -191,4 +191,4 @@ inline const char* name_of(int kind) {
   return names[kind];
 }
 
-}  // namespace lantern::test
+}  // namespace lantern::physics

@@ -4,7 +4,7 @@
 
 #include "physics/collide_oracle.hpp"
 
-namespace lantern::test {
+namespace lantern::physics {
 namespace {
 
 constexpr double kFar = 1e3;  // a margin that every random pair is within
@@ -264,4 +264,4 @@ TEST(CollideRandom, OverlapOfBoxesIsThatOfFifteenAxes) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::physics

@@ -5,7 +5,7 @@
 
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -142,4 +142,4 @@ TEST(Contacts, DeepOverlapComesApartSlowly) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

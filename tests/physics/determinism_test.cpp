@@ -5,7 +5,7 @@
 #include "base/random.hpp"
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -183,4 +183,4 @@ TEST(Determinism, FarFromTheOriginItIsTheSame) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

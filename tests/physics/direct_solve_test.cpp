@@ -7,7 +7,7 @@
 #include "physics/envelope_system.hpp"
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 using Dense = std::vector<std::vector<double>>;
@@ -102,4 +102,4 @@ TEST(DirectSolve, AHeapComesToRest) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "smooth_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // Two bodies that a spring off their centres joins, turns and swings.
@@ -123,4 +123,4 @@ TEST(Energy, AStiffJointHoldsATurningBody) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace lantern {
+namespace lantern::physics {
 
 struct OscillatorState {
   long double x, v;
@@ -30,4 +30,4 @@ inline OscillatorState exact_oscillator(long double omega, long double zeta, Osc
   return {ef + es, fast * ef + slow * es};
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

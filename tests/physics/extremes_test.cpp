@@ -10,7 +10,7 @@
 #include "physics/energy.hpp"
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -403,4 +403,4 @@ TEST(Extremes, AHundredBoxesStand) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

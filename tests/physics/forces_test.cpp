@@ -8,7 +8,7 @@
 #include "smooth_scene.hpp"
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -127,4 +127,4 @@ TEST(Forces, BodiesAreFoundByTheirIds) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

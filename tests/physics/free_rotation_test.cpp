@@ -8,7 +8,7 @@
 #include "base/random.hpp"
 #include "physics/energy.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 Body<3> spinning(const Vec<3>& inertia, const Vec<3>& spin) {
@@ -196,4 +196,4 @@ TEST(FreeRotation, WhoTurnsAndWhoDoesNot) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -5,7 +5,7 @@
 
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 WorldConfig<2> exact(double g) {
@@ -178,4 +178,4 @@ TEST(Impacts, BilliardsKeepMomentumAndEnergy) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

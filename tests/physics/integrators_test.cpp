@@ -9,7 +9,7 @@
 #include "exact_oscillator.hpp"
 #include "smooth_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 constexpr long double kPi = std::numbers::pi_v<long double>;
@@ -263,4 +263,4 @@ TEST(Integrators, RefusesAStepThatIsNoStep) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

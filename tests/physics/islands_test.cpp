@@ -3,7 +3,7 @@
 
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // Three boxes in a pile, one apart, all asleep.
@@ -129,4 +129,4 @@ TEST(Islands, WhatHangsOnASleeperSwingsAboutIt) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

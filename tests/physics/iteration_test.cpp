@@ -7,7 +7,7 @@
 #include "physics/implicit_stage.hpp"
 #include "physics/smooth_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -186,4 +186,4 @@ TEST(BlockSystem, SolvesWhatIsLinkedThroughout) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -5,7 +5,7 @@
 
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -145,4 +145,4 @@ TEST(Joints, SpringsPullAcrossTheWorld) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

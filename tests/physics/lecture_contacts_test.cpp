@@ -5,7 +5,7 @@
 #include "lecture/physics_system.hpp"
 #include "physics/world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -206,4 +206,4 @@ TEST(LectureContacts, JointsAreRefusedAndTheWorldStaysAsItWas) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -7,7 +7,7 @@
 
 #include "physics/collide_oracle.hpp"
 
-namespace lantern::test {
+namespace lantern::physics {
 namespace {
 
 double squared_arm(const Vec<2>& p, double) { return glm::dot(p, p); }
@@ -100,4 +100,4 @@ TEST(Mass, ScalesInertiaWithAnExplicitMass) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::physics

@@ -6,7 +6,7 @@
 #include "physics/free_rotation.hpp"
 #include "physics/world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 constexpr std::array kIntegrators = {Integrator::explicit_euler,    Integrator::semi_implicit_euler,
@@ -245,4 +245,4 @@ TEST(Energy, SharesOfAllBodiesAddUpToTheWhole) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

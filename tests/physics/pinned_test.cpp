@@ -8,7 +8,7 @@
 #include "base/random.hpp"
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -245,4 +245,4 @@ TEST(Pinned, ManyWorldsIn3D) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

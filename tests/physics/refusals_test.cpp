@@ -5,7 +5,7 @@
 #include "geometry/not_finite.hpp"
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <class Action>
@@ -140,4 +140,4 @@ TEST(Refusals, AnOverflowNamesBodyAndStepAndRollsBack) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

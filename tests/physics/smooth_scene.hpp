@@ -8,7 +8,7 @@
 #include "physics/free_rotation.hpp"
 #include "physics/integrator.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 constexpr Integrator kAllIntegrators[] = {
     Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::velocity_verlet,
@@ -51,7 +51,7 @@ struct SmoothScene {
     for (int i = 0; i < steps; ++i) step(method, h);
   }
 
-  Energy energy() const { return lantern::energy<D>(bodies, forces); }
+  Energy energy() const { return physics::energy<D>(bodies, forces); }
 };
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -9,7 +9,7 @@
 #include "base/random.hpp"
 #include "smooth_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 // A spring of no rest length, so that the force is linear however far it swings.
@@ -192,4 +192,4 @@ TEST(Stability, WhatDoesNotConvergeIsRefused) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -3,7 +3,7 @@
 
 #include "world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 template <int D>
@@ -112,4 +112,4 @@ TEST(Stack, APyramidStands) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

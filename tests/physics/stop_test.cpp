@@ -12,7 +12,7 @@
 #include "physics/smooth_scene.hpp"
 #include "physics/world_scene.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 class StoppedStep : public ::testing::Test {
@@ -110,4 +110,4 @@ TEST_F(StoppedStep, ADenseAndAnIteratedSolution) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -5,7 +5,7 @@
 
 #include "physics/world.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 
 constexpr double kStep = 1.0 / 60;
 
@@ -74,4 +74,4 @@ double deepest(const World<D>& world) {
   return depth;
 }
 
-}  // namespace lantern
+}  // namespace lantern::physics

@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
 
-namespace lantern {
+namespace lantern::physics {
 namespace {
 
 constexpr double kHuge = std::numeric_limits<double>::max();
@@ -185,4 +185,4 @@ TEST(World, ContactMethodsHaveNames) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::physics

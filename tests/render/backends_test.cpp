@@ -9,7 +9,7 @@
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 void append(std::string& to, const Image& image) {
@@ -108,4 +108,4 @@ TEST(Renderer, FrameDoesNotDependOnTheFramesBeforeIt) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

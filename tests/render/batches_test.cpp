@@ -4,7 +4,7 @@
 #include "base/random.hpp"
 #include "render/instances.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 constexpr int kSide = 300;
@@ -56,4 +56,4 @@ TEST(Batches, ApartTheyNeedOneOfEachProgram) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

@@ -4,7 +4,7 @@
 
 #include "render/support.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 Image filled(int width, int height, std::uint8_t value) {
@@ -56,4 +56,4 @@ TEST(Compare, PictureOfDifferentSizes) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

@@ -9,7 +9,7 @@
 #include "base/library.hpp"
 #include "render/support.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 TEST(Context, NamesOfBackends) {
@@ -75,4 +75,4 @@ TEST(Context, StartsSilently) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

@@ -11,7 +11,7 @@
 #include "render/support.hpp"
 #include "render/text_masks.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 using Inside = std::function<bool(const Vec<2>&)>;
@@ -239,4 +239,4 @@ TEST(Dilate, IsTheUnionOfDiscs) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

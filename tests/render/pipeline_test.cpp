@@ -27,7 +27,7 @@ extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attribute
   return threads_left-- > 0 ? real(thread, attributes, start, argument) : EAGAIN;
 }
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -180,4 +180,4 @@ TEST(Pipeline, GivesUpWhatIsNotBegunWithoutFinish) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

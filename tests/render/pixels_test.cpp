@@ -9,7 +9,7 @@
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 constexpr Stroke kInk2{Role::ink, 2, 0};
@@ -224,4 +224,4 @@ TEST(Renderer, DrawsTheLargestImage) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

@@ -12,7 +12,7 @@
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 enum class Look { flat, drawing, noise, gradient };
@@ -252,4 +252,4 @@ TEST(Huffman, OneSymbolAloneStillHasACode) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

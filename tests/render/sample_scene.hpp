@@ -7,7 +7,7 @@
 
 #include "draw/draw_list.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 
 inline RectShape rect(double x, double y, double w, double h, Role fill, Stroke stroke = {},
                       double radius = 0, bool snapped = false) {
@@ -134,4 +134,4 @@ inline DrawList sample_scene(int step = 0) {
   return list;
 }
 
-}  // namespace lantern::test
+}  // namespace lantern::render

@@ -5,7 +5,7 @@
 
 #include "render/png.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 const MadeFrom kFrom{"0123456789abcdef", "fedcba9876543210"};
@@ -48,4 +48,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Seal,
                          testing::Values(FileKind::png, FileKind::svg, FileKind::json));
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

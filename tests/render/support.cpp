@@ -12,7 +12,7 @@
 #include "base/file.hpp"
 #include "render/renderer.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 
 Theme plain_theme() {
   Theme theme{"plain", {}};
@@ -93,4 +93,4 @@ int run_in_new_process(const std::string& name, const std::map<std::string, std:
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace lantern::test
+}  // namespace lantern::render

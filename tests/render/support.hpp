@@ -12,7 +12,7 @@
 #include "fresh_folder.hpp"
 #include "render/image.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 
 // Paper is white, ink black, warning pure red; everything else is mid grey.
 Theme plain_theme();
@@ -38,4 +38,4 @@ inline int ink(const Image& image, int x, int y) { return 255 - at(image, x, y).
 // these environment variables added. Gives its exit code; 0 means that the test passed.
 int run_in_new_process(const std::string& name, const std::map<std::string, std::string>& added);
 
-}  // namespace lantern::test
+}  // namespace lantern::render

@@ -14,7 +14,7 @@
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
 
-namespace lantern::test {
+namespace lantern::render {
 namespace {
 
 struct Element {
@@ -175,4 +175,4 @@ TEST(Svg, LoadsNoGraphicsLibrary) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::render

@@ -15,7 +15,7 @@
 #include "report/settled.hpp"
 #include "scenario/director.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr int kWidth = 48, kHeight = 32;
@@ -289,9 +289,9 @@ TEST(Antialiasing, ThePageSaysItsSentence) {
                  timed_way("coverage", "4 x 4", 1.73, 30, 0.1),
                  timed_way("cairo", "none", 43.9, 0.8, 0.1)};
   const DrawList list = draw_picture_page(report, "s", "made here");
-  EXPECT_TRUE(test::says_part(list, "The cheapest way under 10 levels RMS is coverage 1 × 1"));
-  EXPECT_TRUE(test::says_part(list, "made here"));
-  test::expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, "a page of pictures");
+  EXPECT_TRUE(says_part(list, "The cheapest way under 10 levels RMS is coverage 1 × 1"));
+  EXPECT_TRUE(says_part(list, "made here"));
+  expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, "a page of pictures");
 }
 
 TEST(Antialiasing, SizesThatCannotBeSupersampledAreRefused) {
@@ -301,4 +301,4 @@ TEST(Antialiasing, SizesThatCannotBeSupersampledAreRefused) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

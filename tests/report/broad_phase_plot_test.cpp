@@ -7,10 +7,9 @@
 #include "draw/layout_check.hpp"
 #include "report/pages.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
-using test::says_part;
 
 BroadPhaseCostConfig config_of(int repeats) {
   BroadPhaseCostConfig config;
@@ -71,4 +70,4 @@ TEST(BroadPhasePage, WithoutRowsItSaysSo) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

@@ -11,7 +11,7 @@
 #include "base/random.hpp"
 #include "report/sample_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 // A reader of RFC 4180, written from its grammar.
@@ -228,4 +228,4 @@ TEST(MeasureTable, FitsOnAHundredColumnsAndNamesAll) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

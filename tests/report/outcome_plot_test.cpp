@@ -6,13 +6,10 @@
 #include "report/measure_plots.hpp"
 #include "report/sample_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 using samples::row;
-using test::expect_laid_out;
-using test::says;
-using test::says_part;
 
 // As of blocks that should hit each other some number of times.
 Measurement outcomes(const std::vector<double>& wrong, std::size_t methods = 3) {
@@ -105,4 +102,4 @@ TEST(ProblemPage, ShowsTheStepWhereWorkIsTheSameForAll) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

@@ -12,12 +12,9 @@
 #include "report/sample_rows.hpp"
 #include "report/sentences.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
-using test::expect_laid_out;
-using test::says;
-using test::says_part;
 
 // Measurements that reports must bear.
 std::vector<std::pair<std::string, Measurement>> measurements() {
@@ -163,4 +160,4 @@ TEST(Bars, AreMetAtTheBoundAndNeverByWhatIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

@@ -8,7 +8,7 @@
 #include "base/random.hpp"
 #include "report/sample_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 // From the definition: no other is as good in both and better in one; of equal points the first.
@@ -57,4 +57,4 @@ TEST(Pareto, RowsThatFailedOrWereNotTimedAreNotOnIt) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

@@ -13,7 +13,7 @@
 #include "report/pages.hpp"
 #include "report/sample_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 void write(const std::string& name, const DrawList& list, double scale) {
@@ -43,4 +43,4 @@ TEST(Pictures, DISABLED_OfTheSampleRows) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

@@ -8,7 +8,7 @@
 #include "draw/plot_marks.hpp"
 #include "report/sample_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 std::vector<Row> power(double order, double factor, double floor, int halvings, double h = 0.1) {
@@ -112,4 +112,4 @@ TEST(MethodWords, ReadAsWords) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

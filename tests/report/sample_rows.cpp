@@ -5,7 +5,7 @@
 
 #include "base/random.hpp"
 
-namespace lantern::samples {
+namespace lantern::report::samples {
 namespace {
 
 struct Method {
@@ -145,4 +145,4 @@ std::vector<Bar> bars() {
   };
 }
 
-}  // namespace lantern::samples
+}  // namespace lantern::report::samples

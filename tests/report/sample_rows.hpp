@@ -8,7 +8,7 @@
 #include "measure/row.hpp"
 #include "report/pages.hpp"
 
-namespace lantern::samples {
+namespace lantern::report::samples {
 
 // A row that is ok, timed, and has this error and cost.
 Row row(const std::string& method, double step, double error, double seconds,
@@ -20,4 +20,4 @@ Measurement measurement(std::size_t problems = 9, std::uint64_t seed = 1);
 // Those of an analyst's wish list: met, missed, not run, of no unit, at least.
 std::vector<Bar> bars();
 
-}  // namespace lantern::samples
+}  // namespace lantern::report::samples

@@ -7,7 +7,7 @@
 #include "report/claims.hpp"
 #include "report/sample_rows.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 using samples::row;
@@ -262,4 +262,4 @@ TEST(Figures, AreShort) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

@@ -8,7 +8,7 @@
 #include "report/pages.hpp"
 #include "report/stress_tables.hpp"
 
-namespace lantern {
+namespace lantern::report {
 namespace {
 
 constexpr double kHair = 0.01;
@@ -100,4 +100,4 @@ TEST(StabilityPicture, AMapThatEndedEarlyIsDrawnAsFarAsItGoes) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::report

@@ -8,7 +8,7 @@
 #include "scenario/method.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 // Two bobs, each on a spring from a point of the world: without gravity all is known.
@@ -226,4 +226,4 @@ TEST(SolveBy, NeedsAWorldWithContacts) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

@@ -7,7 +7,7 @@
 
 #include "scenario/directing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 Scenario scenario(const std::string& text) { return parse_scenario(text, "test.toml"); }
@@ -115,4 +115,4 @@ seconds = 2
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

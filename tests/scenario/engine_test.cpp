@@ -9,7 +9,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 // A heap of bodies falls onto a floor, between two walls.
@@ -178,4 +178,4 @@ TEST(Engine, CountsTheLastWorldStepOnly) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

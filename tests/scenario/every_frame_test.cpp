@@ -9,7 +9,7 @@
 #include "base/hash.hpp"
 #include "scenario/directing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 // Long runs are looked at frame by frame for the first few, then here and there.
@@ -234,4 +234,4 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, EveryFrame, testing::ValuesIn(all_runs()),
                          });
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

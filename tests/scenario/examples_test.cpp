@@ -8,7 +8,7 @@
 #include "scenario/parsing.hpp"
 #include "scenario/reference.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 // Runs the scenario without pixels; every promise in it must hold.
@@ -40,4 +40,4 @@ TEST(Examples, OfTheVerbsGoOnFromTheirScenariosAndKeepTheirPromises) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

@@ -6,7 +6,7 @@
 #include "scenario/frame.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 // Two that touch, one that sleeps elsewhere, a turned box; and a query that finds the first two.
@@ -123,4 +123,4 @@ TEST(Expectations, OfAlwaysAreVerifiedOnEveryFrame) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

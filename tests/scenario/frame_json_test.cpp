@@ -4,7 +4,7 @@
 
 #include "scenario/directing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 using nlohmann::json;
@@ -105,4 +105,4 @@ TEST(FrameJson, LosesNoBitOfANumber) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

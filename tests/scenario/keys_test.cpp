@@ -12,7 +12,7 @@
 #include "scenario/language.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 using Lines = std::vector<std::pair<std::string, std::string>>;  // key, value
@@ -782,4 +782,4 @@ TEST(Keys, MisspeltOnesAreFoundInEveryTable) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

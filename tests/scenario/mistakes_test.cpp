@@ -9,7 +9,7 @@
 #include "scenario/language.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -425,4 +425,4 @@ TEST(Mistakes, OfZeroSizesAndStillBodies) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

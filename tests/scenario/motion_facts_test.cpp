@@ -6,7 +6,7 @@
 
 #include "scenario/directing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 std::vector<const Frame*> of_step(const std::vector<Frame>& frames, const std::string& event) {
@@ -104,4 +104,4 @@ TEST(MotionFacts, OnlyWithImpulsesDepthGrowsWithTheMassRatio) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

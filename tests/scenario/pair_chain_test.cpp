@@ -10,7 +10,7 @@
 #include "scenario/directing.hpp"
 #include "spatial/query.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 constexpr std::size_t kManyBodies = 150;
@@ -242,4 +242,4 @@ std::string name_of_test(const testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(Files, EveryPairChain, testing::ValuesIn(all_files()), name_of_test);
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

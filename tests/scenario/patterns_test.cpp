@@ -8,7 +8,7 @@
 
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 std::vector<BodySpec> bodies(const std::string& keys, const std::string& top = "") {
@@ -161,4 +161,4 @@ TEST(Patterns, AndBodiesHaveFittingLooks) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

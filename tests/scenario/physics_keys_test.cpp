@@ -9,7 +9,7 @@
 #include "scenario/language.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 const std::string kFlat = "title = \"x\"\n[world]\nsize = [64, 64]\n";
@@ -451,4 +451,4 @@ TEST(Chart, IsOfCountsThatTheStepsCount) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

@@ -7,7 +7,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 const std::string kCrowd = R"([[pattern]]
@@ -167,4 +167,4 @@ TEST(Pictures, BarsOfOnePartStandTogether) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

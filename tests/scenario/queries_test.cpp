@@ -9,7 +9,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 const std::vector<std::string> kFlatKinds = {
@@ -199,4 +199,4 @@ TEST(Queries, EventsTellTheWholeWalk) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

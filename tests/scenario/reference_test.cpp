@@ -14,7 +14,7 @@
 #include "scenario/parsing.hpp"
 #include "scenario/toml_tree.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 using nlohmann::json;
@@ -255,4 +255,4 @@ TEST(Schema, TakesAllThatTheParserTakes) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

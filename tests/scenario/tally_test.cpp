@@ -17,7 +17,7 @@
 #include "scenario/reference.hpp"
 #include "scenario/verbs.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 // One dry run of a scenario, tallied, and what its frames say by themselves.
@@ -296,4 +296,4 @@ TEST(Panels, AreDerivedUnlessGiven) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

@@ -8,7 +8,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 // A disc of mass 2 at rest in the midst of nothing.
@@ -230,4 +230,4 @@ TEST(Verbs, PhasesCountTheStructureThatTheyShow) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

@@ -10,7 +10,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::test {
+namespace lantern::scenario {
 namespace {
 
 bool shown_always(const Frame&) { return true; }
@@ -327,4 +327,4 @@ TEST(Warnings, ThatAreWatchedForChangeNoFrame) {
 }
 
 }  // namespace
-}  // namespace lantern::test
+}  // namespace lantern::scenario

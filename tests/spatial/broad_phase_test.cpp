@@ -7,7 +7,7 @@
 #include "spatial/planes.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::kSorts;
@@ -460,4 +460,4 @@ TEST(BroadPhase, ManyBodiesLargerThanAllCellsMakeTheTreeShallowerAndNothingWorse
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

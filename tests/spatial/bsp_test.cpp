@@ -9,7 +9,7 @@
 #include "spatial/picture.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::Sort;
@@ -229,4 +229,4 @@ TEST(Bsp, CountsWhatStandsAndWhatWasTested) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

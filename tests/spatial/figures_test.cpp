@@ -6,7 +6,7 @@
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 constexpr std::uint64_t kBudget = 1'000'000;
@@ -122,4 +122,4 @@ TEST(Figures, PongIsDividedByItsNet) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

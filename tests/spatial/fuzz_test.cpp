@@ -4,7 +4,7 @@
 #include "base/random.hpp"
 #include "fuzz/fuzz_trees.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -51,4 +51,4 @@ TEST(Fuzz, TreesKeepTheirInvariantsOnAnyBytes) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

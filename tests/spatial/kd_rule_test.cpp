@@ -7,7 +7,7 @@
 #include "spatial/kd_tree.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::kSorts;
@@ -185,4 +185,4 @@ TEST(KdRule, NodesTakeThePlacesOfThoseBefore) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -7,7 +7,7 @@
 #include "spatial/picture.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::kSorts;
@@ -186,4 +186,4 @@ TEST(KdTree, RefusesBadSettingsAndBoxesAndStaysAsItWas) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

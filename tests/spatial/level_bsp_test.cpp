@@ -8,7 +8,7 @@
 #include "geometry/not_finite.hpp"
 #include "spatial/level_oracles.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::expect_sound;
@@ -229,4 +229,4 @@ TEST(LevelBsp, WallsOnOneLineAreTriedOnce) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

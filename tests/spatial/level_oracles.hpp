@@ -9,7 +9,7 @@
 #include "spatial/level_bsp.hpp"
 #include "spatial/levels.hpp"
 
-namespace lantern::testing {
+namespace lantern::spatial::testing {
 
 // A length of the map that rounding and snapping together stay well below.
 inline double slack(const LevelBsp& bsp) { return 16 * bsp.tolerance(); }
@@ -166,4 +166,4 @@ inline void expect_sound(const Level& level, const LevelBsp& bsp, Random& random
   expect_chosen_well(bsp);
 }
 
-}  // namespace lantern::testing
+}  // namespace lantern::spatial::testing

@@ -6,7 +6,7 @@
 #include "spatial/level_bsp.hpp"
 #include "spatial/levels.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 constexpr Box<2> kBounds{{0, 0}, {8, 8}};
@@ -124,4 +124,4 @@ TEST(OddMaps, CompileAndKeepEveryWallsLength) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

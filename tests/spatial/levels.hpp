@@ -8,7 +8,7 @@
 #include "base/random.hpp"
 #include "spatial/wall.hpp"
 
-namespace lantern::testing {
+namespace lantern::spatial::testing {
 
 using Loops = std::vector<std::vector<Vec<2>>>;
 
@@ -150,4 +150,4 @@ inline double distance_to(const Segment<2>& s, const Vec<2>& p) {
   return glm::length(p - (s.a + along * t));
 }
 
-}  // namespace lantern::testing
+}  // namespace lantern::spatial::testing

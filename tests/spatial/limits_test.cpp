@@ -12,7 +12,7 @@
 #include "spatial/picture.hpp"
 #include "spatial/sort_and_sweep.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
@@ -114,4 +114,4 @@ TEST(Limits, ABadConfigurationIsRefused) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -9,7 +9,7 @@
 #include "spatial/picture.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using Kind = Event::Kind;
@@ -164,4 +164,4 @@ TEST(OrthtreeEvents, TellTheLecturesStoryInOrder) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

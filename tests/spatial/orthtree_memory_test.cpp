@@ -9,7 +9,7 @@
 #include "spatial/picture.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::Sort;
@@ -169,4 +169,4 @@ TEST(LeafArray, KeepsEveryRunWhole) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

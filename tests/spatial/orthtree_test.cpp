@@ -8,7 +8,7 @@
 #include "spatial/picture.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::kSorts;
@@ -213,4 +213,4 @@ TEST(FlatQuadtree, ShowsTheQuadtreeOfXAndZ) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -8,7 +8,7 @@
 #include "spatial/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::Sort;
@@ -93,4 +93,4 @@ TEST(BruteForce, HoldsAllInOneLeafAscending) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -16,7 +16,7 @@
 
 #include "spatial/orthtree.hpp"
 
-namespace lantern::testing {
+namespace lantern::spatial::testing {
 
 template <int D>
 struct PictureNode {
@@ -128,4 +128,4 @@ class ReferenceTree {
   std::uint64_t entries_ = 0;
 };
 
-}  // namespace lantern::testing
+}  // namespace lantern::spatial::testing

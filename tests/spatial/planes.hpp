@@ -8,7 +8,7 @@
 #include "spatial/bsp.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern::testing {
+namespace lantern::spatial::testing {
 
 template <int D>
 std::vector<BspPlane<D>> random_planes(Sort sort, std::size_t count, Random& random) {
@@ -37,4 +37,4 @@ std::vector<BspPlane<D>> random_planes(Sort sort, std::size_t count, Random& ran
   return planes;
 }
 
-}  // namespace lantern::testing
+}  // namespace lantern::spatial::testing

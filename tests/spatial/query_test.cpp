@@ -11,7 +11,7 @@
 #include "spatial/raycast.hpp"
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::kSorts;
@@ -346,4 +346,4 @@ TEST(Query, RefusesWhatIsNoQuery) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -4,7 +4,7 @@
 
 #include "spatial/worlds.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 using testing::kSorts;
@@ -107,4 +107,4 @@ TEST(SortAndSweep, TellsEachBodyThatItStores) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

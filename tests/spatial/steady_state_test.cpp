@@ -30,7 +30,7 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 TEST(SteadyState, AnUpdateAsksForNoMemory) {
@@ -61,4 +61,4 @@ TEST(SteadyState, AnUpdateAsksForNoMemory) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -11,7 +11,7 @@
 #include "spatial/overlap_query.hpp"
 #include "spatial/pairs.hpp"
 
-namespace lantern {
+namespace lantern::spatial {
 namespace {
 
 constexpr Box<2> kStopBounds{Vec<2>(0.0), Vec<2>(64.0)};
@@ -122,10 +122,10 @@ TEST_F(HearsStop, ALevelThatIsCompiled) {
 }
 
 TEST_F(HearsStop, AnAtlas) {
-  Atlas atlas(4096, 4096);
+  atlas::Atlas atlas(4096, 4096);
   auto observer = wish_at(5000);
   const auto pack = [&] {
-    for (TextureId id = 0; id < 1000; ++id) atlas.insert(id, 16, 16, observer);
+    for (atlas::TextureId id = 0; id < 1000; ++id) atlas.insert(id, 16, 16, observer);
   };
   EXPECT_THROW(pack(), Stopped);
   EXPECT_LE(after_, 1);
@@ -170,4 +170,4 @@ TEST_F(HearsStop, ABroadPhaseWhoseNextUpdateIsRight) {
 }
 
 }  // namespace
-}  // namespace lantern
+}  // namespace lantern::spatial

@@ -13,7 +13,7 @@
 #include "geometry/random_vec.hpp"
 #include "spatial/pairs.hpp"
 
-namespace lantern::testing {
+namespace lantern::spatial::testing {
 
 enum class Sort {
   uniform,
@@ -128,4 +128,4 @@ std::set<BodyId> near_in(const Structure& structure, const Box<D>& box) {
   return {ids.begin(), ids.end()};
 }
 
-}  // namespace lantern::testing
+}  // namespace lantern::spatial::testing

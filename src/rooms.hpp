@@ -1,0 +1,44 @@
+// The rooms' namespaces: each sees the names of those that it may include (src/ARCHITECTURE.md), and
+// has its own first. What is in `base` is in `lantern` itself.
+#pragma once
+
+namespace lantern {
+
+namespace geometry {}
+namespace lecture {
+using namespace geometry;
+}
+namespace spatial {
+using namespace geometry;
+}
+namespace atlas {
+using namespace geometry;
+}
+namespace physics {
+using namespace spatial;
+}
+namespace scenario {
+using namespace physics;
+using namespace atlas;
+}
+namespace draw {
+using namespace scenario;
+}
+namespace render {
+using namespace draw;
+}
+namespace measure {
+using namespace scenario;
+}
+namespace peers {
+using namespace measure;
+}
+namespace report {
+using namespace measure;
+using namespace render;
+}
+namespace app {
+using namespace report;
+}
+
+}  // namespace lantern
