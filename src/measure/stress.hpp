@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "rooms.hpp"
+
 namespace lantern::measure {
 
 struct StressResult {

@@ -8,8 +8,6 @@
 namespace lantern::measure {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Semi-implicit Euler falls g T h / 2 too far, explicit Euler too little, higher orders nothing.
 TEST_F(Peers, AProjectileMissesByItsFirstOrderError) {
   each([](const Solver& peer, int dimension) {
@@ -140,7 +138,8 @@ TEST_F(Peers, BodiesAttractEachOther) {
     const bool lacks_it = peer.name().starts_with("MuJoCo");
     ASSERT_EQ(peer.cannot(s).has_value(), lacks_it);
     if (lacks_it) return;
-    const BodyState quarter = after(peer, s, kPi / 2 / 1024, 1024)[1];  // the angle is t v / r
+    const BodyState quarter =
+        after(peer, s, std::numbers::pi / 2 / 1024, 1024)[1];  // the angle is t v / r
     EXPECT_NEAR(quarter.position.x, 0, 0.02);
     EXPECT_NEAR(quarter.position.y, 2, 0.02);
   });
@@ -152,12 +151,12 @@ TEST_F(Peers, AnOscillatorKeepsItsPeriod) {
     Scenario s = scene(dimension, {ball({1, 0, 0})});
     LinkSpec spring;
     spring.rest_length = 0;
-    spring.stiffness = 2 * 4 * kPi * kPi;  // a period of 1 s
+    spring.stiffness = 2 * 4 * std::numbers::pi * std::numbers::pi;  // a period of 1 s
     s.links = {spring};
     if (peer.cannot(s)) return;
     const BodyState end = after(peer, s, 1.0 / 512, 512)[0];
     EXPECT_NEAR(end.position.x, 1, 0.05);
-    EXPECT_NEAR(end.velocity.x, 0, 2 * kPi * 0.05);
+    EXPECT_NEAR(end.velocity.x, 0, 2 * std::numbers::pi * 0.05);
   });
 }
 
