@@ -5,10 +5,12 @@
 #include "app/terminal.hpp"
 #include "measure/peers.hpp"
 
-namespace lantern::app {
-namespace {
+namespace lantern {
 
-constexpr const char* kNoLab = "this build has no lab; configure it with -DLANTERN_LAB=ON";
+static constexpr const char* kNoLab = "this build has no lab; configure it with -DLANTERN_LAB=ON";
+
+namespace app {
+namespace {
 
 int refused(const char* command) {
   complain(fmt::format("{}: {}", command, kNoLab));
@@ -21,11 +23,13 @@ int measure_command(const MeasureOptions&) { return refused("measure"); }
 int stress_command(const StressOptions&) { return refused("stress"); }
 int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
 
-}  // namespace lantern::app
+}  // namespace app
 
 // As doctor asks for them.
-std::vector<std::unique_ptr<lantern::measure::Solver>> lantern::measure::load_peers(
+std::vector<std::unique_ptr<measure::Solver>> measure::load_peers(
     std::vector<std::string>& missing) {
   missing.emplace_back(kNoLab);
   return {};
 }
+
+}  // namespace lantern
