@@ -5,12 +5,10 @@
 #include "app/terminal.hpp"
 #include "measure/peers.hpp"
 
-namespace lantern {
-
-static constexpr const char* kNoLab = "this build has no lab; configure it with -DLANTERN_LAB=ON";
-
-namespace app {
+namespace lantern::app {
 namespace {
+
+constexpr const char* kNoLab = "this build has no lab; configure it with -DLANTERN_LAB=ON";
 
 int refused(const char* command) {
   complain(fmt::format("{}: {}", command, kNoLab));
@@ -23,13 +21,14 @@ int measure_command(const MeasureOptions&) { return refused("measure"); }
 int stress_command(const StressOptions&) { return refused("stress"); }
 int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
 
-}  // namespace app
+}  // namespace lantern::app
+
+namespace lantern::measure {
 
 // As doctor asks for them.
-std::vector<std::unique_ptr<measure::Solver>> measure::load_peers(
-    std::vector<std::string>& missing) {
-  missing.emplace_back(kNoLab);
+std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing) {
+  missing.emplace_back(app::kNoLab);
   return {};
 }
 
-}  // namespace lantern
+}  // namespace lantern::measure

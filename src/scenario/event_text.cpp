@@ -101,13 +101,17 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
     return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
                        counted(pairs, "candidate pair", "candidate pairs"),
                        frame.count("testable_pairs").value_or(0));
-  if (phase == "narrow_phase")
-    return fmt::format(
-        "Narrow phase: the boxes of {} overlap, and the true shapes of {} are tested. {} really "
-        "{}.",
-        frame.count("overlaps").value_or(0),
-        counted(frame.count("pairs_tested").value_or(0), "pair", "pairs"), contacts,
-        contacts == 1 ? "touches" : "touch");
+  if (phase == "narrow_phase") {
+    const std::int64_t overlaps = frame.count("overlaps").value_or(0);
+    const std::int64_t tested = frame.count("pairs_tested").value_or(0);
+    if (overlaps == 0) return "Narrow phase: no boxes overlap, so no shapes are tested.";
+    const std::string whose = tested != overlaps ? fmt::format("the true shapes of {}", tested)
+                              : overlaps == 1    ? "its true shapes"
+                                                 : "their true shapes";
+    return fmt::format("Narrow phase: the boxes of {} overlap; {} are tested. {} really {}.",
+                       counted(overlaps, "pair", "pairs"), whose, contacts,
+                       contacts == 1 ? "touches" : "touch");
+  }
   return fmt::format(
       "Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
       counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));

@@ -1,7 +1,9 @@
 // What stands beside a frame: all that it promises, in as many dimensions as the world has.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/file.hpp"
 #include "scenario/directing.hpp"
 
 namespace lantern::scenario {
@@ -90,6 +92,12 @@ TEST(FrameJson, OfASolidWorldHasThreeNumbersAPoint) {
   ASSERT_EQ(frame["rays"].size(), 1u);
   ASSERT_EQ(frame["rays"][0]["hits"].size(), 1u);
   EXPECT_EQ(frame["rays"][0]["hits"][0]["body"], frame["bodies"][1]["id"]);
+}
+
+TEST(FrameJson, ItsPageNamesEveryCounterOfASum) {
+  const std::string page = read_file(LANTERN_ROOT "/scenarios/FRAME.md", 1 << 20);
+  for (const WorldCounter& counter : kWorldCounters)
+    EXPECT_NE(page.find(fmt::format("`{}`", counter.name)), std::string::npos) << counter.name;
 }
 
 TEST(FrameJson, LosesNoBitOfANumber) {
