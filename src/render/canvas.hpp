@@ -36,6 +36,18 @@ struct Canvas {
   Vec<2> pixel(const Vec<2>& p) const { return origin + p * scale; }
   Box<2> pixels(const Box<2>& b) const { return {pixel(b.lo), pixel(b.hi)}; }
 
+  // The pixels of a snapped line that is upright or level.
+  Box<2> snapped_line(const LineShape& line) const {
+    const double wide = snapped_width(line.stroke.width * scale);
+    const Box<2> ends = pixels({glm::min(line.from, line.to), glm::max(line.from, line.to)});
+    Box<2> box;
+    for (int i = 0; i < 2; ++i) {
+      box.lo[i] = first_pixel(ends.lo[i], wide);
+      box.hi[i] = first_pixel(ends.hi[i], wide) + wide;
+    }
+    return box;
+  }
+
   // The part of the image that can hold pixels of a box.
   PixelRect around(const Box<2>& b) const {
     const auto whole = [](double x, int most) {

@@ -238,14 +238,7 @@ class ShapeBuilder {
   }
 
   void add_snapped_line(const LineShape& shape) {
-    const double width = snapped_width(shape.stroke.width * canvas_.scale);
-    const Box<2> ends =
-        canvas_.pixels({glm::min(shape.from, shape.to), glm::max(shape.from, shape.to)});
-    Box<2> box;
-    for (int i = 0; i < 2; ++i) {
-      box.lo[i] = first_pixel(ends.lo[i], width);
-      box.hi[i] = first_pixel(ends.hi[i], width) + width;
-    }
+    const Box<2> box = canvas_.snapped_line(shape);
     add_upright({box.center(), {1, 0}, box.size() * 0.5}, paint(shape.stroke.role, Role::none));
   }
 
