@@ -44,10 +44,10 @@ struct World<D>::Step {
   std::vector<JointMemory> joint_memories = world.joint_memories_;
   Forces<D> forces = world.forces_;
   std::vector<TimedPush> pushes = {};
-  std::vector<Increment<D>> increments = {};  // over the whole step, if nothing touches
-  std::vector<Proxy<D>> boxes = {};           // of bodies, enlarged by how far each may come
-  std::vector<Pair> pairs = {};               // of the broad phase
-  std::uint64_t narrow_pairs = 0;             // of those, looked at by the narrow phase
+  std::vector<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
+  std::vector<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
+  std::vector<Pair> pairs = {};         // of the broad phase
+  std::uint64_t narrow_pairs = 0;       // of those, looked at by the narrow phase
   std::vector<NearPair> near = {};
   std::vector<std::uint32_t> root = {};  // of each body's island; static ones have their own
   std::vector<Touch> touching = {};
@@ -68,6 +68,11 @@ struct World<D>::Step {
   void fall_asleep();
   void update_contact_events();
   void commit();
+
+  // Over the whole step, if nothing touches.
+  const std::vector<Increment<D>>& increments() const {
+    return anew.empty() ? world.ahead_->increments : anew;
+  }
 
   // What looking ahead asks for.
   void require_boxes() const;

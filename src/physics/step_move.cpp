@@ -56,7 +56,7 @@ void World<D>::Step::solve_and_integrate() {
       solved[i] = moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
   }
   for (std::size_t i = 0; i < moved.size(); ++i)
-    if (!solved[i]) fly(moved[i], increments[i], h, world.config_.rotation, world.work_);
+    if (!solved[i]) fly(moved[i], increments()[i], h, world.config_.rotation, world.work_);
 }
 
 template <int D>
@@ -193,7 +193,7 @@ void World<D>::Step::fall_asleep() {
       if (body.kind != BodyKind::dynamic_body || body.asleep) continue;
       ++world.work_.rest_checks;
       const bool still = body.velocity == Vec<D>(0.0) && body.angular_momentum == Spin<D>(0.0) &&
-                         increments[i].kick == Vec<D>(0.0);
+                         increments()[i].kick == Vec<D>(0.0);
       const bool braked = body.linear_drag > 0 && (body.angular_drag > 0 || !body.may_turn ||
                                                    body.angular_momentum == Spin<D>(0.0));
       rested[i] = (held[root[i]] || braked ? is_slow(i) : still) ? rested[i] + h : 0;

@@ -58,12 +58,11 @@ void World<D>::Step::find_forces() {
   // Once a step, by looking ahead or in the first of several tries: they follow from the world as
   // it was before.
   if (!world.ahead_ || world.ahead_->h != h) {
-    find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
-    world.ahead_ = Ahead{h, increments, 0};
-  } else {
-    increments = world.ahead_->increments;
-    world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
+    Ahead found{h, {}, 0};
+    find_increments_if_any<D>(world.config_, moved, forces, h, found.increments, world.work_);
+    world.ahead_ = std::move(found);
   }
+  world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
   find_reach();
 }
 
@@ -72,8 +71,9 @@ void World<D>::Step::find_reach() {
   reach.resize(moved.size());
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Body<D>& body = moved[i];
-    const double way = coasting_reach(body, h) + glm::length(increments[i].kick) * h +
-                       glm::length(increments[i].drift);
+    const Increment<D>& increment = increments()[i];
+    const double way =
+        coasting_reach(body, h) + glm::length(increment.kick) * h + glm::length(increment.drift);
     reach[i] = std::max(reach[i], way);
   }
 }
@@ -122,8 +122,7 @@ void World<D>::look_ahead(double h) {
   try {
     step.find_forces();
     step.require_boxes();
-    const std::uint64_t evaluations = work_.force_evaluations - before.force_evaluations;
-    ahead_ = Ahead{h, step.increments, evaluations};
+    ahead_->force_evaluations = work_.force_evaluations - before.force_evaluations;
   } catch (const Refused&) {
     ahead_.reset();
     step.reach.assign(bodies_.size(), 0);
@@ -238,7 +237,7 @@ bool World<D>::Step::wake_what_is_touched() {
   for (const Spring<D>& spring : forces.springs) tied(spring.a, spring.b);
   if (woken.empty()) return false;
   wake(std::move(woken));
-  find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
+  find_increments_if_any<D>(world.config_, moved, forces, h, anew, world.work_);
   find_reach();
   return true;
 }
