@@ -19,6 +19,33 @@ double roundness(const Shape<D>& shape) {
       [](const HalfSpace<D>&) { return 0.0; });
 }
 
+// Whether a point of a body's core, in its own axes, is one of its corners: a sphere's centre, an
+// end of a capsule's segment.
+template <int D>
+bool is_corner(const Shape<D>& shape, const Vec<D>& point) {
+  return visit_shape<D>(
+      shape,
+      [&](const Core<D>& core) {
+        double size = core.radius;
+        for (int i = 0; i < D; ++i) size = std::max(size, core.half[i]);
+        for (int i = 0; i < D; ++i)
+          if (std::abs(std::abs(point[i]) - core.half[i]) > kRowSettings.corner * size)
+            return false;
+        return true;
+      },
+      [](const HalfSpace<D>&) { return false; });
+}
+
+// While bodies slide or roll on each other, the corner (or the round side) of one of them moves
+// over the face of the other: where it is now, they touch. Where edges cross it is half way.
+template <int D>
+double where_impulses_act(const Body<D>& a, const Vec<D>& core_a, const Body<D>& b,
+                          const Vec<D>& core_b) {
+  const bool corner_a = is_corner<D>(a.shape, core_a), corner_b = is_corner<D>(b.shape, core_b);
+  if (corner_a != corner_b) return corner_b ? 1 : 0;
+  return a.inverse_mass == 0 ? 1 : b.inverse_mass == 0 ? 0 : 0.5;
+}
+
 // An impulse upon b at a point, and the opposite one upon a.
 template <int D>
 void apply(const ContactPoint<D>& p, const Vec<D>& impulse, SolverBody<D>& a, SolverBody<D>& b) {
@@ -73,7 +100,6 @@ void ContactRows<D>::set_points(const Manifold<D>& manifold, const Body<D>& body
                                 const Body<D>& body_b, const Contact<D>* remembered, double scale) {
   normal = manifold.normal;
   count = manifold.count;
-  share = body_a.inverse_mass == 0 ? 1 : body_b.inverse_mass == 0 ? 0 : 0.5;
   const Mat<D> axes_a = axes_of(body_a), axes_b = axes_of(body_b);
   for (int i = 0; i < manifold.count; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -87,6 +113,7 @@ void ContactRows<D>::set_points(const Manifold<D>& manifold, const Body<D>& body
     const Vec<D> to_b = from.position + half_gap - body_b.position;
     p.core_a = (to_a - p.round_a) * axes_a;  // a vector times a matrix: by its inverse
     p.core_b = (to_b - p.round_b) * axes_b;
+    p.share = where_impulses_act(body_a, p.core_a, body_b, p.core_b);
     p.offset =
         from.separation - glm::dot(normal, (body_b.position - body_a.position) + to_b - to_a);
     if (remembered != nullptr)
@@ -110,8 +137,8 @@ void ContactRows<D>::refresh(const Body<D>& body_a, const Body<D>& body_b,
     const Vec<D> gap = (body_b.position - body_a.position) + to_b - to_a;
     p.separation = glm::dot(normal, gap) + p.offset;
     p.gap = p.separation > touching ? p.separation : 0;
-    p.arm_a = to_a + gap * share;
-    p.arm_b = to_b - gap * (1 - share);
+    p.arm_a = to_a + gap * p.share;
+    p.arm_b = to_b - gap * (1 - p.share);
     p.inverse_normal_mass = inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, normal);
     if (friction > 0) p.inverse_tangent_mass = softest(solver_a, solver_b, p, normal);
     const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);

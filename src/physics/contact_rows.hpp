@@ -31,6 +31,7 @@ struct RowSettings {
   // "Small Steps in Physics Simulation", 2019).
   double pushed_out = 0.25;
   double fastest_push = 4;
+  double corner = 1e-3;  // of a body's size: so near to a corner of it is at the corner
   // Of full friction: what stops a body within so little of it does not slip in the end.
   double slip_by_rounding = 1e-6;
   // Of the firmest point's impulse: one that presses less presses by rounding only.
@@ -40,6 +41,8 @@ struct RowSettings {
   // motion that it leaves is a blow to the next direct solve, which would push as much the other
   // way, and so on.
   double change = 1e-12;
+  // Of what impulses change: so little work is done by rounding.
+  double work_by_rounding = 1e-9;
   double push = 1e-3;       // of the largest push out of penetration, and
   double no_matter = 1e-7;  // of the largest impulse: what is less than either is enough
 };
@@ -52,6 +55,7 @@ struct ContactPoint {
   // (a ball that rolls keeps its lowest point).
   Vec<D> core_a{0.0}, core_b{0.0}, round_a{0.0}, round_b{0.0};
   Vec<D> arm_a{0.0}, arm_b{0.0};  // to the point where impulses act, in the world's axes
+  double share = 0.5;             // where impulses act, from a's surface (0) to b's (1)
   double offset = 0;              // of the separation, against what the arms say
   double separation = 0;
   double gap = 0;                   // the same while they do not touch, else 0
@@ -90,7 +94,6 @@ struct ContactRows {
   double friction = 0;
   double restitution = 0;
   Vec<D> normal{0.0};
-  double share = 0.5;  // where impulses act, from a's surface (0) to b's (1)
   std::array<ContactPoint<D>, Manifold<D>::kMostPoints> room;
   int count = 0;
 

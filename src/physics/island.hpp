@@ -51,7 +51,9 @@ struct Island {
   // Scratch, kept for its memory.
   std::vector<SolverBody<D>> solver_bodies;
   std::vector<Increment<D>> increments;
-  std::vector<Vec<D>> kicked;  // velocities after the forces, before the constraints
+  // After the forces, before the constraints.
+  std::vector<Vec<D>> kicked;
+  std::vector<Spin<D>> kicked_spins;
 
   void set_solver_bodies() {
     solver_bodies.clear();

@@ -22,6 +22,8 @@ struct SolverBody {
   // above by what pushes out penetration, which must not become motion (split impulses).
   Vec<D> mean_velocity{0.0};
   Spin<D> mean_spin{0.0};
+  Spin<D> lag{0.0};           // of the angular momentum while the body turns, see Increment
+  Spin<D> turning_spin{0.0};  // the mean spin that this gives
 
   void apply(const Vec<D>& impulse, const Vec<D>& arm) {
     const Spin<D> turn = cross(arm, impulse);

@@ -10,17 +10,49 @@ namespace lantern::physics {
 namespace {
 
 // Which part of the new velocity's change the mean velocity lags behind: 0 for semi-implicit
-// Euler, 1/2 for velocity Verlet.
+// Euler, 1/2 for velocity Verlet. Where there is no force, as the method would lag.
 template <int D>
-double lag_of(const Increment<D>& increment, double h) {
+double lag_of(const Island<D>& island, std::size_t i, const WorldConfig<D>& config, double h) {
+  const Increment<D>& increment = island.increments[i];
   const double kick = glm::dot(increment.kick, increment.kick);
-  if (kick == 0) return 0;
-  return std::clamp(-glm::dot(increment.drift, increment.kick) / (h * kick), 0.0, 1.0);
+  if (kick > 0)
+    return std::clamp(-glm::dot(increment.drift, increment.kick) / (h * kick), 0.0, 1.0);
+  switch (island.bodies[i].integrator.value_or(config.integrator)) {
+    case Integrator::explicit_euler:
+      return 1;
+    case Integrator::semi_implicit_euler:
+    case Integrator::implicit_euler:
+      return 0;
+    case Integrator::velocity_verlet:
+    case Integrator::runge_kutta_4:
+    case Integrator::implicit_midpoint:
+      return 0.5;
+  }
+  return 0;
 }
 
 // Impulses of what presses go with time, those of a blow do not. A blow in the shortest of
 // sub-steps must not be taken for a force, so a guess is only ever made smaller.
 double rescaled(double seconds, double old) { return std::min(seconds / old, 1.0); }
+
+// Whether the inertia is the same about all axes: then energy does not depend on how a body lies.
+template <int D>
+bool turns_alike(const Body<D>& body) {
+  for (int i = 1; i < (D == 2 ? 1 : 3); ++i)
+    if (spin_component(body.inverse_inertia, i) != spin_component(body.inverse_inertia, 0))
+      return false;
+  return true;
+}
+
+// Turns the body out of others. Its angular momentum turns with it: else it would come to lie along
+// other axes of the body, about which it may be far more energy.
+template <int D>
+void turn_with_momentum(Body<D>& body, const Spin<D>& turn) {
+  body.orientation = turned(body.orientation, turn);
+  if constexpr (D == 3)
+    if (!turns_alike(body))
+      body.angular_momentum = turned(Rotation<3>{}, turn).q * body.angular_momentum;
+}
 
 template <int D>
 void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
@@ -95,7 +127,11 @@ void SubStep<D>::begin() {
     body.spin += body.inverse_inertia * island.increments[i].twist;
   }
   island.kicked.clear();
-  for (const SolverBody<D>& body : island.solver_bodies) island.kicked.push_back(body.velocity);
+  island.kicked_spins.clear();
+  for (const SolverBody<D>& body : island.solver_bodies) {
+    island.kicked.push_back(body.velocity);
+    island.kicked_spins.push_back(body.spin);
+  }
   each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
   each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
 }
@@ -114,18 +150,61 @@ Sweep SubStep<D>::sweep_velocities(int turn) {
   return sweep;
 }
 
+// Impulses p change the kinetic energy by p.(u0 + u) / 2, with relative velocities u0 before them
+// and u = u0 + K p after. Those that solve all rows have p.(u - wanted) = 0: they are the best of
+// their ray s p, and what is wanted is never more than what came in, u0, turned round. Since the
+// cone of friction is one, s p stays within it.
+template <int D>
+void SubStep<D>::do_no_work() {
+  double before = 0, after = 0, wanted = 0;
+  const auto before_of = [&](std::uint32_t i, const Vec<D>& arm) {
+    return island.kicked[i] + cross(island.kicked_spins[i], arm);
+  };
+  const auto add = [&](const auto& rows, const auto& point, const Vec<D>& impulse) {
+    const SolverBody<D>&a = island.solver_bodies[rows.a], &b = island.solver_bodies[rows.b];
+    before += glm::dot(impulse, before_of(rows.b, point.arm_b) - before_of(rows.a, point.arm_a));
+    after += glm::dot(impulse, relative_velocity(a, point.arm_a, b, point.arm_b));
+  };
+  for (const JointRows<D>& rows : island.joints) add(rows, rows, rows.impulse);
+  for (const IslandPair<D>& pair : island.pairs)
+    for (const ContactPoint<D>& p : pair.rows.points()) {
+      add(pair.rows, p, pair.rows.normal * p.pn + p.pt);
+      wanted += p.pn * (p.bounce - p.gap / h);
+    }
+  const double changed = after - before;
+  wanted = std::min(wanted, std::max(-before, 0.0));
+  if (!(after - wanted > kRowSettings.work_by_rounding * changed)) return;
+  const double share = std::clamp((wanted - before) / changed, 0.0, 1.0);
+  for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+    SolverBody<D>& body = island.solver_bodies[i];
+    body.velocity = island.kicked[i] + (body.velocity - island.kicked[i]) * share;
+    body.spin = island.kicked_spins[i] + (body.spin - island.kicked_spins[i]) * share;
+    body.twist *= share;
+  }
+  for (JointRows<D>& rows : island.joints) rows.impulse *= share;
+  for (IslandPair<D>& pair : island.pairs)
+    for (ContactPoint<D>& p : pair.rows.points()) {
+      p.pn *= share;
+      p.pt *= share;
+    }
+}
+
 template <int D>
 void SubStep<D>::begin_position_correction() {
+  do_no_work();
   const auto& increments = island.increments;
   for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
     SolverBody<D>& body = island.solver_bodies[i];
+    const double lag = lag_of(island, i, config, h);
     const Vec<D> pressed = body.velocity - island.kicked[i];
-    body.mean_velocity =
-        body.velocity + increments[i].drift / h - pressed * lag_of(increments[i], h);
-    body.mean_spin = body.spin;
+    body.mean_velocity = body.velocity + increments[i].drift / h - pressed * lag;
+    body.lag = increments[i].lag;
+    if (turns_alike(island.bodies[i])) body.lag -= body.twist * lag;
+    body.mean_spin = body.turning_spin = body.spin + body.inverse_inertia * body.lag;
   }
   each_pair([&](auto& rows, auto& a, auto& b) {
-    rows.begin_correction(a, b, lag_of(increments[rows.a], h), lag_of(increments[rows.b], h));
+    rows.begin_correction(a, b, lag_of(island, rows.a, config, h),
+                          lag_of(island, rows.b, config, h));
   });
 }
 
@@ -159,11 +238,11 @@ void SubStep<D>::end() {
     body.angular_momentum += increment.twist + solved.twist;
     body.position += solved.mean_velocity * h;
     if (body.inverse_inertia == Spin<D>(0.0)) continue;
-    const Spin<D> turning = body.angular_momentum + increment.lag;
-    const Spin<D> pushed = solved.mean_spin - solved.spin;
+    const Spin<D> turning = body.angular_momentum + solved.lag;
+    const Spin<D> pushed = solved.mean_spin - solved.turning_spin;
     if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
-    turn_freely(body, h, body.rotation.value_or(config.rotation), increment.lag);
-    if (pushed != Spin<D>(0.0)) body.orientation = turned(body.orientation, pushed * h);
+    turn_freely(body, h, body.rotation.value_or(config.rotation), solved.lag);
+    if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
     ++work.rotations_integrated;
   }
   for (IslandPair<D>& pair : island.pairs) {

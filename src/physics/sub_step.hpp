@@ -35,6 +35,10 @@ class SubStep {
   // Once over all rows. Every other `turn` goes backwards, so that neither end of a stack, nor side
   // of a box, is preferred.
   Sweep sweep_velocities(int turn);
+  // Takes back so much of all impulses, in proportion, that together they do no work but what
+  // bounces and closing gaps ask for. Sweeps that end early may leave them too large, and energy
+  // would come of it. After the last sweep over velocities.
+  void do_no_work();
   // From the velocities found follow mean velocities, and what is wanted of them.
   void begin_position_correction();
   Sweep sweep_positions();
