@@ -1,6 +1,8 @@
 // Bodies that hang together, while a step moves them.
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "physics/contact_rows.hpp"
@@ -28,7 +30,8 @@ struct IslandPair {
   Contact<D> memory;   // of the last sub-step
   double seconds = 0;  // of that sub-step
   bool touched = false;
-  Contact<D> record;  // what the step tells
+  Contact<D> record;                  // what the step tells
+  const Manifold<D>* seen = nullptr;  // how they lie, within `reach`; null once they have moved
 
   void record_impulses() {
     for (std::size_t i = 0; i < rows.points().size(); ++i) {
@@ -67,9 +70,14 @@ struct Island {
     const Body<D>& a = bodies[pair.rows.a];
     const Body<D>& b = bodies[pair.rows.b];
     pair.rows.count = 0;
-    ++work.narrow_tests;
-    const auto manifold = collide(placed(a), placed(b), margin);
-    if (!manifold) return false;
+    const Manifold<D>* manifold = std::exchange(pair.seen, nullptr);
+    std::optional<Manifold<D>> made;
+    if (manifold == nullptr || margin != pair.reach) {
+      ++work.narrow_tests;
+      made = collide(placed(a), placed(b), margin);
+      if (!made) return false;
+      manifold = &*made;
+    }
     pair.rows.set_points(*manifold, a, b, remembered, scale);
     renew_record(pair.record, *manifold);
     work.contact_points += pair.rows.points().size();

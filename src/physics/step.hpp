@@ -11,9 +11,11 @@ namespace lantern::physics {
 
 // The numbers of a step, whatever the method.
 struct StepSettings {
-  int most_tries = 4;      // the last one counts even if a body went farther than was looked for
-  double slack = 1e-3;     // of a body's thickness: nearer is looked at, too
-  double fast = 0.5;       // of the thinner body's thickness in a step: may pass through
+  int most_tries = 4;   // the last one counts even if a body went farther than was looked for
+  double slack = 1e-3;  // of a body's thickness: nearer is looked at, too
+  double fast = 0.5;    // of the thinner body's thickness in a step: may pass through
+  std::size_t most_manifolds =
+      1 << 16;             // kept from the narrow phase for the solver; else made again
   double rounding = 1e-9;  // of a step's time, when a push ends; of a reach, whether it was kept
 };
 inline constexpr StepSettings kStepSettings;
@@ -27,9 +29,11 @@ struct World<D>::Step {
     double restitution = 0;
     double friction = 0;
     double reach = 0;
-    const Touch* touch = nullptr;  // of the step before, if they touched in it
+    const Touch* touch = nullptr;    // of the step before, if they touched in it
+    std::uint32_t manifold = kNone;  // as they were found to lie; none of too many
     bool located = false;
   };
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   // What a solver is given together: places of bodies, of near pairs, of joints; all ascending.
   struct Group {
     std::vector<std::uint32_t> bodies;
@@ -48,9 +52,11 @@ struct World<D>::Step {
   std::vector<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
   std::vector<Pair> pairs = {};         // of the broad phase
   std::uint64_t narrow_pairs = 0;       // of those, looked at by the narrow phase
-  std::vector<NearPair> near = {};
+  std::vector<NearPair> near = {};      // in order of ids
+  std::vector<Manifold<D>> manifolds = {};
   std::vector<std::uint32_t> root = {};  // of each body's island; static ones have their own
   std::vector<Touch> touching = {};
+  std::vector<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
   std::vector<Contact<D>> contacts = {};
   std::vector<ContactEvent> events = {};
   std::vector<Told> told = {};
@@ -86,7 +92,6 @@ struct World<D>::Step {
   }
   std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
   bool is_slow(std::size_t place) const;
-  const Touch* remembered(BodyId a, BodyId b) const;
 
   void find_reach();
   Box<D> enlarged_box(std::size_t place) const;
@@ -97,7 +102,8 @@ struct World<D>::Step {
 
   std::vector<Group> groups_to_solve(bool whole_world) const;
   Island<D> gather(const Group& group) const;
-  void bring_back(Island<D>& island);
+  void bring_back(Island<D>& island, const Group& group);
+  void order_touches();
 };
 
 }  // namespace lantern::physics

@@ -42,6 +42,7 @@ template <int D>
 void World<D>::Step::solve_and_integrate() {
   const ContactSolver<D>& solver = contact_solver<D>(world.config_.contacts);
   std::vector<std::uint8_t> solved(moved.size());
+  touch_of.assign(near.size(), kNone);
   int budget = world.config_.impact_budget;
   for (const Group& group : groups_to_solve(solver.whole_world)) {
     stop_if_asked();
@@ -51,7 +52,7 @@ void World<D>::Step::solve_and_integrate() {
       solver.solve(island, world.config_, h, h, world.work_);
     else
       move_through_impacts(island, solver, world.config_, h, budget, world.work_);
-    bring_back(island);
+    bring_back(island, group);
     for (const std::uint32_t i : group.bodies)
       solved[i] = moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
   }
@@ -116,16 +117,18 @@ Island<D> World<D>::Step::gather(const Group& group) const {
 }
 
 template <int D>
-void World<D>::Step::bring_back(Island<D>& island) {
+void World<D>::Step::bring_back(Island<D>& island, const Group& group) {
   for (std::size_t i = 0; i < island.places.size(); ++i)
     if (island.bodies[i].kind == BodyKind::dynamic_body)
       moved[island.places[i]] = std::move(island.bodies[i]);
   for (const JointRows<D>& rows : island.joints)
     joint_memories[rows.place] = {rows.impulse, island.joint_seconds};
-  for (const IslandPair<D>& pair : island.pairs) {
+  for (std::size_t i = 0; i < island.pairs.size(); ++i) {
     stop_if_asked();
-    if (pair.touched)
-      touching.push_back({pair.record, pair.memory, pair.remembered ? pair.seconds : 0});
+    const IslandPair<D>& pair = island.pairs[i];
+    if (!pair.touched) continue;
+    touch_of[group.pairs[i]] = static_cast<std::uint32_t>(touching.size());
+    touching.push_back({pair.record, pair.memory, pair.remembered ? pair.seconds : 0});
   }
 }
 
@@ -210,23 +213,34 @@ void World<D>::Step::fall_asleep() {
   for (const Body<D>& body : moved) world.work_.asleep += body.asleep;
 }
 
-// Contacts in order of ids, with those of bodies that slept through, and what is new about them.
+// In order of ids, as the near pairs are, with those of bodies that slept through.
 template <int D>
-void World<D>::Step::update_contact_events() {
+void World<D>::Step::order_touches() {
+  std::vector<Touch> slept, ordered;
   const auto rests = [&](BodyId id) {
     return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
   };
   for (const Touch& touch : world.touching_)
-    if (rests(touch.record.a) && rests(touch.record.b)) touching.push_back(touch);
-  const auto less = [&](const Touch& x, const Touch& y) {
+    if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
+  ordered.reserve(touching.size() + slept.size());
+  auto next = slept.begin();
+  for (std::size_t i = 0; i < near.size(); ++i) {
     stop_if_asked();
-    return x.record.pair() < y.record.pair();
-  };
-  const auto same = [](const Touch& x, const Touch& y) {
-    return x.record.pair() == y.record.pair();
-  };
-  std::stable_sort(touching.begin(), touching.end(), less);
-  touching.erase(std::unique(touching.begin(), touching.end(), same), touching.end());
+    if (touch_of[i] == kNone) continue;
+    Touch& touch = touching[touch_of[i]];
+    while (next != slept.end() && next->record.pair() < touch.record.pair())
+      ordered.push_back(std::move(*next++));
+    if (next != slept.end() && next->record.pair() == touch.record.pair()) ++next;
+    ordered.push_back(std::move(touch));
+  }
+  ordered.insert(ordered.end(), next, slept.end());
+  touching = std::move(ordered);
+}
+
+// Contacts in order of ids, and what is new about them.
+template <int D>
+void World<D>::Step::update_contact_events() {
+  order_touches();
   for (const Touch& touch : touching) contacts.push_back(touch.record);
 
   const int frames = contact_solver<D>(world.config_.contacts).frames_remembered;

@@ -157,9 +157,15 @@ template <int D>
 void World<D>::Step::narrow_phase() {
   near.clear();
   narrow_pairs = 0;
+  manifolds.clear();
+  auto touch = world.touching_.begin();  // in order of ids, as the pairs are
   for (const Pair& pair : pairs) {
     stop_if_asked();
-    if (const auto found = nearing(pair)) near.push_back(*found);
+    auto found = nearing(pair);
+    if (!found) continue;
+    while (touch != world.touching_.end() && touch->record.pair() < pair) ++touch;
+    if (touch != world.touching_.end() && touch->record.pair() == pair) found->touch = &*touch;
+    near.push_back(*found);
   }
   // They are made when their islands are moved, and remembered for the next step.
   constexpr std::uint64_t kEach =
@@ -189,7 +195,10 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   found.friction = std::sqrt(a.material.friction * b.material.friction);
   const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
   found.located = locates_impacts() && (found.restitution > 0 || way > kStepSettings.fast * thin);
-  found.touch = remembered(pair.a, pair.b);
+  if (manifolds.size() < kStepSettings.most_manifolds) {
+    found.manifold = static_cast<std::uint32_t>(manifolds.size());
+    manifolds.push_back(*manifold);
+  }
   return found;
 }
 
@@ -205,19 +214,13 @@ IslandPair<D> World<D>::Step::island_pair(const NearPair& from) const {
   pair.pressed = !from.located;
   pair.record.a = pair.memory.a = moved[from.a].id;
   pair.record.b = pair.memory.b = moved[from.b].id;
+  if (from.manifold != kNone) pair.seen = &manifolds[from.manifold];
   if (from.touch != nullptr) {
     pair.remembered = from.touch->seconds > 0;
     pair.memory = from.touch->memory;
     pair.seconds = from.touch->seconds;
   }
   return pair;
-}
-
-template <int D>
-const typename World<D>::Touch* World<D>::Step::remembered(BodyId a, BodyId b) const {
-  const auto pair_of = [](const Touch& touch) { return touch.record.pair(); };
-  const auto touch = std::ranges::lower_bound(world.touching_, Pair{a, b}, {}, pair_of);
-  return touch != world.touching_.end() && pair_of(*touch) == Pair{a, b} ? &*touch : nullptr;
 }
 
 template <int D>

@@ -59,7 +59,10 @@ void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
   for (IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
     pair.rows.count = 0;
-    if (!pair.pressed) continue;
+    if (!pair.pressed) {
+      pair.seen = nullptr;  // it is about to move
+      continue;
+    }
     const double scale = pair.seconds > 0 ? rescaled(scale_to, pair.seconds) : 0;
     island.find_points(pair, pair.reach, pair.remembered ? &pair.memory : nullptr, scale, work);
   }

@@ -83,6 +83,8 @@ void World<D>::remove(BodyId id) {
 
 template <int D>
 const Body<D>* World<D>::find(BodyId id) const {
+  if (id < bodies_.size() && bodies_[id].id == id)
+    return &bodies_[id];  // as long as none is removed
   const auto body = std::lower_bound(bodies_.begin(), bodies_.end(), id,
                                      [](const Body<D>& b, BodyId wanted) { return b.id < wanted; });
   return body != bodies_.end() && body->id == id ? &*body : nullptr;

@@ -20,6 +20,9 @@ struct WorldConfig {
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase = {};
   int sub_steps = 8;          // of soft contacts, and of joints where nothing collides, 1 ... 1000
+  // The error that is wanted of soft and direct contacts, in units of length: sweeps end when none
+  // of them moves a body by more of it in a sub-step. 0: as little as the method can.
+  double wanted_error = 0;
   int iterations = 10;        // of impulse contacts: sweeps a step, 1 ... 100000
   bool warm_start = true;     // begin with the impulses of the step before
   bool may_sleep = true;      // islands that rest are left out until something wakes them
