@@ -78,6 +78,12 @@ Placed<D> placed(const Body<D>& body) {
   return {body.shape, body.position, body.orientation};
 }
 
+// Its axes in the world, as columns; of what does not turn those of the world.
+template <int D>
+Mat<D> axes_of(const Body<D>& body) {
+  return turns<D>(body.shape) ? matrix(body.orientation) : Mat<D>(1.0);
+}
+
 // Inverse inertia in the world's axes: a number in 2D, a matrix in 3D.
 inline double world_inverse_inertia(const Body<2>& body) { return body.inverse_inertia; }
 inline Mat<3> world_inverse_inertia(const Body<3>& body) {

@@ -152,7 +152,9 @@ Placing<D> placing_of(const Placed<D>& placed, const Vec<D>& center) {
   using Kind = typename PlacedCore<D>::Kind;
   const auto core = [&](Kind kind, const Core<D>& of) -> Placing<D> {
     const bool is_turned = of.turns && kind != Kind::point;
-    const Mat<D> axes = is_turned ? matrix(placed.orientation) : Mat<D>(1.0);
+    const Mat<D> axes = !is_turned    ? Mat<D>(1.0)
+                        : placed.axes ? *placed.axes
+                                      : matrix(placed.orientation);
     return PlacedCore<D>{kind, center, axes, of.half, of.radius};
   };
   return std::visit(EachShape{

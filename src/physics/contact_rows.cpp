@@ -6,11 +6,6 @@
 namespace lantern::physics {
 namespace {
 
-template <int D>
-Mat<D> axes_of(const Body<D>& body) {
-  return turns<D>(body.shape) ? matrix(body.orientation) : Mat<D>(1.0);
-}
-
 // How far the surface is from the part of the body that turns.
 template <int D>
 double roundness(const Shape<D>& shape) {
@@ -97,10 +92,10 @@ double sliding_share(const ContactPoint<D>& p, double friction) {
 
 template <int D>
 void ContactRows<D>::set_points(const Manifold<D>& manifold, const Body<D>& body_a,
-                                const Body<D>& body_b, const Contact<D>* remembered, double scale) {
+                                const Body<D>& body_b, const Mat<D>& axes_a, const Mat<D>& axes_b,
+                                const Contact<D>* remembered, double scale) {
   normal = manifold.normal;
   count = manifold.count;
-  const Mat<D> axes_a = axes_of(body_a), axes_b = axes_of(body_b);
   for (int i = 0; i < manifold.count; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const ManifoldPoint<D>& from = manifold.room[at];
@@ -128,10 +123,9 @@ void ContactRows<D>::set_points(const Manifold<D>& manifold, const Body<D>& body
 }
 
 template <int D>
-void ContactRows<D>::refresh(const Body<D>& body_a, const Body<D>& body_b,
-                             const SolverBody<D>& solver_a, const SolverBody<D>& solver_b,
-                             double threshold, double touching) {
-  const Mat<D> axes_a = axes_of(body_a), axes_b = axes_of(body_b);
+void ContactRows<D>::refresh(const Body<D>& body_a, const Body<D>& body_b, const Mat<D>& axes_a,
+                             const Mat<D>& axes_b, const SolverBody<D>& solver_a,
+                             const SolverBody<D>& solver_b, double threshold, double touching) {
   for (ContactPoint<D>& p : points()) {
     const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
     const Vec<D> gap = (body_b.position - body_a.position) + to_b - to_a;

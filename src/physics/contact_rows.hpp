@@ -105,12 +105,14 @@ struct ContactRows {
 
   // Points from the narrow phase, with the impulses per second of points of the same feature.
   void set_points(const Manifold<D>& manifold, const Body<D>& body_a, const Body<D>& body_b,
-                  const Contact<D>* remembered, double scale);
+                  const Mat<D>& axes_a, const Mat<D>& axes_b, const Contact<D>* remembered,
+                  double scale);
   // Arms, separations and effective masses where the bodies are now; velocities are those before
   // the sub-step's forces. Points that approach faster than `threshold` bounce; those no farther
   // apart than `touching` have no gap.
-  void refresh(const Body<D>& body_a, const Body<D>& body_b, const SolverBody<D>& solver_a,
-               const SolverBody<D>& solver_b, double threshold, double touching);
+  void refresh(const Body<D>& body_a, const Body<D>& body_b, const Mat<D>& axes_a,
+               const Mat<D>& axes_b, const SolverBody<D>& solver_a, const SolverBody<D>& solver_b,
+               double threshold, double touching);
   void warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b);
   // One sweep over velocities, for a sub-step of `h` seconds.
   void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep);

@@ -9,13 +9,6 @@
 namespace lantern::physics {
 namespace {
 
-std::array<Vec<2>, 1> tangents(const Vec<2>& n) { return {Vec<2>(-n.y, n.x)}; }
-std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
-  const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
-  const Vec<3> s = glm::normalize(glm::cross(n, other));
-  return {s, glm::cross(n, s)};
-}
-
 template <int D>
 Vec<D> axis_of(int axis) {
   Vec<D> unit(0.0);

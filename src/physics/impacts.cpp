@@ -108,8 +108,8 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     const Body<D>& b = island.bodies[pair.rows.b];
     const double size = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
     if (!island.find_points(pair, kImpactSettings.touching * size, nullptr, 0, work)) continue;
-    pair.rows.refresh(a, b, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b], 0,
-                      0);
+    pair.rows.refresh(a, b, island.axes[pair.rows.a], island.axes[pair.rows.b],
+                      island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b], 0, 0);
     touching.push_back(i);
   }
   return touching;

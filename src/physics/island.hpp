@@ -52,13 +52,19 @@ struct Island {
                                       // those that the step before has left, see JointRows
 
   // Scratch, kept for its memory.
+  std::vector<Mat<D>> axes;  // of the bodies where they are
   std::vector<SolverBody<D>> solver_bodies;
   std::vector<Increment<D>> increments;
   // After the forces, before the constraints.
   std::vector<Vec<D>> kicked;
   std::vector<Spin<D>> kicked_spins;
 
+  void find_axes() {
+    axes.clear();
+    for (const Body<D>& body : bodies) axes.push_back(axes_of(body));
+  }
   void set_solver_bodies() {
+    find_axes();
     solver_bodies.clear();
     for (const Body<D>& body : bodies) solver_bodies.push_back(solver_body_of(body));
   }
@@ -74,11 +80,12 @@ struct Island {
     std::optional<Manifold<D>> made;
     if (manifold == nullptr || margin != pair.reach) {
       ++work.narrow_tests;
-      made = collide(placed(a), placed(b), margin);
+      made = collide<D>({a.shape, a.position, a.orientation, axes[pair.rows.a]},
+                        {b.shape, b.position, b.orientation, axes[pair.rows.b]}, margin);
       if (!made) return false;
       manifold = &*made;
     }
-    pair.rows.set_points(*manifold, a, b, remembered, scale);
+    pair.rows.set_points(*manifold, a, b, axes[pair.rows.a], axes[pair.rows.b], remembered, scale);
     renew_record(pair.record, *manifold);
     work.contact_points += pair.rows.points().size();
     return true;

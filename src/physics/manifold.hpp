@@ -42,6 +42,7 @@ struct Placed {
   const Shape<D>& shape;
   Vec<D> position{0.0};
   Rotation<D> orientation;
+  std::optional<Mat<D>> axes = {};  // matrix(orientation), where it is known
 };
 
 // The contact of two shapes whose surfaces are no further apart than `margin`; touching counts, at

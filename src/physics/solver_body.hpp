@@ -1,6 +1,8 @@
 // A body while constraints are solved: just its velocities and what resists their change.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <type_traits>
 
 #include "physics/body.hpp"
@@ -58,6 +60,14 @@ Vec<D> relative_mean_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const
                               const Vec<D>& arm_b) {
   return (b.mean_velocity + cross(b.mean_spin, arm_b)) -
          (a.mean_velocity + cross(a.mean_spin, arm_a));
+}
+
+// Unit vectors across a unit vector and each other.
+inline std::array<Vec<2>, 1> tangents(const Vec<2>& n) { return {Vec<2>(-n.y, n.x)}; }
+inline std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
+  const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
+  const Vec<3> s = glm::normalize(glm::cross(n, other));
+  return {s, glm::cross(n, s)};
 }
 
 // How much relative velocity along `direction` an impulse of 1 along it gives: the inverse of the

@@ -11,9 +11,10 @@ namespace lantern::physics {
 
 // The numbers of a step, whatever the method.
 struct StepSettings {
-  int most_tries = 4;   // the last one counts even if a body went farther than was looked for
-  double slack = 1e-3;  // of a body's thickness: nearer is looked at, too
-  double fast = 0.5;    // of the thinner body's thickness in a step: may pass through
+  int most_tries = 4;     // the last one counts even if a body went farther than was looked for
+  double slack = 1e-3;    // of a body's thickness: nearer is looked at, too
+  double fast = 0.5;      // of the thinner body's thickness in a step: may pass through
+  double fast_quick = 2;  // the same where an error is wanted: rows hold what is slower
   std::size_t most_manifolds =
       1 << 16;             // kept from the narrow phase for the solver; else made again
   double rounding = 1e-9;  // of a step's time, when a push ends; of a reach, whether it was kept
@@ -53,10 +54,13 @@ struct World<D>::Step {
   std::vector<Pair> pairs = {};         // of the broad phase
   std::uint64_t narrow_pairs = 0;       // of those, looked at by the narrow phase
   std::vector<NearPair> near = {};      // in order of ids
+  std::vector<Mat<D>> axes = {};        // of bodies, as the narrow phase sees them
   std::vector<Manifold<D>> manifolds = {};
-  std::vector<std::uint32_t> root = {};  // of each body's island; static ones have their own
+  std::vector<std::uint32_t> root = {};         // of each body's island; static ones have their own
+  std::vector<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
   std::vector<Touch> touching = {};
   std::vector<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
+  bool struck = false;                       // an impact was located
   std::vector<Contact<D>> contacts = {};
   std::vector<ContactEvent> events = {};
   std::vector<Told> told = {};
@@ -101,7 +105,7 @@ struct World<D>::Step {
   void wake(std::vector<std::uint32_t> places);
 
   std::vector<Group> groups_to_solve(bool whole_world) const;
-  Island<D> gather(const Group& group) const;
+  Island<D> gather(const Group& group);
   void bring_back(Island<D>& island, const Group& group);
   void order_touches();
 };

@@ -1,6 +1,7 @@
 // The second half of a step: bodies move, some fall asleep, and what touches is noted.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -43,7 +44,9 @@ void World<D>::Step::solve_and_integrate() {
   const ContactSolver<D>& solver = contact_solver<D>(world.config_.contacts);
   std::vector<std::uint8_t> solved(moved.size());
   touch_of.assign(near.size(), kNone);
+  touching.reserve(std::min(near.size(), world.touching_.size() + world.touching_.size() / 8));
   int budget = world.config_.impact_budget;
+  const std::uint64_t located = world.work_.impacts_located;
   for (const Group& group : groups_to_solve(solver.whole_world)) {
     stop_if_asked();
     Island<D> island = gather(group);
@@ -56,22 +59,22 @@ void World<D>::Step::solve_and_integrate() {
     for (const std::uint32_t i : group.bodies)
       solved[i] = moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
   }
+  struck = world.work_.impacts_located != located;
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (!solved[i]) fly(moved[i], increments()[i], h, world.config_.rotation, world.work_);
 }
 
 template <int D>
-Island<D> World<D>::Step::gather(const Group& group) const {
+Island<D> World<D>::Step::gather(const Group& group) {
   Island<D> island;
-  island.places = group.bodies;
+  std::vector<std::uint32_t> others;  // static bodies, and ends of springs
   const auto belongs = [&](BodyId id) {
     return std::ranges::binary_search(group.bodies, place_of(id));
   };
-  const auto add = [&](BodyId id) { island.places.push_back(place_of(id)); };
-  for (const std::size_t i : group.pairs) {
-    island.places.push_back(near[i].a);
-    island.places.push_back(near[i].b);
-  }
+  const auto add = [&](BodyId id) { others.push_back(place_of(id)); };
+  for (const std::size_t i : group.pairs)
+    for (const std::uint32_t place : {near[i].a, near[i].b})
+      if (moved[place].kind != BodyKind::dynamic_body) others.push_back(place);
   for (const std::size_t i : group.joints) {
     add(world.joints_[i].second.a);
     add(world.joints_[i].second.b);
@@ -88,14 +91,16 @@ Island<D> World<D>::Step::gather(const Group& group) const {
   }
   for (const Push<D>& push : forces.pushes)
     if (belongs(push.body)) island.forces.pushes.push_back(push);
-  std::sort(island.places.begin(), island.places.end());
-  island.places.erase(std::unique(island.places.begin(), island.places.end()), island.places.end());
+  // Once each, in their order.
+  std::ranges::sort(others);
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  island.places.reserve(group.bodies.size() + others.size());
+  std::ranges::set_union(group.bodies, others, std::back_inserter(island.places));
   for (const std::uint32_t place : island.places) island.bodies.push_back(moved[place]);
 
-  const auto local = [&](std::uint32_t place) {
-    const auto found = std::lower_bound(island.places.begin(), island.places.end(), place);
-    return static_cast<std::uint32_t>(found - island.places.begin());
-  };
+  local_place.resize(moved.size());
+  for (std::uint32_t i = 0; i < island.places.size(); ++i) local_place[island.places[i]] = i;
+  const auto local = [&](std::uint32_t place) { return local_place[place]; };
   island.pairs.reserve(group.pairs.size());
   for (const std::size_t i : group.pairs) {
     stop_if_asked();
@@ -149,6 +154,8 @@ void World<D>::Step::require_no_overflow() const {
 template <int D>
 bool World<D>::Step::stayed_within_reach() {
   if (!locates_impacts()) return true;
+  // What is pushed apart goes no farther than it is allowed to; only an impact does.
+  if (world.config_.wanted_error > 0 && !struck) return true;
   bool stayed = true;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (moved[i].kind != BodyKind::dynamic_body || moved[i].asleep) continue;

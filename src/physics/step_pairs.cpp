@@ -158,6 +158,8 @@ void World<D>::Step::narrow_phase() {
   near.clear();
   narrow_pairs = 0;
   manifolds.clear();
+  axes.clear();
+  for (const Body<D>& body : moved) axes.push_back(axes_of(body));
   auto touch = world.touching_.begin();  // in order of ids, as the pairs are
   for (const Pair& pair : pairs) {
     stop_if_asked();
@@ -189,12 +191,16 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   found.reach = reach[found.a] + reach[found.b];
   ++narrow_pairs;
   ++world.work_.narrow_tests;
-  const auto manifold = collide(placed(a), placed(b), found.reach);
+  const auto manifold =
+      collide<D>({a.shape, a.position, a.orientation, axes[found.a]},
+                 {b.shape, b.position, b.orientation, axes[found.b]}, found.reach);
   if (!manifold) return std::nullopt;
   found.restitution = std::max(a.material.restitution, b.material.restitution);
   found.friction = std::sqrt(a.material.friction * b.material.friction);
   const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-  found.located = locates_impacts() && (found.restitution > 0 || way > kStepSettings.fast * thin);
+  const double fast =
+      world.config_.wanted_error > 0 ? kStepSettings.fast_quick : kStepSettings.fast;
+  found.located = locates_impacts() && (found.restitution > 0 || way > fast * thin);
   if (manifolds.size() < kStepSettings.most_manifolds) {
     found.manifold = static_cast<std::uint32_t>(manifolds.size());
     manifolds.push_back(*manifold);

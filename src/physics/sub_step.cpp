@@ -56,6 +56,7 @@ void turn_with_momentum(Body<D>& body, const Spin<D>& turn) {
 
 template <int D>
 void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
+  island.find_axes();
   for (IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
     pair.rows.count = 0;
@@ -117,7 +118,8 @@ void SubStep<D>::begin() {
   each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
     const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
-    rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b,
+    rows.refresh(island.bodies[rows.a], island.bodies[rows.b], island.axes[rows.a],
+                 island.axes[rows.b], a, b,
                  kRowSettings.bounce_steps * glm::length(kick_b - kick_a),
                  kRowSettings.touching_way * way);
   });
@@ -193,8 +195,7 @@ void SubStep<D>::do_no_work() {
 }
 
 template <int D>
-void SubStep<D>::begin_position_correction() {
-  do_no_work();
+void SubStep<D>::find_mean_velocities() {
   const auto& increments = island.increments;
   for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
     SolverBody<D>& body = island.solver_bodies[i];
@@ -205,6 +206,12 @@ void SubStep<D>::begin_position_correction() {
     if (turns_alike(island.bodies[i])) body.lag -= body.twist * lag;
     body.mean_spin = body.turning_spin = body.spin + body.inverse_inertia * body.lag;
   }
+}
+
+template <int D>
+void SubStep<D>::begin_position_correction() {
+  do_no_work();
+  find_mean_velocities();
   each_pair([&](auto& rows, auto& a, auto& b) {
     rows.begin_correction(a, b, lag_of(island, rows.a, config, h),
                           lag_of(island, rows.b, config, h));

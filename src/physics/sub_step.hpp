@@ -39,6 +39,7 @@ class SubStep {
   // bounces and closing gaps ask for. Sweeps that end early may leave them too large, and energy
   // would come of it. After the last sweep over velocities.
   void do_no_work();
+  void find_mean_velocities();
   // From the velocities found follow mean velocities, and what is wanted of them.
   void begin_position_correction();
   Sweep sweep_positions();

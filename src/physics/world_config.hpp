@@ -19,9 +19,10 @@ struct WorldConfig {
   RotationMethod rotation = RotationMethod::splitting_2;  // where nothing holds a body
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase = {};
-  int sub_steps = 8;          // of soft contacts, and of joints where nothing collides, 1 ... 1000
-  // The error that is wanted of soft and direct contacts, in units of length: sweeps end when none
-  // of them moves a body by more of it in a sub-step. 0: as little as the method can.
+  int sub_steps = 8;  // of soft contacts, and of joints where nothing collides, 1 ... 1000
+  // The error that is wanted of soft contacts, in units of length: how far out of place a body may
+  // be left in a step. It says into how many parts a step is cut (at most `sub_steps`), and when
+  // the sweeps of a part end. 0: as little as the method can.
   double wanted_error = 0;
   int iterations = 10;        // of impulse contacts: sweeps a step, 1 ... 100000
   bool warm_start = true;     // begin with the impulses of the step before
@@ -55,7 +56,7 @@ struct WorldWork {
   std::uint64_t direct_solves = 0;  // of all rows at once
   std::uint64_t rotations_integrated = 0;
   std::uint64_t impacts_located = 0;  // and struck, in the steps as they were made in the end
-  std::uint64_t rest_checks = 0;  // bodies looked at whether they may fall asleep
+  std::uint64_t rest_checks = 0;      // bodies looked at whether they may fall asleep
   // Of the last step alone.
   std::uint64_t islands = 0;  // of awake bodies
   std::uint64_t asleep = 0;   // bodies

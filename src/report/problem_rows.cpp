@@ -102,6 +102,7 @@ std::string method_words(std::string_view method) {
   const bool soft = method.starts_with("soft:");
   if (soft || method.starts_with("impulse:")) {
     const std::string_view effort = method.substr(method.find(':') + 1);
+    if (soft && effort.starts_with("0.")) return fmt::format("soft contacts (error {})", effort);
     return fmt::format("{} ({} {}{})", soft ? "soft contacts" : "impulses", effort,
                        soft ? "sub-step" : "sweep", effort == "1" ? "" : "s");
   }

@@ -27,12 +27,13 @@ const std::vector<Method>& known() {
   return methods;
 }
 
-// "16": nothing if it is no number from 1 on.
-std::optional<int> effort_of(std::string_view text) {
-  int effort = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), effort);
-  if (error != std::errc() || end != text.data() + text.size() || effort < 1) return std::nullopt;
-  return effort;
+// "16": nothing if it is no such number.
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
 }
 
 }  // namespace
@@ -43,11 +44,17 @@ std::optional<Method> method_named(std::string_view name) {
     if (method.name != name.substr(0, colon)) continue;
     method.name = name;
     if (colon == std::string_view::npos) return method;
-    method.effort = effort_of(name.substr(colon + 1));
+    const std::string_view number = name.substr(colon + 1);
+    method.wanted_error = number_of<double>(number);
+    if (method.contacts == ContactMethod::soft && method.wanted_error > 0.0 &&
+        method.wanted_error < 1.0)
+      return method;
+    method.wanted_error.reset();
+    method.effort = number_of<int>(number);
     const int most = method.contacts == ContactMethod::soft      ? 1000
                      : method.contacts == ContactMethod::impulse ? 100'000
                                                                  : 0;
-    if (!method.effort || *method.effort > most) return std::nullopt;
+    if (!method.effort || *method.effort < 1 || *method.effort > most) return std::nullopt;
     return method;
   }
   return std::nullopt;
@@ -72,6 +79,7 @@ Scenario moved_by(Scenario scenario, const Method& method, double h) {
   if (method.contacts)
     for (Step& step : scenario.steps)
       if (std::holds_alternative<SolveBy>(step.verb)) step.verb = Show{};
+  if (method.contacts) world.wanted_error = method.wanted_error.value_or(0);
   if (method.effort)
     (world.contacts == ContactMethod::soft ? world.sub_steps : world.iterations) = *method.effort;
   return scenario;

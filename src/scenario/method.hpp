@@ -1,5 +1,6 @@
 // A way to move a scene: what `lantern measure` compares. A name of the form "velocity_verlet",
-// "splitting_4", "soft:16" or "impulse:100"; the number is of sub-steps or of sweeps.
+// "splitting_4", "soft:16", "soft:0.001" or "impulse:100"; the number is of sub-steps, the error
+// that is wanted (below 1), or of sweeps.
 #pragma once
 
 #include <optional>
@@ -18,7 +19,8 @@ struct Method {
   std::optional<Integrator> integrator;
   std::optional<RotationMethod> rotation;
   std::optional<ContactMethod> contacts;
-  std::optional<int> effort;  // sub-steps of soft contacts, sweeps of impulses
+  std::optional<int> effort;           // sub-steps of soft contacts, sweeps of impulses
+  std::optional<double> wanted_error;  // of soft contacts
 };
 
 // Nothing for a name that is none.

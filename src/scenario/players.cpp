@@ -15,6 +15,7 @@ WorldConfig<D> config_of(const Scenario& scenario) {
   config.rotation = spec.rotation;
   config.contacts = spec.contacts;
   config.sub_steps = spec.sub_steps;
+  config.wanted_error = spec.wanted_error;
   config.iterations = spec.iterations;
   config.impact_budget = spec.impact_budget;
   config.may_sleep = spec.may_sleep;

@@ -46,6 +46,7 @@ struct WorldSpec {
   Integrator integrator = Integrator::semi_implicit_euler;
   RotationMethod rotation = RotationMethod::splitting_2;
   int sub_steps = 8;           // of the soft contacts
+  double wanted_error = 0;     // of the soft contacts, in units; 0: as little as they can
   int iterations = 10;         // of the impulse contacts
   int impact_budget = 10'000;  // impacts located in one step of the world
   bool may_sleep = false;

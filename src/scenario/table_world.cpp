@@ -90,6 +90,12 @@ TableDoc world_table() {
           "How free bodies rotate. `explicit_gyroscopic` is there to be seen failing."),
       key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
           range(1, 64)),
+      key(&W::wanted_error, "wanted_error",
+          "The error that is wanted of soft contacts of many bodies: by how much they may be out "
+          "of "
+          "place, in units. 0.01 is quick, 0.0001 is slow, 0 as exact as can be; `sub_steps` are "
+          "then made as far as the error asks for them.",
+          range(0, 1)),
       key(&W::iterations, "iterations",
           "Sweeps over the velocities in a world step, and as many over the positions.",
           range(1, 1000)),

@@ -152,8 +152,9 @@ struct SolveBy {
   void read(const TableReader& table, ScriptReading& script);
   void change(Engine& engine) const;
   ContactMethod contacts = ContactMethod::soft;
-  int sub_steps = 0;   // 0: as it was
-  int iterations = 0;  // the same
+  int sub_steps = 0;         // 0: as it was
+  int iterations = 0;        // the same
+  double wanted_error = -1;  // below 0: as it was
 };
 
 // All bodies anew, with these settings.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/energy.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {
@@ -139,6 +140,62 @@ TEST(Contacts, DeepOverlapComesApartSlowly) {
   }
   EXPECT_LE(deepest(world), 1e-3);
   EXPECT_LE(fastest, 1e-9) << "pushing apart must not become motion";
+}
+
+// A force F on a plate of mass M with a ball of mass m on it, which rolls: the plate is accelerated
+// by (F - mu (M + m) g) / (M + 2 m / 7), the ball by 2/7 of that (Newton's and Euler's equations).
+TEST(Contacts, RollsOnAPlateThatIsPulled) {
+  for (const ContactMethod method :
+       {ContactMethod::soft, ContactMethod::direct, ContactMethod::impulse}) {
+    WorldConfig<3> config = falling<3>();
+    config.contacts = method;
+    config.integrator = Integrator::velocity_verlet;
+    World<3> world(config);
+    world.add(floor_at<3>(0, 0.4));
+    Body<3> plate = box_at<3>({0, 0.5, 0});
+    plate.shape = OrientedBox<3>{{10, 0.5, 10}};
+    plate.mass = 10;
+    plate.material.friction = 0.4;
+    const BodyId pulled = world.add(plate);
+    Body<3> ball = ball_at<3>({0, 1.5, 0});
+    ball.mass = 1;
+    ball.material.friction = 0.4;
+    const BodyId rolls = world.add(ball);
+    world.push(pulled, {60, 0, 0}, {0, 0.5, 0});
+    run(world, 2);
+    const double speed = 2 * (60 - 0.4 * 11 * 10) / (10 + 2.0 / 7),
+                 within = method == ContactMethod::impulse ? 1e-5 : 1e-11;
+    EXPECT_NEAR(world.find(pulled)->velocity.x, speed, within);
+    EXPECT_NEAR(world.find(rolls)->velocity.x, speed * 2 / 7, within);
+    EXPECT_NEAR(world.find(pulled)->position.x, speed, 2 * within);
+    EXPECT_NEAR(world.find(rolls)->position.x, speed * 2 / 7, 2 * within);
+  }
+}
+
+// Spin about its long axis is dear: whatever turns a needle without its angular momentum makes
+// some.
+TEST(Contacts, ANeedleOnTheGroundGainsNoEnergy) {
+  for (const ContactMethod method :
+       {ContactMethod::soft, ContactMethod::direct, ContactMethod::impulse}) {
+    WorldConfig<3> config = falling<3>();
+    config.contacts = method;
+    World<3> world(config);
+    world.add(floor_at<3>());
+    Body<3> needle = box_at<3>({0, 1.5, 0});
+    needle.shape = OrientedBox<3>{{1, 0.001, 0.001}};
+    needle.mass = 1;
+    const BodyId id = world.add(needle);
+    world.set_angular_velocity(id, {0, 0.1, 10});
+    const auto energy_of = [&] {
+      const Energy sum = energy<3>(world.bodies(), world.forces());
+      return sum.linear + sum.rotational + sum.gravity;
+    };
+    const double before = energy_of();
+    for (int i = 0; i < 120; ++i) {
+      world.step(kStep);
+      EXPECT_LE(energy_of(), before * (1 + 1e-3));
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,260 @@
+#include "physics/quick_sweeps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/stop.hpp"
+
+namespace lantern::physics {
+namespace {
+
+template <int D, class Motion, class Row>
+inline __attribute__((always_inline)) double speed_along(const Motion& a, const Motion& b,
+                                                         const Vec<D>& direction, const Row& row) {
+  return glm::dot(b.velocity - a.velocity, direction) + dot(row.turn_b, b.spin) -
+         dot(row.turn_a, a.spin);
+}
+
+template <int D, class Motion, class Row>
+inline __attribute__((always_inline)) void apply(Motion& a, Motion& b, const Vec<D>& direction,
+                                                 const Row& row, double inverse_mass_a,
+                                                 double inverse_mass_b, double impulse) {
+  a.velocity -= direction * (impulse * inverse_mass_a);
+  b.velocity += direction * (impulse * inverse_mass_b);
+  a.spin -= row.gained_a * impulse;
+  b.spin += row.gained_b * impulse;
+}
+
+}  // namespace
+
+template <int D>
+void QuickSweeps<D>::gather(const SubStep<D>& step) {
+  const Island<D>& island = step.island;
+  bodies_.clear();
+  for (const SolverBody<D>& body : island.solver_bodies)
+    bodies_.push_back({{body.velocity, body.spin}, {}, {}, {}});
+  const bool first = contacts_.empty();
+  if (first)
+    contacts_.resize(static_cast<std::size_t>(std::ranges::count_if(
+        island.pairs, [](const IslandPair<D>& pair) { return pair.rows.count > 0; })));
+  auto next = contacts_.begin();
+  for (const IslandPair<D>& pair : island.pairs) {
+    const ContactRows<D>& rows = pair.rows;
+    if (rows.count == 0) continue;
+    const SolverBody<D>&body_a = island.solver_bodies[rows.a],
+          &body_b = island.solver_bodies[rows.b];
+    Contact& contact = *next++;
+    contact.a = rows.a;
+    contact.b = rows.b;
+    contact.count = rows.count;
+    contact.friction = rows.friction;
+    contact.inverse_mass_a = body_a.inverse_mass;
+    contact.inverse_mass_b = body_b.inverse_mass;
+    contact.normal = rows.normal;
+    contact.across = tangents(rows.normal);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rows.count); ++i) {
+      const ContactPoint<D>& p = rows.room[i];
+      Point& point = contact.room[i];
+      const auto row_along = [&](const Vec<D>& direction) {
+        Row row{cross(p.arm_a, direction), cross(p.arm_b, direction)};
+        row.gained_a = body_a.inverse_inertia * row.turn_a;
+        row.gained_b = body_b.inverse_inertia * row.turn_b;
+        return row;
+      };
+      point.normal = row_along(contact.normal);
+      point.normal_mass = p.inverse_normal_mass > 0 ? 1 / p.inverse_normal_mass : 0;
+      point.bias = p.bounce - p.gap / step.h;
+      point.pn = p.pn;
+      point.wanted_push = p.gap > 0 ? 0 : p.wanted_mean_speed(step.h);
+      point.push = std::max(point.push * (1 - kRowSettings.pushed_out), -point.pn);
+      apply(bodies_[contact.a].pushed, bodies_[contact.b].pushed, contact.normal, point.normal,
+            contact.inverse_mass_a, contact.inverse_mass_b, point.push);
+      if (rows.friction == 0) continue;
+      point.tangent_mass = p.inverse_tangent_mass > 0 ? 1 / p.inverse_tangent_mass : 0;
+      for (std::size_t k = 0; k < kTangents; ++k) {
+        point.tangent[k] = row_along(contact.across[k]);
+        point.pt[k] = glm::dot(p.pt, contact.across[k]);
+      }
+    }
+  }
+}
+
+// Each returns by how much it changed a relative speed.
+template <int D>
+double QuickSweeps<D>::solve_normal(Contact& contact, Point& point, Moving& a, Moving& b) {
+  const Vec<D>& n = contact.normal;
+  const Row& row = point.normal;
+  const double speed = speed_along(a.real, b.real, n, row);
+  const double pushed = speed_along(a.pushed, b.pushed, n, row);
+  const double pn = std::max(point.pn + (point.bias - speed) * point.normal_mass, 0.0);
+  const double push = std::max(point.push + (point.wanted_push - pushed) * point.normal_mass, -pn);
+  const double change = pn - point.pn, push_change = push - point.push;
+  point.pn = pn;
+  point.push = push;
+  apply(a.real, b.real, n, row, contact.inverse_mass_a, contact.inverse_mass_b, change);
+  apply(a.pushed, b.pushed, n, row, contact.inverse_mass_a, contact.inverse_mass_b, push_change);
+  return std::abs(change);
+}
+
+// What sticks is not pushed along, either.
+template <int D>
+double QuickSweeps<D>::solve_friction(Contact& contact, Point& point, Moving& a, Moving& b) {
+  std::array<double, kTangents> wanted{}, hold{};
+  double squared = 0;
+  for (std::size_t k = 0; k < kTangents; ++k) {
+    const Vec<D>& t = contact.across[k];
+    wanted[k] = point.pt[k] - speed_along(a.real, b.real, t, point.tangent[k]) * point.tangent_mass;
+    hold[k] = -speed_along(a.pushed, b.pushed, t, point.tangent[k]) * point.tangent_mass;
+    squared += wanted[k] * wanted[k];
+  }
+  const double most = contact.friction * point.pn;
+  const bool slips = squared > most * most;
+  const double kept = slips ? most / std::sqrt(squared) : 1;
+  double change = 0;
+  for (std::size_t k = 0; k < kTangents; ++k) {
+    const double gained = wanted[k] * kept - point.pt[k];
+    point.pt[k] += gained;
+    apply(a.real, b.real, contact.across[k], point.tangent[k], contact.inverse_mass_a,
+          contact.inverse_mass_b, gained);
+    if (!slips)
+      apply(a.pushed, b.pushed, contact.across[k], point.tangent[k], contact.inverse_mass_a,
+            contact.inverse_mass_b, hold[k]);
+    change = std::max(change, std::abs(gained));
+  }
+  return change;
+}
+
+// Returns the largest change of a relative speed.
+template <int D>
+double QuickSweeps<D>::sweep(WorldWork& work) {
+  double largest = 0;
+  Sweep done;
+  for (Contact& contact : contacts_) {
+    stop_if_asked();
+    Moving &a = bodies_[contact.a], &b = bodies_[contact.b];
+    for (int k = 0; k < contact.count; ++k) {
+      Point& point = contact.room[static_cast<std::size_t>(k)];
+      if (point.normal_mass == 0) continue;
+      largest = std::max(largest, solve_normal(contact, point, a, b) / point.normal_mass);
+      ++done.normal_rows;
+    }
+    if (contact.friction == 0) continue;
+    for (int k = 0; k < contact.count; ++k) {
+      Point& point = contact.room[static_cast<std::size_t>(k)];
+      if (point.tangent_mass == 0 || (point.pn == 0 && point.pt == decltype(point.pt){})) continue;
+      largest = std::max(largest, solve_friction(contact, point, a, b) / point.tangent_mass);
+      done.friction_rows += kTangents;
+    }
+  }
+  count(done, work);
+  return largest;
+}
+
+// Sweeps alone crawl towards the solution of a large pile. Each shows a way, though: going on along
+// the way of those before, as far as its steps shrink, makes a conjugate gradient of them
+// (Silcowitz, Niebe and Erleben, "A nonsmooth nonlinear conjugate gradient method for interactive
+// contact force problems", 2010). What then pulls or slips is mended by the next sweep.
+template <int D>
+void QuickSweeps<D>::begin_sweep() {
+  for (Moving& body : bodies_) body.old = body.real;
+  for (Contact& contact : contacts_)
+    for (int k = 0; k < contact.count; ++k) {
+      Point& point = contact.room[static_cast<std::size_t>(k)];
+      point.old_pn = point.pn;
+      point.old_pt = point.pt;
+    }
+}
+
+template <int D>
+void QuickSweeps<D>::go_on_along_the_way() {
+  double squared = 0;
+  for (const Contact& contact : contacts_)
+    for (int k = 0; k < contact.count; ++k) {
+      const Point& p = contact.room[static_cast<std::size_t>(k)];
+      squared += (p.pn - p.old_pn) * (p.pn - p.old_pn);
+      for (std::size_t t = 0; t < kTangents; ++t)
+        squared += (p.pt[t] - p.old_pt[t]) * (p.pt[t] - p.old_pt[t]);
+    }
+  const double more = last_squared_ > 0 ? squared / last_squared_ : 0;
+  last_squared_ = squared;
+  const bool again = more > 1;  // it got no better
+  const double beta = again ? 0 : more;
+  for (Contact& contact : contacts_)
+    for (int k = 0; k < contact.count; ++k) {
+      Point& p = contact.room[static_cast<std::size_t>(k)];
+      const double moved = p.pn - p.old_pn;
+      p.pn += beta * p.way_pn;
+      p.way_pn = again ? 0 : beta * p.way_pn + moved;
+      for (std::size_t t = 0; t < kTangents; ++t) {
+        const double slid = p.pt[t] - p.old_pt[t];
+        p.pt[t] += beta * p.way_pt[t];
+        p.way_pt[t] = again ? 0 : beta * p.way_pt[t] + slid;
+      }
+    }
+  for (Moving& body : bodies_) {
+    const Motion gained{body.real.velocity - body.old.velocity, body.real.spin - body.old.spin};
+    body.real.velocity += beta * body.way.velocity;
+    body.real.spin += beta * body.way.spin;
+    body.way.velocity = again ? Vec<D>(0.0) : beta * body.way.velocity + gained.velocity;
+    body.way.spin = again ? Spin<D>(0.0) : beta * body.way.spin + gained.spin;
+  }
+}
+
+template <int D>
+void QuickSweeps<D>::bring_back(SubStep<D>& step) {
+  Island<D>& island = step.island;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    island.solver_bodies[i].velocity = bodies_[i].real.velocity;
+    island.solver_bodies[i].spin = bodies_[i].real.spin;
+    island.solver_bodies[i].twist = Spin<D>(0.0);
+  }
+  auto contact = contacts_.begin();
+  step.each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rows.count); ++i) {
+      ContactPoint<D>& p = rows.room[i];
+      const Point& point = contact->room[i];
+      p.pn = point.pn;
+      p.pt = Vec<D>(0.0);
+      a.twist -= point.normal.turn_a * point.pn;
+      b.twist += point.normal.turn_b * point.pn;
+      double squared = 0;
+      for (std::size_t k = 0; k < kTangents; ++k) {
+        p.pt += contact->across[k] * point.pt[k];
+        a.twist -= point.tangent[k].turn_a * point.pt[k];
+        b.twist += point.tangent[k].turn_b * point.pt[k];
+        squared += point.pt[k] * point.pt[k];
+      }
+      const double most = rows.friction * p.pn * (1 - kRowSettings.slip_by_rounding);
+      p.sticks = squared < most * most;
+    }
+    ++contact;
+  });
+  step.do_no_work();
+  step.find_mean_velocities();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    island.solver_bodies[i].mean_velocity += bodies_[i].pushed.velocity;
+    island.solver_bodies[i].mean_spin += bodies_[i].pushed.spin;
+  }
+}
+
+// Always from the first pair to the last: what a sweep leaves undone then lies where the next one
+// finds it, and warm starting does the rest.
+template <int D>
+void QuickSweeps<D>::settle(SubStep<D>& step) {
+  gather(step);
+  const double error = step.config.wanted_error;
+  const double enough = kQuickSettings.last_move * error / step.h;
+  const int most = kQuickSettings.most_sweeps(error);
+  last_squared_ = 0;
+  for (int i = 1;; ++i) {
+    begin_sweep();
+    if (sweep(step.work) <= enough || i == most) break;
+    go_on_along_the_way();
+  }
+  bring_back(step);
+}
+
+template class QuickSweeps<2>;
+template class QuickSweeps<3>;
+
+}  // namespace lantern::physics
