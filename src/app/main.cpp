@@ -315,6 +315,7 @@ int run_words(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   lantern::hold_standard_streams();
+  lantern::keep_freed_memory();
   lantern::app::catch_interrupts();
   return lantern::app::run_and_report([&] { return lantern::app::run_words(argc, argv); });
 }

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -98,6 +99,11 @@ void enforce_memory_budget() {
   if (!kHasWall || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, memory_budget() + data_in_use());
   ::setrlimit(RLIMIT_DATA, &limit);
+}
+
+void keep_freed_memory() {
+  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that it takes
+  ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 
 std::optional<std::uint64_t> memory_size(std::string_view words) {

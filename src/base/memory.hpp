@@ -22,6 +22,11 @@ void set_memory_budget(std::uint64_t bytes);
 // there is.
 void enforce_memory_budget();
 
+// Memory that is freed stays with the process, up to some hundred megabytes: a step of many bodies
+// takes and frees the same room again and again, and getting it anew costs more than using it. For
+// the start of a program.
+void keep_freed_memory();
+
 // "800M", "4G", "1.5G": powers of 1024. Nothing for other words, and for less than kLeastBudget, in
 // which not even the program itself has room.
 inline constexpr std::uint64_t kLeastBudget = std::uint64_t{16} << 20;
