@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "physics/collide_blocks.hpp"
@@ -26,9 +25,9 @@ constexpr double kSlack = 1e-4;
 // face, 4 ... 7 sides of the reference face.
 template <int D>
 struct Corner {
-  Vec<D> point{0.0};
-  std::uint32_t line = 0;
-  std::uint32_t name = 0;  // made of the two lines that met here first
+  Vec<D> point;
+  std::uint32_t line;
+  std::uint32_t name;  // made of the two lines that met here first
 };
 
 constexpr std::uint32_t name_of(std::uint32_t line_in, std::uint32_t line_out) {
@@ -41,7 +40,7 @@ constexpr std::size_t kMostCorners = 12;
 
 template <int D>
 struct Outline {
-  std::array<Corner<D>, kMostCorners> room;
+  std::array<Corner<D>, kMostCorners> room;  // not set beyond the count: thousands are made a step
   int count = 0;
 
   Corner<D>& operator[](int i) { return room[static_cast<std::size_t>(i)]; }
@@ -185,7 +184,7 @@ FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>&
   FaceContact<D> contact;
   contact.manifold.normal = normal;
   contact.least_distance = std::numeric_limits<double>::infinity();
-  std::array<double, kMostCorners> heights{};
+  std::array<double, kMostCorners> heights;
   Outline<D> close;
   const Outline<D> outline = clipped_face(reference, axis, other, face, slack);
   for (int i = 0; i < outline.count; ++i) {
@@ -197,13 +196,13 @@ FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>&
     close.add(outline[i]);
   }
 
-  std::vector<int> chosen(static_cast<std::size_t>(close.count));
-  std::iota(chosen.begin(), chosen.end(), 0);
+  std::vector<int> widest;
   if constexpr (D == 3)
-    if (close.count > 4) chosen = widest_four(close, heights, normal, slack);
+    if (close.count > 4) widest = widest_four(close, heights, normal, slack);
   const std::uint32_t faces =
       static_cast<std::uint32_t>(axis * 2 + (sign > 0 ? 1 : 0)) << 3 | face.name();
-  for (const int i : chosen) {
+  for (int n = 0; n < (widest.empty() ? close.count : static_cast<int>(widest.size())); ++n) {
+    const int i = widest.empty() ? n : widest[static_cast<std::size_t>(n)];
     const double separation = heights[static_cast<std::size_t>(i)] - radii;
     contact.manifold.add({close[i].point - normal * (other.radius + separation / 2), separation,
                           faces << 6 | close[i].name});

@@ -19,7 +19,7 @@ namespace lantern::physics {
 struct QuickSettings {
   // Of the wanted error: so far may the last sweep of a sub-step move a body. What it leaves undone
   // is more, and sub-steps add up.
-  double last_move = 0.1;
+  double last_move = 0.005;
   int fewest_pairs = 8;       // smaller islands are solved exactly: it costs less
   double usual_error = 0.01;  // at which a step has two parts of at most six sweeps
   // How a step of a pile is best spent at an error: measured on piles of 300 to 2,000 boxes.
