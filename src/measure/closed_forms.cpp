@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
-#include "measure/elliptic.hpp"
+#include "geometry/elliptic.hpp"
 #include "measure/precise.hpp"
 
 namespace lantern::measure {

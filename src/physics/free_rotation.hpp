@@ -11,7 +11,9 @@ namespace lantern::physics {
 
 // The orientation `h` seconds later (h may be negative: back in time), of a body whose angular
 // momentum in the world is L. Both dimensions: exact if the inertia about two axes is equal, as in
-// 2D and for spheres and square boxes. A static or sleeping body does not turn, a kinematic one
+// 2D and for spheres and square boxes. Any other body is turned by the splitting `method`, or
+// exactly, to rounding, where that would change the energy by more than a thousandth: at any spin
+// and step the energy is kept within that. A static or sleeping body does not turn, a kinematic one
 // turns by its spin. `method` must be one of the splittings.
 template <int D>
 Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, double h,

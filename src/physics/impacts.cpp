@@ -106,13 +106,26 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     IslandPair<D>& pair = island.pairs[i];
     const Body<D>& a = island.bodies[pair.rows.a];
     const Body<D>& b = island.bodies[pair.rows.b];
-    const double size = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-    if (!island.find_points(pair, kImpactSettings.touching * size, nullptr, 0, work)) continue;
+    if (!island.find_points(pair, near, nullptr, 0, work)) continue;
     pair.rows.refresh(a, b, island.axes[pair.rows.a], island.axes[pair.rows.b],
                       island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b], 0, 0);
     touching.push_back(i);
   }
   return touching;
+}
+
+// What had come to rest in this step, and was struck by a third body, may bounce again. (As a
+// contact it would stop the body that was sent back.)
+template <int D>
+void let_struck_go(Island<D>& island) {
+  const auto struck = [&](std::uint32_t i, double slow) {
+    const Vec<D> change = island.solver_bodies[i].velocity - island.bodies[i].velocity;
+    return island.bodies[i].kind == BodyKind::dynamic_body && glm::length(change) > slow;
+  };
+  for (IslandPair<D>& pair : island.pairs)
+    if (pair.rests > 0 && pair.rests < kImpactSettings.most_rests && pair.rows.restitution > 0 &&
+        (struck(pair.rows.a, pair.slow) || struck(pair.rows.b, pair.slow)))
+      pair.pressed = false;
 }
 
 // All pairs that touch and approach get the impulses of an impact, one pair after another until
@@ -145,6 +158,7 @@ int resolve_impacts(Island<D>& island, WorldWork& work) {
       any = true;
     }
   }
+  if (impacts > 0) let_struck_go(island);
   for (std::size_t i = 0; i < island.bodies.size(); ++i) {
     if (island.bodies[i].kind != BodyKind::dynamic_body) continue;
     island.bodies[i].velocity = island.solver_bodies[i].velocity;
@@ -196,9 +210,10 @@ std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& co
     if (!pair.located || pair.pressed) continue;
     const auto met = time_of_impact(a, b, within, pair.slow, pair.reach, work.narrow_tests);
     if (!met) continue;
-    if (met->rests)
+    if (met->rests) {
       pair.pressed = true;
-    else if (!first || met->seconds < first->time)
+      ++pair.rests;
+    } else if (!first || met->seconds < first->time)
       first = Impact<D>{met->seconds, &pair};
   }
   return first;

@@ -1,6 +1,7 @@
 // Impacts: bodies that bounce or are fast meet at the very moment, not at the end of a step.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -11,16 +12,20 @@ namespace lantern::physics {
 // The numbers of impacts: how their times are found, and how the blows are resolved.
 struct ImpactSettings {
   int most_advances = 200;            // towards one impact
-  double near = 1e-9;                 // of the sizes: points so near each other touch at a time;
-                                      // what gets no nearer in half of all advances is there
+  double overshoot = 1.05;            // of the way to where they would meet at their speed
+  int most_cuts = 60;                 // of the time between apart and overlapping
+  double near = 1e-9;                 // of the thinner one's thickness: points so near each other
+                                      // touch at a time; what gets no nearer in half of all
+                                      // advances is there
   double touches = 1e-15;             // of the sizes: so near is at the moment of the impact
   double shortest_bounce = 1.0 / 32;  // of a step: one that would be shorter is none
+  int most_rests = 3;                 // in a step: a pair that rests so often does not bounce again
   double speed_by_rounding = 1e-12;   // of both speeds: what approaches slower is at rest
   int bouncing_rounds = 64;           // through all touching pairs, in one impact
   int most_rounds = 96;               // the last ones without restitution
   int most_point_sweeps = 200;        // over the points of one pair
   double change = 1e-15;              // of the largest impulse: so small a one ends these sweeps
-  double touching = 1e-9;             // of the sizes: so near is struck, too
+  double touching = 4e-9;             // of the thinner one's: so near is struck, too
   double gain_by_rounding = 1e-12;    // of the blow's energy: so small a gain of it is none
 };
 inline constexpr ImpactSettings kImpactSettings;
@@ -34,6 +39,11 @@ struct Trajectory {
   RotationMethod rotation = RotationMethod::splitting_2;
   double held = 0;  // acceleration that forces would give it, if it did not rest on something
 };
+
+template <int D>
+double thinner(const Body<D>& a, const Body<D>& b) {
+  return std::min(thickness<D>(a.shape), thickness<D>(b.shape));
+}
 
 struct TimeOfImpact {
   double seconds = 0;

@@ -24,6 +24,7 @@ struct IslandPair {
   ContactRows<D> rows;
   bool located = false;  // bouncing or fast: their impacts are located in time
   bool pressed = false;  // solved as a contact; an impact that is located needs no rows
+  int rests = 0;         // how often it was located and too slow to bounce
   double slow = 0;       // approaches slower than this are no impacts
   double reach = 0;      // how near they must be to be looked at
   bool remembered = false;

@@ -186,7 +186,8 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   const Body<D>& b = moved[found.b];
   if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
   if (world.joined(a.id, b.id)) return std::nullopt;
-  const double way = glm::length(velocity_of(b) - velocity_of(a)) * h;
+  const double way = glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) +
+                     turning_way(b, h);
   // An impact with a third body may turn either of them towards the other.
   found.reach = reach[found.a] + reach[found.b];
   ++narrow_pairs;

@@ -87,7 +87,9 @@ TableDoc world_table() {
           "`lecture` does it; or not at all."),
       key(&W::integrator, "integrator", "How forces become motion."),
       key(&W::rotation, "rotation",
-          "How free bodies rotate. `explicit_gyroscopic` is there to be seen failing."),
+          "How free bodies rotate. Where a splitting would change the energy by more than a "
+          "thousandth, because a body turns far in a step, it is turned exactly. "
+          "`explicit_gyroscopic` is there to be seen failing."),
       key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
           range(1, 64)),
       key(&W::wanted_error, "wanted_error",

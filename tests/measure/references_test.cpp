@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "../physics/exact_oscillator.hpp"
+#include "geometry/elliptic.hpp"
 #include "measure/closed_forms.hpp"
 #include "measure/dormand_prince.hpp"
-#include "measure/elliptic.hpp"
 #include "measure/precise.hpp"
 
 namespace lantern::measure {

@@ -1,8 +1,10 @@
 #include "physics/free_rotation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include <glm/exponential.hpp>
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
@@ -168,6 +170,115 @@ TEST(FreeRotation, TurningBackLeadsBack) {
       EXPECT_LT(angle_between(glm::dquat(1, 0, 0, 0), body.orientation.q), 1e-12);
     }
   }
+}
+
+// Tops of boxes from cubes to needles and plates, spun about any axis, or nearly about one of their
+// own, or near the boundary between two ways of tumbling.
+Body<3> any_top(Random& random) {
+  const auto any = [&] {
+    return Vec<3>{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+  };
+  const double most = random.whole(0, 1) == 0 ? 0.7 : 7;
+  const Vec<3> size =
+      glm::exp(Vec<3>{random.between(0, most), random.between(0, most), random.between(0, most)});
+  Body<3> body = spinning({size.y * size.y + size.z * size.z, size.z * size.z + size.x * size.x,
+                           size.x * size.x + size.y * size.y},
+                          Vec<3>(0.0));
+  body.angular_momentum = any();
+  if (random.whole(0, 2) == 0) body.angular_momentum *= std::exp(-random.between(0, 9));
+  body.angular_momentum[static_cast<int>(random.whole(0, 2))] += 1;
+  body.orientation = turned(body.orientation, any());
+  return body;
+}
+
+glm::dquat turned_by(const Body<3>& top, double h, RotationMethod method) {
+  return freely_turned(top, top.angular_momentum, h, method).q;
+}
+
+// The seconds in which its fastest turn about an axis of its own is one radian.
+double radian_of(const Body<3>& body) {
+  const Vec<3> m = body.inverse_inertia;
+  const double least = std::min({m.x, m.y, m.z}), most = std::max({m.x, m.y, m.z});
+  return 1 / ((most - least) * glm::length(body.angular_momentum));
+}
+
+double energy_change(const Body<3>& body, const glm::dquat& orientation) {
+  Body<3> later = body;
+  later.orientation.q = orientation;
+  return std::abs(rotational(later) / rotational(body) - 1);
+}
+
+TEST(FreeRotation, AnyTopKeepsItsEnergyAtAnySpinAndStep) {
+  Random random(11);
+  for (int round = 0; round < 300; ++round) {
+    const Body<3> top = any_top(random);
+    for (const double radians : {0.01, 0.1, 0.5, 0.7, 1.5, 17.0, -167.0, 1e4, 1e7})
+      for (const auto method : {RotationMethod::splitting_2, RotationMethod::splitting_4}) {
+        const glm::dquat q = turned_by(top, radians * radian_of(top), method);
+        ASSERT_LT(energy_change(top, q), std::abs(radians) < 2 ? 1e-3 : 1e-12)
+            << "top " << round << ", " << radians << " radians";
+        ASSERT_NEAR(glm::length(q), 1, 1e-15);
+      }
+  }
+}
+
+TEST(FreeRotation, FarTurnsAreThoseOfManySmallOnes) {
+  Random random(12);
+  for (int round = 0; round < 25; ++round) {
+    const Body<3> top = any_top(random);
+    const double h = random.between(1.3, 4) * radian_of(top) * (round % 2 == 0 ? 1 : -1);
+    Body<3> fine = top;
+    for (int i = 0; i < 300; ++i) turn_freely(fine, h / 300, RotationMethod::splitting_4);
+    ASSERT_LT(angle_between(freely_turned(top, h).q, fine.orientation.q), 1e-9) << round;
+  }
+}
+
+// Near the middle axis a rounding grows with every turn: such tops are left out.
+TEST(FreeRotation, TwoFarTurnsAreOne) {
+  Random random(13);
+  for (int round = 0; round < 200; ++round) {
+    Body<3> top = any_top(random);
+    top.inverse_inertia = {0.5, 1, 1.7};
+    top.angular_momentum = top.orientation.q * Vec<3>(random.between(-1, 1), random.between(-1, 1),
+                                                      random.between(3, 5));
+    const double h = random.between(2, 1e4), part = random.between(-1, 2) * h;
+    const glm::dquat whole = freely_turned(top, h).q;
+    turn_freely(top, part, RotationMethod::splitting_2);
+    turn_freely(top, h - part, RotationMethod::splitting_2);
+    ASSERT_LT(angle_between(whole, top.orientation.q), 1e-10) << round;
+  }
+}
+
+// A little below the angle at which a splitting gives way, and a little above.
+TEST(FreeRotation, BothSidesOfTheLimitAgree) {
+  Body<3> top = spinning({1, 1.001, 0.9}, {3, 1, 2});
+  for (const auto method : {RotationMethod::splitting_2, RotationMethod::splitting_4}) {
+    const double h = (method == RotationMethod::splitting_2 ? 0.6 : 1.6) /
+                     ((1 / 0.9 - 1 / 1.0) * glm::length(top.angular_momentum));
+    const glm::dquat below = turned_by(top, h * (1 - 1e-9), method);
+    const glm::dquat above = turned_by(top, h * (1 + 1e-9), method);
+    EXPECT_NE(below, above);
+    EXPECT_LT(angle_between(below, above), 2e-4);
+  }
+}
+
+// Exactly about an axis, the middle one too, it goes on so; exactly on the boundary it turns over
+// once at most.
+TEST(FreeRotation, AxesAndTheBoundaryBetweenThem) {
+  const Vec<3> inertia{1, 2, 3};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      Vec<3> spin(0.0);
+      spin[axis] = sign * 1e4;
+      const Body<3> top = spinning(inertia, spin);
+      EXPECT_LT(angle_between(freely_turned(top, 0.3).q, turned(Rotation<3>{}, spin * 0.3).q),
+                1e-11);
+    }
+  // (1/I1 - 1/I2) L1^2 = (1/I2 - 1/I3) L3^2
+  Body<3> top = spinning(inertia, {0, 0, 0});
+  top.angular_momentum = {1, 0.5, std::sqrt(3.0)};
+  for (const double h : {1.0, 1e3, 1e6, -1e6})
+    EXPECT_LT(energy_change(top, freely_turned(top, h).q), 1e-14) << h;
 }
 
 // Almost a rod: no inertia about its axis to speak of.

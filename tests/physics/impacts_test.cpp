@@ -1,8 +1,14 @@
 // Impacts that are located in time, against closed forms.
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "base/random.hpp"
+#include "physics/energy.hpp"
+#include "physics/free_rotation.hpp"
+#include "physics/sure_advance.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {
@@ -175,6 +181,130 @@ TEST(Impacts, BilliardsKeepMomentumAndEnergy) {
     if (body.moves()) {
       EXPECT_LE(std::abs(body.position.x), 4.7 + 1e-6);
     }
+}
+
+Rotation<2> any_turn(Random& random, Rotation<2>) { return {random.between(-3, 3)}; }
+Rotation<3> any_turn(Random& random, Rotation<3> r) {
+  return turned(r, {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)});
+}
+template <int D>
+Vec<D> any_vec(Random& random, double most) {
+  Vec<D> v;
+  for (int i = 0; i < D; ++i) v[i] = random.between(-most, most);
+  return v;
+}
+
+// Boxes that fly about between walls, all of them elastic.
+template <int D>
+double lost_by_elastic_boxes(double g, int boxes, int steps) {
+  WorldConfig<D> config;
+  config.gravity = up<D>(-g);
+  config.integrator = Integrator::velocity_verlet;
+  World<D> world(config);
+  const double wall = D == 2 ? 4 : 2.4;
+  for (int i = 0; i < D; ++i)
+    for (const double side : {1.0, -1.0}) {
+      Body<D> body = floor_at<D>(0, 0);
+      Vec<D> normal(0.0);
+      normal[i] = side;
+      body.shape = HalfSpace<D>{normal};
+      body.position = normal * -wall;
+      body.material.restitution = 1;
+      world.add(body);
+    }
+  Random random(7);
+  const int row = D == 2 ? 5 : 3;
+  for (int i = 0; i < boxes; ++i) {
+    Vec<D> at(0.0), half(0.0);
+    for (int k = 0, rest = i; k < D; ++k, rest /= row) {
+      at[k] = (rest % row + 0.5) * 2 * wall / row - wall;
+      half[k] = random.between(0.2, 0.45);
+    }
+    Body<D> body = box_at<D>(at);
+    body.shape = OrientedBox<D>{half};
+    body.orientation = any_turn(random, Rotation<D>{});
+    body.velocity = any_vec<D>(random, 3);
+    body.material = {1, 0};
+    world.add(body);
+  }
+  const auto height = [&] {  // of the energy, above the floor
+    double energy_there = energy<D>(world.bodies(), world.forces()).total();
+    for (const Body<D>& body : world.bodies())
+      if (body.kind == BodyKind::dynamic_body) energy_there += g * wall / body.inverse_mass;
+    return energy_there;
+  };
+  const double before = height();
+  for (int i = 0; i < steps; ++i) world.step(kStep);
+  EXPECT_GT(world.work().impacts_located, static_cast<std::uint64_t>(boxes));
+  return 1 - height() / before;
+}
+
+TEST(Impacts, ElasticBoxesKeepTheirEnergy) {
+  for (const double g : {0.0, 10.0}) {
+    EXPECT_NEAR(lost_by_elastic_boxes<2>(g, 20, 150), 0, 1e-4) << "2D, gravity " << g;
+    EXPECT_NEAR(lost_by_elastic_boxes<3>(g, 12, 60), 0, 1e-4) << "3D, gravity " << g;
+  }
+}
+
+template <int D>
+Flying<D> flying(const Body<D>& body) {
+  Flying<D> seen{body.shape, body.position, matrix(body.orientation), body.velocity,
+                 angular_velocity(body)};
+  seen.fastest = fastest_spin(body);
+  seen.swerve = seen.fastest * seen.fastest * (D == 2 ? 1 : 1.58);
+  return seen;
+}
+
+template <int D>
+double least_separation(const Manifold<D>& manifold) {
+  double least = HUGE_VAL;
+  for (const ManifoldPoint<D>& p : manifold.points()) least = std::min(least, p.separation);
+  return least;
+}
+
+// Nothing touches within the time that is said to be sure.
+template <int D>
+void expect_sure_advances(std::uint64_t seed) {
+  Random random(seed);
+  int useful = 0;
+  for (int round = 0; round < 200; ++round) {
+    World<D> world;
+    for (int i = 0; i < 2; ++i) {
+      Body<D> body = box_at<D>(any_vec<D>(random, 1.2));
+      Vec<D> half;
+      for (int k = 0; k < D; ++k) half[k] = std::exp(random.between(-4, 0));
+      body.shape = OrientedBox<D>{half};
+      body.orientation = any_turn(random, Rotation<D>{});
+      body.velocity = any_vec<D>(random, 3);
+      const BodyId id = world.add(body);
+      Spin<D> spin(0.0);
+      for (int k = 0; k < (D == 2 ? 1 : 3); ++k) spin_component(spin, k) = random.between(-9, 9);
+      world.set_angular_velocity(id, spin);
+    }
+    const Body<D>&a = world.bodies()[0], &b = world.bodies()[1];
+    const auto seen = collide(placed(a), placed(b), 10.0);
+    if (!seen || least_separation(*seen) <= 1e-9) continue;
+    const double sure = sure_advance(flying(a), flying(b), seen->normal, 1e-9, 0.5);
+    ASSERT_GE(sure, 0);
+    useful += sure > 1e-3;
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+      Body<D> later_a = a, later_b = b;
+      for (Body<D>* body : {&later_a, &later_b}) {
+        const double t = share * sure;
+        body->position += t * body->velocity;
+        turn_freely(*body, t, RotationMethod::splitting_4);
+        EXPECT_NEAR(fastest_spin(*body) / fastest_spin(body == &later_a ? a : b), 1, 1e-3);
+      }
+      const auto met = collide(placed(later_a), placed(later_b), 10.0);
+      ASSERT_TRUE(!met || least_separation(*met) > -1e-6) << "round " << round;
+    }
+  }
+  EXPECT_GT(useful, 60);
+}
+
+TEST(Impacts, WhatIsSaidToBeApartIsApart) {
+  expect_sure_advances<2>(1);
+  expect_sure_advances<3>(2);
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
-#include "measure/elliptic.hpp"
+#include "geometry/elliptic.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "measure/precise.hpp"
-
-namespace lantern::measure {
+namespace lantern::geometry {
 namespace {
 
 constexpr long double kEpsilon = 0x1p-64L;
@@ -34,7 +33,7 @@ long double quarter_period(long double m1) {
     b = std::sqrt(a * b);
     a = mean;
   }
-  return kPi / (a + b);
+  return std::numbers::pi_v<long double> / (a + b);
 }
 
 Jacobi jacobi(long double u, long double m1) {
@@ -127,4 +126,4 @@ long double carlson_rj(long double x, long double y, long double z, long double 
   return series / (four * a * std::sqrt(a)) + 6 * sum;
 }
 
-}  // namespace lantern::measure
+}  // namespace lantern::geometry

@@ -4,7 +4,7 @@
 // modulus itself has lost what matters, as for a pendulum that is let go almost upright.
 #pragma once
 
-namespace lantern::measure {
+namespace lantern::geometry {
 
 struct Jacobi {
   long double sn = 0;
@@ -27,4 +27,4 @@ long double argument_of(const Jacobi& functions, long double m1);
 long double carlson_rf(long double x, long double y, long double z);
 long double carlson_rj(long double x, long double y, long double z, long double p);
 
-}  // namespace lantern::measure
+}  // namespace lantern::geometry
