@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/stop.hpp"
+#include "physics/constrained_motion.hpp"
 #include "physics/free_rotation.hpp"
 
 namespace lantern::physics {
@@ -262,10 +263,13 @@ void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, dou
   const int count = std::max(1, static_cast<int>(std::ceil(h / whole * sub_steps - 1e-9)));
   const double seconds = h / count;
   look_for_contacts(island, config.warm_start ? seconds : 0, work);
-  const bool bound =
-      !island.joints.empty() || std::any_of(island.pairs.begin(), island.pairs.end(),
-                                            [](const auto& pair) { return pair.rows.count > 0; });
-  if (!bound) {
+  const bool pressed = std::any_of(island.pairs.begin(), island.pairs.end(),
+                                   [](const auto& pair) { return pair.rows.count > 0; });
+  if (!pressed && !island.joints.empty() && move_constrained(island, config, h, work)) {
+    remember(island, h);
+    return;
+  }
+  if (!pressed && island.joints.empty()) {
     find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
       fly(island.bodies[i], island.increments[i], h, config.rotation, work);

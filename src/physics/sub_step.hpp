@@ -69,8 +69,8 @@ void SubStep<D>::each_pair(F&& f) {
 
 // Moves the island by `h` of the step's `whole` seconds, in parts of which `sub_steps` make a whole
 // step. Contacts are looked at once; `solve` finds the impulses of a part and corrects positions,
-// between its begin and its end. If nothing touches and no joint holds, all fly, and there are no
-// parts.
+// between its begin and its end. If nothing touches, there are no parts: all fly, or move as their
+// joints let them (constrained_motion.hpp).
 template <int D>
 void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
                   int sub_steps, WorldWork& work, const std::function<void(SubStep<D>&)>& solve);
