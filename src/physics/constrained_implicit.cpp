@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "physics/constrained_motion.hpp"
@@ -21,6 +23,8 @@ namespace {
 // Of the fastest speed: so small a change of any velocity ends the rounds; after many, the second.
 constexpr double kChange = 1e-14, kSmallChange = 1e-9;
 constexpr int kFewRounds = 12;
+// Stiffnesses along the joints, in units of their tension by size.
+constexpr double kOutweighs[] = {64, 64e3, 64e6};
 
 double length_of(double spin) { return std::abs(spin); }
 double length_of(const Vec<3>& spin) { return glm::length(spin); }
@@ -53,7 +57,6 @@ class Stage {
       const Pull<D> pull = system_.evaluate(state_);
       joints_.look(state_);
       find_missing(pull, momenta);
-      tie();
       system_.fly(end_, state_, h_);
       joints_.find_errors(end_);
       std::vector<double> wanted = joints_.errors();
@@ -139,8 +142,10 @@ class Stage {
       add_impulse(momenta, r, joints_.impulses()[r]);
   }
 
-  // The joints' forces at the stage, as springs that are stiff across only.
-  void tie() {
+  // The joints' forces at the stage, as springs that are stiff across only. They are made stiff
+  // along, too, if the matrix has no factor else (springs that are compressed beside a rod): since
+  // joints keep these lengths in any case, the solution is the same.
+  void tie(double stiffness) {
     for (std::size_t j = 0; j < ties_.size(); ++j) {
       const auto& hold = joints_.holds()[j];
       Stretch<D>& s = ties_[j].stretch;
@@ -148,6 +153,7 @@ class Stage {
       s.arm_a = hold.arm_a;
       s.arm_b = hold.arm_b;
       const double size = glm::length(force);
+      s.stiffness = stiffness;
       if (hold.width == 1) {
         s.direction = joints_.rows()[hold.first].direction;
         s.length = hold.length;
@@ -159,12 +165,34 @@ class Stage {
     }
   }
 
+  // Of the joints, by their size: a stiffness.
+  double largest_tension() const {
+    double most = 0;
+    for (const auto& hold : joints_.holds())
+      most = std::max(most, glm::length(joints_.impulse(hold)) / (time_ * hold.size));
+    return most;
+  }
+
+  // A factor of the matrix; the stiffness along the joints, as it counts in it.
+  std::optional<double> factor_matrix(double time_squared) {
+    const auto attempt = [&](double stiffness, bool buckling, double heavier) {
+      tie(stiffness);
+      return matrix_.factor(state_, time_squared, time_, buckling, heavier);
+    };
+    if (attempt(0, true, 1)) return 0;
+    const double tension = largest_tension();
+    for (const double outweighs : kOutweighs)
+      if (tension > 0 && attempt(outweighs * tension, true, 1))
+        return outweighs * tension * time_squared;
+    if (attempt(0, false, 1) || attempt(0, false, 8)) return 0;
+    return std::nullopt;
+  }
+
   // From missing momenta to velocities that bring the wanted speeds; impulses grow.
   bool solve(std::vector<Row>& momenta, std::vector<double> wanted, double time_squared) {
-    if (!matrix_.factor(state_, time_squared, time_, true, 1) &&
-        !matrix_.factor(state_, time_squared, time_, false, 1) &&
-        !matrix_.factor(state_, time_squared, time_, false, 8))
-      return false;
+    const std::optional<double> stiffness = factor_matrix(time_squared);
+    if (!stiffness) return false;
+    for (std::size_t r = 0; r < wanted.size(); ++r) add_impulse(momenta, r, *stiffness * wanted[r]);
     const std::size_t count = wanted.size();
     answers_.resize(count);
     for (std::size_t r = 0; r < count; ++r) {
@@ -248,7 +276,10 @@ bool constrained_damped_kick(ConstrainedPart<D>& part, double time) {
 
 template <int D>
 bool constrained_implicit(ConstrainedPart<D>& part, Integrator integrator) {
-  auto& [system, joints, state, h] = part;
+  SmoothSystem<D>& system = part.system;
+  JointSystem<D>& joints = part.joints;
+  SmoothState<D>& state = part.state;
+  const double h = part.h;
   if (joints.rows().size() > kJointSettings.most_dense) return false;
   const double share = integrator == Integrator::implicit_midpoint ? 0.5 : 1;
   const bool found = system.any_turns() ? Stage<D, kUnknowns<D>>(part, share * h).run()

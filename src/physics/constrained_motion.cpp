@@ -1,6 +1,7 @@
 #include "physics/constrained_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -51,14 +52,22 @@ class Part {
         joints_(system_, island.joints, work),
         state_(system_.start()) {}
 
-  // False, perhaps with the bodies at another start, if it does not converge.
-  bool move(Integrator integrator) {
-    if (!joints_.can_be_solved() || joints_.rows().empty() || !begin()) return false;
-    ConstrainedPart<D> part{system_, joints_, state_, h_};
-    if (!advance(part, integrator)) return false;
-    end();
-    return true;
+  // Whether the joints can be solved here at all.
+  bool is_suited() {
+    gap_ = joints_.find_errors(state_);
+    return joints_.can_be_solved() && !joints_.rows().empty() && !joints_.wide_open(h_);
   }
+
+  // False, perhaps with the bodies at another start, if it does not converge. After `is_suited`.
+  bool move(Integrator integrator) {
+    if (!begin()) return false;
+    ConstrainedPart<D> part{system_, joints_, state_, h_};
+    const bool moved = advance(part, integrator);
+    swing_ = part.swing;
+    if (moved) end();
+    return moved;
+  }
+  double swing() const { return swing_; }
 
   void add_impulses(std::vector<Vec<D>>& sums) const {
     for (const auto& hold : joints_.holds())
@@ -68,11 +77,9 @@ class Part {
  private:
   // Bodies are where the joints hold, and move as they let them.
   bool begin() {
-    const double gap = joints_.find_errors(state_);
-    if (joints_.wide_open(h_)) return false;
     joints_.look(state_);
     if (!joints_.factor()) return false;
-    if (gap > 1) {
+    if (gap_ > 1) {
       if (!joints_.close_gaps(state_)) return false;
       adopt_places();
       joints_.look(state_);
@@ -122,6 +129,29 @@ class Part {
   SmoothSystem<D> system_;
   JointSystem<D> joints_;
   SmoothState<D> state_;
+  double gap_ = 0, swing_ = 0;
+};
+
+// How a step is tried.
+struct Attempt {
+  Integrator integrator;
+  int parts = 1;
+
+  // The next one, after it has failed with bodies that swing so fast; false if there is none.
+  bool go_on(double h, double swing) {
+    const double needed = std::ceil(h * swing / kJointSettings.most_swing);
+    const bool swings = needed > parts;  // with some more, for it may yet swing faster
+    const double next = swings ? std::ceil(1.25 * needed) : 2 * parts;
+    if (next <= kJointSettings.most_parts) {
+      parts = static_cast<int>(next);
+      return true;
+    }
+    parts = 1;
+    const bool implicit = integrator == Integrator::implicit_midpoint;
+    if (integrator == Integrator::implicit_euler) return false;
+    integrator = implicit ? Integrator::implicit_euler : Integrator::implicit_midpoint;
+    return true;
+  }
 };
 
 }  // namespace
@@ -132,22 +162,27 @@ bool move_constrained(Island<D>& island, const WorldConfig<D>& config, double h,
   if (!integrator) return false;
   const std::vector<Body<D>> start = island.bodies;
   std::vector<Vec<D>> impulses;
-  for (int parts = 1; parts <= kJointSettings.most_parts; parts *= 2) {
+  Attempt attempt{*integrator};
+  for (double swing = 0;; island.bodies = start) {
     impulses.assign(island.joints.size(), Vec<D>(0.0));
-    bool moved = true;
-    for (int i = 0; moved && i < parts; ++i) {
-      Part<D> part(island, config, h / parts, work);
-      moved = part.move(*integrator);
-      if (moved) part.add_impulses(impulses);
+    int moved = 0;
+    for (; moved < attempt.parts; ++moved) {
+      Part<D> part(island, config, h / attempt.parts, work);
+      if (!part.is_suited()) break;
+      const bool good = part.move(attempt.integrator);
+      swing = part.swing();
+      if (!good) break;
+      part.add_impulses(impulses);
     }
-    if (moved) {
-      if (parts > 1) work.sub_steps += static_cast<std::uint64_t>(parts);
-      for (std::size_t i = 0; i < impulses.size(); ++i) island.joints[i].impulse = impulses[i];
-      return true;
+    if (moved == attempt.parts) break;
+    if (!attempt.go_on(h, swing)) {
+      island.bodies = start;
+      return false;
     }
-    island.bodies = start;
   }
-  return false;
+  if (attempt.parts > 1) work.sub_steps += static_cast<std::uint64_t>(attempt.parts);
+  for (std::size_t i = 0; i < impulses.size(); ++i) island.joints[i].impulse = impulses[i];
+  return true;
 }
 
 template bool move_constrained(Island<2>&, const WorldConfig<2>&, double, WorldWork&);

@@ -14,6 +14,8 @@
 // See Hairer, Lubich, Wanner, "Geometric Numerical Integration", VII.1 and IV.4.
 #pragma once
 
+#include <cmath>
+
 #include "physics/island.hpp"
 #include "physics/joint_system.hpp"
 
@@ -21,9 +23,14 @@ namespace lantern::physics {
 
 // Moves the island by `h`, whole or, where that does not converge, in parts. Joints' impulses are
 // noted in its rows. Velocities at the start that do not satisfy the joints are projected first,
-// which only takes energy. False if this is not for these bodies: they are moved by different
-// integrators, joints are wide open, or even small parts do not converge (see JointSettings); the
-// bodies are then as they were.
+// which only takes energy.
+//
+// The tension of joints may swing bodies faster than an explicit method can follow: light links
+// that carry a heavy end. Then the implicit midpoint moves them; and what that does not solve,
+// implicit Euler does.
+//
+// False, with the bodies as they were, if this is not for them: they are moved by different
+// integrators, joints are wide open, or even small parts do not converge (see JointSettings).
 template <int D>
 bool move_constrained(Island<D>& island, const WorldConfig<D>& config, double h, WorldWork& work);
 
@@ -34,6 +41,14 @@ struct ConstrainedPart {
   JointSystem<D>& joints;
   SmoothState<D>& state;  // that of the start, then that of the end
   double h;
+  double swing =
+      0;  // how fast the joints' tension swings bodies, radians a second, if that matters
+
+  // Whether an explicit method can follow it.
+  bool follows(double swing_squared) {
+    swing = std::sqrt(swing_squared);
+    return h * swing <= kJointSettings.most_swing;
+  }
 };
 
 // The methods; false if they do not converge. Each is defined in the file of its name.

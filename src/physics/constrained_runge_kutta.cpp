@@ -32,7 +32,8 @@ template <int D>
 class RungeKutta {
  public:
   RungeKutta(ConstrainedPart<D>& part, const Tableau& tableau)
-      : system_(part.system),
+      : part_(part),
+        system_(part.system),
         joints_(part.joints),
         state_(part.state),
         h_(part.h),
@@ -104,6 +105,7 @@ class RungeKutta {
     }
   }
 
+  ConstrainedPart<D>& part_;
   SmoothSystem<D>& system_;
   JointSystem<D>& joints_;
   SmoothState<D>& state_;

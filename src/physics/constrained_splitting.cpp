@@ -6,13 +6,16 @@ namespace lantern::physics {
 
 template <int D>
 bool constrained_splitting(ConstrainedPart<D>& part, Integrator integrator) {
-  auto& [system, joints, state, h] = part;
+  SmoothSystem<D>& system = part.system;
+  JointSystem<D>& joints = part.joints;
+  SmoothState<D>& state = part.state;
+  const double h = part.h;
   const bool whole = integrator == Integrator::semi_implicit_euler;
   const double first = whole ? h : h / 2;
   system.kick(state, system.evaluate(state), first);
-  if (!joints.hold_at_end(state, h)) return false;
-  if (!(h * h * joints.swing_squared(joints.impulses(), first) <= kJointSettings.most_swing))
-    return false;
+  // If it fails, an estimate of the tension is there all the same.
+  const bool held = joints.hold_at_end(state, h);
+  if (!part.follows(joints.swing_squared(joints.impulses(), first)) || !held) return false;
   joints.look(state);
   if (!joints.factor()) return false;
   if (whole) return joints.stop_parting(state, true);
