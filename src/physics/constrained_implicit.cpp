@@ -21,7 +21,7 @@ namespace lantern::physics {
 namespace {
 
 // Of the fastest speed: so small a change of any velocity ends the rounds; after many, the second.
-constexpr double kChange = 1e-14, kSmallChange = 1e-9;
+constexpr double kChange = 1e-14, kSmallChange = 1e-7;
 constexpr int kFewRounds = 12;
 // Stiffnesses along the joints, in units of their tension by size.
 constexpr double kOutweighs[] = {64, 64e3, 64e6};
