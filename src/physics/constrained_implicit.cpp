@@ -22,7 +22,8 @@ namespace {
 
 // Of the fastest speed: so small a change of any velocity ends the rounds; after many, the second.
 constexpr double kChange = 1e-14, kSmallChange = 1e-7;
-constexpr int kFewRounds = 12;
+constexpr double kGoodChange = 1e-3;  // after some rounds; else they lead nowhere
+constexpr int kFewRounds = 12, kSomeRounds = 20;
 // Stiffnesses along the joints, in units of their tension by size.
 constexpr double kOutweighs[] = {64, 64e3, 64e6};
 
@@ -65,6 +66,7 @@ class Stage {
       const double change = apply(momenta);
       if (!std::isfinite(change)) return false;
       if (change <= kChange) return true;
+      if (round >= kSomeRounds && change >= kGoodChange) return false;
       if (round >= kFewRounds && change <= kSmallChange && change >= last / 2) return true;
       last = change;
     }

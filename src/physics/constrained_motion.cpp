@@ -141,7 +141,7 @@ struct Attempt {
   bool go_on(double h, double swing) {
     const double needed = std::ceil(h * swing / kJointSettings.most_swing);
     const bool swings = needed > parts;  // with some more, for it may yet swing faster
-    const double next = swings ? std::ceil(1.25 * needed) : 2 * parts;
+    const double next = swings ? std::ceil(1.25 * needed) : 4 * parts;
     if (next <= kJointSettings.most_parts) {
       parts = static_cast<int>(next);
       return true;
@@ -154,21 +154,23 @@ struct Attempt {
   }
 };
 
-}  // namespace
+enum class Outcome { moved, unsuited, failed };
 
+// If the island is not moved, its bodies are as they were.
 template <int D>
-bool move_constrained(Island<D>& island, const WorldConfig<D>& config, double h, WorldWork& work) {
-  const std::optional<Integrator> integrator = common_integrator(island, config);
-  if (!integrator) return false;
+Outcome try_to_move(Island<D>& island, const WorldConfig<D>& config, Attempt attempt, double h,
+                    WorldWork& work) {
   const std::vector<Body<D>> start = island.bodies;
   std::vector<Vec<D>> impulses;
-  Attempt attempt{*integrator};
   for (double swing = 0;; island.bodies = start) {
     impulses.assign(island.joints.size(), Vec<D>(0.0));
     int moved = 0;
     for (; moved < attempt.parts; ++moved) {
       Part<D> part(island, config, h / attempt.parts, work);
-      if (!part.is_suited()) break;
+      if (!part.is_suited()) {
+        if (moved == 0) return Outcome::unsuited;
+        break;
+      }
       const bool good = part.move(attempt.integrator);
       swing = part.swing();
       if (!good) break;
@@ -177,12 +179,29 @@ bool move_constrained(Island<D>& island, const WorldConfig<D>& config, double h,
     if (moved == attempt.parts) break;
     if (!attempt.go_on(h, swing)) {
       island.bodies = start;
-      return false;
+      return Outcome::failed;
     }
   }
   if (attempt.parts > 1) work.sub_steps += static_cast<std::uint64_t>(attempt.parts);
   for (std::size_t i = 0; i < impulses.size(); ++i) island.joints[i].impulse = impulses[i];
-  return true;
+  return Outcome::moved;
+}
+
+}  // namespace
+
+template <int D>
+bool move_constrained(Island<D>& island, const WorldConfig<D>& config, double h, WorldWork& work) {
+  const std::optional<Integrator> integrator = common_integrator(island, config);
+  if (!integrator) return false;
+  bool waits = false;
+  for (JointRows<D>& rows : island.joints) waits |= rows.backoff.waits();
+  if (waits) return false;
+  const Outcome outcome = try_to_move(island, config, Attempt{*integrator}, h, work);
+  for (JointRows<D>& rows : island.joints) {
+    if (outcome == Outcome::moved) rows.backoff = {};
+    if (outcome == Outcome::failed) rows.backoff.fail();
+  }
+  return outcome == Outcome::moved;
 }
 
 template bool move_constrained(Island<2>&, const WorldConfig<2>&, double, WorldWork&);

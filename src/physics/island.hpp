@@ -8,6 +8,7 @@
 #include "physics/contact_rows.hpp"
 #include "physics/forces.hpp"
 #include "physics/integrator.hpp"
+#include "physics/joint_block.hpp"
 #include "physics/joint_rows.hpp"
 #include "physics/world_config.hpp"
 
@@ -57,6 +58,7 @@ struct Island {
   // After the forces, before the constraints.
   std::vector<Vec<D>> kicked;
   std::vector<Spin<D>> kicked_spins;
+  JointBlock<D> joint_block;
 
   void set_solver_bodies() {
     solver_bodies.clear();

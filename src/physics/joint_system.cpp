@@ -4,16 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/solver_body.hpp"
-
 namespace lantern::physics {
 namespace {
 
 double size_of_spin(double spin) { return std::abs(spin); }
 double size_of_spin(const Vec<3>& spin) { return glm::length(spin); }
-
-double largest_component(double value) { return value; }
-double largest_component(const Vec<3>& v) { return std::max({v.x, v.y, v.z}); }
 
 double inverse_inertia_at(const Body<2>& body, const Mat<2>&) { return body.inverse_inertia; }
 Mat<3> inverse_inertia_at(const Body<3>& body, const Mat<3>& axes) {
@@ -49,16 +44,7 @@ JointSystem<D>::JointSystem(SmoothSystem<D>& system, std::span<const JointRows<D
   rows_.reserve(joints.size() * D);
   for (const JointRows<D>& joint : joints)
     if (system.moves(joint.a) || system.moves(joint.b)) add(joint);
-  std::vector<std::size_t> first_of(bodies.size(), rows_.size());  // row of each body
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    std::size_t first = i;
-    for (const std::uint32_t body : {rows_[i].a, rows_[i].b}) {
-      if (!system.moves(body)) continue;
-      first_of[body] = std::min(first_of[body], i);
-      first = std::min(first, first_of[body]);
-    }
-    factor_.add_line(first);
-  }
+  plan(rows_, bodies.size(), factor_);
   impulses_.assign(rows_.size(), 0.0);
   values_.resize(rows_.size());
   speeds_.resize(rows_.size());
@@ -114,38 +100,19 @@ void JointSystem<D>::look(const State& state) {
     const Frame& b = frames_[hold.joint->b];
     for (std::size_t r = hold.first; r < hold.first + static_cast<std::size_t>(hold.width); ++r) {
       Row& row = rows_[r];
-      if (hold.width == 1 && hold.length > 0) row.direction = hold.gap / hold.length;
-      row.turn_a = cross(hold.arm_a, row.direction);
-      row.turn_b = cross(hold.arm_b, row.direction);
-      row.gained_a = a.inverse_inertia * row.turn_a;
-      row.gained_b = b.inverse_inertia * row.turn_b;
+      const Vec<D> along =
+          hold.width == 1 && hold.length > 0 ? hold.gap / hold.length : row.direction;
+      row.set(along, hold.arm_a, a.inverse_inertia, hold.arm_b, b.inverse_inertia);
     }
   }
-}
-
-// How much the velocity along one row changes by an impulse along another.
-template <int D>
-double JointSystem<D>::link(const Row& x, const Row& y) const {
-  const double along = glm::dot(x.direction, y.direction);
-  double sum = 0;
-  if (x.a == y.a) sum += x.mass_a * along + dot(x.turn_a, y.gained_a);
-  if (x.b == y.b) sum += x.mass_b * along + dot(x.turn_b, y.gained_b);
-  if (x.a == y.b) sum -= x.mass_a * along + dot(x.turn_a, y.gained_b);
-  if (x.b == y.a) sum -= x.mass_b * along + dot(x.turn_b, y.gained_a);
-  return sum;
 }
 
 template <int D>
 bool JointSystem<D>::factor() {
   compliant_ = false;
-  if (factor_.factor([&](std::size_t i, std::size_t j) { return link(rows_[i], rows_[j]); },
-                     kJointSettings.least_part))
-    return true;
+  if (factor_rows(rows_, kJointSettings.least_part, factor_)) return true;
   compliant_ = true;
-  return factor_.factor([&](std::size_t i, std::size_t j) {
-    const double value = link(rows_[i], rows_[j]);
-    return i == j ? value * (1 + kJointSettings.compliance) : value;
-  });
+  return factor_compliant(rows_, kJointSettings.compliance, factor_);
 }
 
 template <int D>
@@ -348,7 +315,6 @@ void JointSystem<D>::hold_accelerations(const State& state, Pull<D>& pull, doubl
   }
 }
 
-// A tension T swings an end at distance l about the other by T / l, and a body by T times its arm.
 template <int D>
 double JointSystem<D>::swing_squared(std::span<const double> impulses, double time) const {
   double most = 0;
@@ -358,15 +324,9 @@ double JointSystem<D>::swing_squared(std::span<const double> impulses, double ti
       const double impulse = impulses[hold.first + static_cast<std::size_t>(k)];
       square += impulse * impulse;
     }
-    const Row& row = rows_[hold.first];
-    double swing = hold.width == 1 ? (row.mass_a + row.mass_b) / hold.joint->joint.length : 0;
-    const auto add_arm = [&](std::uint32_t i, const Vec<D>& arm) {
-      if (frames_[i].turns)
-        swing += glm::length(arm) * largest_component(system_.bodies()[i].inverse_inertia);
-    };
-    add_arm(row.a, hold.arm_a);
-    add_arm(row.b, hold.arm_b);
-    most = std::max(most, std::sqrt(square) / time * swing);
+    const JointRows<D>& joint = *hold.joint;
+    most = std::max(most, joint.swing_squared(system_.bodies()[joint.a], system_.bodies()[joint.b],
+                                              std::sqrt(square) / time));
   }
   return most;
 }

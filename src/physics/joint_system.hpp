@@ -13,43 +13,18 @@
 #include <span>
 #include <vector>
 
-#include "physics/envelope_system.hpp"
+#include "physics/joint_row.hpp"
 #include "physics/joint_rows.hpp"
 #include "physics/smooth_system.hpp"
 #include "physics/world_config.hpp"
 
 namespace lantern::physics {
 
-// The numbers of joints that are solved as equations.
-struct JointSettings {
-  double rounding = 0x1p-49;     // of the lengths and speeds that cancel: so small an error is none
-  double near_rounding = 1e6;    // times that, where solving once more makes it no smaller
-  int most_rounds = 40;          // of Newton's method
-  double least_part = 1e-11;     // of a row, that those before it do not say
-  double compliance = 1e-10;     // of rows that say the same twice
-  int compliant_rounds = 4;      // in which accelerations are mended
-  double wide_open = 1e-3;       // of a joint's size: a wider gap at the start is eased out by rows
-  double fastest_closing = 4;    // units a second, the same
-  double most_swing = 1;         // h times the frequency that the joints' tension makes, of methods
-                                 // that are stable only below 2
-  int most_parts = 16;           // into which a step is cut if it does not converge whole
-  std::size_t most_dense = 512;  // rows of implicit methods, whose matrix is full
-};
-inline constexpr JointSettings kJointSettings;
-
 template <int D>
 class JointSystem {
  public:
   using State = SmoothState<D>;
-  // One condition. An impulse of 1 pushes b along the direction and turns it by turn_b, and a the
-  // other way. Of bodies that cannot be moved (turned) masses (what is gained) are zero.
-  struct Row {
-    std::uint32_t a = 0, b = 0;
-    Vec<D> direction{0.0};
-    Spin<D> turn_a{0.0}, turn_b{0.0};
-    Spin<D> gained_a{0.0}, gained_b{0.0};
-    double mass_a = 0, mass_b = 0;  // inverse
-  };
+  using Row = JointRow<D>;
   // A joint at the state that was last looked at.
   struct Hold {
     const JointRows<D>* joint = nullptr;
@@ -93,8 +68,7 @@ class JointSystem {
   bool hold_at_end(State& state, double h);      // kicks so that places hold after h
   void hold_accelerations(const State& state, Pull<D>& pull, double time);
 
-  // The square of the frequency at which bodies swing by the joints' tension, an upper bound,
-  // if impulses were those of `time` seconds.
+  // That of all joints (see JointRows), if impulses were those of `time` seconds.
   double swing_squared(std::span<const double> impulses, double time) const;
   std::span<const double> last() const { return values_; }
   void count_solve() const;  // of all rows at once
@@ -113,7 +87,6 @@ class JointSystem {
   void add(const JointRows<D>& joint);
   void place(const State& state);
   void find_velocities(const State& state);
-  double link(const Row& x, const Row& y) const;
   void solve();
   void kick(State& state, std::span<const double> impulses) const;
   double missing_speed(const State& state);

@@ -32,8 +32,8 @@ class SubStep {
 
   // Forces act, rows are made where bodies are, and begin with the impulses that they have.
   void begin();
-  // Once over all rows. Every other `turn` goes backwards, so that neither end of a stack, nor side
-  // of a box, is preferred.
+  // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
+  // stack, nor side of a box, is preferred.
   Sweep sweep_velocities(int turn);
   // Takes back so much of all impulses, in proportion, that together they do no work but what
   // bounces and closing gaps ask for. Sweeps that end early may leave them too large, and energy
@@ -55,6 +55,8 @@ class SubStep {
   void each_joint(F&& f);
 
   double largest_push_ = 0;
+  bool joints_at_once_ = false;  // after which, if nothing touches, nothing is left to be done
+  bool touches_ = false;
 };
 
 template <int D>
