@@ -93,6 +93,25 @@ inline Mat<3> world_inverse_inertia(const Body<3>& body) {
   return scaled * glm::transpose(r);
 }
 
+// Whether the inertia is the same about all axes: then energy does not depend on how a body lies.
+template <int D>
+bool turns_alike(const Body<D>& body) {
+  for (int i = 1; i < (D == 2 ? 1 : 3); ++i)
+    if (spin_component(body.inverse_inertia, i) != spin_component(body.inverse_inertia, 0))
+      return false;
+  return true;
+}
+
+// Turns the body out of others, or back to its joints. Its angular momentum turns with it: else it
+// would come to lie along other axes of the body, about which it may be far more energy.
+template <int D>
+void turn_with_momentum(Body<D>& body, const Spin<D>& turn) {
+  body.orientation = turned(body.orientation, turn);
+  if constexpr (D == 3)
+    if (!turns_alike(body))
+      body.angular_momentum = turned(Rotation<3>{}, turn).q * body.angular_momentum;
+}
+
 // Radians a second, in the world's axes.
 template <int D>
 Spin<D> angular_velocity(const Body<D>& body) {

@@ -170,10 +170,9 @@ bool DirectSolve<D>::correct_positions(SubStep<D>& step, bool factored) {
   find_gains([&](const Part& part) {
     const Vec<D> u = relative_mean_velocity(island.solver_bodies[part.a], part.arm_a,
                                             island.solver_bodies[part.b], part.arm_b);
-    const double wanted = part.joint != nullptr
-                              ? part.joint->wanted_mean_speed(part.direction, step.h)
-                          : part.tangent < 0 ? part.point->wanted_mean_speed(step.h)
-                                             : glm::dot(part.point->wanted_slip, part.direction);
+    const double wanted = part.joint != nullptr ? 0  // see JointRows
+                          : part.tangent < 0    ? part.point->wanted_mean_speed(step.h)
+                                                : glm::dot(part.point->wanted_slip, part.direction);
     return wanted - glm::dot(u, part.direction);
   });
   for (const Part& part : parts_)

@@ -35,18 +35,20 @@ class EnvelopeSystem {
   double work() const { return work_; }  // products that a factor takes, about
 
   // Finds the factor of the matrix whose entries are matrix(line, column), asked for once each, up
-  // to the diagonal. False if it is not positive definite.
+  // to the diagonal. False if it is not positive definite, or if of a line no more than the part
+  // `least` is left by what those before it say.
   template <class Matrix>
-  bool factor(Matrix&& matrix) {
+  bool factor(Matrix&& matrix, double least = 0) {
     for (std::size_t i = 0; i < lines(); ++i) {
       stop_if_asked();
       double* line_i = &entries_[start_[i]];
       for (std::size_t j = first_[i]; j <= i; ++j) {
         const double* line_j = &entries_[start_[j]];
         double value = matrix(i, j);
+        const double whole = value;
         for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k)
           value -= line_i[k - first_[i]] * line_j[k - first_[j]];
-        if (i == j && !(value > 0)) return false;
+        if (i == j && !(value > least * whole)) return false;
         line_i[j - first_[i]] = i == j ? std::sqrt(value) : value / line_j[j - first_[j]];
       }
     }

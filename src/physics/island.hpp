@@ -8,6 +8,7 @@
 #include "physics/contact_rows.hpp"
 #include "physics/forces.hpp"
 #include "physics/integrator.hpp"
+#include "physics/joint_block.hpp"
 #include "physics/joint_rows.hpp"
 #include "physics/world_config.hpp"
 
@@ -59,6 +60,7 @@ struct Island {
   // After the forces, before the constraints.
   std::vector<Vec<D>> kicked;
   std::vector<Spin<D>> kicked_spins;
+  JointBlock<D> joint_block;
 
   void find_axes() {
     axes.clear();

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,14 +33,24 @@ inline constexpr std::size_t kMostFactorBytes = std::size_t{64} << 20;
 // iteration n^2 / 2 products of a block with a vector.
 inline constexpr std::size_t kMostAttracting = 512;
 
+// What ties two bodies besides the springs: a joint, whose tension turns as its bodies do. Of a pin
+// the length is 0, and only its levers count.
+template <int D>
+struct Tie {
+  Ends ends;
+  Stretch<D> stretch;
+};
+
 // Unknowns are changes of velocity, one group a mover; if B > D, also of angular velocity.
 template <int D, int B>
 class MotionMatrix {
  public:
   using Row = std::array<double, B>;
 
-  MotionMatrix(const SmoothSystem<D>& system, LinearSolver solver)
-      : system_(system), number_(numbers(system)) {
+  // The ties may change between two factors, but not their ends; they must outlive the matrix.
+  MotionMatrix(const SmoothSystem<D>& system, LinearSolver solver,
+               std::span<const Tie<D>> ties = {})
+      : system_(system), ties_(ties), number_(numbers(system)) {
     const std::size_t count = system.movers().size();
     const bool all_linked = system.any_attraction() && count > kMostAttracting;
     if (solver == LinearSolver::direct || (solver == LinearSolver::by_size && !all_linked))
@@ -100,20 +111,28 @@ class MotionMatrix {
 
   std::vector<std::pair<std::size_t, std::size_t>> links() const {
     std::vector<std::pair<std::size_t, std::size_t>> all;
-    system_.each_two([&](const Ends& ends) {
+    const auto add = [&](const Ends& ends) {
       const auto [a, b] = ends;
       if (a != b && system_.moves(a) && system_.moves(b)) all.emplace_back(number_[a], number_[b]);
-    });
+    };
+    system_.each_two(add);
+    for (const Tie<D>& tie : ties_) add(tie.ends);
     return all;
+  }
+
+  // f(ends, stretch) of springs, of what attracts each other, of ties.
+  template <class F>
+  void each_stretch(F&& f) const {
+    system_.each_stretch(*state_,
+                         [&](const Ends& ends, const Stretch<D>& s, double) { f(ends, s); });
+    for (const Tie<D>& tie : ties_) f(tie.ends, tie.stretch);
   }
 
   template <class Blocks>
   bool fill(Blocks& blocks, double heavier) {
     blocks.clear();
     for (std::size_t n = 0; n < system_.movers().size(); ++n) add_body(blocks, n, heavier);
-    system_.each_stretch(*state_, [&](const Ends& ends, const Stretch<D>& s, double) {
-      add_spring(blocks, ends, s);
-    });
+    each_stretch([&](const Ends& ends, const Stretch<D>& s) { add_spring(blocks, ends, s); });
     return blocks.factor();
   }
 
@@ -179,7 +198,7 @@ class MotionMatrix {
 
   // y += (A without its diagonal blocks) x: what a motion of one end gives to the other.
   void add_links(const std::vector<Row>& x, std::vector<Row>& y) const {
-    system_.each_stretch(*state_, [&](const Ends& ends, const Stretch<D>& s, double) {
+    each_stretch([&](const Ends& ends, const Stretch<D>& s) {
       const auto [a, b] = ends;
       if (a == b || !system_.moves(a) || !system_.moves(b)) return;
       const Sides sides = sides_of(s, time_squared_, time_);
@@ -228,6 +247,7 @@ class MotionMatrix {
   }
 
   const SmoothSystem<D>& system_;
+  std::span<const Tie<D>> ties_;
   std::vector<std::size_t> number_;       // of a body among the movers
   std::optional<BlockSystem<B>> blocks_;  // one of the two
   std::optional<BlockIteration<B>> iteration_;

@@ -62,10 +62,21 @@ void SmoothSystem<D>::find_what_turns() {
   for (std::size_t k = 0; k < pushed_.size(); ++k)
     if (forces_.pushes[k].at != centre) turns_[pushed_[k]] = 1;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body<D>& body = bodies_[i];
-    if (moves_[i] == 0 || !body.may_turn || !body.turns_about_every_axis()) turns_[i] = 0;
+    if (!can_be_turned(i)) turns_[i] = 0;
     if (turns_[i] != 0) any_turns_ = true;
   }
+}
+
+template <int D>
+bool SmoothSystem<D>::can_be_turned(std::size_t i) const {
+  return moves_[i] != 0 && bodies_[i].may_turn && bodies_[i].turns_about_every_axis();
+}
+
+template <int D>
+void SmoothSystem<D>::turn_also(std::size_t i) {
+  if (!can_be_turned(i)) return;
+  turns_[i] = 1;
+  any_turns_ = true;
 }
 
 template <int D>

@@ -51,6 +51,8 @@ class SmoothSystem {
   // Whether any force can turn the body. If not, its torque is not evaluated and is zero.
   bool turns(std::size_t i) const { return turns_[i] != 0; }
   bool any_turns() const { return any_turns_; }
+  // Something else than forces turns the body, too, if it can be turned: what a joint holds.
+  void turn_also(std::size_t i);
   // Whether some force depends on velocity.
   bool any_damping() const { return any_damping_; }
 
@@ -86,6 +88,7 @@ class SmoothSystem {
 
  private:
   void find_what_turns();
+  bool can_be_turned(std::size_t i) const;
   Vec<D> between(const SmoothState<D>& state, const Ends& ends) const;
   Stretch<D> stretch(const SmoothState<D>& state, std::size_t spring) const;
   template <class F>

@@ -97,6 +97,7 @@ struct World<D>::Step {
   std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
   bool is_slow(std::size_t place) const;
 
+  bool flies_anywhere() const;
   void find_reach();
   Box<D> enlarged_box(std::size_t place) const;
   bool looks_for_contacts() const;

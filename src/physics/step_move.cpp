@@ -115,6 +115,7 @@ Island<D> World<D>::Step::gather(const Group& group) {
     rows.b = local(place_of(rows.joint.b));
     const JointMemory& memory = world.joint_memories_[i];
     rows.seconds = memory.seconds;
+    rows.backoff = memory.backoff;
     if (memory.seconds > 0) rows.impulse = memory.impulse;
     island.joints.push_back(rows);
   }
@@ -127,7 +128,7 @@ void World<D>::Step::bring_back(Island<D>& island, const Group& group) {
     if (island.bodies[i].kind == BodyKind::dynamic_body)
       moved[island.places[i]] = std::move(island.bodies[i]);
   for (const JointRows<D>& rows : island.joints)
-    joint_memories[rows.place] = {rows.impulse, island.joint_seconds};
+    joint_memories[rows.place] = {rows.impulse, island.joint_seconds, rows.backoff};
   for (std::size_t i = 0; i < island.pairs.size(); ++i) {
     stop_if_asked();
     const IslandPair<D>& pair = island.pairs[i];

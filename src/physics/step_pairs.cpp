@@ -59,11 +59,26 @@ void World<D>::Step::find_forces() {
   // it was before.
   if (!world.ahead_ || world.ahead_->h != h) {
     Ahead found{h, {}, 0};
-    find_increments_if_any<D>(world.config_, moved, forces, h, found.increments, world.work_);
+    if (flies_anywhere())
+      find_increments_if_any<D>(world.config_, moved, forces, h, found.increments, world.work_);
+    else
+      found.increments.resize(moved.size());
     world.ahead_ = std::move(found);
   }
   world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
   find_reach();
+}
+
+// Whether anything flies, or may be met, where it would fly: not if joints hold all that moves.
+template <int D>
+bool World<D>::Step::flies_anywhere() const {
+  if (collides()) return true;
+  std::vector<std::uint8_t> held(moved.size());
+  for (const auto& entry : world.joints_)
+    for (const BodyId id : {entry.second.a, entry.second.b}) held[place_of(id)] = true;
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (moved[i].kind == BodyKind::dynamic_body && !held[i]) return true;
+  return false;
 }
 
 template <int D>

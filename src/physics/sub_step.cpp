@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/stop.hpp"
+#include "physics/constrained_motion.hpp"
 #include "physics/free_rotation.hpp"
 
 namespace lantern::physics {
@@ -34,25 +35,6 @@ double lag_of(const Island<D>& island, std::size_t i, const WorldConfig<D>& conf
 // Impulses of what presses go with time, those of a blow do not. A blow in the shortest of
 // sub-steps must not be taken for a force, so a guess is only ever made smaller.
 double rescaled(double seconds, double old) { return std::min(seconds / old, 1.0); }
-
-// Whether the inertia is the same about all axes: then energy does not depend on how a body lies.
-template <int D>
-bool turns_alike(const Body<D>& body) {
-  for (int i = 1; i < (D == 2 ? 1 : 3); ++i)
-    if (spin_component(body.inverse_inertia, i) != spin_component(body.inverse_inertia, 0))
-      return false;
-  return true;
-}
-
-// Turns the body out of others. Its angular momentum turns with it: else it would come to lie along
-// other axes of the body, about which it may be far more energy.
-template <int D>
-void turn_with_momentum(Body<D>& body, const Spin<D>& turn) {
-  body.orientation = turned(body.orientation, turn);
-  if constexpr (D == 3)
-    if (!turns_alike(body))
-      body.angular_momentum = turned(Rotation<3>{}, turn).q * body.angular_momentum;
-}
 
 template <int D>
 void look_for_contacts(Island<D>& island, double scale_to, WorldWork& work) {
@@ -98,6 +80,52 @@ void remember(Island<D>& island, double h) {
   island.joint_seconds = h;
 }
 
+// How fast the tension of joints, by impulses of `seconds`, swings what they hold.
+template <int D>
+double swing_of(const Island<D>& island, double seconds) {
+  double most = 0;
+  for (const JointRows<D>& rows : island.joints)
+    most = std::max(most, rows.swing_squared(island.bodies[rows.a], island.bodies[rows.b],
+                                             glm::length(rows.impulse) / seconds));
+  return std::sqrt(most);
+}
+
+// Into how many sub-steps the seconds that are left are cut: so short as is asked for, and as the
+// joints' swinging needs.
+template <int D>
+double parts_of(const Island<D>& island, double left, double asked, double whole, double last) {
+  const double needed = kJointSettings.most_swing / std::max(swing_of(island, last), 1e-300);
+  const double seconds =
+      std::max(std::min(asked, needed), kJointSettings.shortest_sub_step * whole);
+  return std::ceil(left / std::min(asked, seconds) - 1e-9);
+}
+
+// As `in_sub_steps`, where joints hold bodies that others touch.
+template <int D>
+void in_swinging_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double asked,
+                           double whole, WorldWork& work,
+                           const std::function<void(SubStep<D>&)>& solve) {
+  double last = asked;
+  for (double left = h; left > 0;) {
+    const double parts = std::max(1.0, parts_of(island, left, asked, whole, last));
+    const double seconds = left / parts;
+    for (JointRows<D>& rows : island.joints) rows.impulse *= rescaled(seconds, last);
+    for (IslandPair<D>& pair : island.pairs)
+      for (ContactPoint<D>& p : pair.rows.points()) {
+        p.pn *= rescaled(seconds, last);
+        p.pt *= rescaled(seconds, last);
+      }
+    SubStep<D> part(island, config, seconds, work);
+    part.begin();
+    solve(part);
+    part.end();
+    if (seconds < whole) ++work.sub_steps;
+    last = seconds;
+    left = parts > 1 ? left - seconds : 0;
+  }
+  remember(island, last);
+}
+
 }  // namespace
 
 template <int D>
@@ -126,6 +154,9 @@ void SubStep<D>::begin() {
   each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
   });
+  touches_ = std::any_of(island.pairs.begin(), island.pairs.end(),
+                         [](const IslandPair<D>& pair) { return pair.rows.count > 0; });
+  joints_at_once_ = island.joint_block.refresh(island.joints, island.solver_bodies);
   for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
     SolverBody<D>& body = island.solver_bodies[i];
     body.velocity += island.increments[i].kick;
@@ -144,13 +175,17 @@ void SubStep<D>::begin() {
 template <int D>
 Sweep SubStep<D>::sweep_velocities(int turn) {
   Sweep sweep;
-  each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
+  if (!joints_at_once_)
+    each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
   for (std::size_t i = 0; i < island.pairs.size(); ++i) {
     stop_if_asked();
     ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
     if (rows.count > 0)
       rows.solve_velocities(island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
   }
+  if (joints_at_once_)
+    island.joint_block.solve_velocities(island.joints, island.solver_bodies, sweep, work);
+  if (joints_at_once_ && !touches_) sweep.change = 0;
   count(sweep, work);
   return sweep;
 }
@@ -221,8 +256,12 @@ void SubStep<D>::begin_position_correction() {
 template <int D>
 Sweep SubStep<D>::sweep_positions() {
   Sweep sweep;
-  each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
+  if (!joints_at_once_)
+    each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, sweep); });
   each_pair([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
+  if (joints_at_once_)
+    island.joint_block.correct_positions(island.joints, island.solver_bodies, sweep, work);
+  if (joints_at_once_ && !touches_) sweep.change = 0;
   count(sweep, work);
   return sweep;
 }
@@ -255,6 +294,7 @@ void SubStep<D>::end() {
     if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
     ++work.rotations_integrated;
   }
+  if (joints_at_once_) island.joint_block.close_gaps(island.joints, island.bodies, h, work);
   for (IslandPair<D>& pair : island.pairs) {
     stop_if_asked();
     pair.record_impulses();
@@ -269,17 +309,23 @@ void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, dou
   const int count = std::max(1, static_cast<int>(std::ceil(h / whole * sub_steps - 1e-9)));
   const double seconds = h / count;
   look_for_contacts(island, config.warm_start ? seconds : 0, work);
-  const bool bound =
-      !island.joints.empty() || std::any_of(island.pairs.begin(), island.pairs.end(),
-                                            [](const auto& pair) { return pair.rows.count > 0; });
-  if (!bound) {
+  const bool pressed = std::any_of(island.pairs.begin(), island.pairs.end(),
+                                   [](const auto& pair) { return pair.rows.count > 0; });
+  if (!pressed && !island.joints.empty() && move_constrained(island, config, h, work)) {
+    remember(island, h);
+    return;
+  }
+  if (!pressed && island.joints.empty()) {
     find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
       fly(island.bodies[i], island.increments[i], h, config.rotation, work);
     remember(island, h);
     return;
   }
-  scale_joint_impulses(island, seconds, whole / sub_steps, config.warm_start);
+  if (!island.joints.empty()) {
+    scale_joint_impulses(island, seconds, whole / sub_steps, config.warm_start);
+    return in_swinging_sub_steps(island, config, h, seconds, whole, work, solve);
+  }
   if (sub_steps > 1) work.sub_steps += static_cast<std::uint64_t>(count);
   for (int i = 0; i < count; ++i) {
     SubStep<D> part(island, config, seconds, work);

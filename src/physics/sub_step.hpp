@@ -32,8 +32,8 @@ class SubStep {
 
   // Forces act, rows are made where bodies are, and begin with the impulses that they have.
   void begin();
-  // Once over all rows. Every other `turn` goes backwards, so that neither end of a stack, nor side
-  // of a box, is preferred.
+  // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
+  // stack, nor side of a box, is preferred.
   Sweep sweep_velocities(int turn);
   // Takes back so much of all impulses, in proportion, that together they do no work but what
   // bounces and closing gaps ask for. Sweeps that end early may leave them too large, and energy
@@ -56,6 +56,8 @@ class SubStep {
   void each_joint(F&& f);
 
   double largest_push_ = 0;
+  bool joints_at_once_ = false;  // after which, if nothing touches, nothing is left to be done
+  bool touches_ = false;
 };
 
 template <int D>
@@ -70,8 +72,8 @@ void SubStep<D>::each_pair(F&& f) {
 
 // Moves the island by `h` of the step's `whole` seconds, in parts of which `sub_steps` make a whole
 // step. Contacts are looked at once; `solve` finds the impulses of a part and corrects positions,
-// between its begin and its end. If nothing touches and no joint holds, all fly, and there are no
-// parts.
+// between its begin and its end. If nothing touches, there are no parts: all fly, or move as their
+// joints let them (constrained_motion.hpp).
 template <int D>
 void in_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
                   int sub_steps, WorldWork& work, const std::function<void(SubStep<D>&)>& solve);

@@ -16,7 +16,7 @@
 #include "physics/contacts.hpp"
 #include "physics/forces.hpp"
 #include "physics/integrator.hpp"
-#include "physics/joint.hpp"
+#include "physics/joint_rows.hpp"
 #include "physics/world_config.hpp"
 
 namespace lantern::physics {
@@ -128,6 +128,7 @@ class World {
   struct JointMemory {
     Vec<D> impulse{0.0};  // of the last sub-step
     double seconds = 0;   // of that sub-step
+    Backoff backoff = {};
   };
   struct Step;  // one step while it is made (world_step.cpp)
   // What looking ahead found out for the next step.

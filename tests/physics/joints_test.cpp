@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/joint_gap.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {
@@ -40,25 +41,11 @@ World<D> chain(JointKind kind, double ratio) {
 }
 
 template <int D>
-double worst_gap(const World<D>& world) {
-  double worst = 0;
-  for (const auto& [id, joint] : world.joints()) {
-    const Body<D>& a = *world.find(joint.a);
-    const Body<D>& b = *world.find(joint.b);
-    const Vec<D> gap = (b.position + matrix(b.orientation) * joint.at_b) -
-                       (a.position + matrix(a.orientation) * joint.at_a);
-    const double wanted = joint.kind == JointKind::pin ? 0 : joint.length;
-    worst = std::max(worst, std::abs(glm::length(gap) - wanted));
-  }
-  return worst;
-}
-
-template <int D>
 void expect_holds(JointKind kind, double ratio) {
   World<D> world = chain<D>(kind, ratio);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 60; ++i) {
     world.step(kStep);
-    ASSERT_LE(worst_gap(world), 1e-3) << D << "D, ratio " << ratio << ", step " << i;
+    ASSERT_LE(widest_gap(world), 1e-3) << D << "D, ratio " << ratio << ", step " << i;
   }
 }
 
