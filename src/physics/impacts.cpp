@@ -106,6 +106,7 @@ std::vector<std::size_t> touching_pairs(Island<D>& island, WorldWork& work) {
     IslandPair<D>& pair = island.pairs[i];
     const Body<D>& a = island.bodies[pair.rows.a];
     const Body<D>& b = island.bodies[pair.rows.b];
+    const double near = kImpactSettings.touching * thinner(a, b);
     if (!island.find_points(pair, near, nullptr, 0, work)) continue;
     pair.rows.refresh(a, b, island.axes[pair.rows.a], island.axes[pair.rows.b],
                       island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b], 0, 0);

@@ -256,7 +256,7 @@ Flying<D> flying(const Body<D>& body) {
 }
 
 template <int D>
-double least_separation(const Manifold<D>& manifold) {
+double gap_of(const Manifold<D>& manifold) {
   double least = HUGE_VAL;
   for (const ManifoldPoint<D>& p : manifold.points()) least = std::min(least, p.separation);
   return least;
@@ -283,7 +283,7 @@ void expect_sure_advances(std::uint64_t seed) {
     }
     const Body<D>&a = world.bodies()[0], &b = world.bodies()[1];
     const auto seen = collide(placed(a), placed(b), 10.0);
-    if (!seen || least_separation(*seen) <= 1e-9) continue;
+    if (!seen || gap_of(*seen) <= 1e-9) continue;
     const double sure = sure_advance(flying(a), flying(b), seen->normal, 1e-9, 0.5);
     ASSERT_GE(sure, 0);
     useful += sure > 1e-3;
@@ -296,7 +296,7 @@ void expect_sure_advances(std::uint64_t seed) {
         EXPECT_NEAR(fastest_spin(*body) / fastest_spin(body == &later_a ? a : b), 1, 1e-3);
       }
       const auto met = collide(placed(later_a), placed(later_b), 10.0);
-      ASSERT_TRUE(!met || least_separation(*met) > -1e-6) << "round " << round;
+      ASSERT_TRUE(!met || gap_of(*met) > -1e-6) << "round " << round;
     }
   }
   EXPECT_GT(useful, 60);
