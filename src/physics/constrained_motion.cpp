@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "physics/energy.hpp"
 #include "physics/free_rotation.hpp"
 
 namespace lantern::physics {
@@ -26,15 +27,16 @@ std::optional<Integrator> common_integrator(const Island<D>& island, const World
 template <int D>
 bool advance(ConstrainedPart<D>& part, Integrator integrator) {
   switch (integrator) {
-    case Integrator::semi_implicit_euler:
     case Integrator::velocity_verlet:
-      return constrained_splitting(part, integrator);
+      return constrained_verlet(part);
     case Integrator::explicit_euler:
     case Integrator::runge_kutta_4:
       return constrained_runge_kutta(part, integrator);
     case Integrator::implicit_midpoint:
     case Integrator::implicit_euler:
       return constrained_implicit(part, integrator);
+    case Integrator::semi_implicit_euler:
+      break;  // see constrained_motion.hpp
   }
   return false;
 }
@@ -62,10 +64,12 @@ class Part {
   bool move(Integrator integrator) {
     if (!begin()) return false;
     ConstrainedPart<D> part{system_, joints_, state_, h_};
+    const Energy before = energy<D>(island_.bodies, island_.forces);
     const bool moved = advance(part, integrator);
     swing_ = part.swing;
-    if (moved) end();
-    return moved;
+    if (!moved) return false;
+    end();
+    return integrator == Integrator::explicit_euler || is_driven() || !has_gained(before);
   }
   double swing() const { return swing_; }
 
@@ -90,10 +94,28 @@ class Part {
     return true;
   }
 
+  // Whether anything does work on the island but its own forces.
+  bool is_driven() const {
+    return !island_.forces.pushes.empty() ||
+           std::ranges::any_of(island_.bodies, [](const Body<D>& body) {
+             return body.kind == BodyKind::kinematic_body;
+           });
+  }
+  bool has_gained(const Energy& before) const {
+    const Energy after = energy<D>(island_.bodies, island_.forces);
+    return after.total() - before.total() > kJointSettings.most_gain * after.kinetic();
+  }
+
   void adopt_places() {
     for (const std::size_t i : system_.movers()) {
-      island_.bodies[i].position += std::exchange(state_.shift[i], Vec<D>(0.0));
-      if (system_.turns(i)) island_.bodies[i].orientation = state_.orientation[i];
+      Body<D>& body = island_.bodies[i];
+      body.position += std::exchange(state_.shift[i], Vec<D>(0.0));
+      if (!system_.turns(i)) continue;
+      if constexpr (D == 3)  // else its energy would not stay
+        if (!turns_alike(body))
+          body.angular_momentum = state_.orientation[i].q *
+                                  (glm::conjugate(body.orientation.q) * body.angular_momentum);
+      body.orientation = state_.orientation[i];
     }
   }
 
@@ -156,10 +178,25 @@ struct Attempt {
 
 enum class Outcome { moved, unsuited, failed };
 
+// Into how many parts bodies that turn fast cut the step.
+template <int D>
+double parts_of_turning(const Island<D>& island, double h) {
+  double fastest = 0;
+  for (const Body<D>& body : island.bodies) {
+    if (body.kind != BodyKind::dynamic_body || body.asleep || turns_alike(body)) continue;
+    const Spin<D> spin = angular_velocity(body);
+    fastest = std::max(fastest, std::sqrt(dot(spin, spin)));
+  }
+  return std::max(1.0, std::ceil(h * fastest / kJointSettings.most_turn));
+}
+
 // If the island is not moved, its bodies are as they were.
 template <int D>
 Outcome try_to_move(Island<D>& island, const WorldConfig<D>& config, Attempt attempt, double h,
                     WorldWork& work) {
+  const double turning = parts_of_turning(island, h);
+  if (turning > kJointSettings.most_parts) return Outcome::failed;
+  attempt.parts = static_cast<int>(turning);
   const std::vector<Body<D>> start = island.bodies;
   std::vector<Vec<D>> impulses;
   for (double swing = 0;; island.bodies = start) {
@@ -192,7 +229,7 @@ Outcome try_to_move(Island<D>& island, const WorldConfig<D>& config, Attempt att
 template <int D>
 bool move_constrained(Island<D>& island, const WorldConfig<D>& config, double h, WorldWork& work) {
   const std::optional<Integrator> integrator = common_integrator(island, config);
-  if (!integrator) return false;
+  if (!integrator || *integrator == Integrator::semi_implicit_euler) return false;
   bool waits = false;
   for (JointRows<D>& rows : island.joints) waits |= rows.backoff.waits();
   if (waits) return false;

@@ -22,7 +22,10 @@ struct JointSettings {
   double fastest_closing = 4;  // units a second, the same
   double most_swing = 1;       // h times the frequency that the joints' tension makes, of methods
                                // that are stable only below 2
-  int most_parts = 16;         // into which a step is cut if it does not converge whole
+  double most_turn = 0.25;     // radians in a part, of bodies whose inertia is not alike about all
+                               // axes: farther on, a joint's impulses would find other energies
+  double most_gain = 1e-2;  // of kinetic energy, in a part: more is no solution of these equations
+  int most_parts = 16;      // into which a step is cut if it does not converge whole
   // Of joints beside contacts: rounds in which gaps are closed, to so small a part of the way that
   // may be moved; and products for one factor.
   int closing_rounds = 8;

@@ -32,7 +32,7 @@ void expect_order(const Make<D>& make, Integrator integrator, double order, doub
     run(world, seconds, seconds / (steps << halvings));
     last = distance(world, fine);
     if (halvings == 0) first = last;
-    EXPECT_LE(widest_gap(world), 1e-12);
+    EXPECT_LE(widest_gap(world), 1e-11);
   }
   EXPECT_NEAR(std::log2(first / last) / 4, order, 0.1) << to_string(integrator);
 }
