@@ -22,17 +22,19 @@ struct Verdict {
   DirectorReport report;
   std::vector<Diagnostic> problems;
   std::vector<Diagnostic> warnings;
+  std::vector<std::string> facts;
 };
 
 // Runs one scenario; what is wrong with it goes to standard error.
 Verdict check_one(const std::string& file, const CheckOptions& options, Work& work) {
-  Verdict verdict{file, kGood, {}, {}, {}};
+  Verdict verdict{file, kGood, {}, {}, {}, {}};
   try {
     const Scenario scenario = load_scenario(file);
     NoSink sink;
     const RunResult result = run_scenario(scenario, pace_of(options.pace, scenario), sink, work);
     verdict.code = tell(result, options.strict);
     verdict.report = result.report;
+    verdict.facts = result.facts;
     verdict.problems = result.report.unmet;
     auto& list = options.strict ? verdict.problems : verdict.warnings;
     list.insert(list.end(), result.warnings.begin(), result.warnings.end());
@@ -63,7 +65,16 @@ void write(JsonWriter& json, const Verdict& v) {
   json.member("frames", v.report.frames).member("expectations", v.report.expectations);
   write(json, "problems", v.problems);
   write(json, "warnings", v.warnings);
+  json.key("facts").begin_array();
+  for (const std::string& fact : v.facts) json.value(fact);
+  json.end_array();
   json.end_object();
+}
+
+std::string listed(const std::vector<std::string>& facts) {
+  std::string all;
+  for (const std::string& fact : facts) all += "; " + fact;
+  return all;
 }
 
 std::string counted(const std::vector<Diagnostic>& warnings) {
@@ -83,8 +94,8 @@ int check_command(const CheckOptions& options) {
     code = std::max(code, v.code);
     write(json, v);
     if (v.code == kGood && !options.json)
-      say(fmt::format("{}: good; {} frames, {} expectations hold{}", file, v.report.frames,
-                      v.report.expectations, counted(v.warnings)));
+      say(fmt::format("{}: good; {} frames, {} expectations hold{}{}", file, v.report.frames,
+                      v.report.expectations, listed(v.facts), counted(v.warnings)));
   }
   json.line().end_array().line().key("work");
   write(json, work);

@@ -50,6 +50,7 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
       &watch);
   sink.finish(result.report);
   result.warnings = watch.warnings();
+  result.facts = watch.facts();
   return result;
 }
 

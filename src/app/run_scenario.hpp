@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,6 +34,7 @@ std::optional<Scenario> load_or_complain(const std::string& file, int& code);
 struct RunResult {
   DirectorReport report;
   std::vector<Diagnostic> warnings;
+  std::vector<std::string> facts;
 };
 
 // Runs the scenario and tells how far it is; `chosen` is how many frames the sink writes at most,

@@ -70,6 +70,8 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
       return why_not_in(state.structure, need, s);
     case CountNeed::contacts:
       return s.has_contacts() ? "" : "this world has no contacts";
+    case CountNeed::joints:
+      return s.has_joints() ? "" : "this world has no joints";
     case CountNeed::sleep:
       return s.tells_sleepers() ? "" : "in this world nothing sleeps";
     case CountNeed::physics:

@@ -89,6 +89,9 @@ constexpr CountDoc kMeasures[] = {
     {"angular_momentum", physics,
      "Angular momentum of all bodies about the origin; its length in a 3D world."},
     {"penetration", contacts, "How deep the deepest contact of the last world step overlaps."},
+    {"joint_gap", joints,
+     "How far the joint that holds worst is from holding: a pin's points apart, a rod too long or "
+     "short."},
 };
 
 constexpr CountDoc kBodyMeasures[] = {

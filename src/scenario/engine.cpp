@@ -157,7 +157,7 @@ class EngineOf : public Engine {
     work_.pairs_found += frame.pairs.size();
     count_builds();
     count(frame);
-    if (scenario_.has_physics()) measure_world(players_, scenario_.has_contacts(), frame);
+    if (scenario_.has_physics()) measure_world(players_, scenario_, frame);
     measure_bodies(players_, scenario_, frame);
   }
 

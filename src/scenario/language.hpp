@@ -143,6 +143,7 @@ enum class CountNeed {
   split,  // one structure for what never moves, one for what does
   asleep_nodes,
   contacts,  // the world parts bodies that touch
+  joints,    // rods or pins hold its bodies
   sleep,     // of contacts, may_sleep and split_static one at least: what rests is told apart
   physics,   // of contacts, gravity, springs and joints one at least: more than free flight
   query,     // a ray, cull or query was asked

@@ -48,6 +48,11 @@ bool ScenarioSpec::has_forces() const {
   return world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !links.empty();
 }
 
+bool ScenarioSpec::has_joints() const {
+  return std::any_of(links.begin(), links.end(),
+                     [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; });
+}
+
 bool ScenarioSpec::tells_sleepers() const {
   return has_contacts() || world.may_sleep || structure.split_static;
 }

@@ -91,6 +91,7 @@ struct ScenarioSpec {
   std::uint64_t most_frames = 0;  // in step pace; a step that waits may give fewer
   std::uint64_t world_steps = 0;  // at most, for the same reason
 
+  bool has_joints() const;  // links that are no springs
   bool has_contacts() const { return world.contacts != ContactMethod::none; }
   bool has_forces() const;  // gravity, gravitation, springs or joints
   bool has_physics() const { return has_contacts() || has_forces(); }  // more than free flight

@@ -11,8 +11,9 @@ namespace lantern::scenario {
 RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body) {
   const std::vector<Warning>& quiet = scenario.world.quiet;
   const auto add = [&](Warning kind, Watching watcher) {
-    if (watcher && std::find(quiet.begin(), quiet.end(), kind) == quiet.end())
-      watchers_.emplace_back(kind, std::move(watcher));
+    const bool is_quiet = std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
+    if (watcher && (!is_quiet || watcher->has_fact()))
+      watchers_.push_back({kind, std::move(watcher), is_quiet});
   };
   if (scenario.bodies.empty()) return;
   add(Warning::view, watch_view(scenario, std::move(shows_a_body)));
@@ -26,28 +27,37 @@ RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> s
 RunWatch::~RunWatch() = default;
 
 void RunWatch::begin(const Step& step) {
-  for (const auto& [kind, watcher] : watchers_) watcher->begin(step);
+  for (const Watch& watch : watchers_) watch.watcher->begin(step);
 }
 
 void RunWatch::passed(const Engine& engine) {
-  for (const auto& [kind, watcher] : watchers_)
-    if (watcher->sees_worlds()) engine.show(*watcher);
+  for (const Watch& watch : watchers_)
+    if (watch.watcher->sees_worlds()) engine.show(*watch.watcher);
 }
 
 void RunWatch::see(const Frame& frame) {
-  for (const auto& [kind, watcher] : watchers_) watcher->see_frame(frame);
+  for (const Watch& watch : watchers_) watch.watcher->see_frame(frame);
 }
 
 std::vector<Diagnostic> RunWatch::warnings() const {
   std::vector<Diagnostic> all;
-  for (const auto& [kind, watcher] : watchers_)
-    for (Diagnostic& found : watcher->warnings()) all.push_back(std::move(found));
+  for (const Watch& watch : watchers_)
+    if (!watch.quiet)
+      for (Diagnostic& found : watch.watcher->warnings()) all.push_back(std::move(found));
+  return all;
+}
+
+std::vector<std::string> RunWatch::facts() const {
+  std::vector<std::string> all;
+  for (const Watch& watch : watchers_)
+    if (std::string fact = watch.watcher->fact(); !fact.empty()) all.push_back(std::move(fact));
   return all;
 }
 
 std::vector<Warning> RunWatch::kinds() const {
   std::vector<Warning> kinds;
-  for (const auto& [kind, watcher] : watchers_) kinds.push_back(kind);
+  for (const Watch& watch : watchers_)
+    if (!watch.quiet) kinds.push_back(watch.kind);
   return kinds;
 }
 

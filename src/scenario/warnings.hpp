@@ -5,7 +5,7 @@
 
 #include <functional>
 #include <memory>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "scenario/engine.hpp"
@@ -29,11 +29,19 @@ class RunWatch {
   // What has been found so far, by kind; of each kind only the first, and how many more there are.
   std::vector<Diagnostic> warnings() const;
 
+  // What is told of a run in any case, as "joints parted by at most 0.0012".
+  std::vector<std::string> facts() const;
+
   // What is watched for, in the order of the kinds.
   std::vector<Warning> kinds() const;
 
  private:
-  std::vector<std::pair<Warning, std::unique_ptr<Watcher>>> watchers_;
+  struct Watch {
+    Warning kind;
+    std::unique_ptr<Watcher> watcher;
+    bool quiet = false;  // it warns of nothing
+  };
+  std::vector<Watch> watchers_;
 };
 
 }  // namespace lantern::scenario

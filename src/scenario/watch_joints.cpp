@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
+#include "physics/joint_gap.hpp"
 #include "scenario/watcher.hpp"
 
 namespace lantern::scenario {
@@ -57,6 +58,18 @@ class JointWatch : public Watcher {
     return found.list("joints part");
   }
 
+  bool has_fact() const override { return true; }
+  std::string fact() const override {
+    const auto widest = std::max_element(
+        worst_.begin(), worst_.end(), [](const Gap& x, const Gap& y) { return x.size < y.size; });
+    std::string told = fmt::format("joints parted by at most {:.2g}", widest->size);
+    if (widest->size > 0)
+      told += fmt::format(", {} at {:.4g} s",
+                          named(scenario_.links[static_cast<std::size_t>(widest - worst_.begin())]),
+                          widest->time);
+    return told;
+  }
+
  private:
   struct Gap {
     double size = 0;
@@ -69,8 +82,9 @@ class JointWatch : public Watcher {
     players.for_each_link(
         [&](const LinkSpec& link, const Vec<D>& from, const Vec<D>& to, double rest) {
           if (link.kind == LinkSpec::Kind::spring) return;
-          const double apart = glm::length(to - from);
-          const double gap = link.kind == LinkSpec::Kind::pin ? apart : std::abs(apart - rest);
+          const bool pin = link.kind == LinkSpec::Kind::pin;
+          const double gap = physics::joint_gap<D>(
+              pin ? physics::JointKind::pin : physics::JointKind::distance, rest, from, to);
           const auto i = static_cast<std::size_t>(&link - scenario_.links.data());
           LANTERN_CHECK(i, <, worst_.size());
           if (!(gap > worst_[i].size)) return;
@@ -79,18 +93,22 @@ class JointWatch : public Watcher {
         });
   }
 
+  // "the pin from 'a' to 'b'"
+  std::string named(const LinkSpec& link) const {
+    const std::string& a = scenario_.bodies[link.a].name;
+    const char* kind = link.kind == LinkSpec::Kind::pin ? "pin" : "rod";
+    return link.b ? fmt::format("the {} from '{}' to '{}'", kind, a, scenario_.bodies[*link.b].name)
+                  : fmt::format("the {} of '{}'", kind, a);
+  }
+
   Diagnostic parting(std::size_t i) const {
     const LinkSpec& link = scenario_.links[i];
-    const bool pin = link.kind == LinkSpec::Kind::pin;
-    const std::string& a = scenario_.bodies[link.a].name;
-    const std::string ends =
-        link.b ? fmt::format("from '{}' to '{}'", a, scenario_.bodies[*link.b].name)
-               : fmt::format("of '{}'", a);
-    return warning(scenario_, link.where,
-                   fmt::format("the {} {} {} by {:.3g} at {:.4g} s, {:.3g} % of its bodies' size",
-                               pin ? "pin" : "rod", ends, pin ? "parts" : "stretches",
-                               worst_[i].size, worst_[i].time, 100 * worst_[i].share),
-                   firmer(scenario_.world));
+    return warning(
+        scenario_, link.where,
+        fmt::format("{} {} by {:.3g} at {:.4g} s, {:.3g} % of its bodies' size", named(link),
+                    link.kind == LinkSpec::Kind::pin ? "parts" : "stretches", worst_[i].size,
+                    worst_[i].time, 100 * worst_[i].share),
+        firmer(scenario_.world));
   }
 
   const Scenario& scenario_;
@@ -101,10 +119,7 @@ class JointWatch : public Watcher {
 }  // namespace
 
 Watching watch_joints(const Scenario& scenario) {
-  const bool joints =
-      std::any_of(scenario.links.begin(), scenario.links.end(),
-                  [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; });
-  return joints ? std::make_unique<JointWatch>(scenario) : nullptr;
+  return scenario.has_joints() ? std::make_unique<JointWatch>(scenario) : nullptr;
 }
 
 }  // namespace lantern::scenario

@@ -22,6 +22,9 @@ class Watcher : public WorldWatch {
   void see_world(const Players<2>&) override {}
   void see_world(const Players<3>&) override {}
   virtual std::vector<Diagnostic> warnings() const = 0;
+  // What is told whether it is worth a warning or not; empty if there is nothing.
+  virtual std::string fact() const { return {}; }
+  virtual bool has_fact() const { return false; }
 };
 
 // Each gives nothing for a scenario that cannot show what it watches for.

@@ -7,6 +7,7 @@
 
 #include "base/stop.hpp"
 #include "physics/energy.hpp"
+#include "physics/joint_gap.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -126,7 +127,7 @@ void picture_world(const Players<D>& players, Frame& frame) {
 }
 
 template <int D>
-void measure_world(const Players<D>& players, bool has_contacts, Frame& frame) {
+void measure_world(const Players<D>& players, const Scenario& scenario, Frame& frame) {
   const std::span<const Body<D>> bodies(players.world().bodies());
   const Energy now = energy(bodies, players.world().forces());
   frame.measures = {{"energy", now.total()},
@@ -134,7 +135,8 @@ void measure_world(const Players<D>& players, bool has_contacts, Frame& frame) {
                     {"potential_energy", now.potential()},
                     {"momentum", glm::length(momentum(bodies))},
                     {"angular_momentum", glm::length(angular_momentum<D>(bodies))}};
-  if (!has_contacts) return;
+  if (scenario.has_joints()) frame.measures.emplace_back("joint_gap", widest_gap(players.world()));
+  if (!scenario.has_contacts()) return;
   double deepest = 0;
   for (const FrameContact& c : frame.contacts)
     for (const FrameContact::Point& point : c.points)
@@ -154,8 +156,8 @@ template BodyState state_of(const Body<2>&);
 template BodyState state_of(const Body<3>&);
 template void picture_world(const Players<2>&, Frame&);
 template void picture_world(const Players<3>&, Frame&);
-template void measure_world(const Players<2>&, bool, Frame&);
-template void measure_world(const Players<3>&, bool, Frame&);
+template void measure_world(const Players<2>&, const Scenario&, Frame&);
+template void measure_world(const Players<3>&, const Scenario&, Frame&);
 template void measure_bodies(const Players<2>&, const Scenario&, Frame&);
 template void measure_bodies(const Players<3>&, const Scenario&, Frame&);
 

@@ -14,9 +14,9 @@ BodyState state_of(const Body<D>& body);
 template <int D>
 void picture_world(const Players<D>& players, Frame& frame);
 
-// Energies, momenta and, of contacts, the deepest penetration.
+// Energies, momenta, of contacts the deepest penetration, of joints the widest gap.
 template <int D>
-void measure_world(const Players<D>& players, bool has_contacts, Frame& frame);
+void measure_world(const Players<D>& players, const Scenario& scenario, Frame& frame);
 
 // Measures of single bodies that the scenario asks for, as "energy.bob", of bodies that are there.
 // Contacts must be in the frame.
@@ -27,8 +27,8 @@ extern template BodyState state_of(const Body<2>&);
 extern template BodyState state_of(const Body<3>&);
 extern template void picture_world(const Players<2>&, Frame&);
 extern template void picture_world(const Players<3>&, Frame&);
-extern template void measure_world(const Players<2>&, bool, Frame&);
-extern template void measure_world(const Players<3>&, bool, Frame&);
+extern template void measure_world(const Players<2>&, const Scenario&, Frame&);
+extern template void measure_world(const Players<3>&, const Scenario&, Frame&);
 extern template void measure_bodies(const Players<2>&, const Scenario&, Frame&);
 extern template void measure_bodies(const Players<3>&, const Scenario&, Frame&);
 
