@@ -49,6 +49,7 @@ struct ContactEvent {
   Kind kind = Kind::begin;
   BodyId a = 0;
   BodyId b = 0;
+  bool crushes = false;  // one of them, against a third (crushing.hpp)
   bool operator==(const ContactEvent&) const = default;
 };
 

@@ -8,6 +8,7 @@
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "physics/contact_solver.hpp"
+#include "physics/crushing.hpp"
 #include "physics/impacts.hpp"
 #include "physics/step.hpp"
 
@@ -251,6 +252,8 @@ void World<D>::Step::update_contact_events() {
   order_touches();
   for (const Touch& touch : touching) contacts.push_back(touch.record);
 
+  const std::vector<std::uint8_t> crush =
+      crushing<D>(contacts, [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; });
   const int frames = contact_solver<D>(world.config_.contacts).frames_remembered;
   const std::vector<Told>& old = world.told_;
   std::size_t i = 0, j = 0;
@@ -266,8 +269,8 @@ void World<D>::Step::update_contact_events() {
     else
       told.push_back(now);
     if (!parted)
-      events.push_back(
-          {known ? ContactEvent::Kind::stay : ContactEvent::Kind::begin, now.pair.a, now.pair.b});
+      events.push_back({known ? ContactEvent::Kind::stay : ContactEvent::Kind::begin, now.pair.a,
+                        now.pair.b, !crush.empty() && crush[j] != 0});
     if (known) ++i;
     if (!parted) ++j;
   }

@@ -28,6 +28,9 @@ constexpr CountDoc kCounts[] = {
      "Pairs that really touch, as the last world step found; of sleepers, their last one."},
     {"contact_points", contacts, "Points at which they do."},
     {"impulses", contacts, "Those of them that passed on an impulse in that world step."},
+    {"crushes", contacts,
+     "Of these, those that crush: they press a body against another one, and the two lie in it "
+     "deeper than a quarter of its smallest width."},
     {"begins", contacts, "Pairs that began to touch during the script's step."},
     {"ends", contacts, "Pairs that ceased to touch during the script's step."},
     {"constraint_rows", contacts,

@@ -123,11 +123,13 @@ class EngineOf : public Engine {
         return !body || body->asleep;
       });
     const BodyId first = *players_.id_of(bodies[0]), second = *players_.id_of(bodies[1]);
-    const auto kind =
-        event == Wait::Event::touch ? ContactEvent::Kind::begin : ContactEvent::Kind::end;
-    const ContactEvent wanted{kind, std::min(first, second), std::max(first, second)};
-    const std::vector<ContactEvent>& events = players_.world().events();
-    return std::find(events.begin(), events.end(), wanted) != events.end();
+    const Pair wanted{std::min(first, second), std::max(first, second)};
+    return std::ranges::any_of(players_.world().events(), [&](const ContactEvent& told) {
+      if (Pair{told.a, told.b} != wanted) return false;
+      if (event == Wait::Event::crush) return told.crushes;
+      return told.kind ==
+             (event == Wait::Event::touch ? ContactEvent::Kind::begin : ContactEvent::Kind::end);
+    });
   }
 
   std::string label_of(NodeHandle node) const override {
@@ -210,6 +212,8 @@ class EngineOf : public Engine {
       frame.add_count("contacts", frame.contacts.size());
       frame.add_count("contact_points", points);
       frame.add_count("impulses", impulses);
+      frame.add_count("crushes", static_cast<std::uint64_t>(std::ranges::count_if(
+                                     frame.contacts, &FrameContact::crushes)));
       frame.add_count("begins", begins_);
       frame.add_count("ends", ends_);
       frame.add_count("pairs_tested", last_.narrow_pairs);

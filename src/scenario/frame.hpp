@@ -104,7 +104,8 @@ struct FrameContact {
   Pair pair;
   Vec<3> normal{0.0};  // unit, from a to b
   std::vector<Point> points;
-  bool begins = false;  // they did not touch a step before
+  bool begins = false;   // they did not touch a step before
+  bool crushes = false;  // one of them, against a third
 };
 
 // A spring, a distance joint or a pin, between two points.

@@ -174,7 +174,8 @@ class FrameWriter {
     object("position", p.position, "separation", p.separation, "impulse", p.impulse);
   }
   void write(const FrameContact& c) {
-    object("pair", c.pair, "normal", c.normal, "points", c.points, "begins", c.begins);
+    object("pair", c.pair, "normal", c.normal, "points", c.points, "begins", c.begins, "crushes",
+           c.crushes);
   }
   void write(const FrameLink& link) {
     static constexpr std::string_view kKinds[] = {"spring", "distance", "pin"};

@@ -33,6 +33,7 @@ enum class Warning {
   joints,    // a joint's ends part
   energy,    // grows, and nothing drives it
   through,   // a body is pushed through one that never moves
+  crush,     // a body is pressed between two others, deeper than they hold
 };
 // A point has three coordinates; in a 2D world the third is 0.
 struct WorldSpec {
@@ -236,7 +237,7 @@ inline EnumNames names(Panel) { return {"world", "tree", "atlas", "chart", "memo
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box"}; }
 inline EnumNames names(Warning) {
-  return {"view", "outside", "contacts", "joints", "energy", "through"};
+  return {"view", "outside", "contacts", "joints", "energy", "through", "crush"};
 }
 inline EnumNames names(LinkSpec::Kind) { return {"spring", "distance", "pin"}; }
 inline EnumNames names(Solution) {

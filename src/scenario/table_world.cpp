@@ -118,7 +118,7 @@ TableDoc world_table() {
           "What is intended and needs no warning: a `view` without any body, a body `outside` "
           "the world, bodies that fall into each other where `contacts` are off, `joints` that "
           "come apart, `energy` that grows though nothing drives it, a body pushed `through` a "
-          "static one.",
+          "static one, a body that is `crush`ed between two others.",
           or_else("nothing")),
   };
   table.groups = {{{"size"}, {"min", "max"}}};

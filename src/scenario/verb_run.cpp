@@ -103,7 +103,10 @@ TableDoc Wait::table() {
           .keys =
               {
                   key(&Wait::event, "event",
-                      "Two bodies `touch` or `part`; or all of some bodies are `asleep`.", must()),
+                      "Two bodies `touch` or `part`; or one of the two is `crush`ed between the "
+                      "other and "
+                      "a third; or all of some bodies are `asleep`.",
+                      must()),
                   key(KeyType::texts, "bodies",
                       "Two names of bodies; of what falls asleep any number.", must()),
                   key(&Wait::at_most, "at_most", "A whole number of time steps.", must(),
@@ -160,7 +163,7 @@ Frame met(const Frame& before, const Frame& after) {
   static constexpr std::string_view kOfTheStep[] = {
       "contacts",      "contact_points",    "impulses",     "begins",
       "ends",          "pairs_tested",      "narrow_tests", "constraint_rows",
-      "friction_rows", "force_evaluations", "rotations"};
+      "friction_rows", "force_evaluations", "rotations",    "crushes"};
   Frame frame = before;
   frame.contacts = after.contacts;
   for (auto& [name, number] : frame.counts)

@@ -121,7 +121,7 @@ struct Run {
 
 // As Run, until something happens.
 struct Wait {
-  enum class Event { touch, part, asleep };  // two bodies; two bodies; all of them
+  enum class Event { touch, part, asleep, crush };  // two bodies, but any number fall asleep
   static constexpr VerbTraits kTraits{.name = "wait", .passes_time = true};
   static TableDoc table();
   void read(const TableReader& table, ScriptReading& script);
@@ -132,7 +132,7 @@ struct Wait {
   double at_most = 0;  // seconds; if it has not happened by then, the run fails
   int every = 0;
 };
-inline EnumNames names(Wait::Event) { return {"touch", "part", "asleep"}; }
+inline EnumNames names(Wait::Event) { return {"touch", "part", "asleep", "crush"}; }
 
 // One world step, phase by phase.
 struct Phases {

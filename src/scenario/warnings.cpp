@@ -22,6 +22,7 @@ RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> s
   add(Warning::joints, watch_joints(scenario));
   add(Warning::energy, watch_energy(scenario));
   add(Warning::through, watch_through(scenario));
+  add(Warning::crush, watch_crush(scenario));
 }
 
 RunWatch::~RunWatch() = default;

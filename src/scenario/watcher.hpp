@@ -35,6 +35,7 @@ Watching watch_contacts(const Scenario& scenario);
 Watching watch_joints(const Scenario& scenario);
 Watching watch_energy(const Scenario& scenario);
 Watching watch_through(const Scenario& scenario);
+Watching watch_crush(const Scenario& scenario);
 
 Diagnostic warning(const Scenario& scenario, const SourcePosition& where, std::string message,
                    std::string suggestion);

@@ -37,8 +37,10 @@ FrameContact frame_contact(const Contact<D>& contact, const std::vector<ContactE
                                       [](const ContactEvent& e, const Pair& pair) {
                                         return Pair{e.a, e.b} < pair;
                                       });
-  c.begins = event != events.end() && Pair{event->a, event->b} == c.pair &&
-             event->kind == ContactEvent::Kind::begin;
+  if (event != events.end() && Pair{event->a, event->b} == c.pair) {
+    c.begins = event->kind == ContactEvent::Kind::begin;
+    c.crushes = event->crushes;
+  }
   for (std::size_t i = 0; i < contact.manifold.points().size(); ++i) {
     const auto& point = contact.manifold.room[i];
     c.points.push_back({solid(point.position), point.separation, contact.normal_impulses[i]});

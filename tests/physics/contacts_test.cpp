@@ -1,4 +1,5 @@
 // Friction, rolling and what a step tells of contacts, against closed forms.
+#include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -115,6 +116,49 @@ TEST(Contacts, EachPairBeginsStaysAndEndsOnce) {
     }
   }
   EXPECT_EQ(story, "bse") << "begins, stays, ends";
+}
+
+// A kinematic wall pushes a box against one that stands, and on.
+template <int D>
+void expect_crush(bool pushed) {
+  WorldConfig<D> config;
+  World<D> world(config);
+  for (const double side : {-1.0, 1.0}) {
+    Body<D> wall = box_at<D>(along<D>(side * 2.0));
+    wall.name = "wall";
+    wall.kind = side < 0 ? BodyKind::kinematic_body : BodyKind::static_body;
+    if (side < 0 && pushed) wall.velocity = along<D>(1.0);
+    world.add(wall);
+  }
+  const BodyId box = world.add(box_at<D>(Vec<D>(0.0)));
+  int first = 0;
+  double fastest = 0;
+  for (int i = 1; i <= 150; ++i) {  // they meet after one second, and lie in one after two
+    world.step(kStep);
+    fastest = std::max(fastest, glm::length(world.find(box)->velocity));
+    for (const ContactEvent& event : world.events())
+      if (event.crushes && first == 0) first = i;
+  }
+  EXPECT_EQ(first > 0, pushed);
+  if (!pushed) return;
+  EXPECT_NEAR(first * kStep, 2.25, 0.05) << "a quarter of a unit box";
+  EXPECT_LE(fastest, 2) << "it is thrown";
+}
+
+TEST(Contacts, AWallThatCrushesSaysSo) {
+  expect_crush<2>(true);
+  expect_crush<3>(true);
+  expect_crush<2>(false);
+}
+
+TEST(Contacts, AStackThatRestsCrushesNobody) {
+  World<2> world(falling<2>());
+  world.add(floor_at<2>());
+  for (int i = 0; i < 5; ++i) world.add(box_at<2>(up<2>(0.5 + i)));
+  for (int i = 0; i < 60; ++i) {
+    world.step(kStep);
+    for (const ContactEvent& event : world.events()) ASSERT_FALSE(event.crushes);
+  }
 }
 
 TEST(Contacts, FrictionRowsOnlyWhereThereIsFriction) {
