@@ -196,7 +196,12 @@ void ContactRows<D>::begin_correction(SolverBody<D>& body_a, SolverBody<D>& body
     p.correction = 0;
     if (friction == 0 || p.pn == 0) continue;
     if (!p.sticks) {
-      // Slips through the whole sub-step, slowed evenly: the mean is half way.
+      // Slips through the whole sub-step, slowed evenly: the mean is half way. Where friction only
+      // balances forces, nothing is slowed.
+      const Vec<D> now = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+      if (glm::length(now - p.slip) <=
+          kRowSettings.hardly_slowed * glm::length(p.pt) * p.inverse_tangent_mass)
+        continue;
       body_a.correct(p.pt * (0.5 - lag_a), p.arm_a);
       body_b.correct(p.pt * (lag_b - 0.5), p.arm_b);
       continue;

@@ -31,7 +31,8 @@ struct RowSettings {
   // "Small Steps in Physics Simulation", 2019).
   double pushed_out = 0.25;
   double fastest_push = 4;
-  double corner = 1e-3;  // of a body's size: so near to a corner of it is at the corner
+  double corner = 1e-3;         // of a body's size: so near to a corner of it is at the corner
+  double hardly_slowed = 1e-3;  // of what friction alone would slow: balances forces
   // Of full friction: what stops a body within so little of it does not slip in the end.
   double slip_by_rounding = 1e-6;
   // Of the firmest point's impulse: one that presses less presses by rounding only.
