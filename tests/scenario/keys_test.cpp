@@ -457,12 +457,13 @@ void add_promise_cases(std::vector<KeyCase>& cases) {
                     {"{ red = @inf }", "must be finite"},
                     {"{ @rd = 1 }", "'red'"}}});
   for (const CountDoc& measure : known_measures())
-    cases.push_back({"expect",
-                     std::string(measure.name),
-                     {"0", "1.5", "-2e20"},
-                     {{"@\"1\"", "must be a number"},
-                      {"@nan", "must be finite"},
-                      {"@-inf", "must be finite"}}});
+    if (measure.name != "joint_gap")  // needs joints: in a test of its own
+      cases.push_back({"expect",
+                       std::string(measure.name),
+                       {"0", "1.5", "-2e20"},
+                       {{"@\"1\"", "must be a number"},
+                        {"@nan", "must be finite"},
+                        {"@-inf", "must be finite"}}});
 }
 
 // By hand, so that a slip in the language's table is found.
@@ -699,11 +700,8 @@ TEST(Keys, RefuseTheRestAtItsPlace) {
 
 TEST(Keys, AllAreTested) {
   std::set<std::pair<std::string, std::string>> tested = {
-      {"world", "min"},
-      {"world", "max"},
-      {"query", "min"},
-      {"query", "max"},
-      {"expect", "tolerance"}};  // in tests of their own
+      {"world", "min"}, {"world", "max"},        {"query", "min"},
+      {"query", "max"}, {"expect", "joint_gap"}, {"expect", "tolerance"}};  // in tests of their own
   for (const KeyCase& c : key_cases()) tested.emplace(c.table, c.key);
   const auto require = [&](const TableDoc& table) {
     for (const KeyDoc& key : table.keys) {
