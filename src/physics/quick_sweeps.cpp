@@ -240,9 +240,8 @@ void QuickSweeps<D>::bring_back(SubStep<D>& step) {
 // Always from the first pair to the last: what a sweep leaves undone then lies where the next one
 // finds it, and warm starting does the rest.
 template <int D>
-void QuickSweeps<D>::settle(SubStep<D>& step) {
+void QuickSweeps<D>::settle(SubStep<D>& step, double error) {
   gather(step);
-  const double error = step.config.wanted_error;
   const double enough = kQuickSettings.last_move * error / step.h;
   const int most = kQuickSettings.most_sweeps(error);
   last_squared_ = 0;

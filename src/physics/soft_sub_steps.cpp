@@ -5,7 +5,8 @@
 //
 // Small steps alone do not hold a heavy body on a light one: what the sweeps cannot, the direct
 // solve of all rows at once does in each sub-step (direct_solve.hpp). Large islands of which an
-// error is wanted are swept for as long as that takes, and in fewer parts (quick_sweeps.hpp).
+// error is wanted are swept for as long as that takes, and in fewer parts (quick_sweeps.hpp); so
+// are heaps of bodies inside each other.
 #include <algorithm>
 
 #include "physics/direct_solve.hpp"
@@ -16,13 +17,15 @@ namespace lantern::physics {
 template <int D>
 void soft_sub_steps(Island<D>& island, const WorldConfig<D>& config, double h, double whole,
                     WorldWork& work) {
-  const double error = config.wanted_error;
+  const bool crowded = island.pairs.size() > kQuickSettings.crowd * island.bodies.size();
+  const double error =
+      crowded ? std::max(config.wanted_error, kQuickSettings.usual_error) : config.wanted_error;
   const auto pairs = static_cast<int>(island.pairs.size());
   if (error > 0 && island.joints.empty() && pairs >= kQuickSettings.fewest_pairs) {
     QuickSweeps<D> quick;
     const int parts = std::min(kQuickSettings.parts(error), config.sub_steps);
     in_sub_steps<D>(island, config, h, whole, parts, work,
-                    [&](SubStep<D>& step) { quick.settle(step); });
+                    [&](SubStep<D>& step) { quick.settle(step, error); });
     return;
   }
   DirectSolve<D> direct;

@@ -179,7 +179,9 @@ bool World<D>::Step::is_slow(std::size_t place) const {
   const Spin<D> spin = angular_velocity(body), spin_before = angular_velocity(before);
   const Spin<D> turned_faster = spin - spin_before;
   const double spun = std::sqrt(dot(turned_faster, turned_faster)) / h;
-  return glm::length(body.velocity) + gained <= world.config_.sleep_speed &&
+  // What is pushed out of another one moves, too, though it has no velocity.
+  const double way = glm::length(body.position - before.position) / h;
+  return std::max(glm::length(body.velocity), way) + gained <= world.config_.sleep_speed &&
          std::sqrt(dot(spin, spin)) + spun <= world.config_.sleep_spin;
 }
 

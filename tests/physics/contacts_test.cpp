@@ -161,6 +161,34 @@ TEST(Contacts, AStackThatRestsCrushesNobody) {
   }
 }
 
+// So many that their pairs are a crowd (quick_sweeps.hpp). They do not fall asleep in each other.
+template <int D>
+void expect_to_part(const Shape<D>& shape) {
+  World<D> world(WorldConfig<D>{});
+  for (int i = 0; i < 36; ++i) {
+    Body<D> body;
+    body.shape = shape;
+    world.add(body);
+  }
+  double fastest = 0;
+  std::size_t first = 0;
+  for (int i = 0; i < 36; ++i) {  // longer than what rests takes to fall asleep
+    world.step(kStep);
+    if (i == 0) first = world.contacts().size();
+    for (const Body<D>& body : world.bodies())
+      fastest = std::max(fastest, glm::length(body.velocity));
+  }
+  EXPECT_EQ(first, 630u) << "all pairs";
+  EXPECT_LT(world.contacts().size(), first / 2);
+  EXPECT_EQ(world.work().asleep, 0u);
+  EXPECT_LT(fastest, 1e-6) << "they are thrown";
+}
+
+TEST(Contacts, BodiesAtOnePointPart) {
+  expect_to_part<2>(OrientedBox<2>{Vec<2>(0.5)});
+  expect_to_part<3>(Sphere{0.5});
+}
+
 TEST(Contacts, FrictionRowsOnlyWhereThereIsFriction) {
   World<2> world(falling<2>());
   world.add(floor_at<2>(0, 0));
