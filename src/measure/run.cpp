@@ -87,8 +87,12 @@ class Runner {
   std::uint64_t steps_ = 0;
 };
 
-void judge(Row& row) {
+void judge(Row& row, std::optional<std::string> collapse) {
   if (row.status != Status::ok) return;
+  if (collapse) {
+    row.status = Status::collapsed;
+    row.reason = std::move(*collapse);
+  }
   for (const Norm& norm : row.norms)
     if (!std::isfinite(norm.value) || (norm.name == "traj" && norm.value > kBeyondSense)) {
       row.status = Status::diverged;
@@ -155,12 +159,50 @@ class OwnRun : public ErrorMetric {
 
 void ignore(const Observation&) {}
 
+// Writes down how error and energy have gone, about a dozen times, further and further apart.
+class Sampler : public ErrorMetric {
+ public:
+  Sampler(ErrorMetric& metric, const DriftMeter& meter, const Schedule& schedule)
+      : metric_(metric), meter_(meter) {
+    for (const Leg& leg : schedule.legs) looks_ += leg.looks;
+    growth_ = std::max(1.0, std::pow(looks_, 1.0 / kSamples));
+  }
+
+  void look(const Observation& now) override {
+    metric_.look(now);
+    const double seen = seen_++;
+    if (seen < next_ && seen < looks_) return;
+    if (seen > 0)
+      samples_.push_back({now.time, metric_.norms().front().value, meter_.drift().energy});
+    next_ = std::max(seen + 1, std::floor(seen * growth_));
+  }
+  void interfere(const Observation& now, Simulation& simulation) override {
+    metric_.interfere(now, simulation);
+  }
+  std::vector<Norm> norms() const override { return metric_.norms(); }
+  const std::vector<DriftSample>& samples() const { return samples_; }
+
+ private:
+  static constexpr double kSamples = 12;
+
+  ErrorMetric& metric_;
+  const DriftMeter& meter_;
+  double looks_ = 0, seen_ = 0, next_ = 1, growth_ = 1;
+  std::vector<DriftSample> samples_;
+};
+
 }  // namespace
 
 Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step) {
   if (scenario.problem) {
-    make_error_metric(scenario);  // tells at once if it is not that problem
-    return {"closed form", [&scenario] { return make_error_metric(scenario); }};
+    // Tells at once if it is not that problem.
+    const std::shared_ptr<const ErrorMetric> first = make_error_metric(scenario);
+    return {first->reference(),
+            [&scenario, first] {
+              auto fresh = first->fresh();
+              return fresh ? std::move(fresh) : make_error_metric(scenario);
+            },
+            first->reference_error()};
   }
   Method method;
   method.name = "as written";
@@ -206,6 +248,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   row.reference_error = trials.reference.error;
   const std::unique_ptr<ErrorMetric> metric = trials.reference.make();
   DriftMeter meter(trials.invariants);
+  Sampler sampler(*metric, meter, trials.schedule);
   std::optional<Runner> runner;
   const auto failed = [&](Status status, const char* reason) {
     row.status = status;
@@ -213,7 +256,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   };
   try {
     runner.emplace(trials.scenario, trials.schedule, solver, h);
-    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
+    runner->run(sampler, [&](const Observation& now) { meter.look(now.states); });
     row.norms = metric->norms();
     if (seconds) *seconds = runner->seconds();
   } catch (const Refused& refused) {
@@ -223,10 +266,12 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   }
   if (!runner) return row;
   row.drift = meter.drift();
+  if (row.drift.energy || row.drift.momentum || row.drift.angular_momentum)
+    row.samples = sampler.samples();
   row.penetration = meter.penetration();
   row.counted = runner->simulation().counted();
   row.hash = runner->simulation().hash();
-  judge(row);
+  judge(row, metric->collapse());
   return row;
 }
 
