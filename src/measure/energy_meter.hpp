@@ -16,8 +16,8 @@ class EnergyMeter {
   explicit EnergyMeter(const Scenario& scenario) : invariants_(scenario) {}
 
   // Gives what it found.
-  Kept look(const std::vector<BodyState>& states) {
-    const Kept now = invariants_.of(states);
+  Kept look(const Observation& at) {
+    const Kept now = invariants_.of(at.states);
     if (!begun_) start_ = now.energy;
     begun_ = true;
     kinetic_ = std::max(kinetic_, now.kinetic_energy);

@@ -37,7 +37,7 @@ class Heap : public ErrorMetric {
   }
 
   void look(const Observation& now) override {
-    const Kept kept = energy_.look(now.states);
+    const Kept kept = energy_.look(now);
     if (now.time < quiet_from_) return;
     if (quiet_.empty()) quiet_ = now.states;
     depth_.meet(kept.penetration);

@@ -187,7 +187,7 @@ class Bridge : public ErrorMetric {
   }
   void look(const Observation& now) override {
     gaps_.look(now.states);
-    energy_.look(now.states);
+    energy_.look(now);
   }
   std::vector<Norm> norms() const override {
     return {{"gap", gaps_.worst() / plank_, "1",
@@ -218,7 +218,7 @@ class SpringsAlongPins : public ErrorMetric {
   }
   void look(const Observation& now) override {
     gaps_.look(now.states);
-    energy_.look(now.states);
+    energy_.look(now);
   }
   std::vector<Norm> norms() const override {
     return {{"gain", energy_.growth(), "1",

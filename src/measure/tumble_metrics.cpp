@@ -195,7 +195,7 @@ class Dominoes : public ErrorMetric {
 
   void look(const Observation& now) override {
     falls_.look(now.time, now.states);
-    energy_.look(now.states);
+    energy_.look(now);
   }
   std::vector<Norm> norms() const override {
     return {{"arrival", latest_error(falls_.times(), own_->times), "1",

@@ -159,7 +159,7 @@ TEST(JointProblems, WhatFallsIsTold) {
 // How deep they lie in each other and how far they wander is measured once they should lie.
 TEST(JointProblems, PilesAreMeasuredWhereTheyLie) {
   const Norms norms = looked_at(problem("pyramid"), [](Observation& now) {
-    if (now.time > 7) now.states[1].position.x += 0.01;  // the lowest row's first, into the next
+    if (now.time > 3) now.states[1].position.x += 0.01;  // the lowest row's first, into the next
   });
   EXPECT_NEAR(norms.at("creep"), 0.01, 1e-12);
   EXPECT_NEAR(norms.at("depth"), 0.01, 1e-12);
