@@ -241,6 +241,7 @@ class Measuring {
 // The tables of all, a page of plots for each problem, and the overview.
 void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
   folder.write("measure.csv", to_csv(m));
+  folder.write("drift.csv", drift_csv(m));
   folder.write("circumstances.csv", to_csv(m.circumstances));
   std::vector<ReportPage> pages;
   const bool all = options.problems.empty();  // the bars belong to the whole

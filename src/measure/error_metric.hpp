@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Observation {
   double time = 0;  // seconds since the start: steps taken times step
   std::vector<BodyState> states;
   std::uint64_t impacts = 0;  // so far
+  // How far the engine keeps others off each body (Simulation::skin); empty if it does not.
+  std::vector<double> skins = {};
+  double skin(std::size_t body) const { return skins.empty() ? 0 : skins[body]; }
 };
 
 // A named error, with its unit and its definition: whoever reads the number needs both.
@@ -30,12 +34,21 @@ struct Norm {
 class ErrorMetric {
  public:
   virtual ~ErrorMetric() = default;
+  // What it holds runs against, and the error of that itself in the main norm.
+  virtual std::string reference() const { return "closed form"; }
+  virtual double reference_error() const { return 0; }
+  // Another of its kind that has seen nothing yet, if to make it from the scenario would be costly:
+  // it shares the reference. Else nothing.
+  virtual std::unique_ptr<ErrorMetric> fresh() const { return nullptr; }
   // Called for the start and then once for each of the problem's samples, in order of time.
   virtual void look(const Observation& now) = 0;
   // After each look: a problem may have something done to its bodies at a moment.
   virtual void interfere(const Observation&, Simulation&) {}
   // The main norm first. Not finite if the run was.
   virtual std::vector<Norm> norms() const = 0;
+  // Why the run is a failure although all its numbers are sound: what should stand has fallen.
+  // Nothing if it stands, or nothing should.
+  virtual std::optional<std::string> collapse() const { return std::nullopt; }
 };
 
 // Of a scenario with a [problem]. One a run. Throws Refused, naming what is wrong, if the scenario

@@ -215,7 +215,16 @@ std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario) {
       {Solution::incline, incline_metric},
       {Solution::topple, topple_metric},
       {Solution::stack, stack_metric},
-      {Solution::hanging_chain, hanging_chain_metric}};
+      {Solution::hanging_chain, hanging_chain_metric},
+      {Solution::linkage, linkage_metric},
+      {Solution::heavy_top, heavy_top_metric},
+      {Solution::bridge, bridge_metric},
+      {Solution::springs_along_pins, springs_along_pins_metric},
+      {Solution::ball_on_plate, ball_on_plate_metric},
+      {Solution::rocking_block, rocking_block_metric},
+      {Solution::dominoes, dominoes_metric},
+      {Solution::pile, pile_metric},
+      {Solution::standing, standing_metric}};
   if (!scenario.problem) throw Refused("the scenario has no [problem]");
   for (const auto& [solution, make] : kMetrics)
     if (solution == scenario.problem->solution) return make(scenario);

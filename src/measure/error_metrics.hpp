@@ -29,6 +29,12 @@ MakeErrorMetric
     pendulum_metric;  // one body on a rod, or on a stiff spring as long as it is at rest
 MakeErrorMetric free_top_metric;  // one body that turns freely in 3D
 
+// Bodies on joints.
+MakeErrorMetric linkage_metric;    // a flat linkage of pins and rods that swings, open or closed
+MakeErrorMetric heavy_top_metric;  // one body on a pin at a fixed point, under gravity
+MakeErrorMetric bridge_metric;     // joints that something falls on
+MakeErrorMetric springs_along_pins_metric;  // bodies on pins, with springs along them
+
 // Bodies in contact.
 MakeErrorMetric bouncing_ball_metric;
 MakeErrorMetric blocks_and_wall_metric;
@@ -40,6 +46,11 @@ MakeErrorMetric incline_metric;
 MakeErrorMetric topple_metric;
 MakeErrorMetric stack_metric;
 MakeErrorMetric hanging_chain_metric;
+MakeErrorMetric ball_on_plate_metric;  // what rolls and slides on a plate that slides down a slope
+MakeErrorMetric rocking_block_metric;
+MakeErrorMetric dominoes_metric;
+MakeErrorMetric pile_metric;      // bodies that fall into a container and come to rest
+MakeErrorMetric standing_metric;  // bodies that begin at rest and should stay there
 
 // --- what they read from a scenario ---
 

@@ -35,7 +35,7 @@ class Model {
     else
       kept.angular_momentum = angular_momentum<D>(all);
     for (const Body<D>& body : bodies) add_flow(body, kept);
-    if (collides_) kept.penetration = deepest(bodies);
+    if (collides_) add_overlaps(bodies, kept);
     return kept;
   }
 
@@ -79,19 +79,38 @@ class Model {
     });
   }
 
-  double deepest(const std::vector<Body<D>>& bodies) const {
-    double depth = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-        const Body<D>&a = bodies[i], &b = bodies[j];
-        if ((!a.moves() && !b.moves()) || !overlap(a.box(), b.box())) continue;
-        if (!players_.index_of(a.id) || !players_.index_of(b.id) || are_joined(a.id, b.id))
-          continue;
-        const auto manifold = collide<D>(placed(a), placed(b), 0.0);
-        if (!manifold) continue;
-        for (const ManifoldPoint<D>& point : manifold->points())
-          depth = std::max(depth, -point.separation);
+  // Of all pairs that meet, found by a sweep along the axis x.
+  void add_overlaps(const std::vector<Body<D>>& bodies, Kept& kept) const {
+    std::vector<Box<D>> boxes;
+    std::vector<std::size_t> order;
+    for (const Body<D>& body : bodies) {
+      boxes.push_back(body.box());
+      if (players_.index_of(body.id)) order.push_back(boxes.size() - 1);
+    }
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return boxes[i].lo.x; });
+    double sum = 0;
+    std::size_t overlaps = 0;
+    for (std::size_t m = 0; m < order.size(); ++m)
+      for (std::size_t n = m + 1; n < order.size(); ++n) {
+        const std::size_t i = std::min(order[m], order[n]), j = std::max(order[m], order[n]);
+        if (boxes[order[n]].lo.x > boxes[order[m]].hi.x) break;
+        if (!overlap(boxes[i], boxes[j])) continue;
+        const double depth = depth_between(bodies[i], bodies[j]);
+        sum += depth;
+        overlaps += depth > 0;
+        kept.penetration = std::max(kept.penetration, depth);
       }
+    if (overlaps > 0) kept.mean_penetration = sum / static_cast<double>(overlaps);
+  }
+
+  // 0 if they do not overlap, or may.
+  double depth_between(const Body<D>& a, const Body<D>& b) const {
+    if ((!a.moves() && !b.moves()) || are_joined(a.id, b.id)) return 0;
+    const auto manifold = collide<D>(placed(a), placed(b), 0.0);
+    double depth = 0;
+    if (manifold)
+      for (const ManifoldPoint<D>& point : manifold->points())
+        depth = std::max(depth, -point.separation);
     return depth;
   }
 

@@ -21,6 +21,7 @@ struct Kept {
   double flow = 0;               // sum of |m v|, N s: what a change of momentum is held against
   double swirl = 0;              // sum of |x cross m v| and |L|, the same for angular momentum
   double penetration = 0;        // the deepest of any two bodies, 0 if none overlap
+  double mean_penetration = 0;   // of the pairs that overlap
 };
 
 class Invariants {

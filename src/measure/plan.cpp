@@ -63,7 +63,8 @@ void Plan::prepare(std::size_t index) {
   Prepared& prepared = prepared_[index];
   prepared.schedule = Schedule::of(scenario);
   prepared.invariants = std::make_unique<Invariants>(scenario);
-  if (scenario.problem) make_error_metric(scenario);  // is it the problem that it claims to be?
+  // Is it the problem that it claims to be?
+  if (scenario.problem) prepared.reference = reference_for(scenario, prepared.schedule, 0);
   const std::vector<double> steps = steps_for(scenario, prepared.schedule);
   const double coarse = steps.front();
   prepared.finest = coarse;

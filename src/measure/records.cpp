@@ -41,4 +41,16 @@ void JsonFields::write(std::string_view name, const std::vector<Norm>& norms) {
   json_.end_array();
 }
 
+void JsonFields::write(std::string_view name, const std::vector<DriftSample>& samples) {
+  json_.key(name).begin_array();
+  for (const DriftSample& sample : samples) {
+    json_.begin_object();
+    write("time", sample.time);
+    write("error", sample.error);
+    write("energy", sample.energy);
+    json_.end_object();
+  }
+  json_.end_array();
+}
+
 }  // namespace lantern::measure

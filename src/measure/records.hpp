@@ -105,8 +105,8 @@ std::string csv_of(const std::vector<Row>& rows, std::size_t norms = 0) {
           csv.add(there ? value[i].unit : "");
           csv.add(there ? value[i].meaning : "");
         });
-      else if (!field.column.empty())
-        csv.add(value);
+      else if constexpr (!std::same_as<T, std::vector<DriftSample>>)
+        if (!field.column.empty()) csv.add(value);
     });
     csv.end_record();
   }
@@ -145,6 +145,7 @@ class JsonFields {
     if (seconds.timed) write(name, double{seconds.value});
   }
   void write(std::string_view name, const std::vector<Norm>& norms);
+  void write(std::string_view name, const std::vector<DriftSample>& samples);
   template <class T>
   void write(std::string_view name, const T& value) {
     json_.member(name, value);

@@ -15,13 +15,14 @@ namespace lantern::measure {
 
 enum class Status {
   ok,
-  diverged,  // its error or energy grew beyond all sense, or the world told of an overflow
-  nan,       // a state was not a number; never of Lantern
-  refused,   // the method or the peer would not do it
-  left_out,  // not run, as it would have taken too long
+  diverged,   // its error or energy grew beyond all sense, or the world told of an overflow
+  collapsed,  // what should stand has fallen
+  nan,        // a state was not a number; never of Lantern
+  refused,    // the method or the peer would not do it
+  left_out,   // not run, as it would have taken too long
 };
-inline constexpr std::array<std::string_view, 5> kStatusNames = {"ok", "diverged", "nan", "refused",
-                                                                 "left out"};
+inline constexpr std::array<std::string_view, 6> kStatusNames = {"ok",  "diverged", "collapsed",
+                                                                 "nan", "refused",  "left out"};
 inline std::string_view to_string(Status status) {
   return kStatusNames[static_cast<std::size_t>(status)];
 }
@@ -44,6 +45,13 @@ struct Drift {
   std::optional<double> angular_momentum;
 };
 
+// How far a run had gone astray by a moment on its way.
+struct DriftSample {
+  double time = 0;               // seconds since the start
+  double error = 0;              // the main norm so far
+  std::optional<double> energy;  // its drift so far; nothing where the scenario does not keep it
+};
+
 struct Row {
   std::string problem;  // the scenario's name: "oscillator_stiff"
   std::string family;   // "oscillator": these share a plot's colours
@@ -60,6 +68,8 @@ struct Row {
   std::string reason;       // of any other status
   std::vector<Norm> norms;  // the main one first; empty if there is none
   Drift drift;
+  // About a dozen, further and further apart; none where the scenario keeps nothing.
+  std::vector<DriftSample> samples;
   double penetration = 0;  // the deepest, units
   Timing timing;
   Counted counted;

@@ -13,6 +13,8 @@
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/lantern_solver.hpp"
+#include "measure/own_run.hpp"
+#include "measure/sampler.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -87,8 +89,12 @@ class Runner {
   std::uint64_t steps_ = 0;
 };
 
-void judge(Row& row) {
+void judge(Row& row, std::optional<std::string> collapse) {
   if (row.status != Status::ok) return;
+  if (collapse) {
+    row.status = Status::collapsed;
+    row.reason = std::move(*collapse);
+  }
   for (const Norm& norm : row.norms)
     if (!std::isfinite(norm.value) || (norm.name == "traj" && norm.value > kBeyondSense)) {
       row.status = Status::diverged;
@@ -100,67 +106,20 @@ void judge(Row& row) {
   }
 }
 
-// Keeps every moment.
-class Recorder : public ErrorMetric {
- public:
-  void look(const Observation& now) override { record_->push_back(now); }
-  std::vector<Norm> norms() const override { return {}; }
-  std::shared_ptr<const std::vector<Observation>> record() const { return record_; }
-
- private:
-  std::shared_ptr<std::vector<Observation>> record_ = std::make_shared<std::vector<Observation>>();
-};
-
-// The distance from a record: of places over the way that the body that moves most has gone from
-// where it began, of velocities over the largest speed.
-class OwnRun : public ErrorMetric {
- public:
-  explicit OwnRun(std::shared_ptr<const std::vector<Observation>> record)
-      : record_(std::move(record)) {
-    const std::size_t bodies = record_->empty() ? 0 : record_->front().states.size();
-    for (std::size_t i = 0; i < bodies; ++i) {
-      const BodyState* first = nullptr;
-      for (const Observation& moment : *record_) {
-        const BodyState& state = moment.states[i];
-        if (!state.there) continue;
-        if (!first) first = &state;
-        way_ = std::max(way_, glm::length(state.position - first->position));
-        speed_ = std::max(speed_, glm::length(state.velocity));
-      }
-    }
-  }
-
-  void look(const Observation& now) override {
-    LANTERN_CHECK(next_, <, record_->size());
-    const Observation& then = (*record_)[next_++];
-    const auto against = [](double error, double scale) {
-      if (error == 0) return 0.0;
-      return scale > 0 ? error / scale : std::numeric_limits<double>::infinity();
-    };
-    for (std::size_t i = 0; i < now.states.size(); ++i) {
-      const BodyState &a = now.states[i], &b = then.states[i];
-      if (!a.there || !b.there) continue;
-      worst_ = std::max({worst_, against(glm::length(a.position - b.position), way_),
-                         against(glm::length(a.velocity - b.velocity), speed_)});
-    }
-  }
-  std::vector<Norm> norms() const override { return {trajectory_norm(worst_, way_, speed_)}; }
-
- private:
-  std::shared_ptr<const std::vector<Observation>> record_;
-  double way_ = 0, speed_ = 0;
-  std::size_t next_ = 0;
-  double worst_ = 0;
-};
-
 void ignore(const Observation&) {}
 
 }  // namespace
 
 Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step) {
   if (scenario.problem) {
-    make_error_metric(scenario);  // tells at once if it is not that problem
-    return {"closed form", [&scenario] { return make_error_metric(scenario); }};
+    // Tells at once if it is not that problem.
+    const std::shared_ptr<const ErrorMetric> first = make_error_metric(scenario);
+    return {first->reference(),
+            [&scenario, first] {
+              auto fresh = first->fresh();
+              return fresh ? std::move(fresh) : make_error_metric(scenario);
+            },
+            first->reference_error()};
   }
   Method method;
   method.name = "as written";
@@ -206,6 +165,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   row.reference_error = trials.reference.error;
   const std::unique_ptr<ErrorMetric> metric = trials.reference.make();
   DriftMeter meter(trials.invariants);
+  Sampler sampler(*metric, meter, trials.schedule);
   std::optional<Runner> runner;
   const auto failed = [&](Status status, const char* reason) {
     row.status = status;
@@ -213,7 +173,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   };
   try {
     runner.emplace(trials.scenario, trials.schedule, solver, h);
-    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
+    runner->run(sampler, [&](const Observation& now) { meter.look(now.states); });
     row.norms = metric->norms();
     if (seconds) *seconds = runner->seconds();
   } catch (const Refused& refused) {
@@ -223,10 +183,12 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   }
   if (!runner) return row;
   row.drift = meter.drift();
+  if (row.drift.energy || row.drift.momentum || row.drift.angular_momentum)
+    row.samples = sampler.samples();
   row.penetration = meter.penetration();
   row.counted = runner->simulation().counted();
   row.hash = runner->simulation().hash();
-  judge(row);
+  judge(row, metric->collapse());
   return row;
 }
 

@@ -21,11 +21,11 @@ struct Reference {
   double error = 0;  // its own, estimated, in the main norm
 };
 
-// A problem's own metric; otherwise the scenario's run at `step`, which should be much finer than
-// those to be measured: by RK4 where nothing collides, else as the file is written. The error of
-// that run is taken to be its distance from the same run at twice the step, which is no less as
-// long as halving the step helps. Throws Refused if the scenario is not the problem it claims to
-// be, or if that run fails.
+// A problem's own metric, whatever the step; otherwise the scenario's run at `step`, which should
+// be much finer than those to be measured: by RK4 where nothing collides, else as the file is
+// written. The error of that run is taken to be its distance from the same run at twice the step,
+// which is no less as long as halving the step helps. Throws Refused if the scenario is not the
+// problem it claims to be, or if that run fails.
 Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step);
 
 // The runs of one scenario. It and what it refers to must outlive them.

@@ -65,16 +65,25 @@ Schedule script_of(const Scenario& scenario) {
   return schedule;
 }
 
+// A problem's bodies are all there at first, and so are the forces that its script begins with.
+Schedule problem_of(const Scenario& scenario) {
+  const ProblemSpec& problem = *scenario.problem;
+  Schedule schedule{{{{}, problem.seconds, problem.samples}}, problem.seconds};
+  for (const Step& step : scenario.steps) {
+    if (traits_of(step.verb).passes_time) break;
+    if (std::holds_alternative<ApplyForce>(step.verb))
+      schedule.legs.front().before.push_back(step.verb);
+  }
+  return schedule;
+}
+
 double part_of(const Leg& leg) { return leg.seconds / leg.looks; }
 
 }  // namespace
 
 Schedule Schedule::of(const Scenario& scenario) {
   if (scenario.bodies.empty()) throw Refused("it has no bodies: there is nothing to measure");
-  const auto& problem = scenario.problem;
-  Schedule schedule = problem
-                          ? Schedule{{{{}, problem->seconds, problem->samples}}, problem->seconds}
-                          : script_of(scenario);
+  Schedule schedule = scenario.problem ? problem_of(scenario) : script_of(scenario);
   if (schedule.legs.empty())
     throw Refused(
         "no time passes in it: there is nothing to measure; a step with do = \"run\" would");

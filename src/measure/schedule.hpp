@@ -20,9 +20,9 @@ struct Schedule {
   std::vector<Leg> legs;
   double seconds = 0;  // of all legs
 
-  // Of a problem its seconds and samples. Of any other scenario its script; a step that waits lasts
-  // as long as it does in the file's own run. Throws Refused if no time passes in it, or if a step
-  // waits for what does not happen.
+  // Of a problem its seconds and samples, after the forces that its script begins with. Of any
+  // other scenario its script; a step that waits lasts as long as it does in the file's own run.
+  // Throws Refused if no time passes in it, or if a step waits for what does not happen.
   static Schedule of(const Scenario& scenario);
 
   // The step nearest to `wished` that divides every part of every leg. Throws Refused, saying why,

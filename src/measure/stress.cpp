@@ -20,8 +20,9 @@ StressResult at_least(double bound, double figure, std::string unit, std::string
 std::span<const StressCase> stress_cases() {
   static const std::vector<StressCase> cases = [] {
     std::vector<StressCase> all;
-    for (StressTopic* const topic : {tree_cases, input_cases, shape_cases, origin_cases, step_cases,
-                                     contact_cases, stiff_cases, stability_cases, bar_cases})
+    for (StressTopic* const topic :
+         {tree_cases, input_cases, shape_cases, origin_cases, step_cases, contact_cases,
+          stiff_cases, stability_cases, energy_cases, bar_cases})
       std::ranges::copy(topic(), std::back_inserter(all));
     return all;
   }();

@@ -30,7 +30,7 @@ StressResult at_least(double bound, double figure, std::string unit, std::string
 // The same input gives the same figure, bit for bit. `run` may throw: see run_case.
 struct StressCase {
   std::string_view name;   // "coincident_bodies"
-  std::string_view group;  // "extreme input", "stiff", "stability", "bars"
+  std::string_view group;  // "extreme input", "stiff", "stability", "energy", "bars"
   std::string_view what;   // one plain sentence: what must happen
   std::function<StressResult()> run{};
   bool slow = false;  // takes more than a few seconds: only run when asked for
@@ -50,6 +50,6 @@ StressOutcome run_case(const StressCase& stress_case);
 // The tables of the topics, a file each (stress_<topic>.cpp), in the order of the whole table.
 using StressTopic = std::vector<StressCase>();
 StressTopic tree_cases, input_cases, shape_cases, origin_cases, step_cases, contact_cases,
-    stiff_cases, stability_cases, bar_cases;
+    stiff_cases, stability_cases, energy_cases, bar_cases;
 
 }  // namespace lantern::measure

@@ -31,6 +31,7 @@ void each_field(R& row, Visit&& visit) {
   visit(Field("energy", "drift_energy", "drift"), row.drift.energy);
   visit(Field("momentum", "drift_momentum", "drift"), row.drift.momentum);
   visit(Field("angular_momentum", "drift_angular_momentum", "drift"), row.drift.angular_momentum);
+  visit(Field("samples", ""), row.samples);
   visit(Field("penetration"), row.penetration);
   each_timing(row.timing, "timing", "spread", "seconds_spread", visit);
   visit(Field("steps", "steps", "counted"), row.counted.steps);
@@ -106,6 +107,15 @@ void take(const Json& json, std::vector<Norm>& norms) {
   }
 }
 
+void take(const Json& json, std::vector<DriftSample>& samples) {
+  for (const Json& one : json.get_ref<const Json::array_t&>()) {
+    DriftSample& sample = samples.emplace_back();
+    take(one.at("time"), sample.time);
+    take(one.at("error"), sample.error);
+    if (one.contains("energy")) take(one.at("energy"), sample.energy.emplace());
+  }
+}
+
 template <class T>
 T read_fields(const Json& json) {
   T read;
@@ -137,6 +147,23 @@ std::string to_csv(const Measurement& measurement) {
   std::size_t norms = 0;
   for (const Row& row : measurement.rows) norms = std::max(norms, row.norms.size());
   return csv_of(measurement.rows, norms);
+}
+
+std::string drift_csv(const Measurement& measurement) {
+  CsvTable csv;
+  for (const char* column : {"problem", "method", "version", "step", "time", "error", "energy"})
+    csv.add(column);
+  csv.end_record();
+  for (const Row& row : measurement.rows)
+    for (const DriftSample& sample : row.samples) {
+      csv.add(row.problem);
+      csv.add(row.method);
+      csv.add(row.version);
+      for (const double number : {row.step, sample.time, sample.error}) csv.add(number);
+      csv.add(sample.energy);
+      csv.end_record();
+    }
+  return csv.text();
 }
 
 std::string to_csv(const Circumstances& c) {

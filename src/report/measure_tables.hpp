@@ -14,6 +14,12 @@ namespace lantern::report {
 // an empty field.
 std::string to_csv(const Measurement& measurement);
 
+// The same for how errors and energies went with time: a record for each of a row's samples, by
+// problem, method, version and step, with `time` in seconds since the start, `error`, the main norm
+// so far, and `energy`, its drift so far, empty where the problem does not keep it. In JSON they
+// stand in a row's list `samples`.
+std::string drift_csv(const Measurement& measurement);
+
 // The same for how and where it was made: records of a key and a value.
 std::string to_csv(const Circumstances& circumstances);
 

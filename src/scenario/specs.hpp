@@ -192,6 +192,15 @@ enum class Solution {
   topple,
   stack,
   hanging_chain,
+  linkage,
+  heavy_top,
+  bridge,
+  springs_along_pins,
+  ball_on_plate,
+  rocking_block,
+  dominoes,
+  pile,
+  standing,
 };
 enum class ProblemVariant { plain, stiff, extreme };
 
@@ -241,10 +250,11 @@ inline EnumNames names(Warning) {
 }
 inline EnumNames names(LinkSpec::Kind) { return {"spring", "distance", "pin"}; }
 inline EnumNames names(Solution) {
-  return {"projectile", "oscillator", "chain",         "kepler",
-          "pendulum",   "free_top",   "bouncing_ball", "blocks_and_wall",
-          "collisions", "billiards",  "slide",         "slip_then_roll",
-          "incline",    "topple",     "stack",         "hanging_chain"};
+  return {"projectile",    "oscillator",     "chain",           "kepler",     "pendulum",
+          "free_top",      "bouncing_ball",  "blocks_and_wall", "collisions", "billiards",
+          "slide",         "slip_then_roll", "incline",         "topple",     "stack",
+          "hanging_chain", "linkage",        "heavy_top",       "bridge",     "springs_along_pins",
+          "ball_on_plate", "rocking_block",  "dominoes",        "pile",       "standing"};
 }
 inline EnumNames names(ProblemVariant) { return {"plain", "stiff", "extreme"}; }
 inline EnumNames names(BodyKind) { return {"dynamic", "kinematic", "static"}; }

@@ -7,6 +7,7 @@
 #include "base/stop.hpp"
 #include "measure/lantern_solver.hpp"
 #include "measure/plan.hpp"
+#include "measure/problems.hpp"
 #include "measure/scenes.hpp"
 
 namespace lantern::measure {
@@ -38,6 +39,31 @@ TEST(Run, AScenarioIsHeldAgainstItsOwnFinerRun) {
     EXPECT_EQ(row.timing.repeats, 3);
   }
   EXPECT_LT(rows_of(thrown(), {"velocity_verlet"}, {0.1})[0].error(), 1e-13);
+}
+
+TEST(Run, DriftIsSampledFurtherAndFurtherApart) {
+  const Scenario spring = known_problem("oscillator");
+  const Row row = rows_of(spring, {"semi_implicit_euler"}, {0.1})[0];
+  ASSERT_GE(row.samples.size(), 8u);
+  EXPECT_LE(row.samples.size(), 16u);
+  for (std::size_t i = 1; i < row.samples.size(); ++i) {
+    EXPECT_GT(row.samples[i].time, row.samples[i - 1].time);
+    EXPECT_GE(row.samples[i].error, row.samples[i - 1].error) << "it is the largest so far";
+  }
+  EXPECT_DOUBLE_EQ(row.samples.back().time, spring.problem->seconds);
+  EXPECT_EQ(row.samples.back().error, row.norms.front().value);
+  EXPECT_EQ(row.samples.back().energy, row.drift.energy);
+  EXPECT_TRUE(rows_of(known_problem("slide"), {"soft"}, {0.1})[0].samples.empty())
+      << "friction keeps nothing";
+}
+
+TEST(Run, WhatFallsHasCollapsed) {
+  Scenario pyramid = known_problem("pyramid");
+  pyramid.bodies[0].material.friction = 0;  // the ground's
+  const Row row = rows_of(pyramid, {"lecture"}, {1.0 / 30})[0];
+  EXPECT_EQ(row.status, Status::collapsed);
+  EXPECT_NE(row.reason.find("moved"), std::string::npos) << row.reason;
+  EXPECT_FALSE(row.error());
 }
 
 TEST(Run, CountedWorkIsThatOfTheMethod) {

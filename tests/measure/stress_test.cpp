@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Stress, EveryCase, testing::ValuesIn(quick_cases()),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Stress, CasesHaveNamesGroupsAndSentences) {
-  const std::set<std::string_view> groups{"extreme input", "stiff", "stability", "bars"};
+  const std::set<std::string_view> groups{"extreme input", "stiff", "stability", "energy", "bars"};
   std::set<std::string_view> names, seen;
   for (const StressCase& one : stress_cases()) {
     EXPECT_TRUE(names.insert(one.name).second) << one.name << " is there twice";

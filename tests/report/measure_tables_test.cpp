@@ -52,6 +52,7 @@ Measurement awkward() {
   r.drift.momentum = -0.0;
   r.drift.energy = HUGE_VAL;
   r.penetration = 1.0 / 3;
+  r.samples = {{0.1, 1e-9, 0.25}, {1.5, std::nan(""), std::nullopt}};
   r.hash = ~0ull;
   r.text_hash = 1;
   r.counted.pair_tests = ~0ull;
@@ -104,6 +105,12 @@ TEST(MeasureJson, IsReadBackAsItWas) {
     expect_same(a.drift.energy, b.drift.energy);
     expect_same(a.drift.momentum, b.drift.momentum);
     expect_same(a.drift.angular_momentum, b.drift.angular_momentum);
+    ASSERT_EQ(a.samples.size(), b.samples.size());
+    for (std::size_t n = 0; n < a.samples.size(); ++n) {
+      EXPECT_EQ(a.samples[n].time, b.samples[n].time);
+      expect_same(a.samples[n].error, b.samples[n].error);
+      expect_same(a.samples[n].energy, b.samples[n].energy);
+    }
     EXPECT_EQ(a.penetration, b.penetration);
     EXPECT_EQ(a.timing, b.timing);
     EXPECT_EQ(a.reference_error, b.reference_error);
@@ -193,6 +200,17 @@ TEST(MeasureCsv, EveryRecordHasEveryFieldAndReadsBack) {
   EXPECT_EQ(records[2][column.at("norm3_name")], "x");
   EXPECT_EQ(records[2][column.at("drift_energy")], "");
   EXPECT_EQ(records[3][column.at("norm1")], "");
+}
+
+TEST(MeasureCsv, DriftHasARecordForEachSample) {
+  const auto records = read_csv(drift_csv(awkward()));
+  ASSERT_EQ(records.size(), 3u);
+  EXPECT_EQ(records[0].back(), "energy");
+  for (const auto& record : records) ASSERT_EQ(record.size(), records[0].size());
+  EXPECT_EQ(records[1][4], "0.10000000000000001");
+  EXPECT_EQ(records[1][6], "0.25");
+  EXPECT_EQ(records[2][5], "") << "NaN is an empty field";
+  EXPECT_EQ(records[2][6], "");
 }
 
 TEST(MeasureCsv, CircumstancesAreKeysAndValues) {
