@@ -76,6 +76,7 @@ struct MeasureOptions {
   std::string output = "output/measure";
   std::vector<std::string> methods;  // empty for those of each problem
   std::vector<double> steps;         // seconds; empty for those of each problem
+  std::vector<std::string> from;     // earlier measurements: only their page is made
   bool quick = false;
   bool full = false;
   std::optional<double> longest;  // seconds of one run; longer ones are left out

@@ -182,6 +182,11 @@ void add_measure(CLI::App& app, Run& run) {
   add_choice(*c, "--theme", o.theme, "colours of the plots", kThemes);
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL, for the PNG files", kBackends);
   c->add_flag("--list", o.list, "name the problems, measure nothing");
+  c->add_option("--from", o.from,
+                "measure nothing: report.html of these folders or measure.json files, one a "
+                "machine, side by side")
+      ->allow_extra_args(false)
+      ->type_name("PATH");
   add_memory(*c);
   add_json(*c, o.json);
 }
