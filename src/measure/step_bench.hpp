@@ -17,13 +17,14 @@ namespace lantern::measure {
 struct StepBenchConfig {
   std::vector<Pile> piles;
   double seconds = 4;   // of each fall, in quarters
-  double longest = 20;  // seconds of computing for one solver and pile: it ends where it is then
+  double longest = 20;  // seconds by the clock for one solver and pile: it ends where it is then
   std::vector<std::string> only;  // solvers; empty for our usual efforts and all peers
   bool peers = true;
   StructureKind structure = StructureKind::sort_and_sweep;  // of our broad phase
 };
 
-// One solver at one pile. Times are of single steps, in ms.
+// One solver at one pile. Times are of single steps, in ms of the processor, all threads together:
+// on an idle machine, with the one thread that all take, those of the clock.
 struct StepRow {
   std::string pile;
   std::string solver;
@@ -33,6 +34,7 @@ struct StepRow {
   double simulated = 0;  // seconds that it came to
   double mean = 0, median = 0, lower_quartile = 0, upper_quartile = 0;
   double last_second = 0;  // the mean
+  double wall = 0;         // by the clock, the mean: much more than that if the machine is busy
   double skin = 0;         // that the engine leaves between surfaces, units
   PileState end;
   double creep = 0;       // how far bodies moved in the last second, units: the mean
