@@ -5,6 +5,7 @@
 #include <deque>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,23 +26,13 @@ constexpr std::size_t kTurn = 15;         // steps that a solver makes at a time
 constexpr std::size_t kTurnsASecond = 4;  // of simulated time
 constexpr std::uint64_t kWarmSteps = 5;
 
-// One of our efforts: a method by its name, and what of the world it sets besides.
-struct OwnEffort {
-  std::string_view name;
-  std::string_view method;
-  void (*set)(WorldSpec& world) = nullptr;
-};
-constexpr OwnEffort kOwnEfforts[] = {
-    {"soft:8", "soft:8"},
-    {"soft:2", "soft:2"},
-    {"impulse:10", "impulse:10"},
-};
+// From quick to exact, names of scenario/method.hpp.
+constexpr std::string_view kUsualEfforts[] = {"soft:0.01", "soft:0.001", "soft:0.0001", "soft:8",
+                                              "impulse:10"};
 
 // A solver that takes part, and how it sees a pile.
 struct Contestant {
   std::unique_ptr<Solver> solver;
-  std::string name;
-  void (*set)(WorldSpec& world) = nullptr;
 
   double skin(const Pile& pile) const {
     // Box2D's polygons have a radius of two linear slops of 0.005; its circles have no other.
@@ -49,39 +40,33 @@ struct Contestant {
   }
 };
 
-bool is_asked_for(const StepBenchConfig& config, const Solver& peer) {
-  if (config.only.empty()) return true;
-  return std::ranges::any_of(config.only, [&](const std::string& name) {
-    return peer.name() == name || peer.name().starts_with(name + ":");
-  });
+// "Bullet" asks for all of its methods. No names ask for all.
+bool is_asked_for(const std::vector<std::string>& names, const Solver& solver) {
+  return names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
+           return solver.name() == name || solver.name().starts_with(name + ":");
+         });
 }
 
-Contestant own(std::string_view name) {
-  const auto known = std::ranges::find(kOwnEfforts, name, &OwnEffort::name);
-  const bool is_known = known != std::end(kOwnEfforts);
-  const auto method = method_named(is_known ? known->method : name);
-  if (!method || !method->contacts || *method->contacts == ContactMethod::none) return {};
-  return {std::make_unique<LanternSolver>(*method), std::string(name),
-          is_known ? known->set : nullptr};
+// Null if there is no such method of contacts.
+std::unique_ptr<Solver> own(std::string_view name) {
+  const auto method = method_named(name);
+  if (!method || !method->contacts || *method->contacts == ContactMethod::none) return nullptr;
+  return std::make_unique<LanternSolver>(*method);
 }
 
 std::vector<Contestant> contestants(StepBenchResult& result) {
   const StepBenchConfig& config = result.config;
   std::vector<Contestant> all;
   std::vector<std::string_view> names(config.only.begin(), config.only.end());
-  if (names.empty()) names = usual_efforts();
+  if (names.empty()) names.assign(usual_efforts().begin(), usual_efforts().end());
   for (const std::string_view name : names)
-    if (Contestant mine = own(name); mine.solver) all.push_back(std::move(mine));
+    if (auto mine = own(name)) all.push_back({std::move(mine)});
   if (config.peers)
     for (auto& peer : load_peers(result.missing))
-      if (is_asked_for(config, *peer)) {
-        const std::string name = peer->name();
-        all.push_back({std::move(peer), name, nullptr});
-      }
+      if (is_asked_for(config.only, *peer)) all.push_back({std::move(peer)});
   for (const std::string& name : config.only)
-    if (std::ranges::none_of(all, [&](const Contestant& c) {
-          return c.name == name || c.name.starts_with(name + ":");
-        }))
+    if (std::ranges::none_of(all,
+                             [&](const Contestant& c) { return is_asked_for({name}, *c.solver); }))
       throw Refused(fmt::format("there is no method of contacts and no engine '{}'", name));
   return all;
 }
@@ -96,9 +81,8 @@ class PileFall {
  public:
   PileFall(const Contestant& contestant, const Pile& pile, const StepBenchConfig& config)
       : longest_(config.longest), scenario_(pile_scene(pile, kStepSeconds, config.structure)) {
-    if (contestant.set) contestant.set(scenario_.world);
     row_.pile = pile.name();
-    row_.solver = contestant.name;
+    row_.solver = contestant.solver->name();
     row_.version = contestant.solver->version();
     row_.skin = contestant.skin(pile);
     guarded([&] {
@@ -265,11 +249,7 @@ std::vector<Pile> all_piles() {
   return piles;
 }
 
-std::vector<std::string_view> usual_efforts() {
-  std::vector<std::string_view> names;
-  for (const OwnEffort& effort : kOwnEfforts) names.push_back(effort.name);
-  return names;
-}
+std::span<const std::string_view> usual_efforts() { return kUsualEfforts; }
 
 void bench_steps(StepBenchResult& result, const StepBenchWatch& watch) {
   const std::vector<Contestant> all = contestants(result);

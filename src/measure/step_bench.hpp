@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,7 +60,7 @@ std::vector<Pile> all_piles();
 
 // Our efforts that are measured if nobody asks for others; any name of scenario/method.hpp that is
 // one of contacts can be asked for.
-std::vector<std::string_view> usual_efforts();
+std::span<const std::string_view> usual_efforts();
 
 // Told while a bench runs: how much of a pile is done (0 ... 1).
 using StepBenchWatch = std::function<void(const Pile& pile, double share)>;
