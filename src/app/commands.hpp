@@ -76,6 +76,7 @@ struct MeasureOptions {
   std::string output = "output/measure";
   std::vector<std::string> methods;  // empty for those of each problem
   std::vector<double> steps;         // seconds; empty for those of each problem
+  std::vector<std::string> from;     // earlier measurements: only their page is made
   bool quick = false;
   bool full = false;
   std::optional<double> longest;  // seconds of one run; longer ones are left out
@@ -93,6 +94,19 @@ struct BenchOptions {
   bool json = false;
 };
 int bench_frames_command(const BenchOptions& options);
+
+struct BenchStepOptions {
+  std::vector<std::string> piles;  // "boxes2d:2000"; empty for the usual ones
+  std::optional<double> seconds;   // of the fall
+  std::optional<double> longest;   // seconds of computing for a solver at a pile
+  std::vector<std::string> only;   // solvers; empty for all
+  std::string broad_phase = "sort_and_sweep";
+  std::string output;  // folder; empty for none
+  bool full = false;   // all piles, for as long as it takes
+  bool peers = true;
+  bool json = false;
+};
+int bench_step_command(const BenchStepOptions& options);
 
 struct StressOptions {
   std::vector<std::string> cases;  // names; empty for all that are not slow

@@ -182,6 +182,42 @@ void add_measure(CLI::App& app, Run& run) {
   add_choice(*c, "--theme", o.theme, "colours of the plots", kThemes);
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL, for the PNG files", kBackends);
   c->add_flag("--list", o.list, "name the problems, measure nothing");
+  c->add_option("--from", o.from,
+                "measure nothing: report.html of these folders or measure.json files, one a "
+                "machine, side by side")
+      ->allow_extra_args(false)
+      ->type_name("PATH");
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void add_bench_step(CLI::App& bench, Run& run) {
+  const auto [c, o] =
+      command(bench, run, "step", "Milliseconds and penetration of piles of bodies, beside engines",
+              bench_step_command);
+  c->add_option("--pile", o.piles,
+                "boxes2d:N, balls2d:N, boxes3d:N, balls3d:N; the default is some of 500 and 2,000")
+      ->allow_extra_args(false)
+      ->type_name("PILE");
+  c->add_option("--seconds", o.seconds, "of the fall; the default is 4, with --full 10")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->type_name("S");
+  c->add_option("--longest", o.longest,
+                "a solver ends early at a pile that takes it more seconds than this; the default "
+                "is 20, with --full 600")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  c->add_option("--only", o.only, "only these: soft:8, impulse:100, Box2D, ...")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  c->add_option("--broad-phase", o.broad_phase, "ours: sort_and_sweep, quadtree, octree, ...")
+      ->type_name("KIND")
+      ->capture_default_str();
+  c->add_option("-o,--output", o.output, "folder for bench_step.csv and bench_step.json")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  c->add_flag("--full", o.full, "500, 2,000 and 5,000 boxes and balls in 2D and 3D: hours");
+  c->add_flag("!--no-peers", o.peers, "without other engines");
   add_memory(*c);
   add_json(*c, o.json);
 }
@@ -197,6 +233,7 @@ void add_bench(CLI::App& app, Run& run) {
       ->capture_default_str();
   add_memory(*frames);
   add_json(*frames, o.json);
+  add_bench_step(*c, run);
 }
 
 void add_stress(CLI::App& app, Run& run) {

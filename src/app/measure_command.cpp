@@ -19,6 +19,7 @@
 #include "measure/plan.hpp"
 #include "measure/problems.hpp"
 #include "report/bars.hpp"
+#include "report/html_page.hpp"
 #include "report/measure_plots.hpp"
 #include "report/measure_tables.hpp"
 #include "report/pages.hpp"
@@ -26,6 +27,8 @@
 
 namespace lantern::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double kSaveEvery = 5;                                   // seconds
 constexpr std::size_t kMostMeasureBytes = std::size_t{256} << 20;  // of an earlier measure.json
@@ -238,14 +241,16 @@ class Measuring {
   Progress progress_;
 };
 
-// The tables of all, a page of plots for each problem, and the overview.
+// The tables of all, a page of plots for each problem, the overview, and all on one web page.
 void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
   folder.write("measure.csv", to_csv(m));
   folder.write("drift.csv", drift_csv(m));
   folder.write("circumstances.csv", to_csv(m.circumstances));
   std::vector<ReportPage> pages;
   const bool all = options.problems.empty();  // the bars belong to the whole
-  pages.push_back({"overview", draw_overview(m, all ? measured_bars() : std::vector<Bar>())});
+  const std::vector<Bar> bars = all ? measured_bars() : std::vector<Bar>();
+  folder.write("report.html", to_html(std::span(&m, 1), bars));
+  pages.push_back({"overview", draw_overview(m, bars)});
   for (const ProblemRows& problem : by_problem(m.rows))
     pages.push_back({problem.problem, draw_problem(problem, m)});
   folder.draw(pages, options.theme, options.backend);
@@ -276,10 +281,29 @@ int measure_problems(const MeasureOptions& options) {
   return kGood;
 }
 
+// One web page of what was measured before, here or elsewhere.
+int page_of_earlier(const MeasureOptions& options) {
+  std::vector<Measurement> measurements;
+  for (const std::string& word : options.from) {
+    const fs::path path = fs::is_directory(word) ? fs::path(word) / "measure.json" : fs::path(word);
+    auto read = read_measurement(read_file(path, kMostMeasureBytes));
+    if (!read)
+      throw UsageError(fmt::format("'{}' is no measurement that 'lantern measure' has written",
+                                   path.string()));
+    measurements.push_back(std::move(*read));
+  }
+  ReportFolder folder(options.output, "measure_page");
+  folder.write("report.html", to_html(measurements, {}));
+  folder.finish();
+  say(fmt::format("the page is {}", (folder.path() / "report.html").string()));
+  return kGood;
+}
+
 }  // namespace
 
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems();
+  if (!options.from.empty()) return page_of_earlier(options);
   const std::vector<std::string>& words = options.problems;
   const std::string first = words.empty() ? "" : words[0];
   if (first != "pictures" && first != "broad_phase") return measure_problems(options);

@@ -24,6 +24,7 @@ class WorldSimulation : public Simulation {
   void observe(std::vector<BodyState>& states) const override { engine_->observe(states); }
   std::uint64_t impacts() const override { return engine_->world_work().impacts_located; }
   std::uint64_t hash() const override { return engine_->world_hash(); }
+  const WorldWork* world_work() const override { return &engine_->world_work(); }
   Counted counted() const override {
     const WorldWork& work = engine_->world_work();
     return {work.steps, work.force_evaluations, work.constraint_rows, work.pair_tests};

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
 #include "scenario/scenario.hpp"
 
@@ -33,6 +34,8 @@ class Simulation {
 
   // The script's other verbs. Peers know none: their bodies are there from the start.
   virtual void act(const Verb&) {}
+  // What Lantern's world has counted so far; null for a peer.
+  virtual const WorldWork* world_work() const { return nullptr; }
 
   // One state a body of the scenario, in its order.
   virtual void observe(std::vector<BodyState>& states) const = 0;

@@ -124,8 +124,14 @@ Plot right_plot(const ProblemRows& problem, const Looks& looks) {
   return plot;
 }
 
-// Left and right of a problem's page. Runs that are only right or wrong are shown by their outcome,
-// and what they cost against the step: in seconds, or where none is timed in work.
+std::vector<LegendEntry> legend_of(const Plot& plot) {
+  std::vector<LegendEntry> entries;
+  for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
+  return entries;
+}
+
+}  // namespace
+
 std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks) {
   if (!has_whole_errors(problem)) return {left_plot(problem, looks), right_plot(problem, looks)};
   const WorkCount work = work_count(problem);
@@ -143,14 +149,6 @@ std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks) {
   outcome.empty = price.empty = "no run has a cost";
   return {outcome, price};
 }
-
-std::vector<LegendEntry> legend_of(const Plot& plot) {
-  std::vector<LegendEntry> entries;
-  for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
-  return entries;
-}
-
-}  // namespace
 
 // "_stiff" and what follows it stands behind a comma.
 std::string problem_words(const ProblemRows& problem) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "draw/draw_list.hpp"
 #include "draw/plot.hpp"
@@ -14,6 +15,11 @@ namespace lantern::report {
 // `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
 // front. `looks` must hold every method (looks_of).
 Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks, bool with_orders);
+
+// The two plots of a problem: error against seconds and against counted work. Runs that are only
+// right or wrong are shown by their outcome, and what they cost against the step: in seconds, or
+// where none is timed in work. Their series are in the order of by_method.
+std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks);
 
 // A page of 1600 x 900: error against seconds at the left, against counted work at the right, one
 // legend, the sentence below. Where no row is timed, the left plot says so. Looks and circumstances

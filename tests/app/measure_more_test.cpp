@@ -142,5 +142,24 @@ TEST(MeasureCommand, AnEngineIsNoMethodAndThisIsSaid) {
       << "the reason is missing: " << o.err;
 }
 
+TEST(BenchStep, WritesATableAndFiles) {
+  const fs::path out = fresh_folder("bench_step");
+  const Outcome o = shell(
+      "lantern bench step --pile balls2d:3 --pile boxes2d:2 --seconds 1 "
+      "--only soft:2 -o " +
+      out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* words : {"balls2d:3", "boxes2d:2", "soft:2", "deepest", "box tests"})
+    EXPECT_NE(o.out.find(words), std::string::npos) << words << "\n" << o.out;
+  const json written = json::parse(read_text(out / "bench_step.json"));
+  EXPECT_EQ(written["format"], "lantern.bench.step/1");
+  ASSERT_EQ(written["rows"].size(), 2u);
+  EXPECT_EQ(written["rows"][0]["work"]["steps"], 60);
+  EXPECT_EQ(lines_of(read_text(out / "bench_step.csv")).size(), 3u);
+  EXPECT_EQ(shell("lantern bench step --pile balls2d:0").code, 2);
+  EXPECT_EQ(shell("lantern bench step --pile balls2d:3 --only nobody").code, 2);
+  EXPECT_EQ(shell("lantern bench step --pile balls2d:3 --broad-phase octree").code, 2);
+}
+
 }  // namespace
 }  // namespace lantern::app

@@ -33,9 +33,15 @@ TEST(MeasureCommand, WritesRowsTablesAndPages) {
   EXPECT_NE(o.out.find("velocity_verlet"), std::string::npos) << o.out;
   EXPECT_NE(o.err.find("2 runs, about"), std::string::npos) << "no estimate before: " << o.err;
   for (const char* file : {"measure.json", "measure.csv", "circumstances.csv", "overview.svg",
-                           "overview.png", "kepler.svg", "kepler.png"})
+                           "overview.png", "kepler.svg", "kepler.png", "report.html"})
     EXPECT_TRUE(fs::exists(out / file)) << file;
   EXPECT_EQ(rows_of(out).size(), 2u);
+  const std::string from = " --from " + out.string();
+  const Outcome again = shell("lantern measure" + from + " -o " + out.string() + "_again");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(read_text(out / "report.html"), read_text(out.string() + "_again/report.html"));
+  EXPECT_EQ(shell("lantern measure --from " + (out / "measure.csv").string()).code, 2);
+  EXPECT_EQ(shell("lantern measure --from nowhere").code, 1);
 }
 
 TEST(MeasureCommand, CountedWorkIsTheSameInEveryRun) {

@@ -35,6 +35,7 @@ constexpr bool kRunsAll = true;
 bool is_left_out(const std::string& line) {
   if (line == "build/lantern measure --quick" && std::getenv("LANTERN_ALL") == nullptr) return true;
   const bool is_long = line == "./run demo" || line.find("lantern measure") != std::string::npos ||
+                       line.find("lantern bench step") != std::string::npos ||
                        line.find("lantern stress") != std::string::npos;
   return !kRunsAll && is_long;
 }

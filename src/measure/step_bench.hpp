@@ -1,0 +1,90 @@
+// What a step of many bodies in contact costs, and how exact it is: ours by several efforts, and
+// other engines, at the same piles in the same run.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/pile.hpp"
+#include "measure/row.hpp"
+
+namespace lantern::measure {
+
+struct StepBenchConfig {
+  std::vector<Pile> piles;
+  double seconds = 4;   // of each fall, in quarters
+  double longest = 20;  // seconds by the clock for one solver and pile: it ends where it is then
+  std::vector<std::string> only;  // solvers; empty for our usual efforts and all peers
+  bool peers = true;
+  StructureKind structure = StructureKind::sort_and_sweep;  // of our broad phase
+};
+
+// One solver at one pile. Times are of single steps, in ms of the processor, all threads together:
+// on an idle machine, with the one thread that all take, those of the clock.
+struct StepRow {
+  std::string pile;
+  std::string solver;
+  std::string version;  // of a peer; empty for ours
+  Status status = Status::ok;
+  std::string reason;    // of any other status
+  double simulated = 0;  // seconds that it came to
+  double mean = 0, median = 0, lower_quartile = 0, upper_quartile = 0;
+  double last_second = 0;  // the mean
+  double wall = 0;         // by the clock, the mean: much more than that if the machine is busy
+  double skin = 0;         // that the engine leaves between surfaces, units
+  PileState end;
+  double creep = 0;       // how far bodies moved in the last second, units: the mean
+  double most_creep = 0;  // the farthest
+  double lost = 0;        // energy, over that of the start
+  double gained = 0;      // the largest rise of the energy above what it had been, over the same
+  WorldWork work;         // of ours
+
+  bool is_peer() const { return !version.empty(); }
+  bool is_whole(double seconds) const { return status == Status::ok && simulated >= seconds; }
+};
+
+struct StepBenchResult {
+  Circumstances circumstances;
+  StepBenchConfig config;
+  std::vector<std::string> missing;  // peers that are not there: a line each
+  std::vector<StepRow> rows;         // in order of piles and solvers
+};
+
+// The piles of a run of some minutes, and of one of hours.
+std::vector<Pile> usual_piles();
+std::vector<Pile> all_piles();
+
+// Our efforts that are measured if nobody asks for others; any name of scenario/method.hpp that is
+// one of contacts can be asked for.
+std::span<const std::string_view> usual_efforts();
+
+// Told while a bench runs: how much of a pile is done (0 ... 1).
+using StepBenchWatch = std::function<void(const Pile& pile, double share)>;
+
+// Solvers take turns of a quarter of a simulated second each, after a few steps for warmth. Only
+// steps are timed. `result` has config and circumstances, and gets the rest; a pile's rows are
+// added when all of it is done. Throws Refused for a name that is none, and Stopped.
+void bench_steps(StepBenchResult& result, const StepBenchWatch& watch);
+
+// How long ours would need to be as exact as a peer at a pile.
+struct StepComparison {
+  std::string pile, peer;
+  bool skins = false;  // the penetration is that of its shapes with their skins on
+  double of = 1;       // the share of the peer's penetration that is asked for
+  double deepest = 0;  // which is this, units
+  double peer_ms = 0;  // its mean step
+  double our_ms = 0;   // of an effort or between two; 0: none of ours is so exact
+  std::string by;      // that effort, or both
+  double ratio() const { return our_ms / peer_ms; }
+};
+
+// For each peer at each pile, at its penetration and at a hundredth of it; if it has a skin, at
+// both ways to take that. Only runs that came to
+// their end count. Between two of our efforts, logarithms of penetration and time are interpolated.
+std::vector<StepComparison> compared(const StepBenchResult& result);
+
+}  // namespace lantern::measure

@@ -1,0 +1,28 @@
+// Plots as SVG for a web page: real text, colours by style sheet, and each series in a group of its
+// own class, so that a reader can choose what to see.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "draw/plot.hpp"
+
+namespace lantern::report {
+
+// Text between tags and in quoted attributes.
+std::string escaped(std::string_view text);
+
+// The marks of plots, to stand once in a page before its plots: symbols "mark0" ... "mark13".
+std::string svg_marks();
+
+// A sample of the series' line and mark, for a legend.
+std::string svg_sample(const PlotInk& ink);
+
+// The plot without its title and the name of y, which the page writes. `classes` has one class list
+// for each of its series. Runs that failed are open marks at the upper edge, errors of 0 on a strip
+// below a logarithmic scale, spreads whiskers. Slopes, which the series' names tell, are left out.
+// Every mark has a title with its numbers.
+std::string svg_plot(const Plot& plot, const std::vector<std::string>& classes);
+
+}  // namespace lantern::report
