@@ -37,6 +37,9 @@ class Simulation {
   // One state a body of the scenario, in its order.
   virtual void observe(std::vector<BodyState>& states) const = 0;
   virtual std::uint64_t impacts() const { return 0; }  // so far; 0 if it does not tell
+  // How far it keeps others off a body's surface, units: what rests on a body with such a skin
+  // hovers, and that is no error of its contacts.
+  virtual double skin(std::size_t) const { return 0; }
   virtual Counted counted() const { return {}; }       // so far
   virtual std::uint64_t hash() const { return 0; }     // of the state; 0 if it has none
 };
