@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Observation {
   double time = 0;  // seconds since the start: steps taken times step
   std::vector<BodyState> states;
   std::uint64_t impacts = 0;  // so far
+  // How far the engine keeps others off each body (Simulation::skin); empty if it does not.
+  std::vector<double> skins;
+  double skin(std::size_t body) const { return skins.empty() ? 0 : skins[body]; }
 };
 
 // A named error, with its unit and its definition: whoever reads the number needs both.
@@ -36,6 +40,9 @@ class ErrorMetric {
   virtual void interfere(const Observation&, Simulation&) {}
   // The main norm first. Not finite if the run was.
   virtual std::vector<Norm> norms() const = 0;
+  // Why the run is a failure although all its numbers are sound: what should stand has fallen.
+  // Nothing if it stands, or nothing should.
+  virtual std::optional<std::string> collapse() const { return std::nullopt; }
 };
 
 // Of a scenario with a [problem]. One a run. Throws Refused, naming what is wrong, if the scenario

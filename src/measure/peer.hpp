@@ -37,17 +37,6 @@ struct PeerScene : WorldSpec {
   bool collides() const { return contacts != ContactMethod::none; }  // else all pass through all
 };
 
-// How an engine is run, for whoever reads its numbers.
-struct PeerSettings {
-  std::string precision;   // "single"
-  std::string integrator;  // "semi-implicit Euler"
-  std::string solver;      // of contacts and joints
-  std::string iterations;  // "8 of velocities, 3 of positions"
-  std::string joints;      // what pins and rods are made of
-  std::string flags;       // what else differs from the engine's defaults, and what is left to them
-  std::string source;      // who recommends it
-};
-
 // One engine by one of its methods.
 struct Peer {
   std::string name, version;  // "Bullet:50": an engine, and which of its methods and efforts

@@ -15,13 +15,14 @@ namespace lantern::measure {
 
 enum class Status {
   ok,
-  diverged,  // its error or energy grew beyond all sense, or the world told of an overflow
-  nan,       // a state was not a number; never of Lantern
-  refused,   // the method or the peer would not do it
-  left_out,  // not run, as it would have taken too long
+  diverged,   // its error or energy grew beyond all sense, or the world told of an overflow
+  collapsed,  // what should stand has fallen
+  nan,        // a state was not a number; never of Lantern
+  refused,    // the method or the peer would not do it
+  left_out,   // not run, as it would have taken too long
 };
-inline constexpr std::array<std::string_view, 5> kStatusNames = {"ok", "diverged", "nan", "refused",
-                                                                 "left out"};
+inline constexpr std::array<std::string_view, 6> kStatusNames = {"ok",  "diverged", "collapsed",
+                                                                 "nan", "refused",  "left out"};
 inline std::string_view to_string(Status status) {
   return kStatusNames[static_cast<std::size_t>(status)];
 }
@@ -60,7 +61,8 @@ struct Row {
   std::string reason;       // of any other status
   std::vector<Norm> norms;  // the main one first; empty if there is none
   Drift drift;
-  double penetration = 0;  // the deepest, units
+  double penetration = 0;  // the deepest, units, of shapes with their skins
+  double skin = 0;         // the widest of a body, units: how far the engine keeps others off it
   Timing timing;
   Counted counted;
   std::uint64_t hash = 0;  // of the last state
@@ -91,9 +93,17 @@ struct Circumstances {
 // Of this build on this machine; `version` and `sources` are Lantern's.
 Circumstances here(std::string_view version, std::string_view sources);
 
+// An engine beside Lantern, and how it was run.
+struct PeerRecord {
+  std::string name, version;  // as in rows
+  PeerSettings settings;
+  bool operator==(const PeerRecord&) const = default;
+};
+
 struct Measurement {
   Circumstances circumstances;
-  std::vector<Row> rows;  // in order of problems, methods and steps
+  std::vector<PeerRecord> peers;  // that have rows
+  std::vector<Row> rows;          // in order of problems, methods and steps
 };
 
 }  // namespace lantern::measure

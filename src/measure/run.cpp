@@ -38,7 +38,13 @@ class Runner {
       : schedule_(schedule),
         h_(h),
         at_once_(solver.version().empty() ? kAllSteps : kStepsOfPeers),
-        simulation_(solver.start(scenario, h)) {}
+        simulation_(solver.start(scenario, h)) {
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+      now_.skins.push_back(simulation_->skin(i));
+      widest_skin_ = std::max(widest_skin_, now_.skins.back());
+    }
+    if (widest_skin_ == 0) now_.skins.clear();
+  }
 
   template <class Look>
   void run(ErrorMetric& metric, Look&& look) {
@@ -65,6 +71,7 @@ class Runner {
 
   const Simulation& simulation() const { return *simulation_; }
   double seconds() const { return seconds_; }
+  double widest_skin() const { return widest_skin_; }
 
  private:
   template <class Look>
@@ -83,12 +90,17 @@ class Runner {
   std::uint64_t at_once_;
   std::unique_ptr<Simulation> simulation_;
   Observation now_;
+  double widest_skin_ = 0;
   double seconds_ = 0;
   std::uint64_t steps_ = 0;
 };
 
-void judge(Row& row) {
+void judge(Row& row, std::optional<std::string> collapse) {
   if (row.status != Status::ok) return;
+  if (collapse) {
+    row.status = Status::collapsed;
+    row.reason = std::move(*collapse);
+  }
   for (const Norm& norm : row.norms)
     if (!std::isfinite(norm.value) || (norm.name == "traj" && norm.value > kBeyondSense)) {
       row.status = Status::diverged;
@@ -213,7 +225,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   };
   try {
     runner.emplace(trials.scenario, trials.schedule, solver, h);
-    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
+    runner->run(*metric, [&](const Observation& now) { meter.look(now.states, now.skins); });
     row.norms = metric->norms();
     if (seconds) *seconds = runner->seconds();
   } catch (const Refused& refused) {
@@ -224,9 +236,10 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   if (!runner) return row;
   row.drift = meter.drift();
   row.penetration = meter.penetration();
+  row.skin = runner->widest_skin();
   row.counted = runner->simulation().counted();
   row.hash = runner->simulation().hash();
-  judge(row);
+  judge(row, metric->collapse());
   return row;
 }
 

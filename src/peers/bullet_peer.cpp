@@ -70,16 +70,14 @@ double damping_of(double drag, double inertia) {
 class BulletRun : public PeerRun {
  public:
   BulletRun(const PeerScene& scene, double h, const Variant& variant)
-      : PeerRun(scene, h),
-        dispatcher_(&configuration_),
-        solver_(solver_of(variant.way, dantzig_)) {
+      : PeerRun(scene, h), dispatcher_(&configuration_), solver_(solver_of(variant.way, dantzig_)) {
     gCalculateCombinedRestitutionCallback = larger_restitution;
     gCalculateCombinedFrictionCallback = mean_friction;
     make_world(has_trees(variant.way));
     world_->setGravity(to_bullet(scene.gravity));
     btContactSolverInfo& info = world_->getSolverInfo();
     info.m_numIterations = variant.iterations;
-    info.m_restitutionVelocityThreshold = 0;  // slow bounces bounce, too
+    info.m_restitutionVelocityThreshold = 0;                            // slow bounces bounce, too
     if (variant.way == Way::direct) info.m_minimumSolverBatchSize = 1;  // small matrices
     for (const PeerBody& body : scene.bodies) make(body);
     if (trees_world_)
@@ -142,8 +140,8 @@ class BulletRun : public PeerRun {
 
   void make_world(bool with_trees) {
     if (!with_trees) {
-      world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broad_phase_,
-                                                         solver_.get(), &configuration_);
+      world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broad_phase_, solver_.get(),
+                                                         &configuration_);
       return;
     }
     auto* solver = static_cast<btMultiBodyConstraintSolver*>(solver_.get());
@@ -245,8 +243,9 @@ PeerSettings settings(const Variant& variant) {
       .solver = "sequential impulses, warm-started",
       .iterations = n,
       .joints = "point to point; springs as forces",
-      .flags = "split impulse, ERP 0.2, implicit gyroscopic term, as by default; continuous only "
-               "for bodies that start faster than their size a step; restitution threshold 0",
+      .flags =
+          "split impulse, ERP 0.2, implicit gyroscopic term, as by default; continuous only "
+          "for bodies that start faster than their size a step; restitution threshold 0",
       .source = variant.iterations == kDefaultIterations
                     ? "Bullet's manual and wiki, BtContactSolverInfo: 10 iterations"
                     : "a finer effort, ours; the wiki takes 4 to 20"};

@@ -86,8 +86,8 @@ class BulletTrees {
       sum += tree->getBasePos().length2() + tree->getBaseVel().length2();
       for (int k = 0; k < tree->getNumLinks(); ++k)
         for (int d = 0; d < tree->getLink(k).m_dofCount; ++d)
-          sum += std::abs(tree->getJointPosMultiDof(k)[d]) +
-                 std::abs(tree->getJointVelMultiDof(k)[d]);
+          sum +=
+              std::abs(tree->getJointPosMultiDof(k)[d]) + std::abs(tree->getJointVelMultiDof(k)[d]);
     }
     return sum;
   }
@@ -95,9 +95,8 @@ class BulletTrees {
   PeerMotion motion(std::size_t body) const {
     place_links();
     const Place& place = places_[body];
-    const btTransform& at = place.link < 0
-                                ? place.tree->getBaseWorldTransform()
-                                : place.tree->getLink(place.link).m_cachedWorldTransform;
+    const btTransform& at = place.link < 0 ? place.tree->getBaseWorldTransform()
+                                           : place.tree->getLink(place.link).m_cachedWorldTransform;
     const btQuaternion q = at.getRotation();
     const Speeds& speeds = speeds_.at(place.tree);
     const int k = place.link + 1;
@@ -169,8 +168,8 @@ class BulletTrees {
     const PeerBody& body = scene_.bodies[one.body];
     const bool on_world = !one.parent || !scene_.bodies[*one.parent].is_dynamic();
     int parent = on_world ? -1 : places_[*one.parent].link;
-    glm::dquat parents = on_world ? glm::dquat(1, 0, 0, 0)
-                                  : scene_.bodies[*one.parent].orientation.q;
+    glm::dquat parents =
+        on_world ? glm::dquat(1, 0, 0, 0) : scene_.bodies[*one.parent].orientation.q;
     const Vec<3> from = on_world ? Vec<3>(0.0) : scene_.bodies[*one.parent].position;
     Vec<3> pivot = glm::conjugate(parents) * (one.anchor - from);
     const btVector3 z(0, 0, 1);
@@ -199,8 +198,7 @@ class BulletTrees {
       tree.setJointVel(link, spin.of_body.z);
       return;
     }
-    const Vec<3> own =
-        glm::conjugate(scene_.bodies[one.body].orientation.q) * spin.of_body;
+    const Vec<3> own = glm::conjugate(scene_.bodies[one.body].orientation.q) * spin.of_body;
     const double speeds[] = {own.x, own.y, own.z};
     tree.setJointVelMultiDof(link, speeds);
   }
@@ -231,11 +229,10 @@ class BulletTrees {
       to = link.from;
     }
     if (!a.tree) return;  // between two that never move
-    loops_.push_back(
-        b.tree ? std::make_unique<btMultiBodyPoint2Point>(a.tree, a.link, b.tree, b.link,
-                                                          to_bullet(at_a), to_bullet(at_b))
-               : std::make_unique<btMultiBodyPoint2Point>(a.tree, a.link, nullptr,
-                                                          to_bullet(at_a), to_bullet(to)));
+    loops_.push_back(b.tree ? std::make_unique<btMultiBodyPoint2Point>(
+                                  a.tree, a.link, b.tree, b.link, to_bullet(at_a), to_bullet(at_b))
+                            : std::make_unique<btMultiBodyPoint2Point>(
+                                  a.tree, a.link, nullptr, to_bullet(at_a), to_bullet(to)));
     loops_.back()->setMaxAppliedImpulse(std::numeric_limits<double>::max());
     world_.addMultiBodyConstraint(loops_.back().get());
   }

@@ -63,9 +63,9 @@ class JointTree {
     const bool is_rod = link.kind == LinkSpec::Kind::distance;
     const double length = glm::length(link.to - link.from);
     constexpr double kClosed = 1e-9;
-    if (is_rod ? !scene_.is_flat() || std::abs(length - link.length) > kClosed * length ||
-                     length == 0
-               : length > kClosed)
+    if (is_rod
+            ? !scene_.is_flat() || std::abs(length - link.length) > kClosed * length || length == 0
+            : length > kClosed)
       return;
     const bool child_is_a = parent != link.a;
     if (!child_is_a && !link.b) return;

@@ -66,8 +66,8 @@ class Mjcf {
     out_.precision(17);
     out_ << "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/><option timestep=\"" << h
          << "\" gravity=\"" << text(scene.gravity) << "\" integrator=\"" << variant.integrator
-         << "\" cone=\"elliptic\"" << (variant.is_hard ? " noslip_iterations=\"10\"" : "")
-         << "><flag contact=\"" << (scene.collides() ? "enable" : "disable") << "\"/></option>";
+         << "\" cone=\"elliptic\"><flag contact=\"" << (scene.collides() ? "enable" : "disable")
+         << "\"/></option>";
     if (variant.is_hard) out_ << "<default><geom" << hard_ << "/></default>";
     out_ << "<worldbody>";
     for (std::size_t i = 0; i < scene.links.size(); ++i)
@@ -87,9 +87,10 @@ class Mjcf {
   std::string text_of_file() const { return out_.str(); }
 
  private:
-  // MuJoCo's manual: a time constant of at least two steps; an impedance near 1, but not 1.
+  // MuJoCo's manual: a time constant of at least two steps; an impedance near 1, but not so near
+  // that friction suffers.
   static std::string hard(double h) {
-    return " solref=\"" + text(2 * h) + " 1\" solimp=\"0.99 0.9999 0.001\"";
+    return " solref=\"" + text(2 * h) + " 1\" solimp=\"0.99 0.99 0.001\"";
   }
 
   void site(std::size_t link, char end, const Vec<3>& at) {
@@ -129,11 +130,10 @@ class Mjcf {
   void joints(const Hanging& one) {
     const PeerBody& body = scene_.bodies[one.body];
     const auto joint = [&](const Vec<3>& at) {
-      out_ << "<joint type=\"" << (scene_.is_flat() ? "hinge\" axis=\"0 0 1" : "ball") << "\" pos=\""
-           << text(at) << "\"/>";
+      out_ << "<joint type=\"" << (scene_.is_flat() ? "hinge\" axis=\"0 0 1" : "ball")
+           << "\" pos=\"" << text(at) << "\"/>";
     };
-    if (one.is_rod)
-      joint(glm::transpose(matrix(body.orientation)) * (one.anchor - body.position));
+    if (one.is_rod) joint(glm::transpose(matrix(body.orientation)) * (one.anchor - body.position));
     joint(one.at);
   }
 
@@ -302,8 +302,7 @@ class MujocoRun : public PeerRun {
       *v = spin.of_body.z;
       return;
     }
-    const Vec<3> own =
-        glm::transpose(matrix(scene_.bodies[one.body].orientation)) * spin.of_body;
+    const Vec<3> own = glm::transpose(matrix(scene_.bodies[one.body].orientation)) * spin.of_body;
     for (int axis = 0; axis < 3; ++axis) v[axis] = own[axis];
   }
 
@@ -380,8 +379,7 @@ extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
           .iterations = "100 at most, to a tolerance of 1e-8, as by default",
           .joints = "hinge, ball; connect and tendon equations (time constant of 2 steps) only for "
                     "what closes a loop and for rods in space; springs as tendons",
-          .flags = variant.is_hard ? "contacts: elliptic cone, solref 2 h, solimp 0.99 0.9999, 10 "
-                                     "iterations against slip"
+          .flags = variant.is_hard ? "contacts: elliptic cone, solref 2 h, solimp 0.99 0.99"
                                    : "contacts: elliptic cone, solref and solimp as by default",
           .source = variant.is_hard
                         ? "MuJoCo's manual, Modeling: Solver parameters; XML reference: option"

@@ -14,10 +14,10 @@ namespace lantern::peers {
 namespace {
 
 constexpr int kDefaultIterations = 20, kFinerIterations = 100;  // of the quick step
-constexpr int kMostPoints = 8;     // of a pair that touches
-constexpr double kRigid = 1e20;    // inertia of what may not turn: ODE wants it above 0
+constexpr int kMostPoints = 8;                                  // of a pair that touches
+constexpr double kRigid = 1e20;     // inertia of what may not turn: ODE wants it above 0
 constexpr double kFastTurn = 0.01;  // radians a step
-constexpr std::size_t kMany = 64;  // bodies, beyond which the exact solver's n^3 is too much
+constexpr std::size_t kMany = 64;   // bodies, beyond which the exact solver's n^3 is too much
 
 Vec<3> from_ode(const dReal* v) { return {v[0], v[1], v[2]}; }
 

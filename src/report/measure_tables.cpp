@@ -48,7 +48,8 @@ std::string line_for(const MethodRows& c, const WorkCount& work) {
     if (error && (!best || *error < *best->error())) best = &row;
   }
   std::string status;  // the worst that happened
-  for (const Status s : {Status::left_out, Status::nan, Status::refused, Status::diverged})
+  for (const Status s :
+       {Status::left_out, Status::nan, Status::refused, Status::diverged, Status::collapsed})
     if (ended[static_cast<std::size_t>(s)] > 0) status = to_string(s);
   const auto order = c.is_peer && c.rows.size() < 3 ? std::nullopt : observed_order(c.rows);
   const auto seconds = best ? seconds_of(*best) : std::nullopt;
