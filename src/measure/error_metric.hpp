@@ -18,7 +18,7 @@ struct Observation {
   std::vector<BodyState> states;
   std::uint64_t impacts = 0;  // so far
   // How far the engine keeps others off each body (Simulation::skin); empty if it does not.
-  std::vector<double> skins;
+  std::vector<double> skins = {};
   double skin(std::size_t body) const { return skins.empty() ? 0 : skins[body]; }
 };
 

@@ -228,6 +228,8 @@ std::optional<std::string> cannot(const PeerScene& scene, const Variant& variant
   if (!(variant.way == Way::impulses && variant.iterations == kDefaultIterations) &&
       !scene.collides() && !jointed)
     return kNothingToSolve;
+  if (variant.way == Way::conjugate_gradients && jointed)
+    return "Bullet's conjugate gradients blow up on a single pin";
   if (variant.way == Way::direct && scene.bodies.size() > kMany)
     return "the direct solver's time grows with the cube of the bodies";
   return solid_engine_cannot(scene);
@@ -251,7 +253,7 @@ PeerSettings settings(const Variant& variant) {
                     : "a finer effort, ours; the wiki takes 4 to 20"};
   if (variant.way == conjugate_gradients) {
     told.solver = "non-smooth nonlinear conjugate gradients";
-    told.source = "Bullet's examples (NNCG for chains and mass ratios)";
+    told.source = "a finer effort, ours, by its other iterative solver";
   } else if (variant.way == direct) {
     told.solver = "Dantzig's algorithm, direct; sequential impulses where it fails";
     told.iterations = "none: until it is solved";

@@ -158,8 +158,7 @@ class BulletTrees {
       if (one.link) set_speed(made, one);
     world_.addMultiBody(&made);
     place(made);
-    if (scene_.collides())
-      for (const Hanging& one : tree) add_collider(made, one.body);
+    for (const Hanging& one : tree) add_collider(made, one.body);
     made.setHasSelfCollision(true);
   }
 
@@ -212,7 +211,9 @@ class BulletTrees {
                                         : tree.getLink(link).m_cachedWorldTransform);
     collider.setFriction(scene_.bodies[body].material.friction);
     collider.setRestitution(scene_.bodies[body].material.restitution);
-    world_.addCollisionObject(&collider, -1, -1);
+    // Where nothing collides, islands still go by it.
+    const int all = scene_.collides() ? -1 : 0;
+    world_.addCollisionObject(&collider, all, all);
     if (link < 0)
       tree.setBaseCollider(&collider);
     else
