@@ -19,7 +19,7 @@ class Model {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
   }
 
-  Kept operator()(const std::vector<BodyState>& states, const std::vector<double>& skins) const {
+  Kept operator()(const std::vector<BodyState>& states) const {
     std::vector<Body<D>> bodies = players_.world().bodies();
     for (Body<D>& body : bodies)
       if (const auto index = players_.index_of(body.id)) put(body, states[*index]);
@@ -35,7 +35,7 @@ class Model {
     else
       kept.angular_momentum = angular_momentum<D>(all);
     for (const Body<D>& body : bodies) add_flow(body, kept);
-    if (collides_) kept.penetration = deepest(bodies, skins);
+    if (collides_) kept.penetration = deepest(bodies);
     return kept;
   }
 
@@ -79,25 +79,18 @@ class Model {
     });
   }
 
-  double deepest(const std::vector<Body<D>>& bodies, const std::vector<double>& skins) const {
-    const auto skin_of = [&](const Body<D>& body) {
-      const auto index = players_.index_of(body.id);
-      return skins.empty() || !index ? 0 : skins[*index];
-    };
+  double deepest(const std::vector<Body<D>>& bodies) const {
     double depth = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i)
       for (std::size_t j = i + 1; j < bodies.size(); ++j) {
         const Body<D>&a = bodies[i], &b = bodies[j];
-        if (!a.moves() && !b.moves()) continue;
-        const double skin = skin_of(a) + skin_of(b);
-        const Box<D> box = a.box();
-        if (!overlap({box.lo - skin, box.hi + skin}, b.box())) continue;
+        if ((!a.moves() && !b.moves()) || !overlap(a.box(), b.box())) continue;
         if (!players_.index_of(a.id) || !players_.index_of(b.id) || are_joined(a.id, b.id))
           continue;
-        const auto manifold = collide<D>(placed(a), placed(b), skin);
+        const auto manifold = collide<D>(placed(a), placed(b), 0.0);
         if (!manifold) continue;
         for (const ManifoldPoint<D>& point : manifold->points())
-          depth = std::max(depth, skin - point.separation);
+          depth = std::max(depth, -point.separation);
       }
     return depth;
   }
@@ -111,9 +104,7 @@ class Model {
 Invariants::Invariants(const Scenario& scenario) {
   const WorldSpec& world = scenario.world;
   const auto model = [&]<int D>(std::integral_constant<int, D>) {
-    of_ = [m = std::make_shared<Model<D>>(scenario)](const auto& states, const auto& skins) {
-      return (*m)(states, skins);
-    };
+    of_ = [m = std::make_shared<Model<D>>(scenario)](const auto& states) { return (*m)(states); };
   };
   world.dimension == 3 ? model(std::integral_constant<int, 3>())
                        : model(std::integral_constant<int, 2>());
@@ -157,9 +148,9 @@ Invariants::Invariants(const Scenario& scenario) {
   keeps_angular_momentum_ = alone && !meets && !held_aside;
 }
 
-void DriftMeter::look(const std::vector<BodyState>& states, const std::vector<double>& skins) {
-  const Kept now = invariants_.of(states, skins);
-  if (begun_ || skins.empty()) penetration_ = std::max(penetration_, now.penetration);
+void DriftMeter::look(const std::vector<BodyState>& states) {
+  const Kept now = invariants_.of(states);
+  penetration_ = std::max(penetration_, now.penetration);
   most_kinetic_ = std::max(most_kinetic_, now.kinetic_energy);
   if (!begun_) {
     start_ = now;

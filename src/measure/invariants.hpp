@@ -28,11 +28,8 @@ class Invariants {
   // Throws Refused as the world does if the scenario's bodies cannot enter it.
   explicit Invariants(const Scenario& scenario);
 
-  // All states must be finite. Bodies that are not there count nothing. How far each body's engine
-  // keeps others off it (Observation::skins) is a part of its shape.
-  Kept of(const std::vector<BodyState>& states, const std::vector<double>& skins = {}) const {
-    return of_(states, skins);
-  }
+  // All states must be finite. Bodies that are not there count nothing.
+  Kept of(const std::vector<BodyState>& states) const { return of_(states); }
 
   // Whether the scene keeps it, by its own rules: no drag, no damping and elastic contacts without
   // friction for the energy; nothing that is tied to or meets the world for momentum.
@@ -44,15 +41,14 @@ class Invariants {
   bool keeps_energy_ = false;
   bool keeps_momentum_ = false;
   bool keeps_angular_momentum_ = false;
-  std::function<Kept(const std::vector<BodyState>&, const std::vector<double>&)> of_;
+  std::function<Kept(const std::vector<BodyState>&)> of_;
 };
 
 // Follows a run and remembers the largest changes and the deepest penetration.
 class DriftMeter {
  public:
   explicit DriftMeter(const Invariants& invariants) : invariants_(invariants) {}
-  // That skins overlap before the first step is no doing of the engine's.
-  void look(const std::vector<BodyState>& states, const std::vector<double>& skins = {});
+  void look(const std::vector<BodyState>& states);
   Drift drift() const;
   double penetration() const { return penetration_; }
 

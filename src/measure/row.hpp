@@ -61,8 +61,8 @@ struct Row {
   std::string reason;       // of any other status
   std::vector<Norm> norms;  // the main one first; empty if there is none
   Drift drift;
-  double penetration = 0;  // the deepest, units, of shapes with their skins
-  double skin = 0;         // the widest of a body, units: how far the engine keeps others off it
+  double penetration = 0;  // the deepest, units
+  double skin = 0;         // the widest of a body, units (Simulation::skin)
   Timing timing;
   Counted counted;
   std::uint64_t hash = 0;  // of the last state

@@ -225,7 +225,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   };
   try {
     runner.emplace(trials.scenario, trials.schedule, solver, h);
-    runner->run(*metric, [&](const Observation& now) { meter.look(now.states, now.skins); });
+    runner->run(*metric, [&](const Observation& now) { meter.look(now.states); });
     row.norms = metric->norms();
     if (seconds) *seconds = runner->seconds();
   } catch (const Refused& refused) {

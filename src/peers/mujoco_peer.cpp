@@ -62,13 +62,13 @@ struct Variant {
 class Mjcf {
  public:
   Mjcf(const PeerScene& scene, double h, const Variant& variant)
-      : scene_(scene), tree_(scene), hard_(hard(h)) {
+      : scene_(scene), tree_(scene), equation_(hard(h, "0.9999") + "/>") {
     out_.precision(17);
     out_ << "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/><option timestep=\"" << h
          << "\" gravity=\"" << text(scene.gravity) << "\" integrator=\"" << variant.integrator
          << "\" cone=\"elliptic\"><flag contact=\"" << (scene.collides() ? "enable" : "disable")
          << "\"/></option>";
-    if (variant.is_hard) out_ << "<default><geom" << hard_ << "/></default>";
+    if (variant.is_hard) out_ << "<default><geom" << hard(h, "0.99") << "/></default>";
     out_ << "<worldbody>";
     for (std::size_t i = 0; i < scene.links.size(); ++i)
       if (!scene.links[i].b) site(i, 'b', scene.links[i].at_b);
@@ -87,10 +87,10 @@ class Mjcf {
   std::string text_of_file() const { return out_.str(); }
 
  private:
-  // MuJoCo's manual: a time constant of at least two steps; an impedance near 1, but not so near
-  // that friction suffers.
-  static std::string hard(double h) {
-    return " solref=\"" + text(2 * h) + " 1\" solimp=\"0.99 0.99 0.001\"";
+  // MuJoCo's manual: a time constant of at least two steps; an impedance of at most 0.9999.
+  // Contacts with friction want it lower.
+  static std::string hard(double h, const char* impedance) {
+    return " solref=\"" + text(2 * h) + " 1\" solimp=\"" + impedance + " " + impedance + " 0.001\"";
   }
 
   void site(std::size_t link, char end, const Vec<3>& at) {
@@ -169,12 +169,12 @@ class Mjcf {
       const double longer = link.length - glm::length(link.to - link.from);
       out_ << "<tendon tendon1=\"t" << i << "\" polycoef=\"" << longer << " 0 0 0 0\"";
     }
-    out_ << hard_ << "/>";
+    out_ << equation_;
   }
 
   const PeerScene& scene_;
   const JointTree tree_;
-  const std::string hard_;
+  const std::string equation_;
   std::ostringstream out_;
 };
 
@@ -377,8 +377,9 @@ extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
           .integrator = variant.integrator,
           .solver = "Newton's method on the convex problem of all contacts and equations",
           .iterations = "100 at most, to a tolerance of 1e-8, as by default",
-          .joints = "hinge, ball; connect and tendon equations (time constant of 2 steps) only for "
-                    "what closes a loop and for rods in space; springs as tendons",
+          .joints =
+              "hinge, ball; connect and tendon equations (solref 2 h, solimp 0.9999) only for "
+              "what closes a loop and for rods in space; springs as tendons",
           .flags = variant.is_hard ? "contacts: elliptic cone, solref 2 h, solimp 0.99 0.99"
                                    : "contacts: elliptic cone, solref and solimp as by default",
           .source = variant.is_hard

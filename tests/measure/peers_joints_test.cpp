@@ -158,6 +158,40 @@ TEST_F(Peers, AHeavyTopGoesRound) {
   });
 }
 
+// Of order 4, two engines that nobody wrote together, in coordinates of their own: what both make
+// of a scene is what it says.
+TEST_F(Peers, EnginesOfOrderFourAgree) {
+  for (const int dimension : {2, 3}) {
+    std::vector<BodySpec> planks = {plank({0.5, 0, 0}, 0.5, dimension),
+                                    plank({1.4, 0.3, 0}, 0.5, dimension)};
+    planks[1].angle = std::atan2(0.3, 0.4);
+    planks[1].spin = 3;
+    planks[1].velocity = {-0.9, 1.2, 0};
+    if (dimension == 3) {
+      planks[1].axis = planks[0].axis = {0.6, 0, 0.8};
+      planks[0].spin = 40;
+      planks[0].velocity = cross(Vec<3>(24, 0, 32), Vec<3>(0.5, 0, 0));
+      planks[1].angle = 0.7;
+    }
+    Scenario s = scene(dimension, planks);
+    s.world.gravity = {1, -10, 0};
+    const Vec<3> at_b = {-0.5, 0, 0};
+    const Rotation<3> lie = turned(Rotation<3>(), planks[1].axis * planks[1].angle);
+    s.bodies[1].position = Vec<3>(1, 0, 0) - matrix(lie) * at_b;
+    s.links = {joint(LinkSpec::Kind::pin, 0, {-0.5, 0, 0}, std::nullopt, {0, 0, 0}),
+               joint(LinkSpec::Kind::pin, 0, {0.5, 0, 0}, 1, at_b)};
+    std::vector<std::vector<BodyState>> ends;
+    for (const auto& peer : found_)
+      if (peer->name().ends_with("RK4")) ends.push_back(after(*peer, s, 1.0 / 1024, 300));
+    for (std::size_t k = 1; k < ends.size(); ++k)
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LT(glm::length(ends[k][i].position - ends[0][i].position), 1e-6) << dimension;
+        EXPECT_LT(glm::length(ends[k][i].velocity - ends[0][i].velocity), 1e-5) << dimension;
+        EXPECT_LT(glm::length(ends[k][i].angular_velocity - ends[0][i].angular_velocity), 1e-4);
+      }
+  }
+}
+
 // The one problem that all four can do, and what their own joints are worth.
 TEST_F(Peers, APendulumOnHingesIsAsExactAsItsIntegrator) {
   const Scenario s = measure::problem("pendulum");
