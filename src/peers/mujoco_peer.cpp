@@ -15,7 +15,11 @@
 namespace lantern::peers {
 namespace {
 
-constexpr std::size_t kMany = 250;  // bodies with contacts: its matrices are dense
+// Bodies with contacts: from the first on Newton's dense matrices are too large, from the second on
+// so is its model.
+constexpr std::size_t kManyForNewton = 64, kMany = 400;
+
+constexpr std::size_t kPointsABody = 16;
 
 std::string text(double number) {
   std::ostringstream out;
@@ -57,6 +61,10 @@ struct Variant {
   bool is_hard;  // contacts as stiff as the manual allows, else as by default
 };
 
+bool is_large(const PeerScene& scene) {
+  return scene.collides() && scene.bodies.size() > kManyForNewton;
+}
+
 // The scene as an MJCF file. What is jointed hangs on what it is jointed to, by hinges and balls;
 // only what closes a loop, and rods in space, are equations to be kept.
 class Mjcf {
@@ -66,8 +74,9 @@ class Mjcf {
     out_.precision(17);
     out_ << "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/><option timestep=\"" << h
          << "\" gravity=\"" << text(scene.gravity) << "\" integrator=\"" << variant.integrator
-         << "\" cone=\"elliptic\"><flag contact=\"" << (scene.collides() ? "enable" : "disable")
-         << "\"/></option>";
+         << "\" cone=\"elliptic\" solver=\"" << (is_large(scene) ? "CG" : "Newton")
+         << "\"><flag contact=\"" << (scene.collides() ? "enable" : "disable") << "\"/></option>";
+    out_ << size();
     if (variant.is_hard) out_ << "<default><geom" << hard(h, "0.99") << "/></default>";
     out_ << "<worldbody>";
     for (std::size_t i = 0; i < scene.links.size(); ++i)
@@ -87,6 +96,14 @@ class Mjcf {
   std::string text_of_file() const { return out_.str(); }
 
  private:
+  // Left to itself it makes room for some hundred contacts, and drops what is more.
+  std::string size() const {
+    const std::size_t contacts = scene_.collides() ? kPointsABody * scene_.bodies.size() : 0;
+    const std::size_t rows = 3 * contacts + 3 * scene_.links.size() + 16;
+    return "<size nconmax=\"" + std::to_string(contacts + 16) + "\" njmax=\"" +
+           std::to_string(rows) + "\"/>";
+  }
+
   // MuJoCo's manual: a time constant of at least two steps; an impedance of at most 0.9999.
   // Contacts with friction want it lower.
   static std::string hard(double h, const char* impedance) {
@@ -227,6 +244,8 @@ class MujocoRun : public PeerRun {
 
   // MuJoCo begins anew, with a warning, when a state is beyond 1e10 or not a number.
   bool is_finite() const override {
+    for (const int full : {mjWARN_CONTACTFULL, mjWARN_CNSTRFULL})
+      if (data_->warning[full].number > 0) throw Refused("more contacts than MuJoCo has room for");
     for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
       if (data_->warning[bad].number > 0) return false;
     return true;
@@ -375,7 +394,9 @@ extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
          LANTERN_PEER_VERSION,
          {.precision = "double",
           .integrator = variant.integrator,
-          .solver = "Newton's method on the convex problem of all contacts and equations",
+          .solver =
+              "Newton's method on the convex problem of all contacts and equations; conjugate "
+              "gradients beyond 64 bodies that collide",
           .iterations = "100 at most, to a tolerance of 1e-8, as by default",
           .joints =
               "hinge, ball; connect and tendon equations (solref 2 h, solimp 0.9999) only for "

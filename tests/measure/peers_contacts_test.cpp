@@ -50,6 +50,19 @@ TEST_F(Peers, Box2dsPyramidOfTwentyRowsStands) {
   }
 }
 
+// MuJoCo drops contacts that it has no room for, and bodies fall through what they stand on.
+TEST_F(Peers, ManyBoxesHaveRoomForTheirContacts) {
+  std::vector<BodySpec> boxes;
+  for (int i = 0; i < 40; ++i) boxes.push_back(box({-9.0 + i % 10 * 2, 0.5 + i / 10, 0}, 0.5, 2));
+  const Scenario s = resting(2, boxes);
+  for (const auto& peer : found_) {
+    if (peer->name() != "MuJoCo:Euler") continue;
+    const auto end = after(*peer, s, 1.0 / 60, 12);
+    for (std::size_t i = 1; i < end.size(); ++i)
+      EXPECT_NEAR(end[i].position.y, s.bodies[i].position.y, 0.05);
+  }
+}
+
 // Whoever is kept off tells by how much, so that no other penetration is claimed.
 TEST_F(Peers, SkinsAreTold) {
   each([](const Solver& peer, int dimension) {

@@ -121,15 +121,20 @@ TEST_F(Peers, ABridgeThatIsHeldAtBothEndsHolds) {
 // Two balls on rods, the second on the first.
 TEST_F(Peers, RodsBetweenMovingBodiesHold) {
   each([](const Solver& peer, int dimension) {
-    Scenario s = scene(dimension, {ball({1, 0, 0}), ball({2.5, 0, 0})});
+    Scenario s = scene(dimension, {ball({1, 0, 0}, {0, -1, 0}), ball({2.5, 0, 0}, {0, -3, 0})});
+    s.bodies[1].spin = 2;
     s.world.gravity = {0, -10, 0};
     s.links = {joint(LinkSpec::Kind::distance, 0, {0, 0, 0}, std::nullopt, {0, 0, 0}),
                joint(LinkSpec::Kind::distance, 1, {0, 0, 0}, 0, {0, 0, 0})};
     if (peer.cannot(s)) return;
-    const auto end = after(peer, s, 1.0 / 512, 400);
+    const auto begin = after(peer, s, 1.0 / 512, 0), end = after(peer, s, 1.0 / 512, 400);
+    EXPECT_NEAR(begin[0].velocity.y, -1, 1e-6);
+    EXPECT_NEAR(begin[1].velocity.y, -3, 1e-6);
+    EXPECT_NEAR(begin[1].angular_velocity.z, 2, 1e-6);
     EXPECT_LT(parted(s, end), 0.02);
     EXPECT_LT(end[0].position.y, -0.5) << "it hangs still";
-    EXPECT_LT(std::abs(end[0].angular_velocity.z), 0.01) << "a rod at the centre turns nothing";
+    EXPECT_NEAR(end[0].angular_velocity.z, 0, 0.01) << "a rod at the centre turns nothing";
+    EXPECT_NEAR(end[1].angular_velocity.z, 2, 0.01);
   });
 }
 
@@ -162,27 +167,32 @@ TEST_F(Peers, AHeavyTopGoesRound) {
 // of a scene is what it says.
 TEST_F(Peers, EnginesOfOrderFourAgree) {
   for (const int dimension : {2, 3}) {
-    std::vector<BodySpec> planks = {plank({0.5, 0, 0}, 0.5, dimension),
-                                    plank({1.4, 0.3, 0}, 0.5, dimension)};
-    planks[1].angle = std::atan2(0.3, 0.4);
+    std::vector<BodySpec> planks = {plank({0.5, 0, 0}, 0.5, dimension), plank({}, 0.5, dimension)};
+    if (dimension == 3) planks[0].axis = planks[1].axis = {0.6, 0, 0.8};
+    planks[0].spin = 10;
+    planks[1].angle = 0.7;
     planks[1].spin = 3;
-    planks[1].velocity = {-0.9, 1.2, 0};
-    if (dimension == 3) {
-      planks[1].axis = planks[0].axis = {0.6, 0, 0.8};
-      planks[0].spin = 40;
-      planks[0].velocity = cross(Vec<3>(24, 0, 32), Vec<3>(0.5, 0, 0));
-      planks[1].angle = 0.7;
-    }
     Scenario s = scene(dimension, planks);
     s.world.gravity = {1, -10, 0};
-    const Vec<3> at_b = {-0.5, 0, 0};
-    const Rotation<3> lie = turned(Rotation<3>(), planks[1].axis * planks[1].angle);
-    s.bodies[1].position = Vec<3>(1, 0, 0) - matrix(lie) * at_b;
+    const Vec<3> at_b = {-0.5, 0, 0}, axis = planks[0].axis;
+    const Vec<3> arm = -(matrix(turned(Rotation<3>(), axis * 0.7)) * at_b);
+    s.bodies[0].velocity = cross(10.0 * axis, Vec<3>(0.5, 0, 0));
+    s.bodies[1].position = Vec<3>(1, 0, 0) + arm;
+    s.bodies[1].velocity = cross(10.0 * axis, Vec<3>(1, 0, 0)) + cross(3.0 * axis, arm);
     s.links = {joint(LinkSpec::Kind::pin, 0, {-0.5, 0, 0}, std::nullopt, {0, 0, 0}),
                joint(LinkSpec::Kind::pin, 0, {0.5, 0, 0}, 1, at_b)};
     std::vector<std::vector<BodyState>> ends;
-    for (const auto& peer : found_)
-      if (peer->name().ends_with("RK4")) ends.push_back(after(*peer, s, 1.0 / 1024, 300));
+    for (const auto& peer : found_) {
+      if (!peer->name().ends_with("RK4")) continue;
+      SCOPED_TRACE(peer->name() + (dimension == 2 ? " in 2D" : " in 3D"));
+      const auto begin = after(*peer, s, 1.0 / 1024, 0);
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LT(glm::length(begin[i].position - s.bodies[i].position), 1e-12);
+        EXPECT_LT(glm::length(begin[i].velocity - s.bodies[i].velocity), 1e-12);
+        EXPECT_LT(glm::length(begin[i].angular_velocity - s.bodies[i].spin * axis), 1e-12);
+      }
+      ends.push_back(after(*peer, s, 1.0 / 1024, 300));
+    }
     for (std::size_t k = 1; k < ends.size(); ++k)
       for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_LT(glm::length(ends[k][i].position - ends[0][i].position), 1e-6) << dimension;
