@@ -127,6 +127,7 @@ class Measuring {
   Measuring(Plan& plan, ReportFolder& folder, const MeasureOptions& options)
       : plan_(plan), folder_(folder), progress_("measure", plan.jobs().size(), "runs") {
     measurement_.circumstances = here(kVersion, kSourceHash);
+    measurement_.peers = plan.peers();
     measurement_.circumstances.effort = options.quick ? "quick" : options.full ? "full" : "normal";
     known_ = finished_rows(folder_, measurement_.circumstances);
   }
@@ -246,6 +247,7 @@ void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions
   folder.write("measure.csv", to_csv(m));
   folder.write("drift.csv", drift_csv(m));
   folder.write("circumstances.csv", to_csv(m.circumstances));
+  folder.write("peers.csv", to_csv(m.peers));
   std::vector<ReportPage> pages;
   const bool all = options.problems.empty();  // the bars belong to the whole
   const std::vector<Bar> bars = all ? measured_bars() : std::vector<Bar>();
@@ -253,6 +255,7 @@ void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions
   pages.push_back({"overview", draw_overview(m, bars)});
   for (const ProblemRows& problem : by_problem(m.rows))
     pages.push_back({problem.problem, draw_problem(problem, m)});
+  if (!m.peers.empty()) pages.push_back({"peers", draw_peers(m)});
   folder.draw(pages, options.theme, options.backend);
 }
 

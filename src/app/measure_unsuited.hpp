@@ -10,8 +10,8 @@
 
 namespace lantern::app {
 
-// A line for each reason: "kepler is not run by MuJoCo and MuJoCo:RK4: MuJoCo has no forces between
-// two bodies but tendons". Of other engines only if `with_peers`.
+// A line for each reason: "kepler is not run by MuJoCo:Euler and MuJoCo:RK4: MuJoCo has no forces
+// between two bodies but tendons". Of other engines only if `with_peers`.
 std::vector<std::string> unsuited_words(std::span<const Unsuited> unsuited, bool with_peers);
 
 // If `name` is that of another engine, in whatever letters: that it is no method, and which of the

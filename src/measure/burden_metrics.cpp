@@ -86,19 +86,30 @@ class Stack : public ErrorMetric {
   }
 
   void look(const Observation& now) override {
-    double face = ground_.height;
+    const bool begun = now.time > 0;  // before, skins overlap that no step could part
+    double face = ground_.height + now.skin(ground_.body), place = ground_.height;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const double at = glm::dot(now.states[bodies_[i]].position, ground_.normal);
-      depth_.meet(face - (at - reaches_[i]));
-      face = at + reaches_[i];
+      const double reach = reaches_[i] + now.skin(bodies_[i]);
+      if (begun) depth_.meet(face - (at - reach));
+      face = at + reach;
+      place += reaches_[i];
+      if (!(at >= place - reaches_[i])) has_fallen_ = true;
+      place += reaches_[i];
     }
     burdens_.look(now);
+  }
+
+  std::optional<std::string> collapse() const override {
+    if (!has_fallen_) return std::nullopt;
+    return "a box lies half its height below its place";
   }
 
   std::vector<Norm> norms() const override {
     return {{"depth", depth_.value(), "units",
              "deepest overlap or widest gap of a contact over the run, by the heights of the "
-             "centres; it starts at rest with neither, so 0 means undisturbed"},
+             "centres, an engine's skin taken for a part of the shape; it starts at rest with "
+             "neither, so 0 means undisturbed"},
             {"impulse", burdens_.worst(), "1",
              "largest error of a contact's mean impulse between two samples, relative"}};
   }
@@ -109,6 +120,7 @@ class Stack : public ErrorMetric {
   std::vector<double> reaches_;      // half heights
   Burdens burdens_;
   Worst depth_;
+  bool has_fallen_ = false;
 };
 
 bool are_nearly_parallel(const Vec<3>& a, const Vec<3>& b) {

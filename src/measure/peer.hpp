@@ -39,7 +39,8 @@ struct PeerScene : WorldSpec {
 
 // One engine by one of its methods.
 struct Peer {
-  std::string name, version;
+  std::string name, version;  // "Bullet:50": an engine, and which of its methods and efforts
+  PeerSettings settings;
   // Why it cannot do this scene; nothing if it can.
   std::function<std::optional<std::string>(const PeerScene& scene)> cannot;
   // Throws Refused for what `cannot` names, and for steps and speeds that it has no room for.

@@ -102,6 +102,7 @@ class PeerSolver : public Solver {
 
   std::string name() const override { return peer_.name; }
   std::string version() const override { return peer_.version; }
+  PeerSettings settings() const override { return peer_.settings; }
 
   std::optional<std::string> cannot(const Scenario& scenario) const override {
     if (auto reason = only_lantern_can(scenario)) return reason;

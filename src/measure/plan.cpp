@@ -123,6 +123,14 @@ std::vector<double> Plan::steps_for(const Scenario& scenario, const Schedule& sc
   return steps;
 }
 
+std::vector<PeerRecord> Plan::peers() const {
+  std::vector<PeerRecord> records;
+  for (std::size_t i = 0; i < peers_; ++i)
+    if (std::ranges::find(jobs_, i, &Job::solver) != jobs_.end())
+      records.push_back({solvers_[i]->name(), solvers_[i]->version(), solvers_[i]->settings()});
+  return records;
+}
+
 double Plan::longest() const {
   if (options_.longest) return *options_.longest;
   if (options_.effort == Effort::quick) return 0.1;

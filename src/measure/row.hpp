@@ -71,6 +71,7 @@ struct Row {
   // About a dozen, further and further apart; none where the scenario keeps nothing.
   std::vector<DriftSample> samples;
   double penetration = 0;  // the deepest, units
+  double skin = 0;         // the widest of a body, units (Simulation::skin)
   Timing timing;
   Counted counted;
   std::uint64_t hash = 0;  // of the last state
@@ -101,9 +102,17 @@ struct Circumstances {
 // Of this build on this machine; `version` and `sources` are Lantern's.
 Circumstances here(std::string_view version, std::string_view sources);
 
+// An engine beside Lantern, and how it was run.
+struct PeerRecord {
+  std::string name, version;  // as in rows
+  PeerSettings settings;
+  bool operator==(const PeerRecord&) const = default;
+};
+
 struct Measurement {
   Circumstances circumstances;
-  std::vector<Row> rows;  // in order of problems, methods and steps
+  std::vector<PeerRecord> peers;  // that have rows
+  std::vector<Row> rows;          // in order of problems, methods and steps
 };
 
 }  // namespace lantern::measure

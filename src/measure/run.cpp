@@ -40,7 +40,13 @@ class Runner {
       : schedule_(schedule),
         h_(h),
         at_once_(solver.version().empty() ? kAllSteps : kStepsOfPeers),
-        simulation_(solver.start(scenario, h)) {}
+        simulation_(solver.start(scenario, h)) {
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+      now_.skins.push_back(simulation_->skin(i));
+      widest_skin_ = std::max(widest_skin_, now_.skins.back());
+    }
+    if (widest_skin_ == 0) now_.skins.clear();
+  }
 
   template <class Look>
   void run(ErrorMetric& metric, Look&& look) {
@@ -67,6 +73,7 @@ class Runner {
 
   const Simulation& simulation() const { return *simulation_; }
   double seconds() const { return seconds_; }
+  double widest_skin() const { return widest_skin_; }
 
  private:
   template <class Look>
@@ -85,6 +92,7 @@ class Runner {
   std::uint64_t at_once_;
   std::unique_ptr<Simulation> simulation_;
   Observation now_;
+  double widest_skin_ = 0;
   double seconds_ = 0;
   std::uint64_t steps_ = 0;
 };
@@ -186,6 +194,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
   if (row.drift.energy || row.drift.momentum || row.drift.angular_momentum)
     row.samples = sampler.samples();
   row.penetration = meter.penetration();
+  row.skin = runner->widest_skin();
   row.counted = runner->simulation().counted();
   row.hash = runner->simulation().hash();
   judge(row, metric->collapse());
@@ -224,15 +233,18 @@ double estimated_seconds(const Scenario& scenario, const Schedule& schedule, con
   try {
     const std::unique_ptr<Simulation> simulation = solver.start(scenario, h);
     for (const Verb& verb : schedule.legs.front().before) simulation->act(verb);
-    double spent = 0, steps = 0;
+    // The quickest batch: the first steps are cold, and others use the machine, too.
+    double spent = 0, steps = 0, per_step = std::numeric_limits<double>::infinity();
     for (double batch = 1; spent < kLook && steps < all; batch *= 2) {
       const double n = std::min(batch, all - steps);
       const Stopwatch watch;
       simulation->advance(static_cast<std::uint64_t>(n));
-      spent += watch.seconds();
+      const double seconds = watch.seconds();
+      spent += seconds;
       steps += n;
+      per_step = std::min(per_step, seconds / n);
     }
-    return spent / steps * all;
+    return per_step * all;
   } catch (const Refused&) {
     return 0;
   }

@@ -40,8 +40,23 @@ class Simulation {
   // One state a body of the scenario, in its order.
   virtual void observe(std::vector<BodyState>& states) const = 0;
   virtual std::uint64_t impacts() const { return 0; }  // so far; 0 if it does not tell
-  virtual Counted counted() const { return {}; }       // so far
-  virtual std::uint64_t hash() const { return 0; }     // of the state; 0 if it has none
+  // How far it keeps others off a body's surface, units: what rests on a body with such a skin
+  // hovers, and that is no error of its contacts.
+  virtual double skin(std::size_t) const { return 0; }
+  virtual Counted counted() const { return {}; }    // so far
+  virtual std::uint64_t hash() const { return 0; }  // of the state; 0 if it has none
+};
+
+// How an engine is run, for whoever reads its numbers.
+struct PeerSettings {
+  std::string precision;   // "single"
+  std::string integrator;  // "semi-implicit Euler"
+  std::string solver;      // of contacts and joints
+  std::string iterations;  // "8 of velocities, 3 of positions"
+  std::string joints;      // what pins and rods are made of
+  std::string flags;       // what else differs from the engine's defaults, and what is left to them
+  std::string source;      // who recommends it
+  bool operator==(const PeerSettings&) const = default;
 };
 
 // Who makes simulations: a method of Lantern, or a peer.
@@ -51,6 +66,7 @@ class Solver {
   virtual std::string name() const = 0;     // "velocity_verlet", "Bullet"
   virtual std::string version() const = 0;  // of a peer; empty for Lantern itself
   bool is_peer() const { return !version().empty(); }
+  virtual PeerSettings settings() const { return {}; }  // of a peer
 
   // Why it cannot do this scenario ("Box2D is flat"); nothing if it can.
   virtual std::optional<std::string> cannot(const Scenario& scenario) const = 0;

@@ -1,4 +1,5 @@
 // Box2D: flat, in single precision; warm-started impulses, semi-implicit Euler.
+#include <algorithm>
 #include <cmath>
 
 #include <box2d/box2d.h>
@@ -8,24 +9,45 @@
 namespace lantern::peers {
 namespace {
 
-constexpr int kVelocitySweeps = 8, kPositionSweeps = 3;  // as Box2D's manual advises
+struct Effort {
+  int velocity_sweeps, position_sweeps;
+};
+constexpr Effort kManuals{8, 3}, kFiner{40, 20};
 
 float number(double value) { return static_cast<float>(value); }
 b2Vec2 to_box2d(const Vec<3>& v) { return {number(v.x), number(v.y)}; }
 Vec<3> from_box2d(const b2Vec2& v) { return {v.x, v.y, 0}; }
 
+// Polygons have a skin, by which others are kept off. The manual has them be smaller than what they
+// stand for, and so they are, unless little would be left.
+double shrinking(const Vec<3>& half) {
+  return std::min(half.x, half.y) > 4 * b2_polygonRadius ? b2_polygonRadius : 0;
+}
+
 class Box2dRun : public PeerRun {
  public:
-  Box2dRun(const PeerScene& scene, double h) : PeerRun(scene, h), world_(to_box2d(scene.gravity)) {
-    world_.SetAllowSleeping(false);
+  Box2dRun(const PeerScene& scene, double h, const Effort& effort)
+      : PeerRun(scene, h), effort_(effort), world_(to_box2d(scene.gravity)) {
+    world_.SetAllowSleeping(scene.may_sleep);
     const b2BodyDef fixed;
     ground_ = world_.CreateBody(&fixed);
     for (const PeerBody& body : scene.bodies) add(body);
     for (const PeerLink& link : scene.links) add(link);
   }
 
+  double skin(std::size_t i) const override {
+    const auto is_bare = [&](const Vec<3>& half) { return shrinking(half) == 0; };
+    return visit_peer_shape(
+               scene_.bodies[i].shape, [](const Sphere&) { return false; }, is_bare,
+               [](const Capsule&) { return false; }, [](const HalfSpace<3>&) { return false; })
+               ? b2_polygonRadius
+               : 0;
+  }
+
  protected:
-  void step() override { world_.Step(number(h_), kVelocitySweeps, kPositionSweeps); }
+  void step() override {
+    world_.Step(number(h_), effort_.velocity_sweeps, effort_.position_sweeps);
+  }
 
   bool is_finite() const override {
     float sum = 0;
@@ -73,7 +95,8 @@ class Box2dRun : public PeerRun {
     def.linearDamping = number(spec.linear_drag * spec.inverse_mass());
     def.angularDamping = spec.may_turn ? number(spec.angular_drag / spec.inertia.z) : 0;
     def.fixedRotation = spec.is_dynamic() && !spec.may_turn;
-    def.bullet = true;  // meets what moves at the moment of impact, too
+    def.bullet =
+        needs_continuous(scene_, spec, h_);  // in its world all meet what is static in time
     bodies_.push_back(world_.CreateBody(&def));
     if (scene_.collides()) add_shape(spec, *bodies_.back());
     if (spec.is_dynamic()) {
@@ -94,15 +117,18 @@ class Box2dRun : public PeerRun {
           def.shape = &disc;
         },
         [&](const Vec<3>& half) {
-          box.SetAsBox(number(half.x), number(half.y));
+          const double less = shrinking(half);
+          box.SetAsBox(number(half.x - less), number(half.y - less));
           def.shape = &box;
         },
         [](const Capsule&) { throw Refused("Box2D has no capsules"); },
         [&](const HalfSpace<3>& s) {
-          // Its edge, as far as bodies are likely to go; the normal lies left of the way back.
+          // Its edge, below its skin, as far as bodies are likely to go; the normal lies left of
+          // the way back.
           const Vec<3> along =
               Vec<3>(s.normal.y, -s.normal.x, 0) * (4 * glm::length(scene_.bounds.size()));
-          edge.SetTwoSided(to_box2d(-along), to_box2d(along));
+          const Vec<3> below = -double{b2_polygonRadius} * s.normal;
+          edge.SetTwoSided(to_box2d(below - along), to_box2d(below + along));
           def.shape = &edge;
           body.SetTransform(body.GetPosition(), 0);
         });
@@ -143,6 +169,7 @@ class Box2dRun : public PeerRun {
     world_.CreateJoint(&def);
   }
 
+  Effort effort_;
   b2World world_;
   b2Body* ground_ = nullptr;
   std::vector<b2Body*> bodies_;
@@ -150,8 +177,9 @@ class Box2dRun : public PeerRun {
 
 bool fits(double value) { return std::isfinite(number(value)); }
 
-std::optional<std::string> cannot(const PeerScene& scene) {
+std::optional<std::string> cannot(const PeerScene& scene, bool finer) {
   if (!scene.is_flat()) return "Box2D is flat";
+  if (finer && is_unconstrained(scene)) return kNothingToSolve;
   for (const PeerBody& body : scene.bodies) {
     if (scene.collides() && std::holds_alternative<Capsule>(body.shape))
       return "body '" + body.name + "': Box2D 2.4 has no capsules";
@@ -169,7 +197,7 @@ std::optional<std::string> cannot(const PeerScene& scene) {
   return solid_engine_cannot(scene);
 }
 
-std::unique_ptr<Simulation> start(const PeerScene& scene, double h) {
+std::unique_ptr<Simulation> start(const PeerScene& scene, double h, const Effort& effort) {
   if (!(number(h) > 0) || !fits(h)) throw Refused("the step does not fit single precision");
   for (const PeerBody& body : scene.bodies) {
     if (glm::length(body.velocity) * h > b2_maxTranslation)
@@ -177,12 +205,33 @@ std::unique_ptr<Simulation> start(const PeerScene& scene, double h) {
     if (std::abs(body.turning.z) * h > b2_maxRotation)
       throw Refused("body '" + body.name + "': Box2D turns a body by no more than pi/2 a step");
   }
-  return std::make_unique<Box2dRun>(scene, h);
+  return std::make_unique<Box2dRun>(scene, h, effort);
 }
 
 }  // namespace
 }  // namespace lantern::peers
 
 extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
-  peers.push_back({"Box2D", LANTERN_PEER_VERSION, lantern::peers::cannot, lantern::peers::start});
+  using namespace lantern::peers;
+  for (const Effort& effort : {kManuals, kFiner}) {
+    const bool finer = effort.velocity_sweeps > kManuals.velocity_sweeps;
+    const std::string v = std::to_string(effort.velocity_sweeps),
+                      p = std::to_string(effort.position_sweeps);
+    peers.push_back(
+        {"Box2D:" + v + "," + p,
+         LANTERN_PEER_VERSION,
+         {.precision = "single",
+          .integrator = "semi-implicit Euler",
+          .solver = "sequential impulses, warm-started",
+          .iterations = v + " of velocities, " + p + " of positions",
+          .joints = "revolute, distance; springs as forces, stiff ones as its soft distance joint",
+          .flags =
+              "bullet only on bodies that start faster than their size a step; restitution "
+              "threshold 0; polygons smaller by their skin of 0.01, if they are larger than 0.04",
+          .source =
+              finer ? "a finer effort, ours"
+                    : "Box2D's manual 2.4: Simulating the World, Polygon shapes (skin), Bullets"},
+         [=](const PeerScene& scene) { return cannot(scene, finer); },
+         [=](const PeerScene& scene, double h) { return start(scene, h, effort); }});
+  }
 }

@@ -1,130 +1,19 @@
 // MuJoCo: generalised coordinates; soft contacts as a convex problem. By its Euler, which takes
-// damping implicitly, and by Runge-Kutta of order 4.
+// damping implicitly, by one that takes all forces of velocities implicitly, and by Runge-Kutta of
+// order 4.
+#include <algorithm>
 #include <array>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 
 #include <mujoco/mujoco.h>
 
+#include "peers/joint_tree.hpp"
+#include "peers/mujoco_model.hpp"
 #include "peers/peer_run.hpp"
 
 namespace lantern::peers {
 namespace {
-
-constexpr std::size_t kMany = 200;  // bodies with contacts: its matrices are dense
-
-std::string text(const Vec<3>& v) {
-  std::ostringstream out;
-  out.precision(17);
-  out << v.x << ' ' << v.y << ' ' << v.z;
-  return out.str();
-}
-
-std::string text(const glm::dquat& q) {
-  std::ostringstream out;
-  out.precision(17);
-  out << q.w << ' ' << q.x << ' ' << q.y << ' ' << q.z;
-  return out.str();
-}
-
-std::string geom_of(const PeerBody& body, bool is_flat) {
-  const std::string friction =
-      " condim=\"3\" friction=\"" + text({body.material.friction, 0, 0}) + "\"/>";
-  const std::string of_shape = visit_peer_shape(
-      body.shape, [](const Sphere& s) { return "sphere\" size=\"" + text(Vec<3>(s.radius)); },
-      [&](const Vec<3>& half) { return "box\" size=\"" + text(with_depth(half, is_flat)); },
-      [](const Capsule& c) {  // MuJoCo's lies along z
-        return "capsule\" quat=\"1 1 0 0\" size=\"" + text({c.radius, c.half_length, 0});
-      },
-      [](const HalfSpace<3>& s) { return "plane\" size=\"0 0 1\" zaxis=\"" + text(s.normal); });
-  return "<geom type=\"" + of_shape + "\"" + friction;
-}
-
-// The scene as an MJCF file.
-class Mjcf {
- public:
-  Mjcf(const PeerScene& scene, double h, const char* integrator) {
-    out_.precision(17);
-    out_ << "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/><option timestep=\"" << h
-         << "\" gravity=\"" << text(scene.gravity) << "\" integrator=\"" << integrator
-         << "\" cone=\"elliptic\"><flag contact=\"" << (scene.collides() ? "enable" : "disable")
-         << "\"/></option><worldbody>";
-    for (std::size_t i = 0; i < scene.links.size(); ++i)
-      if (!scene.links[i].b) site(i, 'b', scene.links[i].at_b);
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(scene, i);
-    out_ << "</worldbody><tendon>";
-    for (std::size_t i = 0; i < scene.links.size(); ++i) add_tendon(scene.links[i], i);
-    out_ << "</tendon><equality>";
-    for (std::size_t i = 0; i < scene.links.size(); ++i) add_joint(scene.links[i], i);
-    out_ << "</equality><contact>";
-    for (const PeerLink& link : scene.links)
-      if (link.b && link.kind != LinkSpec::Kind::spring)
-        out_ << "<exclude body1=\"b" << link.a << "\" body2=\"b" << *link.b << "\"/>";
-    out_ << "</contact></mujoco>";
-  }
-  std::string text_of_file() const { return out_.str(); }
-
- private:
-  void site(std::size_t link, char end, const Vec<3>& at) {
-    out_ << "<site name=\"s" << link << end << "\" pos=\"" << text(at) << "\"/>";
-  }
-
-  void add(const PeerScene& scene, std::size_t i) {
-    const PeerBody& body = scene.bodies[i];
-    out_ << "<body name=\"b" << i << "\" pos=\"" << text(body.position) << "\" quat=\""
-         << text(body.orientation.q) << "\">";
-    if (body.is_dynamic()) {
-      // What may not turn has an inertia that is not used.
-      const Vec<3> inertia = body.may_turn ? body.inertia : Vec<3>(body.mass);
-      out_ << "<inertial pos=\"0 0 0\" mass=\"" << body.mass << "\" diaginertia=\"" << text(inertia)
-           << "\"/>";
-      joints(scene, body);
-    }
-    if (scene.collides()) out_ << geom_of(body, scene.is_flat());
-    for (std::size_t k = 0; k < scene.links.size(); ++k) {
-      if (scene.links[k].a == i) site(k, 'a', scene.links[k].at_a);
-      if (scene.links[k].b == i) site(k, 'b', scene.links[k].at_b);
-    }
-    out_ << "</body>";
-  }
-
-  // Slides lie along the world's axes, whose place in the body's own is asked for.
-  void joints(const PeerScene& scene, const PeerBody& body) {
-    if (!scene.is_flat() && body.may_turn) {
-      out_ << "<freejoint/>";
-      return;
-    }
-    const Mat<3> to_body = glm::transpose(matrix(body.orientation));
-    for (int axis = 0; axis < scene.dimension; ++axis)
-      out_ << "<joint type=\"slide\" axis=\"" << text(to_body[axis]) << "\" damping=\""
-           << body.linear_drag << "\"/>";
-    if (body.may_turn)
-      out_ << "<joint type=\"hinge\" axis=\"0 0 1\" damping=\"" << body.angular_drag << "\"/>";
-  }
-
-  void add_tendon(const PeerLink& link, std::size_t i) {
-    if (link.kind == LinkSpec::Kind::pin) return;
-    out_ << "<spatial name=\"t" << i << "\"";
-    if (link.kind == LinkSpec::Kind::spring)
-      out_ << " springlength=\"" << link.length << "\" stiffness=\"" << link.stiffness
-           << "\" damping=\"" << link.damping << "\"";
-    out_ << "><site site=\"s" << i << "a\"/><site site=\"s" << i << "b\"/></spatial>";
-  }
-
-  void add_joint(const PeerLink& link, std::size_t i) {
-    if (link.kind == LinkSpec::Kind::pin) {
-      out_ << "<connect body1=\"b" << link.a << "\" anchor=\"" << text(link.at_a) << "\"";
-      if (link.b) out_ << " body2=\"b" << *link.b << "\"";
-      out_ << "/>";
-    } else if (link.kind == LinkSpec::Kind::distance) {
-      const double longer = link.length - glm::length(link.to - link.from);
-      out_ << "<tendon tendon1=\"t" << i << "\" polycoef=\"" << longer << " 0 0 0 0\"/>";
-    }
-  }
-
-  std::ostringstream out_;
-};
 
 struct ModelDeleter {
   void operator()(mjModel* model) const { mj_deleteModel(model); }
@@ -152,77 +41,113 @@ Model compiled(const std::string& file) {
 
 class MujocoRun : public PeerRun {
  public:
-  MujocoRun(const PeerScene& scene, double h, const char* integrator)
+  MujocoRun(const PeerScene& scene, double h, const Variant& variant)
       : PeerRun(scene, h),
-        model_(compiled(Mjcf(scene, h, integrator).text_of_file())),
+        model_(compiled(Mjcf(scene_, h, variant).text_of_file())),
         data_(mj_makeData(model_.get())) {
     if (!data_) throw Refused("no memory");
-    int q = 0, v = 0;
-    for (const PeerBody& body : scene.bodies) {
-      places_.push_back({q, v});
-      if (!body.is_dynamic()) continue;
-      set_speed(body, v);
-      const bool is_free = !scene.is_flat() && body.may_turn;
-      const int slides = scene.dimension + (scene.is_flat() && body.may_turn ? 1 : 0);
-      q += is_free ? 7 : slides;
-      v += is_free ? 6 : slides;
+    places_.resize(scene.bodies.size());
+    const JointTree tree(scene_);
+    for (const Hanging& one : tree.all()) {
+      find(one);
+      if (scene.bodies[one.body].is_dynamic()) one.link ? set_speed(one) : set_speed(one.body);
     }
   }
 
  protected:
-  void step() override { mj_step(model_.get(), data_.get()); }
+  void step() override {
+    mj_step(model_.get(), data_.get());
+    for (const int pushed : pushed_) std::fill_n(data_->xfrc_applied + 6 * pushed, 6, 0.0);
+    pushed_.clear();
+    is_placed_ = false;
+  }
 
   // MuJoCo begins anew, with a warning, when a state is beyond 1e10 or not a number.
   bool is_finite() const override {
+    for (const int full : {mjWARN_CONTACTFULL, mjWARN_CNSTRFULL})
+      if (data_->warning[full].number > 0) throw Refused("more contacts than MuJoCo has room for");
     for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})
       if (data_->warning[bad].number > 0) return false;
     return true;
   }
 
   PeerMotion motion(std::size_t i) const override {
-    const PeerBody& body = scene_.bodies[i];
-    PeerMotion m = motion_at_start(body);
-    if (!body.is_dynamic()) return m;
-    const mjtNum *q = data_->qpos + places_[i].q, *v = data_->qvel + places_[i].v;
-    if (scene_.is_flat() || !body.may_turn) {
-      for (int axis = 0; axis < scene_.dimension; ++axis) {
-        m.position[axis] += q[axis];
-        m.velocity[axis] = v[axis];
-      }
-      if (!body.may_turn) return m;
-      m.orientation = turned(body.orientation, {0, 0, q[2]});
-      m.spin = {0, 0, v[2]};
-      return m;
-    }
-    m.position = {q[0], q[1], q[2]};
-    m.velocity = {v[0], v[1], v[2]};
-    m.orientation = {glm::dquat(q[3], q[4], q[5], q[6])};
-    m.spin = matrix(m.orientation) * Vec<3>(v[3], v[4], v[5]);  // it keeps it in the body's axes
-    return m;
+    if (!scene_.bodies[i].is_dynamic()) return motion_at_start(scene_.bodies[i]);
+    place_bodies();
+    const int id = places_[i].id;
+    const mjtNum *x = data_->xpos + 3 * id, *q = data_->xquat + 4 * id;
+    std::array<mjtNum, 6> v{};  // turning first
+    mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, id, v.data(), 0);
+    return {{x[0], x[1], x[2]},
+            {v[3], v[4], v[5]},
+            {glm::dquat(q[0], q[1], q[2], q[3])},
+            {v[0], v[1], v[2]}};
   }
 
+  // The sum of all hinges from here to what never moves.
   std::optional<double> whole_angle(std::size_t i) const override {
-    const PeerBody& body = scene_.bodies[i];
-    if (!body.is_dynamic() || !body.may_turn) return body.angle;
-    return body.angle + data_->qpos[places_[i].q + 2];
+    double angle = scene_.bodies[i].angle;
+    for (int id = places_[i].id; id > 0; id = model_->body_parentid[id])
+      for (int k = 0; k < model_->body_jntnum[id]; ++k) {
+        const int joint = model_->body_jntadr[id] + k;
+        if (model_->jnt_type[joint] == mjJNT_HINGE)
+          angle += data_->qpos[model_->jnt_qposadr[joint]];
+      }
+    return angle;
   }
 
-  // Its tendons are springs: none is pulled by force.
-  std::pair<Vec<3>, Vec<3>> centre(std::size_t) const override { return {}; }
-  void push(std::size_t, const Vec<3>&, const Vec<3>&) override {}
+  std::pair<Vec<3>, Vec<3>> centre(std::size_t i) const override {
+    const PeerMotion m = motion(i);
+    return {m.position, m.velocity};
+  }
+
+  void push(std::size_t i, const Vec<3>& force, const Vec<3>& arm) override {
+    const Vec<3> torque = cross(arm, force);
+    mjtNum* sum = data_->xfrc_applied + 6 * places_[i].id;
+    for (int axis = 0; axis < 3; ++axis) {
+      sum[axis] += force[axis];
+      sum[3 + axis] += torque[axis];
+    }
+    pushed_.push_back(places_[i].id);
+  }
 
   void set_velocity(std::size_t i, const Vec<3>& velocity) override {
     if (!scene_.bodies[i].is_dynamic()) return;
+    if (places_[i].hangs) throw Refused("MuJoCo's joints leave no velocity to be set");
     for (int axis = 0; axis < scene_.dimension; ++axis)
       data_->qvel[places_[i].v + axis] = velocity[axis];
+    is_placed_ = false;
   }
 
  private:
   struct Place {
-    int q, v;  // first coordinate and speed
+    int id = 0, v = 0;  // its own number and the first speed
+    bool hangs = false;
   };
 
-  void set_speed(const PeerBody& body, int at) {
+  void find(const Hanging& one) {
+    const std::string name = "b" + std::to_string(one.body);
+    const int id = mj_name2id(model_.get(), mjOBJ_BODY, name.c_str());
+    if (id < 0) throw Refused("a body is lost");
+    places_[one.body] = {id, std::max(0, model_->body_dofadr[id]), one.link.has_value()};
+  }
+
+  // What hangs: hinges' and balls' speeds; a ball's in the body's own axes.
+  void set_speed(const Hanging& one) {
+    mjtNum* v = data_->qvel + places_[one.body].v;
+    const HangingSpin spin = spin_of(scene_, one);
+    if (scene_.is_flat()) {
+      if (one.is_rod) *v++ = spin.of_rod.z;
+      *v = spin.of_body.z;
+      return;
+    }
+    const Vec<3> own = glm::transpose(matrix(scene_.bodies[one.body].orientation)) * spin.of_body;
+    for (int axis = 0; axis < 3; ++axis) v[axis] = own[axis];
+  }
+
+  void set_speed(std::size_t i) {
+    const PeerBody& body = scene_.bodies[i];
+    const int at = places_[i].v;
     mjtNum* v = data_->qvel + at;
     for (int axis = 0; axis < scene_.dimension; ++axis) v[axis] = body.velocity[axis];
     if (!body.may_turn) return;
@@ -238,12 +163,29 @@ class MujocoRun : public PeerRun {
     }
   }
 
+  // A step ends with new coordinates and speeds, of which it has made no places yet.
+  void place_bodies() const {
+    if (is_placed_) return;
+    mj_kinematics(model_.get(), data_.get());
+    mj_comPos(model_.get(), data_.get());
+    mj_comVel(model_.get(), data_.get());
+    is_placed_ = true;
+  }
+
   Model model_;
   Data data_;
   std::vector<Place> places_;
+  std::vector<int> pushed_;
+  mutable bool is_placed_ = false;
 };
 
-std::optional<std::string> cannot(const PeerScene& scene) {
+constexpr Variant kVariants[] = {{"MuJoCo:Euler", "Euler", false},
+                                 {"MuJoCo:implicit", "implicit", false},
+                                 {"MuJoCo:RK4", "RK4", false},
+                                 {"MuJoCo:Euler,hard", "Euler", true}};
+
+std::optional<std::string> cannot(const PeerScene& scene, const Variant& variant) {
+  if (variant.is_hard && !scene.collides()) return "nothing touches: its contacts do not matter";
   if (scene.gravitation > 0) return "MuJoCo has no forces between two bodies but tendons";
   for (const PeerBody& body : scene.bodies) {
     if (body.kind == BodyKind::kinematic_body)
@@ -266,9 +208,26 @@ extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
   // Else it writes a file into the current folder, and ends the program.
   mju_user_warning = [](const char*) {};
   mju_user_error = [](const char* why) { throw lantern::Refused(why); };
-  for (const auto& [name, integrator] :
-       {std::pair("MuJoCo", "Euler"), std::pair("MuJoCo:RK4", "RK4")})
-    peers.push_back({name, LANTERN_PEER_VERSION, cannot, [=](const PeerScene& scene, double h) {
-                       return std::make_unique<MujocoRun>(scene, h, integrator);
-                     }});
+  for (const Variant& variant : kVariants)
+    peers.push_back(
+        {variant.name,
+         LANTERN_PEER_VERSION,
+         {.precision = "double",
+          .integrator = variant.integrator,
+          .solver =
+              "Newton's method on the convex problem of all contacts and equations; conjugate "
+              "gradients beyond 64 bodies that collide",
+          .iterations = "100 at most, to a tolerance of 1e-8, as by default",
+          .joints =
+              "hinge, ball; connect and tendon equations (solref 2 h, solimp 0.9999) only for "
+              "what closes a loop and for rods in space; springs as tendons",
+          .flags = variant.is_hard ? "contacts: elliptic cone, solref 2 h, solimp 0.99 0.99"
+                                   : "contacts: elliptic cone, solref and solimp as by default",
+          .source = variant.is_hard
+                        ? "MuJoCo's manual, Modeling: Solver parameters; XML reference: option"
+                        : "MuJoCo's manual, Computation: Numerical integration"},
+         [&variant](const PeerScene& scene) { return cannot(scene, variant); },
+         [&variant](const PeerScene& scene, double h) {
+           return std::make_unique<MujocoRun>(scene, h, variant);
+         }});
 }

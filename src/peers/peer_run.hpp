@@ -2,7 +2,9 @@
 // them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -31,14 +33,22 @@ class PeerRun : public Simulation {
     for (std::uint64_t i = 0; i < steps; ++i) {
       for (const PeerLink& link : pulling_) pull(link);
       for (const Attraction& attraction : attractions_) pull(attraction);
+      for (const ApplyForce& one : pushes_) push(one.body, one.force, one.at);
       step();
       ++steps_;
       if (!is_finite()) throw Refused("a position or velocity is no longer finite");
     }
   }
 
-  // Of all verbs a problem uses one: to set a velocity anew.
+  // Of all verbs problems use two: to set a velocity anew, and to push from now on.
   void act(const Verb& verb) override {
+    if (const auto* force = std::get_if<ApplyForce>(&verb)) {
+      std::erase_if(pushes_, [&](const ApplyForce& one) { return one.body == force->body; });
+      if (force->force != Vec<3>(0.0)) pushes_.push_back(*force);
+      return;
+    }
+    if (std::holds_alternative<ApplyImpulse>(verb))
+      throw Refused("other engines' bodies are not struck on their way");
     const auto* move = std::get_if<Move>(&verb);
     if (!move) return;
     if (move->to || move->turned || move->spin)
@@ -158,6 +168,7 @@ class PeerRun : public Simulation {
 
   std::vector<PeerLink> pulling_;
   std::vector<Attraction> attractions_;
+  std::vector<ApplyForce> pushes_;
   std::uint64_t steps_ = 0;
   mutable std::vector<Turn> turns_;  // when last looked at
 };
@@ -165,12 +176,6 @@ class PeerRun : public Simulation {
 // The motion of what the peer does not move.
 inline PeerMotion motion_at_start(const PeerBody& body) {
   return {body.position, body.velocity, body.orientation, body.turning};
-}
-
-// A flat box is as deep as it is wide in an engine that knows no flat bodies.
-inline Vec<3> with_depth(Vec<3> half, bool is_flat) {
-  if (is_flat) half.z = std::max(half.x, half.y);
-  return half;
 }
 
 // What an engine makes of a shape: of a sphere, of either kind of box by its half sizes, of a
@@ -184,6 +189,37 @@ auto visit_peer_shape(const Shape<3>& shape, OfSphere&& of_sphere, OfBox&& of_bo
                               [&](const Capsule& s) { return of_capsule(s); },
                               [&](const HalfSpace<3>& s) { return of_half_space(s); }},
                     shape);
+}
+
+// The smallest extent from the centre; endless for a half-space, 0 for a point.
+inline double least_extent(const Shape<3>& shape, bool is_flat) {
+  return visit_peer_shape(
+      shape, [](const Sphere& s) { return s.radius; },
+      [&](const Vec<3>& half) {
+        return is_flat ? std::min(half.x, half.y) : std::min({half.x, half.y, half.z});
+      },
+      [](const Capsule& c) { return c.radius; },
+      [](const HalfSpace<3>&) { return std::numeric_limits<double>::infinity(); });
+}
+
+// Whether it starts so fast that it could pass through another in a step: what engines have
+// continuous collision detection for, and advise against for all others.
+inline bool needs_continuous(const PeerScene& scene, const PeerBody& body, double h) {
+  return scene.collides() && body.is_dynamic() &&
+         glm::length(body.velocity) * h > least_extent(body.shape, scene.is_flat());
+}
+
+// Whether there is nothing to solve, so that solvers and their efforts make no difference.
+inline constexpr const char* kNothingToSolve =
+    "nothing touches or is jointed: it is as at the default effort";
+inline bool is_unconstrained(const PeerScene& scene) {
+  return !scene.collides() && scene.links.empty();
+}
+
+// A flat box is as deep as it is wide in an engine that knows no flat bodies.
+inline Vec<3> with_depth(Vec<3> half, bool is_flat) {
+  if (is_flat) half.z = std::max(half.x, half.y);
+  return half;
 }
 
 // What no engine of solid bodies does as Lantern does. Drag turns a body alike about all axes only

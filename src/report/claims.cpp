@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "report/pareto.hpp"
 #include "report/sentences.hpp"
 
 namespace lantern::report {
@@ -57,8 +60,47 @@ std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem) 
   return groups;
 }
 
+std::vector<PeerRange> peer_ranges(const ProblemRows& problem) {
+  std::vector<PeerRange> ranges;
+  double to = std::numeric_limits<double>::infinity();
+  bool goes_on = false;  // the row before was a peer's
+  for (const std::size_t i : pareto_front(problem.rows, seconds_of)) {  // ascending in time
+    const Row& row = problem.rows[i];
+    const double error = *row.error();
+    if (row.is_peer()) {
+      if (!goes_on) ranges.push_back({error, to, {}});
+      PeerRange& range = ranges.back();
+      range.from = error;
+      std::erase(range.names, row.method);
+      range.names.insert(range.names.begin(), row.method);
+    }
+    goes_on = row.is_peer();
+    to = error;
+  }
+  std::ranges::reverse(ranges);
+  return ranges;
+}
+
+std::string front_words(const ProblemRows& problem) {
+  const auto is_timed = [&](bool peer) {
+    return std::ranges::any_of(problem.rows, [&](const Row& row) {
+      return row.is_peer() == peer && row.error() && seconds_of(row);
+    });
+  };
+  if (!is_timed(true) || !is_timed(false) || has_whole_errors(problem)) return "";
+  const std::vector<PeerRange> ranges = peer_ranges(problem);
+  if (ranges.empty()) return "At every error the quickest run is one of Lantern's.";
+  std::vector<std::string> words;
+  for (const PeerRange& range : ranges)
+    words.push_back(fmt::format("{}{} ({})", figure(range.from),
+                                std::isfinite(range.to) ? " to " + figure(range.to) : " on",
+                                listed(range.names)));
+  return fmt::format("A peer's run is the quickest at errors from {}.", listed(words));
+}
+
 std::vector<std::string> notes_on(const ProblemRows& problem) {
   std::vector<std::string> notes;
+  if (std::string front = front_words(problem); !front.empty()) notes.push_back(std::move(front));
   double reference_error = 0;
   const Norm* norm = nullptr;
   bool adaptive = false;

@@ -48,11 +48,28 @@ std::string shortfall_words(std::span<const Shortfall> all);
 // "", or " within the runs made" if somebody's finest run is missing.
 std::string within_runs_made(std::span<const Shortfall> all);
 
+// A range of errors for which the cheapest run of all that are timed is a peer's: no other run has
+// less error and less time (by their medians). Errors from `from` on, below `to`.
+struct PeerRange {
+  double from = 0;
+  double to = 0;                   // infinite: there is no cheaper run
+  std::vector<std::string> names;  // of who is the cheapest there, by growing errors
+  bool operator==(const PeerRange&) const = default;
+};
+
+// In order of growing errors, as few as can be. Empty if no peer is on the front, or none was
+// timed.
+std::vector<PeerRange> peer_ranges(const ProblemRows& problem);
+
+// "At every error the quickest run is one of Lantern's.", or where it is a peer's. Empty if there
+// is nothing to compare: Lantern and peers were not both timed, or errors are counted.
+std::string front_words(const ProblemRows& problem);
+
 // Of methods that are named by what they give: "impulses", "soft contacts (16 sub-steps)".
 bool is_plural(const std::string& name);
 
-// What a reader must know beside the numbers: what the main norm is, how good its reference is, and
-// who is measured otherwise than the rest. A sentence each.
+// What a reader must know beside the numbers: where peers are quicker, what the main norm is, how
+// good its reference is, and who is measured otherwise than the rest. A sentence each.
 std::vector<std::string> notes_on(const ProblemRows& problem);
 
 }  // namespace lantern::report

@@ -33,6 +33,7 @@ void each_field(R& row, Visit&& visit) {
   visit(Field("angular_momentum", "drift_angular_momentum", "drift"), row.drift.angular_momentum);
   visit(Field("samples", ""), row.samples);
   visit(Field("penetration"), row.penetration);
+  visit(Field("skin"), row.skin);
   each_timing(row.timing, "timing", "spread", "seconds_spread", visit);
   visit(Field("steps", "steps", "counted"), row.counted.steps);
   visit(Field("force_evaluations", "force_evaluations", "counted"), row.counted.force_evaluations);
@@ -51,6 +52,20 @@ void each_field(C& c, Visit&& visit) {
   visit(Field("processor"), c.processor);
   visit(Field("seed"), c.seed);
   visit(Field("effort"), c.effort);
+}
+
+template <class P, class Visit>
+requires std::same_as<std::remove_const_t<P>, PeerRecord>
+void each_field(P& peer, Visit&& visit) {
+  visit(Field("method"), peer.name);
+  visit(Field("version"), peer.version);
+  visit(Field("precision"), peer.settings.precision);
+  visit(Field("integrator"), peer.settings.integrator);
+  visit(Field("solver"), peer.settings.solver);
+  visit(Field("iterations"), peer.settings.iterations);
+  visit(Field("joints"), peer.settings.joints);
+  visit(Field("flags"), peer.settings.flags);
+  visit(Field("source"), peer.settings.source);
 }
 
 }  // namespace lantern::measure
@@ -179,10 +194,13 @@ std::string to_csv(const Circumstances& c) {
   return csv.text();
 }
 
+std::string to_csv(const std::vector<PeerRecord>& peers) { return csv_of(peers); }
+
 std::string to_json(const Measurement& measurement) {
   JsonWriter json;
   json.begin_object().line().member("format", kFormat).line().key("circumstances");
   write_json(measurement.circumstances, json);
+  write_rows("peers", measurement.peers, json);
   write_rows("rows", measurement.rows, json);
   json.line().end_object();
   return json.text() + "\n";
@@ -193,7 +211,9 @@ std::optional<Measurement> read_measurement(std::string_view text) {
   if (json.is_discarded()) return std::nullopt;
   try {
     if (json.at("format") != kFormat) return std::nullopt;
-    Measurement measurement{read_fields<Circumstances>(json.at("circumstances")), {}};
+    Measurement measurement{read_fields<Circumstances>(json.at("circumstances")), {}, {}};
+    for (const Json& peer : json.at("peers").get_ref<const Json::array_t&>())
+      measurement.peers.push_back(read_fields<PeerRecord>(peer));
     for (const Json& row : json.at("rows").get_ref<const Json::array_t&>())
       measurement.rows.push_back(read_fields<Row>(row));
     return measurement;

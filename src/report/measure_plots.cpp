@@ -77,7 +77,16 @@ void send_far_ones_off(Plot& plot) {
   if (!any_near || !any_far) return;
   for (PlotSeries& s : plot.series)
     for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
-  plot.beyond = "diverged, or beyond 1000";
+  plot.beyond += ", or beyond 1000";
+}
+
+// What the strip at the edge is called: by how runs failed.
+std::string failure_words(const ProblemRows& problem) {
+  const auto any = [&](Status status) {
+    return std::ranges::find(problem.rows, status, &Row::status) != problem.rows.end();
+  };
+  if (!any(Status::collapsed)) return "diverged";
+  return any(Status::diverged) || any(Status::nan) ? "diverged or collapsed" : "collapsed";
 }
 
 // "error: state (“traj”), against: closed form", with the unit of what is not relative.
@@ -175,6 +184,7 @@ std::string circumstances_text(const Circumstances& c) {
 
 Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks, bool with_orders) {
   Plot plot;
+  plot.beyond = failure_words(problem);
   std::set<int> orders;
   double least = 1e300, most = 0;
   std::map<std::string, std::string> twins;  // to the first method with the same errors

@@ -54,7 +54,8 @@ std::string line_for(const MethodRows& c, const WorkCount& work) {
   const auto order = c.is_peer && c.rows.size() < 3 ? std::nullopt : observed_order(c.rows);
   const auto seconds = best ? seconds_of(*best) : std::nullopt;
   const auto count = best ? work.of(*best) : std::nullopt;
-  return line({c.is_peer ? c.name() : c.method, fmt::format("{}/{}", ended[0], c.rows.size()),
+  const std::string name = c.is_peer ? c.name() : c.method;  // without "(double)"
+  return line({name.substr(0, name.find(" (")), fmt::format("{}/{}", ended[0], c.rows.size()),
                order ? fmt::format("{:.2f}", *order) : "-", best ? figure(*best->error()) : "-",
                best ? figure(best->step) : "-", seconds ? seconds_text(*seconds) : "-",
                count ? fmt::format("{:.0f}", *count) : "-", status});

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "measure/row.hpp"
 
@@ -23,7 +24,10 @@ std::string drift_csv(const Measurement& measurement);
 // The same for how and where it was made: records of a key and a value.
 std::string to_csv(const Circumstances& circumstances);
 
-// lantern.measure/1: circumstances and rows, one row a line. What is not finite becomes null; bytes
+// The same for how each engine was run, a record each.
+std::string to_csv(const std::vector<PeerRecord>& peers);
+
+// lantern.measure/1: circumstances, peers and rows, one row a line. What is not finite becomes null; bytes
 // of texts that are no UTF-8 become U+FFFD.
 std::string to_json(const Measurement& measurement);
 

@@ -138,9 +138,9 @@ class OverviewPage {
     draw_plot_legend(legend_, band(y, y + height), kSmall, list_, labels_);
     y += height + 4;
     const std::string rest =
-        "Dashed: other engines. Open marks: runs that diverged (placed by their steps if not "
-        "timed) or were off. Thin bars: quartiles. Stairs: no run has both less error and less "
-        "time. Dashed grey: estimated rounding floor.";
+        "Dashed: other engines. Open marks: runs that diverged, collapsed (placed by their steps "
+        "if not timed) or were off. Thin bars: quartiles. Stairs: no run has both less error and "
+        "less time. Dashed grey: estimated rounding floor.";
     labels_.add(shortened(rest, inner(), kSmallPrint), {{kOverviewMargin, y + 17}, 0}, kSmallPrint,
                 band(y, y + 26));
     return y + 44;

@@ -17,6 +17,10 @@ namespace lantern::report {
 // Each small plot names its scenario's file, so that every number can be found in the rows.
 DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars);
 
+// How each engine beside Lantern was run, and who recommends it so: a table 1600 units wide, as high
+// as it needs. What is the same as in the line above is left empty.
+DrawList draw_peers(const Measurement& measurement);
+
 // The stability map as a picture.
 // A page of 1600 x 900 units: a panel a method, the step from left to right, the damping from below
 // (none at all has a row of its own), the measured growth as colour, the limit by theory as a line.

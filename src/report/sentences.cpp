@@ -159,9 +159,10 @@ class Teller {
     std::vector<std::string> parts;
     for (std::size_t s = 1; s < runs_.size(); ++s)
       if (runs_[s] > 0)
-        parts.push_back(
-            fmt::format("{} {}", runs_[s],
-                        s == 2 ? "not a number" : std::string(to_string(static_cast<Status>(s)))));
+        parts.push_back(fmt::format("{} {}", runs_[s],
+                                    static_cast<Status>(s) == Status::nan
+                                        ? "not a number"
+                                        : std::string(to_string(static_cast<Status>(s)))));
     if (runs_[0] > 0 || parts.empty()) return "No run has an error that could be compared.";
     return fmt::format("No run got to its end: {}.", listed(parts));
   }

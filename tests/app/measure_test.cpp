@@ -32,8 +32,9 @@ TEST(MeasureCommand, WritesRowsTablesAndPages) {
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.out.find("velocity_verlet"), std::string::npos) << o.out;
   EXPECT_NE(o.err.find("2 runs, about"), std::string::npos) << "no estimate before: " << o.err;
-  for (const char* file : {"measure.json", "measure.csv", "circumstances.csv", "overview.svg",
-                           "overview.png", "kepler.svg", "kepler.png", "report.html"})
+  for (const char* file :
+       {"measure.json", "measure.csv", "circumstances.csv", "peers.csv", "overview.svg",
+        "overview.png", "kepler.svg", "kepler.png", "report.html"})
     EXPECT_TRUE(fs::exists(out / file)) << file;
   EXPECT_EQ(rows_of(out).size(), 2u);
   const std::string from = " --from " + out.string();

@@ -244,6 +244,31 @@ TEST(Stack, TellsDepthAndImpulse) {
   EXPECT_NEAR(slow.at("impulse"), 0.1, 1e-9) << "a tenth of the uppermost box's weight";
 }
 
+TEST(Stack, TakesASkinForAPartOfTheShape) {
+  const Norms hovering = looked_at(problem("stack"), [](Observation& now) {
+    now.skins.assign(now.states.size(), 0.01);
+    for (std::size_t i = 1; i < now.states.size(); ++i)
+      now.states[i].position.y += 0.015 * static_cast<double>(i);
+  });
+  EXPECT_NEAR(hovering.at("depth"), 0.005, 1e-12) << "two skins of 0.01, 0.015 apart";
+}
+
+TEST(Stack, SaysThatItFell) {
+  const Scenario scenario = problem("stack");
+  const auto ends = [&](double down) {
+    const auto metric = make_error_metric(scenario);
+    metric->look(at_start(scenario));
+    Observation now = at_start(scenario);
+    now.time = 10;
+    now.states.back().position.y -= down;
+    metric->look(now);
+    return metric->collapse();
+  };
+  EXPECT_EQ(ends(0.49), std::nullopt);
+  ASSERT_TRUE(ends(0.51)) << "half a box";
+  EXPECT_NE(ends(4)->find("below its place"), std::string::npos);
+}
+
 TEST(HangingChain, TellsStretchAndTension) {
   const Scenario scenario = problem("hanging_chain");
   expect_all_small(looked_at(scenario, [](Observation&) {}), "it hangs");

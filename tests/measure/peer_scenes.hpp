@@ -63,7 +63,7 @@ class Peers : public testing::Test {
   void each(F&& f) {
     for (const auto& peer : found_)
       for (const int dimension : {2, 3}) {
-        if (dimension == 3 && peer->cannot(scene(3, {ball({0, 0, 0})}))) continue;
+        if (dimension == 3 && peer->name().starts_with("Box2D")) continue;
         SCOPED_TRACE(peer->name() + " in " + std::to_string(dimension) + " dimensions");
         f(*peer, dimension);
       }

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "measure/contact_runs.hpp"
 #include "measure/lantern_solver.hpp"
 #include "measure/plan.hpp"
 #include "measure/problems.hpp"
@@ -105,6 +106,42 @@ seconds = 40
   EXPECT_FALSE(row.reason.empty());
   EXPECT_FALSE(row.error().has_value());
   EXPECT_EQ(row.timing.repeats, 0) << "what has diverged is not timed";
+}
+
+// Lets all bodies fall through each other, and tells a skin.
+class Falling : public Solver {
+ public:
+  std::string name() const override { return "falling"; }
+  std::string version() const override { return "1"; }
+  std::optional<std::string> cannot(const Scenario&) const override { return std::nullopt; }
+  std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override {
+    struct Fall : Simulation {
+      std::vector<BodyState> states;
+      double h = 0;
+      void advance(std::uint64_t steps) override {
+        for (BodyState& state : states) state.position.y -= h * static_cast<double>(steps);
+      }
+      void observe(std::vector<BodyState>& now) const override { now = states; }
+      double skin(std::size_t body) const override { return body == 1 ? 0.25 : 0; }
+    };
+    auto fall = std::make_unique<Fall>();
+    fall->states = at_start(scenario).states;
+    fall->h = h;
+    return fall;
+  }
+};
+
+TEST(Run, WhatHasFallenIsNoSuccess) {
+  const Scenario scenario = problem("stack");
+  const Schedule schedule = Schedule::of(scenario);
+  const Invariants invariants(scenario);
+  const Reference reference = reference_for(scenario, schedule, 1);
+  const Row row = evaluated({scenario, schedule, invariants, reference}, Falling(), 0.1);
+  EXPECT_EQ(row.status, Status::collapsed) << to_string(row.status);
+  EXPECT_NE(row.reason.find("below its place"), std::string::npos) << row.reason;
+  EXPECT_FALSE(row.norms.empty()) << "how far off it is may still be read";
+  EXPECT_FALSE(row.error()) << "but is no error to be compared";
+  EXPECT_EQ(row.skin, 0.25);
 }
 
 TEST(Run, OneThatIsStoppedCanBeRunAgain) {

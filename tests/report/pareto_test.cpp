@@ -52,8 +52,10 @@ TEST(Pareto, RowsThatFailedOrWereNotTimedAreNotOnIt) {
                            samples::row("d", 0.1, 1e-1, 3, 10)};
   EXPECT_EQ(pareto_front(rows, seconds_of), (std::vector<std::size_t>{0, 1}))
       << "row 2 was not timed, row 3 is beaten";
-  rows[1].status = Status::diverged;
-  EXPECT_EQ(pareto_front(rows, seconds_of), (std::vector<std::size_t>{0}));
+  for (const Status failed : {Status::diverged, Status::collapsed}) {
+    rows[1].status = failed;
+    EXPECT_EQ(pareto_front(rows, seconds_of), (std::vector<std::size_t>{0})) << to_string(failed);
+  }
 }
 
 }  // namespace

@@ -123,6 +123,36 @@ TEST(Sentence, PeersWithinTheSpreadAreEqualsToo) {
       "= 0.01 s, which cost the same within the spread.");
 }
 
+// Error and time of a run.
+Row own_at(double error, double seconds) { return row("velocity_verlet", 0.1, error, seconds, 9); }
+Row peer_at(const char* name, double error, double seconds) {
+  return timed_peer(name, error, seconds, 0);
+}
+
+TEST(Front, SaysAtWhichErrorsAPeerIsTheQuickest) {
+  EXPECT_EQ(front_words(problem({own_at(1e-6, 1), own_at(1e-3, 0.1), peer_at("ODE", 1e-3, 0.2)})),
+            "At every error the quickest run is one of Lantern's.");
+  const ProblemRows mixed =
+      problem({own_at(1e-6, 1), own_at(1e-3, 0.1), peer_at("ODE", 1e-5, 0.5),
+               peer_at("ODE", 1e-4, 0.2), peer_at("Box2D", 1e-2, 0.01), peer_at("ODE", 0.1, 0.02)});
+  EXPECT_EQ(front_words(mixed),
+            "A peer's run is the quickest at errors from 1e-5 to 0.001 (ODE) and 0.01 on (Box2D).");
+  EXPECT_EQ(notes_on(mixed)[0], front_words(mixed));
+  const std::vector<PeerRange> several =
+      peer_ranges(problem({own_at(1, 1), peer_at("A", 1e-3, 0.3), peer_at("B", 1e-2, 0.2)}));
+  ASSERT_EQ(several.size(), 1u);
+  EXPECT_EQ(several[0].names, (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(front_words(problem({own_at(1, 1)})), "") << "there is nothing to compare";
+}
+
+TEST(Front, ACollapsedRunIsNeverOnIt) {
+  Row fallen = peer_at("Box2D", 1e-9, 1e-3);
+  fallen.status = Status::collapsed;
+  EXPECT_EQ(front_words(problem({own_at(1e-3, 0.1), fallen, peer_at("ODE", 1e-2, 0.3)})),
+            "At every error the quickest run is one of Lantern's.");
+  EXPECT_EQ(sentence(problem({fallen})), "No run got to its end: 1 collapsed.");
+}
+
 TEST(Sentence, OfManyEqualsTheFirstAreNamed) {
   std::vector<Row> rows;
   for (const char* name : {"a", "b", "c", "d", "e", "f"})
