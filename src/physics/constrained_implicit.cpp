@@ -27,9 +27,6 @@ constexpr int kFewRounds = 12, kSomeRounds = 20;
 // Stiffnesses along the joints, in units of their tension by size.
 constexpr double kOutweighs[] = {64, 64e3, 64e6};
 
-double length_of(double spin) { return std::abs(spin); }
-double length_of(const Vec<3>& spin) { return glm::length(spin); }
-
 template <int D, int B>
 class Stage {
  public:
@@ -79,8 +76,8 @@ class Stage {
     std::vector<Row> momenta(system_.movers().size());
     for (std::size_t n = 0; n < momenta.size(); ++n) {
       const std::size_t i = system_.movers()[n];
-      put(momenta[n], time_ / system_.bodies()[i].inverse_mass * pull.acceleration[i],
-          time_ * pull.torque[i]);
+      add(momenta[n], pull.acceleration[i] / system_.bodies()[i].inverse_mass, pull.torque[i],
+          time_);
     }
     std::vector<double> wanted = joints_.speeds(state_);
     for (double& value : wanted) value = -value;
@@ -93,11 +90,6 @@ class Stage {
     std::vector<Tie<D>> ties;
     for (const auto& hold : joints.holds()) ties.push_back({{hold.joint->a, hold.joint->b}, {}});
     return ties;
-  }
-
-  static void put(Row& row, const Vec<D>& linear, const Spin<D>& angular) {
-    for (int c = 0; c < D; ++c) row[c] = linear[c];
-    for (int c = D; c < B; ++c) row[c] = spin_component(angular, c - D);
   }
 
   // row += by * (direction, turn)
@@ -137,8 +129,9 @@ class Stage {
     for (std::size_t n = 0; n < momenta.size(); ++n) {
       const std::size_t i = system_.movers()[n];
       const double mass = 1 / system_.bodies()[i].inverse_mass;
-      put(momenta[n], mass * (time_ * pull.acceleration[i] - state_.kick[i]),
-          time_ * pull.torque[i] - state_.twist[i]);
+      momenta[n] = {};
+      add(momenta[n], mass * (time_ * pull.acceleration[i] - state_.kick[i]),
+          time_ * pull.torque[i] - state_.twist[i], 1);
     }
     for (std::size_t r = 0; r < joints_.rows().size(); ++r)
       add_impulse(momenta, r, joints_.impulses()[r]);
@@ -238,8 +231,9 @@ class Stage {
           for (int c = D; c < B; ++c) spin_component(spin, c - D) = change[n][c];
           state_.twist[i] += system_.inertia_times(state_, i, spin);
           const double reach = turning_reach<D>(system_.bodies()[i].shape);
-          moved += reach * length_of(spin);
-          speed += reach * length_of(system_.angular_velocity(state_, i));
+          moved += reach * std::sqrt(dot(spin, spin));
+          const Spin<D> now = system_.angular_velocity(state_, i);
+          speed += reach * std::sqrt(dot(now, now));
         }
       }
       // No number is the largest of all.

@@ -190,16 +190,18 @@ double parts_of_turning(const Island<D>& island, double h) {
   return std::max(1.0, std::ceil(h * fastest / kJointSettings.most_turn));
 }
 
-// If the island is not moved, its bodies are as they were.
+// If the island is not moved, its bodies are as they were, but brought together and their
+// velocities projected.
 template <int D>
 Outcome try_to_move(Island<D>& island, const WorldConfig<D>& config, Attempt attempt, double h,
                     WorldWork& work) {
   const double turning = parts_of_turning(island, h);
   if (turning > kJointSettings.most_parts) return Outcome::failed;
   attempt.parts = static_cast<int>(turning);
-  const std::vector<Body<D>> start = island.bodies;
+  std::vector<Body<D>> start;  // kept where there are several parts, or several attempts
+  if (attempt.parts > 1) start = island.bodies;
   std::vector<Vec<D>> impulses;
-  for (double swing = 0;; island.bodies = start) {
+  for (double swing = 0;;) {
     impulses.assign(island.joints.size(), Vec<D>(0.0));
     int moved = 0;
     for (; moved < attempt.parts; ++moved) {
@@ -214,10 +216,11 @@ Outcome try_to_move(Island<D>& island, const WorldConfig<D>& config, Attempt att
       part.add_impulses(impulses);
     }
     if (moved == attempt.parts) break;
-    if (!attempt.go_on(h, swing)) {
+    if (start.empty())
+      start = island.bodies;
+    else
       island.bodies = start;
-      return Outcome::failed;
-    }
+    if (!attempt.go_on(h, swing)) return Outcome::failed;
   }
   if (attempt.parts > 1) work.sub_steps += static_cast<std::uint64_t>(attempt.parts);
   for (std::size_t i = 0; i < impulses.size(); ++i) island.joints[i].impulse = impulses[i];

@@ -30,8 +30,9 @@ namespace lantern::physics {
 // that carry a heavy end. Then the implicit midpoint moves them; and what that does not solve,
 // implicit Euler does.
 //
-// False, with the bodies as they were, if this is not for them: they are moved by different
-// integrators, joints are wide open, or even small parts do not converge (see JointSettings).
+// False if this is not for them: they are moved by different integrators, joints are wide open, or
+// even small parts do not converge (see JointSettings). The bodies are then as they were, but may
+// have been brought together where a joint was a little open, and their velocities projected.
 template <int D>
 bool move_constrained(Island<D>& island, const WorldConfig<D>& config, double h, WorldWork& work);
 

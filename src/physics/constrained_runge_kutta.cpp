@@ -67,19 +67,19 @@ class RungeKutta {
   };
 
   void find_slopes(double weight) {
-    Pull<D> pull = system_.evaluate(state_);
-    joints_.hold_accelerations(state_, pull, weight * h_);
+    system_.evaluate(state_, pull_);
+    joints_.hold_accelerations(state_, pull_, weight * h_);
     for (std::size_t n = 0; n < slopes_.size(); ++n) {
       const std::size_t i = system_.movers()[n];
       Slope& slope = slopes_[n];
       slope.velocity = system_.velocity(state_, i);
-      slope.acceleration = pull.acceleration[i];
+      slope.acceleration = pull_.acceleration[i];
       Slope& sum = sums_[n];
       sum.velocity += slope.velocity * weight;
       sum.acceleration += slope.acceleration * weight;
       if (!system_.turns(i)) continue;
       slope.turning = rotation_rate(slope.turned, system_.angular_velocity(state_, i));
-      slope.torque = pull.torque[i];
+      slope.torque = pull_.torque[i];
       sum.turning += slope.turning * weight;
       sum.torque += slope.torque * weight;
     }
@@ -111,6 +111,7 @@ class RungeKutta {
   SmoothState<D>& state_;
   double h_;
   const Tableau& tableau_;
+  Pull<D> pull_;
   std::vector<Slope> slopes_, sums_;  // one a mover
 };
 

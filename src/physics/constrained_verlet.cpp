@@ -10,14 +10,15 @@ bool constrained_verlet(ConstrainedPart<D>& part) {
   JointSystem<D>& joints = part.joints;
   SmoothState<D>& state = part.state;
   const double h = part.h;
-  system.kick(state, system.evaluate(state), h / 2);
+  Pull<D> pull = system.evaluate(state);
+  system.kick(state, pull, h / 2);
   // If it fails, an estimate of the tension is there all the same.
   const bool held = joints.hold_at_end(state, h);
   if (!part.follows(joints.swing_squared(joints.impulses(), h / 2)) || !held) return false;
   joints.look(state);
   if (!joints.factor()) return false;
   if (system.any_damping()) return constrained_damped_kick(part, h / 2);
-  const Pull<D> pull = system.evaluate(state);
+  system.evaluate(state, pull);
   for (const std::size_t i : system.movers()) {
     state.kick[i] += h / 2 * pull.acceleration[i];
     state.twist[i] += h / 2 * pull.torque[i];

@@ -9,7 +9,7 @@
 namespace lantern::physics {
 
 enum class ContactMethod {
-  none,     // bodies pass through each other; joints are held as by `soft`
+  none,     // bodies pass through each other; joints hold as with `soft`
   impulse,  // sequential impulses, swept over a few times a step
   soft,     // sub-steps, in each of which all rows are solved at once; penetration is eased out
   direct,   // the same without sub-steps

@@ -22,6 +22,14 @@ class EnvelopeSystem {
     work_ = 0;
   }
 
+  // Room for so many lines, if they are short.
+  void reserve(std::size_t lines) {
+    constexpr std::size_t kShort = 8;
+    first_.reserve(lines);
+    start_.reserve(lines);
+    entries_.reserve(lines * kShort);
+  }
+
   // The next line has nothing before the column `first`, which is no further than its diagonal.
   void add_line(std::size_t first) {
     const std::size_t length = first_.size() - first + 1;

@@ -75,6 +75,7 @@ template <int D>
 void plan(const std::vector<JointRow<D>>& rows, std::size_t bodies, EnvelopeSystem& factor) {
   std::vector<std::size_t> first_of(bodies, rows.size());  // row of each body
   factor.clear();
+  factor.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::size_t first = i;
     const auto look_at = [&](std::uint32_t body, double mass) {

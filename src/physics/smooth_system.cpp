@@ -155,9 +155,16 @@ Stretch<D> SmoothSystem<D>::stretch(const SmoothState<D>& state, std::size_t spr
 
 template <int D>
 Pull<D> SmoothSystem<D>::evaluate(const SmoothState<D>& state) {
+  Pull<D> pull;
+  evaluate(state, pull);
+  return pull;
+}
+
+template <int D>
+void SmoothSystem<D>::evaluate(const SmoothState<D>& state, Pull<D>& pull) {
   ++evaluations_;
-  Pull<D> pull{std::vector<Vec<D>>(bodies_.size(), Vec<D>(0.0)),
-               std::vector<Spin<D>>(bodies_.size(), Spin<D>(0.0))};
+  pull.acceleration.assign(bodies_.size(), Vec<D>(0.0));
+  pull.torque.assign(bodies_.size(), Spin<D>(0.0));
   for (const std::size_t i : movers_) {
     const Body<D>& body = bodies_[i];
     pull.acceleration[i] = forces_.gravity;
@@ -177,7 +184,6 @@ Pull<D> SmoothSystem<D>::evaluate(const SmoothState<D>& state) {
   });
   for (std::size_t k = 0; k < pushed_.size(); ++k)
     apply(pushed_[k], forces_.pushes[k].at, forces_.pushes[k].force);
-  return pull;
 }
 
 template class SmoothSystem<2>;

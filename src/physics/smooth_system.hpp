@@ -80,6 +80,8 @@ class SmoothSystem {
 
   // All forces, once. Counts as one evaluation.
   Pull<D> evaluate(const SmoothState<D>& state);
+  // The same, into the memory of a pull that there is.
+  void evaluate(const SmoothState<D>& state, Pull<D>& pull);
 
   Vec<D> velocity(const SmoothState<D>& state, std::size_t i) const;
   Spin<D> angular_velocity(const SmoothState<D>& state, std::size_t i) const;

@@ -119,7 +119,7 @@ void in_swinging_sub_steps(Island<D>& island, const WorldConfig<D>& config, doub
     part.begin();
     solve(part);
     part.end();
-    if (seconds < whole) ++work.sub_steps;
+    if (seconds < h) ++work.sub_steps;
     last = seconds;
     left = parts > 1 ? left - seconds : 0;
   }

@@ -19,7 +19,7 @@ struct WorldConfig {
   RotationMethod rotation = RotationMethod::splitting_2;  // where nothing holds a body
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase = {};
-  int sub_steps = 8;  // of soft contacts, and of joints where nothing collides, 1 ... 1000
+  int sub_steps = 8;  // of soft contacts, 1 ... 1000
   // The error that is wanted of soft contacts, in units of length: how far out of place a body may
   // be left in a step. It says into how many parts a step is cut (at most `sub_steps`), and when
   // the sweeps of a part end. 0: as little as the method can.

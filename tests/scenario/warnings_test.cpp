@@ -190,26 +190,44 @@ std::string chain(const std::string& keys, double weight) {
           insert_and_run("[\"bead\", \"weight\"]", "1"));
 }
 
-// Two rods that cannot both be as long as they should.
+// A bar between two anchors that are farther apart than it is long.
 std::string torn(const std::string& keys) {
-  const std::string rod = "kind = \"distance\"\nlength = 1\n";
-  return world_text(
-      "size = [8, 8]\ncontacts = \"impulse\"\n" + keys,
-      disc("bob", "mass = 1\nposition = [4, 4]") + "[[joint]]\na = \"bob\"\nto = [2, 4]\n" + rod +
-          "[[joint]]\na = \"bob\"\nto = [6, 4]\n" + rod + insert_and_run("[\"bob\"]", "1"));
+  return world_text("size = [8, 8]\ncontacts = \"impulse\"\niterations = 1\n" + keys,
+                    "[[body]]\nname = \"bar\"\nposition = [4, 4]\nhalf_size = [1, 0.2]\n"
+                    "oriented = true\n"
+                    "[[joint]]\na = \"bar\"\nto = [3, 4]\nat_a = [-1, 0]\nkind = \"pin\"\n"
+                    "[[joint]]\na = \"bar\"\nto = [6, 4]\nat_a = [1, 0]\nkind = \"pin\"\n" +
+                        insert_and_run("[\"bar\"]", "1"));
 }
 
 TEST(Warnings, OfJointsThatPart) {
-  const std::vector<Diagnostic> found = warnings_of(torn("iterations = 1"));
+  const std::vector<Diagnostic> found = warnings_of(torn(""));
   ASSERT_FALSE(found.empty());
-  EXPECT_NE(found[0].message.find("the rod "), std::string::npos) << shown(found);
-  EXPECT_NE(found[0].message.find("stretches by "), std::string::npos) << shown(found);
+  EXPECT_NE(found[0].message.find("the pin of 'bar' parts by "), std::string::npos) << shown(found);
   EXPECT_NE(found[0].message.find(" % of its bodies' size"), std::string::npos) << shown(found);
   EXPECT_EQ(found[0].source_line, "[[joint]]");
   EXPECT_EQ(found[0].suggestion,
             "give [world] more iterations than 1, or a time_step below 0.0167 s");
-  expect_quiet(torn("iterations = 1\nquiet = [\"joints\"]"));
+  expect_quiet(torn("quiet = [\"joints\"]"));
   expect_quiet(chain("iterations = 1", 1000));
+  expect_quiet(chain("iterations = 200", 1));
+}
+
+// Told whether it is worth a warning or not.
+TEST(Warnings, HowFarJointsPartIsAFact) {
+  const auto facts_of = [](const std::string& text) {
+    const Scenario scenario = good(text);
+    RunWatch watch(scenario, shown_always);
+    Work work;
+    direct(
+        scenario, Pace::step, work, [](const Frame&) { return true; }, &watch);
+    return watch.facts();
+  };
+  const std::vector<std::string> told = facts_of(torn("quiet = [\"joints\"]"));
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].rfind("joints parted by at most 0.", 0), 0u) << told[0];
+  EXPECT_NE(told[0].find(", the pin of 'bar' at "), std::string::npos) << told[0];
+  EXPECT_TRUE(facts_of(kFall).empty());
 }
 
 TEST(Warnings, OfJointsNeedJoints) {
@@ -316,7 +334,7 @@ TEST(Warnings, OfAnAtlasAreNotWatchedFor) {
 }
 
 TEST(Warnings, ThatAreWatchedForChangeNoFrame) {
-  for (const std::string& text : {press("-3"), torn("iterations = 1"), kFall}) {
+  for (const std::string& text : {press("-3"), chain("iterations = 1", 1000), kFall}) {
     const Scenario scenario = good(text);
     const std::vector<Frame> alone = frames_of(scenario);
     RunWatch watch(scenario, shown_always);
