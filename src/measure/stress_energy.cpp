@@ -175,7 +175,7 @@ std::vector<StressCase> energy_cases() {
        true},
       {"energy_plates", kGroup, "A plate that falls on the ground makes no energy.", plates, true},
       {"energy_fast_spins", kGroup, "A box that spins fast makes no energy on the ground.",
-       fast_spins, true},
+       fast_spins},
       {"energy_steps", kGroup, "Contacts make no energy, whatever the step and the sub-steps.",
        steps_and_sub_steps, true},
       {"energy_mass_ratios", kGroup, "Contacts make no energy, whatever the masses.", mass_ratios},
