@@ -194,15 +194,14 @@ class HtmlPage {
     put("</ul></nav>\n");
   }
 
+  // As the first measurement that has an engine tells.
   void add_engines() {
-    if (std::ranges::none_of(cast_.methods, &MethodRows::is_peer)) return;
-    put("<div class=\"wide\"><table><caption>The other engines</caption><thead><tr><th>engine</th>"
-        "<th>version</th></tr></thead><tbody>\n");
-    for (const MethodRows& method : cast_.methods)
-      if (method.is_peer)
-        put("<tr class=\"m{}\"><td>{}</td><td>{}</td></tr>\n", cast_.number_of(method.method),
-            escaped(method.method), escaped(method.version));
-    put("</tbody></table></div>\n");
+    std::vector<PeerRecord> peers;
+    for (const Measurement& m : measurements_)
+      for (const PeerRecord& peer : m.peers)
+        if (std::ranges::find(peers, peer.name, &PeerRecord::name) == peers.end())
+          peers.push_back(peer);
+    if (!peers.empty()) put("{}", engines_table(peers, cast_));
   }
 
   void add_problem(std::size_t index) {
