@@ -19,6 +19,7 @@
 #include "measure/plan.hpp"
 #include "measure/problems.hpp"
 #include "report/bars.hpp"
+#include "report/drift_plots.hpp"
 #include "report/html_page.hpp"
 #include "report/measure_plots.hpp"
 #include "report/measure_tables.hpp"
@@ -253,8 +254,11 @@ void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions
   const std::vector<Bar> bars = all ? measured_bars() : std::vector<Bar>();
   folder.write("report.html", to_html(std::span(&m, 1), bars));
   pages.push_back({"overview", draw_overview(m, bars)});
-  for (const ProblemRows& problem : by_problem(m.rows))
+  for (const ProblemRows& problem : by_problem(m.rows)) {
     pages.push_back({problem.problem, draw_problem(problem, m)});
+    if (std::ranges::any_of(problem.rows, [](const Row& row) { return !row.samples.empty(); }))
+      pages.push_back({problem.problem + "_drift", draw_drift(problem, m)});
+  }
   if (!m.peers.empty()) pages.push_back({"peers", draw_peers(m)});
   folder.draw(pages, options.theme, options.backend);
 }
@@ -291,8 +295,8 @@ int page_of_earlier(const MeasureOptions& options) {
     const fs::path path = fs::is_directory(word) ? fs::path(word) / "measure.json" : fs::path(word);
     auto read = read_measurement(read_file(path, kMostMeasureBytes));
     if (!read)
-      throw UsageError(fmt::format("'{}' is no measurement that 'lantern measure' has written",
-                                   path.string()));
+      throw UsageError(
+          fmt::format("'{}' is no measurement that 'lantern measure' has written", path.string()));
     measurements.push_back(std::move(*read));
   }
   ReportFolder folder(options.output, "measure_page");

@@ -125,7 +125,8 @@ class Gauge {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
   }
 
-  PileState operator()(const std::vector<BodyState>& states, double skin) const {
+  PileState operator()(const std::vector<BodyState>& states,
+                       const std::vector<double>& skins) const {
     std::vector<Body<D>> bodies = players_.world().bodies();
     PileState found;
     for (Body<D>& body : bodies) {
@@ -135,14 +136,15 @@ class Gauge {
     found.energy =
         physics::energy(std::span<const Body<D>>(bodies), players_.world().forces()).total() -
         at_rest(bodies);
-    look_at_pairs(bodies, skin, found);
+    look_at_pairs(bodies, skins, found);
     return found;
   }
 
  private:
   struct Boxed {
     const Body<D>* body;
-    Box<D> box;
+    double skin;
+    Box<D> box;  // with its skin
   };
 
   static void put(Body<D>& body, const BodyState& state) {
@@ -172,12 +174,13 @@ class Gauge {
   }
 
   // All pairs whose boxes overlap, by a sweep along x.
-  void look_at_pairs(const std::vector<Body<D>>& bodies, double skin, PileState& found) const {
-    const double margin = skin + kNearly;
+  void look_at_pairs(const std::vector<Body<D>>& bodies, const std::vector<double>& skins,
+                     PileState& found) const {
     std::vector<Boxed> sorted;
     for (const Body<D>& body : bodies) {
       const Box<D> box = body.box();
-      sorted.push_back({&body, {box.lo - Vec<D>(margin), box.hi + Vec<D>(margin)}});
+      const double skin = skins[*players_.index_of(body.id)];
+      sorted.push_back({&body, skin, {box.lo - (skin + kNearly), box.hi + (skin + kNearly)}});
     }
     std::ranges::sort(sorted, {}, [](const Boxed& b) { return b.box.lo.x; });
     double sum = 0;
@@ -186,15 +189,15 @@ class Gauge {
         const Boxed &a = sorted[i], &b = sorted[j];
         if (b.box.lo.x > a.box.hi.x) break;
         if ((!a.body->moves() && !b.body->moves()) || !overlap(a.box, b.box)) continue;
+        const double skin = a.skin + b.skin, margin = skin + kNearly;
         const auto manifold = collide<D>(placed(*a.body), placed(*b.body), margin);
         if (!manifold) continue;
-        double depth = -margin;
+        double depth = 0;
         for (const ManifoldPoint<D>& point : manifold->points())
-          depth = std::max(depth, -point.separation);
+          depth = std::max(depth, skin - point.separation);
         ++found.touching;
-        sum += std::max(0.0, depth);
+        sum += depth;
         found.deepest = std::max(found.deepest, depth);
-        found.deepest_skins = std::max(found.deepest_skins, depth + skin);
       }
     if (found.touching > 0) found.mean = sum / static_cast<double>(found.touching);
   }
@@ -242,8 +245,8 @@ Scenario pile_scene(const Pile& pile, double step, StructureKind structure) {
 
 PileGauge::PileGauge(const Pile& pile, const Scenario& scenario) {
   const auto gauge = [&]<int D>(std::integral_constant<int, D>) {
-    of_ = [g = std::make_shared<Gauge<D>>(pile, scenario)](const auto& states, double skin) {
-      return (*g)(states, skin);
+    of_ = [g = std::make_shared<Gauge<D>>(pile, scenario)](const auto& states, const auto& skins) {
+      return (*g)(states, skins);
     };
   };
   pile.dimension == 3 ? gauge(std::integral_constant<int, 3>())

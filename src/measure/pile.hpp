@@ -35,9 +35,8 @@ Scenario pile_scene(const Pile& pile, double step, StructureKind structure);
 
 // A pile at some moment, worked out from poses and velocities alone.
 struct PileState {
-  double deepest = 0;        // overlap of any two bodies, units
+  double deepest = 0;        // overlap of any two bodies, skins and all, units
   double mean = 0;           // of the pairs that touch, each by its deepest point
-  double deepest_skins = 0;  // of any two bodies with their skins on
   std::size_t touching = 0;  // pairs that touch, or nearly do
   double energy = 0;         // J, zero for bodies at rest on the floor's level
   std::size_t outside = 0;   // bodies whose centre has left the container
@@ -49,13 +48,14 @@ class PileGauge {
   // `scenario` is a pile_scene of `pile` and must outlive this.
   PileGauge(const Pile& pile, const Scenario& scenario);
 
-  // `skin`: how far apart the engine holds the surfaces of two bodies, units. All states finite.
-  PileState of(const std::vector<BodyState>& states, double skin) const {
-    return of_(states, skin);
+  // `skins`: how far the engine keeps others off each body's surface (Simulation::skin), units. All
+  // states finite.
+  PileState of(const std::vector<BodyState>& states, const std::vector<double>& skins) const {
+    return of_(states, skins);
   }
 
  private:
-  std::function<PileState(const std::vector<BodyState>&, double)> of_;
+  std::function<PileState(const std::vector<BodyState>&, const std::vector<double>&)> of_;
 };
 
 }  // namespace lantern::measure

@@ -30,16 +30,6 @@ constexpr std::uint64_t kWarmSteps = 5;
 constexpr std::string_view kUsualEfforts[] = {"soft:0.01", "soft:0.001", "soft:0.0001", "soft:8",
                                               "impulse:10"};
 
-// A solver that takes part, and how it sees a pile.
-struct Contestant {
-  std::unique_ptr<Solver> solver;
-
-  double skin(const Pile& pile) const {
-    // Box2D's polygons have a radius of two linear slops of 0.005; its circles have no other.
-    return solver->name().starts_with("Box2D") && !pile.balls ? 2 * (2 * 0.005) : 0;
-  }
-};
-
 // "Bullet" asks for all of its methods. No names ask for all.
 bool is_asked_for(const std::vector<std::string>& names, const Solver& solver) {
   return names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
@@ -54,19 +44,19 @@ std::unique_ptr<Solver> own(std::string_view name) {
   return std::make_unique<LanternSolver>(*method);
 }
 
-std::vector<Contestant> contestants(StepBenchResult& result) {
+std::vector<std::unique_ptr<Solver>> contestants(StepBenchResult& result) {
   const StepBenchConfig& config = result.config;
-  std::vector<Contestant> all;
+  std::vector<std::unique_ptr<Solver>> all;
   std::vector<std::string_view> names(config.only.begin(), config.only.end());
   if (names.empty()) names.assign(usual_efforts().begin(), usual_efforts().end());
   for (const std::string_view name : names)
-    if (auto mine = own(name)) all.push_back({std::move(mine)});
+    if (auto mine = own(name)) all.push_back(std::move(mine));
   if (config.peers)
     for (auto& peer : load_peers(result.missing))
-      if (is_asked_for(config.only, *peer)) all.push_back({std::move(peer)});
+      if (is_asked_for(config.only, *peer)) all.push_back(std::move(peer));
   for (const std::string& name : config.only)
     if (std::ranges::none_of(all,
-                             [&](const Contestant& c) { return is_asked_for({name}, *c.solver); }))
+                             [&](const auto& solver) { return is_asked_for({name}, *solver); }))
       throw Refused(fmt::format("there is no method of contacts and no engine '{}'", name));
   return all;
 }
@@ -79,16 +69,17 @@ bool is_finite_state(const BodyState& s) {
 // A pile on its way in one solver.
 class PileFall {
  public:
-  PileFall(const Contestant& contestant, const Pile& pile, const StepBenchConfig& config)
+  PileFall(const Solver& solver, const Pile& pile, const StepBenchConfig& config)
       : longest_(config.longest), scenario_(pile_scene(pile, kStepSeconds, config.structure)) {
     row_.pile = pile.name();
-    row_.solver = contestant.solver->name();
-    row_.version = contestant.solver->version();
-    row_.skin = contestant.skin(pile);
+    row_.solver = solver.name();
+    row_.version = solver.version();
     guarded([&] {
-      begun(contestant)->advance(kWarmSteps);
-      simulation_ = begun(contestant);
+      begun(solver)->advance(kWarmSteps);
+      simulation_ = begun(solver);
       gauge_.emplace(pile, scenario_);
+      for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
+        skins_.push_back(simulation_->skin(i));
       look();
     });
   }
@@ -135,8 +126,8 @@ class PileFall {
   }
 
  private:
-  std::unique_ptr<Simulation> begun(const Contestant& contestant) {
-    auto simulation = contestant.solver->start(scenario_, kStepSeconds);
+  std::unique_ptr<Simulation> begun(const Solver& solver) {
+    auto simulation = solver.start(scenario_, kStepSeconds);
     Insert all;
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) all.bodies.push_back(i);
     simulation->act(all);
@@ -160,7 +151,7 @@ class PileFall {
       row_.reason = "a state is not a number";
       return;
     }
-    row_.end = gauge_->of(states, row_.skin);
+    row_.end = gauge_->of(states, skins_);
     if (looks_.empty()) start_ = lowest_ = row_.end.energy;
     lowest_ = std::min(lowest_, row_.end.energy);
     row_.gained = std::max(row_.gained, (row_.end.energy - lowest_) / start_);
@@ -185,6 +176,7 @@ class PileFall {
   }
 
   double longest_;
+  std::vector<double> skins_;  // of each body
   Scenario scenario_;
   StepRow row_;
   std::unique_ptr<Simulation> simulation_;
@@ -252,15 +244,15 @@ std::vector<Pile> all_piles() {
 std::span<const std::string_view> usual_efforts() { return kUsualEfforts; }
 
 void bench_steps(StepBenchResult& result, const StepBenchWatch& watch) {
-  const std::vector<Contestant> all = contestants(result);
+  const std::vector<std::unique_ptr<Solver>> all = contestants(result);
   const auto turns = static_cast<std::size_t>(
       std::ceil(result.config.seconds * static_cast<double>(kTurnsASecond)));
   result.config.seconds = static_cast<double>(turns * kTurn) * kStepSeconds;
   for (const Pile& pile : result.config.piles) {
     const Scenario scenario = pile_scene(pile, kStepSeconds, result.config.structure);
     std::deque<PileFall> falls;
-    for (const Contestant& contestant : all)
-      if (!contestant.solver->cannot(scenario)) falls.emplace_back(contestant, pile, result.config);
+    for (const auto& solver : all)
+      if (!solver->cannot(scenario)) falls.emplace_back(*solver, pile, result.config);
     for (std::size_t turn = 0; turn < turns; ++turn) {
       watch(pile, static_cast<double>(turn) / static_cast<double>(turns));
       for (PileFall& fall : falls)
@@ -276,19 +268,14 @@ std::vector<StepComparison> compared(const StepBenchResult& result) {
     if (!peer.is_peer() || !peer.is_whole(result.config.seconds)) continue;
     const std::vector<OwnPoint> front = own_front(result, peer.pile);
     if (front.empty()) continue;
-    const auto add = [&](double deepest, bool skins) {
-      for (const double share : {1.0, 0.01}) {
-        StepComparison c = compared_at(share * deepest, front);
-        c.pile = peer.pile;
-        c.peer = peer.solver;
-        c.skins = skins;
-        c.of = share;
-        c.peer_ms = peer.mean;
-        all.push_back(std::move(c));
-      }
-    };
-    add(peer.end.deepest, false);
-    if (peer.skin > 0) add(peer.end.deepest_skins, true);
+    for (const double share : {1.0, 0.01}) {
+      StepComparison c = compared_at(share * peer.end.deepest, front);
+      c.pile = peer.pile;
+      c.peer = peer.solver;
+      c.of = share;
+      c.peer_ms = peer.mean;
+      all.push_back(std::move(c));
+    }
   }
   return all;
 }

@@ -35,7 +35,6 @@ struct StepRow {
   double mean = 0, median = 0, lower_quartile = 0, upper_quartile = 0;
   double last_second = 0;  // the mean
   double wall = 0;         // by the clock, the mean: much more than that if the machine is busy
-  double skin = 0;         // that the engine leaves between surfaces, units
   PileState end;
   double creep = 0;       // how far bodies moved in the last second, units: the mean
   double most_creep = 0;  // the farthest
@@ -73,7 +72,6 @@ void bench_steps(StepBenchResult& result, const StepBenchWatch& watch);
 // How long ours would need to be as exact as a peer at a pile.
 struct StepComparison {
   std::string pile, peer;
-  bool skins = false;  // the penetration is that of its shapes with their skins on
   double of = 1;       // the share of the peer's penetration that is asked for
   double deepest = 0;  // which is this, units
   double peer_ms = 0;  // its mean step
@@ -82,8 +80,7 @@ struct StepComparison {
   double ratio() const { return our_ms / peer_ms; }
 };
 
-// For each peer at each pile, at its penetration and at a hundredth of it; if it has a skin, at
-// both ways to take that. Only runs that came to
+// For each peer at each pile, at its penetration and at a hundredth of it. Only runs that came to
 // their end count. Between two of our efforts, logarithms of penetration and time are interpolated.
 std::vector<StepComparison> compared(const StepBenchResult& result);
 

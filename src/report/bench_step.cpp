@@ -24,10 +24,8 @@ void each_field(const StepRow& row, Visit&& visit) {
   visit(Field("upper_quartile", "upper_quartile_ms", "step_ms"), row.upper_quartile);
   visit(Field("last_second", "last_second_ms", "step_ms"), row.last_second);
   visit(Field("wall", "wall_ms", "step_ms"), row.wall);
-  visit(Field("skin"), row.skin);
   visit(Field("deepest"), row.end.deepest);
   visit(Field("mean_depth"), row.end.mean);
-  visit(Field("deepest_with_skins"), row.end.deepest_skins);
   visit(Field("touching_pairs"), row.end.touching);
   visit(Field("outside"), row.end.outside);
   visit(Field("creep"), row.creep);
@@ -44,7 +42,6 @@ template <class Visit>
 void each_field(const StepComparison& c, Visit&& visit) {
   visit(Field("pile"), c.pile);
   visit(Field("peer"), c.peer);
-  visit(Field("with_skins"), c.skins);
   visit(Field("of_its_penetration"), c.of);
   visit(Field("deepest"), c.deepest);
   visit(Field("peer_ms"), c.peer_ms);
@@ -66,10 +63,9 @@ std::string row_text(const StepRow& row, double seconds) {
   text += fmt::format(" {:>8.3g} {:>8.3g} {:>17} {:>8.3g} {:>8.3g}", row.mean, row.median,
                       fmt::format("{:.3g} - {:.3g}", row.lower_quartile, row.upper_quartile),
                       row.last_second, row.wall);
-  text += fmt::format(" {:>8} {:>8} {:>8} {:>8} {:>8} {:>6.1f}% {:>8}", depth_text(row.end.deepest),
-                      depth_text(row.end.mean),
-                      row.skin > 0 ? depth_text(row.end.deepest_skins) : "-", depth_text(row.creep),
-                      depth_text(row.most_creep), 100 * row.lost, depth_text(row.gained));
+  text += fmt::format(" {:>8} {:>8} {:>8} {:>8} {:>6.1f}% {:>8}", depth_text(row.end.deepest),
+                      depth_text(row.end.mean), depth_text(row.creep), depth_text(row.most_creep),
+                      100 * row.lost, depth_text(row.gained));
   if (row.status != Status::ok)
     text += fmt::format("  {}: {}", to_string(row.status), row.reason);
   else if (!row.is_whole(seconds))
@@ -92,8 +88,8 @@ std::string work_text(const StepRow& row) {
 
 std::string comparison_text(const StepComparison& c) {
   const std::string at =
-      fmt::format("  at {}{}'s penetration{} ({})", c.of == 1 ? "" : fmt::format("{:g} of ", c.of),
-                  c.peer, c.skins ? " with its skin" : "", depth_text(c.deepest));
+      fmt::format("  at {}{}'s penetration ({})", c.of == 1 ? "" : fmt::format("{:g} of ", c.of),
+                  c.peer, depth_text(c.deepest));
   if (c.our_ms == 0) return at + ": no effort of ours that came to the end is so exact\n";
   return fmt::format("{}: ours takes {:.3g} of its time ({:.3g} ms, {})\n", at, c.ratio(), c.our_ms,
                      c.by);
@@ -102,9 +98,9 @@ std::string comparison_text(const StepComparison& c) {
 std::string pile_text(const StepBenchResult& result, const std::string& pile,
                       const std::vector<StepComparison>& comparisons) {
   std::string times = fmt::format(
-      "{}\n  {:<16} {:>8} {:>8} {:>17} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>7} {:>8}\n",
-      pile, "ms a step", "mean", "median", "quartiles", "last s", "wall", "deepest", "mean",
-      "skinned", "creep", "most", "lost", "gained");
+      "{}\n  {:<16} {:>8} {:>8} {:>17} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>7} {:>8}\n", pile,
+      "ms a step", "mean", "median", "quartiles", "last s", "wall", "deepest", "mean", "creep",
+      "most", "lost", "gained");
   std::string work = fmt::format("  {:<16} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8}\n",
                                  "counted a step", "box tests", "pairs", "narrow", "points",
                                  "normal", "friction", "direct", "retries");
@@ -125,8 +121,8 @@ std::string pile_text(const StepBenchResult& result, const std::string& pile,
 constexpr std::string_view kMeanings =
     "ms a step: processor time of single steps; last s: mean of the last second; wall: mean by\n"
     "the clock.\n"
-    "deepest, mean: overlap of the shapes as the scene has them at the end, from poses, by our\n"
-    "narrow phase; skinned: the same with the skin that the engine keeps around its shapes.\n"
+    "deepest, mean: overlap at the end, from poses, by our narrow phase, of shapes with the skin\n"
+    "that the engine keeps around them.\n"
     "creep, most: how far bodies moved in the last second, mean and farthest. lost, gained:\n"
     "energy over that of the start; gained is the largest rise.\n";
 

@@ -11,6 +11,7 @@
 
 #include "draw/theme.hpp"
 #include "report/claims.hpp"
+#include "report/drift_plots.hpp"
 #include "report/html_plot.hpp"
 #include "report/html_style.hpp"
 #include "report/html_tables.hpp"
@@ -55,6 +56,10 @@ std::pair<std::size_t, std::size_t> same_runs(const Measurement& a, const Measur
     same += found->second == row.hash;
   }
   return {both, same};
+}
+
+bool has_no_points(const Plot& plot) {
+  return std::ranges::all_of(plot.series, [](const PlotSeries& s) { return s.points.empty(); });
 }
 
 class HtmlPage {
@@ -194,15 +199,14 @@ class HtmlPage {
     put("</ul></nav>\n");
   }
 
+  // As the first measurement that has an engine tells.
   void add_engines() {
-    if (std::ranges::none_of(cast_.methods, &MethodRows::is_peer)) return;
-    put("<div class=\"wide\"><table><caption>The other engines</caption><thead><tr><th>engine</th>"
-        "<th>version</th></tr></thead><tbody>\n");
-    for (const MethodRows& method : cast_.methods)
-      if (method.is_peer)
-        put("<tr class=\"m{}\"><td>{}</td><td>{}</td></tr>\n", cast_.number_of(method.method),
-            escaped(method.method), escaped(method.version));
-    put("</tbody></table></div>\n");
+    std::vector<PeerRecord> peers;
+    for (const Measurement& m : measurements_)
+      for (const PeerRecord& peer : m.peers)
+        if (std::ranges::find(peers, peer.name, &PeerRecord::name) == peers.end())
+          peers.push_back(peer);
+    if (!peers.empty()) put("{}", engines_table(peers, cast_));
   }
 
   void add_problem(std::size_t index) {
@@ -221,9 +225,13 @@ class HtmlPage {
       std::vector<Plot>& mine = plots.emplace_back();
       if (!rows) continue;
       auto [left, right] = plots_of(*rows, looks_);
-      mine = {std::move(left), std::move(right)};
+      mine = {std::move(left), std::move(right), {}, {}};
+      if (auto drift = drift_plots(*rows, looks_)) {
+        mine[2] = std::move(drift->error);
+        mine[3] = std::move(drift->energy);
+      }
     }
-    for (const std::size_t which : {0u, 1u}) add_figure(problem, which, plots);
+    for (std::size_t which = 0; which < 4; ++which) add_figure(problem, which, plots);
     put("</div>\n");
     add_legend(problem);
     put("{}{}</section>\n", best_table(problem, cast_), runs_table(problem, cast_));
@@ -238,6 +246,7 @@ class HtmlPage {
     for (std::size_t i = 0; i < problem.of.size(); ++i) {
       if (!problem.of[i]) continue;
       Plot& mine = plots[i][which];
+      if (mine.title.empty() || (which == 3 && has_no_points(mine))) continue;
       if (plot && mine.title != plot->title) {  // other runs, of which another plot says more
         only = fmt::format(" (without machine {})", machine_letter(i));
         continue;
@@ -251,6 +260,7 @@ class HtmlPage {
       plot->series.insert(plot->series.end(), mine.series.begin(), mine.series.end());
       if (mine.bands.size() > plot->bands.size()) plot->bands = mine.bands;
     }
+    if (!plot) return;
     put("<figure><figcaption><b>{}</b>{}<br>{}</figcaption>\n{}</figure>\n", escaped(plot->title),
         only, escaped(plot->y_name), svg_plot(*plot, classes));
   }

@@ -159,6 +159,25 @@ std::string runs_table(const SharedProblem& problem, const HtmlCast& cast) {
   return "<details><summary>All runs</summary>" + table.finished() + "</details>\n";
 }
 
+std::string engines_table(const std::vector<PeerRecord>& peers, const HtmlCast& cast) {
+  std::string text =
+      "<details><summary>How each engine was run</summary><div class=\"wide\"><table><thead><tr>";
+  for (const char* name : {"engine", "version", "precision", "integrator", "solver", "iterations",
+                           "joints", "flags", "recommended by"})
+    text += fmt::format("<th>{}</th>", name);
+  text += "</tr></thead><tbody>\n";
+  for (const PeerRecord& peer : peers) {
+    if (cast.number_of(peer.name) == cast.methods.size()) continue;
+    text += fmt::format("<tr class=\"m{}\">", cast.number_of(peer.name));
+    const PeerSettings& s = peer.settings;
+    for (const std::string* words : {&peer.name, &peer.version, &s.precision, &s.integrator,
+                                     &s.solver, &s.iterations, &s.joints, &s.flags, &s.source})
+      text += fmt::format("<td>{}</td>", escaped(*words));
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div></details>\n";
+}
+
 std::string bars_table(const std::vector<Bar>& bars) {
   std::string text =
       "<div class=\"wide\"><table><thead><tr><th>bound</th><th class=\"n\">measured</th>"

@@ -34,6 +34,8 @@ struct SharedProblem {
 std::string best_table(const SharedProblem& problem, const HtmlCast& cast);
 // All runs, folded away.
 std::string runs_table(const SharedProblem& problem, const HtmlCast& cast);
+// How the other engines were run. Those without a method on the page are left out.
+std::string engines_table(const std::vector<PeerRecord>& peers, const HtmlCast& cast);
 std::string bars_table(const std::vector<Bar>& bars);
 
 }  // namespace lantern::report

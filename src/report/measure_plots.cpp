@@ -67,19 +67,6 @@ void add_slopes(const std::set<int>& orders, Plot& plot) {
   for (const int order : orders) plot.slopes.push_back({kPowers[order - 1], -1.0 * order});
 }
 
-// Far-off errors go to the edge too, if there are others.
-void send_far_ones_off(Plot& plot) {
-  const auto far = [](const PlotPoint& p) { return p.at.y > kFarOff; };
-  bool any_near = false, any_far = false;
-  for (const PlotSeries& s : plot.series)
-    for (const PlotPoint& p : s.points)
-      if (!p.beyond) (far(p) ? any_far : any_near) = true;
-  if (!any_near || !any_far) return;
-  for (PlotSeries& s : plot.series)
-    for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
-  plot.beyond += ", or beyond 1000";
-}
-
 // What the strip at the edge is called: by how runs failed.
 std::string failure_words(const ProblemRows& problem) {
   const auto any = [&](Status status) {
@@ -87,19 +74,6 @@ std::string failure_words(const ProblemRows& problem) {
   };
   if (!any(Status::collapsed)) return "diverged";
   return any(Status::diverged) || any(Status::nan) ? "diverged or collapsed" : "collapsed";
-}
-
-// "error: state (“traj”), against: closed form", with the unit of what is not relative.
-std::string error_words(const ProblemRows& problem) {
-  const std::string norm = main_norm(problem);
-  std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
-  if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
-  const auto with_norm = std::ranges::find_if(
-      problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
-  if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
-  for (const Row& row : problem.rows)
-    if (!row.reference.empty()) return words + ", against: " + row.reference;
-  return words;
 }
 
 Plot left_plot(const ProblemRows& problem, const Looks& looks) {
@@ -133,13 +107,31 @@ Plot right_plot(const ProblemRows& problem, const Looks& looks) {
   return plot;
 }
 
-std::vector<LegendEntry> legend_of(const Plot& plot) {
-  std::vector<LegendEntry> entries;
-  for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
-  return entries;
+}  // namespace
+
+void send_far_ones_off(Plot& plot) {
+  const auto far = [](const PlotPoint& p) { return p.at.y > kFarOff; };
+  bool any_near = false, any_far = false;
+  for (const PlotSeries& s : plot.series)
+    for (const PlotPoint& p : s.points)
+      if (!p.beyond) (far(p) ? any_far : any_near) = true;
+  if (!any_near || !any_far) return;
+  for (PlotSeries& s : plot.series)
+    for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
+  plot.beyond += ", or beyond 1000";
 }
 
-}  // namespace
+std::string error_words(const ProblemRows& problem) {
+  const std::string norm = main_norm(problem);
+  std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
+  if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
+  const auto with_norm = std::ranges::find_if(
+      problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
+  if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
+  for (const Row& row : problem.rows)
+    if (!row.reference.empty()) return words + ", against: " + row.reference;
+  return words;
+}
 
 std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks) {
   if (!has_whole_errors(problem)) return {left_plot(problem, looks), right_plot(problem, looks)};
@@ -288,19 +280,7 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
                      circumstances_text(measurement.circumstances), kPlotMargin, list, labels) -
       18;
   auto [left, right] = plots_of(problem, looks);
-  const double width = list.page.x - 2 * kPlotMargin, middle = kPlotMargin + width / 2, gap = 48;
-  Box<2> left_panel{{kPlotMargin, 96}, {middle - gap / 2, bottom - 12}};
-  if (!names_its_lanes(left, left_panel)) {
-    const std::vector<LegendEntry> legend = legend_of(left);
-    const double height = std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - 96));
-    draw_plot_legend(legend, {{kPlotMargin, bottom - height}, {kPlotMargin + width, bottom}},
-                     kLabel, list, labels);
-    left_panel.hi.y -= height;
-    left.names = PlotNames::none;
-  }
-  right.names = PlotNames::none;
-  draw_plot(left, left_panel, list, labels);
-  draw_plot(right, {{middle + gap / 2, 96}, {kPlotMargin + width, left_panel.hi.y}}, list, labels);
+  draw_plot_pair(std::move(left), std::move(right), bottom, kPlotMargin, list, labels);
   return list;
 }
 

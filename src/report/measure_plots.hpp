@@ -35,6 +35,12 @@ std::string problem_words(const ProblemRows& problem);
 // The scenario's file, without its folder.
 std::string file_name(const ProblemRows& problem);
 
+// "error: state (“traj”), against: closed form", with the unit of what is not relative.
+std::string error_words(const ProblemRows& problem);
+
+// Far-off values go to the upper edge too, if there are others.
+void send_far_ones_off(Plot& plot);
+
 // A method as a line of a plot, without points. `looks` must hold it (looks_of).
 PlotSeries series_of(const MethodRows& method, const Looks& looks);
 

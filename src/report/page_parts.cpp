@@ -1,5 +1,7 @@
 #include "report/page_parts.hpp"
 
+#include <algorithm>
+
 #include "draw/draw_list.hpp"
 #include "draw/font.hpp"
 
@@ -16,6 +18,12 @@ std::vector<std::string> lines_of(const std::string& text, double width, const T
   lines.resize(kMostFootLines);
   lines.back() = shortened(lines.back() + " …", width, style);
   return lines;
+}
+
+std::vector<LegendEntry> legend_of(const Plot& plot) {
+  std::vector<LegendEntry> entries;
+  for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
+  return entries;
 }
 
 }  // namespace
@@ -63,6 +71,25 @@ double draw_page_foot(const std::string& sentence, const std::vector<std::string
   labels.add(shortened(small, width, quiet), {{margin, list.page.y - 26}, 0}, quiet, band);
   list.crisp_line({margin, top}, {list.page.x - margin, top}, {Role::rule, 1.6});
   return top;
+}
+
+void draw_plot_pair(Plot left, Plot right, double bottom, double margin, DrawList& list,
+                    Labels& labels) {
+  constexpr double kTop = 96, kGap = 48;
+  const double width = list.page.x - 2 * margin, middle = margin + width / 2;
+  Box<2> left_panel{{margin, kTop}, {middle - kGap / 2, bottom - 12}};
+  if (!names_its_lanes(left, left_panel)) {
+    const std::vector<LegendEntry> legend = legend_of(left);
+    const double height =
+        std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - kTop));
+    draw_plot_legend(legend, {{margin, bottom - height}, {margin + width, bottom}}, kLabel, list,
+                     labels);
+    left_panel.hi.y -= height;
+    left.names = PlotNames::none;
+  }
+  right.names = PlotNames::none;
+  draw_plot(left, left_panel, list, labels);
+  draw_plot(right, {{middle + kGap / 2, kTop}, {margin + width, left_panel.hi.y}}, list, labels);
 }
 
 }  // namespace lantern::report

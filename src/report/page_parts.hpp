@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "draw/labels.hpp"
+#include "draw/plot.hpp"
 
 namespace lantern::report {
 
@@ -17,5 +18,10 @@ void draw_page_title(const std::string& title, const std::string& rest, double m
 // smaller type if it needs more than two; so have the notes. Gives the y of the rule above it.
 double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
                       const std::string& small, double margin, DrawList& list, Labels& labels);
+
+// Two plots of the same series side by side, from below the title to `bottom`, with one legend
+// below, unless the left one names its lanes.
+void draw_plot_pair(Plot left, Plot right, double bottom, double margin, DrawList& list,
+                    Labels& labels);
 
 }  // namespace lantern::report

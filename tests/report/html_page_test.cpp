@@ -154,6 +154,16 @@ TEST(HtmlPage, TwoMachinesLieInOnePlotAndTheirStatesAreCompared) {
   EXPECT_EQ(html, to_html(both, {}));
 }
 
+TEST(HtmlPage, TellsHowEnginesWereRun) {
+  Measurement m = samples::measurement(1);
+  m.peers = {{"ODE", "0.16.2", {}}, {"Nobody", "1", {}}};
+  m.peers[0].settings.flags = "<some>";
+  const std::string html = to_html(std::span(&m, 1), {});
+  check(html);
+  EXPECT_NE(html.find("&lt;some&gt;"), std::string::npos);
+  EXPECT_EQ(html.find("Nobody"), std::string::npos);
+}
+
 TEST(HtmlPage, FailedRunsAndQuartilesAreSeen) {
   const Measurement m = samples::measurement(1);
   const std::string html = to_html(std::span(&m, 1), {});

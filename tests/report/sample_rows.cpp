@@ -63,7 +63,11 @@ Row run(const Problem& problem, const Method& method, double h, Random& random) 
   row.step = h;
   row.norms = {{problem.kind == 1 ? "depth" : "traj", error + floor * random.unit(),
                 problem.kind == 1 ? "units" : "1", "largest error over the run"}};
-  if (problem.kind == 0) row.drift.energy = 0.1 * error;
+  if (problem.kind == 0) {
+    row.drift.energy = 0.1 * error;
+    for (const double share : {0.1, 0.2, 0.5, 1.0})
+      row.samples.push_back({share * problem.seconds, share * error, share * *row.drift.energy});
+  }
   const bool contacts = problem.kind == 1;
   const double each = method.evaluations > 0 ? 60e-9 + 25e-9 * method.evaluations : 900e-9;
   row.counted.steps = static_cast<std::uint64_t>(steps);
