@@ -30,14 +30,9 @@ constexpr std::uint64_t kWarmSteps = 5;
 constexpr std::string_view kUsualEfforts[] = {"soft:0.01", "soft:0.001", "soft:0.0001", "soft:8",
                                               "impulse:10"};
 
-// A solver that takes part, and how it sees a pile.
+// A solver that takes part.
 struct Contestant {
   std::unique_ptr<Solver> solver;
-
-  double skin(const Pile& pile) const {
-    // Box2D's polygons have a radius of two linear slops of 0.005; its circles have no other.
-    return solver->name().starts_with("Box2D") && !pile.balls ? 2 * (2 * 0.005) : 0;
-  }
 };
 
 // "Bullet" asks for all of its methods. No names ask for all.
@@ -84,10 +79,11 @@ class PileFall {
     row_.pile = pile.name();
     row_.solver = contestant.solver->name();
     row_.version = contestant.solver->version();
-    row_.skin = contestant.skin(pile);
     guarded([&] {
       begun(contestant)->advance(kWarmSteps);
       simulation_ = begun(contestant);
+      for (std::size_t i = 0; i < scenario_.bodies.size(); ++i)
+        row_.skin = std::max(row_.skin, 2 * simulation_->skin(i));
       gauge_.emplace(pile, scenario_);
       look();
     });
