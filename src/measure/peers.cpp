@@ -9,7 +9,6 @@
 #include "base/library.hpp"
 #include "geometry/flat.hpp"
 #include "measure/peer.hpp"
-#include "measure/schedule.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern::measure {
@@ -91,8 +90,6 @@ std::optional<std::string> only_lantern_can(const Scenario& scenario) {
   }
   if (!scenario.problem && !only_watches(scenario.steps))
     return "its script changes bodies on their way";
-  if (scenario.problem && !Schedule::of(scenario).legs.front().before.empty())
-    return "its script pushes bodies";
   return std::nullopt;
 }
 
