@@ -71,7 +71,7 @@ void write(JsonWriter& json, const Verdict& v) {
   json.end_object();
 }
 
-std::string listed(const std::vector<std::string>& facts) {
+std::string joined_facts(const std::vector<std::string>& facts) {
   std::string all;
   for (const std::string& fact : facts) all += "; " + fact;
   return all;
@@ -95,7 +95,7 @@ int check_command(const CheckOptions& options) {
     write(json, v);
     if (v.code == kGood && !options.json)
       say(fmt::format("{}: good; {} frames, {} expectations hold{}{}", file, v.report.frames,
-                      v.report.expectations, listed(v.facts), counted(v.warnings)));
+                      v.report.expectations, joined_facts(v.facts), counted(v.warnings)));
   }
   json.line().end_array().line().key("work");
   write(json, work);

@@ -90,11 +90,22 @@ std::string front_words(const ProblemRows& problem) {
   if (!is_timed(true) || !is_timed(false) || has_whole_errors(problem)) return "";
   const std::vector<PeerRange> ranges = peer_ranges(problem);
   if (ranges.empty()) return "At every error the quickest run is one of Lantern's.";
-  std::vector<std::string> words;
-  for (const PeerRange& range : ranges)
-    words.push_back(fmt::format("{}{} ({})", figure(range.from),
-                                std::isfinite(range.to) ? " to " + figure(range.to) : " on",
-                                listed(range.names)));
+  const auto stretch = [](double from, double to) {
+    return figure(from) + (std::isfinite(to) ? " to " + figure(to) : " on");
+  };
+  constexpr std::size_t kMostStretches = 3;
+  std::vector<std::string> words, names;
+  for (const PeerRange& range : ranges) {
+    words.push_back(fmt::format("{} ({})", stretch(range.from, range.to), listed(range.names)));
+    for (const std::string& name : range.names)
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  if (ranges.size() > kMostStretches)
+    return fmt::format(
+        "Peers' runs ({}) and Lantern's are the quickest by turns at errors from {}, a peer's in "
+        "{} "
+        "stretches.",
+        listed(names), stretch(ranges.front().from, ranges.back().to), ranges.size());
   return fmt::format("A peer's run is the quickest at errors from {}.", listed(words));
 }
 

@@ -88,14 +88,14 @@ TEST_F(Peers, RunOrRefuseEveryScenario) {
     for (const auto& entry : fs::directory_iterator(std::string(LANTERN_ROOT) + folder)) {
       if (entry.path().extension() != ".toml") continue;
       const Scenario s = load_scenario(entry.path());
-      if (s.bodies.size() > 300) continue;  // more of the same, and slow
+      if (s.bodies.size() > 60) continue;  // more of the same, and slow
       for (const auto& peer : found_) {
         SCOPED_TRACE(s.name + " by " + peer->name());
         if (const auto reason = peer->cannot(s)) {
           EXPECT_FALSE(reason->empty());
           continue;
         }
-        if (s.bodies.size() > 300) continue;
+        if (s.bodies.size() > 60) continue;
         try {
           const auto simulation = peer->start(s, s.problem ? s.problem->step : s.world.time_step);
           simulation->advance(3);

@@ -143,6 +143,15 @@ TEST(Front, SaysAtWhichErrorsAPeerIsTheQuickest) {
   ASSERT_EQ(several.size(), 1u);
   EXPECT_EQ(several[0].names, (std::vector<std::string>{"A", "B"}));
   EXPECT_EQ(front_words(problem({own_at(1, 1)})), "") << "there is nothing to compare";
+  std::vector<Row> by_turns;
+  for (int i = 1; i <= 4; ++i) {
+    by_turns.push_back(own_at(std::pow(0.1, 2 * i), i));
+    by_turns.push_back(peer_at("A", std::pow(0.1, 2 * i + 1), i + 0.5));
+  }
+  EXPECT_EQ(
+      front_words(problem(by_turns)),
+      "Peers' runs (A) and Lantern's are the quickest by turns at errors from 1e-9 to 0.01, a "
+      "peer's in 4 stretches.");
 }
 
 TEST(Front, ACollapsedRunIsNeverOnIt) {
