@@ -9,7 +9,7 @@
 
 namespace lantern::measure {
 
-// Names of the files of scenarios/problems/, in alphabetical order.
+// Names of the files of scenarios/problems/ and of its crowds/, in alphabetical order.
 std::vector<std::string_view> problem_names();
 
 // One of them; it must be there.

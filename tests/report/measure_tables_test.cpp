@@ -204,13 +204,17 @@ TEST(MeasureCsv, EveryRecordHasEveryFieldAndReadsBack) {
 
 TEST(MeasureCsv, DriftHasARecordForEachSample) {
   const auto records = read_csv(drift_csv(awkward()));
-  ASSERT_EQ(records.size(), 3u);
+  std::size_t samples = 0;
+  for (const auto& row : awkward().rows) samples += row.samples.size();
+  ASSERT_EQ(records.size(), 1 + samples);
   EXPECT_EQ(records[0].back(), "energy");
   for (const auto& record : records) ASSERT_EQ(record.size(), records[0].size());
-  EXPECT_EQ(records[1][4], "0.10000000000000001");
-  EXPECT_EQ(records[1][6], "0.25");
-  EXPECT_EQ(records[2][5], "") << "NaN is an empty field";
-  EXPECT_EQ(records[2][6], "");
+  const auto any = [&](const auto& is) { return std::ranges::any_of(records, is); };
+  EXPECT_TRUE(any([](const auto& record) {
+    return record[4] == "0.10000000000000001" && record[6] == "0.25";
+  })) << "numbers are whole";
+  EXPECT_TRUE(any([](const auto& record) { return record[5].empty() && record[6].empty(); }))
+      << "NaN is an empty field";
 }
 
 TEST(MeasureCsv, CircumstancesAreKeysAndValues) {
