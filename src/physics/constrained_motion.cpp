@@ -198,10 +198,9 @@ Outcome try_to_move(Island<D>& island, const WorldConfig<D>& config, Attempt att
   const double turning = parts_of_turning(island, h);
   if (turning > kJointSettings.most_parts) return Outcome::failed;
   attempt.parts = static_cast<int>(turning);
-  std::vector<Body<D>> start;  // kept where there are several parts, or several attempts
-  if (attempt.parts > 1) start = island.bodies;
+  const std::vector<Body<D>> start = island.bodies;
   std::vector<Vec<D>> impulses;
-  for (double swing = 0;;) {
+  for (double swing = 0;; island.bodies = start) {
     impulses.assign(island.joints.size(), Vec<D>(0.0));
     int moved = 0;
     for (; moved < attempt.parts; ++moved) {
@@ -216,11 +215,10 @@ Outcome try_to_move(Island<D>& island, const WorldConfig<D>& config, Attempt att
       part.add_impulses(impulses);
     }
     if (moved == attempt.parts) break;
-    if (start.empty())
-      start = island.bodies;
-    else
+    if (!attempt.go_on(h, swing)) {
       island.bodies = start;
-    if (!attempt.go_on(h, swing)) return Outcome::failed;
+      return Outcome::failed;
+    }
   }
   if (attempt.parts > 1) work.sub_steps += static_cast<std::uint64_t>(attempt.parts);
   for (std::size_t i = 0; i < impulses.size(); ++i) island.joints[i].impulse = impulses[i];
