@@ -83,7 +83,7 @@ TEST(StressCommand, AFolderThatCannotBeWrittenIsFoundOutBeforeTheWork) {
 TEST(StressCommand, CtrlCKeepsWhatIsFinished) {
   const fs::path out = fresh_folder("stress_cut");
   const Outcome o = shell(
-      "timeout --preserve-status -s INT 0.7 " LANTERN_BINARY " stress --full -o " + out.string());
+      "timeout --preserve-status -s INT 2.5 " LANTERN_BINARY " stress --full -o " + out.string());
   EXPECT_EQ(o.code, 130) << o.err;
   const json report = json::parse(read_text(out / "stress.json"));
   EXPECT_FALSE(report["finished"]);
