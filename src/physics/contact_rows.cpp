@@ -162,9 +162,7 @@ void ContactRows<D>::solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body
     const double before = p.pn;
     p.pn = std::max(before - (parting + p.gap / h) / p.inverse_normal_mass, 0.0);
     apply<D>(p, normal * (p.pn - before), body_a, body_b);
-    const double change = std::abs(p.pn - before);
-    sweep.change = std::max(sweep.change, change);
-    sweep.speed = std::max(sweep.speed, change * p.inverse_normal_mass);
+    sweep.change = std::max(sweep.change, std::abs(p.pn - before));
     sweep.largest = std::max(sweep.largest, p.pn);
     ++sweep.normal_rows;
   }
@@ -179,9 +177,7 @@ void ContactRows<D>::solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body
     if (length > most) p.pt *= most / length;
     const Vec<D> impulse = p.pt - before;
     apply(p, impulse, body_a, body_b);
-    const double change = glm::length(impulse);
-    sweep.change = std::max(sweep.change, change);
-    sweep.speed = std::max(sweep.speed, change * p.inverse_tangent_mass);
+    sweep.change = std::max(sweep.change, glm::length(impulse));
     sweep.friction_rows += D - 1;
   }
 }
@@ -227,9 +223,7 @@ void ContactRows<D>::correct_positions(SolverBody<D>& body_a, SolverBody<D>& bod
     const double least = p.bounce > 0 ? 0 : -p.pn;
     p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
     correct<D>(p, normal * (p.correction - before), body_a, body_b);
-    const double change = std::abs(p.correction - before);
-    sweep.change = std::max(sweep.change, change);
-    sweep.speed = std::max(sweep.speed, change * p.inverse_normal_mass);
+    sweep.change = std::max(sweep.change, std::abs(p.correction - before));
     ++sweep.normal_rows;
   }
   for (ContactPoint<D>& p : points()) {
@@ -237,9 +231,7 @@ void ContactRows<D>::correct_positions(SolverBody<D>& body_a, SolverBody<D>& bod
     const Vec<D> slip = across(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
     const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
     correct(p, impulse, body_a, body_b);
-    const double change = glm::length(impulse);
-    sweep.change = std::max(sweep.change, change);
-    sweep.speed = std::max(sweep.speed, change * p.inverse_tangent_mass);
+    sweep.change = std::max(sweep.change, glm::length(impulse));
     sweep.friction_rows += D - 1;
   }
 }

@@ -81,7 +81,6 @@ struct ContactPoint {
 // What one sweep did.
 struct Sweep {
   double change = 0;   // largest change of an impulse
-  double speed = 0;    // largest change of a relative velocity along a row
   double largest = 0;  // largest impulse
   // How many were solved.
   std::uint64_t normal_rows = 0;

@@ -66,8 +66,7 @@ void JointRows<D>::warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b) {
 
 template <int D>
 void JointRows<D>::solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, Sweep& sweep) {
-  const Vec<D> lacking = -relative_velocity(body_a, arm_a, body_b, arm_b);
-  const Vec<D> gained = impulse_for(*this, lacking);
+  const Vec<D> gained = impulse_for(*this, -relative_velocity(body_a, arm_a, body_b, arm_b));
   impulse += gained;
   body_a.apply(-gained, arm_a);
   body_b.apply(gained, arm_b);

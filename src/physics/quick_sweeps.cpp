@@ -33,8 +33,7 @@ void QuickSweeps<D>::gather(const SubStep<D>& step) {
   bodies_.clear();
   for (const SolverBody<D>& body : island.solver_bodies)
     bodies_.push_back({{body.velocity, body.spin}, {}, {}, {}});
-  const bool first = contacts_.empty();
-  if (first)
+  if (contacts_.empty())
     contacts_.resize(static_cast<std::size_t>(std::ranges::count_if(
         island.pairs, [](const IslandPair<D>& pair) { return pair.rows.count > 0; })));
   auto next = contacts_.begin();
