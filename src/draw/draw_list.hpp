@@ -78,10 +78,38 @@ struct LabelBox {
   std::string text;
 };
 
+// What a run of shapes shows. The same key on the next frame is the same thing: it stands still or
+// glides there. One that is new comes out of `from`, and one that is gone goes back into it.
+struct KeyedRun {
+  std::string key;        // "world/body/blue", "tree/node/1.3"; empty: of the page
+  std::string from;       // another key, or empty: it appears where it stands
+  std::size_t first = 0;  // of `shapes`; it reaches to the next run's
+};
+
 struct DrawList {
   Vec<2> page{1600.0, 900.0};
   std::vector<DrawShape> shapes;
   std::vector<LabelBox> labels;
+  std::vector<KeyedRun> runs;  // in the order of the shapes
+
+  // What follows shows this, until the scope ends; then what was shown before goes on.
+  class Scope {
+   public:
+    Scope(DrawList& list, std::string key, std::string from = {}) : list_(list) {
+      if (!list.runs.empty()) before_ = {list.runs.back().key, list.runs.back().from, 0};
+      list.runs.push_back({std::move(key), std::move(from), list.shapes.size()});
+    }
+    ~Scope() {
+      before_.first = list_.shapes.size();
+      list_.runs.push_back(std::move(before_));
+    }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    DrawList& list_;
+    KeyedRun before_;
+  };
 
   void line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke) {
     shapes.emplace_back(LineShape{from, to, stroke, false});
