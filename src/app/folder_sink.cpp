@@ -69,7 +69,8 @@ FolderSink::FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace
 void FolderSink::frame(const Frame& frame) {
   all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
   if (selection_.takes(frame)) take(frame);
-  if (scenario_.atlas && frame.step + 1 == frame.steps) last_ = frame;
+  // Of sides each has an atlas of its own, and none is the scenario's.
+  if (scenario_.atlas && scenario_.sides.empty() && frame.step + 1 == frame.steps) last_ = frame;
 }
 
 void FolderSink::finish(const DirectorReport& report) {

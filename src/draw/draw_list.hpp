@@ -91,12 +91,15 @@ struct DrawList {
   std::vector<DrawShape> shapes;
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes
+  std::string prefix;          // of the keys to come: "eager/" while that side is drawn
 
   // What follows shows this, until the scope ends; then what was shown before goes on.
   class Scope {
    public:
     Scope(DrawList& list, std::string key, std::string from = {}) : list_(list) {
       if (!list.runs.empty()) before_ = {list.runs.back().key, list.runs.back().from, 0};
+      for (std::string* name : {&key, &from})
+        if (!name->empty()) name->insert(0, list.prefix);
       list.runs.push_back({std::move(key), std::move(from), list.shapes.size()});
     }
     ~Scope() {

@@ -44,6 +44,7 @@ Counter counted(std::int64_t number, const char* one, const char* many) {
 
 // Two at most; the first is the main one.
 std::vector<Counter> counters_of(const Frame& frame) {
+  if (!frame.sides.empty()) return {};  // each counts under itself
   const auto count = [&](const char* name) { return frame.count(name).value_or(0); };
   if (!frame.textures.empty()) {
     const std::int64_t used = count("used_area");

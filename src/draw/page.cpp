@@ -6,6 +6,7 @@
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
 #include "draw/panels.hpp"
+#include "draw/sides_view.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -163,7 +164,12 @@ std::vector<Box<2>> arranged(const Frame& frame, Box<2> area) {
 void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels& labels,
                  Work& work) {
   if (frame.panels.empty()) return;
-  const bool tall = list.page.x / list.page.y < kStackBelow;
+  if (!frame.sides.empty())
+    return draw_sides(frame, area, list, labels, [&](const Frame& side, const Box<2>& place) {
+      draw_panels(side, place, list, labels, work);
+    });
+  const Vec<2> whole = frame.side.empty() ? list.page : area.size();
+  const bool tall = whole.x / whole.y < kStackBelow;
   const std::vector<Box<2>> boxes = tall                 ? stacked(frame.panels, area)
                                     : wants_stack(frame) ? over_its_chart(frame, area)
                                                          : arranged(frame, area);

@@ -5,6 +5,7 @@
 
 #include "scenario/caption.hpp"
 #include "scenario/script_reading.hpp"
+#include "scenario/table_side.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -133,11 +134,16 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
       return note_body_measure({std::string(name), step.place("caption")}, draft);
     return kind_of(name) != Placeholder::unknown && why_not_counted(name, draft, state).empty();
   };
-  const auto known_here = [&](std::string_view name) {
+  // What is said of another side is checked when that one is read.
+  const auto known_here = [&](std::string_view written) {
+    const std::string_view side = side_of(written, draft.sides);
+    const std::string_view name = within_side(written, draft.sides);
+    if (!side.empty() && side != draft.scenario.side) return Placeholder::count;
     return can_be_quoted(name) ? kind_of(name) : Placeholder::unknown;
   };
-  for (const CaptionProblem& p : caption_problems(caption, known_here)) {
+  for (CaptionProblem& p : caption_problems(caption, known_here)) {
     const Place where = place_within(draft.text, step.place("caption"), caption, p.offset);
+    p.unknown = std::string(within_side(p.unknown, draft.sides));
     if (!p.message.empty())
       draft.problems.add(where, "in the caption: " + p.message,
                          "write {{ and }} for the braces themselves");
@@ -177,8 +183,12 @@ bool note_body_measure(const Named& name, Draft& draft) {
   const CountDoc* doc = find_in(known_body_measures(), measure);
   if (!doc) {
     draft.problems.add(
-        name.where, fmt::format("there is no measure {} of a body", in_quotes(measure)), [measure] {
-          std::vector<std::string_view> known;
+        name.where,
+        draft.sides.empty()
+            ? fmt::format("there is no measure {} of a body", in_quotes(measure))
+            : fmt::format("there is no side {0}, and no measure {0} of a body", in_quotes(measure)),
+        [measure, &sides = draft.sides] {
+          std::vector<std::string_view> known(sides.begin(), sides.end());
           for (const CountDoc& k : known_body_measures()) known.push_back(k.name);
           return nearest(measure, known);
         });

@@ -5,6 +5,7 @@
 #include "base/stop.hpp"
 #include "scenario/event_text.hpp"
 #include "scenario/script_run.hpp"
+#include "scenario/sides_run.hpp"
 
 namespace lantern::scenario {
 
@@ -72,32 +73,33 @@ void act(const V& verb, ScriptRun& run) {
   }
 }
 
-void play(ScriptRun& run) {
-  std::uint32_t index = 0;
-  for (const Step& step : run.scenario.steps) {
-    stop_if_asked();
-    run.frames.begin(step, index++);
-    if (run.watch) run.watch->begin(step);
-    if (run.stage.engine) run.engine().forget_events();
-    try {
-      std::visit([&](const auto& verb) { act(verb, run); }, step.verb);
-    } catch (const Refused& refused) {
-      throw ScenarioError(diagnose(run.scenario, step.where, refused.what()));
-    }
-    if (run.frames.stopped()) break;
+}  // namespace
+
+void ScriptRun::play(const Step& step, std::uint32_t index) {
+  stop_if_asked();
+  frames.begin(step, index);
+  if (watch) watch->begin(step);
+  if (stage.engine) engine().forget_events();
+  try {
+    std::visit([&](const auto& verb) { act(verb, *this); }, step.verb);
+  } catch (const Refused& refused) {
+    throw ScenarioError(diagnose(scenario, step.where, refused.what()));
   }
 }
 
-}  // namespace
-
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
                       const std::function<bool(const Frame&)>& sink, RunWatch* watch) {
+  if (!scenario.sides.empty()) return direct_sides(scenario, pace, work, sink, watch);
   const std::function<bool(const Frame&)> watched = [&](const Frame& frame) {
     watch->see(frame);
     return sink(frame);
   };
   ScriptRun run(scenario, pace, work, watch ? watched : sink, watch);
-  play(run);
+  std::uint32_t index = 0;
+  for (const Step& step : scenario.steps) {
+    run.play(step, index++);
+    if (run.frames.stopped()) break;
+  }
   DirectorReport report = run.frames.take_report();
   if (run.stage.engine) report.world = run.engine().world_work();
   return report;

@@ -56,6 +56,7 @@ struct Draft {
   Names bodies;
   Names textures;
   std::vector<Follower> followers;
+  std::vector<std::string> sides;  // all sides' names, of which the scenario is one; mostly none
 
   SourcePosition position(Place where) const { return {scenario.file, where.line, where.column}; }
 

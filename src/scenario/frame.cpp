@@ -1,5 +1,7 @@
 #include "scenario/frame.hpp"
 
+#include <algorithm>
+
 #include "base/hash.hpp"
 
 namespace lantern::scenario {
@@ -22,6 +24,16 @@ void add(Hash& hash, const FrameBody& body, int dimension) {
   add(hash, body.angular_momentum, dimension);
 }
 
+// What `get` finds in the side that the name begins with.
+template <class Get>
+auto in_side(const Frame& frame, std::string_view name, const Get& get)
+    -> decltype(get(frame, name)) {
+  const std::size_t dot = name.find('.');
+  const Frame* side =
+      dot == std::string_view::npos ? nullptr : frame.side_named(name.substr(0, dot));
+  return side ? get(*side, name.substr(dot + 1)) : std::nullopt;
+}
+
 template <class V>
 std::optional<V> value_of(std::string_view name,
                           const std::vector<std::pair<std::string, V>>& list) {
@@ -35,6 +47,7 @@ std::optional<V> value_of(std::string_view name,
 std::uint64_t state_hash(const Frame& frame) {
   Hash hash;
   hash.add(frame.time);
+  for (const Frame& side : frame.sides) hash.add(side.hash);
   for (const FrameBody& body : frame.bodies) add(hash, body, frame.dimension);
   for (const FrameNode& n : frame.nodes) {
     hash.add(std::uint64_t{n.parent}).add(std::uint64_t{n.slot}).add(std::uint64_t{n.leaf});
@@ -50,11 +63,20 @@ std::uint64_t state_hash(const Frame& frame) {
   return hash.value();
 }
 
+const Frame* Frame::side_named(std::string_view name) const {
+  const auto found = std::ranges::find(sides, name, &Frame::side);
+  return found == sides.end() ? nullptr : &*found;
+}
+
 std::optional<std::int64_t> Frame::count(std::string_view name) const {
+  if (!sides.empty())
+    return in_side(*this, name, [](const Frame& f, std::string_view n) { return f.count(n); });
   return value_of(name, counts);
 }
 
 std::optional<double> Frame::measure(std::string_view name) const {
+  if (!sides.empty())
+    return in_side(*this, name, [](const Frame& f, std::string_view n) { return f.measure(n); });
   return value_of(name, measures);
 }
 

@@ -224,10 +224,21 @@ struct Frame {
   std::vector<std::pair<std::string, double>> measures;
   std::uint64_t hash = 0;  // of all of the above that is state
 
+  // The same moment under each side's settings. What the sides share stands above, their bodies,
+  // nodes, counts and all else that they have of their own only here.
+  std::vector<Frame> sides;
+  std::string side;  // of one of these: its name, and what stands over it
+  std::string side_title;
+  bool held = false;  // it has nothing more to show in this step, and shows its last frame
+
+  // The side of that name; null if there is none.
+  const Frame* side_named(std::string_view name) const;
+
   void add_count(std::string_view name, std::uint64_t n) {
     counts.emplace_back(name, static_cast<std::int64_t>(n));
   }
-  // Nothing if the scene does not count or measure this.
+  // Nothing if the scene does not count or measure this. Of sides the name begins with that of one,
+  // as "eager.pairs".
   std::optional<std::int64_t> count(std::string_view name) const;
   std::optional<double> measure(std::string_view name) const;
   std::optional<double> number(std::string_view name) const;  // a count, or else a measure

@@ -24,40 +24,45 @@ class FrameWriter {
     lines("format", whole_way_ ? "lantern.frame/2" : "lantern.frame/1", "scenario", frame_.scenario,
           "frame", frame_.index, "time", frame_.time, "step", frame_.step, "event", frame_.event,
           "caption", frame_.caption, "seed", frame_.seed);
-    write_list("bodies", frame_.bodies);
-    write_list("nodes", frame_.nodes);
-    std::vector<Pair> pairs, overlaps;
-    for (const FramePair& p : frame_.pairs) {
-      pairs.push_back(p.pair);
-      if (p.overlaps) overlaps.push_back(p.pair);
-    }
-    lines("pairs", pairs);
-    if (whole_way_) lines("overlaps", overlaps);
-    write_list("contacts", frame_.contacts);
-    if (!frame_.links.empty()) write_list("links", frame_.links);
-    if (!frame_.rays.empty()) write_list("rays", frame_.rays);
-    if (!frame_.views.empty()) write_list("views", frame_.views);
-    if (!frame_.queries.empty()) write_list("queries", frame_.queries);
-    if (!frame_.walls.empty()) write_list("walls", frame_.walls);
-    if (!frame_.textures.empty()) write_list("textures", frame_.textures);
-    json_.line().key("counts").begin_object();
-    for (const auto& [name, number] : frame_.counts)
-      if (whole_way_ || std::ranges::find(kNewCounts, name) == std::end(kNewCounts))
-        lines(name, number);
-    if (!frame_.counts.empty()) json_.line();
-    json_.end_object();
-    if (!frame_.measures.empty()) {
-      json_.line().key("measures").begin_object();
-      for (const auto& [name, number] : frame_.measures) lines(name, number);
-      json_.line().end_object();
-    }
-    if (whole_way_ && frame_.since_last_frame) lines("since_last_frame", *frame_.since_last_frame);
-    lines("hash", fmt::format("{:016x}", frame_.hash));
+    if (!frame_.sides.empty()) write_list("sides", frame_.sides);
+    write_facts(frame_);
     json_.line().end_object();
     return json_.text() + "\n";
   }
 
  private:
+  void write_facts(const Frame& frame) {
+    write_list("bodies", frame.bodies);
+    write_list("nodes", frame.nodes);
+    std::vector<Pair> pairs, overlaps;
+    for (const FramePair& p : frame.pairs) {
+      pairs.push_back(p.pair);
+      if (p.overlaps) overlaps.push_back(p.pair);
+    }
+    lines("pairs", pairs);
+    if (whole_way_) lines("overlaps", overlaps);
+    write_list("contacts", frame.contacts);
+    if (!frame.links.empty()) write_list("links", frame.links);
+    if (!frame.rays.empty()) write_list("rays", frame.rays);
+    if (!frame.views.empty()) write_list("views", frame.views);
+    if (!frame.queries.empty()) write_list("queries", frame.queries);
+    if (!frame.walls.empty()) write_list("walls", frame.walls);
+    if (!frame.textures.empty()) write_list("textures", frame.textures);
+    json_.line().key("counts").begin_object();
+    for (const auto& [name, number] : frame.counts)
+      if (whole_way_ || std::ranges::find(kNewCounts, name) == std::end(kNewCounts))
+        lines(name, number);
+    if (!frame.counts.empty()) json_.line();
+    json_.end_object();
+    if (!frame.measures.empty()) {
+      json_.line().key("measures").begin_object();
+      for (const auto& [name, number] : frame.measures) lines(name, number);
+      json_.line().end_object();
+    }
+    if (whole_way_ && frame.since_last_frame) lines("since_last_frame", *frame.since_last_frame);
+    lines("hash", fmt::format("{:016x}", frame.hash));
+  }
+
   // Names and values in turn: within a line, each on a line of its own, or as an object.
   template <class V, class... More>
   void members(std::string_view name, const V& value, const More&... more) {
@@ -126,6 +131,15 @@ class FrameWriter {
     object("kind", "capsule", "radius", s.radius, "half_length", s.half_length);
   }
   void write(const HalfSpace<3>& s) { object("kind", "half_space", "normal", s.normal); }
+
+  // A side has the same facts as a frame without sides.
+  void write(const Frame& side) {
+    json_.begin_object();
+    lines("name", side.side, "title", side.side_title, "held", side.held, "time", side.time,
+          "event", side.event, "caption", side.caption);
+    write_facts(side);
+    json_.line().end_object();
+  }
 
   void write(const FrameBody& body) {
     json_.begin_object();

@@ -55,6 +55,8 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   const WorldSpec& world = scenario_.world;
   Frame frame;
   frame.scenario = scenario_.name;
+  frame.side = scenario_.side;
+  frame.side_title = scenario_.side_title;
   frame.title = scenario_.title;
   frame.part = part_;
   frame.seed = scenario_.seed;
@@ -92,7 +94,9 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
       plotter_->add(*step_->plot, part_, frame);
     frame.chart = plotter_->chart();
   }
-  frame.caption = caption.empty() ? fill(step_->caption, frame) : caption;
+  // Of a side's frames the caption is that of all sides together.
+  const bool said = caption.empty() && scenario_.side.empty();
+  frame.caption = said ? fill(step_->caption, frame) : caption;
   verify(step_->always, frame);
   if (last) verify(step_->expect, frame);
   give(std::move(frame));
@@ -122,7 +126,11 @@ void FrameMaker::give(Frame frame) {
 }
 
 void FrameMaker::fail(std::string message) {
-  report_.unmet.push_back(diagnose(scenario_, step_->where, std::move(message)));
+  report_.unmet.push_back(diagnose(scenario_, step_->where, message + on_side()));
+}
+
+std::string FrameMaker::on_side() const {
+  return scenario_.side.empty() ? "" : fmt::format(", side '{}'", scenario_.side);
 }
 
 void FrameMaker::add_finding(Frame& frame) const {
@@ -171,15 +179,18 @@ void FrameMaker::light_leaves_of_focus(Frame& frame) const {
   }
 }
 
+std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
+  if (name == "texture") return texture;
+  if (name == "refused_names") return refused_names_.empty() ? "none" : refused_names_;
+  if (name == "time") return fmt::format("{:.2f}", frame.time);
+  if (const auto measured = frame.measure(name)) return fmt::format("{:.4g}", *measured);
+  return std::nullopt;
+}
+
 std::string FrameMaker::fill(const std::string& caption, const Frame& frame) const {
-  const auto text = [&](std::string_view name) -> std::optional<std::string> {
-    if (name == "texture") return texture;
-    if (name == "refused_names") return refused_names_.empty() ? "none" : refused_names_;
-    if (name == "time") return fmt::format("{:.2f}", frame.time);
-    if (const auto measured = frame.measure(name)) return fmt::format("{:.4g}", *measured);
-    return std::nullopt;
-  };
-  return fill_caption(caption, text, [&](std::string_view name) { return frame.count(name); });
+  return fill_caption(
+      caption, [&](std::string_view name) { return text_of(name, frame); },
+      [&](std::string_view name) { return frame.count(name); });
 }
 
 void FrameMaker::verify(const std::vector<Expectation>& expectations, const Frame& frame) {
@@ -189,7 +200,8 @@ void FrameMaker::verify(const std::vector<Expectation>& expectations, const Fram
     if (!problem || !reported_.insert(&expectation).second) continue;
     report_.unmet.push_back(
         diagnose(scenario_, expectation.where,
-                 fmt::format("{} (frame {}, time {:.6g} s)", *problem, frame.index, frame.time)));
+                 fmt::format("{} (frame {}, time {:.6g} s{})", *problem, frame.index, frame.time,
+                             on_side())));
   }
 }
 

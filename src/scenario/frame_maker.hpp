@@ -39,6 +39,8 @@ class FrameMaker {
 
   // What follows belongs to this step.
   void begin(const Step& step, std::uint32_t index);
+  // The next frame has this number: sides count together.
+  void go_on_at(std::uint32_t frame) { report_.frames = frame; }
   const Step& step() const { return *step_; }
   bool by_event() const { return step_->pace.value_or(pace_) == Pace::event; }
   // In event pace: did the step ask for frames of this event?
@@ -63,6 +65,8 @@ class FrameMaker {
   void emit(const Touched& touched, std::string_view event, std::string caption,
             std::optional<BodyId> about = {});
   void give(Frame frame);
+  // What a caption may quote beside counts, of a frame made now.
+  std::optional<std::string> text_of(std::string_view name, const Frame& frame) const;
   // The step's promise is broken, whatever the frames say.
   void fail(std::string message);
 
@@ -73,6 +77,7 @@ class FrameMaker {
   void light(Frame& frame);
   void light_leaves_of_focus(Frame& frame) const;
   std::string fill(const std::string& caption, const Frame& frame) const;
+  std::string on_side() const;  // for a message; empty without sides
   void verify(const std::vector<Expectation>& expectations, const Frame& frame);
 
   struct QueryNumbers {

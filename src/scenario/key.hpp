@@ -194,6 +194,7 @@ TableDoc problem_table();
 TableDoc atlas_table();
 TableDoc texture_table();
 TableDoc texture_pattern_table();
+TableDoc side_table();
 TableDoc expect_table();
 
 // Those of a table for a body or a pattern: `own` and what both have.

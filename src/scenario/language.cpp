@@ -45,6 +45,8 @@ TableDoc file_table() {
           holds("texture")),
       key(KeyType::tables, "texture_pattern", "Many textures each.", at_most(kMostTextures),
           holds("texture_pattern")),
+      key(KeyType::tables, "side", "The same under other settings, side by side.",
+          at_most(kMostSides), holds("side")),
       key(KeyType::tables, "step", "The script.", must(), at_most(kMostSteps), holds("step")),
   };
   return table;
@@ -136,10 +138,10 @@ const KeyDoc* TableDoc::find(std::string_view key) const {
 
 std::span<const TableDoc> language_tables() {
   static const std::vector<TableDoc> tables = {
-      file_table(),    world_table(),           structure_table(), planes_table(),
-      body_table(),    pattern_table(),         spring_table(),    joint_table(),
-      level_table(),   chart_table(),           problem_table(),   atlas_table(),
-      texture_table(), texture_pattern_table(), step_table(),      expect_table()};
+      file_table(),    world_table(),  structure_table(), planes_table(),          body_table(),
+      pattern_table(), spring_table(), joint_table(),     level_table(),           chart_table(),
+      problem_table(), atlas_table(),  texture_table(),   texture_pattern_table(), side_table(),
+      step_table(),    expect_table()};
   return tables;
 }
 
@@ -168,6 +170,7 @@ const TypeWords& words_of(KeyType type) {
       {"list of", "[\"…\"]"},
       {"table", ""},
       {"tables", ""},
+      {"keys of", ""},
       {"list of pairs", "[[\"red\", \"pink\"]]"},
       {"table: name → whole number", "{ pink = 2 }"},
       {"table: name → number", "{ pink = 2 }"},

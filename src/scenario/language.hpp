@@ -28,6 +28,7 @@ inline constexpr std::uint64_t kMostWorldSteps = 1'000'000;  // over all steps o
 inline constexpr std::size_t kMostLinks = 20'000;            // springs and joints
 inline constexpr std::size_t kMostWalls = 2'000;             // of a level
 inline constexpr std::size_t kMostCaption = 180;             // letters
+inline constexpr std::size_t kMostSides = 4;
 
 enum class KeyType {
   text,            // on one line; `least` to `most` letters
@@ -45,6 +46,7 @@ enum class KeyType {
   choices_list,    // a list of `choices`, at least one, each once
   table,           // the table `of`
   tables,          // many of the table `of`; `most` of them
+  part,            // some keys of the table `of`
   name_pairs,      // a list of pairs of names
   name_wholes,     // a table from names to whole numbers
   name_numbers,    // a table from names to numbers
@@ -119,6 +121,7 @@ struct TableDoc {
   std::string_view doc = {};
   std::vector<KeyDoc> keys = {};
   KeyGroups groups = {};
+  bool by_side = false;           // it may hold one of its own for each side, by the side's name
   std::string_view example = {};  // of a verb: steps that may follow the reference page's scenario
 
   const KeyDoc* find(std::string_view key) const;

@@ -1,13 +1,17 @@
 // A scenario file from its bytes to plain values.
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "scenario/draft.hpp"
+#include "scenario/table_side.hpp"
 #include "spatial/structure_kinds.hpp"
 
 namespace lantern::scenario {
@@ -104,15 +108,72 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   check_panels(file, draft);
 }
 
+// What a reading of the file begins with.
+void begin(std::string_view text, const std::string& path, Draft& draft) {
+  draft.text = without_mark(text);
+  draft.scenario.file = path;
+  draft.scenario.text = text;
+  draft.scenario.text_hash = Hash().add(text).value();
+}
+
+Scenario finished(Draft& draft) {
+  if (draft.scenario.panels.empty()) draft.scenario.panels = derived_panels(draft.scenario);
+  return Scenario(std::move(draft.scenario));
+}
+
+// A panel that one side has is on the page of all.
+void share_panels(std::vector<std::unique_ptr<Draft>>& drafts) {
+  if (!drafts[0]->scenario.panels.empty()) return;  // as the file wishes
+  std::vector<Panel> all;
+  for (const Panel panel : {Panel::world, Panel::atlas, Panel::tree, Panel::chart})
+    if (std::ranges::any_of(drafts, [&](const auto& draft) {
+          const std::vector<Panel> own = derived_panels(draft->scenario);
+          return std::ranges::find(own, panel) != own.end();
+        }))
+      all.push_back(panel);
+  for (const auto& draft : drafts) draft->scenario.panels = all;
+}
+
+// The file is read once for each side, as what it says to that one.
+Scenario parse_sides(const TomlTable& table, std::string_view text, const std::string& path,
+                     Problems& problems) {
+  const std::vector<SideFile> files = files_of_sides(table, problems);
+  std::vector<std::string> names;
+  for (const SideFile& side : files) names.push_back(side.name);
+  std::vector<std::unique_ptr<Draft>> drafts;
+  std::vector<std::pair<std::string, const Problems*>> readings;
+  for (const SideFile& side : files) {
+    Draft& draft = *drafts.emplace_back(std::make_unique<Draft>());
+    begin(text, path, draft);
+    draft.scenario.side = side.name;
+    draft.scenario.side_title = side.title;
+    draft.sides = names;
+    read_all(side.file, path, draft);
+    readings.emplace_back(side.name, &draft.problems);
+  }
+  problems.add_readings(readings);
+  problems.raise(path, without_mark(text));
+  share_panels(drafts);
+  ScenarioSpec whole;
+  for (const auto& draft : drafts) {
+    auto side = std::make_shared<const Scenario>(finished(*draft));
+    if (whole.sides.empty()) whole = *side;
+    if (side->chart) whole.chart = side->chart;
+    if (!whole.sides.empty()) whole.world_steps += side->world_steps;
+    whole.sides.push_back(std::move(side));
+  }
+  whole.side.clear();
+  whole.side_title.clear();
+  if (whole.chart) whole.chart = chart_of_sides(table, *whole.chart, names);
+  return Scenario(std::move(whole));
+}
+
 }  // namespace
 
 Scenario parse_scenario(std::string_view text, const std::string& path) {
   if (text.size() > kMostFileBytes) refuse_size(path, text.size());
   Draft draft;
-  draft.text = without_mark(text);
-  draft.scenario.file = path;
-  draft.scenario.text = text;
-  draft.scenario.text_hash = Hash().add(text).value();
+  begin(text, path, draft);
   TomlTable table;
   if (is_blank(draft.text)) {
     draft.problems.add(kTop, "the file is empty",
@@ -120,11 +181,12 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
                        "[[step]] with do = \"show\"");
   } else {
     table = read_toml(draft.text, draft.problems);
+    const bool has_sides = std::ranges::find(table, "side", &TomlEntry::key) != table.end();
+    if (has_sides && !draft.problems.any()) return parse_sides(table, text, path, draft.problems);
     if (!draft.problems.any()) read_all(table, path, draft);
   }
   draft.problems.raise(path, draft.text);
-  if (draft.scenario.panels.empty()) draft.scenario.panels = derived_panels(draft.scenario);
-  return Scenario(std::move(draft.scenario));
+  return finished(draft);
 }
 
 Scenario load_scenario(const std::string& path) {

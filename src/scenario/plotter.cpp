@@ -30,10 +30,29 @@ Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenari
   chart_.least = spec_.least;
   chart_.most = spec_.most;
   if (over_time()) chart_.seconds = seconds_of(scenario, spec_.each_part ? &part_ : nullptr);
+  if (name_by_sides(scenario)) return;
   if (spec_.x.empty())
     chart_.y_name = spec_.y[0];
   else
     name_series(scenario);
+}
+
+// Where all lines tell the same of different sides, each has its side's name; so do bars.
+bool Plotter::name_by_sides(const Scenario& scenario) {
+  if (scenario.sides.empty()) return false;
+  const auto after_dot = [](const std::string& name) { return name.substr(name.find('.') + 1); };
+  const bool same = std::ranges::all_of(
+      spec_.y, [&](const std::string& name) { return after_dot(name) == after_dot(spec_.y[0]); });
+  if (same) chart_.y_name = after_dot(spec_.y[0]);
+  if (!spec_.x.empty())
+    for (const std::string& name : spec_.y)
+      chart_.series.emplace_back().name = same ? before_dot(name) : name;
+  return true;
+}
+
+// Of the side that the line is of.
+std::optional<double> Plotter::x_of(const std::string& y, const Frame& frame) const {
+  return frame.number(frame.sides.empty() ? spec_.x : before_dot(y) + "." + spec_.x);
 }
 
 // Where all lines tell the same of different bodies, each has its body's name and colour.
@@ -71,12 +90,14 @@ void Plotter::add(const std::string& label, const std::string& part, const Frame
   if (!chart_.bars.empty() && part != part_) ++group_;
   part_ = part;
   if (spec_.x.empty()) {
-    if (const auto y = frame.number(spec_.y[0])) chart_.bars.push_back({label, *y, group_});
+    for (const std::string& name : spec_.y)
+      if (const auto y = frame.number(name))
+        chart_.bars.push_back(
+            {frame.sides.empty() ? label : label + ", " + before_dot(name), *y, group_});
     return;
   }
-  const auto x = frame.number(spec_.x);
   for (std::size_t i = 0; i < chart_.series.size(); ++i)
-    if (const auto y = frame.number(spec_.y[i]); x && y)
+    if (const auto x = x_of(spec_.y[i], frame), y = frame.number(spec_.y[i]); x && y)
       chart_.series[i].points.push_back({*x, *y});
 }
 
@@ -85,7 +106,8 @@ void Plotter::add_moment(const Frame& frame) {
     std::vector<Vec<2>>& points = chart_.series[i].points;
     const auto y = frame.number(spec_.y[i]);
     if (!y) continue;
-    const Vec<2> point{frame.time - begun_, *y};
+    const Frame* side = frame.side_named(before_dot(spec_.y[i]));
+    const Vec<2> point{(side ? side->time : frame.time) - begun_, *y};
     if (points.empty() || points.back() != point) points.push_back(point);
   }
 }

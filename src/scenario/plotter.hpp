@@ -1,6 +1,7 @@
 // The chart of a scenario: what steps with a `plot` counted, or what was measured as time went on.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ class Plotter {
 
  private:
   void name_series(const Scenario& scenario);
+  bool name_by_sides(const Scenario& scenario);
+  std::optional<double> x_of(const std::string& y, const Frame& frame) const;
 
   const Scenario& scenario_;
   const ChartSpec& spec_;

@@ -1,6 +1,8 @@
 #include "scenario/problems.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -26,6 +28,25 @@ void Problems::add(Place where, std::string message, std::string hint) {
 
 void Problems::add(Place where, std::string message, const char* hint) {
   add(where, std::move(message), std::string(hint));
+}
+
+void Problems::add_readings(const std::vector<std::pair<std::string, const Problems*>>& readings) {
+  using Key = std::pair<Place, std::string>;
+  std::map<Key, std::set<const Problems*>> finders;
+  for (const auto& [name, problems] : readings)
+    for (const Found& f : problems->found_) finders[{f.where, f.message}].insert(problems);
+  for (const Found& f : found_) finders.erase({f.where, f.message});
+  for (const auto& [name, problems] : readings) {
+    dropped_ += problems->dropped_;
+    for (const Found& f : problems->found_) {
+      const auto at = finders.find({f.where, f.message});
+      if (at == finders.end()) continue;
+      const bool by_all = at->second.size() == readings.size();
+      if (by_all) finders.erase(at);
+      add(f.where, by_all ? f.message : fmt::format("{}, on the side '{}'", f.message, name),
+          f.hint);
+    }
+  }
 }
 
 // Keeps those that will be shown, and the one after them.

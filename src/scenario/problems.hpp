@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenario/source_text.hpp"
@@ -21,6 +22,10 @@ class Problems {
   void add(Place where, std::string message, const char* hint);
 
   bool any() const { return !found_.empty(); }
+
+  // Adds those of several readings of one file, by their names. What all found is told once, what
+  // only one did with its name behind it: "…, on the side 'eager'".
+  void add_readings(const std::vector<std::pair<std::string, const Problems*>>& readings);
 
   // Throws ScenarioError with the first mistakes in order of their places, and the number of the
   // others; does nothing if there are none.

@@ -123,6 +123,7 @@ std::string short_range(const KeyDoc& doc) {
 
 std::string type_column(const KeyDoc& doc) {
   std::string text(doc.form.empty() ? words_of(doc.type).name : doc.form);
+  if (doc.type == KeyType::part) text += fmt::format(" `[{}]`", doc.of);
   for (std::size_t i = 0; i < doc.choices.size(); ++i)
     text += fmt::format("{} `{}`", i == 0 ? "" : ",", doc.choices[i]);
   const std::string range = short_range(doc);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -65,6 +66,8 @@ struct Step {
   SourcePosition where;
 };
 
+class Scenario;
+
 // All that a file says. Each value has its type, but nothing is known to be right: a name may be
 // that of nobody, an index may lie beyond its list. Only diagnostics can be made of it.
 struct ScenarioSpec {
@@ -89,7 +92,13 @@ struct ScenarioSpec {
   std::uint64_t text_hash = 0;    // of the file's bytes
   std::string text;               // the file's bytes, for diagnostics of the run
   std::uint64_t most_frames = 0;  // in step pace; a step that waits may give fewer
-  std::uint64_t world_steps = 0;  // at most, for the same reason
+  std::uint64_t world_steps = 0;  // at most, for the same reason; of all sides together
+
+  // The same script under other settings, one clock for all; mostly none. The members above, but
+  // for the chart, are then those of the first.
+  std::vector<std::shared_ptr<const Scenario>> sides;
+  std::string side;  // of a side itself: its name, and what stands over it
+  std::string side_title;
 
   bool has_joints() const;  // links that are no springs
   bool has_contacts() const { return world.contacts != ContactMethod::none; }

@@ -5,6 +5,7 @@
 
 #include "scenario/language.hpp"
 #include "scenario/reference.hpp"
+#include "scenario/table_side.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -43,6 +44,8 @@ Json names_to(Json values) {
   schema["additionalProperties"] = std::move(values);
   return schema;
 }
+
+Json part_schema(std::string_view table);
 
 Json reference(std::string_view table) {
   return Json::object({{"$ref", fmt::format("#/$defs/{}", table)}});
@@ -96,6 +99,8 @@ Json value_schema(const KeyDoc& doc) {
       return reference(doc.of);
     case KeyType::tables:
       return list_of(reference(doc.of), 0, static_cast<std::size_t>(doc.most));
+    case KeyType::part:
+      return part_schema(doc.of);
     case KeyType::name_pairs:
       return list_of(list_of(typed("string"), 2, 2), 0);
     case KeyType::name_wholes:
@@ -128,9 +133,19 @@ Json table_schema(const TableDoc& table) {
                               {"type", "object"},
                               {"properties", properties},
                               {"additionalProperties", false}});
+  if (table.by_side) schema["additionalProperties"] = reference(table.name);
   if (!required.empty()) schema["required"] = required;
   if (!groups.empty()) schema[table.groups.exactly_one ? "oneOf" : "anyOf"] = groups;
   return schema;
+}
+
+// Any of the keys that a side may override; what is not there is as in the file.
+Json part_schema(std::string_view name) {
+  Json properties = Json::object();
+  for (const KeyDoc& key : language_table(name).keys)
+    if (may_differ(name, key.key)) properties[std::string(key.key)] = value_schema(key);
+  return Json::object(
+      {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}});
 }
 
 }  // namespace

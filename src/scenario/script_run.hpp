@@ -33,6 +33,10 @@ struct ScriptRun {
   // An insertion into the structure, as it happens.
   void witness(const Event& event);
   std::string name_of(BodyId body) const;
+
+  // One step of the script, the `index`-th. Throws ScenarioError, at its place, when the engine
+  // refuses what it asks for.
+  void play(const Step& step, std::uint32_t index);
 };
 
 }  // namespace lantern::scenario

@@ -210,6 +210,7 @@ TableDoc expect_table() {
           key(name_numbers, "turned", "How far a body of a 2D world is turned, in degrees.",
               range(-1e9, 1e9)),
       }};
+  expect.by_side = true;
   for (const CountDoc& measure : known_measures())
     expect.keys.push_back(key(number, measure.name, measure.doc));
   expect.keys.push_back(

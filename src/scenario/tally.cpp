@@ -25,6 +25,25 @@ std::uint64_t points_of(const FrameChart& chart) {
   return points;
 }
 
+// What there is on a frame, on all sides together.
+struct Seen {
+  std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0,
+                sectors = 0, drawn_walls = 0, nodes = 0, slots = 0;
+
+  void add(const Frame& frame) {
+    bodies += frame.bodies.size();
+    for (const FrameBody& body : frame.bodies) asleep += body.asleep;
+    for (const FrameLink& link : frame.links)
+      ++(link.kind == FrameLink::Kind::spring ? springs : joints);
+    textures += counted(frame, "textures");
+    walls += counted(frame, "walls");
+    sectors += counted(frame, "sectors");
+    drawn_walls += frame.walls.size();
+    nodes += frame.nodes.size();
+    slots += frame.array_size;
+  }
+};
+
 void raise(std::uint64_t& most, std::uint64_t n) { most = std::max(most, n); }
 
 }  // namespace
@@ -37,30 +56,38 @@ bool StageTally::used() const {
 // before is of this frame's kind.
 void Tally::see(const Frame& frame) {
   seconds_ = std::max(seconds_, frame.time);
-  raise(bodies_, frame.bodies.size());
-  raise(asleep_, static_cast<std::uint64_t>(
-                     std::count_if(frame.bodies.begin(), frame.bodies.end(),
-                                   [](const FrameBody& body) { return body.asleep; })));
-  const auto springs = static_cast<std::uint64_t>(
-      std::count_if(frame.links.begin(), frame.links.end(),
-                    [](const FrameLink& link) { return link.kind == FrameLink::Kind::spring; }));
-  raise(springs_, springs);
-  raise(joints_, frame.links.size() - springs);
-  raise(textures_, counted(frame, "textures"));
   raise(points_, points_of(frame.chart));
-  raise(walls_, counted(frame, "walls"));
-  raise(sectors_, counted(frame, "sectors"));
-  with_bodies_ += !frame.bodies.empty();
-  with_walls_ += !frame.walls.empty();
-  with_nodes_ += !frame.nodes.empty();
-  with_textures_ += counted(frame, "textures") > 0;
   with_points_ += points_of(frame.chart) > 0;
-  with_array_ += frame.array_size > 0;
   solid_ += frame.dimension == 3;
+  Seen seen;
+  if (frame.sides.empty()) seen.add(frame);
+  for (const Frame& side : frame.sides) seen.add(side);
+  raise(bodies_, seen.bodies);
+  raise(asleep_, seen.asleep);
+  raise(springs_, seen.springs);
+  raise(joints_, seen.joints);
+  raise(textures_, seen.textures);
+  raise(walls_, seen.walls);
+  raise(sectors_, seen.sectors);
+  with_bodies_ += seen.bodies > 0;
+  with_walls_ += seen.drawn_walls > 0;
+  with_nodes_ += seen.nodes > 0;
+  with_textures_ += seen.textures > 0;
+  with_array_ += seen.slots > 0;
+  count_builds(frame);
+}
+
+// Of sides of several kinds it is not known which built.
+void Tally::count_builds(const Frame& frame) {
+  const Frame& first = frame.sides.empty() ? frame : frame.sides[0];
+  const bool one_kind = std::ranges::all_of(
+      frame.sides, [&](const Frame& side) { return side.structure == first.structure; });
   const std::uint64_t builds = work_.structure_builds;
-  const bool named = frame.structure != StructureKind::none;
-  if (builds > builds_before_)
-    builds_[named ? frame.structure : StructureKind::brute_force] += builds - builds_before_;
+  const bool named = first.structure != StructureKind::none;
+  if (builds > builds_before_ && one_kind)
+    builds_[named ? first.structure : StructureKind::brute_force] += builds - builds_before_;
+  else
+    builds_of_several_ += builds - builds_before_;
   builds_before_ = builds;
 }
 
@@ -95,6 +122,7 @@ void Tally::list_structures(const WorldWork& world, Stages& all) const {
   std::vector<Amount> builds;
   for (const auto& [kind, n] : builds_)
     builds.push_back(amount(n, fmt::format("{} build", to_string(kind))));
+  if (builds_of_several_ > 0) builds.push_back(amount(builds_of_several_, "build"));
   if (builds.empty()) builds.push_back(amount(work_.structure_builds, "build"));
   all.push_back({"structure", std::move(builds),
                  work_.structures_created == 0 ? "the scenario names none" : ""});

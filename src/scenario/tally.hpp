@@ -39,6 +39,7 @@ class Tally {
 
  private:
   using Stages = std::vector<StageTally>;
+  void count_builds(const Frame& frame);
   void list_motion(const WorldWork& world, Stages& all) const;
   void list_structures(const WorldWork& world, Stages& all) const;
   void list_contacts(const WorldWork& world, Stages& all) const;
@@ -56,7 +57,8 @@ class Tally {
   std::uint64_t with_bodies_ = 0, with_walls_ = 0, with_nodes_ = 0, with_textures_ = 0,
                 with_points_ = 0, with_array_ = 0, solid_ = 0;
   std::map<StructureKind, std::uint64_t> builds_;
-  std::uint64_t builds_before_ = 0;  // of the frame that is seen
+  std::uint64_t builds_of_several_ = 0;  // kinds, in one step
+  std::uint64_t builds_before_ = 0;      // of the frame that is seen
 };
 
 }  // namespace lantern::scenario

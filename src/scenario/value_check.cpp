@@ -108,7 +108,9 @@ class Check {
 
   void check_table(const TomlValue& value) {
     if (!std::holds_alternative<TomlTable>(value.data))
-      wrong_type(value, "a table", fmt::format("write its header: [{}]", doc_.of));
+      wrong_type(value, "a table",
+                 doc_.type == KeyType::part ? fmt::format("as {} = {{ … }}", doc_.key)
+                                            : fmt::format("write its header: [{}]", doc_.of));
   }
 
   void check_number(const TomlValue& value) {
@@ -255,7 +257,7 @@ class Check {
       &Check::check_two,        &Check::check_two,        &Check::check_list,
       &Check::check_list,       &Check::check_loops,      &Check::check_whole_or_names,
       &Check::check_list,       &Check::check_table,      &Check::check_tables,
-      &Check::check_name_pairs, &Check::check_name_table, &Check::check_name_table,
+      &Check::check_table,      &Check::check_name_pairs, &Check::check_name_table, &Check::check_name_table,
       &Check::check_name_table};
 
   const KeyDoc& doc_;

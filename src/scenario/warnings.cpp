@@ -8,7 +8,21 @@
 
 namespace lantern::scenario {
 
+namespace {
+
+bool contains(const std::vector<Diagnostic>& all, const Diagnostic& one) {
+  return std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) {
+    return d.message == one.message && d.where.line == one.where.line &&
+           d.where.column == one.where.column;
+  });
+}
+
+}  // namespace
+
 RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body) {
+  for (const auto& side : scenario.sides)
+    sides_.emplace_back(side->side, std::make_unique<RunWatch>(*side, shows_a_body));
+  if (!sides_.empty()) return;
   const std::vector<Warning>& quiet = scenario.world.quiet;
   const auto add = [&](Warning kind, Watching watcher) {
     const bool is_quiet = std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
@@ -42,6 +56,16 @@ void RunWatch::see(const Frame& frame) {
 
 std::vector<Diagnostic> RunWatch::warnings() const {
   std::vector<Diagnostic> all;
+  for (const auto& [name, side] : sides_)
+    for (Diagnostic& found : side->warnings()) {
+      const auto has = [&](const auto& other) { return contains(other.second->warnings(), found); };
+      if (std::all_of(sides_.begin(), sides_.end(), has)) {
+        if (&side != &sides_[0].second) continue;  // told already
+      } else {
+        found.message += fmt::format(", on the side '{}'", name);
+      }
+      all.push_back(std::move(found));
+    }
   for (const Watch& watch : watchers_)
     if (!watch.quiet)
       for (Diagnostic& found : watch.watcher->warnings()) all.push_back(std::move(found));
@@ -50,12 +74,15 @@ std::vector<Diagnostic> RunWatch::warnings() const {
 
 std::vector<std::string> RunWatch::facts() const {
   std::vector<std::string> all;
+  for (const auto& [name, side] : sides_)
+    for (const std::string& fact : side->facts()) all.push_back(fmt::format("{}: {}", name, fact));
   for (const Watch& watch : watchers_)
     if (std::string fact = watch.watcher->fact(); !fact.empty()) all.push_back(std::move(fact));
   return all;
 }
 
 std::vector<Warning> RunWatch::kinds() const {
+  if (!sides_.empty()) return sides_[0].second->kinds();
   std::vector<Warning> kinds;
   for (const Watch& watch : watchers_)
     if (!watch.quiet) kinds.push_back(watch.kind);

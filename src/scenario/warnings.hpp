@@ -3,9 +3,11 @@
 // show is not watched for.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenario/engine.hpp"
@@ -26,6 +28,9 @@ class RunWatch {
   void passed(const Engine& engine);  // a world step was made
   void see(const Frame& frame);
 
+  // That of a scenario's `side`-th side; itself where there are none.
+  RunWatch& of_side(std::size_t side) { return sides_.empty() ? *this : *sides_[side].second; }
+
   // What has been found so far, by kind; of each kind only the first, and how many more there are.
   std::vector<Diagnostic> warnings() const;
 
@@ -42,6 +47,7 @@ class RunWatch {
     bool quiet = false;  // it warns of nothing
   };
   std::vector<Watch> watchers_;
+  std::vector<std::pair<std::string, std::unique_ptr<RunWatch>>> sides_;  // by their names
 };
 
 }  // namespace lantern::scenario

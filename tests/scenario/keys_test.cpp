@@ -70,6 +70,7 @@ std::map<std::string, Surroundings> surroundings() {
         {{"a", "\"red\""}, {"to", "[1, 9]"}, {"kind", "\"distance\""}},
         kShow}},
       {"level", {world + "[level]\n", {{"loops", "[[[0, 0], [8, 0], [8, 6]]]"}}, kShow}},
+      {"side", {scene + "[[side]]\nname = \"a\"\n[[side]]\n", {{"name", "\"b\""}}, kShow}},
       {"chart", {scene + "[chart]\n", {{"x", "\"bodies\""}, {"y", "[\"pairs\"]"}}, kShow + kPlot}},
       {"problem",
        {world + "[problem]\n",
@@ -330,6 +331,17 @@ void add_link_cases(std::vector<KeyCase>& cases) {
   cases.push_back({"chart", "least", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
   cases.push_back({"chart", "most", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
   cases.push_back({"chart", "each_part", {"false"}, bad_truth()});
+}
+
+void add_side_cases(std::vector<KeyCase>& cases) {
+  const Bad part = {{"@1", "must be a table"}, {"@[]", "must be a table"}};
+  cases.insert(cases.end(), {{"side", "name", {"\"b\"", "\"two trees\""}, bad_name()},
+                             {"side", "name", {}, {{"@\"a\"", "is taken"}}},
+                             {"side", "title", {"\"x\""}, bad_text("1 to 40", 40)},
+                             {"side", "structure", {"{ capacity = 3 }", "{}"}, part},
+                             {"side", "world", {"{ contacts = \"soft\" }"}, part},
+                             {"side", "level", {}, part},
+                             {"side", "atlas", {}, part}});
 }
 
 void add_problem_cases(std::vector<KeyCase>& cases) {
@@ -648,6 +660,7 @@ std::vector<KeyCase> key_cases() {
   };
   add_body_cases(cases);
   add_link_cases(cases);
+  add_side_cases(cases);
   add_problem_cases(cases);
   add_verb_cases(cases);
   add_promise_cases(cases);

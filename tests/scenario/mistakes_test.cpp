@@ -49,7 +49,7 @@ max = [8, 8]
 TEST(Mistakes, AreAllToldInOnePassInOrder) {
   expect_mistakes(
       R"(title = "x"
-@sede = 3
+@sead = 3
 [world]
 size = [64, @nan]
 time_step = @"fast"
@@ -78,12 +78,12 @@ do = @"inserrt"
 }
 
 TEST(Mistakes, CarryTheLineAndTheFile) {
-  const auto found = mistakes("title = \"x\"\n  sede = 2\r\n[[step]]\ndo = \"show\"\n");
+  const auto found = mistakes("title = \"x\"\n  sead = 2\r\n[[step]]\ndo = \"show\"\n");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].source_line, "  sede = 2") << "without the line break";
+  EXPECT_EQ(found[0].source_line, "  sead = 2") << "without the line break";
   EXPECT_EQ(to_string(found[0]),
-            "ghosts.toml:2:3: error: unknown key 'sede'\n"
-            "    sede = 2\n"
+            "ghosts.toml:2:3: error: unknown key 'sead'\n"
+            "    sead = 2\n"
             "    ^\n"
             "  did you mean 'seed'?");
 }
