@@ -5,6 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
+#include "draw/keys.hpp"
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
@@ -49,8 +50,10 @@ class AtlasView {
     for (const FrameTexture* texture : packed) draw_textured(*texture, place_of(*texture));
     list_.crisp_rect(image_, Role::none, {Role::cell_line_0, 3.4});
     for (const FrameNode& node : frame_.nodes)
-      if (node.mark == Mark::lit)
+      if (node.mark == Mark::lit) {
+        const DrawList::Scope scope = shown("atlas/lit", node);
         list_.crisp_rect(on_page(flat(node.box)), Role::none, {Role::lit, 4});
+      }
     if (packed.size() == kMostTextures) labels_.add_note("not all textures are drawn", image_);
     for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
     for (const FrameNode* node : free_leaves()) name_free(*node);
@@ -64,6 +67,12 @@ class AtlasView {
   }
   Box<2> place_of(const FrameTexture& t) const {
     return on_page({{t.x, t.y}, {double(t.x) + t.width, double(t.y) + t.height}});
+  }
+
+  // A cell, which comes out of the one that it was cut from.
+  DrawList::Scope shown(std::string_view kind, const FrameNode& node) {
+    const auto at = static_cast<std::uint32_t>(&node - frame_.nodes.data());
+    return {list_, node_key(kind, frame_.nodes, at), parent_key(kind, frame_.nodes, at)};
   }
 
   std::vector<const FrameTexture*> packed_textures() const {
@@ -88,6 +97,7 @@ class AtlasView {
   void draw_free(const FrameNode& node) {
     const Box<2> box = on_page(flat(node.box));
     const double least = std::min(box.size().x, box.size().y);
+    const DrawList::Scope scope = shown("atlas/cell", node);
     if (node.mark != Mark::quiet) list_.crisp_rect(box, ground_of(node.mark));
     if (least < 6) return;
     list_.rect(shrunk(box, 2), Role::none, {Role::cell_line_2, 1.4, 5});
@@ -95,6 +105,7 @@ class AtlasView {
 
   void draw_textured(const FrameTexture& texture, const Box<2>& box) {
     const double scale = std::clamp(std::min(box.size().x, box.size().y) / 70, 0.6, 1.6);
+    const DrawList::Scope scope(list_, texture_key("atlas/texture", texture));
     draw_pattern(texture.id, texture.color, box, scale, parts_, list_);
     if (parts_ > 0) list_.rect(box, Role::none, {Role::body_line, 1.6});
   }
@@ -106,6 +117,7 @@ class AtlasView {
     const Anchor anchor = centred(box.center(), style);
     if (name.empty() || !holds(shrunk(box, 1), plate)) return false;
     if (!labels_.is_free(Labels::extent(name, anchor, style), panel_)) return false;
+    const DrawList::Scope scope(list_, "atlas/plate/" + name);
     list_.rect(plate, Role::panel, {}, 5);
     labels_.add(name, anchor, style, panel_);
     return true;
@@ -113,6 +125,7 @@ class AtlasView {
 
   void name_free(const FrameNode& node) {
     const Box<2> box = on_page(flat(node.box));
+    const DrawList::Scope scope = shown("atlas/name", node);
     TextStyle style{kLabel - 1, Weight::regular, Role::quiet_ink};
     if (node.mark == Mark::lit) style.role = Role::lit_ink;
     const Vec<2> size = node.box.size();

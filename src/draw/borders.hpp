@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -13,11 +16,12 @@ namespace lantern::draw {
 // Borders of many cells as few long lines: pieces on one line that touch are joined.
 class Borders {
  public:
-  void add(const Box<2>& cell, std::uint32_t depth) {
-    for (const double y : {cell.lo.y, cell.hi.y})
-      pieces_.push_back({depth, 0, rounded(y), cell.lo.x, cell.hi.x});
-    for (const double x : {cell.lo.x, cell.hi.x})
-      pieces_.push_back({depth, 1, rounded(x), cell.lo.y, cell.hi.y});
+  // `node` tells whose border it is.
+  void add(const Box<2>& cell, std::uint32_t depth, std::uint32_t node) {
+    pieces_.push_back({depth, 0, rounded(cell.lo.y), cell.lo.x, cell.hi.x, node, Side::upper});
+    pieces_.push_back({depth, 0, rounded(cell.hi.y), cell.lo.x, cell.hi.x, node, Side::lower});
+    pieces_.push_back({depth, 1, rounded(cell.lo.x), cell.lo.y, cell.hi.y, node, Side::left});
+    pieces_.push_back({depth, 1, rounded(cell.hi.x), cell.lo.y, cell.hi.y, node, Side::right});
   }
 
   // Only what lies within the place.
@@ -28,14 +32,34 @@ class Borders {
       const double to = std::min(cell.hi[axis], place.hi[axis]);
       for (const double at : {cell.lo[across], cell.hi[across]})
         if (place.lo[across] < at && at < place.hi[across])
-          pieces_.push_back({depth, axis, rounded(at), from, to});
+          pieces_.push_back({depth, axis, rounded(at), from, to, 0, Side::upper});
     }
   }
 
   // Deep ones first, so that the stronger lines of the upper levels lie on top. When there are too
-  // many, whole levels are left out from the deepest on, and the answer is false.
-  template <class StrokeOf>
-  bool draw(const StrokeOf& stroke_of, DrawList& list) {
+  // many, whole levels are left out from the deepest on, and the answer is false. A line is the
+  // first node's on it: key_of(node) with the side added. A new one unfolds, as one would draw it.
+  template <class StrokeOf, class KeyOf>
+  bool draw(const StrokeOf& stroke_of, const KeyOf& key_of, DrawList& list) {
+    return draw_each([&](const Piece& p, const Vec<2>& from, const Vec<2>& to) {
+      constexpr std::array<const char*, 4> kSides{"/upper", "/lower", "/left", "/right"};
+      const std::string key = key_of(p.node) + kSides[static_cast<std::size_t>(p.side)];
+      const DrawList::Scope scope(list, key, key);
+      list.crisp_line(from, to, stroke_of(p.depth));
+    });
+  }
+  // The lines alone, as a part of what is being shown.
+  bool draw_plainly(const Stroke& stroke, DrawList& list) {
+    return draw_each([&](const Piece&, const Vec<2>& from, const Vec<2>& to) {
+      list.crisp_line(from, to, stroke);
+    });
+  }
+
+ private:
+  enum class Side { upper, lower, left, right };
+
+  template <class Line>
+  bool draw_each(const Line& line) {
     join();
     std::size_t count = 0;
     while (count < pieces_.size() && count < kMost) {
@@ -52,18 +76,19 @@ class Borders {
       const bool upright = p.axis == 1;
       const Vec<2> from = upright ? Vec<2>(p.at, p.from) : Vec<2>(p.from, p.at);
       const Vec<2> to = upright ? Vec<2>(p.at, p.to) : Vec<2>(p.to, p.at);
-      list.crisp_line(from, to, stroke_of(p.depth));
+      line(p, from, to);
     }
     return count == pieces_.size();
   }
 
- private:
   static constexpr std::size_t kMost = 800;
   struct Piece {
     std::uint32_t depth;
     int axis;  // 0 level, 1 upright
     double at, from, to;
-    auto key() const { return std::tie(depth, axis, at, from, to); }
+    std::uint32_t node;
+    Side side;
+    auto key() const { return std::tie(depth, axis, at, from, to, node, side); }
   };
   // Neighbours compute the same border by different sums; a 64th of a unit is below any pixel.
   static double rounded(double x) { return std::round(x * 64) / 64; }

@@ -20,6 +20,7 @@ struct Stroke {
   Role role = Role::none;
   double width = 0;  // page units; centred on the outline
   double dash = 0;   // length of a dash and of the gap after it; 0 is an unbroken line
+  bool operator==(const Stroke&) const = default;
 };
 
 struct RectShape {
@@ -28,6 +29,7 @@ struct RectShape {
   Role fill = Role::none;
   Stroke stroke = {};
   bool snapped = false;  // edges on whole pixels: for axis-aligned lines that must be crisp
+  bool operator==(const RectShape&) const = default;
 };
 
 struct LineShape {
@@ -35,6 +37,7 @@ struct LineShape {
   Vec<2> to{0.0};
   Stroke stroke = {};    // round caps
   bool snapped = false;  // a horizontal or vertical line, put on whole pixels
+  bool operator==(const LineShape&) const = default;
 };
 
 // A simple polygon, convex or not, its corners in order round it.
@@ -42,6 +45,7 @@ struct PolygonShape {
   std::vector<Vec<2>> points;
   Role fill = Role::none;
   Stroke stroke = {};
+  bool operator==(const PolygonShape&) const = default;
 };
 
 enum class Weight { regular, semibold };
@@ -54,6 +58,7 @@ struct TextShape {
   double align = 0;  // 0 left, 0.5 centre, 1 right
   Role role = Role::ink;
   Role halo = Role::none;  // painted 3 units around the letters when not none
+  bool operator==(const TextShape&) const = default;
 };
 
 using DrawShape = std::variant<RectShape, LineShape, PolygonShape, TextShape>;
@@ -86,9 +91,19 @@ struct KeyedRun {
   std::size_t first = 0;  // of `shapes`; it reaches to the next run's
 };
 
+// How a shape of an in-between is painted: on its way from one role's colour to another's, or on
+// its way in or out.
+struct Tint {
+  double opacity = 1;      // of all of it, 0 ... 1
+  double share = 0;        // of the roles below in its colours, 0 ... 1; the rest are its own
+  Role fill = Role::none;  // beside the shape's fill, or a text's role
+  Role line = Role::none;  // beside its stroke's role, or a text's halo
+};
+
 struct DrawList {
   Vec<2> page{1600.0, 900.0};
   std::vector<DrawShape> shapes;
+  std::vector<Tint> tints;  // one for each shape, or none at all: painted as they say themselves
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn

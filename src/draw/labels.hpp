@@ -49,6 +49,9 @@ class Labels {
   // Texts and their boxes go to `list`, which must outlive this.
   explicit Labels(DrawList& list) : list_(list) {}
 
+  // Where its texts go, to say what they name (DrawList::Scope).
+  DrawList& list() const { return list_; }
+
   // What the letters may cover.
   static Box<2> extent(std::string_view text, const Anchor& anchor, const TextStyle& style);
 

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "draw/body_shapes.hpp"
+#include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
@@ -68,10 +69,16 @@ void Marks::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
 
 void Marks3D::add(const Convex& space, Outline outline, std::vector<DrawShape> shapes) {
   pieces.push_back({space, std::move(outline), true, false, std::move(shapes)});
+  Piece& piece = pieces.back();
+  if (!list_.runs.empty()) piece.key = list_.runs.back().key, piece.from = list_.runs.back().from;
 }
 
 void Marks3D::paint() {
   draw::paint(std::move(pieces), view, list_);
+  for (KeyedRun& run : above_.runs) {
+    run.first += list_.shapes.size();
+    list_.runs.push_back(std::move(run));
+  }
   std::ranges::move(above_.shapes, std::back_inserter(list_.shapes));
   over_ = &list_;
 }
@@ -169,6 +176,8 @@ bool add_pairs(const Frame& frame, Marks3D& marks) {
         frame, bodies, [&](const FrameBody& a, const FrameBody& b, const FramePair& pair) {
           if (pair.lit != lit) return true;
           if (++count > kMostPairs) return false;
+          const std::string key = pair_key("world/pair", a, b);
+          const Marks::Scope scope(marks, key, key);
           marks.line(link_end(a, b), link_end(b, a),
                      {Role::pair, (lit ? 4.4 : 3.0) * (many ? 0.6 : 1)}, many ? 0 : 2);
           return true;
@@ -183,6 +192,8 @@ void draw_joints(const Frame& frame, const Marks3D& marks) {
                 [&](const FrameBody& a, const FrameBody& b, const FramePair&) {
                   if (!overlap(a.box, b.box)) return true;
                   const Box<3> common{glm::max(a.box.lo, b.box.lo), glm::min(a.box.hi, b.box.hi)};
+                  const std::string key = pair_key("world/joint", a, b);
+                  const Marks::Scope scope(marks, key, key);
                   const bool grounded = is_half_space(a) || is_half_space(b);
                   const Vec<3> foot = is_half_space(a) ? link_end(a, b) : link_end(b, a);
                   marks.dot(grounded ? foot : common.center(), 6, Role::pair, {Role::panel, 2});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,19 @@ class Marks {
   void dot(const Vec<3>& at, double radius, Role fill, const Stroke& stroke = {}) const;
 
   const Projection& projection() const { return projection_; }
+
+  // What is marked until it ends shows this, as DrawList::Scope says.
+  class Scope {
+   public:
+    Scope(const Marks& marks, const std::string& key, const std::string& from = {})
+        : scope_(marks.list_, key, from) {
+      if (marks.over_ != &marks.list_) over_.emplace(*marks.over_, key, from);
+    }
+
+   private:
+    DrawList::Scope scope_;
+    std::optional<DrawList::Scope> over_;
+  };
 
  protected:
   // Of a 2D world, where all is seen.

@@ -6,6 +6,7 @@
 #include "base/utf8.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
+#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panels.hpp"
 
@@ -134,6 +135,9 @@ class MemoryView {
   }
 
   void draw_leaf(const FrameNode& leaf) {
+    const auto at = static_cast<std::uint32_t>(&leaf - frame_.nodes.data());
+    const DrawList::Scope scope(list_, node_key("memory/leaf", frame_.nodes, at),
+                                parent_key("memory/leaf", frame_.nodes, at));
     const bool lit = leaf.mark == Mark::lit;
     const Stroke outline = lit ? Stroke{Role::lit, 2.8} : Stroke{Role::cell_line_1, 1.8};
     const auto used =

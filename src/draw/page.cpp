@@ -200,9 +200,13 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
   list.page = page / k;
   Labels labels(list);
   const double margin = list.page.x < 1000 ? 40 : 60;
-  draw_title(frame, margin, list, labels);
-  const double bottom = draw_footer(frame, margin, list, labels);
-  add_rule(list, bottom, margin);
+  double bottom = 0;
+  {
+    const DrawList::Scope words(list, "page/words");
+    draw_title(frame, margin, list, labels);
+    bottom = draw_footer(frame, margin, list, labels);
+    add_rule(list, bottom, margin);
+  }
   draw_panels(frame, {{margin, kTop}, {list.page.x - margin, bottom - 26}}, list, labels, work);
   list.page = page;
   if (k == 1) return list;

@@ -216,6 +216,7 @@ void paint(std::vector<Piece> pieces, const View3D& view, DrawList& list) {
     std::set<Key>& from = ready.empty() ? waiting : ready;  // a ring: break it at the far end
     const std::size_t i = from.begin()->second;
     from.erase(from.begin());
+    const DrawList::Scope scope(list, std::move(pieces[i].key), std::move(pieces[i].from));
     for (DrawShape& shape : pieces[i].shapes) list.shapes.push_back(std::move(shape));
     for (const std::size_t next : later[i]) {
       if (waits[next] == 0 || --waits[next] > 0) continue;

@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "draw/projection.hpp"
@@ -37,6 +38,7 @@ struct Piece {
   bool is_line = false;  // lines are ordered against bodies, not against each other
   bool yields = false;   // a line that is thinner where it passes before a body
   std::vector<DrawShape> shapes;
+  std::string key = {}, from = {};  // what it shows (KeyedRun)
 };
 
 // The part of a segment on the page, from 0 to 1, that lies in a convex outline.

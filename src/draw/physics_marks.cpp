@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
+#include "draw/keys.hpp"
 #include "draw/marks.hpp"
 
 namespace lantern::draw {
@@ -80,6 +81,8 @@ std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to) {
 
 void mark_links(const Frame& frame, Marks& marks) {
   for (const FrameLink& link : first_of(frame.links, kMostDrawnLinks)) {
+    const auto number = &link - frame.links.data();  // of the scenario's springs and joints
+    const Marks::Scope scope(marks, fmt::format("world/link/{}", number));
     const Stroke stroke = strain_stroke(link.strain);
     if (link.kind == FrameLink::Kind::pin) {
       marks.line(link.from, link.to, {Role::ink, 1.6});
@@ -107,7 +110,9 @@ bool mark_contacts(const Frame& frame, const Marks& marks) {
   const Projection& view = marks.projection();
   Pen pen = marks.over();
   std::size_t drawn = 0;
-  for (const FrameContact& contact : frame.contacts)
+  for (const FrameContact& contact : frame.contacts) {
+    const std::string key = fmt::format("world/contact/{}/{}", contact.pair.a, contact.pair.b);
+    const Marks::Scope scope(marks, key, key);
     for (const FrameContact::Point& point : contact.points) {
       if (++drawn > kMostPoints) return false;
       const auto at = view.seen(point.position);
@@ -123,6 +128,7 @@ bool mark_contacts(const Frame& frame, const Marks& marks) {
       if (contact.begins) pen.dot(*at, 10 * k, Role::none, {Role::contact, 1.8});
       pen.dot(*at, 5 * k, Role::contact, {Role::panel, 1.8 * k});
     }
+  }
   return true;
 }
 
@@ -134,6 +140,7 @@ void mark_velocities(const Frame& frame, Marks& marks) {
     const double speed = glm::length(body.velocity);
     if (is_half_space(body) || !std::isfinite(speed) || !(speed > 1e-12)) continue;
     const double share = arrow_share(speed, view.size());
+    const Marks::Scope scope(marks, body_key("world/velocity", body));
     if (share > kLeastShare)
       marks.arrow(body.position,
                   body.position + body.velocity * (share * view.longest_arrow() / speed),

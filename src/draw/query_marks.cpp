@@ -92,6 +92,7 @@ void mark_queries(const Frame& frame, Marks& marks) {
   const Stroke stroke{Role::frustum, 3.2, 9};
   for (const FrameQuery& query : first_of(frame.queries, kMostQueries)) {
     if (!is_valid(query.box)) continue;
+    const Marks::Scope scope(marks, fmt::format("world/query/{}", &query - frame.queries.data()));
     if (query.radius > 0)
       marks.ball(query.box.center(), query.radius, stroke);
     else
@@ -101,8 +102,10 @@ void mark_queries(const Frame& frame, Marks& marks) {
 
 void mark_rays(const Frame& frame, Marks& marks) {
   const double k = ray_scale(frame);
-  for (const FrameRay& ray : first_of(frame.rays, kMostRays))
+  for (const FrameRay& ray : first_of(frame.rays, kMostRays)) {
+    const Marks::Scope scope(marks, fmt::format("world/ray/{}", &ray - frame.rays.data()));
     marks.arrow(ray.from, ray.to, {Role::ray, 3.6 * k}, 20 * k, 1.8 * k);
+  }
 }
 
 void mark_hits(const Frame& frame, const Marks& marks, Labels& labels) {

@@ -5,6 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
+#include "draw/keys.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
 #include "draw/tree_layout.hpp"
@@ -44,6 +45,17 @@ class TreeView {
     return node_of(branch).leaf && node_of(branch).bodies.empty();
   }
 
+  // What is drawn next belongs to a branch, and comes out of its parent's box.
+  DrawList::Scope shown(std::string_view kind, std::size_t i) {
+    const std::uint32_t node = branches()[i].node;
+    return {list_, node_key(kind, frame_.nodes, node), parent_key("tree/node", frame_.nodes, node)};
+  }
+  // A body or texture in a leaf, which comes there from the leaf's parent.
+  DrawList::Scope carried(const std::string& what, const Branch& leaf) {
+    return {list_, node_key(what, frame_.nodes, leaf.node),
+            parent_key(what, frame_.nodes, leaf.node)};
+  }
+
   bool is_lit_edge(const Branch& branch) const {
     return branch.parent != kNone && branch.mark == Mark::lit &&
            branches()[branch.parent].mark != Mark::quiet;
@@ -52,6 +64,7 @@ class TreeView {
   void draw_edge(std::size_t i, bool lit) {
     const Role role = lit ? Role::lit : cell_line_role(node_of(branches()[i]).depth - 1);
     const std::vector<Vec<2>> corners = layout_.edge(i);
+    const DrawList::Scope scope = shown("tree/edge", i);
     for (std::size_t k = 1; k < corners.size(); ++k) {
       const Vec<2>&a = corners[k - 1], &b = corners[k];
       const bool upright_or_level = a.x == b.x || a.y == b.y;
@@ -71,6 +84,7 @@ class TreeView {
   void draw_branch(std::size_t i) {
     const Branch& branch = branches()[i];
     const Box<2>& box = layout_.boxes[i];
+    const DrawList::Scope scope = shown("tree/node", i);
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
@@ -112,7 +126,8 @@ class TreeView {
     const Vec<2> c = box.center();
     double x = c.x - width / 2;
     for (std::size_t k = 0; k < content.icons; ++k, x += icon + 5)
-      draw_icon(node_of(branch).bodies[k], {{x, c.y - icon / 2}, {x + icon, c.y + icon / 2}});
+      draw_icon(node_of(branch).bodies[k], branch,
+                {{x, c.y - icon / 2}, {x + icon, c.y + icon / 2}});
     if (content.icons > 0) x += 1;
     labels_.add(content.text, centred({x, c.y}, style, 0), style, panel_);
   }
@@ -124,14 +139,16 @@ class TreeView {
     return {layout_.scale.text, Weight::semibold, Role::ink};
   }
 
-  void draw_icon(BodyId id, const Box<2>& place) {
+  void draw_icon(BodyId id, const Branch& branch, const Box<2>& place) {
     if (is_atlas()) {
       const FrameTexture& texture = *std::ranges::find(frame_.textures, id, &FrameTexture::id);
+      const DrawList::Scope scope = carried(texture_key("tree/texture", texture), branch);
       draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_);
       return list_.rect(place, Role::none, {Role::body_line, 1.2});
     }
     const auto found = bodies_.find(id);
     if (found == bodies_.end()) return;
+    const DrawList::Scope scope = carried(body_key("tree/body", *found->second), branch);
     draw_character(*found->second, icon_box(*found->second, place), false, list_);
   }
 
@@ -175,6 +192,7 @@ class TreeView {
   void label_branch(std::size_t i) {
     const Branch& branch = branches()[i];
     const FrameNode& node = node_of(branch);
+    const DrawList::Scope scope = shown("tree/name", i);
     if (branch.kind == Branch::Kind::levels) return label_levels(branch, layout_.boxes[i].center());
     if (!has_label_below(branch, frame_)) return;
     TextStyle style{layout_.scale.label, Weight::semibold, Role::quiet_ink, Role::paper};
@@ -260,6 +278,7 @@ class TreeView {
     if (is_atlas() || branch.copies != 1 || branch.kind != Branch::Kind::node) return;
     const std::string side = side_of(branch);
     if (side.empty()) return;
+    const DrawList::Scope scope = shown("tree/side", i);
     const std::vector<Vec<2>> corners = layout_.edge(i);
     if (corners.size() > 3) return;  // no room for words between the rows
     const Vec<2> a = corners[corners.size() - 2], b = corners.back();

@@ -7,6 +7,7 @@
 
 #include "base/stop.hpp"
 #include "draw/body_shapes.hpp"
+#include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
 
@@ -89,9 +90,12 @@ Box<2> card(const Box<2>& box, std::size_t i, std::size_t k) {
 
 void draw_stand(const Stand& stand, bool plain, const View2D& map, DrawList& list) {
   const std::size_t cards = std::min(stand.bodies.size(), kMostCards);
-  for (std::size_t i = 0; i < cards; ++i)
+  for (std::size_t i = 0; i < cards; ++i) {
+    const std::string key = body_key("world/body", *stand.bodies[i]);
+    const DrawList::Scope scope(list, key, key);
     draw_inside(*stand.bodies[i], card(page_box(*stand.bodies[i], map), i, cards), plain, map,
                 list);
+  }
 }
 
 // Two stands with bodies that are to be tested.
@@ -116,6 +120,10 @@ std::vector<Link> links_of(const Frame& frame, const std::vector<Stand>& stands,
     links.push_back({a->second, b->second, pair.lit});
   }
   return links;
+}
+
+std::string link_key(std::string_view kind, const std::vector<Stand>& stands, const Link& link) {
+  return pair_key(kind, *stands[link.a].bodies[0], *stands[link.b].bodies[0]);
 }
 
 // Where a link to `stand` ends. A long wall or floor is met at its place nearest to the other body:
@@ -195,6 +203,8 @@ bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& 
       const Vec<2> from = link_end(stands[link.a], stands[link.b].center);
       const Vec<2> to = link_end(stands[link.b], from);
       const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
+      const std::string key = link_key("world/pair", stands, link);
+      const DrawList::Scope scope(list, key, key);
       if (!many) list.line(from, to, {Role::panel, width + 4});
       list.line(from, to, {Role::pair, width});
     }
@@ -209,6 +219,8 @@ void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList&
     const Box<2>&a = stands[link.a].box, &b = stands[link.b].box;
     if (!overlap(a, b)) continue;
     const Box<2> common{glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
+    const std::string key = link_key("world/joint", stands, link);
+    const DrawList::Scope scope(list, key, key);
     list.disc(common.center(), 6.5, Role::pair, {Role::panel, 2.4});
   }
 }
@@ -224,10 +236,13 @@ void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes
   std::ranges::stable_sort(order, std::greater(), [&](const Stand* s) { return size_of(*s, map); });
   const bool plain = count > kMostDetailed;
   for (const Stand* stand : order) {
-    if (stand->outside)
+    if (stand->outside) {
+      const DrawList::Scope scope(list, body_key("world/outside", *stand->bodies[0]));
       draw_outside(*stand, map, list);
-    else
+    } else {
       draw_stand(*stand, plain, map, list);
+    }
+    const DrawList::Scope scope(list, body_key("world/box", *stand->bodies[0]));
     const Look look = stand->bodies[0]->look;
     const bool is_its_box = look == Look::bat || look == Look::box;
     if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !is_its_box &&
@@ -254,6 +269,7 @@ void name_bodies(const std::vector<Stand>& stands, const std::vector<Box<2>>& co
   if (order.size() > kMostNamed) order.resize(kMostNamed);
   for (const Stand* stand : order) {
     const double widest = stand->bodies.size() > 1 ? map.panel().size().x - 16 : kWidestName;
+    const DrawList::Scope scope(labels.list(), body_key("world/name", *stand->bodies[0]));
     name_stand(shortened(names_of(*stand), widest, {}), *stand, covered, map, grounds, labels);
   }
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "draw/borders.hpp"
+#include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
 #include "geometry/not_finite.hpp"
@@ -110,6 +111,9 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
     const FrameNode& node = frame.nodes[i];
     const Role role = ground_of(tone);
     grounds.push_back({page_region(node, map), role});
+    const auto at = static_cast<std::uint32_t>(i);
+    const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, at),
+                                parent_key("world/cell", frame.nodes, at));
     if (node.region.empty())
       list.crisp_rect(map.to_page(node.box), role);
     else
@@ -137,6 +141,8 @@ void draw_planes(const Frame& frame, const View2D& map, DrawList& list) {
     const Vec<2> a = map.in_reach(map.to_page(line->first));
     const Vec<2> b = map.in_reach(map.to_page(line->second));
     const bool upright = a.x == b.x || a.y == b.y;
+    const std::string key = node_key("world/plane", frame.nodes, static_cast<std::uint32_t>(i));
+    const DrawList::Scope scope(list, key, key);
     list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
   }
 }
@@ -160,13 +166,14 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
   const bool fitted = frame.structure == StructureKind::kd_tree && !of_static;
   bool complete = true;
   Borders borders;
-  for (const FrameNode& node : frame.nodes) {
+  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
+    const FrameNode& node = frame.nodes[i];
     // The root is the world, but for one that is fitted.
     if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static != of_static)
       continue;
     const Box<2> cell = map.to_page(node.box);
     if (is_drawn(cell))
-      borders.add(cell, node.depth);
+      borders.add(cell, node.depth, i);
     else
       complete &= of_static;
   }
@@ -174,24 +181,29 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
     if (!of_static) return Stroke{cell_line_role(depth), line_width(depth)};
     return Stroke{Role::cell_line_3, std::max(1.6, 0.6 * line_width(depth)), 16};
   };
-  return borders.draw(stroke, list) && complete;
+  const auto key = [&](std::uint32_t node) { return node_key("world/border", frame.nodes, node); };
+  return borders.draw(stroke, key, list) && complete;
 }
 
 void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
   if (nearly_all_lit(frame)) return;
   Borders borders;
   std::size_t outlined = 0;
-  for (const FrameNode& node : frame.nodes) {
+  const auto key = [&](std::uint32_t node) { return node_key("world/lit", frame.nodes, node); };
+  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
+    const FrameNode& node = frame.nodes[i];
     if (node.mark != Mark::lit || !is_drawn(map.to_page(node.box))) continue;
-    if (node.region.empty())
-      borders.add(map.to_page(node.box), std::min(node.depth, 6u));
-    else if (outlined++ < kMostFills)
+    if (node.region.empty()) {
+      borders.add(map.to_page(node.box), std::min(node.depth, 6u), i);
+    } else if (outlined++ < kMostFills) {
+      const DrawList::Scope scope(list, key(i));
       list.polygon(inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2});
+    }
   }
   const auto stroke = [](std::uint32_t depth) {
     return Stroke{Role::lit, std::max(1.2, 3.6 - 0.4 * depth)};
   };
-  borders.draw(stroke, list);
+  borders.draw(stroke, key, list);
 }
 
 // The grounds of views, which lie under the cells.
@@ -225,6 +237,7 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   complete &= draw_borders(frame, map, true, list);
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
+  const DrawList::Scope scope(list, "world/rim");
   const bool lit =
       !frame.nodes.empty() && !nearly_all_lit(frame) && frame.nodes[0].mark == Mark::lit;
   list.crisp_rect(map.picture(), Role::none,
@@ -243,7 +256,7 @@ void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place,
       continue;
     borders.add_inside(place, cell, node.depth);
   }
-  borders.draw([](std::uint32_t) { return Stroke{Role::body_line, 1}; }, list);
+  borders.draw_plainly({Role::body_line, 1}, list);
 }
 
 }  // namespace lantern::draw

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "draw/font.hpp"
+#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/pen.hpp"
 #include "draw/world2d_parts.hpp"
@@ -63,6 +64,7 @@ std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map,
       solid = clipped(polygon_of(limit), surface, false);
     }
     if (solid.size() < 3) continue;
+    const DrawList::Scope scope(list, body_key("world/body", body));
     Pen pen(list, limit);
     pen.polygon(solid, Role::free_space);
     pen.hatch(solid, 15, 1, {Role::cell_line_3, 1.6}, 160);
@@ -86,6 +88,8 @@ void draw_ground_pairs(const Frame& frame, Marks& marks) {
                 [&](const FrameBody& a, const FrameBody& b, const FramePair& pair) {
                   if (is_half_space(a) == is_half_space(b)) return true;
                   const auto& [body, ground] = is_half_space(a) ? std::tie(b, a) : std::tie(a, b);
+                  const std::string key = pair_key("world/pair", a, b);
+                  const Marks::Scope scope(marks, key, key);
                   marks.line(body.position, foot_on(ground, body.position),
                              {Role::pair, pair.lit ? 4.4 : 3.0}, 2);
                   return ++drawn < kMostLinks;
@@ -116,6 +120,7 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
     if (++drawn > kMostBoxes) return;
     const Box<2> box = map.to_page(body.box);
     if (!holds(shrunk(map.picture(), -30), box)) continue;
+    const DrawList::Scope scope(list, body_key("world/broad box", body));
     // What the structure holds, where one can see that it is more.
     const Box<2> held = map.to_page(body.stored_box.value_or(body.box));
     const bool more = box.lo.x - held.lo.x > kSeen || held.hi.x - box.hi.x > kSeen;

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "draw/font.hpp"
+#include "draw/keys.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -15,8 +16,10 @@ constexpr std::size_t kMostLabels = 120;
 void label_planes(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
                   DrawList& list, Labels& labels) {
   const TextStyle style{kLabel, Weight::semibold, Role::ink};
-  for (const FrameNode& node : frame.nodes) {
+  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
+    const FrameNode& node = frame.nodes[i];
     if (!node.plane || node.plane_name.empty()) continue;
+    const DrawList::Scope scope(list, node_key("world/plane name", frame.nodes, i));
     const auto line = dividing_line(node);
     if (!line) continue;
     Vec<2> a = map.in_reach(map.to_page(line->first));
@@ -177,7 +180,11 @@ void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>
     if (node.leaf && !node.label.empty() && !(node.of_static && dynamic)) leaves.push_back(&node);
   std::ranges::stable_sort(leaves, {}, &FrameNode::depth);
   if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);
-  for (const FrameNode* leaf : leaves) label_cell(*leaf, map, bodies, grounds, labels);
+  for (const FrameNode* leaf : leaves) {
+    const auto at = static_cast<std::uint32_t>(leaf - frame.nodes.data());
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
+    label_cell(*leaf, map, bodies, grounds, labels);
+  }
   label_unmade(frame, map, bodies, labels);
 }
 

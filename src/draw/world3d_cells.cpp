@@ -3,6 +3,9 @@
 #include <functional>
 #include <tuple>
 
+#include <fmt/format.h>
+
+#include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
 
@@ -38,6 +41,8 @@ struct Edge {
   double at[2] = {0, 0};
   double from = 0, to = 0;
   Strength strength;
+  std::uint32_t node = 0;  // whose edge it is, if one says so
+  int corner = 0;          // which of the four along this axis
 
   auto line() const { return std::tie(axis, at[0], at[1]); }
   Vec<3> point(double along) const {
@@ -78,7 +83,7 @@ class Edges {
 
   // The twelve edges of a cell. In a column's cell those at the top are left out,
   // unless it is lit.
-  void add(const FrameNode& node, bool column) {
+  void add(const FrameNode& node, bool column, std::uint32_t number = 0) {
     if (!is_valid(node.box)) return;
     const Box<3>& box = node.box;
     for (int axis = 0; axis < 3; ++axis)
@@ -95,7 +100,9 @@ class Edges {
              {rounded(high_j ? box.hi[j] : box.lo[j]), rounded(high_k ? box.hi[k] : box.lo[k])},
              rounded(box.lo[axis]),
              rounded(box.hi[axis]),
-             {node.mark != Mark::lit, node.depth, dashed, before || faint}});
+             {node.mark != Mark::lit, node.depth, dashed, before || faint},
+             number,
+             static_cast<int>(corner)});
       }
   }
 
@@ -103,7 +110,7 @@ class Edges {
   // answer is false.
   bool take(std::size_t most, std::vector<Edge>& merged) {
     std::ranges::sort(edges_, {}, [](const Edge& e) {
-      return std::tie(e.axis, e.at[0], e.at[1], e.from, e.to, e.strength);
+      return std::tie(e.axis, e.at[0], e.at[1], e.from, e.to, e.strength, e.node);
     });
     for (std::size_t i = 0; i < edges_.size();) {
       std::size_t end = i;
@@ -177,6 +184,9 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
     return std::pair{n->mark == Mark::lit, -view.depth(n->box.center())};
   });
   for (const FrameNode* node : filled) {
+    const auto at = static_cast<std::uint32_t>(node - frame.nodes.data());
+    const DrawList::Scope scope(list, node_key("world/ground", frame.nodes, at),
+                                parent_key("world/ground", frame.nodes, at));
     const bool lit = node->mark == Mark::lit;
     fill_inside(node->box, lit ? Role::lit_fill : Role::passed_fill, Role::passed_fill, view, list);
   }
@@ -185,7 +195,7 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
 bool add_cells(const Frame& frame, Marks3D& marks) {
   Edges edges(marks.view);
   const bool flat = traits_of(frame.structure).ignores_height;
-  for (const FrameNode& node : frame.nodes) edges.add(node, flat);
+  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) edges.add(frame.nodes[i], flat, i);
   if (frame.nodes.empty()) {
     FrameNode whole;
     whole.box = frame.bounds;
@@ -198,7 +208,13 @@ bool add_cells(const Frame& frame, Marks3D& marks) {
   // Deep ones first: of pieces equally far away the stronger lies on top.
   std::ranges::stable_sort(merged, std::greater(), &Edge::strength);
   const std::size_t first = marks.pieces.size();
-  for (const Edge& e : merged) marks.line(e.point(e.from), e.point(e.to), stroke_of(e.strength));
+  for (const Edge& e : merged) {
+    const std::string cell =
+        frame.nodes.empty() ? "world/cell/root" : node_key("world/cell", frame.nodes, e.node);
+    const std::string key = fmt::format("{}/{}{}", cell, "xyz"[e.axis], e.corner);
+    const Marks::Scope scope(marks, key, key);
+    marks.line(e.point(e.from), e.point(e.to), stroke_of(e.strength));
+  }
   for (std::size_t i = first; i < marks.pieces.size(); ++i) marks.pieces[i].yields = true;
   return complete;
 }

@@ -156,6 +156,7 @@ void draw_shadows(const std::vector<Body3D>& bodies, const View3D& view, DrawLis
   const Box<3>& bounds = view.bounds();
   for (const Body3D& b : bodies) {
     if (b.body->box.center().y < bounds.lo.y || view.eye().y <= bounds.lo.y) continue;
+    const DrawList::Scope scope(list, body_key("world/shadow", *b.body));
     Corners rim;
     for (const Vec<2>& p : seen_from_above(b)) rim.push_back({p.x, bounds.lo.y, p.y});
     fill(cut_by(rim, bounds), Role::rule, {}, view, list);  // cut off where the floor ends
@@ -170,6 +171,7 @@ void add_drop_lines(Marks3D& marks) {
     const Vec<3> c = b.body->box.center();
     const Vec<3> foot{c.x, marks.view.bounds().lo.y, c.z};
     if (b.body->is_static || c.y <= foot.y) continue;
+    const Marks::Scope scope(marks, body_key("world/drop", *b.body));
     marks.line(c, foot, {Role::quiet_ink, 1.4, 5});
     if (const auto page = marks.view.segment(foot, foot); page && b.body->box.lo.y > foot.y) {
       const Box<2> spot = Box<2>::around(page->first, Vec<2>(kFoot));

@@ -5,6 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
+#include "draw/keys.hpp"
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
 #include "draw/projection.hpp"
@@ -75,8 +76,10 @@ void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const V
                   DrawList& list, Labels& labels) {
   for (const bool lit : {true, false})
     for (const Body3D& b : bodies)
-      if (b.body->lit == lit && !b.body->name.empty() && (lit || bodies.size() <= kMostNamed))
+      if (b.body->lit == lit && !b.body->name.empty() && (lit || bodies.size() <= kMostNamed)) {
+        const DrawList::Scope scope(list, body_key("world/name", *b.body));
         name_body(b, bodies, view, labels);
+      }
   std::vector<const FrameNode*> cells;
   for (const FrameNode& node : frame.nodes)
     if (node.leaf && node.depth > 0 && !node.of_static && !node.label.empty() &&
@@ -88,7 +91,11 @@ void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const V
     return std::pair{n->mark != Mark::lit, n->depth};
   });
   if (cells.size() > kMostCells) cells.resize(kMostCells);
-  for (const FrameNode* cell : cells) name_cell(*cell, bodies, view, list, labels);
+  for (const FrameNode* cell : cells) {
+    const auto at = static_cast<std::uint32_t>(cell - frame.nodes.data());
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
+    name_cell(*cell, bodies, view, list, labels);
+  }
 }
 
 // What had to be left out of the picture, for its note.
@@ -101,15 +108,20 @@ void note(const LeftOut& left_out, const Box<2>& picture, Labels& labels) {
 // All that other bodies may hide.
 void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
   constexpr std::size_t kMostBoxed3d = 60;
-  for (const Body3D& body : marks.bodies) marks.pieces.push_back(body_piece(body, marks.view));
+  for (const Body3D& body : marks.bodies) {
+    Piece& piece = marks.pieces.emplace_back(body_piece(body, marks.view));
+    piece.key = piece.from = body_key("world/body", *body.body);
+  }
   if (!add_cells(frame, marks)) left_out.push_back("the deepest cells are not drawn");
   add_drop_lines(marks);
   if (!add_pairs(frame, marks)) left_out.push_back("not all pairs are drawn");
   mark_links(frame, marks);
   mark_velocities(frame, marks);
   for (const Body3D& b : marks.bodies)
-    if (frame.show_boxes && (b.body->lit || marks.bodies.size() <= kMostBoxed3d))
+    if (frame.show_boxes && (b.body->lit || marks.bodies.size() <= kMostBoxed3d)) {
+      const Marks::Scope scope(marks, body_key("world/box", *b.body));
       marks.box(b.body->box, {b.body->lit ? Role::lit : Role::quiet_ink, 1.5, 5});
+    }
   mark_views(frame, marks);
   mark_rays(frame, marks);
   mark_queries(frame, marks);
@@ -207,8 +219,11 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   if (!asks) draw_ground_pairs(frame, marks);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.show_boxes;
   draw_bodies(stands, map, own_boxes, list);
-  for (const Stand& stand : stands)
-    if (!stand.outside) draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
+  for (const Stand& stand : stands) {
+    if (stand.outside) continue;
+    const DrawList::Scope scope(list, body_key("world/over", *stand.bodies[0]));
+    draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
+  }
   if (!asks) draw_joints(frame, stands, list);
   draw_broad_boxes(frame, map, list, labels);
   draw_marks(frame, map, left_out, list, labels);

@@ -38,13 +38,6 @@ struct Batch {
   std::vector<Instance> instances;
 };
 
-// Painted opaquely, or not at all.
-inline std::array<std::uint8_t, 4> paint_of(const Theme& theme, Role role) {
-  if (role == Role::none) return {};
-  const Color& c = theme[role];
-  return {c.r, c.g, c.b, 255};
-}
-
 // Collects instances in painting order. To change the program costs the GPU's driver far more than
 // to draw one more quad, so a quad joins an earlier batch of its own program whenever nothing that
 // it overlaps was painted in between.

@@ -15,6 +15,7 @@
 #include "render/instances.hpp"
 #include "render/polygon_masks.hpp"
 #include "render/text_masks.hpp"
+#include "render/tinted.hpp"
 
 namespace lantern::render {
 
@@ -33,7 +34,10 @@ class ShapeBuilder {
       text_.forget();
       polygons_.forget();
     }
-    for (const DrawShape& shape : list.shapes) std::visit([&](const auto& s) { add(s); }, shape);
+    for (std::size_t i = 0; i < list.shapes.size(); ++i) {
+      tint_ = list.tints.empty() ? nullptr : &list.tints[i];
+      std::visit([&](const auto& s) { add(s); }, list.shapes[i]);
+    }
   }
 
   const BatchList& batches() const { return batches_; }
@@ -47,8 +51,9 @@ class ShapeBuilder {
     FramedBox framed{box.center(), {1, 0}, box.size() * 0.5, 0, 0.5 * border.width};
     framed.radius =
         std::clamp(shape.radius * canvas_.scale, 0.0, std::min(framed.half.x, framed.half.y));
-    if (border.width == 0 || !is_dashed(shape.stroke))
-      return add_upright(framed, paint(shape.fill, shape.stroke.role));
+    const Paint fill = fill_of(shape.fill), line = line_of(shape.stroke);
+    if (border.width == 0 || !is_dashed(shape.stroke, line))
+      return add_upright(framed, paint(fill, line));
 
     FramedBox ground = framed;
     ground.half_line = 0;
@@ -58,28 +63,30 @@ class ShapeBuilder {
       ground.center = (lo + hi) * 0.5;
       ground.half = (hi - lo) * 0.5;
     }
-    add_upright(ground, paint(shape.fill, Role::none));
+    add_upright(ground, paint(fill));
     Stroke stroke = shape.stroke;
     stroke.width = border.width / canvas_.scale;
-    add_dashes(outline_of(box, framed.radius), true, stroke);
+    add_dashes(outline_of(box, framed.radius), true, stroke, line);
   }
 
   void add(const LineShape& shape) {
-    if (shape.stroke.role == Role::none || shape.stroke.width <= 0) return;
-    if (shape.snapped && !is_dashed(shape.stroke) &&
+    const Paint line = line_of(shape.stroke);
+    if (line[3] == 0) return;
+    if (shape.snapped && !is_dashed(shape.stroke, line) &&
         (shape.from.x == shape.to.x || shape.from.y == shape.to.y))
-      return add_snapped_line(shape);
+      return add_snapped_line(shape, line);
     const Vec<2> from = canvas_.pixel(shape.from), to = canvas_.pixel(shape.to);
-    if (is_dashed(shape.stroke)) return add_dashes({from, to}, false, shape.stroke);
-    add_line(from, to, shape.stroke.width * canvas_.scale, true, shape.stroke.role);
+    if (is_dashed(shape.stroke, line)) return add_dashes({from, to}, false, shape.stroke, line);
+    add_line(from, to, shape.stroke.width * canvas_.scale, true, line);
   }
 
   void add(const PolygonShape& shape) {
     std::vector<Vec<2>> points;
     for (const Vec<2>& p : shape.points) points.push_back(canvas_.pixel(p));
-    const bool dashed = is_dashed(shape.stroke);
-    const Instance fill = paint(shape.fill, Role::none);
-    const Instance line = paint(dashed ? Role::none : shape.stroke.role, Role::none);
+    const Paint stroke = line_of(shape.stroke);
+    const bool dashed = is_dashed(shape.stroke, stroke);
+    const Instance fill = paint(fill_of(shape.fill));
+    const Instance line = paint(dashed ? Paint{} : stroke);
     const double half_line = line.fill[3] == 0 ? 0 : 0.5 * shape.stroke.width * canvas_.scale;
     const std::vector<PolygonTile>& tiles = polygons_.tiles(points, half_line, canvas_);
     for (const PolygonTile& tile : tiles) {
@@ -91,7 +98,7 @@ class ShapeBuilder {
     }
     for (const PolygonTile& tile : tiles)
       if (tile.stroke != 0) add_mask(line, tile.stroke, tile.rect);
-    if (dashed) add_dashes(points, true, shape.stroke);
+    if (dashed) add_dashes(points, true, shape.stroke, stroke);
   }
 
   void add(const TextShape& shape) {
@@ -100,12 +107,12 @@ class ShapeBuilder {
     const double width = shape.align == 0 ? 0 : text_width(shape.text, shape.size, shape.weight);
     const Vec<2> at = canvas_.pixel({shape.at.x - shape.align * width, shape.at.y});
     TextKey key{shape.text, shape.weight, pixels, 0, 0};
-    if (shape.halo != Role::none) {
+    if (const Paint halo = tinted(*theme_, shape.halo, tint_, &Tint::line); halo[3] != 0) {
       key.halo = 3 * canvas_.scale;
-      add_text(key, at, shape.halo);
+      add_text(key, at, halo);
       key.halo = 0;
     }
-    add_text(key, at, shape.role);
+    add_text(key, at, fill_of(shape.role));
   }
 
   // A box in its own frame, with an axis of unit length.
@@ -121,7 +128,7 @@ class ShapeBuilder {
   // Where a rect's outline runs, and how wide it is: 0 without one.
   Border border_of(const RectShape& shape) const {
     Border border{canvas_.pixels(shape.box), 0};
-    const bool has_line = shape.stroke.role != Role::none && shape.stroke.width > 0;
+    const bool has_line = line_of(shape.stroke)[3] != 0;
     if (has_line) border.width = shape.stroke.width * canvas_.scale;
     if (!shape.snapped) return border;
     Box<2>& box = border.box;
@@ -178,7 +185,7 @@ class ShapeBuilder {
     batches_.add(program, instance, rect);
   }
 
-  void add_line(const Vec<2>& from, const Vec<2>& to, double width, bool round, Role role) {
+  void add_line(const Vec<2>& from, const Vec<2>& to, double width, bool round, const Paint& line) {
     const Box<2> near{Vec<2>(-2 - width),
                       Vec<2>(canvas_.width, canvas_.height) + Vec<2>(2 + width)};
     const auto seen = span_in(Ray<2>{from, to - from, 1}, near);
@@ -191,31 +198,31 @@ class ShapeBuilder {
     if (length > 0) box.axis = (b - a) / length;
     box.half = {0.5 * length + (round ? 0.5 * width : 0.0), 0.5 * width};
     box.radius = round ? 0.5 * width : 0;
-    const Instance colors = paint(role, Role::none);
+    const Instance colors = paint(line);
     if (box.axis.x * box.axis.y != 0) return add_turned(box, colors);
     if (box.axis.y != 0) box.half = {box.half.y, box.half.x};
     box.axis = {1, 0};
     add_upright(box, colors);
   }
 
-  void add_dashes(const std::vector<Vec<2>>& outline, bool closed, const Stroke& stroke) {
+  void add_dashes(const std::vector<Vec<2>>& outline, bool closed, const Stroke& stroke,
+                  const Paint& line) {
     const double width = stroke.width * canvas_.scale;
     for (const DashPiece& piece :
          cut_dashes(outline, closed, stroke.dash * canvas_.scale, width, image()))
-      add_line(piece.from, piece.to, width, false, stroke.role);
+      add_line(piece.from, piece.to, width, false, line);
   }
 
   // The origin lies on a whole pixel vertically, on one of kGlyphPlaces parts of it horizontally.
-  void add_text(const TextKey& key, const Vec<2>& at, Role role) {
-    if (role == Role::none) return;
+  void add_text(const TextKey& key, const Vec<2>& at, const Paint& letters) {
+    if (letters[3] == 0) return;
     const auto x = static_cast<int>(rounded(kGlyphPlaces * at.x));
     TextKey placed = key;
     placed.place = x & (kGlyphPlaces - 1);
     const Mask& mask = text_.mask(placed);
     const int left = (x >> kGlyphBits) + mask.left,
               top = static_cast<int>(rounded(at.y)) + mask.top;
-    add_mask(paint(role, Role::none), mask.offset,
-             {left, top, left + mask.width, top + mask.height});
+    add_mask(paint(letters), mask.offset, {left, top, left + mask.width, top + mask.height});
   }
 
   // Whole pixels of one colour.
@@ -223,7 +230,7 @@ class ShapeBuilder {
     Instance instance = paint;
     instance.box = floats(kEverywhere, kEverywhere, 0, 0);
     instance.stroke = {};
-    add_quad(Program::solid, instance, rect);
+    add_quad(opaque(paint) ? Program::solid : Program::box, instance, rect);
   }
 
   // A mask's pixels, row by row in `rect`, of which the image may show only a part.
@@ -232,24 +239,30 @@ class ShapeBuilder {
     Instance instance = paint;
     instance.box = floats(kEverywhere, kEverywhere, 0, 0);
     instance.data = {mask - rect.y0 * width - rect.x0, 1, width, 0};
-    add_quad(Program::mask, instance,
+    add_quad(opaque(paint) ? Program::mask : Program::box, instance,
              {std::max(rect.x0, 0), std::max(rect.y0, 0), std::min(rect.x1, canvas_.width),
               std::min(rect.y1, canvas_.height)});
   }
 
-  void add_snapped_line(const LineShape& shape) {
+  void add_snapped_line(const LineShape& shape, const Paint& line) {
     const Box<2> box = canvas_.snapped_line(shape);
-    add_upright({box.center(), {1, 0}, box.size() * 0.5}, paint(shape.stroke.role, Role::none));
+    add_upright({box.center(), {1, 0}, box.size() * 0.5}, paint(line));
   }
 
   // A dash of less than a pixel is grey at best: such a line is drawn unbroken.
-  bool is_dashed(const Stroke& stroke) const {
-    return stroke.dash * canvas_.scale >= 1 && stroke.width > 0 && stroke.role != Role::none;
+  bool is_dashed(const Stroke& stroke, const Paint& line) const {
+    return stroke.dash * canvas_.scale >= 1 && line[3] != 0;
   }
 
-  Instance paint(Role fill, Role stroke) const {
-    return {.fill = paint_of(*theme_, fill), .stroke = paint_of(*theme_, stroke)};
+  Paint fill_of(Role role) const { return tinted(*theme_, role, tint_, &Tint::fill); }
+  Paint line_of(const Stroke& stroke) const {
+    return stroke.width > 0 ? tinted(*theme_, stroke.role, tint_, &Tint::line) : Paint{};
   }
+  static Instance paint(const Paint& fill, const Paint& line = {}) {
+    return {.fill = fill, .stroke = line};
+  }
+  // Only the box program mixes colours with what is under them.
+  static bool opaque(const Instance& paint) { return paint.fill[3] == 255; }
   Box<2> image() const { return {Vec<2>(0.0), Vec<2>(canvas_.width, canvas_.height)}; }
 
   // A box larger than this is cut into its inside, which is one colour, and four strips of border.
@@ -265,6 +278,7 @@ class ShapeBuilder {
   int width_, height_;
   Canvas canvas_;
   const Theme* theme_ = nullptr;
+  const Tint* tint_ = nullptr;  // of the shape that is being added; none: as it says itself
   BatchList batches_;
   MaskStore masks_;
   TextMasks text_{masks_};

@@ -11,6 +11,7 @@
 #include "base/stop.hpp"
 #include "draw/font.hpp"
 #include "render/check_list.hpp"
+#include "render/tinted.hpp"
 
 namespace lantern::render {
 namespace {
@@ -33,10 +34,12 @@ class SvgWriter {
   SvgWriter(const DrawList& list, const Theme& theme) : list_(list), theme_(theme) {}
 
   std::string write(bool transparent, int width, int height) {
-    for (const DrawShape& shape : list_.shapes) {
+    for (std::size_t i = 0; i < list_.shapes.size(); ++i) {
       stop_if_asked();
-      std::visit([&](const auto& s) { add(s); }, shape);
+      tint_ = list_.tints.empty() ? nullptr : &list_.tints[i];
+      std::visit([&](const auto& s) { add(s); }, list_.shapes[i]);
     }
+    tint_ = nullptr;
     const std::string w = number(list_.page.x), h = number(list_.page.y);
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
@@ -45,8 +48,8 @@ class SvgWriter {
         width, height, w, h);
     if (!defs_.empty()) svg += fmt::format("<defs>\n{}</defs>\n", defs_);
     if (!transparent)
-      svg +=
-          fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", w, h, color(Role::paper));
+      svg += fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", w, h,
+                         colored("fill", fill_of(Role::paper)));
     return svg + body_ + "</svg>\n";
   }
 
@@ -61,7 +64,7 @@ class SvgWriter {
     body_ += paint(s.fill, s.stroke) + crisp(s.snapped) + "/>\n";
   }
   void add(const LineShape& s) {
-    if (s.stroke.role == Role::none || s.stroke.width <= 0) return;
+    if (line_of(s.stroke)[3] == 0) return;
     body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"", number(s.from.x),
                          number(s.from.y), number(s.to.x), number(s.to.y));
     const char* cap = s.stroke.dash > 0 ? "" : s.snapped ? " stroke-linecap=\"square\"" : kRoundCap;
@@ -89,12 +92,12 @@ class SvgWriter {
     const std::string place =
         fmt::format(" transform=\"translate({} {}) scale({})\"", number(s.at.x - s.align * width),
                     number(s.at.y), fmt::format("{:.6f}", s.size / 1000));
-    if (s.halo != Role::none)
-      body_ += fmt::format(
-          "<g{} fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\">{}</g>\n",
-          place, color(s.halo), color(s.halo), number(6 * 1000 / s.size), letters);
-    if (s.role != Role::none)
-      body_ += fmt::format("<g{} fill=\"{}\">{}</g>\n", place, color(s.role), letters);
+    if (const Paint halo = tinted(theme_, s.halo, tint_, &Tint::line); halo[3] != 0)
+      body_ += fmt::format("<g{}{}{} stroke-width=\"{}\" stroke-linejoin=\"round\">{}</g>\n", place,
+                           colored("fill", halo), colored("stroke", halo),
+                           number(6 * 1000 / s.size), letters);
+    if (const Paint ink = fill_of(s.role); ink[3] != 0)
+      body_ += fmt::format("<g{}{}>{}</g>\n", place, colored("fill", ink), letters);
   }
 
   // The number of a glyph in <defs>, where it is put when first met; -1 for a blank.
@@ -130,24 +133,31 @@ class SvgWriter {
   }
 
   std::string paint(Role fill, const Stroke& stroke) const {
-    std::string text = fmt::format(" fill=\"{}\"", fill == Role::none ? "none" : color(fill));
-    if (stroke.role == Role::none || stroke.width <= 0) return text;
-    text +=
-        fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", color(stroke.role), number(stroke.width));
+    const Paint ground = fill_of(fill), line = line_of(stroke);
+    std::string text = ground[3] == 0 ? " fill=\"none\"" : colored("fill", ground);
+    if (line[3] == 0) return text;
+    text += fmt::format("{} stroke-width=\"{}\"", colored("stroke", line), number(stroke.width));
     if (stroke.dash > 0) text += fmt::format(" stroke-dasharray=\"{}\"", number(stroke.dash));
     return text;
   }
   static const char* crisp(bool snapped) {
     return snapped ? " shape-rendering=\"crispEdges\"" : "";
   }
-  std::string color(Role role) const {
-    const Color& c = theme_[role];
-    return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b);
+  Paint fill_of(Role role) const { return tinted(theme_, role, tint_, &Tint::fill); }
+  Paint line_of(const Stroke& stroke) const {
+    return stroke.width > 0 ? tinted(theme_, stroke.role, tint_, &Tint::line) : Paint{};
+  }
+  // ` fill="#804000"`, and how opaque it is unless it is so altogether.
+  static std::string colored(const char* what, const Paint& c) {
+    std::string text = fmt::format(" {}=\"#{:02x}{:02x}{:02x}\"", what, c[0], c[1], c[2]);
+    if (c[3] < 255) text += fmt::format(" {}-opacity=\"{}\"", what, number(c[3] / 255.0));
+    return text;
   }
 
   static constexpr const char* kRoundCap = " stroke-linecap=\"round\"";
   const DrawList& list_;
   const Theme& theme_;
+  const Tint* tint_ = nullptr;  // of the shape that is being added
   std::map<std::pair<int, Weight>, int> glyphs_;
   std::string defs_, body_;
 };

@@ -1,0 +1,46 @@
+#include "draw/keys.hpp"
+
+#include <fmt/format.h>
+
+namespace lantern::draw {
+namespace {
+
+template <class Named>
+std::string name_or_number(const Named& named) {
+  return named.name.empty() ? fmt::format("#{}", named.id) : named.name;
+}
+
+}  // namespace
+
+std::string way_of(const std::vector<FrameNode>& nodes, std::uint32_t node) {
+  std::string way;
+  while (nodes[node].parent != kNone) {
+    way.insert(0, fmt::format(".{}", nodes[node].slot));
+    node = nodes[node].parent;
+  }
+  return (nodes[node].of_static ? "static" : "root") + way;
+}
+
+std::string node_key(std::string_view kind, const std::vector<FrameNode>& nodes,
+                     std::uint32_t node) {
+  return fmt::format("{}/{}", kind, way_of(nodes, node));
+}
+
+std::string parent_key(std::string_view kind, const std::vector<FrameNode>& nodes,
+                       std::uint32_t node) {
+  return nodes[node].parent == kNone ? "" : node_key(kind, nodes, nodes[node].parent);
+}
+
+std::string body_key(std::string_view kind, const FrameBody& body) {
+  return fmt::format("{}/{}", kind, name_or_number(body));
+}
+
+std::string texture_key(std::string_view kind, const FrameTexture& texture) {
+  return fmt::format("{}/{}", kind, name_or_number(texture));
+}
+
+std::string pair_key(std::string_view kind, const FrameBody& a, const FrameBody& b) {
+  return fmt::format("{}/{}/{}", kind, name_or_number(a), name_or_number(b));
+}
+
+}  // namespace lantern::draw
