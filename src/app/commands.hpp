@@ -56,6 +56,12 @@ struct ExplainOptions {
 };
 int explain_command(const ExplainOptions& options);
 
+struct ReferenceOptions {
+  std::string pictures;  // folder; empty: the page is printed
+  std::string backend = "auto";
+};
+int reference_command(const ReferenceOptions& options);
+
 struct DoctorOptions {
   bool json = false;
 };

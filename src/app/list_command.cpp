@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,31 @@ std::vector<fs::path> scenario_files(const fs::path& folder) {
   return files;
 }
 
+// In the order in which one would teach; those without a place behind the others, by name.
+void sort_for_teaching(std::vector<Scenario>& scenarios) {
+  std::ranges::stable_sort(scenarios, [](const Scenario& a, const Scenario& b) {
+    if (a.lecture.has_value() != b.lecture.has_value()) return a.lecture.has_value();
+    return std::tie(a.lecture, a.name) < std::tie(b.lecture, b.name);
+  });
+}
+
+std::vector<std::string> row_of(const Scenario& s) {
+  return {s.lecture ? fmt::format("{}", *s.lecture) : "", s.name, s.title, s.idea,
+          s.needs.empty() ? "" : fmt::format("after {}", fmt::join(s.needs, ", "))};
+}
+
+void add_member(JsonWriter& json, const Scenario& s) {
+  json.line().begin_object().members("name", s.name, "title", s.title, "source", s.source, "idea",
+                                     s.idea);
+  json.key("lecture");
+  s.lecture ? json.value(*s.lecture) : json.null();
+  json.key("needs").begin_array();
+  for (const std::string& name : s.needs) json.value(name);
+  json.end_array();
+  json.members("steps", s.steps.size(), "file", s.file);
+  json.end_object();
+}
+
 }  // namespace
 
 int list_command(const ListOptions& options) {
@@ -41,14 +67,16 @@ int list_command(const ListOptions& options) {
   JsonWriter json;
   json.begin_array();
   int code = kGood;
-  for (const fs::path& folder : folders)
+  for (const fs::path& folder : folders) {
+    std::vector<Scenario> scenarios;
     for (const fs::path& file : scenario_files(folder))
-      if (const auto s = load_or_complain(file.string(), code)) {
-        rows.push_back({s->name, s->title, s->source, file.string()});
-        json.line().begin_object().members("name", s->name, "title", s->title, "source", s->source,
-                                           "steps", s->steps.size(), "file", file.string());
-        json.end_object();
-      }
+      if (auto s = load_or_complain(file.string(), code)) scenarios.push_back(std::move(*s));
+    sort_for_teaching(scenarios);
+    for (const Scenario& s : scenarios) {
+      rows.push_back(row_of(s));
+      add_member(json, s);
+    }
+  }
   json.line().end_array();
   options.json ? write_stdout(json.text() + "\n") : print(table(rows));
   return code;

@@ -118,7 +118,8 @@ void add_check(CLI::App& app, Run& run) {
 }
 
 void add_list(CLI::App& app, Run& run) {
-  const auto [c, o] = command(app, run, "list", "List the scenarios in a folder", list_command);
+  const auto [c, o] = command(
+      app, run, "list", "List the scenarios in a folder in the order of a lecture", list_command);
   c->add_option("DIR", o.folders, "folders; the default is scenarios");
   add_json(*c, o.json);
 }
@@ -262,7 +263,13 @@ void add_texts(CLI::App& app, Run& run) {
       };
     });
   };
-  print("reference", "Print the scenario language's reference page (Markdown)", reference_page);
+  const auto [c, o] =
+      command(app, run, "reference", "Print the scenario language's reference page (Markdown)",
+              reference_command);
+  c->add_option("--pictures", o.pictures, "draw the page's pictures into this folder instead")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   print("schema", "Print the scenario language's JSON Schema", json_schema);
 }
 

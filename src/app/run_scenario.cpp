@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
@@ -20,7 +22,10 @@ Pace pace_of(std::string_view word, const Scenario& scenario) {
 std::string_view to_string(Pace pace) { return pace == Pace::event ? "event" : "step"; }
 
 std::optional<Scenario> load_or_complain(const std::string& file, int& code) try {
-  return load_scenario(file);
+  Scenario scenario = load_scenario(file);
+  if (!scenario.file_stem.empty())
+    say(fmt::format("'{}' is called '{}': names are of a–z, 0–9 and _", file, scenario.name));
+  return scenario;
 } catch (const ScenarioError& e) {
   complain(e);
   code = std::max<int>(code, kBadScenario);

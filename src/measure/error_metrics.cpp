@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kNear = 1e-9;  // of a body's size: so near is touching
 
-Rotation<3> orientation_of(const BodySpec& body) {
-  return turned(Rotation<3>(), body.axis * body.angle);
-}
-
 // The axis that `along` is nearest to, with its sign.
 Vec<3> nearest_axis(const Vec<3>& along) {
   int best = 0;

@@ -126,7 +126,7 @@ Top top_of(const Scenario& scenario) {
   top.pivot = link.at_b;
   top.arm = -LongVec(link.at_a);
   top.gravity = scenario.world.gravity;
-  top.spin = glm::conjugate(top.orientation) * (LongVec(body.axis) * LongVec(body.spin));
+  top.spin = glm::conjugate(top.orientation) * (LongVec(body.axis_of_spin()) * LongVec(body.spin));
   const long double square = glm::dot(top.arm, top.arm);
   if (!(square > 0)) refuse_problem(scenario, "its pin is at its centre");
   for (int i = 0; i < 3; ++i)

@@ -148,7 +148,8 @@ Invariants::Invariants(const Scenario& scenario) {
   for (const Step& step : scenario.steps) {
     pushed = pushed || std::holds_alternative<ApplyForce>(step.verb) ||
              std::holds_alternative<ApplyImpulse>(step.verb) ||
-             std::holds_alternative<Move>(step.verb) || std::holds_alternative<Remove>(step.verb);
+             std::holds_alternative<Move>(step.verb) || std::holds_alternative<Remove>(step.verb) ||
+             std::holds_alternative<Emit>(step.verb);
     inserts += std::holds_alternative<Insert>(step.verb);
   }
   pushed = pushed || (!scenario.problem && inserts > 1);

@@ -30,7 +30,7 @@ PeerBody body_of(const BodySpec& spec, bool is_flat) {
   PeerBody body{spec};
   const Vec<3> axis = is_flat ? Vec<3>(0, 0, 1) : spec.axis;
   body.orientation = turned(Rotation<3>(), axis * spec.angle);
-  body.turning = axis * spec.spin;
+  body.turning = (is_flat ? axis : spec.axis_of_spin()) * spec.spin;
   body.attracting_mass = spec.mass;
   if (body.is_dynamic()) {
     is_flat ? weigh<2>(body) : weigh<3>(body);
@@ -72,7 +72,8 @@ bool only_watches(const std::vector<Step>& steps) {
     if (std::holds_alternative<Insert>(verb) && runs) return false;
     if (std::holds_alternative<Remove>(verb) || std::holds_alternative<Move>(verb) ||
         std::holds_alternative<ApplyForce>(verb) || std::holds_alternative<ApplyImpulse>(verb) ||
-        std::holds_alternative<Sleep>(verb) || std::holds_alternative<Wake>(verb))
+        std::holds_alternative<Sleep>(verb) || std::holds_alternative<Emit>(verb) ||
+        std::holds_alternative<Wake>(verb))
       return false;
     runs |= traits_of(verb).passes_time;
   }

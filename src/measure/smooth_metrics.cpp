@@ -248,9 +248,10 @@ OwnMetric free_top_metric(const Scenario& scenario) {
   if (body.mass > 0) mass = scaled_to<3>(mass, body.mass);
   for (int axis = 0; axis < 3; ++axis)
     if (!(mass.inertia[axis] > 0)) refuse_problem(scenario, "its body has no extent");
-  const Rotation<3> start = turned(Rotation<3>(), body.axis * body.angle);
+  const Rotation<3> start = orientation_of(body);
   const LongQuat orientation = glm::normalize(LongQuat(start.q.w, start.q.x, start.q.y, start.q.z));
-  const LongVec spin = glm::conjugate(orientation) * (LongVec(body.axis) * LongVec(body.spin));
+  const LongVec spin =
+      glm::conjugate(orientation) * (LongVec(body.axis_of_spin()) * LongVec(body.spin));
   LongVec inverse, momentum;
   for (int axis = 0; axis < 3; ++axis) {
     inverse[axis] = 1 / mass.inertia[axis];  // in double, as the engine has it

@@ -1,6 +1,8 @@
 // A scenario while it is being read, and may be wrong: what the parts of the parser share.
 #pragma once
 
+#include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +49,17 @@ struct Follower {
   Named followed;
 };
 
+// Named sets of a body's keys, each with those of the prototype that it is like itself.
+class Prototypes {
+ public:
+  void add(const std::string& name, TomlTable keys) { keys_.emplace(name, std::move(keys)); }
+  const TomlTable* find(const std::string& name) const;
+  std::vector<std::string_view> names() const;
+
+ private:
+  std::map<std::string, TomlTable> keys_;
+};
+
 struct Draft {
   ScenarioSpec scenario;
   Problems problems;
@@ -55,6 +68,8 @@ struct Draft {
   int dimension = 0;  // of the world; 0 while it is not known, so that no other mistake follows
   Names bodies;
   Names textures;
+  Prototypes prototypes;
+  std::deque<TomlValue> made;  // tables that stand so in no file; problems may refer to them
   std::vector<Follower> followers;
   std::vector<std::string> sides;  // all sides' names, of which the scenario is one; mostly none
 
@@ -87,6 +102,22 @@ void read_structures(const TableReader& file, Draft& draft);
 // The structure keys of a table, upon `base`: what is not given stays.
 StructureSpec read_structure(const TableReader& table, const StructureSpec& base, Draft& draft);
 
+// The [[prototype]]s of the file, into the draft.
+void read_prototypes(const TableReader& file, Draft& draft);
+
+// `own` and those keys of the prototype that it does not stand against: 'radius' against
+// 'half_size', say. Each keeps its place in the file.
+TomlTable with_prototype(TomlTable own, const TomlTable& prototype);
+
+// The table with the keys of the prototype that it is `like`, or itself if it is like none.
+const TomlValue& completed(const TomlValue& table, Draft& draft);
+
+// A body of these keys, whose name, unless it was made for it, may be suggested.
+void read_body(const TomlValue& value, Draft& draft, bool declared = true);
+
+// The [map] of the file.
+void read_map(const TableReader& file, Draft& draft);
+
 // What [[body]] and [[pattern]] share: all but what only one of them has, or who is followed.
 BodySpec read_body_keys(const TableReader& table, Draft& draft);
 // Adds a problem if `key` makes a body move that is static or has no size.
@@ -100,6 +131,11 @@ void find_the_followed(Draft& draft);
 
 // Exactly one body of that name. Adds a problem and gives nothing for an unknown name or a pattern.
 std::optional<std::size_t> one_body(const Named& name, Draft& draft);
+
+// Each name, but of a range, as "b1..b9", all that it stands for. Adds a problem for one that is
+// none, and leaves it out.
+std::vector<Named> without_ranges(const std::vector<Named>& written, const Names& names,
+                                  std::string_view kind, Problems& problems);
 
 // Does the name look like the measure of one body, as "energy.bob"?
 inline bool is_of_body(std::string_view name) { return name.find('.') != std::string_view::npos; }

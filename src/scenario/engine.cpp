@@ -44,10 +44,11 @@ class EngineOf : public Engine {
     const Vec<D> to = move.to ? in_dimension<D>(*move.to) : before.position;
     const Vec<D> velocity = move.velocity ? in_dimension<D>(*move.velocity) : before.velocity;
     Rotation<D> orientation = before.orientation;
-    const Vec<3>& axis = scenario_.bodies[move.body].axis;
-    if (move.turned) orientation = turned(Rotation<D>(), spin_about<D>(axis, *move.turned));
+    const BodySpec& spec = scenario_.bodies[move.body];
+    if (move.turned) orientation = turned(Rotation<D>(), spin_about<D>(spec.axis, *move.turned));
     world().place(before.id, to, velocity, orientation);
-    if (move.spin) world().set_angular_velocity(before.id, spin_about<D>(axis, *move.spin));
+    if (move.spin)
+      world().set_angular_velocity(before.id, spin_about<D>(spec.axis_of_spin(), *move.spin));
   }
 
   void apply(const ApplyForce& force) override {
@@ -83,10 +84,16 @@ class EngineOf : public Engine {
     steer();
     last_ = work_between(before, world().work());
     ++work_.world_steps;
+    let_in();
     for (const ContactEvent& event : world().events()) {
       begins_ += event.kind == ContactEvent::Kind::begin;
       ends_ += event.kind == ContactEvent::Kind::end;
     }
+  }
+
+  void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) override {
+    emissions_.push_back({bodies, every, 0, 1});
+    let_in();
   }
 
   void rebuild() override { outdated_ = true; }
@@ -166,6 +173,24 @@ class EngineOf : public Engine {
  private:
   World<D>& world() { return players_.world(); }
 
+  // Bodies that enter one after another, `every` so many world steps.
+  struct Emission {
+    std::vector<std::size_t> bodies;
+    std::uint64_t every = 1;
+    std::size_t next = 0;    // of `bodies`
+    std::uint64_t wait = 0;  // world steps until it enters
+  };
+
+  // Those whose time has come.
+  void let_in() {
+    for (Emission& emission : emissions_) {
+      if (--emission.wait > 0) continue;
+      enter(emission.bodies[emission.next++]);
+      emission.wait = emission.every;
+    }
+    std::erase_if(emissions_, [](const Emission& e) { return e.next == e.bodies.size(); });
+  }
+
   bool has_structure() const { return structure_.kind != StructureKind::none; }
 
   void count_structures() {
@@ -241,6 +266,7 @@ class EngineOf : public Engine {
   bool being_stored_ = false;  // a body is on its way down the structure
   bool outdated_ = false;      // bodies have moved on since it was built
   Brains<D> brains_;
+  std::vector<Emission> emissions_;
   WorldWork last_;             // what the last step did
   BroadPhaseCounters builds_;  // of them, what is counted
   std::uint64_t begins_ = 0;

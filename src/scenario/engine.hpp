@@ -34,7 +34,9 @@ class Engine {
   using Watch = std::function<void(const Event&)>;
   virtual ~Engine() = default;
 
-  virtual void enter(std::size_t body) = 0;                      // into the world only
+  virtual void enter(std::size_t body) = 0;  // into the world only
+  // The first of them now, then one each `every` world steps.
+  virtual void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) = 0;
   virtual void store(std::size_t body, const Watch& watch) = 0;  // into the structure as well
   virtual void leave(std::size_t body) = 0;
   virtual void move(const Move& move) = 0;

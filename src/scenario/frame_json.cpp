@@ -155,6 +155,8 @@ class FrameWriter {
       members("orientation", std::vector{q.w, q.x, q.y, q.z}, "velocity", body.velocity,
               "angular_momentum", body.angular_momentum);
     }
+    if (whole_way_ && frame_.dimension == 2) members("spin", body.angular_velocity.z);
+    if (whole_way_ && frame_.dimension == 3) members("spin", body.angular_velocity);
     members("box", body.box);
     if (whole_way_ && body.stored_box && !(*body.stored_box == body.box))
       members("stored_box", *body.stored_box);

@@ -186,6 +186,8 @@ TableDoc structure_table();
 TableDoc planes_table();
 TableDoc body_table();
 TableDoc pattern_table();
+TableDoc prototype_table();
+TableDoc map_table();
 TableDoc spring_table();
 TableDoc joint_table();
 TableDoc level_table();

@@ -22,8 +22,13 @@ TableDoc file_table() {
       key(&S::title, "title", "The thin line above every frame.", must(), range(1, 80)),
       key(&S::source, "source", "The section of the lecture that the scenario shows.",
           range(0, 80)),
+      key(&S::idea, "idea", "The one idea of the sequence, in a line.", range(0, kMostCaption)),
+      key(&S::lecture, "lecture", "Its place in the order in which one would teach.",
+          range(1, kMostInOrder), or_else("behind those that have one")),
+      key(KeyType::texts, "needs", "Names of scenarios that should be seen before.",
+          or_else("none")),
       key(&S::name, "name", "Names the output folder and its files.", like(kFilePattern),
-          or_else("the file's name")),
+          or_else("the file's name, made safe")),
       key(&S::seed, "seed",
           "Where random patterns begin; the same seed gives the same frames everywhere.",
           range(0, kMostWhole)),
@@ -32,8 +37,11 @@ TableDoc file_table() {
           or_else("what the scenario uses")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
+      key(KeyType::tables, "prototype", "Keys that several bodies share.", at_most(kMostPrototypes),
+          holds("prototype")),
       key(KeyType::tables, "body", "One body each.", at_most(kMostBodies), holds("body")),
       key(KeyType::tables, "pattern", "Many bodies each.", at_most(kMostBodies), holds("pattern")),
+      key(KeyType::table, "map", "Bodies as letters of a drawing.", holds("map")),
       key(KeyType::tables, "spring", "One spring each.", at_most(kMostLinks), holds("spring")),
       key(KeyType::tables, "joint", "One joint each.", at_most(kMostLinks), holds("joint")),
       key(KeyType::table, "level", "Walls, to be compiled into a BSP.", holds("level")),
@@ -116,8 +124,8 @@ KeyDoc body_key() {
 
 KeyDoc bodies_key() {
   using namespace keys;
-  return key(KeyType::texts, "bodies", "Names of bodies, or of patterns for all of theirs.",
-             must());
+  return key(KeyType::texts, "bodies",
+             "Names of bodies, of patterns for all of theirs, or ranges as `dot2..dot9`.", must());
 }
 
 KeyDoc pace_key() {
@@ -138,10 +146,11 @@ const KeyDoc* TableDoc::find(std::string_view key) const {
 
 std::span<const TableDoc> language_tables() {
   static const std::vector<TableDoc> tables = {
-      file_table(),    world_table(),  structure_table(), planes_table(),          body_table(),
-      pattern_table(), spring_table(), joint_table(),     level_table(),           chart_table(),
-      problem_table(), atlas_table(),  texture_table(),   texture_pattern_table(), side_table(),
-      step_table(),    expect_table()};
+      file_table(),      world_table(), structure_table(), planes_table(),
+      prototype_table(), body_table(),  pattern_table(),   map_table(),
+      spring_table(),    joint_table(), level_table(),     chart_table(),
+      problem_table(),   atlas_table(), texture_table(),   texture_pattern_table(),
+      side_table(),      step_table(),  expect_table()};
   return tables;
 }
 
@@ -168,6 +177,8 @@ const TypeWords& words_of(KeyType type) {
       {"list of polygons", "[[[0, 0], [8, 0], [8, 6]]]"},
       {"whole number, or list of texts", "2, or a list of names"},
       {"list of", "[\"…\"]"},
+      {"text of several lines", "\"\"\"…\"\"\""},
+      {"number, or", ""},
       {"table", ""},
       {"tables", ""},
       {"keys of", ""},
@@ -175,6 +186,7 @@ const TypeWords& words_of(KeyType type) {
       {"table: name → whole number", "{ pink = 2 }"},
       {"table: name → number", "{ pink = 2 }"},
       {"table: name → point", "{ ball = [12, 14] }"},
+      {"table: letter → name", "{ \"#\" = \"wall\" }"},
   };
   return kWords[static_cast<std::size_t>(type)];
 }
@@ -185,6 +197,7 @@ std::string form_of(const KeyDoc& key, int dimension) {
   if (key.type == KeyType::whole) value = fmt::format("{}", std::max(key.least, 1.0));
   if (key.type == KeyType::choice) value = fmt::format("\"{}\"", key.choices.back());
   if (key.type == KeyType::point && dimension == 3) value = "[1.5, 2, 0.5]";
+  if (key.type == KeyType::turn) value = "45";
   if (key.type == KeyType::name_points && dimension == 3) value = "{ ball = [12, 14, 0] }";
   return fmt::format("{} = {}", key.key, value);
 }

@@ -27,7 +27,9 @@ inline constexpr std::uint64_t kMostScriptFrames = 100'000;  // in step pace
 inline constexpr std::uint64_t kMostWorldSteps = 1'000'000;  // over all steps of the script
 inline constexpr std::size_t kMostLinks = 20'000;            // springs and joints
 inline constexpr std::size_t kMostWalls = 2'000;             // of a level
-inline constexpr std::size_t kMostCaption = 180;             // letters
+inline constexpr std::size_t kMostPrototypes = 1'000;
+inline constexpr double kMostInOrder = 9'999;     // scenarios of a lecture
+inline constexpr std::size_t kMostCaption = 180;  // letters
 inline constexpr std::size_t kMostSides = 4;
 
 enum class KeyType {
@@ -44,6 +46,8 @@ enum class KeyType {
   loops,           // closed polygons: lists of three or more [x, y]
   whole_or_names,  // a whole number, or a list of texts, at least one
   choices_list,    // a list of `choices`, at least one, each once
+  lines,           // a text of one or more lines
+  turn,            // a number, called `of`, or a table of it and the axis that it goes about
   table,           // the table `of`
   tables,          // many of the table `of`; `most` of them
   part,            // some keys of the table `of`
@@ -51,6 +55,7 @@ enum class KeyType {
   name_wholes,     // a table from names to whole numbers
   name_numbers,    // a table from names to numbers
   name_points,     // a table from names to points
+  name_texts,      // a table from letters to names
 };
 
 // Which letters a name may have. Groups of letters are written as between the brackets of a regular
@@ -83,9 +88,9 @@ struct KeyDoc {
   double most = std::numeric_limits<double>::infinity();
   bool above_least = false;  // `least` itself is not allowed
   std::string_view unit = {};
-  double scale = 1;  // from the file's unit to the program's
-  std::vector<std::string_view> choices = {};
-  std::optional<NamePattern> pattern = {};  // of a text
+  double scale = 1;                            // from the file's unit to the program's
+  std::vector<std::string_view> choices = {};  // of a whole number, what 1, 2, … are called
+  std::optional<NamePattern> pattern = {};     // of a text
   std::string_view of = {};
   std::string_view form = {};  // of two numbers: "[x, y]"
 

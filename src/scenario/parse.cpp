@@ -1,5 +1,6 @@
 // A scenario file from its bytes to plain values.
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -33,9 +34,13 @@ void read_name(const TableReader& file, const std::string& path, Draft& draft) {
   draft.scenario.name = stem;
   const NamePattern& pattern = *language_table("").find("name")->pattern;
   if (matches(stem, pattern)) return;
-  draft.problems.add(
-      kTop, fmt::format("the file's name {} cannot name a scenario", in_quotes(stem)),
-      fmt::format("add name = \"{}\", or rename the file", legal_name(stem, pattern)));
+  const bool has_some = std::ranges::any_of(stem, [](unsigned char c) { return std::isalnum(c); });
+  if (!has_some)
+    draft.problems.add(kTop,
+                       fmt::format("the file's name {} cannot name a scenario", in_quotes(stem)),
+                       "add name = \"…\", or rename the file");
+  draft.scenario.name = legal_name(stem, pattern);
+  draft.scenario.file_stem = stem;
 }
 
 // A verb of this kind, for which `holds` is true, is somewhere in the script.

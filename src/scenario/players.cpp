@@ -58,7 +58,8 @@ void Players<D>::enter(std::size_t index) {
   const BodyId id = world_.add(body_of<D>(spec));
   ids_[index] = id;
   index_of_.push_back(index);
-  if (spec.spin != 0) world_.set_angular_velocity(id, spin_about<D>(spec.axis, spec.spin));
+  if (spec.spin != 0)
+    world_.set_angular_velocity(id, spin_about<D>(spec.axis_of_spin(), spec.spin));
   stop_if_asked();
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const LinkSpec& link = scenario_.links[i];

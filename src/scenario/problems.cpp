@@ -61,6 +61,11 @@ void Problems::raise(const std::string& file, std::string_view text) {
   if (found_.empty()) return;
   std::stable_sort(found_.begin(), found_.end(),
                    [](const Found& a, const Found& b) { return a.where < b.where; });
+  // A mistake in a prototype is found again in each body that is like it.
+  const auto repeats = std::ranges::unique(found_, [](const Found& a, const Found& b) {
+    return a.where == b.where && a.message == b.message;
+  });
+  found_.erase(repeats.begin(), repeats.end());
   std::vector<Diagnostic> diagnostics;
   for (const Found& f : found_) {
     const SourcePosition where{file, f.where.line, f.where.column};
@@ -78,7 +83,7 @@ void Problems::raise(const std::string& file, std::string_view text) {
 std::string nearest(std::string_view name, std::vector<std::string_view> candidates) {
   constexpr std::size_t kMostCompared = 1000;
   if (candidates.size() > kMostCompared) candidates.resize(kMostCompared);
-  return suggestion(name, candidates, 20);
+  return suggestion(name, candidates, 40);
 }
 
 }  // namespace lantern::scenario

@@ -6,99 +6,10 @@
 #include <fmt/format.h>
 
 #include "scenario/language.hpp"
+#include "scenario/specs.hpp"
 
 namespace lantern::scenario {
 namespace {
-
-constexpr std::string_view kWorldExample = R"(title = "Three bodies, four cells"
-
-[world]
-size = [16, 9]
-contacts = "impulse"
-may_sleep = true
-
-[structure]
-kind = "quadtree"
-capacity = 2
-
-[[body]]
-name = "red"
-look = "ghost"
-half_size = [0.8, 0.8]
-position = [3, 6]
-
-[[body]]
-name = "pink"
-look = "ghost"
-color = 2
-half_size = [0.8, 0.8]
-position = [6, 7]
-
-[[body]]
-name = "player"
-look = "player"
-color = 3
-radius = 0.8
-position = [12, 2]
-
-[[body]]
-name = "blue"
-look = "ghost"
-color = 4
-half_size = [0.8, 0.8]
-position = [12, 7]
-
-[[step]]
-do = "insert"
-bodies = ["red", "pink"]
-caption = "Two bodies fit into the root: {pairs:pair} to test."
-expect = { nodes = 1, pairs = 1 }
-
-[[step]]
-do = "insert"
-bodies = ["player"]
-caption = "The third overflows it. Still {pairs:pair}, where brute force tests {all_pairs}."
-expect = { pairs = 1, all_pairs = 3, pairs_are = [["red", "pink"]] }
-)";
-
-constexpr std::string_view kAtlasExample = R"(title = "A small atlas"
-
-[atlas]
-size = [128, 128]
-
-[[texture]]
-name = "A"
-size = [48, 80]
-
-[[texture_pattern]]
-name = "tile"
-count = 3
-min = [16, 16]
-max = [32, 32]
-multiple = 8
-
-[[step]]
-do = "show"
-caption = "An empty atlas: {free_leaves:free leaf/free leaves} of {free_area} px."
-expect = { free_leaves = 1, textures = 0 }
-)";
-
-constexpr std::string_view kLevelExample = R"(title = "A room with a pillar"
-
-[world]
-size = [12, 8]
-
-[level]
-loops = [
-  [[1, 1], [11, 1], [11, 7], [1, 7]],
-  [[5, 3], [5, 5], [7, 5], [7, 3]],
-]
-
-[[step]]
-do = "compile"
-caption = "{walls:wall}: four around the room, four around the pillar."
-expect = { walls = 8 }
-)";
 
 // 1000000000 -> 1e9, 9007199254740992 -> 2^53
 std::string short_number(double x) {
@@ -124,7 +35,8 @@ std::string short_range(const KeyDoc& doc) {
 std::string type_column(const KeyDoc& doc) {
   std::string text(doc.form.empty() ? words_of(doc.type).name : doc.form);
   if (doc.type == KeyType::part) text += fmt::format(" `[{}]`", doc.of);
-  for (std::size_t i = 0; i < doc.choices.size(); ++i)
+  if (doc.type == KeyType::turn) text += fmt::format(" {{ {}, axis }}", doc.of);
+  for (std::size_t i = 0; i < doc.choices.size() && doc.type != KeyType::whole; ++i)
     text += fmt::format("{} `{}`", i == 0 ? "" : ",", doc.choices[i]);
   const std::string range = short_range(doc);
   return range.empty() ? text : fmt::format("{}, {}", text, range);
@@ -158,6 +70,36 @@ std::string groups_text(const KeyGroups& groups) {
 
 std::string block(std::string_view toml) { return fmt::format("```toml\n{}```\n", toml); }
 
+std::string picture(std::string_view name) {
+  return fmt::format("![{0}](reference/{0}.png)", name);
+}
+
+// One row of pictures, each under the choice that it shows.
+std::string pictures(std::string_view prefix, const EnumNames& choices) {
+  std::string names, rule, row;
+  for (const std::string_view choice : choices) {
+    names += fmt::format("| `{}` ", choice);
+    rule += "|---";
+    row += fmt::format("| {} ", picture(fmt::format("{}_{}", prefix, choice)));
+  }
+  return fmt::format("{}|\n{}|\n{}|\n", names, rule, row);
+}
+
+// What a table's rows cannot show.
+std::string shown_of(const TableDoc& table) {
+  if (table.name.empty())
+    return "\nEach of the `panels` alone:\n\n" + pictures("panel", names(Panel()));
+  if (table.name == "body")
+    return fmt::format("\nThe looks:\n\n{}\n{}\n", block(looks_example()), picture("looks"));
+  if (table.name == "pattern")
+    return fmt::format("\nHow a pattern is arranged; only `arrange` differs:\n\n{}\n{}",
+                       block(pattern_example(arrange_names().front())),
+                       pictures("arrange", arrange_names()));
+  if (table.name == "map") return fmt::format("\n{}\n{}\n", block(map_example()), picture("map"));
+  if (table.name == "chart") return fmt::format("\n{}", block(chart_example()));
+  return "";
+}
+
 std::string heading(const TableDoc& table) {
   const bool is_code = !table.name.empty() && table.name != "expect";
   return is_code ? fmt::format("`{}`", table.heading) : std::string(table.heading);
@@ -170,8 +112,8 @@ std::string table_section(const TableDoc& table) {
     keys = keys.first(
         static_cast<std::size_t>(std::find_if(keys.begin(), keys.end(), is_count) - keys.begin()));
   }
-  return fmt::format("\n### {}\n\n{}\n\n{}{}", heading(table), table.doc, rows(keys),
-                     groups_text(table.groups));
+  return fmt::format("\n### {}\n\n{}\n\n{}{}{}", heading(table), table.doc, rows(keys),
+                     groups_text(table.groups), shown_of(table));
 }
 
 std::string verb_section(const TableDoc& verb) {
@@ -179,7 +121,9 @@ std::string verb_section(const TableDoc& verb) {
   const auto own = std::span(verb.keys).first(verb.keys.size() - common);
   std::string text = fmt::format("\n### `{}`\n\n{}\n", verb.heading, verb.doc);
   if (!own.empty()) text += fmt::format("\n{}", rows(own));
-  return text + groups_text(verb.groups) + fmt::format("\n{}", block(verb.example));
+  text += groups_text(verb.groups) + fmt::format("\n{}", block(verb.example));
+  if (verb_has_picture(verb.name)) text += "\n" + picture("do_" + std::string(verb.name)) + "\n";
+  return text;
 }
 
 std::string world_count_rows() {
@@ -234,15 +178,11 @@ Coordinates are at most 1e9, either way. A file has at most {} MiB, {} bodies, {
 
 ## What there is
 )",
-                     block(kWorldExample), block(kAtlasExample), block(kLevelExample),
+                     block(world_example()), block(atlas_example()), block(level_example()),
                      kMostFileBytes >> 20, kMostBodies, kMostTextures, kMostSteps);
 }
 
 }  // namespace
-
-std::string_view world_example() { return kWorldExample; }
-std::string_view atlas_example() { return kAtlasExample; }
-std::string_view level_example() { return kLevelExample; }
 
 std::string reference_page() {
   std::string page = introduction();

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lantern::scenario {
 
@@ -17,5 +18,20 @@ std::string reference_page();
 std::string_view world_example();
 std::string_view atlas_example();
 std::string_view level_example();
+
+// Scenarios that show what a table of keys cannot.
+std::string_view map_example();
+std::string_view chart_example();
+std::string looks_example();
+std::string pattern_example(std::string_view arrange);
+std::vector<std::string_view> arrange_names();
+
+// A picture of the page: the last frame of a scenario whose every part stands on it.
+struct ReferencePicture {
+  std::string name;  // of the file reference/<name>.png
+  std::string text;
+};
+std::vector<ReferencePicture> reference_pictures();
+bool verb_has_picture(std::string_view verb);
 
 }  // namespace lantern::scenario

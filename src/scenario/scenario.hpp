@@ -71,10 +71,14 @@ class Scenario;
 // All that a file says. Each value has its type, but nothing is known to be right: a name may be
 // that of nobody, an index may lie beyond its list. Only diagnostics can be made of it.
 struct ScenarioSpec {
-  std::string name;  // [a-z0-9_]+, from the file's name unless given; names files and folders
-  std::string file;  // as it was given
+  std::string name;       // [a-z0-9_]+, from the file's name unless given; names files and folders
+  std::string file_stem;  // from which the name was made, where it could not be taken as it is
+  std::string file;       // as it was given
   std::string title;
-  std::string source;  // the part of the lecture it shows
+  std::string source;                    // the part of the lecture it shows
+  std::string idea;                      // the one that it is about, in a line; may be empty
+  std::optional<std::uint32_t> lecture;  // its place in the order in which one would teach
+  std::vector<std::string> needs;        // names of scenarios to be seen before
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
   std::vector<Panel> panels;  // as wished, or all that can show something

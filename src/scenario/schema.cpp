@@ -95,6 +95,16 @@ Json value_schema(const KeyDoc& doc) {
       schema["uniqueItems"] = true;
       return schema;
     }
+    case KeyType::lines:
+      return typed("string");
+    case KeyType::turn: {
+      Json turn = typed("object");
+      turn["properties"] = {{doc.of, number_schema(doc, "number")},
+                            {"axis", list_of(typed("number"), 2, 3)}};
+      turn["required"] = Json::array({doc.of});
+      turn["additionalProperties"] = false;
+      return Json::object({{"anyOf", Json::array({number_schema(doc, "number"), turn})}});
+    }
     case KeyType::table:
       return reference(doc.of);
     case KeyType::tables:
@@ -105,10 +115,14 @@ Json value_schema(const KeyDoc& doc) {
       return list_of(list_of(typed("string"), 2, 2), 0);
     case KeyType::name_wholes:
       return names_to(number_schema(doc, "integer"));
-    case KeyType::name_numbers:
-      return names_to(number_schema(doc, "number"));
+    case KeyType::name_numbers: {  // energy.bob, without quotes, is a table in the table
+      const Json number = number_schema(doc, "number");
+      return names_to(Json::object({{"anyOf", Json::array({number, names_to(number)})}}));
+    }
     case KeyType::name_points:
       return names_to(point);
+    case KeyType::name_texts:
+      return names_to(typed("string"));
   }
   return {};
 }

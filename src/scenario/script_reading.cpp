@@ -12,12 +12,14 @@ std::vector<std::size_t> NameResolver::take(const std::vector<Named>& written,
                                             std::vector<bool>& marks, bool mark,
                                             std::string_view clash) {
   std::vector<std::size_t> found;
-  for (const Named& named : written) {
+  for (const Named& named : without_ranges(written, names_, kind_, problems_)) {
     const NamedRange* range = find(named);
     if (!range) continue;
     std::size_t clashes = 0, example = 0;
     for (std::size_t i = range->first; i < range->first + range->count; ++i) {
-      if (marks[i] == mark && ++clashes == 1) example = i - range->first + 1;
+      const bool clash_here =
+          marks[i] == mark || (&marks == &state_.in_world && !mark && !is_there(i));
+      if (clash_here && ++clashes == 1) example = i - range->first + 1;
       marks[i] = mark;
       found.push_back(i);
     }
@@ -32,13 +34,13 @@ std::vector<std::size_t> NameResolver::take(const std::vector<Named>& written,
 std::vector<std::size_t> NameResolver::present(const std::vector<Named>& written) {
   std::vector<std::size_t> found;
   std::vector<bool> named_before(state_.in_world.size());
-  for (const Named& named : written) {
+  for (const Named& named : without_ranges(written, names_, kind_, problems_)) {
     const NamedRange* range = find(named);
     if (!range) continue;
     std::string_view clash;
     for (std::size_t i = range->first; i < range->first + range->count; ++i) {
       if (named_before[i]) clash = "is named twice";
-      if (!state_.in_world[i]) clash = "is not in the world at this step";
+      if (!is_there(i)) clash = "is not in the world at this step";
       named_before[i] = true;
       found.push_back(i);
     }
@@ -69,9 +71,10 @@ bool may_name(std::size_t count, std::string_view what, Place where, ScriptState
 std::optional<std::size_t> ScriptReading::present_body(const TableReader& table, const char* key) {
   const auto name = table.named(key);
   const auto body = name ? one_body(*name, draft) : std::nullopt;
-  if (body && !state.in_world[*body])
+  if (body && !bodies.is_there(*body))
     table.bad_value(key, fmt::format("'{}' is not in the world at this step", name->name),
-                    "insert it first");
+                    state.in_world[*body] ? "it has been emitted, but may not have entered yet"
+                                          : "insert it first");
   return body;
 }
 
@@ -113,6 +116,7 @@ class ScriptReader {
         script_{draft, state_, NameResolver(draft.bodies, "body", draft.problems, state_),
                 NameResolver(draft.textures, "texture", draft.problems, state_)} {
     state_.in_world.resize(draft.scenario.bodies.size());
+    state_.due.resize(draft.scenario.bodies.size());
     state_.packed.resize(draft.scenario.textures.size());
     state_.structure = draft.scenario.structure;
   }

@@ -11,17 +11,19 @@ namespace lantern::scenario {
 
 // What steps have brought about so far, as far as it can be known without the engine.
 struct ScriptState {
-  std::vector<bool> in_world;  // by index of the body
-  std::vector<bool> packed;    // by index of the texture; refused ones, too
-  StructureSpec structure;     // as it stands
+  std::vector<bool> in_world;      // by index of the body
+  std::vector<std::uint64_t> due;  // the same: the world step by whose end it has entered
+  std::vector<bool> packed;        // by index of the texture; refused ones, too
+  StructureSpec structure;         // as it stands
   bool asked_for_room = false;
   bool queried = false;      // by a ray, cull or query
   bool compiled = false;     // the level
   bool located = false;      // a point in it
   bool has_plot = false;     // some step adds to the chart
   std::uint64_t frames = 0;  // in step pace
-  std::uint64_t ticks = 0;   // world steps
-  std::size_t named = 0;     // bodies and textures, over all steps
+  std::uint64_t ticks = 0;   // world steps at most, and at least
+  std::uint64_t least_ticks = 0;
+  std::size_t named = 0;  // bodies and textures, over all steps
 };
 
 // Turns the names of bodies or textures that a step gives into their indices.
@@ -34,8 +36,13 @@ class NameResolver {
   std::vector<std::size_t> take(const std::vector<Named>& written, std::vector<bool>& marks,
                                 bool mark, std::string_view clash);
 
-  // Each must be in the world.
+  // Each must be in the world: bodies that may still be on their way into it are not.
   std::vector<std::size_t> present(const std::vector<Named>& written);
+
+  // Is it in the world at this step, however early a wait may have ended?
+  bool is_there(std::size_t body) const {
+    return state_.in_world[body] && state_.due[body] <= state_.least_ticks;
+  }
 
  private:
   // Adds a problem if there is no such name, or if all steps together name too many.
@@ -54,6 +61,10 @@ struct ScriptReading {
   NameResolver bodies;
   NameResolver textures;
   std::uint64_t frames = 1;  // of the step, in step pace
+
+  // World steps in the seconds that `key` gives; 1 and a problem if they are not a whole number,
+  // or too many.
+  std::uint64_t read_ticks(const TableReader& table, const char* key);
 
   // One body that is in the world, named by `key`. Adds a problem and gives nothing otherwise.
   std::optional<std::size_t> present_body(const TableReader& table, const char* key);

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "geometry/flat.hpp"
+#include "geometry/rotation.hpp"
 #include "physics/body.hpp"
 #include "physics/contact_method.hpp"
 #include "physics/motion_method.hpp"
@@ -95,9 +96,10 @@ struct BodySpec {
   Shape<3> shape;
   Vec<3> position{0.0};
   Vec<3> velocity{0.0};
-  double angle = 0;      // radians, counter-clockwise, or about `axis`
-  double spin = 0;       // radians a second, the same way
-  Vec<3> axis{0, 0, 1};  // unit; of a 3D world
+  double angle = 0;                 // radians, counter-clockwise, or about `axis`
+  double spin = 0;                  // radians a second, the same way
+  Vec<3> axis{0, 0, 1};             // unit; of a 3D world
+  std::optional<Vec<3>> spin_axis;  // unit, in the world's axes; none: `axis`
   BodyKind kind = BodyKind::dynamic_body;
   double density = 1;
   double mass = 0;  // 0: from shape and density
@@ -113,7 +115,14 @@ struct BodySpec {
   Vec<3> brain_axes{1.0};   // 0 where it does not follow
   double brain_speed = 0;   // units a second at most
   SourcePosition where;
+
+  const Vec<3>& axis_of_spin() const { return spin_axis ? *spin_axis : axis; }
 };
+
+// How a body is turned when it enters.
+inline Rotation<3> orientation_of(const BodySpec& body) {
+  return turned(Rotation<3>(), body.axis * body.angle);
+}
 
 // A spring or joint between points of two bodies, or of a body and a point of the world. It is
 // there while its bodies are.

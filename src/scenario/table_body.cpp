@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/angle.hpp"
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
 
@@ -11,7 +12,9 @@ namespace lantern::scenario {
 namespace {
 
 // Keys that make a box one that turns.
-bool turns(const TableReader& table) { return table.has("turned") || table.has("spin"); }
+bool turns(const TableReader& table) {
+  return table.has("turned") || table.has("heading") || table.has("spin");
+}
 
 void check_oriented(const TableReader& table, const BodySpec& body) {
   if (table.is_good("oriented") && !table.has("half_size"))
@@ -19,22 +22,26 @@ void check_oriented(const TableReader& table, const BodySpec& body) {
                   "give it half_size, or leave out 'oriented'");
   else if (table.is_good("oriented") && !table.truth("oriented") && turns(table))
     table.bad_value("oriented", "a box that keeps to the axes does not turn",
-                    "leave out 'oriented', or 'turned' and 'spin'");
+                    "leave out 'oriented', or 'turned', 'heading' and 'spin'");
   else if (table.has("half_size") && table.is_good("may_turn") && body.may_turn &&
            !table.truth("oriented") && !turns(table))
     table.bad_key("may_turn", "a box that keeps to the axes does not turn",
                   "write oriented = true");
 }
 
-// Of unit length; nothing for zero, which is told. Divided first, so that no square overflows.
+// Nothing for zero. Divided first, so that no square overflows.
+std::optional<Vec<3>> scaled_to_one(const Vec<3>& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0)) return std::nullopt;
+  const Vec<3> scaled = v / largest;
+  return scaled / glm::length(scaled);
+}
+
+// Of unit length; nothing for zero, which is told.
 std::optional<Vec<3>> unit(const TableReader& table, const char* key, int dimension) {
   const auto v = table.get<Vec<3>>(key);
   if (!v) return std::nullopt;
-  const double largest = std::max({std::abs(v->x), std::abs(v->y), std::abs(v->z)});
-  if (largest > 0) {
-    const Vec<3> scaled = *v / largest;
-    return scaled / glm::length(scaled);
-  }
+  if (const auto direction = scaled_to_one(*v)) return direction;
   table.bad_value(key, fmt::format("'{}' is zero: it points nowhere", key),
                   fmt::format("upwards is {} = {}", key, dimension == 3 ? "[0, 1, 0]" : "[0, 1]"));
   return std::nullopt;
@@ -70,15 +77,52 @@ BodyKind read_kind(const TableReader& table, BodyKind kind) {
   return BodyKind::static_body;
 }
 
-void read_axis(const TableReader& table, BodySpec& body, int dimension) {
+// Of unit length; `otherwise` where no axis is given, or one of length 0, which is told.
+Vec<3> axis_of(const TableReader& table, const char* key, const Turn& turn,
+               const Vec<3>& otherwise) {
+  if (!turn.axis) return otherwise;
+  if (const auto axis = scaled_to_one(*turn.axis)) return *axis;
+  table.bad_value(key, fmt::format("the axis of '{}' is zero: it points nowhere", key),
+                  "upwards is axis = [0, 1, 0]");
+  return otherwise;
+}
+
+// As far as the body's own y axis must turn to point where `heading` does, the shortest way.
+void read_heading(const TableReader& table, BodySpec& body, int dimension) {
+  const auto heading = unit(table, "heading", dimension);
+  if (!heading) return;
+  if (table.is_good("turned"))
+    table.bad_key("heading", "a 'heading' and a 'turned'", "one of them is enough");
+  if (dimension == 2) {
+    body.angle = std::atan2(-heading->x, heading->y);
+    return;
+  }
+  const Vec<3> up(0, 1, 0), across = glm::cross(up, *heading);
+  const double sine = glm::length(across);
+  body.axis = sine > 0 ? across / sine : Vec<3>(1, 0, 0);
+  body.angle = std::atan2(sine, glm::dot(up, *heading));
+}
+
+// How it is turned, and how it turns: each about an axis of its own, or about `axis`.
+void read_turns(const TableReader& table, BodySpec& body, int dimension) {
   body.axis = dimension == 3 ? Vec<3>(0, 1, 0) : Vec<3>(0, 0, 1);
-  if (table.is_good("turned") && table.has("ground"))
-    table.bad_key("turned", "the ground is not turned", "'ground' says where its face looks");
-  if (!table.is_good("axis")) return;
-  if (dimension == 2)
+  for (const char* key : {"turned", "heading"})
+    if (table.is_good(key) && table.has("ground"))
+      table.bad_key(key, "the ground is not turned", "'ground' says where its face looks");
+  if (table.is_good("axis") && dimension == 2)
     table.bad_key("axis", "a 2D world has no other axis to turn about", "leave it out");
   else if (const auto axis = unit(table, "axis", dimension))
     body.axis = *axis;
+  const Vec<3> shared = body.axis;
+  const Turn turned = table.get<Turn>("turned").value_or(Turn());
+  const Turn spin = table.get<Turn>("spin").value_or(Turn());
+  body.angle = turned.amount * kDegree;
+  body.spin = spin.amount * kDegree;
+  body.axis = axis_of(table, "turned", turned, shared);
+  read_heading(table, body, dimension);
+  if (dimension == 3 && (spin.axis || body.axis != shared))
+    body.spin_axis =
+        spin.axis ? orientation_of(body).q * axis_of(table, "spin", spin, shared) : shared;
 }
 
 void check_matter(const TableReader& table, const BodySpec& body, const Draft& draft) {
@@ -144,8 +188,10 @@ const char* size_key(const TableReader& table) {
   return "radius";
 }
 
-void read_body(const TomlValue& value, Draft& draft) {
-  const TableReader table = open(value, language_table("body"), draft);
+}  // namespace
+
+void read_body(const TomlValue& value, Draft& draft, bool declared) {
+  const TableReader table = open(completed(value, draft), language_table("body"), draft);
   BodySpec body = read_body_keys(table, draft);
   check_motion(table, "velocity", body, body.velocity != Vec<3>(0.0));
   if (table.is_good("speed") && body.brain == Brain::none)
@@ -154,13 +200,11 @@ void read_body(const TomlValue& value, Draft& draft) {
   if (!draft.has_room_for(draft.scenario.bodies.size() + 1, kMostBodies, "bodies", value.where))
     return;
   if (!body.name.empty())
-    draft.bodies.add(body.name, {draft.scenario.bodies.size(), 1, table.place("name")}, true,
+    draft.bodies.add(body.name, {draft.scenario.bodies.size(), 1, table.place("name")}, declared,
                      draft.problems);
   note_follower(table, 1, draft);
   draft.scenario.bodies.push_back(std::move(body));
 }
-
-}  // namespace
 
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
   using namespace keys;
@@ -176,12 +220,23 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
           range(0, kFar), written("[radius, half_length]")),
       key(KeyType::truth, "oriented",
           "A box that turns. One that is not oriented keeps to the axes.",
-          or_else("whether `turned` or `spin` is given")),
-      key(&B::angle, "turned", "How far it is turned, counter-clockwise or about `axis`.",
-          range(-kMostTurn, kMostTurn), in("°")),
-      key(&B::spin, "spin", "How fast it turns, the same way.", range(-kMostTurn, kMostTurn),
-          in("°/s")),
-      key(KeyType::point, "axis", "In a 3D world: what `turned` and `spin` go about; not zero.",
+          or_else("whether `turned`, `heading` or `spin` is given")),
+      key(KeyType::turn, "turned",
+          "How far it is turned, counter-clockwise or about `axis`; in a 3D world also as "
+          "`{ angle = 20, axis = [1, 0, 0] }`.",
+          range(-kMostTurn, kMostTurn), in("°"), by_default("0"), holds("angle")),
+      key(KeyType::point, "heading",
+          "Instead of `turned`: where its own y axis points, a capsule's or a top's, as [1, 2]; "
+          "the shortest way there.",
+          range(-kFar, kFar), or_else("upwards")),
+      key(KeyType::turn, "spin",
+          "How fast it turns, counter-clockwise or about `axis`; in a 3D world also as "
+          "`{ speed = 720, axis = [0, 1, 0] }`, whose axis is the body's own: it has been turned "
+          "with it.",
+          range(-kMostTurn, kMostTurn), in("°/s"), by_default("0"), holds("speed")),
+      key(KeyType::point, "axis",
+          "In a 3D world: what `turned` and `spin` go about that have no axis of their own; "
+          "not zero.",
           range(-kFar, kFar), or_else("[0, 1, 0]")),
       key(&B::kind, "kind",
           "`dynamic` is moved by forces and contacts, `kinematic` keeps its velocity whatever it "
@@ -213,11 +268,27 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
           "It keeps its `speed` and turns at random after it touches something.",
           by_default("false")),
   };
-  first.insert(first.begin(), key(&B::name, "name", "Unique over bodies and patterns.", must(),
-                                  like(kNamePattern)));
+  first.insert(
+      first.begin(),
+      {key(&B::name, "name", "Unique over bodies and patterns.", must(), like(kNamePattern)),
+       key(KeyType::text, "like", "A prototype, whose keys it has but for its own.", range(1, 64),
+           or_else("none"))});
   first.insert(first.end(), shared.begin(), shared.end());
   return first;
 }
+
+namespace {
+
+KeyDoc color_key() {
+  using namespace keys;
+  return key(&BodySpec::color, "color",
+             "1 red, 2 pink, 3 yellow, 4 blue, 5 green, 6 sky, 7 orange, 8 violet, in the light "
+             "theme.",
+             range(1, 8),
+             one_of({"red", "pink", "yellow", "blue", "green", "sky", "orange", "violet"}));
+}
+
+}  // namespace
 
 TableDoc body_table() {
   using namespace keys;
@@ -236,10 +307,7 @@ TableDoc body_table() {
           range(-kFar, kFar)),
       key(KeyType::number, "speed", "Of a body that follows or wanders.", above(0, kFar),
           in("units/s"), or_else("none")),
-      key(&B::color, "color",
-          "1 red, 2 pink, 3 yellow, 4 blue, 5 green, 6 sky, 7 orange, 8 violet, in the "
-          "light theme.",
-          range(1, 8)),
+      color_key(),
   });
   table.groups = {{{"radius"}, {"half_size"}, {"capsule"}, {"ground"}}};
   return table;
@@ -254,7 +322,7 @@ BodySpec read_body_keys(const TableReader& table, Draft& draft) {
   check_oriented(table, body);
   body.shape = read_shape(table, draft.dimension);
   body.kind = read_kind(table, body.kind);
-  read_axis(table, body, draft.dimension);
+  read_turns(table, body, draft.dimension);
   check_matter(table, body, draft);
   read_brain(table, body);
   check_motion(table, "spin", body, body.spin != 0);
@@ -279,7 +347,9 @@ void read_bodies(const TableReader& file, Draft& draft) {
   if (!file.has("world") && (!bodies.empty() || !patterns.empty()))
     draft.problems.add((bodies.empty() ? patterns : bodies)[0]->where, "bodies need a [world]",
                        "add [world] with size = [64, 64]");
+  read_prototypes(file, draft);
   for (const TomlValue* value : bodies) read_body(*value, draft);
+  read_map(file, draft);
   for (const TomlValue* value : patterns) read_pattern(*value, draft);
   find_the_followed(draft);
 }

@@ -57,6 +57,10 @@ class ExpectationReader {
     return add(kind, body.name, body.where);
   }
 
+  std::vector<Named> bodies_in(std::string_view key) const {
+    return without_ranges(table_.names(key), draft_.bodies, "body", draft_.problems);
+  }
+
   // Adds a problem if `count`, which `key` needs, is not counted here.
   void require(std::string_view key, std::string_view count, Place where) {
     const std::string why = why_not_counted(count, draft_, state_);
@@ -115,7 +119,7 @@ class ExpectationReader {
     if (!table_.has("hits_are")) return;
     require("hits_are", "hits", table_.key_place("hits_are"));
     Expectation& e = add(Kind::hits, "", table_.key_place("hits_are"));
-    for (const Named& body : table_.names("hits_are")) {
+    for (const Named& body : bodies_in("hits_are")) {
       one_body(body, draft_);
       e.names.push_back(body.name);
     }
@@ -125,7 +129,7 @@ class ExpectationReader {
   void read_sleepers(std::string_view key, Kind kind) {
     if (!table_.is_list(key)) return;
     Expectation& e = add(kind, "", table_.key_place(key));
-    for (const Named& name : table_.names(key)) {
+    for (const Named& name : bodies_in(key)) {
       const NamedRange* range = draft_.bodies.find(name.name);
       if (!range) {
         one_body(name, draft_);  // says what is wrong

@@ -1,7 +1,6 @@
 // [[pattern]]: many bodies, where they stand and which way they go.
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,24 +8,18 @@
 #include "geometry/random_vec.hpp"
 #include "scenario/draft.hpp"
 #include "scenario/key.hpp"
+#include "scenario/placement.hpp"
 
 namespace lantern::scenario {
 namespace {
 
-enum class Arrange { random, grid, line, stack };
-EnumNames names(Arrange) { return {"random", "grid", "line", "stack"}; }
-
 struct PatternSpec {
   std::size_t count = 1;
   Arrange arrange = Arrange::random;
+  double gap = 0;
   double speed = 0;
   int color = 0;  // 0: each the next
 };
-
-// As the scenario turns it.
-Rotation<3> orientation_of(const BodySpec& body) {
-  return turned(Rotation<3>{}, body.axis * body.angle);
-}
 
 // Where a pattern's centres may be: as given, or so that its bodies lie in the world. A stack
 // stands in the middle, on the world's floor.
@@ -59,81 +52,32 @@ Box<3> read_region(const TableReader& table, const BodySpec& body, bool stack, c
   return bounds;
 }
 
-// Columns, rows and layers of cells for `count` bodies, as cubic as may be: the longest side of a
-// cell is cut until there are enough.
-std::array<std::size_t, 3> grid_cells(const Vec<3>& size, std::size_t count) {
-  std::array<std::size_t, 3> cells{1, 1, 1};
-  while (cells[0] * cells[1] * cells[2] < count) {
-    int longest = 0;
-    const auto side = [&](int i) { return size[i] / static_cast<double>(cells[std::size_t(i)]); };
-    for (int i = 1; i < 3; ++i)
-      if (side(i) > side(longest)) longest = i;
-    ++cells[static_cast<std::size_t>(longest)];
-  }
-  return cells;
+void tell_no_room(const TableReader& table, std::size_t placed, std::size_t count) {
+  table.bad_value("count",
+                  fmt::format("{} of {} bodies found a place apart from each other and from what "
+                              "never moves",
+                              placed, count),
+                  "give them more room from 'min' to 'max', make them smaller, or take "
+                  "arrange = \"grid\"");
 }
-
-// The middle of the `index`-th cell, in rows from the lowest corner.
-Vec<3> grid_place(const Box<3>& region, std::size_t index,
-                  const std::array<std::size_t, 3>& cells) {
-  Vec<3> place = region.lo;
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t n = cells[static_cast<std::size_t>(i)];
-    place[i] +=
-        region.size()[i] * ((static_cast<double>(index % n) + 0.5) / static_cast<double>(n));
-    index /= n;
-  }
-  return place;
-}
-
-// The places of one pattern, in order.
-class Places {
- public:
-  Places(const BodySpec& like, const PatternSpec& pattern, const TableReader& table,
-         const Draft& draft)
-      : arrange_(pattern.arrange),
-        region_(read_region(table, like, arrange_ == Arrange::stack, draft)),
-        count_(pattern.count),
-        dimension_(draft.scenario.world.dimension) {
-    if (arrange_ == Arrange::grid) cells_ = grid_cells(region_.size(), count_);
-    height_ = bounding_box(like.shape, Vec<3>(0.0), orientation_of(like)).size().y;
-  }
-
-  Vec<3> at(std::size_t index, Random& random) const {
-    const auto i = static_cast<double>(index);
-    if (arrange_ == Arrange::grid) return grid_place(region_, index, cells_);
-    if (arrange_ == Arrange::stack) return region_.lo + Vec<3>(0, i * height_, 0);
-    if (arrange_ == Arrange::line) {
-      if (index + 1 == count_ && index > 0) return region_.hi;
-      return region_.lo + region_.size() * (count_ > 1 ? i / static_cast<double>(count_ - 1) : 0);
-    }
-    Vec<3> place = region_.lo;
-    for (int axis = 0; axis < dimension_; ++axis)
-      place[axis] = random.between(region_.lo[axis], region_.hi[axis]);
-    return place;
-  }
-
- private:
-  Arrange arrange_;
-  Box<3> region_;
-  std::size_t count_;
-  int dimension_;
-  std::array<std::size_t, 3> cells_{1, 1, 1};
-  double height_ = 0;  // of a body's box
-};
 
 // The bodies of a pattern, in their order, each like `like` but for place, velocity and colour.
 void unroll(const BodySpec& like, const PatternSpec& pattern, const TableReader& table,
             Draft& draft) {
   const int dimension = draft.scenario.world.dimension;
-  const Places places(like, pattern, table, draft);
-  const double speed = like.brain == Brain::follow ? 0 : pattern.speed;
   Random random(derived_seed(table, like.name, draft));
+  const Box<3> region = read_region(table, like, pattern.arrange == Arrange::stack, draft);
+  Placement places({pattern.arrange, region, pattern.count, pattern.gap, dimension}, like,
+                   draft.scenario.bodies);
+  const double speed = like.brain == Brain::follow ? 0 : pattern.speed;
+  bool has_room = true;
   for (std::size_t i = 0; i < pattern.count; ++i) {
+    const auto place = has_room ? places.next(random) : std::nullopt;
+    if (!place && std::exchange(has_room, false)) tell_no_room(table, i, pattern.count);
     BodySpec body = like;
     body.name = fmt::format("{}{}", like.name, i + 1);
     body.color = cycled_color(pattern.color, i);
-    body.position = places.at(i, random);
+    body.position = place.value_or(region.lo);
     if (speed > 0)
       body.velocity = speed * (dimension == 2 ? solid(random_direction<2>(random))
                                               : random_direction<3>(random));
@@ -154,12 +98,17 @@ TableDoc pattern_table() {
       key(&P::count, "count", "How many; 20000 bodies in all are allowed.", must(),
           range(1, kMostBodies), in("bodies")),
       key(&P::arrange, "arrange",
-          "At random places; in rows from the lowest corner; on a line from `min` to "
-          "`max`; or as a stack, each on the one before, the lowest at `min`."),
+          "At random places; in rows from the lowest corner; on a line from `min` to `max`; as a "
+          "stack, each on the one before, the lowest at `min`; in rows of which every other one "
+          "is shifted by half a place; or at random places `apart` from each other and from what "
+          "never moves."),
+      key(&P::gap, "gap", "Least room between bodies that stand `apart`.", range(0, kFar)),
       key(KeyType::point, "min", "Lowest corner of where centres may be.", range(-kFar, kFar),
           or_else("so that all lie in the world")),
       key(KeyType::point, "max", "Highest corner of where centres may be.", range(-kFar, kFar),
           or_else("so that all lie in the world")),
+      key(&BodySpec::velocity, "velocity", "All move so when they enter.", range(-kFar, kFar),
+          in("units/s"), or_else("at rest")),
       key(&P::speed, "speed",
           "Each in a random direction. For bodies that follow, their top speed.", range(0, kFar),
           in("units/s")),
@@ -172,11 +121,16 @@ TableDoc pattern_table() {
 }
 
 void read_pattern(const TomlValue& value, Draft& draft) {
-  const TableReader table = open(value, language_table("pattern"), draft);
+  const TableReader table = open(completed(value, draft), language_table("pattern"), draft);
   const BodySpec like = read_body_keys(table, draft);
   PatternSpec pattern;
   table.fill(pattern);
   check_motion(table, "speed", like, pattern.speed > 0);
+  check_motion(table, "velocity", like, like.velocity != Vec<3>(0.0));
+  if (table.is_good("velocity") && table.is_good("speed") && like.brain == Brain::none)
+    table.bad_key("speed", "a 'velocity' and a 'speed'", "one of them is enough");
+  if (table.is_good("gap") && pattern.arrange != Arrange::apart)
+    table.bad_key("gap", "a 'gap' is of bodies that stand apart", "give arrange = \"apart\"");
   const std::size_t before = draft.scenario.bodies.size();
   if (!draft.has_room_for(before + pattern.count, kMostBodies, "bodies", table.place("count")) ||
       like.name.empty())

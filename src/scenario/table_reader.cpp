@@ -101,11 +101,7 @@ void TableReader::fill(const std::type_info& owner, void* object) const {
         key.fill(*value, key.scale, static_cast<char*>(object) + key.offset);
 }
 
-const TomlEntry* TableReader::entry(std::string_view key) const {
-  const auto found =
-      std::find_if(table_.begin(), table_.end(), [&](const TomlEntry& e) { return e.key == key; });
-  return found == table_.end() ? nullptr : &*found;
-}
+const TomlEntry* TableReader::entry(std::string_view key) const { return entry_of(table_, key); }
 
 const TomlValue* TableReader::good(std::string_view key) const {
   const TomlEntry* e = entry(key);

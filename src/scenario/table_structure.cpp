@@ -151,7 +151,7 @@ void read_structures(const TableReader& file, Draft& draft) {
     if (!file.has("world"))
       draft.problems.add(value->where, "a [structure] needs a [world] to partition",
                          "add [world] with size = [64, 64]");
-    else if (!file.has("body") && !file.has("pattern"))
+    else if (!file.has("body") && !file.has("pattern") && !file.has("map"))
       draft.problems.add(value->where, "a [structure] needs bodies to hold",
                          "add a [[body]] or a [[pattern]]");
   }

@@ -247,6 +247,11 @@ TomlValue converted(const toml::node& node) {
 
 }  // namespace
 
+const TomlEntry* entry_of(const TomlTable& table, std::string_view key) {
+  const auto found = std::ranges::find(table, key, &TomlEntry::key);
+  return found == table.end() ? nullptr : &*found;
+}
+
 TomlTable read_toml(std::string_view text, Problems& problems) {
   if (const auto bad = first_bad_byte(text)) {
     const bool nul = text[*bad] == '\0';

@@ -31,6 +31,9 @@ struct TomlEntry {
   TomlValue value;
 };
 
+// The entry of that key; null if there is none.
+const TomlEntry* entry_of(const TomlTable& table, std::string_view key);
+
 // Adds a problem and gives an empty table if `text` is not TOML, has bytes that are not UTF-8, or
 // is nested too deeply. `text` has no byte order mark.
 TomlTable read_toml(std::string_view text, Problems& problems);

@@ -73,14 +73,40 @@ void assign(const TomlValue& value, std::vector<T>& to) {
     assign(element, to.emplace_back());
 }
 
+// How far or how fast something turns, in the file's unit, and about what, if that is said.
+struct Turn {
+  double amount = 0;
+  std::optional<Vec<3>> axis;
+};
+
+inline void assign(const TomlValue& value, Turn& to) {
+  const auto* table = std::get_if<TomlTable>(&value.data);
+  if (!table) return assign(value, to.amount);
+  for (const TomlEntry& entry : *table)
+    entry.key == "axis" ? assign(entry.value, to.axis) : assign(entry.value, to.amount);
+}
+
+// Calls f(name, value) for each entry of a table from names to values; those of a table in the
+// table, as `energy.bob = 1` makes it, have the names of both.
+template <class F>
+void for_each_named(const TomlTable& table, F&& f, const std::string& before = {}) {
+  for (const TomlEntry& entry : table) {
+    const Named name{before + entry.key, entry.where};
+    if (const auto* inner = std::get_if<TomlTable>(&entry.value.data))
+      for_each_named(*inner, f, name.name + ".");
+    else
+      f(name, entry.value);
+  }
+}
+
 // A table from names to values.
 template <class T>
 void assign(const TomlValue& value,
             std::vector<std::pair<Named, T>>& to) requires(!std::same_as<T, Named>) {
-  for (const TomlEntry& entry : std::get<TomlTable>(value.data)) {
-    to.push_back({{entry.key, entry.where}, {}});
-    assign(entry.value, to.back().second);
-  }
+  for_each_named(std::get<TomlTable>(value.data), [&](const Named& name, const TomlValue& written) {
+    to.push_back({name, {}});
+    assign(written, to.back().second);
+  });
 }
 
 }  // namespace lantern::scenario

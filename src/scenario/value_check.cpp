@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.hpp"
+#include "scenario/key.hpp"
 #include "scenario/table_reader.hpp"
 
 namespace lantern::scenario {
@@ -85,7 +86,16 @@ class Check {
   }
 
   void add_out_of_range(Place where, const std::string& written) {
-    add(where, fmt::format("'{}' is {}, allowed is {}", doc_.key, written, range_text(doc_)));
+    add(where, fmt::format("'{}' is {}, allowed is {}", doc_.key, written, range_text(doc_)),
+        doc_.type == KeyType::whole ? numbered_choices() : "");
+  }
+
+  // "1 red, 2 pink, …" of a whole number whose values have names.
+  std::string numbered_choices() const {
+    std::string text;
+    for (std::size_t i = 0; i < doc_.choices.size(); ++i)
+      text += fmt::format("{}{} {}", i > 0 ? ", " : "", i + 1, doc_.choices[i]);
+    return text;
   }
 
   void check_whole(const TomlValue& value) {
@@ -99,7 +109,8 @@ class Check {
     const auto* number = std::get_if<double>(&value.data);
     const bool is_whole = number && std::abs(*number) < 1e15 && std::trunc(*number) == *number;
     wrong_type(value, "a whole number",
-               is_whole ? fmt::format("write {}", static_cast<std::int64_t>(*number)) : "");
+               is_whole ? fmt::format("write {}", static_cast<std::int64_t>(*number))
+                        : numbered_choices());
   }
 
   void check_truth(const TomlValue& value) {
@@ -209,6 +220,71 @@ class Check {
     }
   }
 
+  // Only its line breaks are control characters.
+  void check_lines(const TomlValue& value) {
+    const auto* text = std::get_if<std::string>(&value.data);
+    if (!text) return wrong_type(value, "a text", hint());
+    std::string_view rest = *text;
+    while (!rest.empty()) {
+      const std::size_t end = rest.find('\n');
+      std::string_view line = rest.substr(0, end);
+      if (line.ends_with('\r')) line.remove_suffix(1);
+      if (!is_printable(line))
+        return add(value.where, fmt::format("'{}' must have no control characters", doc_.key),
+                   fmt::format("a line reads {}", in_quotes(line)));
+      rest.remove_prefix(end == rest.npos ? rest.size() : end + 1);
+    }
+  }
+
+  // A number, or { angle = 20, axis = [1, 0, 0] }.
+  void check_turn(const TomlValue& value) {
+    const auto* table = std::get_if<TomlTable>(&value.data);
+    const std::string form = fmt::format("{{ {} = 45, axis = [0, 0, 1] }}", doc_.of);
+    if (!table) {
+      const bool is_number = std::holds_alternative<std::int64_t>(value.data) ||
+                             std::holds_alternative<double>(value.data);
+      return is_number ? check_number(value)
+                       : wrong_type(value, "a number or a table", "as " + form);
+    }
+    bool has_amount = false;
+    for (const TomlEntry& e : *table) {
+      has_amount = has_amount || e.key == doc_.of;
+      if (e.key == doc_.of)
+        std::holds_alternative<TomlTable>(e.value.data) ? wrong_type(e.value, "a number")
+                                                        : check_number(e.value);
+      else if (e.key == "axis")
+        check_axis(e.value);
+      else
+        add(e.where, fmt::format("unknown key {} in '{}'", in_quotes(e.key), doc_.key),
+            "as " + form);
+    }
+    if (!has_amount)
+      add(value.where, fmt::format("'{}' has no '{}'", doc_.key, doc_.of), "as " + form);
+  }
+
+  void check_axis(const TomlValue& axis) {
+    if (dimension_ == 2)
+      return add(axis.where, "a 2D world has no other axis to turn about", "leave it out");
+    KeyDoc doc;
+    doc.key = "axis";
+    doc.type = KeyType::point;
+    doc.least = -kFar;
+    doc.most = kFar;
+    good_ = Check(doc, dimension_, problems_)(axis) && good_;
+  }
+
+  void check_name_texts(const TomlValue& value) {
+    const auto* table = std::get_if<TomlTable>(&value.data);
+    if (!table) return wrong_type(value, "a table of letters", hint());
+    for (const TomlEntry& e : *table) {
+      check_one_line(e.where, e.key);
+      if (const auto* text = std::get_if<std::string>(&e.value.data))
+        check_one_line(e.value.where, *text);
+      else
+        wrong_type(e.value, "a table from letters to names");
+    }
+  }
+
   void check_tables(const TomlValue& value) {
     const auto* list = std::get_if<TomlArray>(&value.data);
     if (!list)
@@ -241,13 +317,13 @@ class Check {
   void check_name_table(const TomlValue& value) {
     const auto* table = std::get_if<TomlTable>(&value.data);
     if (!table) return wrong_type(value, "a table of names", hint());
-    for (const TomlEntry& e : *table) {
-      check_one_line(e.where, e.key);
+    for_each_named(*table, [&](const Named& name, const TomlValue& named) {
+      check_one_line(name.where, name.name);
       if (doc_.type == KeyType::name_points)
-        check_point(e.value);
+        check_point(named);
       else
-        doc_.type == KeyType::name_wholes ? check_whole(e.value) : check_number(e.value);
-    }
+        doc_.type == KeyType::name_wholes ? check_whole(named) : check_number(named);
+    });
   }
 
   // In the order of KeyType.
@@ -256,9 +332,10 @@ class Check {
       &Check::check_truth,      &Check::check_choice,     &Check::check_point,
       &Check::check_two,        &Check::check_two,        &Check::check_list,
       &Check::check_list,       &Check::check_loops,      &Check::check_whole_or_names,
-      &Check::check_list,       &Check::check_table,      &Check::check_tables,
-      &Check::check_table,      &Check::check_name_pairs, &Check::check_name_table, &Check::check_name_table,
-      &Check::check_name_table};
+      &Check::check_list,       &Check::check_lines,      &Check::check_turn,
+      &Check::check_table,      &Check::check_tables,     &Check::check_table,
+      &Check::check_name_pairs, &Check::check_name_table, &Check::check_name_table,
+      &Check::check_name_table, &Check::check_name_texts};
 
   const KeyDoc& doc_;
   int dimension_;

@@ -1,4 +1,4 @@
-// `insert`, `remove` and `rebuild`: bodies enter and leave the world and the structure.
+// `insert`, `emit`, `remove` and `rebuild`: bodies enter and leave the world and the structure.
 #include "base/stop.hpp"
 #include "scenario/key.hpp"
 #include "scenario/script_reading.hpp"
@@ -39,12 +39,59 @@ void Insert::act(ScriptRun& run) const {
   run.frames.settle("insert");
 }
 
+TableDoc Emit::table() {
+  using namespace keys;
+  return {.doc =
+              "Bodies enter the world one after another while time passes: the first at once, the "
+              "others when later steps let time pass.",
+          .keys = {bodies_key(), key(KeyType::number, "every",
+                                     "From one to the next, a whole number of time steps.", must(),
+                                     above(0, kHundredYears), in("s"))},
+          .example = R"([[pattern]]
+name = "drop"
+count = 3
+radius = 0.4
+min = [2, 2]
+max = [2, 2]
+velocity = [24, 0]
+
+[[step]]
+do = "emit"
+bodies = ["drop1..drop3"]
+every = 0.1
+expect = { bodies = 5 }
+
+[[step]]
+do = "run"
+seconds = 0.2
+every = 12
+expect = { bodies = 7 }
+)"};
+}
+
+void Emit::read(const TableReader& table, ScriptReading& script) {
+  bodies = script.bodies.take(table.names("bodies"), script.state.in_world, true,
+                              "is in the world already");
+  every = script.read_ticks(table, "every");
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    script.state.due[bodies[i]] = script.state.least_ticks + i * every;
+}
+
+void Emit::change(Engine& engine) const { engine.emit(bodies, every); }
+
+void Emit::act(ScriptRun& run) const {
+  change(run.engine());
+  run.engine().rebuild();
+  run.focus(bodies.front());
+  run.frames.settle("emit");
+}
+
 TableDoc Remove::table() {
   return {.doc = "Bodies leave the world and the structure.",
           .keys = {bodies_key()},
           .example = R"([[step]]
 do = "remove"
-bodies = ["blue"]
+bodies = ["blue", "drop"]
 expect = { bodies = 3 }
 )"};
 }

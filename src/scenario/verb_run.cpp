@@ -10,14 +10,11 @@
 #include "scenario/script_run.hpp"
 
 namespace lantern::scenario {
-namespace {
 
-// World steps in the seconds that `key` gives; 1 and a problem if they are not a whole number, or
-// too many.
-std::uint64_t read_ticks(const TableReader& table, const char* key, ScriptReading& script) {
+std::uint64_t ScriptReading::read_ticks(const TableReader& table, const char* key) {
   const auto seconds = table.get<double>(key);
   if (!seconds) return 1;
-  const double h = script.draft.scenario.world.time_step;
+  const double h = draft.scenario.world.time_step;
   const double ticks = *seconds / h;
   const double whole = std::max(1.0, std::round(ticks));
   // A file's decimals are rounded: a millionth of the time is no mistake.
@@ -40,9 +37,11 @@ std::uint64_t read_ticks(const TableReader& table, const char* key, ScriptReadin
   return 1;
 }
 
+namespace {
+
 // Counts the world steps and frames of the seconds that `key` gives. `every` is the step's own.
 void count_time(const TableReader& table, const char* key, int every, ScriptReading& script) {
-  const std::uint64_t ticks = read_ticks(table, key, script);
+  const std::uint64_t ticks = script.read_ticks(table, key);
   const auto stride =
       static_cast<std::uint64_t>(every > 0 ? every : script.draft.scenario.world.frame_every);
   script.frames = (ticks + stride - 1) / stride;
@@ -82,7 +81,9 @@ expect = { position = { pink = [4.5, 2] } }
 }
 
 void Run::read(const TableReader& table, ScriptReading& script) {
+  const std::uint64_t before = script.state.ticks;
   count_time(table, "seconds", every, script);
+  script.state.least_ticks += script.state.ticks - before;
 }
 
 void Run::act(ScriptRun& run) const {
@@ -126,6 +127,7 @@ expect = { contacts_are = [["pink", "player"]] }
 
 void Wait::read(const TableReader& table, ScriptReading& script) {
   count_time(table, "at_most", every, script);
+  ++script.state.least_ticks;
   const std::vector<Named> written = table.names("bodies");
   bodies = script.bodies.present(written);
   if (!table.is_good("event") || !table.has("bodies")) return;
@@ -186,7 +188,10 @@ caption = "Of {pairs:candidate pair}, {contacts} in contact."
 )"};
 }
 
-void Phases::read(const TableReader&, ScriptReading& script) { ++script.state.ticks; }
+void Phases::read(const TableReader&, ScriptReading& script) {
+  ++script.state.ticks;
+  ++script.state.least_ticks;
+}
 
 // The state before the step, with what each phase of it finds, then the state after it.
 void Phases::act(ScriptRun& run) const {

@@ -35,6 +35,12 @@ std::span<const TableDoc> language_verbs() {
   return verbs;
 }
 
+const std::vector<std::size_t>* entering(const Verb& verb) {
+  if (const auto* insert = std::get_if<Insert>(&verb)) return &insert->bodies;
+  if (const auto* emit = std::get_if<Emit>(&verb)) return &emit->bodies;
+  return nullptr;
+}
+
 void carry_out(const Verb& any, Engine& engine, double time_step) {
   const auto carry = [&]<class V>(const V& verb) {
     if constexpr (V::kTraits.changes_bodies) verb.change(engine);

@@ -2,6 +2,7 @@
 // and foreseen. A new verb is a struct here, a place in the list below and that file.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,17 @@ struct Insert {
   void change(Engine& engine) const;
   void act(ScriptRun& run) const;
   std::vector<std::size_t> bodies;
+};
+
+// One after another while time passes, the first at once.
+struct Emit {
+  static constexpr VerbTraits kTraits{.name = "emit", .changes_bodies = true};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void change(Engine& engine) const;
+  void act(ScriptRun& run) const;
+  std::vector<std::size_t> bodies;
+  std::uint64_t every = 1;  // world steps from one to the next
 };
 
 struct Remove {
@@ -250,13 +262,16 @@ struct AskRoom {
 };
 
 // In the order of the reference page.
-using Verb = std::variant<Show, Insert, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse, Run,
-                          Wait, Phases, SolveBy, Rebuild, CastRay, Cull, Query, CompileLevel,
+using Verb = std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse,
+                          Run, Wait, Phases, SolveBy, Rebuild, CastRay, Cull, Query, CompileLevel,
                           Locate, OrderFrom, Pack, AskRoom>;
 
 inline const VerbTraits& traits_of(const Verb& verb) {
   return std::visit([](const auto& v) -> const VerbTraits& { return v.kTraits; }, verb);
 }
+
+// The bodies that the verb lets in; null if none.
+const std::vector<std::size_t>* entering(const Verb& verb);
 
 // What a verb does to an engine's bodies, without frames: one that only shows, asks or partitions
 // does nothing, one that passes time takes its steps. Throws Refused as the engine does.

@@ -57,8 +57,7 @@ class ContactsWatch : public Watcher {
 
   // What a step puts somewhere has not fallen there.
   void begin(const Step& step) override {
-    put_ = put_ || std::holds_alternative<Insert>(step.verb) ||
-           std::holds_alternative<Move>(step.verb);
+    put_ = put_ || entering(step.verb) || std::holds_alternative<Move>(step.verb);
   }
 
   void see_frame(const Frame& frame) override {

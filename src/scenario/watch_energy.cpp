@@ -44,8 +44,8 @@ class EnergyWatch : public Watcher {
       else
         pushed_.insert(force->body);
     }
-    if (const auto* insert = std::get_if<Insert>(&step.verb))
-      for (const std::size_t i : insert->bodies)
+    if (const auto* bodies = entering(step.verb))
+      for (const std::size_t i : *bodies)
         if (drives(scenario_.bodies[i])) drivers_.insert(i);
     if (const auto* remove = std::get_if<Remove>(&step.verb))
       for (const std::size_t i : remove->bodies) {
@@ -58,7 +58,7 @@ class EnergyWatch : public Watcher {
         drivers_.insert(move->body);
     }
     const bool changes =
-        std::holds_alternative<Insert>(step.verb) || std::holds_alternative<Remove>(step.verb) ||
+        entering(step.verb) || std::holds_alternative<Remove>(step.verb) ||
         std::holds_alternative<Move>(step.verb) || std::holds_alternative<ApplyForce>(step.verb) ||
         std::holds_alternative<ApplyImpulse>(step.verb) || std::holds_alternative<Sleep>(step.verb);
     if (changes) motion_.forget();
@@ -72,8 +72,7 @@ class EnergyWatch : public Watcher {
   void see_frame(const Frame& frame) override {
     frame_ = frame.index;
     if (free_) return;
-    if (frame.bodies.size() != bodies_) motion_.forget();  // in the midst of an insertion
-    bodies_ = frame.bodies.size();
+    count(frame.bodies.size());
     const auto kinetic = frame.measure("kinetic_energy");
     const auto potential = frame.measure("potential_energy");
     if (kinetic && potential) add(*kinetic, *potential, frame.time);
@@ -138,8 +137,15 @@ class EnergyWatch : public Watcher {
     return advice;
   }
 
+  // In the midst of an insertion, or while bodies enter one after another.
+  void count(std::size_t bodies) {
+    if (bodies != bodies_) motion_.forget();
+    bodies_ = bodies;
+  }
+
   template <int D>
   void add(const Players<D>& players) {
+    count(players.world().bodies().size());
     const Energy now =
         energy(std::span<const Body<D>>(players.world().bodies()), players.world().forces());
     add(now.kinetic(), now.potential(), players.world().time());

@@ -50,8 +50,7 @@ class ThroughWatch : public Watcher {
 
   // What a step puts somewhere else has not been pushed there.
   void begin(const Step& step) override {
-    if (std::holds_alternative<Move>(step.verb) || std::holds_alternative<Insert>(step.verb))
-      before_.clear();
+    if (std::holds_alternative<Move>(step.verb) || entering(step.verb)) before_.clear();
   }
 
   bool sees_worlds() const override { return true; }

@@ -1,9 +1,12 @@
 // Every command of the README works as it is written there.
 #include <cstdlib>
+#include <set>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
 #include "render/png.hpp"
@@ -84,6 +87,27 @@ TEST(Readme, ThePictureIsLanternsOwn) {
   const auto drawn = decode_png(o.out);
   ASSERT_TRUE(shown && drawn);
   EXPECT_EQ(*shown, *drawn) << "draw it anew: ./run golden";
+}
+
+// A row a scenario, in the order of the lecture.
+TEST(Readme, ListsTheScenariosAsLanternDoes) {
+  const std::string page = read_text(repository("README.md"));
+  std::string table = "|---|---|---|---|\n";
+  std::set<std::string> before;
+  const Outcome listed = shell("lantern list --json " + repository("scenarios").string());
+  for (const auto& s : nlohmann::json::parse(listed.out)) {
+    std::string needs;
+    for (const std::string need : s["needs"]) {
+      EXPECT_TRUE(before.contains(need)) << s["name"] << " needs " << need << ", which is later";
+      needs += (needs.empty() ? "`" : " · `") + need + "`";
+    }
+    ASSERT_TRUE(s["lecture"].is_number()) << s["name"];
+    EXPECT_EQ(s["lecture"], before.size() + 1) << s["name"];
+    table += "| " + s["lecture"].dump() + " | `" + s["name"].get<std::string>() + "` | " +
+             s["idea"].get<std::string>() + " | " + needs + " |\n";
+    before.insert(s["name"]);
+  }
+  EXPECT_NE(page.find(table), std::string::npos) << "write it anew:\n" << table;
 }
 
 TEST(Readme, RunTellsWhatItDoes) {

@@ -75,6 +75,10 @@ class Maker {
                     [](const Entry& entry) { return entry.key == "planes"; });
       if (document_.blocks.back().value("kind") == "\"bsp\"") add_some("[[structure.planes]]", 0.6);
     }
+    if (dice_.chance(0.2)) {
+      add_some("[[prototype]]", 0.3);
+      if (!solid) add("[map]", 0.2);
+    }
     add_some("[[body]]", 0.7);
     add_some("[[pattern]]", 0.5);
     if (dice_.chance(0.25)) add_some("[[joint]]", 0.7);
@@ -91,7 +95,7 @@ class Maker {
   // Does the verb seem to have what it works on?
   static bool fits(const TableDoc& verb, const Surroundings& around) {
     const auto of_bodies = verb.find("bodies") || verb.find("body");
-    if (verb.name == "insert") return !around.absent.empty();
+    if (verb.name == "insert" || verb.name == "emit") return !around.absent.empty();
     if (of_bodies) return !around.present.empty();
     if (verb.find("textures") || verb.name == "ask_room") return around.has_atlas;
     if (verb.name == "compile" || verb.name == "locate" || verb.name == "order")

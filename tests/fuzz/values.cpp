@@ -103,6 +103,7 @@ std::string text_value(const KeyDoc& key, const Surroundings& around, Dice& dice
         key.key == "body" && !around.present.empty() ? around.present : around.bodies;
     return any_name(names, dice);
   }
+  if (key.key == "like") return any_name(around.prototypes, dice);
   if (key.key == "do") return std::string(dice.pick(language_verbs()).name);
   if (key.key == "along") return any_name(around.patterns, dice);
   if (key.key == "x" && dice.chance(0.6)) return "time";
@@ -192,6 +193,17 @@ std::string by_name(const KeyDoc& key, const Surroundings& around, Dice& dice, K
   return fmt::format("{{ {} = {} }}", in_toml(name), right_value(member, around, dice));
 }
 
+// A map's rows, as texts on one line.
+std::string drawing(Dice& dice) {
+  const std::int64_t columns = dice.whole(1, 6);
+  std::string rows;
+  do {
+    if (!rows.empty()) rows += "\\n";
+    for (std::int64_t i = 0; i < columns; ++i) rows += dice.chance(0.4) ? '#' : '.';
+  } while (dice.chance(0.6));
+  return "\"" + rows + "\"";
+}
+
 std::string number_value(const KeyDoc& key, const Surroundings& around, Dice& dice) {
   if (is(key.key, {"seconds", "at_most"}))  // in steps
     return fmt::format("{}", around.time_step * static_cast<double>(dice.whole(1, 30)));
@@ -221,9 +233,9 @@ Surroundings::Surroundings(const Document& document, std::size_t block) {
       if (b >= block) break;
       const std::vector<std::string> verb = texts_in(now.value("do"));
       for (const std::string& name : texts_in(now.value("bodies"))) {
-        if (verb.empty() || !is(verb[0], {"insert", "remove"})) continue;
-        std::vector<std::string>&from = verb[0] == "insert" ? absent : present,
-        &to = verb[0] == "insert" ? present : absent;
+        if (verb.empty() || !is(verb[0], {"insert", "emit", "remove"})) continue;
+        std::vector<std::string>&from = verb[0] == "remove" ? present : absent,
+        &to = verb[0] == "remove" ? absent : present;
         std::erase(from, name);
         to.push_back(name);
       }
@@ -231,6 +243,7 @@ Surroundings::Surroundings(const Document& document, std::size_t block) {
     if (names.empty()) continue;
     if (kind == "body" || kind == "pattern") absent.push_back(names[0]);
     if (kind == "body") bodies.push_back(names[0]);
+    if (kind == "prototype") prototypes.push_back(names[0]);
     if (kind == "pattern") {
       patterns.push_back(names[0]);
       bodies.push_back(names[0] + "1");
@@ -277,6 +290,13 @@ std::string right_value(const KeyDoc& key, const Surroundings& around, Dice& dic
       if (chosen.empty()) chosen.push_back(in_toml(dice.pick(key.choices)));
       return listed(chosen);
     }
+    case KeyType::lines:
+      return drawing(dice);
+    case KeyType::turn: {
+      const std::string amount = number_value(key, around, dice);
+      if (around.dimension != 3 || dice.chance(0.5)) return amount;
+      return fmt::format("{{ {} = {}, axis = [0, {}, 1] }}", key.of, amount, dice.whole(-2, 2));
+    }
     case KeyType::table:
       return inline_table(key.of, around, dice);
     case KeyType::tables: {
@@ -298,6 +318,8 @@ std::string right_value(const KeyDoc& key, const Surroundings& around, Dice& dic
       return by_name(key, around, dice, KeyType::number);
     case KeyType::name_points:
       return by_name(key, around, dice, KeyType::point);
+    case KeyType::name_texts:
+      return fmt::format("{{ \"#\" = {} }}", in_toml(any_name(around.prototypes, dice)));
   }
   return "0";
 }
@@ -383,6 +405,7 @@ void fill_block(Block& block, const TableDoc& table, const Surroundings& around,
     // What has blocks of its own is not written inline.
     if (block.header.empty() && table.name.empty() && key.type == KeyType::table) wanted = false;
     if (table.name.empty() && key.type == KeyType::tables) wanted = false;
+    if (key.key == "like" && around.prototypes.empty()) wanted = false;
     if (wanted) block.entries.push_back({std::string(key.key), right_value(key, around, dice)});
   }
 }

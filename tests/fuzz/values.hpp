@@ -46,6 +46,7 @@ struct Surroundings {
   bool has_world = false, has_atlas = false, has_level = false, has_structure = false;
   std::vector<std::string> bodies;  // single ones, and members of patterns
   std::vector<std::string> patterns;
+  std::vector<std::string> prototypes;
   std::vector<std::string> present;  // bodies and patterns that steps before have inserted
   std::vector<std::string> absent;
   std::vector<std::string> textures;  // and their patterns

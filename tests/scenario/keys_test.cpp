@@ -26,6 +26,7 @@ struct Surroundings {
 
 const std::string kWorld = "[world]\nsize = [64, 64]\n";
 const std::string kRed = "[[body]]\nname = \"red\"\nradius = 1\nposition = [1, 1]\n";
+const std::string kDot = "[[prototype]]\nname = \"dot\"\nfriction = 0\n";
 const std::string kInsert = "[[step]]\ndo = \"insert\"\nbodies = [\"red\"]\n";
 const std::string kAtlas = "[atlas]\nsize = [64, 64]\n[[texture]]\nname = \"A\"\nsize = [8, 8]\n";
 const std::string kRules = "[world]\nsize = [64, 64]\ncontacts = \"impulse\"\nmay_sleep = true\n";
@@ -50,12 +51,22 @@ std::map<std::string, Surroundings> surroundings() {
        {world + "[structure]\nkind = \"bsp\"\n[[structure.planes]]\n",
         {{"point", "[32, 0]"}, {"normal", "[1, 0]"}},
         kRed + kShow}},
+      {"prototype",
+       {world + "[[prototype]]\n",
+        {{"name", "\"wall\""}, {"radius", "1"}},
+        "[[prototype]]\nname = \"dot\"\nradius = 1\n" + kRed + kShow}},
+      {"map",
+       {world + "[[prototype]]\nname = \"wall\"\nradius = 1\n[map]\n",
+        {{"rows", "\"#.\""}, {"legend", "{ \"#\" = \"wall\" }"}},
+        kShow}},
       {"body",
-       {world + "[[body]]\n",
+       {world + kDot + "[[body]]\n",
         {{"name", "\"pink\""}, {"radius", "1"}, {"position", "[1, 1]"}},
         kShow}},
       {"pattern",
-       {world + "[[pattern]]\n", {{"name", "\"dot\""}, {"count", "5"}, {"radius", "1"}}, kShow}},
+       {world + kDot + "[[pattern]]\n",
+        {{"name", "\"dot\""}, {"count", "5"}, {"radius", "1"}},
+        kShow}},
       {"atlas", {kTitle + "[atlas]\n", {{"size", "[64, 64]"}}, kShow}},
       {"texture",
        {kTitle + kAtlas + "[[texture]]\n", {{"name", "\"B\""}, {"size", "[8, 8]"}}, kShow}},
@@ -78,6 +89,7 @@ std::map<std::string, Surroundings> surroundings() {
         kRed + kShow}},
       {"show", {scene + step, {{"do", "\"show\""}}, ""}},
       {"insert", {scene + step, {{"do", "\"insert\""}, {"bodies", "[\"red\"]"}}, ""}},
+      {"emit", {scene + step, {{"do", "\"emit\""}, {"bodies", "[\"red\"]"}, {"every", "1"}}, ""}},
       {"remove", {scene + kInsert + step, {{"do", "\"remove\""}, {"bodies", "[\"red\"]"}}, ""}},
       {"move",
        {scene + kInsert + step, {{"do", "\"move\""}, {"body", "\"red\""}, {"to", "[2, 2]"}}, ""}},
@@ -243,7 +255,7 @@ Bad bad_capsule() {
 void add_body_cases(std::vector<KeyCase>& cases) {
   Bad nonnegative = bad_point();
   nonnegative.push_back({"[@-1, 1]", "0 to 1000000000"});
-  for (const std::string table : {"body", "pattern"}) {
+  for (const std::string table : {"body", "pattern", "prototype"}) {
     const auto add = [&](const std::string& key, std::vector<std::string> good, Bad bad,
                          std::vector<std::string> without = {}) {
       cases.push_back({table, key, std::move(good), std::move(bad), std::move(without)});
@@ -251,8 +263,13 @@ void add_body_cases(std::vector<KeyCase>& cases) {
     add("capsule", {"[0.5, 1]", "[1, 0]"}, bad_capsule(), {"radius"});
     add("oriented", {}, bad_truth());
     add("oriented", {}, {});
-    add("turned", {"0", "-90", "1e6"}, bad_number("-1.1e6", "1.1e6"));
-    add("spin", {"0", "-90", "1e6"}, bad_number("-1.1e6", "1.1e6"));
+    Bad turn = bad_number("-1.1e6", "1.1e6");
+    turn.push_back({"@{}", "has no"});
+    turn.push_back({"@[1]", "a number or a table"});
+    add("turned", {"0", "-90", "1e6", "{ angle = 90 }"}, turn);
+    add("spin", {"0", "-90", "1e6", "{ speed = 90 }"}, turn);
+    add("heading", {"[0, 1]", "[-3, 4]"}, bad_point());
+    add("like", {"\"dot\""}, {{"@1", "must be a text"}, {"@\"dots\"", "did you mean 'dot'?"}});
     add("axis", {}, bad_point());
     add("kind", {"\"dynamic\"", "\"kinematic\"", "\"static\""}, bad_choice("dynamc", "dynamic"));
     add("density", {"0.5", "1e12"}, bad_number("0", "1.1e12"));
@@ -578,6 +595,42 @@ std::vector<KeyCase> key_cases() {
        {{"@1", "must be a text"},
         {"@\"\"", "letters"},
         {"@\"left\"", "there is no region 'left'"}}},
+      {"prototype", "name", {"\"a\""}, bad_name()},
+      {"prototype", "look", looks, bad_choice("gost", "ghost")},
+      {"prototype", "color", {"0", "8"}, cycled},
+      {"prototype", "radius", {"0", "0.5", "1e9"}, bad_number("-1", "1.1e9")},
+      {"prototype", "half_size", {"[0, 0]", "[2, 3]"}, nonnegative},
+      {"prototype", "position", points, bad_point()},
+      {"prototype", "velocity", points, bad_point()},
+      {"prototype", "ground", {"[0, 1]"}, bad_point()},
+      {"prototype", "speed", {"2.5"}, bad_number("0", "1.1e9")},
+      {"prototype", "static", {"true", "false"}, bad_truth()},
+      {"map",
+       "rows",
+       {"\"##\"", "\"\"\"\n#.\n.#\n\"\"\""},
+       {{"@1", "must be a text"},
+        {"@\"\"", "the map is empty"},
+        {"@\"#\\u0007\"", "no control characters"},
+        {"\"#@x\"", "has no prototype"}}},
+      {"map", "cell", {"0.5", "4"}, bad_number("0", "1.1e9")},
+      {"map", "at", {"[0, 0]", "[8.5, 2]"}, bad_point()},
+      {"map",
+       "legend",
+       {"{ \"#\" = \"wall\", x = \"wall\" }"},
+       {{"@1", "a table of letters"},
+        {"{ \"#\" = @1 }", "from letters to names"},
+        {"{ \"#\" = @\"wal\" }", "did you mean 'wall'?"}}},
+      {"emit", "bodies", {"[\"red\"]"}, bad_names("body")},
+      {"emit", "every", {"1", "0.5"}, {{"@0", "above 0"}, {"@\"1\"", "must be a number"}}},
+      {"emit", "every", {}, {{"@0.01", "not a whole number"}}},
+      {"pattern", "gap", {}, bad_number("-1", "1.1e9")},
+      {"pattern", "velocity", points, bad_point()},
+      {"", "idea", {"\"\"", "\"One idea.\""}, bad_text("0 to 180", 180)},
+      {"", "lecture", {"1", "9999"}, bad_whole("0", "10000", "1 to 9999")},
+      {"",
+       "needs",
+       {"[\"ghost_quadtree\"]"},
+       {{"@\"a\"", "must be a list"}, {"@[]", "must not be empty"}, {"[@1]", "a list of texts"}}},
       {"body",
        "name",
        {"\"a\"", "\"Blue bat-1_x\"", "\"" + std::string(24, 'a') + "\""},

@@ -247,16 +247,12 @@ TEST(Mistakes, AHugeFileIsRefusedUnread) {
 TEST(Mistakes, TheFileNamesTheScenarioIfItCan) {
   const std::string text = "title = \"x\"\n[[step]]\ndo = \"show\"\n";
   EXPECT_EQ(parse_scenario(text, "a/b/ghosts_2.toml").name, "ghosts_2");
-  try {
-    parse_scenario(text, "a/Ghost Tree (2).toml");
-    ADD_FAILURE() << "a name with spaces would make a folder with spaces";
-  } catch (const ScenarioError& error) {
-    EXPECT_NE(std::string(error.what()).find("name = \"ghost_tree_2\""), std::string::npos)
-        << error.what();
-  }
+  EXPECT_EQ(parse_scenario(text, "a/Ghost Tree (2).toml").name, "ghost_tree_2")
+      << "a name with spaces would make a folder with spaces";
   EXPECT_EQ(parse_scenario("name = \"g\"\n" + text, "a/Ghost Tree (2).toml").name, "g");
   EXPECT_THROW(parse_scenario(text, ""), ScenarioError);
   EXPECT_THROW(parse_scenario(text, ".."), ScenarioError);
+  EXPECT_THROW(parse_scenario(text, "日本.toml"), ScenarioError);
 }
 
 // --- things that belong together ---

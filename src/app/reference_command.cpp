@@ -1,0 +1,105 @@
+// The pictures of the reference page.
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/stop.hpp"
+#include "draw/page.hpp"
+#include "render/png.hpp"
+#include "render/renderer.hpp"
+#include "render/seal.hpp"
+#include "render/svg.hpp"
+#include "scenario/director.hpp"
+#include "scenario/reference.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 320, kHeight = 180;  // pixels
+
+Frame last_frame(const Scenario& scenario) {
+  Work work;
+  Frame last;
+  direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+    stop_if_asked();
+    last = frame;
+    return true;
+  });
+  return last;
+}
+
+std::string key_of(std::string_view text) {
+  return fmt::format("{:016x}", Hash().add(text).value());
+}
+
+// What a picture is made from: the frame, and every shape that is drawn of it.
+MadeFrom made_from_all(const Frame& frame, const DrawList& list, const Theme& theme) {
+  return {key_of(to_json(frame, FactsVersion::v2)),
+          key_of(to_svg(list, theme, false, kWidth, kHeight))};
+}
+
+// Is it there, as it would be made now?
+bool is_right(const fs::path& path, const MadeFrom& from) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+  std::error_code error;
+  return fs::is_regular_file(path, error) &&
+         made_from(FileKind::png, read_file(path, kMostBytes)) == from;
+}
+
+// Draws what is not there yet, with graphics that are made when the first one is needed.
+class Painter {
+ public:
+  explicit Painter(Backend backend) : backend_(backend) {}
+
+  std::string painted(const DrawList& list, const Theme& theme, const MadeFrom& from) {
+    if (!renderer_) renderer_.emplace(Context::create(backend_), kWidth, kHeight);
+    renderer_->draw(list, theme, false, image_);
+    constexpr int kPixelsPerMetre = 6299;
+    return sealed(FileKind::png, encode_png(image_, PngEffort::small, {}, kPixelsPerMetre), from);
+  }
+
+ private:
+  Backend backend_;
+  std::optional<Renderer> renderer_;
+  Image image_;
+};
+
+int draw_pictures(const ReferenceOptions& options) {
+  const fs::path folder = options.pictures;
+  make_folder(folder);
+  const Theme theme = *theme_named("light");
+  Painter painter(*backend_named(options.backend));
+  std::set<std::string> names;
+  std::size_t drawn = 0;
+  for (const ReferencePicture& picture : reference_pictures()) {
+    const Frame frame = last_frame(parse_scenario(picture.text, picture.name + ".toml"));
+    Work work;
+    const DrawList list = draw_frame(frame, page_for(kWidth, kHeight), work);
+    const MadeFrom from = made_from_all(frame, list, theme);
+    const fs::path path = folder / (picture.name + ".png");
+    names.insert(path.filename().string());
+    if (is_right(path, from)) continue;
+    write_file(path, painter.painted(list, theme, from));
+    ++drawn;
+  }
+  print(fmt::format("{}: {} pictures, {} of them new\n", folder.string(), names.size(), drawn));
+  return kGood;
+}
+
+}  // namespace
+
+int reference_command(const ReferenceOptions& options) {
+  if (!options.pictures.empty()) return draw_pictures(options);
+  write_stdout(reference_page());
+  return kGood;
+}
+
+}  // namespace lantern::app
