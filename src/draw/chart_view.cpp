@@ -14,14 +14,21 @@
 namespace lantern::draw {
 namespace {
 
-constexpr double kLeastRow = 25;  // a name has room in it
+constexpr double kChartType = 26;  // of names; the ticks' is the least that the back row reads
+constexpr double kLeastRow = 32;   // a name has room in it
 constexpr double kMostRow = 96;
 constexpr double kGroupGap = 0.55;  // between groups, in rows
 constexpr double kAfter = 10;       // between a bar and its number, or its name
-constexpr double kTickLine = 34;
+constexpr double kTickLine = 40;
 
 std::string value_text(double value) {
   return value == std::floor(value) ? number_text(value) : short_number(value);
+}
+
+// "energy, J": what is on the y axis, and in which unit.
+std::string title_of(const FrameChart& chart) {
+  const std::string name = chart_words(chart.y_name);
+  return name + (name.empty() || chart.y_unit.empty() ? "" : ", ") + chart.y_unit;
 }
 
 class Bars {
@@ -59,7 +66,7 @@ class Bars {
 
  private:
   std::string heading() const {
-    const std::string name = chart_words(chart_.y_name);
+    const std::string name = title_of(chart_);
     if (!chart_.logarithmic) return name;
     return name + (name.empty() ? "" : ", ") + "logarithmic scale";
   }
@@ -93,10 +100,16 @@ class Bars {
       names = std::max(names, text_width(bar.label, type_.name));
       values = std::max(values, text_width(value_text(bar.value), type_.title));
     }
+    if (chart_.range) {
+      least = std::min(least, chart_.range->first);
+      most = std::max(most, chart_.range->second);
+      if (chart_.range->first > 0) above_zero = std::min(above_zero, chart_.range->first);
+      values = std::max(values, text_width(value_text(most), type_.title));
+    }
     names += 1;  // sums of widths lose a hair
     values += 1;
     area_.lo.x += std::min(names, 0.4 * panel_.size().x) + kAfter;
-    area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter;
+    area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter + (chart_.logarithmic ? 13 : 0);
     area_.hi.y -= kTickLine * (note_.empty() ? 1 : 2);
     row_ = std::min(kMostRow, area_.size().y / rows());
     area_.hi.y = area_.lo.y + rows() * row_;
@@ -124,15 +137,25 @@ class Bars {
   void draw_bar(const FrameBar& bar, double top) {
     const double thick = std::min(0.7 * row_, 52.0), middle = top + row_ / 2;
     const double from = x_of(zero()), to = x_of(bar.value);
-    const Box<2> box{{std::min(from, to), middle - thick / 2},
-                     {std::max(from, to), middle + thick / 2}};
-    if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
+    if (chart_.logarithmic) {
+      draw_dot(bar, {to, middle}, std::min(0.24 * row_, 13.0));
+    } else {
+      const Box<2> box{{std::min(from, to), middle - thick / 2},
+                       {std::max(from, to), middle + thick / 2}};
+      if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
+    }
     const double room = area_.lo.x - panel_.lo.x - kAfter;
     labels_.add(shortened(bar.label, room, type_.name),
                 centred({area_.lo.x - kAfter, middle}, type_.name, 1), type_.name, panel_);
-    const double left = std::max(from, to) + kAfter;
+    const double left = std::max(from, to) + kAfter + (chart_.logarithmic ? 13 : 0);
     labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),
                 centred({left, middle}, type_.title, 0), type_.title, panel_);
+  }
+
+  // A logarithmic axis has no beginning, so nothing is as long as its value: only places say it.
+  void draw_dot(const FrameBar& bar, const Vec<2>& at, double radius) {
+    list_.crisp_line({area_.lo.x, at.y}, {at.x, at.y}, {Role::cell_line_3, 1.6, 3});
+    if (bar.value > 0) list_.disc(at, radius, color_of(bar), {Role::body_line, 1.6});
   }
 
   const FrameChart& chart_;
@@ -149,11 +172,6 @@ class Bars {
   Axis axis_;
 };
 
-// A panel that has the page for itself gets larger type.
-double type_size(const Box<2>& panel) {
-  return panel.size().x > 1000 && panel.size().y > 380 ? 1.22 * kLabel : kLabel;
-}
-
 Plot plot_of(const FrameChart& chart) {
   Plot plot;
   plot.slide = true;
@@ -162,11 +180,13 @@ Plot plot_of(const FrameChart& chart) {
   plot.seconds = chart.seconds;
   plot.least = chart.least;
   plot.most = chart.most;
+  plot.range = chart.range;
   plot.log_y = chart.logarithmic;
   plot.log_x = chart.logarithmic && !chart.over_time;
-  plot.x_name = chart.over_time ? "time in s" : chart_words(chart.x_name);
+  plot.x_name = chart.over_time ? "time, s" : chart_words(chart.x_name);
+  if (!chart.x_unit.empty()) plot.x_name += ", " + chart.x_unit;
   if (plot.log_x) plot.x_note = plot.x_name.empty() ? "both logarithmic" : "  (both logarithmic)";
-  plot.title = chart_words(chart.y_name);
+  plot.title = title_of(chart);
   for (const FrameSeries& series : chart.series) {
     PlotSeries& line = plot.series.emplace_back();
     line.name = chart_words(series.name);
@@ -191,9 +211,12 @@ void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   const FrameChart& chart = frame.chart;
   const Box<2> place = shrunk(panel, 4);
   if (place.size().x < 40 || place.size().y < 40) return;
-  if (!chart.bars.empty()) return Bars(chart, place, type_size(place), list, labels).draw();
+  // A chart of bars has no axes before its first bar.
+  const bool of_bars = !chart.bars.empty() ||
+                       (chart.x_name.empty() && !chart.y_name.empty() && chart.series.empty());
+  if (of_bars) return Bars(chart, place, kChartType, list, labels).draw();
   Plot plot = plot_of(chart);
-  plot.size = type_size(place);
+  plot.size = kChartType;
   draw_plot(plot, place, list, labels);
 }
 

@@ -197,7 +197,12 @@ class MemoryView {
     if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
     const std::size_t dot = leaf.label.rfind('.');
     const std::string brief = dot == std::string::npos ? "" : "…" + leaf.label.substr(dot + 1);
-    for (const std::string& text : {leaf.label, brief}) {
+    // All that a leaf stores of its contents: where they begin, and how many they are.
+    const std::string numbers = fmt::format("first {}, count {}", leaf.first, leaf.bodies.size());
+    const std::string pair = fmt::format("{}: {}, {}", leaf.label, leaf.first, leaf.bodies.size());
+    const bool begins = run.lo == place(leaf.first).lo;
+    for (const std::string& text :
+         {begins ? leaf.label + ": " + numbers : "", begins ? pair : "", leaf.label, brief}) {
       if (text.empty() || text_width(text, style) > run.size().x - 2) continue;
       if (labels_.try_add(text, {{{run.center().x, y + 19}, 0.5}}, style, panel_)) return;
     }

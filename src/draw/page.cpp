@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
@@ -94,18 +95,43 @@ std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& p
   return split(area, 0, widths, kPanelGap);
 }
 
-// A tree needs rows, so it gets somewhat more height than the others; the array is a strip.
+double weight_of(Panel panel) {
+  if (panel == Panel::tree || panel == Panel::ledger) return 1.1;
+  if (panel == Panel::memory) return 0.6;
+  if (panel == Panel::pool) return 0.4;
+  return panel == Panel::bytes || panel == Panel::sparkline ? 0.28 : 1.0;
+}
+
+bool is_strip(Panel panel) {
+  return panel == Panel::memory || panel == Panel::pool || panel == Panel::bytes ||
+         panel == Panel::sparkline;
+}
+
+// A tree needs rows, so it gets somewhat more height than the others; strips get little.
 std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area) {
+  constexpr double kLeastChart = 300;  // a flatter one shows no course
   std::vector<double> weights;
-  for (const Panel panel : panels)
-    weights.push_back(panel == Panel::tree ? 1.1 : panel == Panel::memory ? 0.6 : 1.0);
+  for (const Panel panel : panels) weights.push_back(weight_of(panel));
+  const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const double room = area.size().y - kPanelGap * (static_cast<double>(panels.size()) - 1);
+  const auto chart = std::ranges::find(panels, Panel::chart) - panels.begin();
+  if (chart < std::ssize(panels) && panels.size() > 1 && room > 1.6 * kLeastChart) {
+    double& weight = weights[static_cast<std::size_t>(chart)];
+    weight = std::max(weight, kLeastChart / (room - kLeastChart) * (all - weight));
+  }
   return split(area, 1, weights, kPanelGap);
 }
 
-// The array lies under all the others, as wide as they are together. Cuts it from the area.
-Box<2> cut_strip(const Frame& frame, Box<2>& area) {
-  const double height = area.size().y;
-  const double strip = std::clamp(memory_height(frame, area.size().x), 0.2 * height, 0.46 * height);
+double strip_height(const Frame& frame, Panel panel, const Vec<2>& room) {
+  if (panel == Panel::sparkline) return sparkline_height();
+  if (panel == Panel::bytes) return bytes_height();
+  if (panel == Panel::pool) return std::min(pool_height(frame, room.x), 0.46 * room.y);
+  return std::clamp(memory_height(frame, room.x), 0.2 * room.y, 0.46 * room.y);
+}
+
+// A strip lies under all the others, as wide as they are together. Cuts it from the area.
+Box<2> cut_strip(const Frame& frame, Panel panel, Box<2>& area) {
+  const double strip = strip_height(frame, panel, area.size());
   Box<2> box = area;
   box.lo.y = area.hi.y - strip;
   area.hi.y = box.lo.y - kStripGap;
@@ -134,16 +160,18 @@ std::vector<Box<2>> over_its_chart(const Frame& frame, const Box<2>& area) {
 std::vector<Box<2>> arranged(const Frame& frame, Box<2> area) {
   const std::vector<Panel>& panels = frame.panels;
   std::vector<Box<2>> boxes(panels.size());
-  const auto is_strip = [&](std::size_t i) {
-    return panels[i] == Panel::memory && panels.size() > 1;
-  };
-  for (std::size_t i = 0; i < panels.size(); ++i)
-    if (is_strip(i)) boxes[i] = cut_strip(frame, area);
-  const bool shares = area.size().y >= kLeastForTwo && !std::ranges::all_of(panels, takes_the_rest);
+  const bool only_strips = std::ranges::all_of(panels, is_strip);
+  if (only_strips) return stacked(panels, area);
+  for (std::size_t i = panels.size(); i-- > 0;)
+    if (is_strip(panels[i])) boxes[i] = cut_strip(frame, panels[i], area);
+  const bool shares =
+      area.size().y >= kLeastForTwo && !std::ranges::all_of(panels, [](Panel panel) {
+        return takes_the_rest(panel) || is_strip(panel);
+      });
   // The first panel of each column, and all of the column of those that take the rest.
   std::vector<std::size_t> firsts, shared;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (is_strip(i)) continue;
+    if (is_strip(panels[i])) continue;
     const bool joins = shares && takes_the_rest(panels[i]);
     if (joins) shared.push_back(i);
     if (!joins || shared.size() == 1) firsts.push_back(i);
@@ -174,8 +202,8 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
                                     : wants_stack(frame) ? over_its_chart(frame, area)
                                                          : arranged(frame, area);
   using Draw = void (*)(const Frame&, const Box<2>&, DrawList&, Labels&);
-  constexpr Draw kDraw[] = {draw_world, draw_tree, draw_atlas, draw_chart,
-                            draw_memory};  // by Panel
+  constexpr Draw kDraw[] = {draw_world,  draw_tree, draw_atlas, draw_chart,    draw_memory,
+                            draw_ledger, draw_pool, draw_bytes, draw_sparkline};  // by Panel
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Panel panel = frame.panels[i];
     work.world_layouts += panel == Panel::world;

@@ -43,6 +43,27 @@ std::string chart_words(std::string name);
 void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 double memory_height(const Frame& frame, double width);
 
+// The pair ledger: a triangle with a cell for each pair of bodies, marked by how far the pair came
+// from all pairs to contacts (scenario/pair_state.hpp), and under it or in its free corner how many
+// are in each state; together they are all. Bodies stand on the triangle's edge, in the scenario's
+// order. Of many bodies a density takes the place of the cells.
+void draw_ledger(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+
+// Strips, which lie under the other panels, as wide as they are together.
+// The pool of a tree's nodes: each slot names the node that owns it, a band marks one that was
+// another's before; slots that are free again are dashed. It wants this height at a width.
+void draw_pool(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+double pool_height(const Frame& frame, double width);
+
+// The bytes of a node whose box is derived and of one that stores it, on one scale.
+void draw_bytes(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+double bytes_height();
+
+// One count over the time so far. The ends of its axes are those of the whole part where they are
+// known, else powers of two.
+void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+double sparkline_height();
+
 // The caption, and the counters at its right; gives the y of the hairline above them.
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels);
 

@@ -54,15 +54,16 @@ class Drawing : PlotLayout {
   Box<2> picture() const { return shrunk(area(), -2); }
 
   // On a slide each line has its marks before the next one is drawn, and what is newest lies on
-  // top.
+  // top. The first line comes last: where others run along it, it keeps its colour.
   void draw_series(PlotNamer& namer) {
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
+    for (std::size_t k = 0; k < placed_.size(); ++k) {
+      const std::size_t i = plot_.slide ? placed_.size() - 1 - k : k;
       draw_line(placed_[i], namer);
       if (plot_.slide) draw_marks(i, namer);
     }
     for (const PlacedSeries& placed : placed_) draw_whiskers(placed, namer);
-    for (std::size_t i = 0; i < placed_.size(); ++i)
-      plot_.slide ? draw_newest(placed_[i]) : draw_marks(i, namer);
+    for (std::size_t i = placed_.size(); plot_.slide && i-- > 0;) draw_newest(placed_[i]);
+    for (std::size_t i = 0; i < placed_.size() && !plot_.slide; ++i) draw_marks(i, namer);
   }
 
   // On a slide the same x again begins a line anew.

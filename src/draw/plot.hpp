@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/labels.hpp"
@@ -87,6 +88,8 @@ struct Plot {
   std::optional<double> seconds;
   std::optional<double> least,
       most;  // ends of y; lines leave the picture beyond them
+  // The least and the greatest y that there will ever be: the axis holds them from the beginning.
+  std::optional<std::pair<double, double>> range;
 
   // On the axis of x.
   bool has_place(const PlotPoint& p) const {

@@ -175,6 +175,8 @@ class PlotLayout {
   }
 
   void find_ranges() {
+    if (plot_.range)
+      for (const double end : {plot_.range->first, plot_.range->second}) ys_.add(end, plot_.log_y);
     for (const PlotSeries& series : plot_.series)
       for (const PlotPoint& p : series.points) {
         if (!is_drawn(p)) continue;

@@ -13,17 +13,19 @@ namespace {
 constexpr double kNameBeside = 16;  // between the area and a name in the column
 constexpr double kAfterNumber = 8;
 
+// At its line's end, which a short leader finds where the name had to make way.
 void draw_name(const ColumnName& line, const PlotPaper& paper, DrawList& list, Labels& labels) {
   const Box<2>&area = paper.place.area, panel = paper.place.panel;
   const Vec<2> end{line.end.x, std::clamp(line.end.y, area.lo.y, area.hi.y)};
-  const bool newest_at_edge = end.x > area.hi.x - 40;
-  double x = area.hi.x + kNameBeside;
-  if (std::abs(line.label - end.y) > 4 || !newest_at_edge)
-    list.line({std::min(end.x + 12, x - 5), end.y}, {x - 5, line.label},
-              {Role::cell_line_3, 1.4, newest_at_edge ? 0.0 : 4.0});
+  double x = std::min(end.x, area.hi.x) + kNameBeside;
+  if (std::abs(line.label - end.y) > 4) {
+    list.line({end.x + 10, end.y}, {x + 8, line.label}, {Role::cell_line_3, 1.4});
+    x += 12;
+  }
   const double y = line.label + 0.36 * paper.type.name.size;
-  for (const auto& [words, style] :
+  for (auto [words, style] :
        {std::pair{line.number, paper.type.title}, std::pair{line.name, paper.type.name}}) {
+    style.halo = Role::panel;
     const std::string text = shortened(words, panel.hi.x - x, style);
     labels.try_add(text, {{{x, y}, 0}}, style, panel);
     x += text_width(text, style) + kAfterNumber;
@@ -78,7 +80,7 @@ void PlotPaper::upright_ticks(const Axis& y) {
   for (const Axis::Tick& tick : y.ticks()) {
     const double at = scaled.hi.y - y.share(tick.value) * scaled.size().y;
     list_.crisp_line({end, at}, {scaled.hi.x, at}, {Role::rule, 1.5 * type.unit});
-    if (at > last - 22 * type.unit) continue;
+    if (at > last - std::max(22 * type.unit, 1.1 * type.tick.size)) continue;
     write(tick.text, at);
     last = at;
   }

@@ -101,7 +101,7 @@ class PlotNamer {
   std::vector<Box<2>> marks_;
 };
 
-// A line's newest number and its name, at the right of the area beside the line's end.
+// A line's newest number and its name, at the right of the line's end.
 struct ColumnName {
   std::string number, name;
   Vec<2> end{0.0};   // of the line, on the page

@@ -152,15 +152,6 @@ class TreeView {
     draw_character(*found->second, icon_box(*found->second, place), false, list_);
   }
 
-  // A bat stays long and thin, down to a third.
-  static Box<2> icon_box(const FrameBody& body, const Box<2>& place) {
-    const Vec<2> size = body.box.size();
-    const double longest = std::max(size.x, size.y);
-    if (!(longest > 0)) return place;
-    const Vec<2> half{std::max(size.x / longest, 0.34), std::max(size.y / longest, 0.34)};
-    return Box<2>::around(place.center(), half * place.size() * 0.5);
-  }
-
   // How an atlas's node is cut: two halves, and the strong line between.
   void draw_cut(const FrameNode& node, const Box<2>& box, Role role) {
     const double half = 0.32 * box.size().y;

@@ -85,33 +85,38 @@ constexpr CountDoc kTexts[] = {
 };
 
 constexpr CountDoc kMeasures[] = {
-    {"energy", physics, "Kinetic and potential energy."},
-    {"kinetic_energy", physics, "Energy of motion and rotation."},
-    {"potential_energy", physics, "Energy of height and of springs."},
-    {"momentum", physics, "Length of the momentum of all bodies."},
+    {"energy", physics, "Kinetic and potential energy.", "J"},
+    {"kinetic_energy", physics, "Energy of motion and rotation.", "J"},
+    {"potential_energy", physics, "Energy of height and of springs.", "J"},
+    {"momentum", physics, "Length of the momentum of all bodies.", "N s"},
     {"angular_momentum", physics,
-     "Angular momentum of all bodies about the origin; its length in a 3D world."},
-    {"penetration", contacts, "How deep the deepest contact of the last world step overlaps."},
+     "Angular momentum of all bodies about the origin; its length in a 3D world.", "J s"},
+    {"penetration", contacts, "How deep the deepest contact of the last world step overlaps.",
+     "units"},
     {"joint_gap", joints,
      "How far the joint that holds worst is from holding: a pin's points apart, a rod too long or "
-     "short."},
+     "short.",
+     "units"},
 };
 
 constexpr CountDoc kBodyMeasures[] = {
     {"energy", bodies,
-     "Kinetic and potential energy; of a spring between two dynamic bodies, half."},
-    {"kinetic_energy", bodies, "Energy of its motion and rotation."},
-    {"potential_energy", bodies, "Energy of its height and springs."},
-    {"speed", bodies, "Of its centre, in units a second."},
-    {"spin", bodies, "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world."},
-    {"angular_momentum", bodies, "About its own centre; its length in a 3D world."},
-    {"own_spin_x", bodies, "Its angular velocity in rad/s about its own x axis, in a 3D world."},
-    {"own_spin_y", bodies, "About its own y axis."},
-    {"own_spin_z", bodies, "About its own z axis."},
-    {"x", bodies, "Where its centre is."},
-    {"y", bodies, "The same along y."},
-    {"z", bodies, "The same along z, in a 3D world."},
-    {"penetration", contacts, "How deep its deepest contact of the last world step overlaps."},
+     "Kinetic and potential energy; of a spring between two dynamic bodies, half.", "J"},
+    {"kinetic_energy", bodies, "Energy of its motion and rotation.", "J"},
+    {"potential_energy", bodies, "Energy of its height and springs.", "J"},
+    {"speed", bodies, "Of its centre, in units a second.", "units/s"},
+    {"spin", bodies, "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world.",
+     "rad/s"},
+    {"angular_momentum", bodies, "About its own centre; its length in a 3D world.", "J s"},
+    {"own_spin_x", bodies, "Its angular velocity in rad/s about its own x axis, in a 3D world.",
+     "rad/s"},
+    {"own_spin_y", bodies, "About its own y axis.", "rad/s"},
+    {"own_spin_z", bodies, "About its own z axis.", "rad/s"},
+    {"x", bodies, "Where its centre is.", "units"},
+    {"y", bodies, "The same along y.", "units"},
+    {"z", bodies, "The same along z, in a 3D world.", "units"},
+    {"penetration", contacts, "How deep its deepest contact of the last world step overlaps.",
+     "units"},
 };
 
 }  // namespace

@@ -101,8 +101,12 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
     return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
                        counted(pairs, "candidate pair", "candidate pairs"),
                        frame.count("testable_pairs").value_or(0));
+  const std::int64_t overlaps = frame.count("overlaps").value_or(0);
+  if (phase == "boxes")
+    return fmt::format("Boxes: of {}, {} overlap. Only their shapes need a test.",
+                       counted(pairs, "candidate pair", "candidate pairs"),
+                       overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
   if (phase == "narrow_phase") {
-    const std::int64_t overlaps = frame.count("overlaps").value_or(0);
     const std::int64_t tested = frame.count("pairs_tested").value_or(0);
     if (overlaps == 0) return "Narrow phase: no boxes overlap, so no shapes are tested.";
     const std::string whose = tested != overlaps ? fmt::format("the true shapes of {}", tested)

@@ -36,6 +36,7 @@ struct Touched {
 // Points are of three dimensions; in a flat world z is 0, and so are the half sizes along it.
 struct FrameBody : BodyState {
   BodyId id = 0;
+  std::uint32_t place = 0;  // among the scenario's bodies, there or not
   std::string name;
   Look look = Look::box;
   int color = 1;
@@ -64,12 +65,14 @@ struct FrameNode {
   std::uint32_t order = kNone;  // a level's sector: its place in the order from the eye, from 0
   bool leaf = true;
   bool awake = true;
-  std::vector<BodyId> bodies;   // a leaf's, ascending; of an atlas, textures
-  bool cut_vertically = false;  // an atlas's inner nodes
-  bool over_capacity = false;   // holds more than its limit: at the depth limit, or no progress
-  bool of_static = false;       // of the structure for what never moves
-  std::uint32_t first = kNone;  // a leaf's contents in the array that all leaves share
-  std::uint32_t room = 0;       // slots kept for it there, `bodies.size()` of them in use
+  std::vector<BodyId> bodies;       // a leaf's, ascending; of an atlas, textures
+  bool cut_vertically = false;      // an atlas's inner nodes
+  bool over_capacity = false;       // holds more than its limit: at the depth limit, or no progress
+  bool of_static = false;           // of the structure for what never moves
+  std::uint32_t first = kNone;      // a leaf's contents in the array that all leaves share
+  std::uint32_t room = 0;           // slots kept for it there, `bodies.size()` of them in use
+  std::uint32_t pool_slot = kNone;  // its place in the pool of nodes, where there is one
+  bool reused = false;              // a node of a tree before stood there
   Mark mark = Mark::quiet;
 
   // To be drawn so: what never moves, or holds nothing, is not said to sleep.
@@ -93,6 +96,15 @@ struct FramePair {
   bool lit = false;       // new since the frame before
   bool overlaps = false;  // their stored boxes do: the narrow phase will test them
 };
+
+// How much of a world step has happened on the frame. What a phase finds is listed from that phase
+// on: no frame knows a result before it is there.
+//   whole     all of it: the structure is ready for the next step, contacts are the last step's
+//   broad     pairs are found; their boxes have not been compared, no shapes tested
+//   boxes     the boxes of pairs have been compared
+//   narrow    the shapes of those that overlap have been tested
+//   resolve   impulses have been passed on
+enum class StepPhase { whole, broad, boxes, narrow, resolve };
 
 // Two bodies that touch, as the narrow phase says, and what the solver did about it.
 struct FrameContact {
@@ -172,8 +184,21 @@ struct FrameChart {
   std::optional<double> seconds;  // over time: how far the x axis goes; none: as far as the lines
   std::optional<double> least;    // of the y axis; lines leave the picture beyond it
   std::optional<double> most;
+  // Of y over all frames of the sequence or part, once somebody knows them: the axis holds them
+  // from the first frame on.
+  std::optional<std::pair<double, double>> range;
+  std::string x_unit;  // "J"; empty for what is counted
+  std::string y_unit;
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;
+};
+
+// One count over the world's time so far, for the thin strip under what moves.
+struct FrameTrace {
+  std::string name;               // of the count
+  std::vector<Vec<2>> points;     // seconds since the part began, and the count
+  std::optional<double> seconds;  // of the part; none: the script does not say
+  std::optional<double> most;     // of the whole part, once somebody knows it
 };
 
 // Perspective, y up.
@@ -193,7 +218,8 @@ struct Frame {
   std::uint32_t index = 0;  // of this frame, from 0
   std::uint32_t step = 0;   // of the script, from 0
   std::uint32_t steps = 0;
-  std::string event;    // the step's name or the algorithm's event; for --at
+  std::string event;  // the step's name or the algorithm's event; for --at
+  StepPhase phase = StepPhase::whole;
   double time = 0;      // seconds of world time
   std::string caption;  // counts filled in
   StructureKind structure = StructureKind::none;
@@ -204,9 +230,11 @@ struct Frame {
   bool show_boxes = false;  // the bodies' broad-phase boxes
   bool show_velocities = false;
   bool show_depths = false;  // beside contacts
+  std::uint32_t cast = 0;    // bodies of the scenario, there or not
   std::vector<FrameBody> bodies;
   std::vector<FrameNode> nodes;  // parents before children
   std::vector<FramePair> pairs;  // in order of ids
+  std::vector<Pair> tested;      // by the narrow phase in the last step, in order of ids
   std::vector<FrameContact> contacts;
   std::vector<FrameLink> links;
   std::vector<FrameRay> rays;
@@ -217,6 +245,8 @@ struct Frame {
   std::optional<Vec<2>> eye;                  // where a level is looked at from
   std::optional<WorldWork> since_last_frame;  // of its steps, summed up; none if there was none
   FrameChart chart;
+  FrameTrace trace;
+  std::uint32_t pool_size = 0;   // nodes that the tree's pool held at most; 0: it has none
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
   std::vector<FrameTexture> textures;
   std::vector<std::pair<std::string, std::int64_t>> counts;  // in a fixed order

@@ -32,6 +32,8 @@ class FrameWriter {
 
  private:
   void write_facts(const Frame& frame) {
+    if (whole_way_ && frame.phase != StepPhase::whole)
+      lines("phase", kPhases[static_cast<std::size_t>(frame.phase)]);
     write_list("bodies", frame.bodies);
     write_list("nodes", frame.nodes);
     std::vector<Pair> pairs, overlaps;
@@ -41,6 +43,7 @@ class FrameWriter {
     }
     lines("pairs", pairs);
     if (whole_way_) lines("overlaps", overlaps);
+    if (whole_way_ && frame.count("pairs_tested")) lines("tested", frame.tested);
     write_list("contacts", frame.contacts);
     if (!frame.links.empty()) write_list("links", frame.links);
     if (!frame.rays.empty()) write_list("rays", frame.rays);
@@ -179,6 +182,7 @@ class FrameWriter {
     if (!node.region.empty()) members("region", node.region);
     members("leaf", node.leaf, "bodies", node.bodies);
     if (node.first != kNone) members("first", node.first, "room", node.room);
+    if (node.pool_slot != kNone) members("pool_slot", node.pool_slot, "reused", node.reused);
     if (node.of_static) members("of_static", true);
     if (node.solid) members("solid", true);
     if (node.order != kNone) members("order", node.order);
@@ -221,6 +225,8 @@ class FrameWriter {
 
   static constexpr std::string_view kNewCounts[] = {"testable_pairs", "pairs_tested", "impulses",
                                                     "leaves_asleep", "branches_asleep"};
+
+  static constexpr std::string_view kPhases[] = {"whole", "broad", "boxes", "narrow", "resolve"};
 
   const Frame& frame_;
   bool whole_way_;

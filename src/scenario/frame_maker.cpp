@@ -22,12 +22,21 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
                        const std::function<bool(const Frame&)>& sink)
     : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink) {
   if (scenario.chart) plotter_.emplace(scenario);
+  if (std::ranges::count(scenario.panels, Panel::sparkline) > 0) {
+    trace_ = FrameTrace{"pairs", {}, script_seconds(scenario, &part_), std::nullopt};
+  }
 }
 
 void FrameMaker::begin(const Step& step, std::uint32_t index) {
   step_ = &step;
   step_index_ = index;
+  const bool new_part = !step.part.empty() && step.part != part_;
   if (!step.part.empty()) part_ = step.part;
+  if (trace_ && new_part) {
+    trace_->points.clear();
+    trace_->seconds = script_seconds(scenario_, &part_);
+    trace_begun_ = stage_.time;
+  }
   if (plotter_) plotter_->begin_part(part_, stage_.time);
   touched = {};
   focus.clear();
@@ -65,6 +74,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   frame.steps = static_cast<std::uint32_t>(scenario_.steps.size());
   frame.event = event;
   frame.panels = scenario_.panels;
+  frame.cast = static_cast<std::uint32_t>(scenario_.bodies.size());
   frame.time = stage_.time;
   frame.dimension = world.dimension;
   frame.bounds = world.bounds;
@@ -82,7 +92,19 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   add_finding(frame);
   light(frame);
   if (plotter_) frame.chart = plotter_->chart();
+  if (trace_) trace(frame);
   return frame;
+}
+
+// One point a moment: the last that was so.
+void FrameMaker::trace(Frame& frame) {
+  if (const auto n = frame.count(trace_->name)) {
+    const Vec<2> now{frame.time - trace_begun_, static_cast<double>(*n)};
+    std::vector<Vec<2>>& points = trace_->points;
+    if (!points.empty() && points.back().x == now.x) points.pop_back();
+    points.push_back(now);
+  }
+  frame.trace = *trace_;
 }
 
 void FrameMaker::settle(std::string_view verb, bool last, const std::string& caption) {

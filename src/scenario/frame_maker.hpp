@@ -74,6 +74,7 @@ class FrameMaker {
 
  private:
   void add_finding(Frame& frame) const;
+  void trace(Frame& frame);
   void light(Frame& frame);
   void light_leaves_of_focus(Frame& frame) const;
   std::string fill(const std::string& caption, const Frame& frame) const;
@@ -90,6 +91,8 @@ class FrameMaker {
   const Stage& stage_;
   const std::function<bool(const Frame&)>& sink_;
   std::optional<Plotter> plotter_;
+  std::optional<FrameTrace> trace_;  // if a panel shows it
+  double trace_begun_ = 0;           // when its part began
   DirectorReport report_;
   const Step* step_ = nullptr;
   std::uint32_t step_index_ = 0;

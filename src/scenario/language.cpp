@@ -33,7 +33,12 @@ TableDoc file_table() {
           "Where random patterns begin; the same seed gives the same frames everywhere.",
           range(0, kMostWhole)),
       key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
-      key(&S::panels, "panels", "What is drawn, from left to right.",
+      key(&S::panels, "panels",
+          "What is drawn, from left to right: the `world`, the `tree` (of `sort_and_sweep` its "
+          "intervals), the `atlas`, the `chart`; the `ledger`, a triangle with a cell for each pair "
+          "of bodies and how far it came; and as strips below, the `memory` of the array that all "
+          "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
+          "the `sparkline`, the pairs over the time so far.",
           or_else("what the scenario uses")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),

@@ -165,6 +165,7 @@ struct CountDoc {
   std::string_view name;
   CountNeed need = CountNeed::bodies;
   std::string_view doc;
+  std::string_view unit = {};  // of a measure: "J"
 
   bool for_atlas() const {
     return need == CountNeed::atlas || need == CountNeed::room || need == CountNeed::tree;

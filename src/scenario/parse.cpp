@@ -59,20 +59,42 @@ bool compiles_level(const ScenarioSpec& s) {
 // Can there be those that the file wishes for?
 void check_panels(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
-  const auto is_there = [](const Rebuild& r) { return r.structure.kind != StructureKind::none; };
-  const bool structure = s.structure.kind != StructureKind::none || some_step<Rebuild>(s, is_there);
-  const bool possible[] = {draft.has_world, structure || compiles_level(s) || s.atlas,
-                           s.atlas.has_value(), s.chart.has_value(), structure};
-  constexpr const char* kMissing[] = {
-      "it needs a [world]", "it needs a [structure], a [level] or an [atlas]",
-      "it needs an [atlas]", "it needs a [chart]", "it needs a [structure]"};
+  // A structure of which this holds stands at some time.
+  const auto some_structure = [&](const auto& holds) {
+    return holds(s.structure) || std::ranges::any_of(s.steps, [&](const Step& step) {
+             const auto* rebuild = std::get_if<Rebuild>(&step.verb);
+             return rebuild && holds(rebuild->structure);
+           });
+  };
+  const auto has = [](bool StructureTraits::*trait) {
+    return [trait](const StructureSpec& of) {
+      return of.kind != StructureKind::none && traits_of(of.kind).*trait;
+    };
+  };
+  const bool structure =
+      some_structure([](const StructureSpec& of) { return of.kind != StructureKind::none; });
+  const bool array = some_structure(has(&StructureTraits::shares_array));
+  const bool pool = array || some_structure(has(&StructureTraits::is_fitted));
+  const bool moves = s.world_steps > 0 && structure;
+  const std::pair<bool, const char*> possible[] = {
+      // by Panel
+      {draft.has_world, "it needs a [world]"},
+      {structure || compiles_level(s) || s.atlas,
+       "it needs a [structure], a [level] or an [atlas]"},
+      {s.atlas.has_value(), "it needs an [atlas]"},
+      {s.chart.has_value(), "it needs a [chart]"},
+      {structure, "it needs a [structure]"},
+      {structure, "it needs a [structure], whose pairs it shows"},
+      {pool, "it needs a quadtree, an octree or a kd_tree, whose nodes lie in a pool"},
+      {array, "it needs a quadtree or an octree, whose nodes have their bytes counted"},
+      {moves, "it needs a [structure] and a step that runs"}};
   std::size_t i = 0;
   for (const Named& written : file.names("panels")) {
     const auto panel = static_cast<std::size_t>(s.panels[i++]);
-    if (!possible[panel])
+    if (!possible[panel].first)
       draft.problems.add(written.where,
                          fmt::format("this scenario cannot have the panel '{}'", written.name),
-                         kMissing[panel]);
+                         possible[panel].second);
   }
 }
 

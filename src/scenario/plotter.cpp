@@ -3,11 +3,47 @@
 #include <algorithm>
 #include <set>
 
+#include "scenario/language.hpp"
+
 namespace lantern::scenario {
 namespace {
 
-// How long the script runs, or only this part of it. Nothing if that depends on what happens.
-std::optional<double> seconds_of(const Scenario& scenario, const std::string* only) {
+std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
+
+// "energy" of "kinetic_energy" and "energy.bob".
+std::string last_word(const std::string& name) {
+  const std::string whole = before_dot(name);
+  return whole.substr(whole.rfind('_') + 1);
+}
+
+std::string unit_of(const std::string& name) {
+  const CountDoc* doc = find_in(known_body_measures(), before_dot(name));
+  if (name.find('.') == std::string::npos) doc = find_count(name);
+  return doc ? std::string(doc->unit) : "";
+}
+
+// f(name) if all agree on it, else nothing.
+template <class F>
+std::string agreed(const std::vector<std::string>& names, const F& f) {
+  const bool all = std::ranges::all_of(names, [&](const auto& n) { return f(n) == f(names[0]); });
+  return all && !names.empty() ? f(names[0]) : "";
+}
+
+// "energy and angular_momentum": each once.
+std::string list_of_kinds(const std::vector<std::string>& names) {
+  std::vector<std::string> kinds;
+  for (const std::string& name : names)
+    if (std::ranges::find(kinds, before_dot(name)) == kinds.end())
+      kinds.push_back(before_dot(name));
+  std::string text;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == kinds.size() ? " and " : ", ") + kinds[i];
+  return text;
+}
+
+}  // namespace
+
+std::optional<double> script_seconds(const Scenario& scenario, const std::string* only) {
   double seconds = 0;
   std::string part;
   for (const Step& step : scenario.steps) {
@@ -19,20 +55,16 @@ std::optional<double> seconds_of(const Scenario& scenario, const std::string* on
   return seconds > 0 ? std::optional(seconds) : std::nullopt;
 }
 
-std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
-
-}  // namespace
-
 Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenario.chart) {
   chart_.x_name = spec_.x;
   chart_.over_time = spec_.over_time();
   chart_.logarithmic = spec_.logarithmic;
   chart_.least = spec_.least;
   chart_.most = spec_.most;
-  if (over_time()) chart_.seconds = seconds_of(scenario, spec_.each_part ? &part_ : nullptr);
+  if (over_time()) chart_.seconds = script_seconds(scenario, spec_.each_part ? &part_ : nullptr);
   if (name_by_sides(scenario)) return;
   if (spec_.x.empty())
-    chart_.y_name = spec_.y[0];
+    chart_.y_name = spec_.y[0], chart_.y_unit = unit_of(spec_.y[0]);
   else
     name_series(scenario);
 }
@@ -44,6 +76,7 @@ bool Plotter::name_by_sides(const Scenario& scenario) {
   const bool same = std::ranges::all_of(
       spec_.y, [&](const std::string& name) { return after_dot(name) == after_dot(spec_.y[0]); });
   if (same) chart_.y_name = after_dot(spec_.y[0]);
+  if (same) chart_.y_unit = unit_of(chart_.y_name);
   if (!spec_.x.empty())
     for (const std::string& name : spec_.y)
       chart_.series.emplace_back().name = same ? before_dot(name) : name;
@@ -63,26 +96,37 @@ void Plotter::name_series(const Scenario& scenario) {
     return nullptr;
   };
   std::set<int> colors;
+  std::set<const BodySpec*> bodies;
   bool same = !spec_.y.empty();
   for (const std::string& name : spec_.y) {
     const BodySpec* body = of_body(name);
     same = same && body && before_dot(name) == before_dot(spec_.y[0]);
-    if (body) colors.insert(body->color);
+    if (body) colors.insert(body->color), bodies.insert(body);
   }
+  // One hue a body, whatever is measured of it.
+  const bool distinct = colors.size() == bodies.size();
   for (const std::string& name : spec_.y) {
     FrameSeries series;
     series.name = same ? of_body(name)->name : name;
-    if (same && colors.size() == spec_.y.size()) series.color = of_body(name)->color;
+    if (distinct && of_body(name)) series.color = of_body(name)->color;
     chart_.series.push_back(std::move(series));
   }
   chart_.y_name = same ? before_dot(spec_.y[0]) : spec_.y.size() == 1 ? spec_.y[0] : "";
+  if (chart_.y_name.empty()) chart_.y_name = agreed(spec_.y, last_word);
+  if (chart_.y_name.empty()) chart_.y_name = list_of_kinds(spec_.y);
+  chart_.y_unit = agreed(spec_.y, unit_of);
+  chart_.x_unit = unit_of(spec_.x);
+  // On an axis of several units each line says its own.
+  for (std::size_t i = 0; i < spec_.y.size() && chart_.y_unit.empty(); ++i)
+    if (const std::string unit = unit_of(spec_.y[i]); !unit.empty())
+      chart_.series[i].name += " (" + unit + ")";
 }
 
 void Plotter::begin_part(const std::string& part, double time) {
   if (!over_time() || !spec_.each_part || part == part_) return;
   part_ = part;
   begun_ = time;
-  chart_.seconds = seconds_of(scenario_, &part_);
+  chart_.seconds = script_seconds(scenario_, &part_);
   for (FrameSeries& series : chart_.series) series.points.clear();
 }
 

@@ -9,6 +9,10 @@
 
 namespace lantern::scenario {
 
+// Seconds of world time that the whole script takes, or only its part `only`. Nothing if none
+// passes, or if that depends on what happens.
+std::optional<double> script_seconds(const Scenario& scenario, const std::string* only);
+
 class Plotter {
  public:
   explicit Plotter(const Scenario& scenario);

@@ -134,11 +134,16 @@ std::string world_count_rows() {
   return text;
 }
 
+// A chart writes the unit on its axis.
+std::string with_unit(const CountDoc& doc) {
+  return std::string(doc.doc) + (doc.unit.empty() ? "" : fmt::format(" In {}.", doc.unit));
+}
+
 std::string count_rows(std::string_view what, std::span<const CountDoc> docs,
                        bool (*is_listed)(const CountDoc&)) {
   std::string text = fmt::format("| {} | meaning |\n|---|---|\n", what);
   for (const CountDoc& doc : docs)
-    if (is_listed(doc)) text += fmt::format("| `{}` | {} |\n", doc.name, doc.doc);
+    if (is_listed(doc)) text += fmt::format("| `{}` | {} |\n", doc.name, with_unit(doc));
   return text;
 }
 

@@ -21,7 +21,7 @@
 namespace lantern::scenario {
 
 enum class Children { lazy, eager };  // each made when something enters it, or all at a split
-enum class Panel { world, tree, atlas, chart, memory };
+enum class Panel { world, tree, atlas, chart, memory, ledger, pool, bytes, sparkline };
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box };
 enum class Brain { none, follow, wander };  // who steers a body
@@ -251,7 +251,9 @@ EnumNames names_up_to(E last) {
 
 inline EnumNames names(StructureKind) { return names_up_to(kStructureKinds.back()); }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
-inline EnumNames names(Panel) { return {"world", "tree", "atlas", "chart", "memory"}; }
+inline EnumNames names(Panel) {
+  return {"world", "tree", "atlas", "chart", "memory", "ledger", "pool", "bytes", "sparkline"};
+}
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box"}; }
 inline EnumNames names(Warning) {

@@ -71,24 +71,30 @@ class NodePicture {
       : spec_(spec),
         traits_(traits_of(spec.kind)),
         touched_(touched),
-        shows_memory_(std::ranges::find(frame.panels, Panel::memory) != frame.panels.end()),
+        shows_memory_(shows(frame, Panel::memory)),
+        shows_pool_(shows(frame, Panel::pool)),
         frame_(frame) {}
 
   // `awake`: null if nothing sleeps.
   template <class Structure>
   void add(const Structure& structure, const AwakeNodes* awake, bool of_static) {
     first_ = static_cast<std::uint32_t>(frame_.nodes.size());
+    now_ = structure.counters();
     structure.visit([&](const NodeView<D>& view) {
       add_node(view, awake, of_static);
       return true;
     });
-    add_counters(structure.counters(), of_static);
+    add_counters(now_, of_static);
   }
 
   Counters counters;  // of all structures together
   std::uint64_t most_in_leaf = 0;
 
  private:
+  static bool shows(const Frame& frame, Panel panel) {
+    return std::ranges::find(frame.panels, panel) != frame.panels.end();
+  }
+
   void add_node(const NodeView<D>& view, const AwakeNodes* awake, bool of_static) {
     stop_if_asked();
     FrameNode node = frame_node(view);
@@ -98,6 +104,10 @@ class NodePicture {
     if (shows_memory_ && !of_static) {
       node.first = view.first;
       node.room = view.room;
+    }
+    if (shows_pool_ && !of_static && now_.pool > 0) {
+      node.pool_slot = view.handle;
+      node.reused = view.handle < now_.nodes_reused;
     }
     if (awake) node.awake = (*awake)[view.handle];
     most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
@@ -111,6 +121,7 @@ class NodePicture {
       counters.*count += c.*count;
     counters.depth = std::max(counters.depth, c.depth);
     if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
+    if (shows_pool_ && !of_static) frame_.pool_size = static_cast<std::uint32_t>(c.pool);
   }
 
   FrameNode frame_node(const NodeView<D>& view) const {
@@ -148,6 +159,8 @@ class NodePicture {
   StructureTraits traits_;
   const Touched& touched_;
   bool shows_memory_;
+  bool shows_pool_;
+  Counters now_;  // of the structure that is being added
   Frame& frame_;
   std::uint32_t first_ = 0;  // node of the structure that is being added
 };

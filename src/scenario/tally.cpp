@@ -28,7 +28,9 @@ std::uint64_t points_of(const FrameChart& chart) {
 // What there is on a frame, on all sides together.
 struct Seen {
   std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0,
-                sectors = 0, drawn_walls = 0, nodes = 0, slots = 0;
+                sectors = 0, drawn_walls = 0, nodes = 0, slots = 0, pool = 0, bytes = 0,
+                moments = 0;
+  bool pairs = false;  // two bodies or more, of one side
 
   void add(const Frame& frame) {
     bodies += frame.bodies.size();
@@ -41,6 +43,10 @@ struct Seen {
     drawn_walls += frame.walls.size();
     nodes += frame.nodes.size();
     slots += frame.array_size;
+    pool += frame.pool_size;
+    bytes += counted(frame, "node_bytes");
+    moments += frame.trace.points.size();
+    pairs |= frame.bodies.size() > 1;
   }
 };
 
@@ -74,6 +80,10 @@ void Tally::see(const Frame& frame) {
   with_nodes_ += seen.nodes > 0;
   with_textures_ += seen.textures > 0;
   with_array_ += seen.slots > 0;
+  with_two_ += seen.pairs;
+  with_pool_ += seen.pool > 0;
+  with_bytes_ += seen.bytes > 0;
+  with_trace_ += seen.moments > 0;
   count_builds(frame);
 }
 
@@ -206,6 +216,10 @@ void Tally::list_pictures(Stages& all) const {
   all.push_back(panel(Panel::atlas, "atlas panel", {frames(with_textures_, "textures")}));
   all.push_back(panel(Panel::chart, "chart panel", {frames(with_points_, "points or bars")}));
   all.push_back(panel(Panel::memory, "memory panel", {frames(with_array_, "the leaves' array")}));
+  all.push_back(panel(Panel::ledger, "ledger panel", {frames(with_two_, "two bodies or more")}));
+  all.push_back(panel(Panel::pool, "pool panel", {frames(with_pool_, "a pool of nodes")}));
+  all.push_back(panel(Panel::bytes, "bytes panel", {frames(with_bytes_, "bytes of nodes")}));
+  all.push_back(panel(Panel::sparkline, "sparkline", {frames(with_trace_, "a line so far")}));
   all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
   all.push_back({"OpenGL",
                  {amount(work_.graphics_contexts, "context")},

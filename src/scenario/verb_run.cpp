@@ -160,14 +160,26 @@ void Wait::act(ScriptRun& run) const {
 
 namespace {
 
+constexpr std::string_view kOfTheStep[] = {
+    "contacts",      "contact_points",    "impulses",     "begins",
+    "ends",          "pairs_tested",      "narrow_tests", "constraint_rows",
+    "friction_rows", "force_evaluations", "rotations",    "crushes"};
+
+// What the step before found is no longer so, and what this one will find is not there yet.
+void forget_findings(Frame& frame) {
+  frame.contacts.clear();
+  frame.tested.clear();
+  for (auto& [name, number] : frame.counts)
+    if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep)) number = 0;
+  for (auto& [name, number] : frame.measures)
+    if (name == "penetration") number = 0;
+}
+
 // Bodies and structure as they were before the step, contacts as it found them.
 Frame met(const Frame& before, const Frame& after) {
-  static constexpr std::string_view kOfTheStep[] = {
-      "contacts",      "contact_points",    "impulses",     "begins",
-      "ends",          "pairs_tested",      "narrow_tests", "constraint_rows",
-      "friction_rows", "force_evaluations", "rotations",    "crushes"};
   Frame frame = before;
   frame.contacts = after.contacts;
+  frame.tested = after.tested;
   for (auto& [name, number] : frame.counts)
     if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep))
       number = after.count(name).value_or(number);
@@ -180,7 +192,8 @@ Frame met(const Frame& before, const Frame& after) {
 
 TableDoc Phases::table() {
   return {.doc = "One world step, phase by phase.",
-          .keys = {pace_key(), events_key({"broad_phase", "narrow_phase", "solve", "integrate"})},
+          .keys = {pace_key(),
+                   events_key({"broad_phase", "boxes", "narrow_phase", "solve", "integrate"})},
           .example = R"([[step]]
 do = "phases"
 pace = "event"
@@ -195,15 +208,18 @@ void Phases::read(const TableReader&, ScriptReading& script) {
 
 // The state before the step, with what each phase of it finds, then the state after it.
 void Phases::act(ScriptRun& run) const {
-  const Frame before = run.frames.picture(run.frames.touched, "broad_phase");
-  const auto show = [&](std::string_view event, const Frame& frame) {
+  Frame before = run.frames.picture(run.frames.touched, "broad_phase");
+  forget_findings(before);
+  const auto show = [&](std::string_view event, StepPhase phase, const Frame& frame) {
     if (!run.frames.wanted(event)) return;
     Frame shown = frame;
     shown.event = event;
+    shown.phase = phase;
     shown.caption = phase_text(event, shown);
     run.frames.give(shown);
   };
-  show("broad_phase", before);
+  show("broad_phase", StepPhase::broad, before);
+  if (before.count("overlaps") && before.count("contacts")) show("boxes", StepPhase::boxes, before);
   run.let_time_pass();
   const Frame after = run.frames.picture(run.frames.touched, "integrate");
   const Frame meeting = met(before, after);
@@ -212,8 +228,8 @@ void Phases::act(ScriptRun& run) const {
     for (FrameContact::Point& point : contact.points) point.impulse = 0;
   for (auto& [name, number] : narrow.counts)
     if (name == "impulses") number = 0;
-  show("narrow_phase", narrow);
-  show("solve", meeting);
+  show("narrow_phase", StepPhase::narrow, narrow);
+  show("solve", StepPhase::resolve, meeting);
   run.frames.settle("integrate");
 }
 

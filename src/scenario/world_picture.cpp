@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 
 #include "base/stop.hpp"
@@ -13,10 +14,11 @@ namespace lantern::scenario {
 namespace {
 
 template <int D>
-FrameBody frame_body(const Body<D>& body, const BodySpec& spec) {
+FrameBody frame_body(const Body<D>& body, const BodySpec& spec, std::size_t place) {
   FrameBody b;
   static_cast<BodyState&>(b) = state_of(body);
   b.id = body.id;
+  b.place = static_cast<std::uint32_t>(place);
   b.name = body.name;
   b.look = spec.look;
   b.color = spec.color;
@@ -54,6 +56,22 @@ double size_of(const Vec<3>& value) { return glm::length(value); }
 double about_own_axis(const Body<2>&, int) { return 0; }
 double about_own_axis(const Body<3>& body, int axis) {
   return (glm::conjugate(body.orientation.q) * angular_velocity(body))[axis];
+}
+
+// Of the pairs that the broad phase handed on in the last step, those whose shapes were tested: not
+// both are moved from outside, and no joint ties them together.
+template <int D>
+void list_tested(const Players<D>& players, Frame& frame) {
+  const World<D>& world = players.world();
+  std::set<Pair> joined;
+  for (const auto& [id, joint] : world.joints())
+    if (!joint.collide) joined.insert({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
+  for (const Pair& pair : world.pairs()) {
+    const Body<D>*a = world.find(pair.a), *b = world.find(pair.b);
+    if (!a || !b || !players.spec_of(pair.a) || !players.spec_of(pair.b)) continue;  // one has left
+    const bool dynamic = a->kind == BodyKind::dynamic_body || b->kind == BodyKind::dynamic_body;
+    if (dynamic && !joined.contains(pair)) frame.tested.push_back(pair);
+  }
 }
 
 double deepest_of(BodyId id, const Frame& frame) {
@@ -111,13 +129,14 @@ void picture_world(const Players<D>& players, Frame& frame) {
   const World<D>& world = players.world();
   for (const Body<D>& body : world.bodies())
     if (const BodySpec* spec = players.spec_of(body.id))
-      frame.bodies.push_back(frame_body(body, *spec));
+      frame.bodies.push_back(frame_body(body, *spec, *players.index_of(body.id)));
   for (const Contact<D>& contact : world.contacts()) {
     stop_if_asked();
     if (players.spec_of(contact.a) && players.spec_of(contact.b) && world.find(contact.a) &&
         world.find(contact.b))  // one may have left since the step
       frame.contacts.push_back(frame_contact(contact, world.events()));
   }
+  list_tested(players, frame);
   players.for_each_link([&](const LinkSpec& spec, const Vec<D>& from, const Vec<D>& to,
                             double rest) {
     const bool has_length = spec.kind != LinkSpec::Kind::pin && rest > 0;

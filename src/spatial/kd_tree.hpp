@@ -114,7 +114,8 @@ class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
             .box_tests = box_tests_ + cuts_.tests(),
             .splits = nodes_.size() / 2,
             .allocations = allocations_ + cuts_.allocations(),
-            .nodes_reused = std::min(most_nodes_before_, nodes_.size())};
+            .nodes_reused = std::min(most_nodes_before_, nodes_.size()),
+            .pool = std::max(most_nodes_before_, nodes_.size())};
   }
 
  private:

@@ -119,7 +119,8 @@ class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
             .allocations = allocations_ + contents_.allocations(),
             .nodes_reused = nodes_reused_,
             .places = contents_.places(),
-            .node_bytes = nodes_.size() * sizeof(Node) + families_.size() * sizeof(Family)};
+            .node_bytes = nodes_.size() * sizeof(Node) + families_.size() * sizeof(Family),
+            .pool = std::max(most_nodes_before_, nodes_.size())};
   }
 
  private:

@@ -162,6 +162,9 @@ struct Counters {
                                    // before it instead of new memory
   std::uint64_t places = 0;        // of the array that all leaves share, if there is one
   std::uint64_t node_bytes = 0;    // that all nodes take, contents apart
+  // Of a pool of nodes, as many as it ever held at once: the first `nodes` of them, by their
+  // handles, are in use now, and of these the first `nodes_reused` held another before.
+  std::uint64_t pool = 0;
 };
 
 }  // namespace lantern::spatial

@@ -4,6 +4,7 @@
 
 #include "base/random.hpp"
 #include "draw/axis.hpp"
+#include "draw/axis_ranges.hpp"
 #include "draw/layout_check.hpp"
 #include "draw/number_text.hpp"
 #include "draw/page.hpp"
@@ -108,6 +109,7 @@ FrameChart diverging() {
   FrameChart chart;
   chart.x_name = "time";
   chart.y_name = "energy";
+  chart.y_unit = "J";
   chart.over_time = true;
   chart.logarithmic = true;
   chart.seconds = 30;
@@ -145,7 +147,7 @@ TEST(Chart, LinesThatDivergeLeaveThePictureAtItsEdge) {
   EXPECT_NEAR(lowest, ground->box.hi.y, 3) << "and at the bottom";
   const double share = (longest - ground->box.lo.x) / ground->box.size().x;
   EXPECT_NEAR(share, 19.0 / 30, 0.01) << "time is linear, and its axis is as long as the run";
-  for (const char* text : {"0.01", "1000", "time in s", "energy  (logarithmic)", "grows", "30"})
+  for (const char* text : {"0.01", "1000", "time, s", "energy, J  (logarithmic)", "grows", "30"})
     EXPECT_TRUE(says(list, text)) << text << " is missing";
 }
 
@@ -189,6 +191,73 @@ TEST(Chart, BarsAreAsLongAsTheirNumbers) {
       lengths.push_back(rect->box.size().x);
   ASSERT_EQ(lengths.size(), 2u) << "a bar of 0 has no length";
   EXPECT_NEAR(lengths[1], 2 * lengths[0], 1e-9);
+}
+
+// A logarithmic axis begins anywhere: there a length would say nothing.
+TEST(Chart, OnALogarithmicAxisBarsAreDots) {
+  FrameChart chart;
+  chart.logarithmic = true;
+  chart.bars = {{"one", 10, 0}, {"two", 1000, 0}, {"none", 0, 0}};
+  std::vector<Box<2>> dots;
+  for (const DrawShape& shape : page_of(charted(chart)).shapes)
+    if (const auto* rect = std::get_if<RectShape>(&shape);
+        rect && rect->fill >= Role::body_1 && rect->fill <= Role::body_8)
+      dots.push_back(rect->box);
+  ASSERT_EQ(dots.size(), 2u) << "nothing stands where 0 has no place";
+  for (const Box<2>& dot : dots) EXPECT_NEAR(dot.size().x, dot.size().y, 1e-9);
+  EXPECT_GT(dots[1].lo.x, dots[0].hi.x);
+}
+
+TEST(Chart, OfBarsThatAreToComeHasNoAxes) {
+  FrameChart chart;
+  chart.y_name = "pairs";
+  const DrawList list = page_of(charted(chart));
+  EXPECT_TRUE(says(list, "pairs"));
+  for (const LabelBox& label : list.labels) EXPECT_NE(label.text, "0") << "a tick of nothing";
+}
+
+// Ticks and their places, as the labels left of the picture.
+std::vector<std::pair<std::string, double>> ticks_of(const DrawList& list, double left_of) {
+  std::vector<std::pair<std::string, double>> ticks;
+  for (const LabelBox& label : list.labels)
+    if (label.box.hi.x < left_of && label.box.lo.y < 700)
+      ticks.emplace_back(label.text, label.box.lo.y);
+  return ticks;
+}
+
+TEST(Chart, AxesOfASequenceStandStill) {
+  FrameChart chart;
+  chart.y_name = "pairs";
+  chart.over_time = true;
+  chart.seconds = 4;
+  chart.series = {{"pairs", {{0, 3}}}};
+  Frame first = charted(chart);
+  chart.series[0].points.push_back({4, 900});
+  Frame last = charted(chart);
+  last.trace.points = {{0, 3}, {4, 900}};
+  AxisRanges ranges;
+  for (const Frame& frame : {first, last}) ranges.see(frame);
+  for (Frame* frame : {&first, &last}) ranges.settle(*frame);
+  EXPECT_EQ(ticks_of(page_of(first), 200), ticks_of(page_of(last), 200));
+  EXPECT_EQ(first.trace.most, 900);
+}
+
+TEST(Chart, NamesStandAtTheirLinesEnds) {
+  FrameChart chart;
+  chart.over_time = true;
+  chart.seconds = 10;
+  chart.series = {{"early", {{0, 1}, {2, 8}}}, {"late", {{0, 1}, {2, 2}}}};
+  const DrawList list = page_of(charted(chart));
+  double longest = 0;
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* line = std::get_if<LineShape>(&shape);
+        line && line->stroke.role >= Role::body_1 && line->stroke.role <= Role::body_8)
+      longest = std::max(longest, line->to.x);
+  for (const LabelBox& label : list.labels)
+    if (label.text == "early" || label.text == "late") {
+      EXPECT_LT(label.box.lo.x, longest + 90) << label.text << ": a leader would cross the plot";
+      EXPECT_GE(label.box.size().y, 20);
+    }
 }
 
 TEST(Chart, WhatHasNoRoomIsSaid) {

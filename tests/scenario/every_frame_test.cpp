@@ -1,6 +1,7 @@
 // Every frame of every scenario tells the truth about the engine.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -8,6 +9,7 @@
 
 #include "base/hash.hpp"
 #include "scenario/directing.hpp"
+#include "scenario/pair_state.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -75,6 +77,47 @@ void expect_no_pair_missed(const Frame& frame, const Rules& rules) {
 
 // n(n-1)/2
 std::int64_t pairs_among(std::int64_t n) { return n * (n - 1) / 2; }
+
+// What the frame's lists say of a pair, each looked up by itself.
+PairState state_by_lists(const Frame& frame, const FrameBody& a, const FrameBody& b) {
+  const Pair pair{a.id, b.id};
+  const auto has = [&](const auto& list, const auto& of) {
+    return std::ranges::find(list, pair, of) != list.end();
+  };
+  if (has(frame.contacts, &FrameContact::pair)) return PairState::contact;
+  const auto listed = std::ranges::find(frame.pairs, pair, &FramePair::pair);
+  if (listed == frame.pairs.end())
+    return a.is_static && b.is_static ? PairState::untestable : PairState::ruled_out;
+  if (frame.phase == StepPhase::broad || !frame.count("contacts")) return PairState::candidate;
+  if (!listed->overlaps) return PairState::boxes_apart;
+  return has(frame.tested, std::identity()) ? PairState::shapes_apart : PairState::candidate;
+}
+
+// Every pair is in one state, and states and counts agree.
+void expect_pairs_told_apart(const Frame& frame) {
+  constexpr std::size_t kMostBodies = 60;
+  if (frame.bodies.size() > kMostBodies) return;
+  const PairStates pairs(frame);
+  std::map<PairState, std::uint64_t> found;
+  for (const FrameBody& a : frame.bodies)
+    for (const FrameBody& b : frame.bodies) {
+      if (a.id >= b.id) continue;
+      const PairState state = state_by_lists(frame, a, b);
+      EXPECT_EQ(pairs.state_of({a.id, b.id}), state) << a.name << " and " << b.name;
+      ++found[state];
+    }
+  std::uint64_t all = 0;
+  for (std::size_t s = 0; s < kPairStates; ++s) {
+    const auto state = static_cast<PairState>(s);
+    EXPECT_EQ(pairs.count(state), found[state]) << "state " << s;
+    all += found[state];
+  }
+  EXPECT_EQ(all, pairs.all());
+  EXPECT_EQ(pairs.count(PairState::contact), frame.contacts.size());
+  if (const auto tested = frame.count("pairs_tested")) {
+    EXPECT_LE(std::int64_t(frame.tested.size()), *tested) << "of bodies that have left, none";
+  }
+}
 
 void expect_counts_of_what_is_listed(const Frame& frame) {
   if (frame.nodes.empty()) return;
@@ -180,6 +223,7 @@ TEST_P(EveryFrame, TellsTheTruth) {
     expect_whole_trees(frame);
     expect_sleepers_below_sleeping_nodes(frame, rules);
     expect_memory_in_order(frame);
+    expect_pairs_told_apart(frame);
     expect_finite(frame);
   });
 }

@@ -319,6 +319,10 @@ TEST(Mistakes, OfPanelsThatCannotBe) {
                   {"needs a [world]"});
   expect_mistakes("title = \"x\"\npanels = [@\"tree\"]\n[[step]]\ndo = \"show\"\n",
                   {"needs a [structure], a [level] or an [atlas]"});
+  expect_mistakes("panels = [@\"ledger\"]\n" + kAtlasScene + "[[step]]\ndo = \"show\"\n",
+                  {"needs a [structure], whose pairs it shows"});
+  expect_mistakes("panels = [@\"sparkline\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
+                  {"needs a [structure] and a step that runs"});
 }
 
 TEST(Mistakes, OfNamesThatAreTaken) {

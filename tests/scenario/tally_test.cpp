@@ -52,6 +52,10 @@ struct DryRun {
     if (panel == Panel::tree) return !frame.nodes.empty();
     if (panel == Panel::atlas) return frame.count("textures").value_or(0) > 0;
     if (panel == Panel::memory) return frame.array_size > 0;
+    if (panel == Panel::ledger) return frame.bodies.size() > 1;
+    if (panel == Panel::pool) return frame.pool_size > 0;
+    if (panel == Panel::bytes) return frame.count("node_bytes").has_value();
+    if (panel == Panel::sparkline) return !frame.trace.points.empty();
     return !frame.chart.bars.empty() ||
            std::any_of(frame.chart.series.begin(), frame.chart.series.end(),
                        [](const FrameSeries& series) { return !series.points.empty(); });
@@ -196,11 +200,12 @@ void expect_rest(const DryRun& run) {
   EXPECT_EQ(run.count("atlas", "textures packed"), of_last("textures"));
   EXPECT_EQ(run.count("expectations", "checks"), run.report.expectations);
   EXPECT_EQ(run.uses("chart"), s.chart.has_value());
-  const std::pair<Panel, const char*> panels[] = {{Panel::world, "world panel"},
-                                                  {Panel::tree, "tree panel"},
-                                                  {Panel::atlas, "atlas panel"},
-                                                  {Panel::chart, "chart panel"},
-                                                  {Panel::memory, "memory panel"}};
+  const std::pair<Panel, const char*> panels[] = {
+      {Panel::world, "world panel"},   {Panel::tree, "tree panel"},
+      {Panel::atlas, "atlas panel"},   {Panel::chart, "chart panel"},
+      {Panel::memory, "memory panel"}, {Panel::ledger, "ledger panel"},
+      {Panel::pool, "pool panel"},     {Panel::bytes, "bytes panel"},
+      {Panel::sparkline, "sparkline"}};
   for (const auto& [panel, name] : panels) {
     const bool wanted = std::find(s.panels.begin(), s.panels.end(), panel) != s.panels.end();
     EXPECT_EQ(run.uses(name), wanted) << name << ": each panel that there is shows something";

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "scenario/directing.hpp"
+#include "scenario/pair_state.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::scenario {
@@ -189,17 +190,27 @@ TEST(Verbs, AWaitInVainIsReportedAtItsLine) {
   EXPECT_EQ(frames.back().event, "after") << "the rest of the script is still shown";
 }
 
-TEST(Verbs, PhasesShowsOneWorldStepInFourFrames) {
+TEST(Verbs, PhasesShowsOneWorldStepInFiveFrames) {
   const auto frames =
       played("contacts = \"impulse\"", kWallAndBall,
              {kInsertBoth, "do = \"move\"\nbody = \"ball\"\nto = [12.05, 8]", "do = \"phases\""});
-  ASSERT_EQ(frames.size(), 6u);
-  const Frame &moved = frames[1], &broad = frames[2], &narrow = frames[3], &solve = frames[4];
-  const Frame& last = frames[5];
+  ASSERT_EQ(frames.size(), 7u);
+  const Frame &moved = frames[1], &broad = frames[2], &boxes = frames[3], &narrow = frames[4];
+  const Frame &solve = frames[5], &last = frames[6];
   EXPECT_EQ(broad.event, "broad_phase");
+  EXPECT_EQ(boxes.event, "boxes");
   EXPECT_EQ(narrow.event, "narrow_phase");
   EXPECT_EQ(solve.event, "solve");
-  EXPECT_TRUE(broad.contacts.empty()) << "the broad phase knows no contacts";
+  for (const Frame* frame : {&broad, &boxes}) {
+    EXPECT_TRUE(frame->contacts.empty() && frame->tested.empty()) << frame->event;
+    EXPECT_EQ(frame->count("contacts"), 0) << frame->event;
+  }
+  const auto state = [](const Frame& frame) {
+    return PairStates(frame).state_of({frame.bodies[0].id, frame.bodies[1].id});
+  };
+  EXPECT_EQ(state(broad), PairState::candidate) << "the broad phase compares no boxes";
+  EXPECT_EQ(state(boxes), PairState::candidate) << "their boxes overlap";
+  EXPECT_EQ(state(narrow), PairState::contact);
   ASSERT_EQ(narrow.contacts.size(), 1u);
   ASSERT_EQ(solve.contacts.size(), 1u);
   EXPECT_TRUE(solve.contacts[0].begins);
@@ -208,13 +219,13 @@ TEST(Verbs, PhasesShowsOneWorldStepInFourFrames) {
   for (const FrameContact::Point& p : solve.contacts[0].points) after += p.impulse;
   EXPECT_EQ(before, 0) << "the narrow phase shows impulses before they are there";
   EXPECT_GT(after, 0);
-  for (const Frame* frame : {&broad, &narrow, &solve})
+  for (const Frame* frame : {&broad, &boxes, &narrow, &solve})
     EXPECT_EQ(motion_hash(*frame), motion_hash(moved)) << frame->event << " has moved a body";
   EXPECT_NE(motion_hash(last), motion_hash(moved));
   EXPECT_DOUBLE_EQ(last.time, 0.125);
   EXPECT_EQ(narrow.count("contacts"), 1);
   EXPECT_EQ(narrow.count("all_pairs"), 1);
-  for (const Frame* frame : {&broad, &narrow, &solve}) EXPECT_FALSE(frame->caption.empty());
+  for (const Frame* frame : {&broad, &boxes, &narrow, &solve}) EXPECT_FALSE(frame->caption.empty());
 }
 
 TEST(Verbs, PhasesCountTheStructureThatTheyShow) {

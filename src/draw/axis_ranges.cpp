@@ -1,0 +1,20 @@
+#include "draw/axis_ranges.hpp"
+
+#include <algorithm>
+
+namespace lantern::draw {
+
+void AxisRanges::see(const scenario::Frame& frame) {
+  const scenario::FrameChart& chart = frame.chart;
+  for (const scenario::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
+  for (const scenario::FrameSeries& series : chart.series)
+    for (const Vec<2>& p : series.points) chart_.add(p.y, chart.logarithmic);
+  for (const Vec<2>& p : frame.trace.points) trace_ = std::max(trace_, p.y);
+}
+
+void AxisRanges::settle(scenario::Frame& frame) const {
+  if (!chart_.empty()) frame.chart.range = std::pair(chart_.least, chart_.most);
+  if (trace_ > 0) frame.trace.most = trace_;
+}
+
+}  // namespace lantern::draw

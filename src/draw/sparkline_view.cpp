@@ -1,0 +1,93 @@
+// A thin strip under what moves: one count over the time so far.
+//
+//   12 pairs |- - - - - - - - - | 64
+//            |__/\__o___________| 4 s
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "draw/font.hpp"
+#include "draw/number_text.hpp"
+#include "draw/panels.hpp"
+#include "draw/pen.hpp"
+
+namespace lantern::draw {
+namespace {
+
+constexpr double kSparkText = 24;
+constexpr double kSparkDot = 6;
+constexpr std::size_t kMostSparkPoints = 1200;
+
+const TextStyle kSparkNow{kSparkText, Weight::semibold, Role::ink};
+const TextStyle kSparkQuiet{kSparkText, Weight::regular, Role::quiet_ink};
+
+// At least `value`: an end of an axis that seldom moves.
+double power_of_two_over(double value) {
+  return std::exp2(std::ceil(std::log2(std::clamp(value, 1.0, 1e15))));
+}
+
+// Of many points those that are highest and lowest on their stretch of the way, so that no peak is
+// lost.
+std::vector<Vec<2>> outline_of(const std::vector<Vec<2>>& points) {
+  if (points.size() <= kMostSparkPoints) return points;
+  std::vector<Vec<2>> some;
+  const std::size_t stretch = 2 * points.size() / kMostSparkPoints + 1;
+  for (std::size_t from = 0; from < points.size(); from += stretch) {
+    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(from);
+    const auto end = begin + static_cast<std::ptrdiff_t>(std::min(stretch, points.size() - from));
+    const auto [low, high] =
+        std::minmax_element(begin, end, [](const Vec<2>& p, const Vec<2>& q) { return p.y < q.y; });
+    some.push_back(low < high ? *low : *high);
+    if (low != high) some.push_back(low < high ? *high : *low);
+  }
+  some.push_back(points.back());
+  return some;
+}
+
+}  // namespace
+
+void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  const FrameTrace& trace = frame.trace;
+  const Box<2> place = shrunk(panel, 3);
+  if (trace.points.empty() || place.size().y < 2 * kSparkText) return;
+  double highest = 0;
+  for (const Vec<2>& p : trace.points) highest = std::max(highest, p.y);
+  const Vec<2> now = trace.points.back();
+  const double most = trace.most ? std::max(*trace.most, highest) : power_of_two_over(highest);
+  const double seconds = std::max(trace.seconds.value_or(power_of_two_over(now.x)), now.x);
+
+  const std::string name = chart_words(trace.name);
+  const auto digits = static_cast<std::int64_t>(number_text(most).size());
+  const double number = Labels::number_width(digits, kSparkNow);
+  const std::string top = number_text(most), end = number_text(seconds, 2) + " s";
+  const double after = std::max(text_width(top, kSparkQuiet), text_width(end, kSparkQuiet)) + 14;
+  const Box<2> area{
+      place.lo + Vec<2>(number + 8 + text_width(name, kSparkQuiet) + 18, kSparkText / 2),
+      place.hi - Vec<2>(after, kSparkText / 2)};
+  if (area.size().x < 60) return;
+
+  const double middle = area.center().y + 0.36 * kSparkText;
+  labels.add_number(static_cast<std::int64_t>(now.y), {place.lo.x + number, middle}, kSparkNow,
+                    place);
+  labels.add(name, {{place.lo.x + number + 8, middle}, 0}, kSparkQuiet, place);
+  list.crisp_line(area.lo, {area.hi.x, area.lo.y}, {Role::rule, 1.4, 5});
+  list.crisp_line({area.lo.x, area.hi.y}, area.hi, {Role::cell_line_2, 1.8});
+  labels.add(top, centred({area.hi.x + 12, area.lo.y}, kSparkQuiet, 0), kSparkQuiet, place);
+  labels.add(end, centred({area.hi.x + 12, area.hi.y}, kSparkQuiet, 0), kSparkQuiet, place);
+
+  const auto at = [&](const Vec<2>& p) {
+    const Vec<2> share{seconds > 0 ? p.x / seconds : 0, p.y / most};
+    return Vec<2>{area.lo.x + std::clamp(share.x, 0.0, 1.0) * area.size().x,
+                  area.hi.y - std::clamp(share.y, 0.0, 1.0) * area.size().y};
+  };
+  const std::vector<Vec<2>> points = outline_of(trace.points);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    list.line(at(points[i - 1]), at(points[i]), {Role::pair, 2.6});
+  const DrawList::Scope scope(list, "sparkline/now");
+  list.disc(at(now), kSparkDot, Role::pair, {Role::panel, 1.6});
+}
+
+double sparkline_height() { return 84; }
+
+}  // namespace lantern::draw
