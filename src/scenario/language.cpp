@@ -30,6 +30,7 @@ TableDoc file_table() {
       key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
       key(&S::panels, "panels", "What is drawn, from left to right.",
           or_else("what the scenario uses")),
+      key(KeyType::table, "display", "What frames show.", holds("display")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
       key(KeyType::tables, "body", "One body each.", at_most(kMostBodies), holds("body")),
@@ -69,6 +70,16 @@ TableDoc step_table() {
           range(1, 40), or_else("adds none")),
       key(KeyType::table, "expect", "What must hold when the step is done.", holds("expect")),
       key(KeyType::table, "always", "What must hold on every frame of the step.", holds("expect")),
+      key(KeyType::table, "display", "What this step's frames show.", holds("display")),
+      key(KeyType::table, "view", "The part of a 2D world that is shown from here on.",
+          holds("view")),
+      key(KeyType::table, "camera", "From where a 3D world is seen from here on.",
+          holds("camera")),
+      key(&Step::orbit, "orbit",
+          "How far the camera goes round its target while time passes in this step, "
+          "counter-clockwise from above; in a step without time it is there at once.",
+          range(-kMostTurn, kMostTurn), in("°"), or_else("it stands still")),
+      note_key(),
   };
   return table;
 }
@@ -141,7 +152,8 @@ std::span<const TableDoc> language_tables() {
       file_table(),    world_table(),  structure_table(), planes_table(),          body_table(),
       pattern_table(), spring_table(), joint_table(),     level_table(),           chart_table(),
       problem_table(), atlas_table(),  texture_table(),   texture_pattern_table(), side_table(),
-      step_table(),    expect_table()};
+      step_table(),    expect_table(), display_table(),   view_table(),            camera_table(),
+      note_table()};
   return tables;
 }
 
