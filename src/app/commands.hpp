@@ -30,8 +30,10 @@ struct RenderOptions {
   std::string facts = "2";       // lantern.frame/2, or /1 until the next release
   std::string backend = "auto";  // auto, osmesa, egl
   bool transparent = false;
-  bool strict = false;  // warnings are errors
-  int threads = 0;      // that encode; 0 for one a core
+  bool no_title = false, no_caption = false, no_counters = false;  // not drawn
+  bool legend = false;                                             // drawn in any case
+  bool strict = false;                                             // warnings are errors
+  int threads = 0;                                                 // that encode; 0 for one a core
   bool json = false;
 };
 int render_command(const RenderOptions& options);

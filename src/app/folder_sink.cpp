@@ -104,7 +104,7 @@ void FolderSink::take(const Frame& frame) {
     ++kept_;
     return;
   }
-  const DrawList list = draw_frame(frame, page_for(job_.picture.width, job_.picture.height), work_);
+  const DrawList list = job_.page_of(frame, work_);
   const fs::path file = folder_->file(index, job_.options.format);
   if (job_.svg) {
     write_counted(file, picture_of(job_, job_.picture, frame, list, from, work_));

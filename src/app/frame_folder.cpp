@@ -64,6 +64,7 @@ Hash facts_of(const Manifest& m) {
 Hash style_of(const Manifest& m) {
   Hash hash = Hash().add(m.theme).add(m.format).add(std::uint64_t{m.transparent});
   if (m.format == "png") hash.add(m.png);
+  for (const std::string& name : m.switches) hash.add(name);
   return hash;
 }
 
@@ -99,6 +100,9 @@ std::string to_json(const Manifest& m) {
       m.seed, "pace", m.pace, "size", m.size, "theme", m.theme, "facts_format",
       "lantern.frame/" + m.facts, "picture_format", m.format, "png", m.png, "transparent",
       m.transparent, "finished", m.finished, "expectations", m.expectations, "unmet", m.unmet);
+  json.line().key("switches").begin_array();
+  for (const std::string& name : m.switches) json.value(name);
+  json.end_array();
   json.line().key("frames").begin_array();
   for (const auto& [index, frame] : m.frames) {
     json.line().begin_object().members(

@@ -29,7 +29,8 @@ struct Manifest {
   std::uint64_t seed = 1;
   std::string pace, size, theme, format, png, facts;
   bool transparent = false;
-  std::uint64_t scenario_hash = 0;  // of the file's bytes
+  std::vector<std::string> switches;  // of the command line, as "no-title"
+  std::uint64_t scenario_hash = 0;    // of the file's bytes
   bool finished = false;
   std::uint64_t expectations = 0;
   std::uint64_t unmet = 0;

@@ -99,6 +99,10 @@ void add_render(CLI::App& app, Run& run) {
              {"1", "2"});
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   c->add_flag("--transparent", o.transparent, "draw no background");
+  c->add_flag("--no-title", o.no_title, "leave out the line above");
+  c->add_flag("--no-caption", o.no_caption, "leave out the caption below");
+  c->add_flag("--no-counters", o.no_counters, "leave out the numbers beside the caption");
+  c->add_flag("--legend", o.legend, "say what the marks on each frame mean");
   c->add_flag("--strict", o.strict, "turn warnings into errors (exit code 3)");
   c->add_option("-j,--threads", o.threads, "encoding threads; the default is one per core")
       ->check(CLI::Range(1, 256))

@@ -30,7 +30,7 @@ class StdoutSink : public FrameSink {
   void frame(const Frame& frame) override {
     if (!selection_.takes(frame) || ++chosen_ > 1) return;
     const Pipeline::Config& as = job_.picture;
-    const DrawList list = draw_frame(frame, page_for(as.width, as.height), work_);
+    const DrawList list = job_.page_of(frame, work_);
     bytes_ = picture_of(job_, as, frame, list, manifest_.frame_from(frame.index), work_);
   }
   void finish(const DirectorReport&) override {

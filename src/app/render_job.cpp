@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
+#include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "render/svg.hpp"
 
@@ -31,6 +33,19 @@ RenderJob::RenderJob(const RenderOptions& o)
                         : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
+DrawList RenderJob::page_of(const Frame& frame, Work& work) const {
+  const Vec<2> page = page_for(picture.width, picture.height);
+  Display display = frame.display;
+  if (options.no_title) display.title = false;
+  if (options.no_caption) display.caption = false;
+  if (options.no_counters) display.counters = false;
+  if (options.legend) display.legend = true;
+  if (display == frame.display) return draw_frame(frame, page, work);
+  Frame switched = frame;
+  switched.display = display;
+  return draw_frame(switched, page, work);
+}
+
 Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   Manifest m;
   m.scenario = scenario.name;
@@ -44,6 +59,10 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   m.facts = options.facts;
   m.transparent = options.transparent;
   m.scenario_hash = scenario.text_hash;
+  for (const auto& [on, name] :
+       {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},
+        std::pair{options.no_counters, "no-counters"}, std::pair{options.legend, "legend"}})
+    if (on) m.switches.emplace_back(name);
   return m;
 }
 

@@ -22,6 +22,9 @@ struct RenderJob {
   Backend backend = Backend::automatic;
   bool svg = false;
 
+  // The frame as a page, with what the command line switches on and off.
+  DrawList page_of(const Frame& frame, Work& work) const;
+
   // Of a folder that holds no frame yet.
   Manifest manifest(const Scenario& scenario, Pace pace) const;
 };

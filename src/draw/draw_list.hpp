@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "draw/mark_kind.hpp"
 #include "draw/role.hpp"
 #include "geometry/box.hpp"
 
@@ -107,6 +108,7 @@ struct DrawList {
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn
+  MarkSet marks;               // that are among the shapes
 
   // What follows shows this, until the scope ends; then what was shown before goes on.
   class Scope {

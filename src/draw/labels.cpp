@@ -74,6 +74,15 @@ bool Labels::is_free(const Box<2>& box, const Box<2>& panel) const {
   return true;
 }
 
+void Labels::tell_place(std::string name, const Box<2>& box) {
+  if (has_notes_) places_.emplace_back(std::move(name), box);
+}
+
+const Box<2>* Labels::place_of(std::string_view name) const {
+  const auto found = std::ranges::find(places_, name, &std::pair<std::string, Box<2>>::first);
+  return found == places_.end() ? nullptr : &found->second;
+}
+
 void Labels::add(std::string_view text, const Anchor& anchor, const TextStyle& style,
                  const Box<2>& panel) {
   if (text.empty()) return;

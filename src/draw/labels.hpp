@@ -8,6 +8,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "draw/draw_list.hpp"
 
@@ -58,6 +60,17 @@ class Labels {
   // From here on no label is tried on this place.
   void block(const Box<2>& place) { blocked_.push_back(place); }
 
+  // For notes: where a thing of this name is drawn, and what of the page are bodies. Told only when
+  // the frame has notes; of several places of one name the first counts.
+  void expect_notes() { has_notes_ = true; }
+  bool has_notes() const { return has_notes_; }
+  void tell_place(std::string name, const Box<2>& box);
+  void forget_places() { places_.clear(), bodies_.clear(); }
+  void tell_body(const Box<2>& box) { bodies_.push_back(box); }
+  const Box<2>* place_of(std::string_view name) const;  // null if nothing has told it
+  const std::vector<Box<2>>& bodies() const { return bodies_; }
+  bool covers_body(const Box<2>& box) const { return touches(bodies_, box); }
+
   // Inside the panel, and free of labels and of blocked places.
   bool is_free(const Box<2>& box, const Box<2>& panel) const;
 
@@ -107,6 +120,9 @@ class Labels {
 
   DrawList& list_;
   std::vector<Box<2>> blocked_;
+  bool has_notes_ = false;
+  std::vector<std::pair<std::string, Box<2>>> places_;
+  std::vector<Box<2>> bodies_;
 };
 
 // `text` if it is no wider than `width`, otherwise as much of it as is, with an ellipsis; empty

@@ -27,6 +27,12 @@ BodiesById drawn_of(const Frame& frame, const std::vector<Body3D>& bodies) {
 
 }  // namespace
 
+void tell_marks(const FrameBody& body, DrawList& list) {
+  if (body.asleep) list.marks.add(MarkKind::sleeping_body);
+  if (body.dimmed) list.marks.add(MarkKind::ruled_out);
+  if (body.is_static && !is_character(body)) list.marks.add(MarkKind::static_body);
+}
+
 void Marks::dot(const Vec<3>& at, double radius, Role fill, const Stroke& stroke) const {
   if (const auto page = projection_.seen(at)) over().dot(*page, radius, fill, stroke);
 }
@@ -178,6 +184,7 @@ bool add_pairs(const Frame& frame, Marks3D& marks) {
           if (++count > kMostPairs) return false;
           const std::string key = pair_key("world/pair", a, b);
           const Marks::Scope scope(marks, key, key);
+          marks.tell(MarkKind::pair);
           marks.line(link_end(a, b), link_end(b, a),
                      {Role::pair, (lit ? 4.4 : 3.0) * (many ? 0.6 : 1)}, many ? 0 : 2);
           return true;
@@ -196,6 +203,7 @@ void draw_joints(const Frame& frame, const Marks3D& marks) {
                   const Marks::Scope scope(marks, key, key);
                   const bool grounded = is_half_space(a) || is_half_space(b);
                   const Vec<3> foot = is_half_space(a) ? link_end(a, b) : link_end(b, a);
+                  marks.tell(MarkKind::meeting);
                   marks.dot(grounded ? foot : common.center(), 6, Role::pair, {Role::panel, 2});
                   return true;
                 });

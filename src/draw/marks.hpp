@@ -36,6 +36,8 @@ class Marks {
   void dot(const Vec<3>& at, double radius, Role fill, const Stroke& stroke = {}) const;
 
   const Projection& projection() const { return projection_; }
+  // What is drawn is such a mark.
+  void tell(MarkKind kind) const { list_.marks.add(kind); }
 
   // What is marked until it ends shows this, as DrawList::Scope says.
   class Scope {
@@ -91,6 +93,9 @@ void mark_hits(const Frame& frame, const Marks& marks, Labels& labels);
 
 // An eye at a place of the page that looks along `gaze`.
 void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& place, DrawList& list);
+
+// What a body's own picture says of it.
+void tell_marks(const FrameBody& body, DrawList& list);
 
 // The first `most` of them: more are not drawn on one frame.
 template <class T>

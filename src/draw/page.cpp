@@ -6,6 +6,8 @@
 
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
+#include "draw/legend.hpp"
+#include "draw/notes.hpp"
 #include "draw/panels.hpp"
 #include "draw/sides_view.hpp"
 
@@ -13,8 +15,9 @@ namespace lantern::draw {
 namespace {
 
 constexpr double kLeast3D = 0.95,
-                 kMost3D = 1.35;   // aspects of a 3D world's panel
-constexpr double kTop = 104;       // of the panels
+                 kMost3D = 1.35;  // aspects of a 3D world's panel
+constexpr double kTop = 104;      // of the panels
+constexpr double kTopWithoutTitle = 34;
 constexpr double kTitleLine = 58;  // baseline
 constexpr double kPanelGap = 44;
 constexpr double kLeastForTwo = 460;  // height of a column with two panels
@@ -195,6 +198,8 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
   if (!frame.sides.empty())
     return draw_sides(frame, area, list, labels, [&](const Frame& side, const Box<2>& place) {
       draw_panels(side, place, list, labels, work);
+      draw_notes(side, place, list, labels);
+      labels.forget_places();  // the next side has bodies of the same names
     });
   const Vec<2> whole = frame.side.empty() ? list.page : area.size();
   const bool tall = whole.x / whole.y < kStackBelow;
@@ -210,6 +215,32 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
     work.tree_layouts += panel == Panel::tree;
     kDraw[static_cast<std::size_t>(panel)](frame, boxes[i], list, labels);
   }
+}
+
+bool has_foot(const Frame& frame) { return frame.display.caption || frame.display.counters; }
+
+// A strip at the area's lower end for the marks that the panels are going to draw: they are drawn
+// once to see which. Cuts it from the area.
+Box<2> cut_legend(const Frame& frame, const DrawList& page, Box<2>& area) {
+  constexpr double kAboveLegend = 14;
+  Box<2> strip = area;
+  strip.lo.y = area.hi.y;
+  if (!frame.display.legend) return strip;
+  double height = 0;
+  for (int i = 0; i < 2; ++i) {  // the second time with the strip cut off
+    DrawList trial;
+    trial.page = page.page;
+    Labels labels(trial);
+    Work work;
+    Box<2> rest = area;
+    if (height > 0) rest.hi.y -= height + kAboveLegend;
+    draw_panels(frame, rest, trial, labels, work);
+    height = std::max(height, legend_height(trial.marks, area.size().x));
+  }
+  if (height == 0) return strip;
+  strip.lo.y = area.hi.y - height;
+  area.hi.y = strip.lo.y - kAboveLegend;
+  return strip;
 }
 
 }  // namespace
@@ -228,14 +259,25 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
   list.page = page / k;
   Labels labels(list);
   const double margin = list.page.x < 1000 ? 40 : 60;
+  const bool notes = !frame.notes.empty() || std::ranges::any_of(frame.sides, [](const Frame& f) {
+    return !f.notes.empty();
+  });
+  if (notes) labels.expect_notes();
   double bottom = 0;
   {
     const DrawList::Scope words(list, "page/words");
-    draw_title(frame, margin, list, labels);
+    if (frame.display.title) draw_title(frame, margin, list, labels);
     bottom = draw_footer(frame, margin, list, labels);
-    add_rule(list, bottom, margin);
+    if (has_foot(frame)) add_rule(list, bottom, margin);
   }
-  draw_panels(frame, {{margin, kTop}, {list.page.x - margin, bottom - 26}}, list, labels, work);
+  Box<2> area{{margin, frame.display.title ? kTop : kTopWithoutTitle},
+              {list.page.x - margin, bottom - (has_foot(frame) ? 26 : 14)}};
+  const Box<2> strip = cut_legend(frame, list, area);
+  draw_panels(frame, area, list, labels, work);
+  if (frame.display.legend) draw_legend(list.marks, strip, list, labels);
+  if (frame.sides.empty())
+    draw_notes(frame, {area.lo - Vec<2>(margin - 20, 12), {list.page.x - 20, bottom - 6}}, list,
+               labels);
   list.page = page;
   if (k == 1) return list;
   const auto enlarge = [&](double& measure) { measure *= k; };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <tuple>
 
 #include "draw/draw_list.hpp"
 #include "geometry/not_finite.hpp"
@@ -32,6 +33,26 @@ std::vector<Vec<2>> outline_of(const RectShape& shape) {
   return points;
 }
 
+void keep_part(DrawShape shape, const Box<2>& rect, Pen& pen, DrawList& kept) {
+  if (auto* line = std::get_if<LineShape>(&shape)) {
+    const auto part = cut_line(line->from, line->to, rect);
+    if (!part) return;
+    std::tie(line->from, line->to) = *part;
+  } else if (const auto* box = std::get_if<RectShape>(&shape); box && !holds(rect, box->box)) {
+    shape = PolygonShape{outline_of(*box), box->fill, box->stroke};
+  }
+  auto* polygon = std::get_if<PolygonShape>(&shape);
+  if (!polygon ||
+      std::ranges::all_of(polygon->points, [&](const Vec<2>& p) { return contains(rect, p); })) {
+    kept.shapes.push_back(std::move(shape));
+    return;
+  }
+  const Stroke stroke = polygon->stroke;
+  const std::vector<Vec<2>> inside = cut_to(polygon->points, rect);
+  if (inside.size() >= 3 && polygon->fill != Role::none) kept.polygon(inside, polygon->fill);
+  if (stroke.role != Role::none) pen.path(polygon->points, true, stroke);
+}
+
 }  // namespace
 
 std::vector<Vec<2>> cut_to(std::vector<Vec<2>> polygon, const Box<2>& rect) {
@@ -56,6 +77,21 @@ void cut_shapes(DrawList& list, std::size_t first, const Box<2>& rect) {
     polygon->points = cut_to(std::move(polygon->points), rect);
     if (!polygon->points.empty()) list.shapes.push_back(std::move(shape));
   }
+}
+
+void keep_within(DrawList& list, std::size_t first, const Box<2>& rect) {
+  DrawList kept;
+  Pen pen(kept, rect);
+  std::vector<std::size_t> place_of;  // of each shape from `first` on
+  for (std::size_t i = first; i < list.shapes.size(); ++i) {
+    place_of.push_back(first + kept.shapes.size());
+    keep_part(std::move(list.shapes[i]), rect, pen, kept);
+  }
+  place_of.push_back(first + kept.shapes.size());
+  list.shapes.resize(first);
+  std::ranges::move(kept.shapes, std::back_inserter(list.shapes));
+  for (KeyedRun& run : list.runs)
+    if (run.first > first) run.first = place_of[run.first - first];
 }
 
 std::optional<std::pair<Vec<2>, Vec<2>>> cut_line(const Vec<2>& from, const Vec<2>& to,

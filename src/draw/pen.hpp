@@ -19,6 +19,10 @@ std::vector<Vec<2>> cut_to(std::vector<Vec<2>> polygon, const Box<2>& rect);
 // stay only when they lie inside, texts never.
 void cut_shapes(DrawList& list, std::size_t first, const Box<2>& rect);
 
+// The same, but of lines the part inside stays, and texts stay; an outline is cut without a new
+// edge along the rectangle's. Keyed runs keep what they show.
+void keep_within(DrawList& list, std::size_t first, const Box<2>& rect);
+
 // The part of a line that lies in the rectangle; nothing if there is none, or an end is not finite.
 std::optional<std::pair<Vec<2>, Vec<2>>> cut_line(const Vec<2>& from, const Vec<2>& to,
                                                   const Box<2>& rect);

@@ -84,6 +84,8 @@ void mark_links(const Frame& frame, Marks& marks) {
     const auto number = &link - frame.links.data();  // of the scenario's springs and joints
     const Marks::Scope scope(marks, fmt::format("world/link/{}", number));
     const Stroke stroke = strain_stroke(link.strain);
+    constexpr MarkKind kKinds[] = {MarkKind::spring, MarkKind::rod, MarkKind::pin};
+    marks.tell(kKinds[static_cast<std::size_t>(link.kind)]);
     if (link.kind == FrameLink::Kind::pin) {
       marks.line(link.from, link.to, {Role::ink, 1.6});
       marks.dot(link.to, 7.5, Role::panel, {Role::ink, 2.6});
@@ -126,6 +128,7 @@ bool mark_contacts(const Frame& frame, const Marks& marks) {
       const Stroke stroke{Role::contact, (pushes ? 4.4 : 2.0) * k};
       if (tip) pen.arrow(*at, *tip, stroke, (pushes ? 17 : 9) * k, (pushes ? 1.6 : 1.2) * k);
       if (contact.begins) pen.dot(*at, 10 * k, Role::none, {Role::contact, 1.8});
+      marks.tell(MarkKind::contact);
       pen.dot(*at, 5 * k, Role::contact, {Role::panel, 1.8 * k});
     }
   }
@@ -134,17 +137,18 @@ bool mark_contacts(const Frame& frame, const Marks& marks) {
 
 void mark_velocities(const Frame& frame, Marks& marks) {
   constexpr double kLeastShare = 1.0 / 60;  // of the longest arrow
-  if (!frame.show_velocities || frame.bodies.size() > kMostArrows) return;
+  if (!frame.display.arrows || frame.bodies.size() > kMostArrows) return;
   const Projection& view = marks.projection();
   for (const FrameBody& body : frame.bodies) {
     const double speed = glm::length(body.velocity);
     if (is_half_space(body) || !std::isfinite(speed) || !(speed > 1e-12)) continue;
     const double share = arrow_share(speed, view.size());
+    if (!(share > kLeastShare)) continue;
     const Marks::Scope scope(marks, body_key("world/velocity", body));
-    if (share > kLeastShare)
-      marks.arrow(body.position,
-                  body.position + body.velocity * (share * view.longest_arrow() / speed),
-                  {Role::ink, 2.8}, 13, 1.6);
+    marks.tell(MarkKind::velocity);
+    marks.arrow(body.position,
+                body.position + body.velocity * (share * view.longest_arrow() / speed),
+                {Role::ink, 2.8}, 13, 1.6);
   }
 }
 
@@ -170,7 +174,7 @@ std::string depth_text(double depth) {
 
 void write_depths(const Frame& frame, const Projection& view, const std::vector<Box<2>>& bodies,
                   Labels& labels) {
-  if (!frame.show_depths) return;
+  if (!frame.display.depths) return;
   const TextStyle style{kLabel, Weight::semibold, Role::contact, Role::panel};
   const Box<2>& panel = view.panel();
   const Box<2> room = shrunk(panel, 4);

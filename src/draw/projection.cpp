@@ -48,6 +48,23 @@ std::vector<Vec<3>> circle(const Vec<3>& axis, double cosine) {
   return normals;
 }
 
+// Where the corners of a box come by when it turns about the upright line through `middle`: so that
+// a picture that fits them fits from every side, and does not breathe while the eye goes round.
+std::vector<Vec<3>> all_round(const Box<3>& box, const Vec<3>& middle) {
+  constexpr int kWays = 48;
+  double radius = 0;
+  for (const Vec<3>& c : corners_of(box))
+    radius = std::max(radius, std::hypot(c.x - middle.x, c.z - middle.z));
+  std::vector<Vec<3>> points;
+  for (int i = 0; i < kWays; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kWays;
+    for (const double y : {box.lo.y, box.hi.y})
+      points.push_back(
+          {middle.x + radius * std::cos(angle), y, middle.z + radius * std::sin(angle)});
+  }
+  return points;
+}
+
 }  // namespace
 
 // Andrew's monotone chain (1979).
@@ -100,15 +117,17 @@ std::vector<Vec<3>> corners_of(const Box<3>& box) {
   return corners;
 }
 
-View2D::View2D(const Box<2>& bounds, const Box<2>& panel) : Projection(panel) {
+View2D::View2D(const Box<2>& bounds, const Box<2>& panel, const std::optional<Box<2>>& part)
+    : Projection(panel) {
   constexpr double kMargin = 3;  // half of the thickest line
   const Vec<2> room = shrunk(panel, kMargin).size();
-  const Vec<2> size = bounds.size();
+  const Box<2> shown = part.value_or(bounds);
+  const Vec<2> size = shown.size();
   scale_ = std::min(size.x > 0 ? room.x / size.x : 1e300, size.y > 0 ? room.y / size.y : 1e300);
   if (scale_ == 1e300) scale_ = 1;
-  origin_ = panel.center() - Vec<2>(bounds.center().x, -bounds.center().y) * scale_;
-  picture_ = to_page(bounds);
-  size_ = std::max(size.x, size.y);
+  origin_ = panel.center() - Vec<2>(shown.center().x, -shown.center().y) * scale_;
+  picture_ = to_page(shown);
+  size_ = std::max(bounds.size().x, bounds.size().y);
 }
 
 View3D::View3D(const Box<3>& bounds, const std::optional<Camera>& camera, const Box<2>& panel)
@@ -119,12 +138,9 @@ View3D::View3D(const Box<3>& bounds, const std::optional<Camera>& camera, const 
   origin_ = panel.center();
   const bool usable = camera && is_finite(camera->eye) && is_finite(camera->target) &&
                       glm::length(camera->target - camera->eye) > 1e-9 * size_;
-  Camera own;
-  own.target = bounds.center();
-  own.eye = own.target + glm::normalize(Vec<3>(0.52, 0.52, 1)) * (2.2 * size_);
-  const Camera& used = usable ? *camera : own;
+  const Camera used = usable ? *camera : usual_camera(bounds);
   aim(used);
-  fit(used.field_of_view, usable);
+  fit(used, usable);
 }
 
 void View3D::aim(const Camera& camera) {
@@ -139,15 +155,22 @@ void View3D::aim(const Camera& camera) {
   light_ = glm::normalize(Vec<3>(0, 0.72, 0) - right_ * 0.6 + level_back * 0.35);
 }
 
-void View3D::fit(double field_of_view, bool chosen) {
+void View3D::fit(const Camera& camera, bool chosen) {
   constexpr double kMargin = 6;        // for the thickest line
+  constexpr double kBeside = 40;       // for a scale of heights
   constexpr double kClearlyOut = 1.3;  // of the panel's height
-  const Box<2> room = shrunk(panel_, kMargin);
-  const double angle = field_of_view > 0.01 && field_of_view < 3 ? field_of_view : 0.7;
+  Box<2> room = shrunk(panel_, kMargin);
+  if (room.size().x > 6 * kBeside) {
+    room.lo.x += kBeside;
+    room.hi.x -= kBeside;
+  }
+  const double field = camera.field_of_view;
+  const double angle = field > 0.01 && field < 3 ? field : 0.7;
   scale_ = std::max(room.size().y, 1.0) / 2 / std::tan(angle / 2);
   if (contains(bounds_, eye_)) return;
   Outline corners;
-  for (const Vec<3>& corner : corners_of(bounds_)) {
+  for (const Vec<3>& corner :
+       camera.goes_round ? all_round(bounds_, camera.target) : corners_of(bounds_)) {
     if (depth(corner) < 10 * near_) return;
     corners.push_back(to_page(corner));
   }
@@ -160,6 +183,15 @@ void View3D::fit(double field_of_view, bool chosen) {
   if (!(k > 0)) return;
   origin_ = room.center() + (origin_ - seen.center()) * k;
   scale_ *= k;
+}
+
+double View3D::farness(const Vec<3>& p) const {
+  double least = 1e300, most = -1e300;
+  for (const Vec<3>& corner : corners_of(bounds_)) {
+    least = std::min(least, depth(corner));
+    most = std::max(most, depth(corner));
+  }
+  return most > least ? std::clamp((depth(p) - least) / (most - least), 0.0, 1.0) : 0;
 }
 
 bool View3D::lost(const Vec<3>& p) const {

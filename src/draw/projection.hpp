@@ -61,10 +61,11 @@ class Projection {
   Box<2> panel_, picture_;
 };
 
-// One scale for both axes, y turned over, the bounds centred in the panel. All is seen.
+// One scale for both axes, y turned over, the bounds, or a part of them in their proportions,
+// centred in the panel. All is seen: what lies out of the part is beside the picture.
 class View2D : public Projection {
  public:
-  View2D(const Box<2>& bounds, const Box<2>& panel);
+  View2D(const Box<2>& bounds, const Box<2>& panel, const std::optional<Box<2>>& part = {});
 
   double scale() const { return scale_; }
   Vec<2> to_page(const Vec<2>& p) const { return origin_ + Vec<2>(p.x, -p.y) * scale_; }
@@ -102,10 +103,14 @@ class View3D : public Projection {
   View3D(const Box<3>& bounds, const std::optional<Camera>& camera, const Box<2>& panel);
 
   const Vec<3>& eye() const { return eye_; }
+  const Vec<3>& right() const { return right_; }  // unit, level, of the page
   const Vec<3>& light() const { return light_; }  // unit, towards it: over the viewer's shoulder
   const Box<3>& bounds() const { return bounds_; }
   double size() const override { return size_; }  // of the world's diagonal
   double longest_arrow() const override { return 0.18 * size_; }
+
+  // Of a point in the bounds: 0 at their nearest corner, 1 at their farthest.
+  double farness(const Vec<3>& p) const;
 
   // Along the line of sight.
   double depth(const Vec<3>& p) const { return glm::dot(p - eye_, forward_); }
@@ -136,7 +141,7 @@ class View3D : public Projection {
 
  private:
   void aim(const Camera& camera);
-  void fit(double field_of_view, bool chosen);
+  void fit(const Camera& camera, bool chosen);
 
   Box<3> bounds_;
   Vec<3> eye_{0.0}, right_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, -1}, light_{0, 1, 0};

@@ -28,6 +28,7 @@ void mark_hits_of(const FrameRay& ray, const Marks& marks, Labels& labels) {
     const double radius = std::max(kHit, text_width(text, style) / 2 + 4);
     const Box<2> box = Box<2>::around(*at, Vec<2>(radius));
     const bool numbered = ray.hits.size() > 1 && labels.is_free(box, picture);
+    marks.tell(MarkKind::hit);
     marks.over().dot(*at, numbered ? radius : 6, Role::panel, {Role::ray, 2.8});
     if (!numbered) continue;
     labels.add(text, centred(*at, style), style, picture);
@@ -60,6 +61,7 @@ void mark_views(const Frame& frame, Marks& marks) {
   for (const FrameView& view : first_of(frame.views, kMostViews)) {
     const std::vector<Vec<3>>& c = view.corners;
     if (!std::ranges::all_of(c, is_finite<3>)) continue;
+    marks.tell(MarkKind::view);
     if (c.size() != 8) {
       for (std::size_t i = 0; i < c.size() && c.size() > 2; ++i)
         marks.line(c[i], c[(i + 1) % c.size()], {Role::frustum, 3.4});
@@ -93,6 +95,7 @@ void mark_queries(const Frame& frame, Marks& marks) {
   for (const FrameQuery& query : first_of(frame.queries, kMostQueries)) {
     if (!is_valid(query.box)) continue;
     const Marks::Scope scope(marks, fmt::format("world/query/{}", &query - frame.queries.data()));
+    marks.tell(MarkKind::region);
     if (query.radius > 0)
       marks.ball(query.box.center(), query.radius, stroke);
     else
@@ -103,7 +106,9 @@ void mark_queries(const Frame& frame, Marks& marks) {
 void mark_rays(const Frame& frame, Marks& marks) {
   const double k = ray_scale(frame);
   for (const FrameRay& ray : first_of(frame.rays, kMostRays)) {
+    if (ray.from == ray.to) continue;
     const Marks::Scope scope(marks, fmt::format("world/ray/{}", &ray - frame.rays.data()));
+    marks.tell(MarkKind::ray);
     marks.arrow(ray.from, ray.to, {Role::ray, 3.6 * k}, 20 * k, 1.8 * k);
   }
 }

@@ -31,7 +31,8 @@ struct Spacing {
 std::vector<Fact> facts_of(const Frame& frame) {
   std::vector<Fact> facts;
   if (!frame.side.empty()) return facts;  // its title and its counts say it
-  for (std::size_t at = 0; at < frame.settings.size();) {
+  const std::size_t told = frame.display.settings ? frame.settings.size() : 0;
+  for (std::size_t at = 0; at < told;) {
     const std::size_t comma = std::min(frame.settings.find(", ", at), frame.settings.size());
     facts.push_back({.words = frame.settings.substr(at, comma - at)});
     at = comma + 2;

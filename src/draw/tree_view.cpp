@@ -6,6 +6,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
+#include "draw/notes.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
 #include "draw/tree_layout.hpp"
@@ -99,6 +100,8 @@ class TreeView {
       list_.rect(behind, ground, outline, radius);
     }
     list_.rect(box, ground, outline, radius);
+    if (branch.copies == 1) labels_.tell_place(target_of_node(node.label), box);
+    if (labels_.has_notes()) labels_.tell_body(box);
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else

@@ -9,6 +9,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
+#include "draw/shown_names.hpp"
 #include "draw/world2d_parts.hpp"
 
 namespace lantern::draw {
@@ -39,7 +40,7 @@ Box<2> page_part(const Box<2>& box, const View2D& map) {
 }
 
 bool is_outside(const FrameBody& body, const Frame& frame) {
-  return !contains(frame.bounds, body.box.center());
+  return !frame.view && !contains(frame.bounds, body.box.center());
 }
 
 Stand stand_of(const FrameBody& body, const Frame& frame, const View2D& map) {
@@ -171,6 +172,11 @@ bool is_lit(const Stand& stand) {
   return std::ranges::any_of(stand.bodies, [](const FrameBody* body) { return body->lit; });
 }
 
+bool names(const Frame& frame, const Stand& stand) {
+  return std::ranges::any_of(stand.bodies,
+                             [&](const FrameBody* body) { return shows_name(frame, *body); });
+}
+
 }  // namespace
 
 std::vector<Stand> stands_of(const Frame& frame, const View2D& map) {
@@ -207,6 +213,7 @@ bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& 
       const DrawList::Scope scope(list, key, key);
       if (!many) list.line(from, to, {Role::panel, width + 4});
       list.line(from, to, {Role::pair, width});
+      list.marks.add(MarkKind::pair);
     }
   return complete;
 }
@@ -222,6 +229,7 @@ void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList&
     const std::string key = link_key("world/joint", stands, link);
     const DrawList::Scope scope(list, key, key);
     list.disc(common.center(), 6.5, Role::pair, {Role::panel, 2.4});
+    list.marks.add(MarkKind::meeting);
   }
 }
 
@@ -236,6 +244,7 @@ void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes
   std::ranges::stable_sort(order, std::greater(), [&](const Stand* s) { return size_of(*s, map); });
   const bool plain = count > kMostDetailed;
   for (const Stand* stand : order) {
+    for (const FrameBody* body : stand->bodies) tell_marks(*body, list);
     if (stand->outside) {
       const DrawList::Scope scope(list, body_key("world/outside", *stand->bodies[0]));
       draw_outside(*stand, map, list);
@@ -252,8 +261,9 @@ void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes
   }
 }
 
-void name_bodies(const std::vector<Stand>& stands, const std::vector<Box<2>>& covered,
-                 const View2D& map, const Grounds& grounds, Labels& labels) {
+void name_bodies(const Frame& frame, const std::vector<Stand>& stands,
+                 const std::vector<Box<2>>& covered, const View2D& map, const Grounds& grounds,
+                 Labels& labels) {
   constexpr std::size_t kMostNamed = 35;        // of more, only those the step is about
   constexpr std::size_t kMostStaticNamed = 12;  // of more bodies, no wall or pillar that is quiet
   constexpr double kWidestName = 210;
@@ -262,8 +272,9 @@ void name_bodies(const std::vector<Stand>& stands, const std::vector<Box<2>>& co
   for (const Stand& stand : stands) bodies += stand.bodies.size();
   std::vector<const Stand*> order;
   for (const Stand& stand : stands)
-    if (is_lit(stand) ||
-        (bodies <= kMostNamed && (bodies <= kMostStaticNamed || !stand.bodies.front()->is_static)))
+    if (names(frame, stand) &&
+        (is_lit(stand) || (bodies <= kMostNamed &&
+                           (bodies <= kMostStaticNamed || !stand.bodies.front()->is_static))))
       order.push_back(&stand);
   std::ranges::stable_partition(order, [](const Stand* s) { return is_lit(*s); });
   if (order.size() > kMostNamed) order.resize(kMostNamed);

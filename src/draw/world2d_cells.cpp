@@ -64,6 +64,12 @@ std::vector<Painted> painted_of(const Frame& frame) {
   return found;
 }
 
+// The part of a cell that the picture shows.
+Box<2> seen_of(const Box<2>& cell, const View2D& map) {
+  return {glm::clamp(cell.lo, map.picture().lo, map.picture().hi),
+          glm::clamp(cell.hi, map.picture().lo, map.picture().hi)};
+}
+
 bool is_drawn(const Box<2>& cell) { return std::min(cell.size().x, cell.size().y) >= kLeastCell; }
 
 // A quarter without a child: hatched from the lower left to the upper right.
@@ -81,11 +87,12 @@ void hatch_unmade(const Frame& frame, const View2D& map, DrawList& list) {
   constexpr double kLeastHatched = 30;
   constexpr std::size_t kMostShapes = 1200;
   for (const Box<2>& quarter : unmade_quarters(frame)) {
-    const Box<2> box = map.to_page(quarter);
+    const Box<2> box = seen_of(map.to_page(quarter), map);
     if (std::min(box.size().x, box.size().y) < kLeastHatched) continue;
     if (list.shapes.size() > kMostShapes) return;
     list.crisp_rect(box, Role::paper);
     hatch(box, list);
+    list.marks.add(MarkKind::not_made);
   }
 }
 
@@ -118,6 +125,7 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
       list.crisp_rect(map.to_page(node.box), role);
     else
       list.polygon(grounds.back().region, role);
+    list.marks.add(tone == Mark::lit ? MarkKind::lit : MarkKind::passed);
   }
 }
 
@@ -157,6 +165,7 @@ void hatch_asleep(const Frame& frame, const View2D& map, DrawList& list) {
     if (!node.sleeps() || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
     pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1}, 60);
+    list.marks.add(MarkKind::sleeping_cell);
   }
 }
 
@@ -214,6 +223,7 @@ void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
     for (const Vec<3>& corner : view.corners) corners.push_back(map.to_page(corner));
     if (corners.size() < 3 || !std::ranges::all_of(corners, is_finite<2>)) continue;
     pen.polygon(corners, Role::view_fill);
+    list.marks.add(MarkKind::view);
     grounds.push_back({cut_to(corners, map.picture()), Role::view_fill});
   }
 }
@@ -222,9 +232,14 @@ void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
 
 bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
   list.crisp_rect(map.picture(), Role::panel);
-  hatch_unmade(frame, map, list);
+  if (frame.display.cells && frame.display.not_made) hatch_unmade(frame, map, list);
   Grounds under;  // of what the cells' own grounds lie on
   fill_views(frame, map, list, under);
+  if (!frame.display.cells) {
+    grounds = std::move(under);
+    list.crisp_rect(map.picture(), Role::none, {Role::cell_line_0, line_width(0), 0});
+    return true;
+  }
   fill_cells(frame, map, list, grounds);
   if (is_level(frame)) {
     Grounds sectors;  // over what is painted of inner nodes
@@ -246,6 +261,7 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
 }
 
 void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place, DrawList& list) {
+  if (!frame.display.cells) return;
   constexpr double kLeastOver = 4;  // page units; smaller cells would hide the body in turn
   Borders borders;
   for (const FrameNode& node : frame.nodes) {

@@ -110,7 +110,7 @@ void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
 }
 
 void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  if (!frame.show_boxes) return;
+  if (!frame.display.boxes) return;
   constexpr std::size_t kMostBoxes = 400, kFewBodies = 4;
   constexpr double kSeen = 2.5;  // pixels
   Pen pen(list, mark_limit(map));
@@ -126,6 +126,7 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
     const bool more = box.lo.x - held.lo.x > kSeen || held.hi.x - box.hi.x > kSeen;
     if (more && holds(shrunk(map.picture(), -30), held))
       list.rect(held, Role::none, {Role::quiet_ink, 1.2, 3});
+    list.marks.add(MarkKind::box);
     if (!body.lit)  // the others have one already
       list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
     if (body.lit || frame.bodies.size() <= kFewBodies) draw_half_sizes(body, box, map, pen, labels);

@@ -43,7 +43,9 @@ void label_planes(const Frame& frame, const View2D& map, const std::vector<Box<2
 // A leaf's name in the corner of its cell that no body covers; without one it has none.
 void label_cell(const FrameNode& node, const View2D& map, const std::vector<Box<2>>& bodies,
                 const Grounds& grounds, Labels& labels) {
-  const Box<2> cell = map.to_page(node.box);
+  const Box<2> whole = map.to_page(node.box), &picture = map.picture();
+  const Box<2> cell{glm::clamp(whole.lo, picture.lo, picture.hi),
+                    glm::clamp(whole.hi, picture.lo, picture.hi)};
   TextStyle style{node.depth <= 1 ? 20.0 : 18.0, Weight::semibold, Role::quiet_ink};
   if (node.mark == Mark::lit) style.role = Role::lit_ink;
   const double width = text_width(node.label, style);
@@ -171,6 +173,7 @@ std::vector<Box<2>> unmade_quarters(const Frame& frame) {
 
 void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
                  const Grounds& grounds, DrawList& list, Labels& labels) {
+  if (!frame.display.cells) return;
   label_planes(frame, map, bodies, list, labels);
   // Of two trees only one has its leaves named, or the same names would stand there twice.
   const bool dynamic =
@@ -185,7 +188,7 @@ void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>
     const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
     label_cell(*leaf, map, bodies, grounds, labels);
   }
-  label_unmade(frame, map, bodies, labels);
+  if (frame.display.not_made) label_unmade(frame, map, bodies, labels);
 }
 
 }  // namespace lantern::draw

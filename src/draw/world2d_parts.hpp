@@ -71,8 +71,9 @@ void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList&
 // `boxes`: with the dashed boxes of what is no box itself.
 void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list);
 // Free of what is covered by bodies, as far as there is room.
-void name_bodies(const std::vector<Stand>& stands, const std::vector<Box<2>>& covered,
-                 const View2D& map, const Grounds& grounds, Labels& labels);
+void name_bodies(const Frame& frame, const std::vector<Stand>& stands,
+                 const std::vector<Box<2>>& covered, const View2D& map, const Grounds& grounds,
+                 Labels& labels);
 
 // Too many bodies to tell apart: one mark for each small square of the page that holds any.
 // Returns how many marks it made.

@@ -26,10 +26,14 @@ struct Strength {
   auto operator<=>(const Strength&) const = default;
 };
 
-Stroke stroke_of(const Strength& s) {
+// What is farther away is thinner and, in the last part of the way, lighter: `far` is 0 at the
+// nearest and 1 at the farthest corner of the bounds.
+Stroke stroke_of(Strength s, double far) {
   constexpr double kWidths[] = {2.8, 2.1, 1.5, 1.1, 0.9};
-  const double width = s.depth < 5 ? kWidths[s.depth] : 0.9;
-  if (s.lit == 0) return {Role::lit, s.quiet != 0 ? 1.7 : 2.5};
+  constexpr double kLighter = 0.6;
+  const double width = (s.depth < 5 ? kWidths[s.depth] : 0.9) * (1.25 - 0.55 * far);
+  if (s.lit == 0) return {Role::lit, (s.quiet != 0 ? 1.7 : 2.5) * (1.2 - 0.4 * far)};
+  if (far > kLighter) ++s.depth;
   const double dash = s.dashed == 2 ? 16 : 6 * s.dashed;
   if (s.quiet != 0) return {cell_line_role(s.depth + 1), std::max(0.8, 0.6 * width), dash};
   return {cell_line_role(s.depth), width, dash};
@@ -163,7 +167,74 @@ void fill_inside(const Box<3>& box, Role floor, Role wall, const View3D& view, D
     }
 }
 
+// An edge that leads away from the eye, in parts that get weaker.
+void add_faded(const Edge& edge, Marks3D& marks) {
+  constexpr double kParts = 4;  // from the nearest corner of the bounds to the farthest
+  const Vec<3> from = edge.point(edge.from), to = edge.point(edge.to);
+  const double far = std::abs(marks.view.farness(to) - marks.view.farness(from));
+  const int parts = std::max(1, static_cast<int>(std::lround(kParts * far)));
+  for (int i = 0; i < parts; ++i) {
+    const Vec<3> a = from + (to - from) * (double(i) / parts);
+    const Vec<3> b = i + 1 == parts ? to : from + (to - from) * (double(i + 1) / parts);
+    marks.line(a, b, stroke_of(edge.strength, marks.view.farness((a + b) * 0.5)));
+  }
+}
+
+// The part of a plane, normal . x = offset, that lies in the box.
+std::vector<Vec<3>> part_in(const Box<3>& box, const Vec<3>& normal, double offset) {
+  const double length = glm::length(normal);
+  if (!(length > 0)) return {};
+  const Vec<3> n = normal / length;
+  const Vec<3> middle = box.center() - n * (glm::dot(n, box.center()) - offset / length);
+  const Vec<3> u = across(n) * (2 * glm::length(box.size())), v = glm::cross(n, u);
+  std::vector<Vec<3>> part = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec<3> along{0.0};
+    along[axis] = 1;
+    part = clipped(part, along, box.lo[axis]);
+    part = clipped(part, -along, -box.hi[axis]);
+  }
+  if (part.size() < 3) part.clear();
+  return part;
+}
+
+// The planes of nodes that the step has divided, within their cells; of many only the first one's.
+std::vector<std::vector<Vec<3>>> cuts_of(const Frame& frame) {
+  constexpr std::ptrdiff_t kMostCut = 2;  // nodes; more would hide each other
+  std::vector<std::vector<Vec<3>>> cuts;
+  const bool many = std::ranges::count_if(frame.nodes, &FrameNode::split) > kMostCut;
+  for (const FrameNode& node : frame.nodes) {
+    if (!node.split || !is_valid(node.box)) continue;
+    if (many && !cuts.empty()) break;
+    if (node.plane) {
+      cuts.push_back(part_in(node.box, node.plane->normal, node.plane->offset));
+      continue;
+    }
+    const Vec<3> c = node.box.center();
+    for (const int axis : {1, 0, 2}) {
+      if (axis == 1 && traits_of(frame.structure).ignores_height) continue;
+      Vec<3> normal{0.0};
+      normal[axis] = 1;
+      cuts.push_back(part_in(node.box, normal, c[axis]));
+    }
+  }
+  return cuts;
+}
+
 }  // namespace
+
+void draw_cut_grounds(const Frame& frame, const View3D& view, DrawList& list) {
+  for (const std::vector<Vec<3>>& cut : cuts_of(frame))
+    Pen(list, view.panel()).polygon(view.polygon(cut), Role::passed_fill);
+}
+
+void add_cuts(const Frame& frame, Marks3D& marks) {
+  const std::size_t first = marks.pieces.size();
+  for (const std::vector<Vec<3>>& cut : cuts_of(frame))
+    for (std::size_t i = 0; i < cut.size(); ++i)
+      marks.line(cut[i], cut[(i + 1) % cut.size()], {Role::lit, 1.6, 7});
+  for (std::size_t i = first; i < marks.pieces.size(); ++i) marks.pieces[i].yields = true;
+}
 
 void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
   // A lit node with lit nodes inside is not painted as a whole.
@@ -188,6 +259,7 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
     const DrawList::Scope scope(list, node_key("world/ground", frame.nodes, at),
                                 parent_key("world/ground", frame.nodes, at));
     const bool lit = node->mark == Mark::lit;
+    list.marks.add(lit ? MarkKind::lit : MarkKind::passed);
     fill_inside(node->box, lit ? Role::lit_fill : Role::passed_fill, Role::passed_fill, view, list);
   }
 }
@@ -195,8 +267,10 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
 bool add_cells(const Frame& frame, Marks3D& marks) {
   Edges edges(marks.view);
   const bool flat = traits_of(frame.structure).ignores_height;
-  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) edges.add(frame.nodes[i], flat, i);
-  if (frame.nodes.empty()) {
+  const bool shown = frame.display.cells && !frame.nodes.empty();
+  for (std::uint32_t i = 0; shown && i < frame.nodes.size(); ++i)
+    edges.add(frame.nodes[i], flat, i);
+  if (!shown) {
     FrameNode whole;
     whole.box = frame.bounds;
     whole.depth = 2;  // a quiet line
@@ -210,10 +284,10 @@ bool add_cells(const Frame& frame, Marks3D& marks) {
   const std::size_t first = marks.pieces.size();
   for (const Edge& e : merged) {
     const std::string cell =
-        frame.nodes.empty() ? "world/cell/root" : node_key("world/cell", frame.nodes, e.node);
+        shown ? node_key("world/cell", frame.nodes, e.node) : "world/cell/root";
     const std::string key = fmt::format("{}/{}{}", cell, "xyz"[e.axis], e.corner);
     const Marks::Scope scope(marks, key, key);
-    marks.line(e.point(e.from), e.point(e.to), stroke_of(e.strength));
+    add_faded(e, marks);
   }
   for (std::size_t i = first; i < marks.pieces.size(); ++i) marks.pieces[i].yields = true;
   return complete;

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
+#include "draw/number_text.hpp"
 #include "draw/pen.hpp"
 #include "draw/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
@@ -142,6 +144,55 @@ void fill_view(const FrameView& seen, const View3D& view, DrawList& list) {
   Pen(list, view.panel()).polygon(hull_of(std::move(points)), Role::view_fill);
 }
 
+constexpr std::size_t kMostScaled = 12;  // bodies, of more heights are not counted
+
+// The heights of the floor's grid above the floor, up to `top`.
+std::vector<double> heights_of(const Box<3>& bounds, double top) {
+  constexpr int kMost = 12;
+  double step = grid_step(bounds);
+  while ((bounds.hi.y - bounds.lo.y) / step > kMost) step *= 2;
+  std::vector<double> heights;
+  for (int i = 1; bounds.lo.y + i * step <= top + 1e-9 * step; ++i) heights.push_back(i * step);
+  return heights;
+}
+
+// Across a drop line, so that a height can be counted.
+void add_ticks(const Vec<3>& from, const Vec<3>& foot, Marks3D& marks) {
+  constexpr double kHalf = 4.5;  // page units
+  for (const double height : heights_of(marks.view.bounds(), from.y)) {
+    const Vec<3> at{foot.x, foot.y + height, foot.z};
+    const Vec<3> half = marks.view.right() * (kHalf / marks.view.scale_at(at));
+    marks.line(at - half, at + half, {Role::quiet_ink, 1.6});
+  }
+}
+
+// The numbers of a scale at an upright edge, on one side of it: all or none.
+bool write_scale(const Vec<3>& foot, int side, const View3D& view, DrawList& list, Labels& labels) {
+  const TextStyle style{24, Weight::regular, Role::quiet_ink, Role::paper};
+  constexpr double kTick = 8;
+  std::vector<double> heights = heights_of(view.bounds(), view.bounds().hi.y);
+  heights.insert(heights.begin(), 0);
+  const auto at = [&](double height) { return view.to_page({foot.x, foot.y + height, foot.z}); };
+  const auto anchor = [&](double height) {
+    return centred(at(height) + Vec<2>(side * (kTick + 6), 0), style, side < 0 ? 1 : 0);
+  };
+  const auto text = [&](double height) { return short_number(view.bounds().lo.y + height); };
+  // Every other one where they stand too close.
+  while (heights.size() > 2 && std::abs(at(heights[0]).y - at(heights[1]).y) < 1.15 * style.size) {
+    std::vector<double> fewer;
+    for (std::size_t i = 0; i < heights.size(); i += 2) fewer.push_back(heights[i]);
+    heights = fewer;
+  }
+  for (const double height : heights)
+    if (!labels.is_free(Labels::extent(text(height), anchor(height), style), view.panel()))
+      return false;
+  for (const double height : heights) {
+    list.line(at(height), at(height) + Vec<2>(side * kTick, 0), {Role::quiet_ink, 1.6});
+    labels.add(text(height), anchor(height), style, view.panel());
+  }
+  return true;
+}
+
 }  // namespace
 
 void draw_ground3d(const Frame& frame, const View3D& view, DrawList& list) {
@@ -163,6 +214,25 @@ void draw_shadows(const std::vector<Body3D>& bodies, const View3D& view, DrawLis
   }
 }
 
+void write_heights(const std::vector<Body3D>& bodies, const View3D& view, DrawList& list,
+                   Labels& labels) {
+  const Box<3>& b = view.bounds();
+  const auto floats = [&](const Body3D& body) {
+    return !body.body->is_static && body.body->box.lo.y > b.lo.y;
+  };
+  if (bodies.size() > kMostScaled || std::ranges::none_of(bodies, floats)) return;
+  // The edges that are farthest out on the page, to the left and to the right.
+  std::vector<Vec<3>> feet = floor_of(b);
+  std::erase_if(feet, [&](const Vec<3>& p) {
+    return !view.in_front(p) || !view.in_front({p.x, b.hi.y, p.z});
+  });
+  if (feet.size() < 4) return;
+  const auto x_of = [&](const Vec<3>& p) { return view.to_page(p).x; };
+  const Vec<3> left = *std::ranges::min_element(feet, {}, x_of);
+  const Vec<3> right = *std::ranges::max_element(feet, {}, x_of);
+  if (!write_scale(left, -1, view, list, labels)) write_scale(right, 1, view, list, labels);
+}
+
 void add_drop_lines(Marks3D& marks) {
   constexpr std::size_t kMost = 80;
   constexpr double kFoot = 2.6;  // radius of the mark on the floor
@@ -172,7 +242,8 @@ void add_drop_lines(Marks3D& marks) {
     const Vec<3> foot{c.x, marks.view.bounds().lo.y, c.z};
     if (b.body->is_static || c.y <= foot.y) continue;
     const Marks::Scope scope(marks, body_key("world/drop", *b.body));
-    marks.line(c, foot, {Role::quiet_ink, 1.4, 5});
+    marks.line(c, foot, {b.body->lit ? Role::ink : Role::quiet_ink, b.body->lit ? 1.8 : 1.4, 5});
+    if (marks.bodies.size() <= kMostScaled) add_ticks(c, foot, marks);
     if (const auto page = marks.view.segment(foot, foot); page && b.body->box.lo.y > foot.y) {
       const Box<2> spot = Box<2>::around(page->first, Vec<2>(kFoot));
       marks.add(Convex::line(foot, foot), polygon_of(spot),

@@ -63,8 +63,17 @@ void draw_ground3d(const Frame& frame, const View3D& view, DrawList& list);
 // high a body is.
 void draw_shadows(const std::vector<Body3D>& bodies, const View3D& view, DrawList& list);
 
-// The lines from bodies to the floor.
+// The lines from bodies to the floor, with a tick for each step of the floor's grid.
 void add_drop_lines(Marks3D& marks);
+
+// A scale of heights at an upright edge of the bounds that nothing lies before; for few bodies.
+void write_heights(const std::vector<Body3D>& bodies, const View3D& view, DrawList& list,
+                   Labels& labels);
+
+// The planes that divide the nodes that the step has split, within their cells: their grounds,
+// which lie behind all bodies, and their outlines.
+void draw_cut_grounds(const Frame& frame, const View3D& view, DrawList& list);
+void add_cuts(const Frame& frame, Marks3D& marks);
 
 // The grounds of lit cells, which lie behind all bodies in them.
 void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list);

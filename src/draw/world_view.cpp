@@ -6,9 +6,13 @@
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
+#include "draw/locator.hpp"
+#include "draw/notes.hpp"
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
+#include "draw/pen.hpp"
 #include "draw/projection.hpp"
+#include "draw/shown_names.hpp"
 #include "draw/world2d_parts.hpp"
 #include "draw/world3d_parts.hpp"
 #include "geometry/flat.hpp"
@@ -76,14 +80,16 @@ void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const V
                   DrawList& list, Labels& labels) {
   for (const bool lit : {true, false})
     for (const Body3D& b : bodies)
-      if (b.body->lit == lit && !b.body->name.empty() && (lit || bodies.size() <= kMostNamed)) {
+      if (b.body->lit == lit && shows_name(frame, *b.body) &&
+          (lit || bodies.size() <= kMostNamed)) {
         const DrawList::Scope scope(list, body_key("world/name", *b.body));
         name_body(b, bodies, view, labels);
       }
   std::vector<const FrameNode*> cells;
   for (const FrameNode& node : frame.nodes)
-    if (node.leaf && node.depth > 0 && !node.of_static && !node.label.empty() &&
-        is_valid(node.box) && (node.mark == Mark::lit || !node.bodies.empty()))
+    if (frame.display.cells && node.leaf && node.depth > 0 && !node.of_static &&
+        !node.label.empty() && is_valid(node.box) &&
+        (node.mark == Mark::lit || !node.bodies.empty()))
       cells.push_back(&node);
   const auto is_quiet = [](const FrameNode* n) { return n->mark != Mark::lit; };
   if (std::ranges::count_if(cells, is_quiet) > kMostQuietCells) std::erase_if(cells, is_quiet);
@@ -113,13 +119,16 @@ void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
     piece.key = piece.from = body_key("world/body", *body.body);
   }
   if (!add_cells(frame, marks)) left_out.push_back("the deepest cells are not drawn");
+  if (frame.display.cells) add_cuts(frame, marks);
   add_drop_lines(marks);
-  if (!add_pairs(frame, marks)) left_out.push_back("not all pairs are drawn");
+  if (frame.display.pairs && !add_pairs(frame, marks))
+    left_out.push_back("not all pairs are drawn");
   mark_links(frame, marks);
   mark_velocities(frame, marks);
   for (const Body3D& b : marks.bodies)
-    if (frame.show_boxes && (b.body->lit || marks.bodies.size() <= kMostBoxed3d)) {
+    if (frame.display.boxes && (b.body->lit || marks.bodies.size() <= kMostBoxed3d)) {
       const Marks::Scope scope(marks, body_key("world/box", *b.body));
+      marks.tell(MarkKind::box);
       marks.box(b.body->box, {b.body->lit ? Role::lit : Role::quiet_ink, 1.5, 5});
     }
   mark_views(frame, marks);
@@ -147,7 +156,8 @@ void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawLi
   mark_eyes(frame, map, shrunk(map.picture(), -20), list);
   mark_queries(frame, inside);
   mark_velocities(frame, marks);
-  if (!mark_contacts(frame, marks)) left_out.push_back("not all contacts are drawn");
+  if (frame.display.contacts && !mark_contacts(frame, marks))
+    left_out.push_back("not all contacts are drawn");
   mark_rays(frame, marks);
   mark_hits(frame, marks, labels);
   if (frame.eye) {
@@ -156,23 +166,68 @@ void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawLi
     labels.block(Box<2>::around(eye, {24, 18}));
   }
 }
+
+// Where a flat world has drawn what notes are about.
+void tell_places(const Frame& frame, const View2D& map, const std::vector<Stand>& stands,
+                 Labels& labels) {
+  const Box<2>& picture = map.picture();
+  const auto seen = [&](const Box<2>& box) {
+    return Box<2>{glm::clamp(box.lo, picture.lo, picture.hi),
+                  glm::clamp(box.hi, picture.lo, picture.hi)};
+  };
+  for (const Stand& stand : stands) {
+    if (!overlap(stand.box, picture)) continue;
+    labels.tell_body(seen(stand.box));
+    for (const FrameBody* body : stand.bodies) labels.tell_place(target_of(*body), seen(stand.box));
+  }
+  for (const FrameNode& node : frame.nodes)
+    if (const Box<2> cell = map.to_page(node.box); overlap(cell, picture))
+      labels.tell_place(target_of_cell(node.label), seen(cell));
+  for (std::size_t i = 0; i < frame.notes.size(); ++i)
+    if (const Vec<2> at = map.to_page(frame.notes[i].point); contains(picture, at))
+      labels.tell_place(target_of_note(i), {at, at});
+}
+
+// The same of a solid one.
+void tell_places(const Frame& frame, const View3D& view, const std::vector<Body3D>& bodies,
+                 Labels& labels) {
+  for (const Body3D& b : bodies) {
+    labels.tell_body(b.box);
+    labels.tell_place(target_of(*b.body), b.box);
+  }
+  for (const FrameNode& node : frame.nodes) {
+    if (!is_valid(node.box)) continue;
+    const auto at = view.seen(node.box.center());
+    if (at && contains(view.panel(), *at))
+      labels.tell_place(target_of_cell(node.label), {*at, *at});
+  }
+  for (std::size_t i = 0; i < frame.notes.size(); ++i)
+    if (const auto at = view.seen(frame.notes[i].point); at && contains(view.panel(), *at))
+      labels.tell_place(target_of_note(i), {*at, *at});
+}
+
 void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const View3D view(frame.bounds, frame.camera, panel);
   LeftOut left_out;
   const bool crowd = frame.bodies.size() > kCrowd;
   const std::vector<Body3D> bodies = crowd ? std::vector<Body3D>() : bodies_in_view(frame, view);
   draw_ground3d(frame, view, list);
-  draw_cell_grounds(frame, view, list);
+  if (frame.display.cells) {
+    draw_cell_grounds(frame, view, list);
+    draw_cut_grounds(frame, view, list);
+  }
   draw_shadows(bodies, view, list);
   Marks3D marks(view, bodies, list);
   add_marks(frame, marks, left_out);
   marks.paint();
+  for (const Body3D& body : bodies) tell_marks(*body.body, list);
   if (crowd) {
     draw_crowd3d(frame, view, list);
     left_out.push_back(fmt::format("{} bodies as dots", frame.bodies.size()));
   }
-  draw_joints(frame, marks);
-  if (!mark_contacts(frame, marks)) left_out.push_back("not all contacts are drawn");
+  if (frame.display.pairs) draw_joints(frame, marks);
+  if (frame.display.contacts && !mark_contacts(frame, marks))
+    left_out.push_back("not all contacts are drawn");
   mark_eyes(frame, view, panel, list);
   mark_hits(frame, marks, labels);
   note(left_out, panel, labels);
@@ -180,25 +235,11 @@ void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Label
   for (const Body3D& body : bodies) covered.push_back(body.box);
   write_depths(frame, view, covered, labels);
   name_world3d(frame, bodies, view, list, labels);
+  write_heights(bodies, view, list, labels);
+  if (labels.has_notes()) tell_places(frame, view, bodies, labels);
 }
 
-}  // namespace
-
-bool shows_a_body(const Frame& frame) {
-  const auto is_seen = [&](auto&& shown) {
-    return std::ranges::any_of(
-        frame.bodies, [&](const FrameBody& body) { return !is_half_space(body) && shown(body); });
-  };
-  if (frame.dimension == 2)
-    return is_seen(
-        [&](const FrameBody& body) { return overlap(flat(body.box), flat(frame.bounds)); });
-  const View3D view(frame.bounds, frame.camera, {{0, 0}, {1600, 800}});
-  return is_seen([&](const FrameBody& body) { return shows(view, body); });
-}
-
-void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  if (frame.dimension == 3) return draw_world3d(frame, panel, list, labels);
-  const View2D map(flat(frame.bounds), panel);
+void draw_world2d(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
   Grounds grounds;
   LeftOut left_out;
   if (!draw_cells(frame, map, list, grounds))
@@ -214,17 +255,18 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   const std::vector<Stand> stands = stands_of(frame, map);
   // A ray, view or region is about bodies, not about pairs.
   const bool asks = !frame.rays.empty() || !frame.views.empty() || !frame.queries.empty();
-  if (!asks && !draw_pairs(frame, stands, list)) left_out.push_back("not all pairs are drawn");
+  const bool pairs = frame.display.pairs && !asks;
+  if (pairs && !draw_pairs(frame, stands, list)) left_out.push_back("not all pairs are drawn");
   Marks marks(map, mark_limit(map), list);
-  if (!asks) draw_ground_pairs(frame, marks);
-  const bool own_boxes = frame.structure != StructureKind::none && !frame.show_boxes;
+  if (pairs) draw_ground_pairs(frame, marks);
+  const bool own_boxes = frame.structure != StructureKind::none && !frame.display.boxes;
   draw_bodies(stands, map, own_boxes, list);
   for (const Stand& stand : stands) {
     if (stand.outside) continue;
     const DrawList::Scope scope(list, body_key("world/over", *stand.bodies[0]));
     draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
   }
-  if (!asks) draw_joints(frame, stands, list);
+  if (pairs) draw_joints(frame, stands, list);
   draw_broad_boxes(frame, map, list, labels);
   draw_marks(frame, map, left_out, list, labels);
   note(left_out, map.picture(), labels);
@@ -234,7 +276,37 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   number_sectors(frame, map, grounds, labels);
   label_cells(frame, map, covered, grounds, list, labels);
   name_half_spaces(ground, map, grounds, labels);
-  name_bodies(stands, covered, map, grounds, labels);
+  name_bodies(frame, stands, covered, map, grounds, labels);
+  if (labels.has_notes()) tell_places(frame, map, stands, labels);
+}
+
+}  // namespace
+
+bool shows_a_body(const Frame& frame) {
+  const auto is_seen = [&](auto&& shown) {
+    return std::ranges::any_of(
+        frame.bodies, [&](const FrameBody& body) { return !is_half_space(body) && shown(body); });
+  };
+  if (frame.dimension == 2) {
+    const Box<2> part = frame.view.value_or(flat(frame.bounds));
+    return is_seen([&](const FrameBody& body) { return overlap(flat(body.box), part); });
+  }
+  const View3D view(frame.bounds, frame.camera, {{0, 0}, {1600, 800}});
+  return is_seen([&](const FrameBody& body) { return shows(view, body); });
+}
+
+void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  if (frame.dimension == 3) return draw_world3d(frame, panel, list, labels);
+  const View2D map(flat(frame.bounds), panel, frame.view);
+  if (!frame.view) return draw_world2d(frame, map, list, labels);
+  // Of a part all is drawn as ever and then cut. The corner with the whole is kept free of names.
+  const Box<2> corner = place_of_locator(frame, map);
+  labels.block(shrunk(corner, -4));
+  if (labels.has_notes()) labels.tell_body(corner);
+  const std::size_t first = list.shapes.size();
+  draw_world2d(frame, map, list, labels);
+  keep_within(list, first, map.picture());
+  draw_locator(frame, corner, list);
 }
 
 }  // namespace lantern::draw

@@ -122,7 +122,12 @@ std::string why_not_counted(std::string_view name, const Draft& draft, const Scr
 }
 
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state) {
-  const std::string caption = step.get<std::string>("caption").value_or("");
+  check_quotes(step, "caption", draft, state);
+}
+
+void check_quotes(const TableReader& table, std::string_view key, Draft& draft,
+                  const ScriptState& state) {
+  const std::string text = table.get<std::string>(key).value_or("");
   const auto kind_of = [](std::string_view name) {
     if (find_in(known_counts(), name)) return Placeholder::count;
     if (is_of_body(name)) return Placeholder::text;
@@ -131,7 +136,7 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
   };
   const auto can_be_quoted = [&](std::string_view name) {
     if (is_of_body(name))
-      return note_body_measure({std::string(name), step.place("caption")}, draft);
+      return note_body_measure({std::string(name), table.place(key)}, draft);
     return kind_of(name) != Placeholder::unknown && why_not_counted(name, draft, state).empty();
   };
   // What is said of another side is checked when that one is read.
@@ -141,17 +146,17 @@ void check_caption(const TableReader& step, Draft& draft, const ScriptState& sta
     if (!side.empty() && side != draft.scenario.side) return Placeholder::count;
     return can_be_quoted(name) ? kind_of(name) : Placeholder::unknown;
   };
-  for (CaptionProblem& p : caption_problems(caption, known_here)) {
-    const Place where = place_within(draft.text, step.place("caption"), caption, p.offset);
+  for (CaptionProblem& p : caption_problems(text, known_here)) {
+    const Place where = place_within(draft.text, table.place(key), text, p.offset);
     p.unknown = std::string(within_side(p.unknown, draft.sides));
     if (!p.message.empty())
-      draft.problems.add(where, "in the caption: " + p.message,
+      draft.problems.add(where, fmt::format("in the {}: {}", key, p.message),
                          "write {{ and }} for the braces themselves");
     else if (is_of_body(p.unknown))
       continue;  // told already
     else if (kind_of(p.unknown) == Placeholder::unknown)
       draft.problems.add(
-          where, fmt::format("a caption cannot quote {}", in_quotes(p.unknown)),
+          where, fmt::format("a {} cannot quote {}", key, in_quotes(p.unknown)),
           [name = p.unknown, known = quotable(draft, state)] { return nearest(name, known); });
     else
       draft.problems.add(where, fmt::format("'{}' is not counted here: {}", p.unknown,

@@ -88,6 +88,7 @@ inline TableReader open(const TomlValue& value, const TableDoc& doc, Draft& draf
 
 // Each reads its part of the file into the draft, in this order.
 void read_world(const TableReader& file, Draft& draft);
+void read_display(const TableReader& file, Draft& draft);
 void read_bodies(const TableReader& file, Draft& draft);
 void read_links(const TableReader& file, Draft& draft);
 void read_level(const TableReader& file, Draft& draft);

@@ -44,6 +44,15 @@ std::optional<V> value_of(std::string_view name,
 
 }  // namespace
 
+Camera usual_camera(const Box<3>& bounds) {
+  const double size = glm::length(bounds.size());
+  Camera camera;
+  camera.target = bounds.center();
+  camera.eye =
+      camera.target + glm::normalize(Vec<3>(0.52, 0.52, 1)) * (2.2 * (size > 0 ? size : 1));
+  return camera;
+}
+
 std::uint64_t state_hash(const Frame& frame) {
   Hash hash;
   hash.add(frame.time);

@@ -74,6 +74,7 @@ struct FrameNode {
   std::uint32_t pool_slot = kNone;  // its place in the pool of nodes, where there is one
   bool reused = false;              // a node of a tree before stood there
   Mark mark = Mark::quiet;
+  bool split = false;  // since the frame before, at the same time: the step is about its division
 
   // To be drawn so: what never moves, or holds nothing, is not said to sleep.
   bool sleeps() const { return !awake && !of_static && !(leaf && bodies.empty()); }
@@ -206,6 +207,20 @@ struct Camera {
   Vec<3> eye{0.0};
   Vec<3> target{0.0};
   double field_of_view = 0.7;  // radians, from bottom to top
+  bool goes_round = false;     // on some frame of the scenario: the picture fits all directions
+};
+
+// That of a solid world without one: from the front, above, and to the right.
+Camera usual_camera(const Box<3>& bounds);
+
+// A few words, and what they are about.
+struct FrameNote {
+  std::string text;  // counts filled in
+  NoteOf of = NoteOf::point;
+  std::vector<BodyId> bodies;  // one, or the two of a pair
+  std::uint32_t node = kNone;  // of frame.nodes
+  std::string count;
+  Vec<3> point{0.0};
 };
 
 struct Frame {
@@ -227,10 +242,10 @@ struct Frame {
   int sweep_axis = 0;    // along which a sweep sorted; of other structures of no matter
   std::vector<Panel> panels;
   Box<3> bounds;
-  bool show_boxes = false;  // the bodies' broad-phase boxes
-  bool show_velocities = false;
-  bool show_depths = false;  // beside contacts
-  std::uint32_t cast = 0;    // bodies of the scenario, there or not
+  std::uint32_t cast = 0;  // bodies of the scenario, there or not
+  Display display;
+  std::optional<Box<2>> view;    // the part of a flat world that is shown; none: all of it
+  std::vector<FrameNote> notes;  // of what is there
   std::vector<FrameBody> bodies;
   std::vector<FrameNode> nodes;  // parents before children
   std::vector<FramePair> pairs;  // in order of ids

@@ -34,6 +34,9 @@ class FrameWriter {
   void write_facts(const Frame& frame) {
     if (whole_way_ && frame.phase != StepPhase::whole)
       lines("phase", kPhases[static_cast<std::size_t>(frame.phase)]);
+    if (whole_way_ && frame.view) lines("view", *frame.view);
+    if (whole_way_ && frame.camera) lines("camera", *frame.camera);
+    if (whole_way_ && !frame.notes.empty()) write_list("notes", frame.notes);
     write_list("bodies", frame.bodies);
     write_list("nodes", frame.nodes);
     std::vector<Pair> pairs, overlaps;
@@ -117,6 +120,18 @@ class FrameWriter {
     json_.begin_array().value(v.x).value(v.y);
     if (frame_.dimension == 3) json_.value(v.z);
     json_.end_array();
+  }
+  void write(const Box<2>& box) { object("min", box.lo, "max", box.hi); }
+  void write(const Camera& camera) { object("eye", camera.eye, "target", camera.target); }
+  void write(const FrameNote& note) {
+    json_.begin_object();
+    members("text", note.text);
+    if (note.of == NoteOf::body) members("body", note.bodies.at(0));
+    if (note.of == NoteOf::pair) members("pair", note.bodies);
+    if (note.of == NoteOf::node) members("node", note.node);
+    if (note.of == NoteOf::count) members("count", note.count);
+    if (note.of == NoteOf::point) members("point", note.point);
+    json_.end_object();
   }
   void write(const Box<3>& box) { object("min", box.lo, "max", box.hi); }
   void write(const Pair& pair) { json_.begin_array().value(pair.a).value(pair.b).end_array(); }

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "geometry/flat.hpp"
 #include "scenario/caption.hpp"
 #include "scenario/frame.hpp"
 
@@ -16,11 +17,33 @@ namespace {
 // Frames of one run, all paces together.
 constexpr std::uint32_t kMostFrames = 100'000;
 
+bool has_node(const Frame& frame, const std::string& label) {
+  return std::ranges::find(frame.nodes, label, &FrameNode::label) != frame.nodes.end();
+}
+
+// Does the part of a flat world that is shown hold what the note is about?
+bool in_view(const FrameNote& note, const Frame& frame) {
+  if (!frame.view) return true;
+  if (note.of == NoteOf::point) return contains(*frame.view, flat(note.point));
+  for (const BodyId id : note.bodies) {
+    const auto body = std::ranges::find(frame.bodies, id, &FrameBody::id);
+    if (body == frame.bodies.end() || !overlap(flat(body->box), *frame.view)) return false;
+  }
+  return true;
+}
+
+std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
+  if (note.of == NoteOf::node && !has_node(frame, note.name))
+    return fmt::format("there is no node '{}'", note.name);
+  if (frame.view) return "it lies outside the view";
+  return "its body is not there";
+}
+
 }  // namespace
 
 FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
                        const std::function<bool(const Frame&)>& sink)
-    : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink) {
+    : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink), looks_(scenario) {
   if (scenario.chart) plotter_.emplace(scenario);
   if (std::ranges::count(scenario.panels, Panel::sparkline) > 0) {
     trace_ = FrameTrace{"pairs", {}, script_seconds(scenario, &part_), std::nullopt};
@@ -42,6 +65,8 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
   focus.clear();
   texture.clear();
   finding_.reset();
+  noted_.clear();
+  looks_.begin(step, stage_.time);
 }
 
 bool FrameMaker::wanted(std::string_view event) const {
@@ -78,10 +103,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   frame.time = stage_.time;
   frame.dimension = world.dimension;
   frame.bounds = world.bounds;
-  frame.show_boxes = world.show_boxes;
-  frame.show_velocities = world.show_velocities;
-  frame.show_depths = world.show_depths;
-  if (world.has_camera) frame.camera = Camera{world.camera_eye, world.camera_target};
+  looks_.show(frame);
   if (stage_.engine) stage_.engine->picture(now, frame);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
@@ -91,6 +113,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   frame.hash = state_hash(frame);
   add_finding(frame);
   light(frame);
+  add_notes(frame);
   if (plotter_) frame.chart = plotter_->chart();
   if (trace_) trace(frame);
   return frame;
@@ -121,6 +144,7 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
   frame.caption = said ? fill(step_->caption, frame) : caption;
   verify(step_->always, frame);
   if (last) verify(step_->expect, frame);
+  if (last) require_notes(frame);
   give(std::move(frame));
 }
 
@@ -144,7 +168,22 @@ void FrameMaker::give(Frame frame) {
     if (now.steps > last_work_.steps) frame.since_last_frame = work_between(last_work_, now);
     last_work_ = now;
   }
+  if (frame.dimension == 3) tell_splits(frame);
   stopped_ = !sink_(frame);
+}
+
+// Which nodes are divided and were not; while time passes they come and go, and none is told.
+void FrameMaker::tell_splits(Frame& frame) {
+  const bool same = frame.structure == last_structure_;
+  std::set<std::string> divided;
+  for (FrameNode& node : frame.nodes) {
+    if (node.leaf || node.of_static) continue;
+    node.split = frame.time == last_time_ && !(same && divided_.contains(node.label));
+    divided.insert(node.label);
+  }
+  divided_ = std::move(divided);
+  last_structure_ = frame.structure;
+  last_time_ = frame.time;
 }
 
 void FrameMaker::fail(std::string message) {
@@ -209,6 +248,33 @@ std::optional<std::string> FrameMaker::text_of(std::string_view name, const Fram
   return std::nullopt;
 }
 
+// Those whose bodies and nodes are there by now.
+void FrameMaker::add_notes(Frame& frame) {
+  for (const NoteSpec& spec : step_->notes) {
+    FrameNote note{fill(spec.text, frame), spec.of, {}, kNone, {}, spec.point};
+    for (const std::size_t body : spec.bodies)
+      if (const auto id = stage_.engine->id_of(body)) note.bodies.push_back(*id);
+    if (spec.of == NoteOf::count) note.count = spec.name;
+    for (std::uint32_t i = 0; spec.of == NoteOf::node && i < frame.nodes.size(); ++i)
+      if (frame.nodes[i].label == spec.name && note.node == kNone) note.node = i;
+    if (note.bodies.size() != spec.bodies.size()) continue;
+    if (spec.of == NoteOf::node && note.node == kNone) continue;
+    if (!in_view(note, frame)) continue;
+    frame.notes.push_back(std::move(note));
+    noted_.insert(&spec);
+  }
+}
+
+// A note that stood on no frame of the step is a promise that was not kept.
+void FrameMaker::require_notes(const Frame& frame) {
+  for (const NoteSpec& note : step_->notes)
+    if (!noted_.contains(&note))
+      report_.unmet.push_back(
+          diagnose(scenario_, note.where,
+                   fmt::format("the note '{}' has nothing to point at on frame {}: {}{}", note.text,
+                               report_.frames, why_not_noted(note, frame), on_side())));
+}
+
 std::string FrameMaker::fill(const std::string& caption, const Frame& frame) const {
   return fill_caption(
       caption, [&](std::string_view name) { return text_of(name, frame); },
@@ -220,10 +286,9 @@ void FrameMaker::verify(const std::vector<Expectation>& expectations, const Fram
     ++report_.expectations;
     const auto problem = unmet(expectation, frame);
     if (!problem || !reported_.insert(&expectation).second) continue;
-    report_.unmet.push_back(
-        diagnose(scenario_, expectation.where,
-                 fmt::format("{} (frame {}, time {:.6g} s{})", *problem, frame.index, frame.time,
-                             on_side())));
+    report_.unmet.push_back(diagnose(scenario_, expectation.where,
+                                     fmt::format("{} (frame {}, time {:.6g} s{})", *problem,
+                                                 frame.index, frame.time, on_side())));
   }
 }
 

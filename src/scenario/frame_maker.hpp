@@ -13,6 +13,7 @@
 #include "scenario/director.hpp"
 #include "scenario/engine.hpp"
 #include "scenario/level_stage.hpp"
+#include "scenario/looks.hpp"
 #include "scenario/plotter.hpp"
 
 namespace lantern::scenario {
@@ -77,6 +78,9 @@ class FrameMaker {
   void trace(Frame& frame);
   void light(Frame& frame);
   void light_leaves_of_focus(Frame& frame) const;
+  void tell_splits(Frame& frame);
+  void add_notes(Frame& frame);
+  void require_notes(const Frame& frame);
   std::string fill(const std::string& caption, const Frame& frame) const;
   std::string on_side() const;  // for a message; empty without sides
   void verify(const std::vector<Expectation>& expectations, const Frame& frame);
@@ -103,6 +107,12 @@ class FrameMaker {
   std::optional<Finding> finding_;         // of this step
   std::optional<QueryNumbers> counted_;    // of the last ray, view or region
   std::set<const Expectation*> reported_;  // an unmet one is reported once
+  // Of the last frame that was given: its structure, time and divided nodes.
+  StructureKind last_structure_ = StructureKind::none;
+  double last_time_ = 0;
+  std::set<std::string> divided_;
+  Looks looks_;
+  std::set<const NoteSpec*> noted_;  // of this step, on some frame
   bool stopped_ = false;
 };
 

@@ -198,6 +198,11 @@ TableDoc texture_table();
 TableDoc texture_pattern_table();
 TableDoc side_table();
 TableDoc expect_table();
+TableDoc display_table();
+TableDoc view_table();
+TableDoc camera_table();
+TableDoc note_table();
+KeyDoc note_key();  // of a step
 
 // Those of a table for a body or a pattern: `own` and what both have.
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);

@@ -40,6 +40,7 @@ TableDoc file_table() {
           "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
           "the `sparkline`, the pairs over the time so far.",
           or_else("what the scenario uses")),
+      key(KeyType::table, "display", "What frames show.", holds("display")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
       key(KeyType::tables, "prototype", "Keys that several bodies share.", at_most(kMostPrototypes),
@@ -82,6 +83,16 @@ TableDoc step_table() {
           range(1, 40), or_else("adds none")),
       key(KeyType::table, "expect", "What must hold when the step is done.", holds("expect")),
       key(KeyType::table, "always", "What must hold on every frame of the step.", holds("expect")),
+      key(KeyType::table, "display", "What this step's frames show.", holds("display")),
+      key(KeyType::table, "view", "The part of a 2D world that is shown from here on.",
+          holds("view")),
+      key(KeyType::table, "camera", "From where a 3D world is seen from here on.",
+          holds("camera")),
+      key(&Step::orbit, "orbit",
+          "How far the camera goes round its target while time passes in this step, "
+          "counter-clockwise from above; in a step without time it is there at once.",
+          range(-kMostTurn, kMostTurn), in("°"), or_else("it stands still")),
+      note_key(),
   };
   return table;
 }
@@ -151,11 +162,12 @@ const KeyDoc* TableDoc::find(std::string_view key) const {
 
 std::span<const TableDoc> language_tables() {
   static const std::vector<TableDoc> tables = {
-      file_table(),      world_table(), structure_table(), planes_table(),
-      prototype_table(), body_table(),  pattern_table(),   map_table(),
-      spring_table(),    joint_table(), level_table(),     chart_table(),
-      problem_table(),   atlas_table(), texture_table(),   texture_pattern_table(),
-      side_table(),      step_table(),  expect_table()};
+      file_table(),      world_table(),   structure_table(), planes_table(),
+      prototype_table(), body_table(),    pattern_table(),   map_table(),
+      spring_table(),    joint_table(),   level_table(),     chart_table(),
+      problem_table(),   atlas_table(),   texture_table(),   texture_pattern_table(),
+      side_table(),      step_table(),    expect_table(),    display_table(),
+      view_table(),      camera_table(),  note_table()};
   return tables;
 }
 

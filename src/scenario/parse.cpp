@@ -125,6 +125,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   file.fill(draft.scenario);
   read_name(file, path, draft);
   read_world(file, draft);
+  read_display(file, draft);
   read_bodies(file, draft);
   read_links(file, draft);
   read_level(file, draft);

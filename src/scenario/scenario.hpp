@@ -63,6 +63,11 @@ struct Step {
   std::vector<std::string> events;  // in event pace, only these give frames; empty for all
   std::vector<Expectation> expect;  // after the step
   std::vector<Expectation> always;  // on every frame of the step
+  std::optional<Display> display;   // of this step alone; none: the scenario's
+  std::optional<ViewSpec> view;     // from here on, as is the camera; none: as before
+  std::optional<CameraSpec> camera;
+  double orbit = 0;             // radians that the camera goes round its target meanwhile
+  std::vector<NoteSpec> notes;  // on all frames of the step
   SourcePosition where;
 };
 
@@ -82,6 +87,7 @@ struct ScenarioSpec {
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
   std::vector<Panel> panels;  // as wished, or all that can show something
+  Display display;
   WorldSpec world;
   StructureSpec structure;
   std::optional<LevelSpec> level;

@@ -135,6 +135,8 @@ class ScriptReader {
     count_frames(table);
     check_plot(table, draft_, state_);
     check_caption(table, draft_, state_);
+    read_look(table, step, draft_);
+    read_notes(table, step, draft_, state_);
     for (const TomlValue* expect : table.tables("expect"))
       step.expect = read_expectations(*expect, "expect", draft_, state_);
     for (const TomlValue* always : table.tables("always"))

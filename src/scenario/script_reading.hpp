@@ -88,6 +88,14 @@ std::vector<Expectation> read_expectations(const TomlValue& value, std::string_v
 // Adds a problem for each placeholder that cannot be filled in.
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state);
 
+// The same for the text of any key of a table.
+void check_quotes(const TableReader& table, std::string_view key, Draft& draft,
+                  const ScriptState& state);
+
+// How a step is looked at: its display, view and camera; and its notes.
+void read_look(const TableReader& step, Step& to, Draft& draft);
+void read_notes(const TableReader& step, Step& to, Draft& draft, const ScriptState& state);
+
 // Can the chart's counts be counted at this step?
 void check_plot(const TableReader& step, Draft& draft, ScriptState& state);
 

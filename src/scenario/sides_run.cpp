@@ -147,6 +147,7 @@ class SidesRun {
     Frame frame;
     frame.dimension = first.dimension;
     frame.camera = first.camera;
+    frame.display = first.display;
     frame.bounds = first.bounds;
     frame.scenario = first.scenario;
     frame.title = first.title;

@@ -16,6 +16,7 @@
 #include "physics/body.hpp"
 #include "physics/contact_method.hpp"
 #include "physics/motion_method.hpp"
+#include "scenario/view_specs.hpp"
 #include "spatial/structure_kinds.hpp"
 
 namespace lantern::scenario {
@@ -52,10 +53,7 @@ struct WorldSpec {
   int iterations = 10;         // of the impulse contacts
   int impact_budget = 10'000;  // impacts located in one step of the world
   bool may_sleep = false;
-  bool show_boxes = false;  // broad-phase boxes are drawn
-  bool show_velocities = false;
-  bool show_depths = false;  // how deep bodies overlap stands beside their contacts
-  Vec<3> camera_eye{0.0};    // of a 3D world
+  Vec<3> camera_eye{0.0};  // of a 3D world
   Vec<3> camera_target{0.0};
   bool has_camera = false;
   std::vector<Warning> quiet;  // kinds of warning whose cause is meant

@@ -106,9 +106,9 @@ TableDoc world_table() {
           "Bouncing bodies are stopped at the moment of impact, however often they bounce.",
           range(0, 10'000'000)),
       key(&W::may_sleep, "may_sleep", "Bodies that have been at rest for a while fall asleep."),
-      key(&W::show_boxes, "show_boxes", "The boxes of the broad phase are drawn."),
-      key(&W::show_velocities, "show_velocities", "Velocities are drawn as arrows."),
-      key(&W::show_depths, "show_depths",
+      key(&Display::boxes, "show_boxes", "The boxes of the broad phase are drawn."),
+      key(&Display::arrows, "show_velocities", "Velocities are drawn as arrows."),
+      key(&Display::depths, "show_depths",
           "Penetration depths are written beside the contacts, taking one unit as one metre."),
       key(&W::camera_eye, "camera_eye", "Where a 3D world is seen from; with `camera_target`.",
           range(-kFar, kFar), or_else("so that all is seen")),
@@ -132,12 +132,13 @@ void read_world(const TableReader& file, Draft& draft) {
     const TableReader world = open(*value, language_table("world"), draft);
     WorldSpec& w = draft.scenario.world;
     world.fill(w);
+    world.fill(draft.scenario.display);
     w.dimension = draft.dimension == 3 ? 3 : 2;
     w.bounds = read_bounds(world, w.dimension);
     w.where = draft.position(value->where);
     for (const KeyDoc& key : world.doc().keys)
       if (world.has(key.key)) w.keys[key.key] = draft.position(world.key_place(key.key));
-    if (w.show_depths && w.contacts == ContactMethod::none)
+    if (draft.scenario.display.depths && w.contacts == ContactMethod::none)
       world.bad_key("show_depths", kNothingTouches, kGiveContacts);
     check_camera(world, w, draft.dimension);
   }

@@ -16,6 +16,11 @@ class ViewWatch : public Watcher {
   ViewWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body)
       : scenario_(scenario), shows_a_body_(std::move(shows_a_body)) {}
 
+  void begin(const Step& step) override {
+    if (step.view) view_ = step.view->at ? &step.view->where : nullptr;
+    if (step.camera) view_ = &step.camera->where;
+  }
+
   void see_frame(const Frame& frame) override {
     const auto is_thing = [](const FrameBody& body) { return !is_ground(body); };
     const auto thing = std::find_if(frame.bodies.begin(), frame.bodies.end(), is_thing);
@@ -26,6 +31,7 @@ class ViewWatch : public Watcher {
     at_ = thing->position;
     first_ = frame.index;
     time_ = frame.time;
+    at_view_ = view_;
   }
 
   std::vector<Diagnostic> warnings() const override {
@@ -35,6 +41,12 @@ class ViewWatch : public Watcher {
     const std::string message = fmt::format(
         "frame {} ({:.4g} s) shows no body, though '{}' is in the world{}", first_, time_, name_,
         empty_ > 1 ? fmt::format("; so do {} of {} frames", empty_, seen_) : "");
+    const bool flat = world.dimension == 2;
+    if (at_view_)
+      return {warning(scenario_, *at_view_, message,
+                      flat ? fmt::format("at = [{:.4g}, {:.4g}] would show it", at_.x, at_.y)
+                           : fmt::format("target = [{:.4g}, {:.4g}, {:.4g}] would look at it",
+                                         at_.x, at_.y, at_.z))};
     const std::string advice =
         aimed ? fmt::format("camera_target = [{:.4g}, {:.4g}, {:.4g}] would look at it", at_.x,
                             at_.y, at_.z)
@@ -48,7 +60,9 @@ class ViewWatch : public Watcher {
  private:
   const Scenario& scenario_;
   std::function<bool(const Frame&)> shows_a_body_;
-  std::uint64_t seen_ = 0;   // frames with bodies
+  const SourcePosition* view_ = nullptr;     // of the step that chose what is shown now
+  const SourcePosition* at_view_ = nullptr;  // and on the first empty frame
+  std::uint64_t seen_ = 0;                   // frames with bodies
   std::uint64_t empty_ = 0;  // of those, that show none
   std::string name_;         // a body that the first of them does not show
   Vec<3> at_{0.0};

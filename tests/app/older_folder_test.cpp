@@ -74,6 +74,17 @@ class OlderFolder : public testing::Test {
   fs::path root_;
 };
 
+TEST_F(OlderFolder, OfOtherSwitches) {
+  const std::string now = write_scenario("now", "1", "Nine ghosts.");
+  std::string before = now;
+  for (const char* switches : {"--no-title", "--no-caption", "--no-counters", "--legend", ""}) {
+    const fs::path out = root_ / "switched";
+    ASSERT_EQ(render(before, out).code, 0);
+    before = now + " " + switches;
+    expect_clean(before, out, fmt::format("then '{}'", switches));
+  }
+}
+
 TEST_F(OlderFolder, OfAnythingElse) {
   const std::string now = write_scenario("now", "1", "Nine ghosts.");
   const std::map<std::string, std::string> older = {

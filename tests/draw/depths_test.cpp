@@ -32,7 +32,7 @@ Frame pressed() {
   Frame frame;
   frame.panels = {Panel::world};
   frame.bounds = {Vec<3>(0.0), {16, 4, 0}};
-  frame.show_depths = true;
+  frame.display.depths = true;
   for (BodyId i = 0; i < 8; ++i) {
     FrameBody body;
     body.id = i;
@@ -70,7 +70,7 @@ TEST(Depths, StandBesideTheirContactsAndCoverNothing) {
 
 TEST(Depths, AreSilentUnlessAsked) {
   Frame frame = pressed();
-  frame.show_depths = false;
+  frame.display.depths = false;
   Work work;
   for (const LabelBox& label : draw_frame(frame, page_for(1600, 900), work).labels)
     EXPECT_EQ(label.text.find(" mm"), std::string::npos) << label.text;

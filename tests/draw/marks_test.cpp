@@ -221,7 +221,7 @@ TEST(Marks, BoxesAndVelocitiesOnlyWhenAskedFor) {
   };
   EXPECT_GT(count<RectShape>(page_of(frame), dashed), 3);
   EXPECT_EQ(count<LineShape>(page_of(frame), arrows), 2);
-  frame.show_boxes = frame.show_velocities = false;
+  frame.display.boxes = frame.display.arrows = false;
   EXPECT_EQ(count<RectShape>(page_of(frame), dashed), 0);
   EXPECT_EQ(count<LineShape>(page_of(frame), arrows), 0);
 }

@@ -38,7 +38,7 @@ Frame shapes() {
   frame.bodies[1].lit = true;
   frame.bodies[1].velocity = {1.5, -1, 0};
   frame.bodies[4].velocity = {-0.6, 0.4, 0};
-  frame.show_boxes = frame.show_velocities = true;
+  frame.display.boxes = frame.display.arrows = true;
   frame.caption = "Every shape has a box around it; the broad phase sees nothing else.";
   return frame;
 }

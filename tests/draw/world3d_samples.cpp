@@ -147,7 +147,7 @@ Frame tower_frame() {
   pill.orientation = turn({1, 0, 0.6}, 0.9);
   pill.box = bounding_box(pill.shape, pill.position, pill.orientation);
   frame.bodies.push_back(pill);
-  frame.show_velocities = true;
+  frame.display.arrows = true;
   frame.pairs = {{{0, 1}, false}, {{0, 21}, true}, {{21, 22}, false}};
   return frame;
 }

@@ -128,6 +128,14 @@ std::map<std::string, Surroundings> surroundings() {
         ""}},
       {"pack", {kTitle + kAtlas + step, {{"do", "\"pack\""}, {"textures", "[\"A\"]"}}, ""}},
       {"ask_room", {kTitle + kAtlas + step, {{"do", "\"ask_room\""}, {"size", "[8, 8]"}}, ""}},
+      {"display", {kTitle + kRules + "[display]\n", {}, kTree + kRed + kShow}},
+      {"view", {scene + kShow + "[step.view]\n", {{"at", "[32, 32]"}, {"width", "16"}}, ""}},
+      {"camera",
+       {kTitle + "[world]\nsize = [8, 8, 8]\n" + kShow + "[step.camera]\n",
+        {{"eye", "[9, 9, 9]"}, {"target", "[1, 1, 1]"}},
+        ""}},
+      {"step.note",
+       {touching + "[[step.note]]\n", {{"text", "\"here\""}, {"body", "\"red\""}}, ""}},
       // All that can be counted is counted here.
       {"expect",
        {kTitle + kRules + kLevel + "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" +
@@ -439,6 +447,44 @@ void add_verb_cases(std::vector<KeyCase>& cases) {
   }
 }
 
+void add_look_cases(std::vector<KeyCase>& cases) {
+  const Bad body = {{"@1", "must be a text"}, {"@\"rex\"", "did you mean 'red'?"}};
+  Bad solid = {
+      {"@1", "three numbers"}, {"@[1, 2]", "this world is 3D"}, {"[1, @nan, 1]", "finite"}};
+  cases.push_back(
+      {"display", "names", {"\"story\"", "\"all\"", "\"none\""}, bad_choice("storry", "story")});
+  for (const KeyDoc& key : language_table("display").keys)
+    if (key.key != "names")
+      cases.push_back({"display", std::string(key.key), {"true", "false"}, bad_truth()});
+  cases.insert(cases.end(), {{"view", "at", {"[0, 0]", "[64, 9.5]"}, bad_point()},
+                             {"view", "at", {}, {{"@[99, 1]", "outside the world"}}},
+                             {"view", "width", {"0.5", "64"}, bad_number("0", "1.1e9")},
+                             {"view", "width", {}, {{"@64.5", "wider than the world"}}},
+                             {"camera", "eye", {"[9, 1, -9]"}, solid},
+                             {"camera", "target", {"[9, 1, -9]"}, solid},
+                             {"step.note", "text", {"\"{pairs:pair}\""}, bad_text("1 to 40", 40)},
+                             {"step.note", "body", {"\"pink\""}, body},
+                             {"step.note",
+                              "node",
+                              {"\"1.3\""},
+                              {{"@1", "must be a text"}, {"@\"\"", "letters"}},
+                              {"body"}},
+                             {"step.note", "point", {"[1, 2]"}, bad_point(), {"body"}},
+                             {"step.note",
+                              "pair",
+                              {"[\"red\", \"pink\"]"},
+                              {{"@\"red\"", "must be a list"},
+                               {"@[]", "must not be empty"},
+                               {"@[\"red\"]", "two names, not 1"},
+                               {"[\"red\", @\"red\"]", "no pair with itself"}},
+                              {"body"}},
+                             {"step.note",
+                              "count",
+                              {"\"pairs\""},
+                              {{"@1", "must be a text"}, {"@\"pairss\"", "did you mean 'pairs'?"}},
+                              {"body"}}});
+}
+
 void add_promise_cases(std::vector<KeyCase>& cases) {
   for (const std::string key : {"at_most", "at_least"})
     cases.push_back({"expect",
@@ -717,6 +763,7 @@ std::vector<KeyCase> key_cases() {
   add_problem_cases(cases);
   add_verb_cases(cases);
   add_promise_cases(cases);
+  add_look_cases(cases);
   for (const char* verb : {"insert", "pack"}) {
     cases.push_back({verb, "pace", {"\"step\"", "\"event\""}, bad_choice("evnt", "event")});
     cases.push_back({verb,
@@ -739,6 +786,11 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "caption", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
     cases.push_back({table, "expect", {"{}"}, bad_table("[expect]")});
     cases.push_back({table, "always", {"{}"}, bad_table("[expect]")});
+    cases.push_back({table, "display", {"{}"}, bad_table("[display]")});
+    cases.push_back({table, "view", {}, bad_table("[view]")});
+    cases.push_back({table, "camera", {}, bad_table("[camera]")});
+    cases.push_back({table, "orbit", {}, bad_number("-1.1e6", "1.1e6")});
+    cases.push_back({table, "note", {"[]"}, {{"@1", "a list of tables"}, {"[@1]", "tables"}}});
   }
   for (const CountDoc& count : known_counts())
     if (count.for_world() && count.name != "asleep" && count.name != "awake" &&

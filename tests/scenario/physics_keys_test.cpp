@@ -70,14 +70,14 @@ TEST(Dimension, OfASolidWorldReachesMinToo) {
 // --- the world ---
 
 TEST(World, RulesAreRead) {
-  const WorldSpec w =
+  const Scenario rules =
       good(
           "title = \"x\"\n[world]\nsize = [1, 1]\ngravity = [0, -9.81]\ncontacts = \"soft\"\n"
           "integrator = \"implicit_midpoint\"\nsub_steps = 4\niterations = 20\nimpact_budget = "
           "30\nmay_sleep = true\n"
           "frame_every = 5\nshow_boxes = true\nshow_velocities = true\n" +
-          kShow)
-          .world;
+          kShow);
+  const WorldSpec& w = rules.world;
   EXPECT_EQ(w.gravity, Vec<3>(0, -9.81, 0));
   EXPECT_EQ(w.contacts, ContactMethod::soft);
   EXPECT_EQ(w.integrator, Integrator::implicit_midpoint);
@@ -85,15 +85,17 @@ TEST(World, RulesAreRead) {
   EXPECT_EQ(w.iterations, 20);
   EXPECT_EQ(w.impact_budget, 30);
   EXPECT_EQ(w.frame_every, 5);
-  EXPECT_TRUE(w.may_sleep && w.show_boxes && w.show_velocities);
-  const WorldSpec plain = good(kFlat + kShow).world;
+  EXPECT_TRUE(w.may_sleep && rules.display.boxes && rules.display.arrows);
+  const Scenario without = good(kFlat + kShow);
+  const WorldSpec& plain = without.world;
+  EXPECT_EQ(without.display, Display());
   EXPECT_EQ(plain.contacts, ContactMethod::none) << "bodies fly freely unless told otherwise";
   EXPECT_EQ(plain.integrator, Integrator::semi_implicit_euler);
   EXPECT_EQ(plain.sub_steps, 8);
   EXPECT_EQ(plain.iterations, 10);
   EXPECT_EQ(plain.impact_budget, 10'000);
   EXPECT_EQ(plain.frame_every, 1);
-  EXPECT_FALSE(plain.may_sleep || plain.show_boxes || plain.show_velocities || plain.has_camera);
+  EXPECT_FALSE(plain.may_sleep || plain.has_camera);
 }
 
 TEST(World, IntegratorsKeepTheirNames) {

@@ -1,0 +1,27 @@
+// The legend: each mark of a picture as small as it is, and beside it what it means.
+#pragma once
+
+#include <string_view>
+
+#include "draw/draw_list.hpp"
+#include "draw/labels.hpp"
+#include "draw/mark_kind.hpp"
+
+namespace lantern::draw {
+
+// What a mark means, in a few words.
+std::string_view words_of(MarkKind kind);
+
+// The mark alone in this box, drawn by what draws it in a world.
+void draw_sample(MarkKind kind, const Box<2>& box, DrawList& list);
+
+// What is told of it when it is drawn.
+MarkSet marks_of_sample(MarkKind kind);
+
+// How high a strip of this width must be for these marks; 0 if there are none.
+double legend_height(const MarkSet& marks, double width);
+
+// The marks in rows, in the order of their kinds.
+void draw_legend(const MarkSet& marks, const Box<2>& strip, DrawList& list, Labels& labels);
+
+}  // namespace lantern::draw
