@@ -1,6 +1,7 @@
 // The subcommands: what each is told, and its exit code. Reading the command line is in main.cpp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,8 +31,10 @@ struct RenderOptions {
   std::string facts = "2";       // lantern.frame/2, or /1 until the next release
   std::string backend = "auto";  // auto, osmesa, egl
   bool transparent = false;
-  bool strict = false;  // warnings are errors
-  int threads = 0;      // that encode; 0 for one a core
+  bool strict = false;                                // warnings are errors
+  int threads = 0;                                    // that encode; 0 for one a core
+  std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
+  std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
   bool json = false;
 };
 int render_command(const RenderOptions& options);
