@@ -1,6 +1,7 @@
 // The subcommands: what each is told, and its exit code. Reading the command line is in main.cpp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +33,10 @@ struct RenderOptions {
   bool transparent = false;
   bool no_title = false, no_caption = false, no_counters = false;  // not drawn
   bool legend = false;                                             // drawn in any case
-  bool strict = false;                                             // warnings are errors
-  int threads = 0;                                                 // that encode; 0 for one a core
+  bool strict = false;                                // warnings are errors
+  int threads = 0;                                    // that encode; 0 for one a core
+  std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
+  std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
   bool json = false;
 };
 int render_command(const RenderOptions& options);

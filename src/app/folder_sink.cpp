@@ -9,7 +9,9 @@
 #include "atlas/atlas.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/stop.hpp"
 #include "draw/page.hpp"
+#include "draw/tween.hpp"
 
 namespace lantern::app {
 namespace {
@@ -100,12 +102,49 @@ void FolderSink::take(const Frame& frame) {
   const MadeFrom from = manifest_.frame_from(index);
   if (!folder_->stands(index, "json"))
     write_counted(folder_->file(index, "json"), facts_of(job_, frame, from));
+  std::optional<DrawList> list;
+  if (before_ && before_->index + 1 == index) take_in_betweens(frame, list);
   if (folder_->stands(index, job_.options.format)) {
     ++kept_;
-    return;
+  } else {
+    write_picture(folder_->file(index, job_.options.format), list_of(frame, list), frame, from);
+    ++drawn_;
   }
-  const DrawList list = job_.page_of(frame, work_);
-  const fs::path file = folder_->file(index, job_.options.format);
+  if (!job_.in_betweens.wanted()) return;
+  before_ = frame;
+  drawn_so_ = std::move(list);
+}
+
+// From the frame before to this one.
+void FolderSink::take_in_betweens(const Frame& frame, std::optional<DrawList>& list) {
+  const std::uint32_t index = before_->index;
+  const std::uint64_t count = job_.in_betweens.between(*before_, frame);
+  const Motion motion = InBetweens::motion(*before_, frame);
+  all_[index].in_betweens = count;
+  in_betweens_ += count;
+  if (all_.size() + in_betweens_ > InBetweens::kMostPictures)
+    throw UsageError(fmt::format("{}: more than {} pictures; ask for fewer in-betweens",
+                                 scenario_.name, InBetweens::kMostPictures));
+  for (std::uint64_t k = 1; k <= count; ++k) {
+    stop_if_asked();
+    if (folder_->in_between_stands(index, k)) continue;
+    const double t = static_cast<double>(k) / static_cast<double>(count + 1);
+    const DrawList& from = list_of(*before_, drawn_so_);
+    const DrawList between_two = between(from, list_of(frame, list), t, motion);
+    ++work_.in_betweens;
+    write_picture(folder_->in_between(index, k), between_two, frame,
+                  manifest_.in_between_from(index, k));
+  }
+}
+
+// Drawn when it is first needed.
+const DrawList& FolderSink::list_of(const Frame& frame, std::optional<DrawList>& list) {
+  if (!list) list = job_.page_of(frame, work_);
+  return *list;
+}
+
+void FolderSink::write_picture(const fs::path& file, const DrawList& list, const Frame& frame,
+                               const MadeFrom& from) {
   if (job_.svg) {
     write_counted(file, picture_of(job_, job_.picture, frame, list, from, work_));
     ++work_.frames_written;
@@ -113,7 +152,6 @@ void FolderSink::take(const Frame& frame) {
     pipeline().submit(list, texts_of(frame), file, from);
     written_.insert(file.filename().string());
   }
-  ++drawn_;
 }
 
 void FolderSink::write_counted(const fs::path& file, const std::string& bytes) {
@@ -145,7 +183,13 @@ void FolderSink::list_frames() {
   for (std::uint32_t i = 0; i < all_.size(); ++i)
     if (taken_.contains(i) ||
         (folder_->stands(i, job_.options.format) && folder_->stands(i, "json")))
-      manifest_.frames.emplace(i, std::move(all_[i]));
+      list_frame(i);
+}
+
+void FolderSink::list_frame(std::uint32_t index) {
+  ListedFrame& listed = manifest_.frames.emplace(index, std::move(all_[index])).first->second;
+  if (job_.in_betweens.wanted() && listed.in_betweens == 0)
+    listed.in_betweens = folder_->in_betweens_standing(index);
 }
 
 // Transparent, in its own size, as soon as all frames are there.

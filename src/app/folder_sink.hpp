@@ -30,15 +30,21 @@ class FolderSink : public FrameSink {
 
   std::size_t drawn() const { return drawn_; }
   std::size_t kept() const { return kept_; }
+  std::size_t in_betweens() const { return in_betweens_; }  // there now
   const std::filesystem::path& path() const { return path_; }
 
  private:
   void open_folder();
   void take(const Frame& frame);
+  void take_in_betweens(const Frame& frame, std::optional<DrawList>& list);
+  void write_picture(const std::filesystem::path& file, const DrawList& list, const Frame& frame,
+                     const MadeFrom& from);
+  const DrawList& list_of(const Frame& frame, std::optional<DrawList>& list);
   void write_counted(const std::filesystem::path& file, const std::string& bytes);
   void tell_of_strange_files() const;
   Pipeline& pipeline();
   void list_frames();
+  void list_frame(std::uint32_t index);
   void write_atlas(const Frame& frame);
   void write_manifest();
 
@@ -53,8 +59,10 @@ class FolderSink : public FrameSink {
   std::vector<ListedFrame> all_;   // of the run so far
   std::set<std::uint32_t> taken_;  // of these, chosen
   std::set<std::string> written_;  // names of files
-  std::size_t drawn_ = 0, kept_ = 0;
-  std::optional<Frame> last_;  // of an atlas
+  std::size_t drawn_ = 0, kept_ = 0, in_betweens_ = 0;
+  std::optional<Frame> before_;       // chosen last, where there are in-betweens,
+  std::optional<DrawList> drawn_so_;  // and as it is drawn, once it is
+  std::optional<Frame> last_;         // of an atlas
 };
 
 }  // namespace lantern::app

@@ -52,13 +52,21 @@ std::string forecast_text(const RunExtent& extent, const RunState& state) {
   if (extent.world_steps > 0)
     text += fmt::format("{} {} world steps", extent.frames ? " of" : "; up to",
                         grouped_plainly(extent.world_steps));
+  const std::uint64_t written = extent.chosen.value_or(extent.frames.value_or(1));
+  const std::uint64_t between =
+      (written - std::min<std::uint64_t>(written, 1)) * extent.in_betweens;
+  if (between > 0)
+    text += fmt::format(" and {} in-betweens", grouped_plainly(between));
+  else if (extent.in_betweens > 0)
+    text += fmt::format(" and {} in-betweens before each but the first",
+                        grouped_plainly(extent.in_betweens));
   const auto left = time_left(extent, state);
   text += left ? left_text(left) : ", how long cannot be told yet";
   if (state.files > 0 && extent.frames)
     text += fmt::format("; about {} on the disk",
                         memory_text(static_cast<std::uint64_t>(
                             static_cast<double>(state.bytes) / static_cast<double>(state.files) *
-                            static_cast<double>(extent.chosen.value_or(*extent.frames)))));
+                            static_cast<double>(written + between))));
   if (state.memory) text += fmt::format("; {} of memory", memory_text(*state.memory));
   if (state.memory && state.budget) text += fmt::format(" (budget {})", memory_text(*state.budget));
   return text;
@@ -68,6 +76,8 @@ std::string progress_text(const RunExtent& extent, const RunState& state) {
   std::string text =
       extent.frames ? fmt::format("{} of {} frames", state.frames, grouped_plainly(*extent.frames))
                     : fmt::format("{} frames", state.frames);
+  if (extent.in_betweens > 0)
+    text += fmt::format(", {} in-betweens", grouped_plainly(state.in_betweens));
   if (extent.world_steps > 0)
     text += fmt::format(", {} of {} world steps", grouped_plainly(state.world_steps),
                         grouped_plainly(extent.world_steps));

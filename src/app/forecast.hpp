@@ -16,6 +16,8 @@ struct RunExtent {
   std::uint64_t world_steps = 0;  // at most
   // Of the frames, how many are chosen to be written; none: all.
   std::optional<std::uint64_t> chosen = std::nullopt;
+  // Before each frame that is written but the first, at most.
+  std::uint64_t in_betweens = 0;
 };
 RunExtent extent_of(const Scenario& scenario, Pace pace);
 
@@ -23,6 +25,7 @@ RunExtent extent_of(const Scenario& scenario, Pace pace);
 struct RunState {
   double seconds = 0;        // since it began
   std::uint64_t frames = 0;  // that it has given
+  std::uint64_t in_betweens = 0;
   std::uint64_t world_steps = 0;
   double step_seconds = 0;  // since the first world step began, or, before the first is done,
                             // since anything was finished
@@ -44,7 +47,7 @@ std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state
 // memory (budget 12 GB)"
 std::string forecast_text(const RunExtent& extent, const RunState& state);
 
-// "7 of 70 frames, 212 of 4000 world steps, about 12 s left"
+// "7 of 70 frames, 49 in-betweens, 212 of 4000 world steps, about 12 s left"
 std::string progress_text(const RunExtent& extent, const RunState& state);
 
 std::string duration_text(double seconds);  // "3 h"

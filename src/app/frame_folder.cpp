@@ -32,16 +32,31 @@ std::optional<FileKind> kind_of(std::string_view ending) {
   return std::nullopt;
 }
 
-// What stands between "<scenario>_" and the ending: a frame's number of at least four digits, or
-// "atlas". Nothing for files that are none of ours by their name.
+bool are_digits(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return '0' <= c && c <= '9'; });
+}
+
+// What stands between "<scenario>_" and the ending: a frame's number of at least four digits, that
+// and an in-between's of at least two, or "atlas". Nothing for files that are none of ours by their
+// name.
 std::optional<std::string_view> part_of(std::string_view name, const std::string& scenario) {
   if (!name.starts_with(scenario + "_")) return std::nullopt;
   name.remove_prefix(scenario.size() + 1);
   const std::string_view part = name.substr(0, name.find('.'));
-  const bool is_number = part.size() >= 4 && std::all_of(part.begin(), part.end(), [](char c) {
-                           return '0' <= c && c <= '9';
-                         });
-  return is_number || part == kAtlas ? std::optional(part) : std::nullopt;
+  const std::size_t bar = std::min(part.find('_'), part.size());
+  const bool is_frame = bar >= 4 && are_digits(part.substr(0, bar));
+  const bool is_between = bar + 3 <= part.size() && are_digits(part.substr(bar + 1));
+  const bool is_ours = part == kAtlas || (is_frame && (bar == part.size() || is_between));
+  return is_ours ? std::optional(part) : std::nullopt;
+}
+
+// All of the text, or nothing.
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole ? std::optional(number) : std::nullopt;
 }
 
 // Frames of version 0.1.0 have no seal, but a PNG says who wrote it, and facts have a format. One
@@ -75,6 +90,13 @@ MadeFrom Manifest::frame_from(std::uint32_t index) const {
           text_of(style_of(*this).add(size).add(std::uint64_t{index}))};
 }
 
+MadeFrom Manifest::in_between_from(std::uint32_t index, std::uint64_t number) const {
+  const auto of = [&](Hash hash) {
+    return text_of(hash.add(in_betweens).add(std::uint64_t{index}).add(number));
+  };
+  return {of(facts_of(*this)), of(style_of(*this).add(size))};
+}
+
 MadeFrom Manifest::atlas_from() const {
   return {text_of(facts_of(*this).add("atlas")), text_of(style_of(*this).add("atlas"))};
 }
@@ -92,6 +114,11 @@ std::string frame_file(const std::string& scenario, std::uint32_t index, std::st
   return fmt::format("{}_{:04}.{}", scenario, index, ending);
 }
 
+std::string in_between_file(const Manifest& m, std::uint32_t index, std::uint64_t number) {
+  return fmt::format("{}_{:04}_{:0{}}.{}", m.scenario, index, number, m.in_between_digits,
+                     m.format);
+}
+
 std::string to_json(const Manifest& m) {
   JsonWriter json;
   json.begin_object().lines(
@@ -103,12 +130,14 @@ std::string to_json(const Manifest& m) {
   json.line().key("switches").begin_array();
   for (const std::string& name : m.switches) json.value(name);
   json.end_array();
+  if (!m.in_betweens.empty()) json.line().member("tween", m.in_betweens);
   json.line().key("frames").begin_array();
   for (const auto& [index, frame] : m.frames) {
     json.line().begin_object().members(
         "frame", index, "file", frame_file(m.scenario, index, m.format), "facts",
         frame_file(m.scenario, index, "json"), "step", frame.step, "event", frame.event, "time",
         frame.time, "caption", frame.caption, "hash", fmt::format("{:016x}", frame.hash));
+    if (!m.in_betweens.empty()) json.member("in_betweens", frame.in_betweens);
     json.end_object();
   }
   json.line().end_array().line().end_object();
@@ -154,13 +183,20 @@ bool FrameFolder::is_wanted(const std::string& name, std::string_view ending, co
                             bool whole) const {
   const std::string_view part = *part_of(name, wanted_.scenario);
   MadeFrom now;
+  const std::size_t bar = part.find('_');
   if (part == kAtlas) {
     now = wanted_.atlas_from();
   } else {
-    std::uint32_t index = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-    if (error != std::errc() || name != frame_file(wanted_.scenario, index, ending)) return false;
-    now = wanted_.frame_from(index);
+    const auto index = number_of<std::uint32_t>(part.substr(0, bar));
+    if (!index) return false;
+    if (bar != part.npos) {
+      const auto number = number_of<std::uint64_t>(part.substr(bar + 1));
+      return number && ending == wanted_.format &&
+             name == in_between_file(wanted_, *index, *number) &&
+             found == wanted_.in_between_from(*index, *number);
+    }
+    if (name != frame_file(wanted_.scenario, *index, ending)) return false;
+    now = wanted_.frame_from(*index);
   }
   if (ending == wanted_.format || (part == kAtlas && ending == "json")) return found == now;
   return found.facts == now.facts && (ending == "json" || !whole);
@@ -168,6 +204,20 @@ bool FrameFolder::is_wanted(const std::string& name, std::string_view ending, co
 
 fs::path FrameFolder::file(std::uint32_t index, std::string_view ending) const {
   return path_ / frame_file(wanted_.scenario, index, ending);
+}
+
+fs::path FrameFolder::in_between(std::uint32_t index, std::uint64_t number) const {
+  return path_ / in_between_file(wanted_, index, number);
+}
+
+bool FrameFolder::in_between_stands(std::uint32_t index, std::uint64_t number) const {
+  return standing_.contains(in_between(index, number).filename().string());
+}
+
+std::uint64_t FrameFolder::in_betweens_standing(std::uint32_t index) const {
+  const std::string start = fmt::format("{}_{:04}_", wanted_.scenario, index);
+  return static_cast<std::uint64_t>(std::ranges::count_if(
+      standing_, [&](const auto& file) { return file.first.starts_with(start); }));
 }
 
 fs::path FrameFolder::atlas(std::string_view ending) const {

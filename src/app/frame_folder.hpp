@@ -21,6 +21,7 @@ struct ListedFrame {
   double time = 0;
   std::string caption;
   std::uint64_t hash = 0;
+  std::uint64_t in_betweens = 0;  // from it to the next one
 };
 
 struct Manifest {
@@ -28,6 +29,8 @@ struct Manifest {
   std::string title;
   std::uint64_t seed = 1;
   std::string pace, size, theme, format, png, facts;
+  std::string in_betweens;    // how many are wanted, as InBetweens says it; empty for none
+  int in_between_digits = 2;  // of their numbers, so that they stand in order by name
   bool transparent = false;
   std::vector<std::string> switches;  // of the command line, as "no-title"
   std::uint64_t scenario_hash = 0;    // of the file's bytes
@@ -39,6 +42,8 @@ struct Manifest {
   // What its frame `index` is made from. Neither the range nor the threads, backend or folder
   // belong to it: a frame is the same in any of them.
   MadeFrom frame_from(std::uint32_t index) const;
+  // The same of its `number`-th in-between, from 1: of the way from frame `index` to the next.
+  MadeFrom in_between_from(std::uint32_t index, std::uint64_t number) const;
   // The same of the finished atlas, which has a size of its own.
   MadeFrom atlas_from() const;
 };
@@ -51,6 +56,9 @@ std::string to_json(const Manifest& manifest);
 
 // "ghost_quadtree_0007.png"
 std::string frame_file(const std::string& scenario, std::uint32_t index, std::string_view ending);
+// "ghost_quadtree_0007_03.png", the third on the way from frame 7 to frame 8: by name in-betweens
+// stand where they are seen.
+std::string in_between_file(const Manifest& manifest, std::uint32_t index, std::uint64_t number);
 
 class FrameFolder {
  public:
@@ -61,11 +69,15 @@ class FrameFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(std::uint32_t index, std::string_view ending) const;
+  std::filesystem::path in_between(std::uint32_t index, std::uint64_t number) const;
   std::filesystem::path atlas(std::string_view ending) const;
 
   // Is the picture, or are the facts ("json"), of this frame there as they are wanted?
   bool stands(std::uint32_t index, std::string_view ending) const;
+  bool in_between_stands(std::uint32_t index, std::uint64_t number) const;
   bool atlas_stands(std::string_view ending) const;
+  // How many in-betweens stand from this frame on.
+  std::uint64_t in_betweens_standing(std::uint32_t index) const;
 
   // Names of files, in order: removed; named as a frame, but not of Lantern's making, and left.
   const std::vector<std::string>& removed() const { return removed_; }

@@ -91,6 +91,16 @@ void add_render(CLI::App& app, Run& run) {
       ->type_name("EVENT|TIME");
   c->add_option("--size", o.size, "pixels")->type_name("WxH")->capture_default_str();
   add_choice(*c, "--format", o.format, "file format", {"png", "svg"});
+  CLI::Option* tween = c->add_option("--tween", o.tween,
+                                     "in-betweens after each frame but the last: "
+                                     "<scenario>_0007_03.png is the third from frame 7 on");
+  tween->type_name("N");
+  c->add_option("--fps", o.fps,
+                "as many in-betweens as a film of so many pictures a second has while something "
+                "changes: half a second each, or the world's own time")
+      ->check(CLI::Range(1.0, 240.0))
+      ->excludes(tween)
+      ->type_name("F");
   add_choice(*c, "--theme", o.theme, "colours", kThemes);
   c->add_option("--pace", o.pace, "one frame per step, or one for each thing the algorithm does")
       ->check(CLI::IsMember({"step", "event"}));

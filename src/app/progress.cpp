@@ -38,6 +38,7 @@ Progress::Progress(std::string name, const RunExtent& extent, const Work& work,
       steps_before_(work.world_steps),
       files_before_(work.frames_written),
       bytes_before_(work.bytes_written),
+      between_before_(work.in_betweens),
       budget_(memory_budget) {
   start();
 }
@@ -109,6 +110,7 @@ void Progress::look(RunState& state) {
   state.world_steps = work_->world_steps - steps_before_;
   state.files = work_->frames_written - files_before_;
   state.bytes = work_->bytes_written - bytes_before_;
+  state.in_betweens = work_->in_betweens - between_before_;
   state.memory = memory_in_use();
   state.budget = budget_;
   if (state.world_steps == 0 && state.frames != last_frames_) {

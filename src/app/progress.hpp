@@ -47,6 +47,7 @@ class Progress {
   std::uint64_t steps_before_ = 0;  // that the work had when this began
   std::uint64_t files_before_ = 0;
   std::uint64_t bytes_before_ = 0;
+  std::uint64_t between_before_ = 0;
   std::optional<std::size_t> budget_;
   std::uint64_t total_ = 0;
   std::string unit_;

@@ -71,10 +71,13 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 void tell_of(const FolderSink& sink, const Scenario& scenario, const DirectorReport& report,
              JsonWriter& json) {
   json.line().begin_object().members("scenario", scenario.name, "folder", sink.path().string(),
-                                     "drawn", sink.drawn(), "kept", sink.kept(), "expectations",
-                                     report.expectations, "unmet", report.unmet.size());
+                                     "drawn", sink.drawn(), "kept", sink.kept(), "in_betweens",
+                                     sink.in_betweens(), "expectations", report.expectations,
+                                     "unmet", report.unmet.size());
   json.end_object();
-  say(fmt::format("{}: {} frames in {}{}", scenario.name, sink.drawn() + sink.kept(),
+  const std::string between =
+      sink.in_betweens() > 0 ? fmt::format(" and {} in-betweens", sink.in_betweens()) : "";
+  say(fmt::format("{}: {} frames{} in {}{}", scenario.name, sink.drawn() + sink.kept(), between,
                   sink.path().string(),
                   sink.kept() ? fmt::format(", {} of them there already", sink.kept()) : ""));
 }
@@ -88,8 +91,11 @@ int render_one(const RenderJob& job, const Scenario& scenario, Work& work, JsonW
     StdoutSink sink(job, job.manifest(scenario, pace), selection, work);
     return tell(run_scenario(scenario, pace, sink, work), options.strict);
   }
+  const auto most = selection.most() ? selection.most() : extent_of(scenario, pace).frames;
+  job.in_betweens.require_few(most);
   FolderSink sink(job, scenario, pace, selection, work);
-  const RunResult result = run_scenario(scenario, pace, sink, work, selection.most());
+  const RunResult result =
+      run_scenario(scenario, pace, sink, work, selection.most(), job.in_betweens.most());
   const int code = tell(result, options.strict);
   tell_of(sink, scenario, result.report, json);
   return code;
@@ -102,6 +108,8 @@ int render_command(const RenderOptions& options) {
   const bool to_stdout = options.output == "-";
   if (to_stdout && options.files.size() != 1)
     throw UsageError("-o - writes one frame of one scenario");
+  if (to_stdout && (options.tween || options.fps))
+    throw UsageError("-o - writes one frame; in-betweens (--tween, --fps) need a folder");
   int code = kGood;
   const std::vector<Scenario> scenarios = load_all(options.files, code);
   Work work;

@@ -22,7 +22,7 @@ constexpr int kPixelsPerMetre = 6299;
 }  // namespace
 
 RenderJob::RenderJob(const RenderOptions& o)
-    : options(o), backend(*backend_named(o.backend)), svg(o.format == "svg") {
+    : options(o), backend(*backend_named(o.backend)), svg(o.format == "svg"), in_betweens(o) {
   std::tie(picture.width, picture.height) = parse_size(o.size, Renderer::kMostPixels);
   picture.theme = *theme_named(o.theme);
   picture.transparent = o.transparent;
@@ -58,6 +58,9 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   m.png = options.png;
   m.facts = options.facts;
   m.transparent = options.transparent;
+  m.in_betweens = in_betweens.setting();
+  m.in_between_digits =
+      std::max(2, static_cast<int>(fmt::formatted_size("{}", in_betweens.most())));
   m.scenario_hash = scenario.text_hash;
   for (const auto& [on, name] :
        {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},

@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/frame_folder.hpp"
+#include "app/in_betweens.hpp"
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
 #include "render/pipeline.hpp"
@@ -21,6 +22,7 @@ struct RenderJob {
   Pipeline::Config picture;  // how the picture of a frame is made
   Backend backend = Backend::automatic;
   bool svg = false;
+  InBetweens in_betweens;
 
   // The frame as a page, with what the command line switches on and off.
   DrawList page_of(const Frame& frame, Work& work) const;

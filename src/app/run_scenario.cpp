@@ -37,9 +37,10 @@ std::optional<Scenario> load_or_complain(const std::string& file, int& code) try
 }
 
 RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Work& work,
-                       std::optional<std::uint64_t> chosen) {
+                       std::optional<std::uint64_t> chosen, std::uint64_t in_betweens) {
   RunExtent extent = extent_of(scenario, pace);
   extent.chosen = chosen;
+  extent.in_betweens = in_betweens;
   Progress progress(scenario.name, extent, work, memory_budget());
   RunWatch watch(scenario, shows_a_body);
   std::uint64_t frames = 0;

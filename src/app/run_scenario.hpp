@@ -38,9 +38,11 @@ struct RunResult {
 };
 
 // Runs the scenario and tells how far it is; `chosen` is how many frames the sink writes at most,
-// if that is known. Throws Stopped, and what direct() and the sink throw.
+// if that is known, and `in_betweens` how many before each but the first, at most. Throws Stopped,
+// and what direct() and the sink throw.
 RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Work& work,
-                       std::optional<std::uint64_t> chosen = std::nullopt);
+                       std::optional<std::uint64_t> chosen = std::nullopt,
+                       std::uint64_t in_betweens = 0);
 
 // Says on standard error what did not hold and what was warned of, and gives the exit code that it
 // deserves; with `strict` a warning is an error of the scenario.

@@ -25,6 +25,7 @@ struct Work {
   std::atomic<std::uint64_t> graphics_contexts{0};
   std::atomic<std::uint64_t> frames_drawn{0};
   std::atomic<std::uint64_t> frames_encoded{0};
+  std::atomic<std::uint64_t> in_betweens{0};  // drawn or not: of two frames, by draw/tween.hpp
 
   // How much of it stands on the disk, for whoever tells of a long run; not listed, since it
   // depends on what was there before.
@@ -32,7 +33,7 @@ struct Work {
   std::atomic<std::uint64_t> bytes_written{0};
 
   // Name and count of each stage, in the order of a run.
-  std::array<std::pair<std::string_view, std::uint64_t>, 14> listed() const {
+  std::array<std::pair<std::string_view, std::uint64_t>, 15> listed() const {
     return {{{"worlds_created", worlds_created},
              {"world_steps", world_steps},
              {"structures_created", structures_created},
@@ -46,7 +47,8 @@ struct Work {
              {"tree_layouts", tree_layouts},
              {"graphics_contexts", graphics_contexts},
              {"frames_drawn", frames_drawn},
-             {"frames_encoded", frames_encoded}}};
+             {"frames_encoded", frames_encoded},
+             {"in_betweens", in_betweens}}};
   }
 };
 

@@ -131,6 +131,15 @@ struct DrawList {
     KeyedRun before_;
   };
 
+  // What is being shown now, without the prefix, as a scope was told it.
+  KeyedRun shown() const {
+    if (runs.empty()) return {};
+    KeyedRun now = runs.back();
+    for (std::string* name : {&now.key, &now.from})
+      if (name->starts_with(prefix)) name->erase(0, prefix.size());
+    return now;
+  }
+
   void line(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke) {
     shapes.emplace_back(LineShape{from, to, stroke, false});
   }

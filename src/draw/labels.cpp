@@ -113,6 +113,9 @@ void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyl
   Box<2> box = extent("0", {right, 1}, style);
   box.lo.x = right.x - number_width(count, style);
   list_.labels.push_back({box, panel, digits});
+  // One thing, or an in-between would keep the digits that two numbers share.
+  const DrawList::Scope scope(list_, fmt::format("{}/number/{}/{:.0f},{:.0f}", list_.shown().key,
+                                                 digits, right.x, right.y));
   for (std::int64_t place = 0; place < count; ++place) {  // from the last digit on
     const Vec<2> at{right.x - width_to(place + 1, count, style) + half_cell, right.y};
     const auto i = static_cast<std::size_t>(count - 1 - place);

@@ -75,8 +75,9 @@ void Marks::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
 
 void Marks3D::add(const Convex& space, Outline outline, std::vector<DrawShape> shapes) {
   pieces.push_back({space, std::move(outline), true, false, std::move(shapes)});
-  Piece& piece = pieces.back();
-  if (!list_.runs.empty()) piece.key = list_.runs.back().key, piece.from = list_.runs.back().from;
+  KeyedRun shown = list_.shown();
+  pieces.back().key = std::move(shown.key);
+  pieces.back().from = std::move(shown.from);
 }
 
 void Marks3D::paint() {

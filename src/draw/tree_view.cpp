@@ -51,6 +51,10 @@ class TreeView {
     const std::uint32_t node = branches()[i].node;
     return {list_, node_key(kind, frame_.nodes, node), parent_key("tree/node", frame_.nodes, node)};
   }
+  // Its words, which appear where they stand.
+  DrawList::Scope named(std::string_view kind, std::size_t i) {
+    return {list_, node_key(kind, frame_.nodes, branches()[i].node)};
+  }
   // A body or texture in a leaf, which comes there from the leaf's parent.
   DrawList::Scope carried(const std::string& what, const Branch& leaf) {
     return {list_, node_key(what, frame_.nodes, leaf.node),
@@ -186,7 +190,7 @@ class TreeView {
   void label_branch(std::size_t i) {
     const Branch& branch = branches()[i];
     const FrameNode& node = node_of(branch);
-    const DrawList::Scope scope = shown("tree/name", i);
+    const DrawList::Scope scope = named("tree/name", i);
     if (branch.kind == Branch::Kind::levels) return label_levels(branch, layout_.boxes[i].center());
     if (!has_label_below(branch, frame_)) return;
     TextStyle style{layout_.scale.label, Weight::semibold, Role::quiet_ink, Role::paper};
@@ -272,7 +276,7 @@ class TreeView {
     if (is_atlas() || branch.copies != 1 || branch.kind != Branch::Kind::node) return;
     const std::string side = side_of(branch);
     if (side.empty()) return;
-    const DrawList::Scope scope = shown("tree/side", i);
+    const DrawList::Scope scope = named("tree/side", i);
     const std::vector<Vec<2>> corners = layout_.edge(i);
     if (corners.size() > 3) return;  // no room for words between the rows
     const Vec<2> a = corners[corners.size() - 2], b = corners.back();

@@ -1,15 +1,10 @@
 #include "draw/tween.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <tuple>
-#include <vector>
+#include <utility>
 
 #include "base/stop.hpp"
+#include "draw/tween_plan.hpp"
 #include "draw/tween_shapes.hpp"
 
 namespace lantern::draw {
@@ -28,15 +23,15 @@ struct Phases {
     const auto part = [&](const Span& staged, const Span& other) {
       return stage ? eased(staged.at(t)) : other.at(t);
     };
-    out = part({0, 0.4}, {0, 0.5});
-    move = part({0.15, 0.85}, {0, 1});
-    in = part({0.6, 1}, {0.5, 1});
-    over = part({0.25, 0.55}, {0.2, 0.5});
-    under = part({0.45, 0.75}, {0.5, 0.8});
-    grow = part({0.25, 1}, {0, 1});
-    dawn = part({0.25, 0.5}, {0, 0.4});
-    fold = part({0, 0.75}, {0, 1});
-    dusk = part({0.5, 0.75}, {0.6, 1});
+    out = part({0, 0.35}, {0, 0.5});
+    move = part({0.1, 0.75}, {0, 1});
+    in = part({0.65, 1}, {0.5, 1});
+    over = part({0.2, 0.5}, {0.2, 0.5});
+    under = part({0.4, 0.7}, {0.5, 0.8});
+    grow = part({0.2, 0.85}, {0, 1});
+    dawn = part({0.2, 0.45}, {0, 0.4});
+    fold = part({0, 0.65}, {0, 1});
+    dusk = part({0.4, 0.65}, {0.6, 1});
   }
   double out, move, in;  // what goes, moves, comes
   double over, under;    // the new over the old, which goes under it, so that nothing shows through
@@ -44,264 +39,97 @@ struct Phases {
   double fold, dusk;     // what goes back into something
 };
 
-constexpr std::string_view kPage = "page/";
-
-// All shapes of one key.
-struct Thing {
-  std::string from;
-  std::vector<std::size_t> shapes;
-  Box<2> box;
-};
-using Things = std::map<std::string, Thing, std::less<>>;
-
-Things things_of(const DrawList& list) {
-  Things things;
-  std::size_t run = 0;
-  Thing* thing = &things[""];
-  for (std::size_t i = 0; i < list.shapes.size(); ++i) {
-    for (; run < list.runs.size() && list.runs[run].first <= i; ++run) {
-      const KeyedRun& next = list.runs[run];
-      if (run + 1 < list.runs.size() && list.runs[run + 1].first <= i) continue;  // it is empty
-      thing = &things[next.key];
-      thing->from = next.from;
-    }
-    const Box<2> box = extent_of(list.shapes[i]);
-    thing->box = thing->shapes.empty() ? box : united(thing->box, box);
-    thing->shapes.push_back(i);
-  }
-  return things;
-}
-
-// What a thing comes out of or goes back into: what it names, or else what stands above that, its
-// way cut at the last dot.
-const Things::value_type* origin_of(std::string_view from, const Things& things) {
-  while (!from.empty()) {
-    if (const auto found = things.find(from); found != things.end()) return &*found;
-    const std::size_t dot = from.rfind('.'), slash = from.rfind('/');
-    if (dot == from.npos || (slash != from.npos && dot < slash)) return nullptr;
-    from = from.substr(0, dot);
-  }
-  return nullptr;
-}
-
-// What becomes of a shape of either picture.
-struct Fate {
-  enum Kind {
-    fades,    // where it stands
-    meets,    // it is `mate` of the other picture
-    follows,  // its thing, from the other picture's place
-    emerges,  // out of, or back into, the place of another thing
-    unfolds,  // out of, or back into, its own middle
-    stands,   // as it is, all the while
-    hidden,   // another shape stands for it
-  };
-  Kind kind = fades;
-  std::size_t mate = 0;
-  Box<2> own, other;  // where its thing is, and where that was or is to be
-};
-
 class Tween {
  public:
   Tween(const DrawList& a, const DrawList& b, double t, Motion motion)
-      : a_(a),
-        b_(b),
-        phases_(t, motion),
-        in_a_(things_of(a)),
-        in_b_(things_of(b)),
-        of_a_(a.shapes.size()),
-        of_b_(b.shapes.size()) {}
+      : a_(a), b_(b), phases_(t, motion), plan_(plan_tween(a, b)) {}
 
+  // What goes is painted before what lay on it; what is handed on passes over all else.
   DrawList made() {
-    for (const auto& [key, thing] : in_b_) come(key, thing);
-    for (const auto& [key, thing] : in_a_)
-      if (!in_b_.contains(key)) go(key, thing);
     out_.page = b_.page;
     std::size_t next = 0;  // of a, that is not yet painted if it goes
     for (std::size_t i = 0; i < b_.shapes.size(); ++i) {
       stop_if_asked();
-      if (of_b_[i].kind == Fate::meets)
-        for (; next < of_b_[i].mate; ++next) paint_old(next);
+      if (plan_.of_b[i].kind == Fate::meets)
+        for (; next < plan_.of_b[i].mate; ++next) paint_old(next);
       paint_new(i);
     }
     for (; next < a_.shapes.size(); ++next) paint_old(next);
+    for (std::size_t i = 0; i < a_.shapes.size(); ++i)
+      if (plan_.of_a[i].kind == Fate::handed)
+        add_blend(a_.shapes[i], b_.shapes[plan_.of_a[i].mate], phases_.fold);
+    for (std::size_t i = 0; i < b_.shapes.size(); ++i)
+      if (plan_.of_b[i].kind == Fate::handed)
+        add_blend(a_.shapes[plan_.of_b[i].mate], b_.shapes[i], phases_.grow);
     return std::move(out_);
   }
 
  private:
-  using Shapes = std::vector<std::size_t>;
-
-  void come(const std::string& key, const Thing& thing) {
-    if (key.starts_with(kPage)) return set(thing, Fate::stands, of_b_);
-    const auto before = in_a_.find(key);
-    if (key.empty()) return match_equal(in_a_.at(key).shapes, thing.shapes);
-    if (before != in_a_.end()) {
-      follow(thing, before->second.box, of_b_);
-      follow(before->second, thing.box, of_a_);
-      return match(before->second.shapes, thing.shapes);
-    }
-    const auto* origin = origin_of(thing.from, in_a_);
-    if (origin && !in_b_.contains(origin->first) && pair_up(origin->second, thing, of_b_))
-      return set(origin->second, Fate::hidden, of_a_);
-    leave(key, thing, origin, of_b_);
-  }
-
-  void go(const std::string& key, const Thing& thing) {
-    if (key.starts_with(kPage)) return set(thing, Fate::hidden, of_a_);
-    if (of_a_[thing.shapes[0]].kind == Fate::hidden) return;
-    const auto* end = origin_of(thing.from, in_b_);
-    if (end && !in_a_.contains(end->first) && pair_up(end->second, thing, of_a_))
-      return set(end->second, Fate::hidden, of_b_);
-    leave(key, thing, end, of_a_);
-  }
-
-  static void set(const Thing& thing, Fate::Kind kind, std::vector<Fate>& fates) {
-    for (const std::size_t i : thing.shapes) fates[i].kind = kind;
-  }
-
-  static void follow(const Thing& thing, const Box<2>& other, std::vector<Fate>& fates) {
-    for (const std::size_t i : thing.shapes) fates[i] = {Fate::follows, 0, thing.box, other};
-  }
-
-  static void leave(const std::string& key, const Thing& thing, const Things::value_type* origin,
-                    std::vector<Fate>& fates) {
-    for (const std::size_t i : thing.shapes)
-      if (thing.from == key)
-        fates[i] = {Fate::unfolds, 0, thing.box, {thing.box.center(), thing.box.center()}};
-      else if (origin)
-        fates[i] = {Fate::emerges, 0, thing.box, origin->second.box};
-  }
-
-  // A thing that another one takes over from: `thing` starts, or ends, as all of `other`. `fates`
-  // are of the picture of `thing`.
-  bool pair_up(const Thing& other, const Thing& thing, std::vector<Fate>& fates) const {
-    const bool comes = &fates == &of_b_;
-    const DrawList &theirs = comes ? a_ : b_, &ours = comes ? b_ : a_;
-    if (other.shapes.size() != thing.shapes.size()) return false;
-    for (std::size_t k = 0; k < thing.shapes.size(); ++k)
-      if (!can_blend(theirs.shapes[other.shapes[k]], ours.shapes[thing.shapes[k]])) return false;
-    for (std::size_t k = 0; k < thing.shapes.size(); ++k)
-      fates[thing.shapes[k]] = {Fate::meets, other.shapes[k], {}, {}};
-    return true;
-  }
-
-  void meet(std::size_t a, std::size_t b) {
-    of_a_[a] = {Fate::hidden, b, {}, {}};
-    of_b_[b] = {Fate::meets, a, {}, {}};
-  }
-
-  // Of one thing: shape by shape if they are of the same kinds; otherwise those of one style, in
-  // order, as many as can be (longest common subsequence).
-  void match(const Shapes& a, const Shapes& b) {
-    bool same = a.size() == b.size();
-    for (std::size_t k = 0; same && k < a.size(); ++k)
-      same = a_.shapes[a[k]].index() == b_.shapes[b[k]].index();
-    if (same) {
-      for (std::size_t k = 0; k < a.size(); ++k)
-        if (can_blend(a_.shapes[a[k]], b_.shapes[b[k]])) meet(a[k], b[k]);
-      return;
-    }
-    constexpr std::size_t kMost = 400;  // shapes of one thing; the work goes by the square
-    const std::size_t n = std::min(a.size(), kMost), m = std::min(b.size(), kMost);
-    std::vector<std::string> styles;
-    for (std::size_t j = 0; j < m; ++j) styles.push_back(style_of(b_.shapes[b[j]]));
-    std::vector<std::vector<std::uint32_t>> common(n + 1, std::vector<std::uint32_t>(m + 1));
-    for (std::size_t i = n; i-- > 0;) {
-      const std::string style = style_of(a_.shapes[a[i]]);
-      for (std::size_t j = m; j-- > 0;)
-        common[i][j] = style == styles[j] ? common[i + 1][j + 1] + 1
-                                          : std::max(common[i + 1][j], common[i][j + 1]);
-    }
-    for (std::size_t i = 0, j = 0; i < n && j < m;) {
-      if (common[i][j] == common[i + 1][j])
-        ++i;
-      else if (common[i][j] == common[i][j + 1])
-        ++j;
-      else
-        meet(a[i++], b[j++]);
-    }
-  }
-
-  // Of no thing in particular: what is the same in both stands still.
-  void match_equal(const Shapes& a, const Shapes& b) {
-    using Look = std::pair<std::string, std::vector<double>>;
-    const auto look_of = [](DrawShape shape) {
-      Look look{style_of(shape), {}};
-      const auto add = [&](double measure) { look.second.push_back(measure); };
-      std::visit([&](auto& s) { for_each_measure(s, add); }, shape);
-      return look;
-    };
-    std::map<Look, Shapes> waiting;
-    for (auto i = a.rbegin(); i != a.rend(); ++i) waiting[look_of(a_.shapes[*i])].push_back(*i);
-    for (const std::size_t j : b) {
-      const auto same = waiting.find(look_of(b_.shapes[j]));
-      if (same == waiting.end() || same->second.empty()) continue;
-      meet(same->second.back(), j);
-      same->second.pop_back();
-    }
-  }
-
-  void add(DrawShape shape, Tint tint, double opacity) {
+  void add(DrawShape shape, double opacity, Tint tint = {}) {
     tint.opacity = std::clamp(opacity, 0.0, 1.0);
     if (!(tint.opacity > 0)) return;
     out_.shapes.push_back(std::move(shape));
     out_.tints.push_back(tint);
   }
 
+  void add_blend(const DrawShape& a, const DrawShape& b, double share) {
+    if (a == b) return add(b, 1);
+    auto [shape, tint] = blend(a, b, share);
+    add(std::move(shape), 1, tint);
+  }
+
   void paint_new(std::size_t i) {
-    const Fate& fate = of_b_[i];
+    const Fate& fate = plan_.of_b[i];
     const DrawShape& shape = b_.shapes[i];
     const Phases& p = phases_;
-    const bool text = std::holds_alternative<TextShape>(shape);
+    const auto on_the_way = [&](double share) {
+      return put(shape, fate.own, mix(fate.other, fate.own, share));
+    };
     switch (fate.kind) {
+      case Fate::handed:  // painted last
       case Fate::hidden:
         return;
       case Fate::stands:
-        return add(shape, {}, 1);
+        return add(shape, 1);
       case Fate::fades:
-        return add(shape, {}, p.in);
+        return add(shape, p.in);
       case Fate::follows:
-        return add(put(shape, fate.own, mix(fate.other, fate.own, p.move)), {},
-                   text ? p.in : p.over);
+        return add(on_the_way(p.move), is_text(shape) ? p.in : p.over);
       case Fate::emerges:
-      case Fate::unfolds:
-        return add(put(shape, fate.own, mix(fate.other, fate.own, p.grow)), {}, p.dawn);
+        return add(on_the_way(p.grow), p.dawn);
       case Fate::meets:
-        break;
+        return add_blend(a_.shapes[fate.mate], shape, p.move);
     }
-    if (a_.shapes[fate.mate] == shape) return add(shape, {}, 1);
-    auto [blended, tint] = blend(a_.shapes[fate.mate], shape, p.move);
-    add(std::move(blended), tint, 1);
   }
 
   void paint_old(std::size_t i) {
-    const Fate& fate = of_a_[i];
+    const Fate& fate = plan_.of_a[i];
     const DrawShape& shape = a_.shapes[i];
     const Phases& p = phases_;
-    const bool text = std::holds_alternative<TextShape>(shape);
+    const auto on_the_way = [&](double share) {
+      return put(shape, fate.own, mix(fate.own, fate.other, share));
+    };
     switch (fate.kind) {
+      case Fate::meets:   // painted with its mate
+      case Fate::handed:  // painted last
       case Fate::hidden:
         return;
       case Fate::stands:
-        return add(shape, {}, 1);
+        return add(shape, 1);
       case Fate::fades:
-        return add(shape, {}, 1 - p.out);
+        return add(shape, 1 - p.out);
       case Fate::follows:
-        return add(put(shape, fate.own, mix(fate.own, fate.other, p.move)), {},
-                   1 - (text ? p.out : p.under));
+        return add(on_the_way(p.move), 1 - (is_text(shape) ? p.out : p.under));
       case Fate::emerges:
-      case Fate::unfolds:
-        return add(put(shape, fate.own, mix(fate.own, fate.other, p.fold)), {}, 1 - p.dusk);
-      case Fate::meets:
-        break;
+        return add(on_the_way(p.fold), 1 - p.dusk);
     }
-    auto [blended, tint] = blend(shape, b_.shapes[fate.mate], p.move);
-    add(std::move(blended), tint, 1);
   }
+
+  static bool is_text(const DrawShape& shape) { return std::holds_alternative<TextShape>(shape); }
 
   const DrawList &a_, &b_;
   Phases phases_;
-  Things in_a_, in_b_;
-  std::vector<Fate> of_a_, of_b_;  // by shape
+  TweenPlan plan_;
   DrawList out_;
 };
 

@@ -147,7 +147,7 @@ DrawShape put(DrawShape shape, const Box<2>& from, const Box<2>& to) {
         }
         if constexpr (requires { s.points; })
           for (Vec<2>& p : s.points) place(p);
-        if constexpr (requires { s.text; }) place(s.at), s.size *= size;
+        if constexpr (requires { s.text; }) place(s.at), s.size *= std::min(size, 1.0);
         if constexpr (requires { s.box; }) s.snapped = false;
       },
       shape);

@@ -32,6 +32,7 @@ class Marks3D : public Marks {
   Marks3D(const View3D& seen_from, const std::vector<Body3D>& shown, DrawList& list)
       : Marks(seen_from, seen_from.panel(), list), view(seen_from), bodies(shown) {
     over_ = &above_;
+    above_.prefix = list.prefix;
   }
 
   const View3D& view;
