@@ -16,6 +16,7 @@ constexpr double kLeast3D = 0.95,
 constexpr double kTop = 104;       // of the panels
 constexpr double kTitleLine = 58;  // baseline
 constexpr double kPanelGap = 44;
+constexpr double kOverFooter = 26;    // under the panels
 constexpr double kLeastForTwo = 460;  // height of a column with two panels
 constexpr double kStripGap = 30;      // over the strip of an array
 constexpr double kMostEnlarged = 1.45;
@@ -165,9 +166,11 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
                  Work& work) {
   if (frame.panels.empty()) return;
   if (!frame.sides.empty())
-    return draw_sides(frame, area, list, labels, [&](const Frame& side, const Box<2>& place) {
-      draw_panels(side, place, list, labels, work);
-    });
+    return draw_sides(frame, area,
+                      {{area.lo.x, area.hi.y + kOverFooter}, {area.hi.x, list.page.y - 12}}, list,
+                      labels, [&](const Frame& side, const Box<2>& place) {
+                        draw_panels(side, place, list, labels, work);
+                      });
   const Vec<2> whole = frame.side.empty() ? list.page : area.size();
   const bool tall = whole.x / whole.y < kStackBelow;
   const std::vector<Box<2>> boxes = tall                 ? stacked(frame.panels, area)
@@ -207,7 +210,8 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
     bottom = draw_footer(frame, margin, list, labels);
     add_rule(list, bottom, margin);
   }
-  draw_panels(frame, {{margin, kTop}, {list.page.x - margin, bottom - 26}}, list, labels, work);
+  draw_panels(frame, {{margin, kTop}, {list.page.x - margin, bottom - kOverFooter}}, list, labels,
+              work);
   list.page = page;
   if (k == 1) return list;
   const auto enlarge = [&](double& measure) { measure *= k; };

@@ -28,6 +28,7 @@ Named sides() {
     side.side_title = "a title of forty letters, not one more..";
   Frame late = sided({ghosts(4), ghosts(2)});
   late.sides[0].caption = "Blue is stored in 1.1.";
+  late.caption.clear();
   late.sides[1].held = true;
   late.sides[0].time = 1.25;
   Frame over_time = sided({ghosts(4), ghosts(3)});

@@ -42,11 +42,14 @@ TEST(SidesView, OneScaleHoldsForAll) {
   EXPECT_NEAR(red[1].lo.y, red[0].lo.y, 1e-9);
 }
 
-TEST(SidesView, WhatOneSideDoesAloneStandsWithItsTitle) {
+TEST(SidesView, WhatOneSideDoesAloneStandsUnderIt) {
   Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(3)});
-  for (Frame& side : frame.sides) side.caption.clear();
+  frame.caption.clear();
   frame.sides[1].caption = "Blue is stored.";
-  EXPECT_TRUE(says(samples::page_of(frame), "·  Blue is stored."));
+  const DrawList list = samples::page_of(frame);
+  const auto words = boxes_of(list, "Blue is stored."), title = boxes_of(list, "side b");
+  ASSERT_EQ(words.size(), 1u);
+  EXPECT_NEAR(words[0].lo.x, title[0].lo.x, 3);
   frame.sides[1].held = true;
   EXPECT_FALSE(says_part(samples::page_of(frame), "Blue is stored.")) << "it does nothing now";
   frame.sides[1].time = 1.5;
