@@ -20,6 +20,7 @@ constexpr double kTop = 104;      // of the panels
 constexpr double kTopWithoutTitle = 34;
 constexpr double kTitleLine = 58;  // baseline
 constexpr double kPanelGap = 44;
+constexpr double kOverFooter = 26;    // under the panels
 constexpr double kLeastForTwo = 460;  // height of a column with two panels
 constexpr double kStripGap = 30;      // over the strip of an array
 constexpr double kMostEnlarged = 1.45;
@@ -196,11 +197,13 @@ void draw_panels(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
                  Work& work) {
   if (frame.panels.empty()) return;
   if (!frame.sides.empty())
-    return draw_sides(frame, area, list, labels, [&](const Frame& side, const Box<2>& place) {
-      draw_panels(side, place, list, labels, work);
-      draw_notes(side, place, list, labels);
-      labels.forget_places();  // the next side has bodies of the same names
-    });
+    return draw_sides(frame, area,
+                      {{area.lo.x, area.hi.y + kOverFooter}, {area.hi.x, list.page.y - 12}}, list,
+                      labels, [&](const Frame& side, const Box<2>& place) {
+                        draw_panels(side, place, list, labels, work);
+                        draw_notes(side, place, list, labels);
+                        labels.forget_places();  // the next side has bodies of the same names
+                      });
   const Vec<2> whole = frame.side.empty() ? list.page : area.size();
   const bool tall = whole.x / whole.y < kStackBelow;
   const std::vector<Box<2>> boxes = tall                 ? stacked(frame.panels, area)
@@ -271,7 +274,7 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work) {
     if (has_foot(frame)) add_rule(list, bottom, margin);
   }
   Box<2> area{{margin, frame.display.title ? kTop : kTopWithoutTitle},
-              {list.page.x - margin, bottom - (has_foot(frame) ? 26 : 14)}};
+              {list.page.x - margin, bottom - (has_foot(frame) ? kOverFooter : 14)}};
   const Box<2> strip = cut_legend(frame, list, area);
   draw_panels(frame, area, list, labels, work);
   if (frame.display.legend) draw_legend(list.marks, strip, list, labels);

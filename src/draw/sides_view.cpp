@@ -16,11 +16,12 @@ namespace {
 
 constexpr double kBetweenSides = 56;
 constexpr double kTitleHeight = 46, kTitleBaseline = 26;
-constexpr double kCountsHeight = 44, kCountsBaseline = 36;
-constexpr double kBetweenCounts = 34;
+constexpr double kNumbersHeight = 44, kNumbersBaseline = 36;
+constexpr double kBetweenNumbers = 34;
+constexpr double kWordsBaseline = 42, kWordsLine = 34;  // of what one side does alone
 constexpr double kTallArea = 0.9;     // aspect below which sides stand one above the other
 constexpr double kChartShare = 0.34;  // of the height, under all sides
-constexpr std::size_t kMostCounts = 3;
+constexpr std::size_t kMostNumbers = 3;
 const TextStyle kNumber{28, Weight::semibold, Role::ink};
 const TextStyle kNoun{24, Weight::regular, Role::quiet_ink};
 
@@ -45,7 +46,7 @@ void draw_rules(const std::vector<Box<2>>& places, DrawList& list) {
     }
 }
 
-// Its title, then what it does that the others do not, and its time if that is not theirs.
+// Its title, and its time if that is not the others'.
 void draw_title(const Frame& side, bool own_time, const Box<2>& place, Labels& labels) {
   const TextStyle bold{28, Weight::semibold, Role::ink};
   const TextStyle quiet{24, Weight::regular, Role::quiet_ink};
@@ -53,66 +54,101 @@ void draw_title(const Frame& side, bool own_time, const Box<2>& place, Labels& l
   const double y = line.lo.y + kTitleBaseline;
   const std::string title = shortened(side.side_title, place.size().x, bold);
   labels.add(title, {{line.lo.x, y}, 0}, bold, line);
-  std::string more = side.held ? "" : side.caption;
-  if (own_time) more = fmt::format("{:.2f} s", side.time) + (more.empty() ? "" : "  " + more);
-  if (more.empty()) return;
   const double x = line.lo.x + text_width(title, bold) + 11;
-  labels.add(shortened("·  " + more, line.hi.x - x, quiet), {{x, y}, 0}, quiet, line);
+  if (own_time)
+    labels.add(shortened(fmt::format("·  {:.2f} s", side.time), line.hi.x - x, quiet), {{x, y}, 0},
+               quiet, line);
 }
 
-// A count as it stands under each side.
-struct SideCount {
+// What each does that the others do not, at the page's foot: under its own column, or, where sides
+// stand in rows, one below the other.
+void draw_words(const Frame& frame, const std::vector<Box<2>>& places, const Box<2>& foot,
+                Labels& labels) {
+  const TextStyle style{24, Weight::regular, Role::ink};
+  const bool columns = places.back().lo.y == places[0].lo.y;
+  double y = foot.lo.y + kWordsBaseline;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Frame& side = frame.sides[i];
+    if (side.held || side.caption.empty()) continue;
+    if (!columns) {
+      if (y > foot.hi.y - 8) return;
+      const std::string words = side.side_title + ": " + side.caption;
+      labels.add(shortened(words, foot.size().x, style), {{foot.lo.x, y}, 0}, style, foot);
+      y += kWordsLine;
+      continue;
+    }
+    const double left = places[i].lo.x, width = places[i].size().x;
+    std::vector<std::string> lines = wrapped(side.caption, width, style);
+    if (lines.size() > 2) {
+      const std::size_t rest = side.caption.find(lines[1], lines[0].size());
+      lines = {lines[0], shortened(std::string_view(side.caption).substr(rest), width, style)};
+    }
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      labels.add(lines[k], {{left, y + kWordsLine * static_cast<double>(k)}, 0}, style, foot);
+  }
+}
+
+// A count or measure as it stands under each side; the words for one and for many.
+struct SideNumber {
   std::string name;
   std::string one, many;
 
   double noun_width() const { return std::max(text_width(one, kNoun), text_width(many, kNoun)); }
 };
 
-// What the frame puts in front, or what its structure is about: of those that any side counts.
-std::vector<SideCount> counts_of(const Frame& frame) {
-  static const SideCount kKnown[] = {
+// What structures, atlases and levels are about: of those that any side counts.
+std::vector<SideNumber> numbers_of(const Frame& frame) {
+  static const SideNumber kKnown[] = {
       {"nodes", "node", "nodes"},          {"textures", "texture", "textures"},
       {"pairs", "pair", "pairs"},          {"free_leaves", "free leaf", "free leaves"},
       {"contacts", "contact", "contacts"}, {"sectors", "sector", "sectors"}};
-  std::vector<SideCount> counts;
-  for (const SideCount& known : kKnown)
-    if (counts.size() < kMostCounts && std::ranges::any_of(frame.sides, [&](const Frame& side) {
-          return side.count(known.name).has_value();
+  std::vector<SideNumber> numbers;
+  for (const SideNumber& known : kKnown)
+    if (numbers.size() < kMostNumbers && std::ranges::any_of(frame.sides, [&](const Frame& side) {
+          return side.number(known.name).has_value();
         }))
-      counts.push_back(known);
-  return counts;
+      numbers.push_back(known);
+  return numbers;
+}
+
+std::string number_on(const Frame& side, const std::string& name) {
+  if (const auto count = side.count(name)) return grouped(*count);
+  const auto measured = side.measure(name);
+  return measured ? fmt::format("{:.3g}", *measured) : "";
 }
 
 // Wide enough for the longest of all sides and for four digits, so that what can be compared stands
 // at the same place of each.
-double number_room(const Frame& frame, const SideCount& count) {
-  std::int64_t digits = 4;
+double number_room(const Frame& frame, const SideNumber& number) {
+  double room = Labels::number_width(4, kNumber);
   for (const Frame& side : frame.sides)
-    if (const auto n = side.count(count.name))
-      digits = std::max(digits, static_cast<std::int64_t>(grouped(*n).size()));
-  return Labels::number_width(digits, kNumber);
+    room = std::max(room, text_width(number_on(side, number.name), kNumber));
+  return room;
 }
 
-void draw_counts(const Frame& frame, const Frame& side, const std::vector<SideCount>& counts,
-                 const Box<2>& place, Labels& labels) {
-  const Box<2> line{{place.lo.x, place.hi.y - kCountsHeight}, place.hi};
-  const double y = line.lo.y + kCountsBaseline;
+void draw_numbers(const Frame& frame, const Frame& side, const std::vector<SideNumber>& numbers,
+                  const Box<2>& place, Labels& labels) {
+  const Box<2> line{{place.lo.x, place.hi.y - kNumbersHeight}, place.hi};
+  const double y = line.lo.y + kNumbersBaseline;
   double x = line.lo.x;
-  for (const SideCount& count : counts) {
-    const double noun = x + number_room(frame, count) + 9, end = noun + count.noun_width();
+  for (const SideNumber& number : numbers) {
+    const double noun = x + number_room(frame, number) + 9, end = noun + number.noun_width();
     if (end > line.hi.x) return;
-    if (const auto n = side.count(count.name)) {
-      labels.add_number(*n, {noun - 9, y}, kNumber, line);
-      labels.add(*n == 1 ? count.one : count.many, {{noun, y}, 0}, kNoun, line);
-    }
-    x = end + kBetweenCounts;
+    const auto count = side.count(number.name);
+    if (count)
+      labels.add_number(*count, {noun - 9, y}, kNumber, line);
+    else if (const std::string text = number_on(side, number.name); !text.empty())
+      labels.add(text, {{noun - 9, y}, 1}, kNumber, line);
+    if (side.number(number.name))
+      labels.add(count == 1 ? number.one : number.many, {{noun, y}, 0}, kNoun, line);
+    x = end + kBetweenNumbers;
   }
 }
 
 }  // namespace
 
-void draw_sides(const Frame& frame, const Box<2>& area, DrawList& list, Labels& labels,
-                const DrawSide& draw) {
+void draw_sides(const Frame& frame, const Box<2>& area, const Box<2>& foot, DrawList& list,
+                Labels& labels, const DrawSide& draw) {
   Box<2> above = area;
   if (std::ranges::count(frame.panels, Panel::chart) > 0) {
     const bool alone = frame.panels.size() == 1;
@@ -122,19 +158,20 @@ void draw_sides(const Frame& frame, const Box<2>& area, DrawList& list, Labels& 
     above.hi.y = top - 18;
   }
   const std::vector<Box<2>> places = places_of(frame.sides.size(), above);
-  const std::vector<SideCount> counts = counts_of(frame);
+  const std::vector<SideNumber> numbers = numbers_of(frame);
   const bool own_times = std::ranges::any_of(
       frame.sides, [&](const Frame& side) { return side.time != frame.sides[0].time; });
   draw_rules(places, list);
+  draw_words(frame, places, foot, labels);
   for (std::size_t i = 0; i < frame.sides.size(); ++i) {
     const Frame& side = frame.sides[i];
     list.prefix = side.side + "/";
     draw_title(side, own_times, places[i], labels);
     Box<2> inner = places[i];
     inner.lo.y += kTitleHeight;
-    if (!counts.empty()) inner.hi.y -= kCountsHeight + 6;
+    if (!numbers.empty()) inner.hi.y -= kNumbersHeight + 6;
     draw(side, inner);
-    draw_counts(frame, side, counts, places[i], labels);
+    draw_numbers(frame, side, numbers, places[i], labels);
   }
   list.prefix.clear();
 }

@@ -31,6 +31,26 @@ std::uint64_t bytes_of(const Frame& frame) {
   return bytes;
 }
 
+// What does not differ between sides: how the page is made, and where in the script it is.
+Frame without_facts(Frame frame) {
+  frame.side.clear();
+  frame.side_title.clear();
+  frame.event.clear();
+  frame.caption.clear();
+  frame.settings.clear();
+  frame.structure = StructureKind::none;
+  frame.array_size = 0;
+  frame.time = 0;
+  frame.chart = {};
+  frame.eye.reset();
+  frame.since_last_frame.reset();
+  const auto clear = [](auto&... lists) { (lists.clear(), ...); };
+  clear(frame.bodies, frame.nodes, frame.pairs, frame.contacts, frame.links, frame.rays,
+        frame.views, frame.queries, frame.hits, frame.walls, frame.textures, frame.counts,
+        frame.measures);
+  return frame;
+}
+
 // A frame of one side, with the texts that a caption may quote of it.
 struct Shown {
   Frame frame;
@@ -143,20 +163,8 @@ class SidesRun {
 
   // What the sides share, and the frame of each.
   Frame together(std::size_t k) {
-    const Frame& first = sides_[0].at(k).frame;
-    Frame frame;
-    frame.dimension = first.dimension;
-    frame.camera = first.camera;
-    frame.display = first.display;
-    frame.bounds = first.bounds;
-    frame.scenario = first.scenario;
-    frame.title = first.title;
-    frame.part = first.part;
-    frame.seed = first.seed;
+    Frame frame = without_facts(sides_[0].at(k).frame);
     frame.index = report_.frames;
-    frame.step = first.step;
-    frame.steps = first.steps;
-    frame.panels = first.panels;
     for (const Side& side : sides_) {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
       shown.held = side.holds(k);
@@ -180,17 +188,16 @@ class SidesRun {
     frame.chart = plotter_->chart();
   }
 
-  // What the algorithm does on all sides alike, or the step's own words. What one side does that
-  // the others do not stays with that side.
+  // What the algorithm does on all sides alike, or, when all are done, the step's own words. What
+  // one side does that the others do not is said by that side.
   std::string caption(const Step& step, std::size_t k, Frame& frame) {
-    const std::string& words = frame.sides[0].caption;
-    const bool same = !words.empty() && std::ranges::all_of(frame.sides, [&](const Frame& side) {
-      return side.caption == words;
-    });
-    if (!same) return filled(step, k, frame);
-    std::string said = words;
+    const auto speaks = [](const Frame& side) { return !side.held && !side.caption.empty(); };
+    if (std::ranges::none_of(frame.sides, speaks)) return filled(step, k, frame);
+    const std::string words = frame.sides[0].caption;
+    for (const Frame& side : frame.sides)
+      if (side.caption != words) return "";
     for (Frame& side : frame.sides) side.caption.clear();
-    return said;
+    return words;
   }
 
   std::string filled(const Step& step, std::size_t k, const Frame& frame) {

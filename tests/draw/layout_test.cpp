@@ -112,8 +112,8 @@ TEST(Layout, ShapesStayFew) {
     if (!many_pieces) {
       EXPECT_LT(list.shapes.size(), 5000u) << where;
     }
-    if (frame.bodies.size() <= 4 && frame.nodes.size() < 10 && frame.textures.empty() &&
-        frame.chart.series.size() < 4) {
+    if (frame.sides.empty() && frame.bodies.size() <= 4 && frame.nodes.size() < 10 &&
+        frame.textures.empty() && frame.chart.series.size() < 4) {
       EXPECT_LT(list.shapes.size(), 300u) << where << ": a typical frame";
     }
     for (const DrawShape& shape : list.shapes)

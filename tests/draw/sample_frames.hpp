@@ -29,6 +29,7 @@ Named charts();    // lines and bars, few and many, plain and extreme
 Named memories();  // the array that all leaves share, from no slot to 10,000
 Named ledgers();   // from two bodies to many, every state of a pair, each phase
 Named worlds();    // turned bodies, contacts, links, rays, views, levels, sleepers, two trees
+Named sides();     // two to four of them, with a chart, with long titles, one that holds
 
 // Name and frame of all of the above, in several sizes; made once.
 const Named& all();
@@ -37,6 +38,8 @@ const Named& all();
 FrameBody body(BodyId id, std::string name, Look look, int color, const Vec<2>& at,
                const Shape<2>& shape = Sphere{0.55}, double angle = 0);
 Frame base(std::string title, const Box<2>& bounds, std::vector<Panel> panels);
+// These under one title, called a, b, c, d.
+Frame sided(std::vector<Frame> sides);
 
 // The whole page of 1600 x 900 pixels.
 DrawList page_of(const Frame& frame);

@@ -117,7 +117,7 @@ TEST(Sides, WhatAllDoAlikeIsSaidOnceWhatOneDoesStaysWithIt) {
   EXPECT_NE(frames[0].caption, "Three.");
   EXPECT_EQ(frames[0].sides[0].caption, "");
   EXPECT_TRUE(std::ranges::any_of(
-      frames, [](const Frame& f) { return f.caption == "Three." && !f.sides[1].caption.empty(); }));
+      frames, [](const Frame& f) { return f.caption.empty() && !f.sides[1].caption.empty(); }));
   EXPECT_EQ(frames.back().caption, "Three.");
 }
 
@@ -240,6 +240,38 @@ TEST(Sides, JsonHasTheFactsOfEach) {
   EXPECT_NE(facts.find("\"sides\": ["), std::string::npos);
   EXPECT_NE(facts.find("\"name\": \"eager\""), std::string::npos);
   EXPECT_EQ(to_json(frames_of(good(sided("", "")))[0]).find("\"sides\""), std::string::npos);
+}
+
+TEST(Sides, AreTheSameEachTimeAndWithoutAWatch) {
+  const Scenario s = good(sided("", kSides));
+  const auto once = frames_of(s);
+  std::vector<Frame> watched;
+  Work work;
+  RunWatch watch(s, [](const Frame&) { return true; });
+  direct(
+      s, Pace::step, work,
+      [&](const Frame& frame) {
+        watched.push_back(frame);
+        return true;
+      },
+      &watch);
+  ASSERT_EQ(once.size(), watched.size());
+  for (std::size_t i = 0; i < once.size(); ++i) EXPECT_EQ(to_json(once[i]), to_json(watched[i]));
+}
+
+TEST(Sides, EndWhereNobodyLooksAnyMore) {
+  Work work;
+  int seen = 0;
+  const DirectorReport report =
+      direct(good(sided("", kSides)), Pace::step, work, [&](const Frame&) { return ++seen < 2; });
+  EXPECT_EQ(report.frames, 2u);
+}
+
+TEST(Sides, LeaveOutWhatTheyDoNotNeed) {
+  Work work;
+  direct(good(sided("", kSides)), Pace::step, work, [](const Frame&) { return true; });
+  EXPECT_EQ(work.atlases_created + work.static_builds + work.queries, 0u);
+  EXPECT_EQ(work.worlds_created, 2u) << "one for each side, none for the file itself";
 }
 
 TEST(Sides, Mistakes) {

@@ -1,0 +1,89 @@
+// What stands at the same place of two sides can be compared.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "draw/layout_check.hpp"
+#include "draw/page.hpp"
+#include "draw/sample_frames.hpp"
+
+namespace lantern::draw {
+namespace {
+
+std::vector<Box<2>> boxes_of(const DrawList& list, const std::string& text) {
+  std::vector<Box<2>> boxes;
+  for (const LabelBox& label : list.labels)
+    if (label.text == text) boxes.push_back(label.box);
+  return boxes;
+}
+
+TEST(SidesView, EachHasItsTitleAndItsCounts) {
+  const DrawList list = samples::page_of(samples::sided({samples::ghosts(4), samples::ghosts(3)}));
+  const auto a = boxes_of(list, "side a"), b = boxes_of(list, "side b");
+  ASSERT_EQ(a.size(), 1u);
+  ASSERT_EQ(b.size(), 1u);
+  EXPECT_EQ(a[0].lo.y, b[0].lo.y);
+  const auto nodes = boxes_of(list, "nodes"), pairs = boxes_of(list, "pairs");
+  ASSERT_EQ(nodes.size(), 2u) << "under its side, and nowhere else";
+  ASSERT_EQ(pairs.size() + boxes_of(list, "pair").size(), 2u);
+  EXPECT_EQ(nodes[0].lo.y, nodes[1].lo.y);
+  EXPECT_NEAR(nodes[0].lo.x - a[0].lo.x, nodes[1].lo.x - b[0].lo.x, 1e-9);
+}
+
+TEST(SidesView, OneScaleHoldsForAll) {
+  const Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(2)});
+  const DrawList list = samples::page_of(frame);
+  const auto red = boxes_of(list, "red"), pink = boxes_of(list, "pink");
+  ASSERT_EQ(red.size(), 2u);
+  ASSERT_EQ(pink.size(), 2u);
+  EXPECT_NEAR(red[1].lo.x - pink[1].lo.x, red[0].lo.x - pink[0].lo.x, 1e-9);
+  EXPECT_NEAR(red[1].lo.y, red[0].lo.y, 1e-9);
+}
+
+TEST(SidesView, WhatOneSideDoesAloneStandsUnderIt) {
+  Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(3)});
+  frame.caption.clear();
+  frame.sides[1].caption = "Blue is stored.";
+  const DrawList list = samples::page_of(frame);
+  const auto words = boxes_of(list, "Blue is stored."), title = boxes_of(list, "side b");
+  ASSERT_EQ(words.size(), 1u);
+  EXPECT_NEAR(words[0].lo.x, title[0].lo.x, 3);
+  frame.sides[1].held = true;
+  EXPECT_FALSE(says_part(samples::page_of(frame), "Blue is stored.")) << "it does nothing now";
+  frame.sides[1].time = 1.5;
+  EXPECT_TRUE(says(samples::page_of(frame), "·  1.50 s"));
+  EXPECT_TRUE(says(samples::page_of(frame), "·  0.00 s")) << "the clocks differ: both are said";
+}
+
+TEST(SidesView, AChartSpansThem) {
+  const auto named = samples::sides();
+  const auto found =
+      std::ranges::find(named, "sides with a chart", &samples::Named::value_type::first);
+  const DrawList list = samples::page_of(found->second);
+  EXPECT_EQ(boxes_of(list, "time in s").size(), 1u);
+}
+
+TEST(SidesView, KeysBeginWithTheSide) {
+  DrawList list;
+  list.prefix = "eager/";
+  { const DrawList::Scope shown(list, "tree/node/1.3", "world/cell/1.3"); }
+  EXPECT_EQ(list.runs[0].key, "eager/tree/node/1.3");
+  EXPECT_EQ(list.runs[0].from, "eager/world/cell/1.3");
+  EXPECT_EQ(list.runs[1].key, "") << "what is the page's is no side's";
+  const DrawList page = samples::page_of(samples::sided({samples::ghosts(4), samples::ghosts(3)}));
+  for (const KeyedRun& run : page.runs)
+    EXPECT_FALSE(run.key.starts_with("world/") || run.key.starts_with("tree/")) << run.key;
+  EXPECT_EQ(page.prefix, "");
+}
+
+TEST(SidesView, CountsTheLayoutsOfEach) {
+  Work work;
+  draw_frame(samples::sided({samples::ghosts(4), samples::ghosts(3)}), page_for(1600, 900), work);
+  EXPECT_EQ(work.world_layouts, 2u);
+  EXPECT_EQ(work.tree_layouts, 2u);
+}
+
+}  // namespace
+}  // namespace lantern::draw
