@@ -10,11 +10,13 @@ void AxisRanges::see(const scenario::Frame& frame) {
   for (const scenario::FrameSeries& series : chart.series)
     for (const Vec<2>& p : series.points) chart_.add(p.y, chart.logarithmic);
   for (const Vec<2>& p : frame.trace.points) trace_ = std::max(trace_, p.y);
+  for (const scenario::Frame& side : frame.sides) see(side);
 }
 
 void AxisRanges::settle(scenario::Frame& frame) const {
   if (!chart_.empty()) frame.chart.range = std::pair(chart_.least, chart_.most);
   if (trace_ > 0) frame.trace.most = trace_;
+  for (scenario::Frame& side : frame.sides) settle(side);
 }
 
 }  // namespace lantern::draw

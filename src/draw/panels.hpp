@@ -18,6 +18,10 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
 // other; sort and sweep has no tree and shows its intervals.
 void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 inline constexpr double kLeastNode = 34;
+// The intervals of sort and sweep along the axis that it sorted by, one row a body in the order of
+// the sweep. A pair that it compares is linked where the later interval begins; where one body is
+// lit, the sweep stands at its beginning, and the intervals that are open there are marked.
+void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 // The diagram alone, of a frame whose nodes are one tree.
 void draw_one_tree(const Frame& frame, const Box<2>& diagram, DrawList& list, Labels& labels);
 

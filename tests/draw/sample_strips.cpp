@@ -34,7 +34,54 @@ Frame ledger(std::uint32_t bodies, bool contacts) {
   return frame;
 }
 
+// Every node of the tree in a pool of `slots`, the first `reused` of them for the second time.
+void put_in_pool(Frame& frame, std::uint32_t slots, std::uint32_t reused) {
+  frame.pool_size = slots;
+  for (FrameNode& node : frame.nodes) {
+    node.pool_slot = node.id;
+    node.reused = node.id < reused;
+  }
+  frame.add_count("allocations", 14);
+}
+
+void count_bytes(Frame& frame) {
+  const auto n = static_cast<std::uint64_t>(frame.nodes.size());
+  frame.add_count("node_bytes", 17 * n);
+  frame.add_count("node_bytes_with_bounds", 49 * n);
+}
+
 }  // namespace
+
+Named strips() {
+  Named frames;
+  Frame all = ghosts(4);
+  put_in_pool(all, 14, 6);
+  count_bytes(all);
+  all.trace = {"pairs", {{0, 3}, {0.5, 9}, {1, 6}}, 4.0, std::nullopt};
+  all.panels = {Panel::world, Panel::tree, Panel::pool};
+  frames.emplace_back("strips_pool", all);
+  all.panels = {Panel::world, Panel::tree, Panel::bytes, Panel::sparkline};
+  frames.emplace_back("strips_others", all);
+  all.panels = {Panel::pool};
+  frames.emplace_back("strips_alone", all);
+  all.panels = {Panel::pool, Panel::bytes, Panel::sparkline};
+  frames.emplace_back("strips_only", all);
+  all.trace = {"pair_tests", {}, std::nullopt, std::nullopt};
+  for (int i = 0; i < 5000; ++i) all.trace.points.push_back({0.1 * i, 1.0 * (i * 7919 % 10000)});
+  frames.emplace_back("strips_long", all);
+  Frame many = crowd(900, 0.6);
+  put_in_pool(many, 4000, 4000);
+  many.panels = {Panel::world, Panel::pool};
+  frames.emplace_back("strips_many", many);
+  for (const std::size_t n : {1u, 7u, 200u}) {
+    Frame sweep = crowd(n, 1.4);
+    sweep.structure = StructureKind::sort_and_sweep;
+    sweep.nodes.clear();
+    for (std::size_t i = 0; i < sweep.bodies.size(); ++i) sweep.bodies[i].lit = i == n / 2;
+    frames.emplace_back(fmt::format("sweep{}", n), sweep);
+  }
+  return frames;
+}
 
 Named ledgers() {
   Named frames;

@@ -1,0 +1,179 @@
+// Sort and sweep: intervals on their axis.
+//
+//   1 @ |===========|
+//   2 @      o=========|         o: when 2 begins, 1 is open: the two are compared
+//   3 @                    |==|
+//       +---------------------------> x
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "draw/body_shapes.hpp"
+#include "draw/number_text.hpp"
+#include "draw/panels.hpp"
+
+namespace lantern::draw {
+namespace {
+
+constexpr double kSweepText = 24;
+constexpr double kLeastBand = 24, kMostBand = 56;
+constexpr double kSweepHeading = 42, kSweepAxis = 44;  // heights
+constexpr std::size_t kMostSweepLinks = 400;
+
+const TextStyle kSweepStyle{kSweepText, Weight::regular, Role::quiet_ink};
+
+const Box<3>& swept_box(const FrameBody& body) {
+  return body.stored_box ? *body.stored_box : body.box;
+}
+
+// In the order of their lower ends; ids break ties.
+std::vector<const FrameBody*> swept(const Frame& frame) {
+  std::vector<const FrameBody*> order;
+  for (const FrameBody& body : frame.bodies)
+    if (!is_half_space(body)) order.push_back(&body);
+  std::ranges::sort(order, {}, [&](const FrameBody* b) {
+    return std::pair(swept_box(*b).lo[frame.sweep_axis], b->id);
+  });
+  return order;
+}
+
+class SweepView {
+ public:
+  SweepView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
+      : frame_(frame),
+        panel_(panel),
+        list_(list),
+        labels_(labels),
+        axis_(frame.sweep_axis),
+        order_(swept(frame)),
+        all_(order_.size()),
+        area_(panel.lo + Vec<2>(0, kSweepHeading), panel.hi - Vec<2>(16, kSweepAxis)) {
+    const auto most = static_cast<std::size_t>(std::max(1.0, area_.size().y / kLeastBand));
+    if (all_ > most) order_.resize(most);
+    row_ = std::min(kMostBand,
+                    area_.size().y / static_cast<double>(std::max<std::size_t>(1, order_.size())));
+    area_.hi.y = area_.lo.y + row_ * static_cast<double>(order_.size());
+    numbers_ = text_width(fmt::format("{}", order_.size()), kSweepStyle) + 10;
+    area_.lo.x += numbers_ + row_ + 10;
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      row_of_[order_[i]->id] = i;
+      lit += order_[i]->lit;
+      if (order_[i]->lit) at_ = i;
+    }
+    stands_ = lit == 1;
+  }
+
+  void draw() {
+    if (order_.empty() || !(length() > 0)) return;
+    const TextStyle heading{kSweepText, Weight::semibold, Role::ink};
+    labels_.add(shortened(fmt::format("sorted along {}, then swept", "xyz"[axis_]), panel_.size().x,
+                          heading),
+                {{panel_.lo.x, panel_.lo.y + 0.8 * kSweepText}, 0}, heading, panel_);
+    if (stands_) draw_open();
+    for (std::size_t i = 0; i < order_.size(); ++i) draw_row(i);
+    draw_links();
+    if (stands_) draw_sweep_line();
+    draw_axis();
+  }
+
+ private:
+  double length() const { return frame_.bounds.size()[axis_]; }
+  double x_of(double at) const {
+    const double share = (at - frame_.bounds.lo[axis_]) / length();
+    return area_.lo.x + (share > 0 ? std::min(share, 1.0) : 0) * area_.size().x;
+  }
+  double from(std::size_t i) const { return x_of(swept_box(*order_[i]).lo[axis_]); }
+  double to(std::size_t i) const { return x_of(swept_box(*order_[i]).hi[axis_]); }
+  double y_of(std::size_t i) const { return area_.lo.y + (static_cast<double>(i) + 0.5) * row_; }
+  double half() const { return std::min(0.26 * row_, 11.0); }
+
+  // The rows of the intervals that are open where the sweep stands.
+  void draw_open() {
+    for (std::size_t i = 0; i <= at_; ++i)
+      if (i == at_ || to(i) >= from(at_))
+        list_.rect(
+            {{panel_.lo.x, y_of(i) - row_ / 2 + 1}, {area_.hi.x + 8, y_of(i) + row_ / 2 - 1}},
+            i == at_ ? Role::lit_fill : Role::passed_fill, {}, 4);
+  }
+
+  void draw_row(std::size_t i) {
+    const FrameBody& body = *order_[i];
+    const DrawList::Scope scope(list_, fmt::format("sweep/{}", body.id));
+    const double y = y_of(i);
+    if (row_ >= kSweepText)
+      labels_.add(fmt::format("{}", i + 1),
+                  centred({panel_.lo.x + numbers_ - 10, y}, kSweepStyle, 1), kSweepStyle, panel_);
+    const double icon = std::min(0.42 * row_, 20.0);
+    draw_character(
+        body, icon_box(body, Box<2>::around({panel_.lo.x + numbers_ + row_ / 2, y}, Vec<2>(icon))),
+        false, list_);
+    list_.rect({{from(i), y - half()}, {std::max(to(i), from(i) + 3), y + half()}},
+               body.dimmed ? Role::panel : body_role(body.color),
+               {body.lit && stands_ ? Role::lit : Role::body_line, body.lit && stands_ ? 2.6 : 1.6},
+               2);
+  }
+
+  // Upright, where the later of the two begins.
+  void draw_links() {
+    std::size_t links = 0;
+    for (const FramePair& p : frame_.pairs) {
+      const auto a = row_of_.find(p.pair.a), b = row_of_.find(p.pair.b);
+      if (a == row_of_.end() || b == row_of_.end() || ++links > kMostSweepLinks) continue;
+      const auto [first, second] = std::minmax(a->second, b->second);
+      const DrawList::Scope scope(list_, fmt::format("sweep/{}-{}", p.pair.a, p.pair.b));
+      const Vec<2> open{from(second), y_of(first)}, begins{from(second), y_of(second)};
+      list_.crisp_line(open, begins, {Role::panel, 6});
+      list_.crisp_line(open, begins, {Role::pair, 2.4});
+      for (const Vec<2>& end : {open, begins})
+        list_.disc(end, std::min(5.0, 0.14 * row_), Role::pair, {Role::panel, 1.2});
+    }
+  }
+
+  void draw_sweep_line() {
+    const double x = from(at_);
+    list_.crisp_line({x, area_.lo.y - 6}, {x, area_.hi.y + 8}, {Role::lit, 3});
+  }
+
+  void draw_axis() {
+    const double y = area_.hi.y + 6, below = y + 0.78 * kSweepText + 8;
+    list_.line({area_.lo.x, y}, {area_.hi.x, y}, {Role::ink, 2.2});
+    list_.polygon({{area_.hi.x + 12, y}, {area_.hi.x, y - 6}, {area_.hi.x, y + 6}}, Role::ink);
+    for (const double end : {area_.lo.x, area_.hi.x})
+      list_.crisp_line({end, y}, {end, y + 7}, {Role::ink, 2.0});
+    labels_.try_add(number_text(frame_.bounds.lo[axis_], 2), {{{area_.lo.x, below}, 0}},
+                    kSweepStyle, panel_);
+    labels_.try_add(number_text(frame_.bounds.hi[axis_], 2), {{{area_.hi.x, below}, 1}},
+                    kSweepStyle, panel_);
+    labels_.try_add(std::string(1, "xyz"[axis_]), {{{area_.center().x, below}, 0.5}}, kSweepStyle,
+                    panel_);
+    if (all_ > order_.size())
+      labels_.try_add(fmt::format("and {} more", all_ - order_.size()),
+                      {{{area_.lo.x + 0.27 * area_.size().x, below}, 0.5}}, kSweepStyle, panel_);
+  }
+
+  const Frame& frame_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  int axis_;
+  std::vector<const FrameBody*> order_;  // as many as have room
+  std::size_t all_;
+  Box<2> area_;  // of the intervals
+  double row_ = kLeastBand;
+  double numbers_ = 0;  // width, with the gap behind them
+  std::map<BodyId, std::size_t> row_of_;
+  std::size_t at_ = 0;   // the row at whose beginning the sweep stands
+  bool stands_ = false;  // and whether it stands anywhere
+};
+
+}  // namespace
+
+void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  if (panel.size().y < kSweepHeading + kSweepAxis + 2 * kLeastBand || panel.size().x < 160) return;
+  SweepView(frame, panel, list, labels).draw();
+}
+
+}  // namespace lantern::draw

@@ -1,0 +1,83 @@
+// The strips under the panels, and the intervals of a sweep.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "draw/layout_check.hpp"
+#include "draw/sample_frames.hpp"
+
+namespace lantern::draw {
+namespace {
+
+const Frame& strip(const std::string& name) {
+  static const samples::Named all = samples::strips();
+  for (const auto& [known, frame] : all)
+    if (known == name) return frame;
+  throw std::invalid_argument(name);
+}
+
+// The extents of rectangles of this fill.
+std::vector<Box<2>> rects(const DrawList& list, Role fill) {
+  std::vector<Box<2>> found;
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* rect = std::get_if<RectShape>(&shape); rect && rect->fill == fill)
+      found.push_back(rect->box);
+  return found;
+}
+
+TEST(Pool, NamesTheOwnerOfEachSlotAndMarksThoseReused) {
+  Frame frame = strip("strips_pool");
+  frame.panels = {Panel::pool};
+  const DrawList list = samples::page_of(frame);
+  for (const FrameNode& node : frame.nodes)
+    EXPECT_TRUE(says(list, node.label)) << "slot " << node.pool_slot;
+  EXPECT_EQ(rects(list, Role::frustum).size(), 6u + 1) << "and one beside their number";
+  EXPECT_EQ(rects(list, Role::free_space).size(), 14 - frame.nodes.size());
+  EXPECT_TRUE(says(list, "6 reused"));
+  EXPECT_TRUE(says(list, "14 allocations"));
+}
+
+TEST(Bytes, AreDrawnToScale) {
+  Frame frame = strip("strips_others");
+  frame.panels = {Panel::bytes};
+  const DrawList list = samples::page_of(frame);
+  const std::vector<Box<2>> own = rects(list, Role::static_body),
+                            boxes = rects(list, Role::lit_fill);
+  ASSERT_EQ(own.size(), 2u);
+  ASSERT_EQ(boxes.size(), 1u);
+  EXPECT_NEAR(own[0].size().x, own[1].size().x, 1e-9);
+  EXPECT_NEAR(boxes[0].size().x / own[0].size().x, 32.0 / 17, 1e-9);
+}
+
+TEST(Sparkline, StandsStillWhileTimeGoesOn) {
+  Frame early = strip("strips_others"), late = early;
+  late.trace.points.push_back({3, 2});
+  for (Frame* frame : {&early, &late}) frame->trace.most = 9;
+  const DrawList before = samples::page_of(early), after = samples::page_of(late);
+  const auto line_of = [](const DrawList& list) {
+    std::vector<LineShape> lines;
+    for (const DrawShape& shape : list.shapes)
+      if (const auto* line = std::get_if<LineShape>(&shape); line && line->stroke.width == 2.6)
+        lines.push_back(*line);
+    return lines;
+  };
+  const auto short_line = line_of(before), long_line = line_of(after);
+  ASSERT_EQ(short_line.size() + 1, long_line.size());
+  for (std::size_t i = 0; i < short_line.size(); ++i)
+    EXPECT_EQ(short_line[i].to, long_line[i].to) << "what was drawn has moved";
+}
+
+TEST(Sweep, StandsAtTheLitBodyAndLinksWhatItCompares) {
+  const Frame& frame = strip("sweep7");
+  const DrawList list = samples::page_of(frame);
+  EXPECT_TRUE(says(list, "sorted along x, then swept"));
+  for (int i = 1; i <= 7; ++i) EXPECT_TRUE(says(list, std::to_string(i))) << "of the order";
+  EXPECT_EQ(rects(list, Role::lit_fill).size(), 1u);
+  std::size_t links = 0;
+  for (const KeyedRun& run : list.runs)
+    links += run.key.starts_with("sweep/") && run.key.find('-') != std::string::npos;
+  EXPECT_EQ(links, frame.pairs.size());
+}
+
+}  // namespace
+}  // namespace lantern::draw
