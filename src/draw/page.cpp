@@ -22,6 +22,7 @@ constexpr double kTitleLine = 58;  // baseline
 constexpr double kPanelGap = 44;
 constexpr double kOverFooter = 26;    // under the panels
 constexpr double kLeastForTwo = 460;  // height of a column with two panels
+constexpr double kLeastChart = 300;   // height: a flatter one shows no course
 constexpr double kStripGap = 30;      // over the strip of an array
 constexpr double kMostEnlarged = 1.45;
 constexpr double kStackBelow = 1.2;  // aspect of a page whose panels stand one above the other
@@ -113,7 +114,6 @@ bool is_strip(Panel panel) {
 
 // A tree needs rows, so it gets somewhat more height than the others; strips get little.
 std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area) {
-  constexpr double kLeastChart = 300;  // a flatter one shows no course
   std::vector<double> weights;
   for (const Panel panel : panels) weights.push_back(weight_of(panel));
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -153,7 +153,8 @@ bool wants_stack(const Frame& frame) {
 
 std::vector<Box<2>> over_its_chart(const Frame& frame, const Box<2>& area) {
   constexpr double kShare = 0.56;  // of the height, for the world
-  const double middle = area.lo.y + kShare * area.size().y;
+  const double height = area.size().y, least = std::min(kLeastChart, 0.6 * height);
+  const double middle = area.hi.y - std::max((1 - kShare) * height, least + kPanelGap / 4);
   const Box<2> world{area.lo, {area.hi.x, middle - kPanelGap / 4}};
   const Box<2> chart{{area.lo.x, middle + kPanelGap / 4}, area.hi};
   return frame.panels[0] == Panel::world ? std::vector{world, chart} : std::vector{chart, world};
