@@ -27,11 +27,11 @@ std::string pattern_example(std::string_view arrange);
 std::vector<std::string_view> arrange_names();
 
 // A picture of the page: the last frame of a scenario whose every part stands on it.
-struct ReferencePicture {
+struct ExamplePicture {
   std::string name;  // of the file reference/<name>.png
   std::string text;
 };
-std::vector<ReferencePicture> reference_pictures();
+std::vector<ExamplePicture> example_pictures();
 bool verb_has_picture(std::string_view verb);
 
 }  // namespace lantern::scenario

@@ -231,8 +231,8 @@ bodies = ["dot"]
 
 bool verb_has_picture(std::string_view verb) { return verb != "show"; }
 
-std::vector<ReferencePicture> reference_pictures() {
-  std::vector<ReferencePicture> all = {{"looks", looks_example()}};
+std::vector<ExamplePicture> example_pictures() {
+  std::vector<ExamplePicture> all = {{"looks", looks_example()}};
   for (const std::string_view arrange : arrange_names())
     all.push_back({fmt::format("arrange_{}", arrange), pattern_example(arrange)});
   all.push_back({"map", std::string(kMapExample)});

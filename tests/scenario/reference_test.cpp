@@ -71,7 +71,7 @@ TEST(Reference, EveryExampleGoesOnFromTheScenariosOfThePage) {
 TEST(Reference, PicturesAreOfGoodScenariosAndAllAreShown) {
   const std::string page = reference_page();
   std::set<std::string> names;
-  for (const ReferencePicture& picture : reference_pictures()) {
+  for (const ExamplePicture& picture : example_pictures()) {
     EXPECT_TRUE(names.insert(picture.name).second) << picture.name;
     EXPECT_NE(page.find("](reference/" + picture.name + ".png)"), std::string::npos);
     EXPECT_TRUE(mistakes(picture.text).empty()) << picture.text << shown(mistakes(picture.text));
