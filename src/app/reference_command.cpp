@@ -79,7 +79,7 @@ int draw_pictures(const ReferenceOptions& options) {
   Painter painter(*backend_named(options.backend));
   std::set<std::string> names;
   std::size_t drawn = 0;
-  for (const ReferencePicture& picture : reference_pictures()) {
+  for (const auto& picture : reference_pictures()) {
     const Frame frame = last_frame(parse_scenario(picture.text, picture.name + ".toml"));
     Work work;
     const DrawList list = draw_frame(frame, page_for(kWidth, kHeight), work);
