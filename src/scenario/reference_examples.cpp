@@ -102,7 +102,7 @@ expect = { walls = 8 }
 constexpr std::string_view kMapExample = R"(title = "Two ghosts in a small maze"
 
 [world]
-size = [16, 9]
+size = [16, 8]
 
 [[prototype]]
 name = "wall"
@@ -129,8 +129,8 @@ rows = """
 [[step]]
 do = "insert"
 bodies = ["wall", "ghost1..ghost2"]
-caption = "{bodies} bodies, of 26 walls' letters and two of ghosts."
-expect = { bodies = 10 }
+caption = "{bodies} bodies: 33 letters of walls become nine boxes."
+expect = { bodies = 11 }
 )";
 
 constexpr std::string_view kChartExample = R"(title = "More bodies, more pairs"

@@ -25,6 +25,7 @@ TEST(Examples, OfScenariosKeepTheirPromises) {
   expect_kept(std::string(world_example()));
   expect_kept(std::string(atlas_example()));
   expect_kept(std::string(level_example()));
+  expect_kept(std::string(map_example()));
 }
 
 TEST(Examples, OfTheVerbsGoOnFromTheirScenariosAndKeepTheirPromises) {

@@ -56,7 +56,10 @@ TEST(FrameJson, TheVersionBeforeHasNoWayOfPairs) {
   EXPECT_EQ(before["format"], "lantern.frame/1");
   ASSERT_TRUE(now.contains("since_last_frame"));
   for (const char* key : {"overlaps", "tested", "since_last_frame"}) now.erase(key);
-  for (json& body : now["bodies"]) body.erase("stored_box");
+  for (json& body : now["bodies"]) {
+    body.erase("stored_box");
+    EXPECT_EQ(body.erase("spin"), 1u);
+  }
   for (const char* key :
        {"testable_pairs", "pairs_tested", "impulses", "leaves_asleep", "branches_asleep"})
     EXPECT_EQ(now["counts"].erase(key), 1u) << key;
