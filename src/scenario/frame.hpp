@@ -26,6 +26,8 @@ enum class Mark { quiet, passed, lit };
 struct Touched {
   std::set<NodeHandle> lit;
   std::set<NodeHandle> passed;
+  std::set<NodeHandle> skipped;  // left out by a ray, view or region, with all below them
+  std::vector<NodeHandle> met;   // by a ray, in this order
 
   Mark mark_of(NodeHandle node) const {
     if (lit.contains(node)) return Mark::lit;
@@ -71,6 +73,8 @@ struct FrameNode {
   std::uint32_t first = kNone;  // a leaf's contents in the array that all leaves share
   std::uint32_t room = 0;       // slots kept for it there, `bodies.size()` of them in use
   Mark mark = Mark::quiet;
+  bool skipped = false;       // by a ray, view or region, itself or with a node above it
+  std::uint32_t met = kNone;  // a leaf's place in the order in which a ray met them, from 0
 
   // To be drawn so: what never moves, or holds nothing, is not said to sleep.
   bool sleeps() const { return !awake && !of_static && !(leaf && bodies.empty()); }
@@ -115,6 +119,23 @@ struct FrameLink {
   Vec<3> from{0.0};
   Vec<3> to{0.0};
   double strain = 0;  // (length - rest) / rest; 0 for a pin
+};
+
+// A force that acts on a body now: a script's, or the pull of a spring.
+struct FrameForce {
+  BodyId body = 0;
+  Vec<3> at{0.0};     // in the world
+  Vec<3> force{0.0};  // N
+  bool of_spring = false;
+};
+
+// The length between two points, measured.
+struct FrameRuler {
+  Vec<3> from{0.0};
+  Vec<3> to{0.0};
+  double length = 0;
+  std::optional<double> before;  // what it is compared with: as long as it was when the step began
+  std::string text;              // what is measured; may be empty
 };
 
 struct FrameRay {
@@ -193,9 +214,12 @@ struct Frame {
   std::uint32_t index = 0;  // of this frame, from 0
   std::uint32_t step = 0;   // of the script, from 0
   std::uint32_t steps = 0;
-  std::string event;    // the step's name or the algorithm's event; for --at
-  double time = 0;      // seconds of world time
-  std::string caption;  // counts filled in
+  std::string event;                  // the step's name or the algorithm's event; for --at
+  double time = 0;                    // seconds of world time
+  std::string caption;                // counts filled in
+  std::vector<std::string> told;      // the counts and measures that the caption quotes, in order
+  std::vector<std::string> headline;  // the numbers that the scenario puts in front; may be empty
+  bool ending = false;                // the take-away of the sequence
   StructureKind structure = StructureKind::none;
   std::string settings;  // "capacity 2, depth limit 4": what the tree was told
   int sweep_axis = 0;    // along which a sweep sorted; of other structures of no matter
@@ -203,12 +227,16 @@ struct Frame {
   Box<3> bounds;
   bool show_boxes = false;  // the bodies' broad-phase boxes
   bool show_velocities = false;
-  bool show_depths = false;  // beside contacts
+  bool show_depths = false;       // beside contacts
+  bool show_coordinates = false;  // of the lit way's borders
   std::vector<FrameBody> bodies;
-  std::vector<FrameNode> nodes;  // parents before children
-  std::vector<FramePair> pairs;  // in order of ids
+  std::vector<FrameNode> nodes;    // parents before children
+  std::vector<FramePair> pairs;    // in order of ids
+  bool narrow_phase_done = false;  // of these pairs: it has said which of them touch
   std::vector<FrameContact> contacts;
   std::vector<FrameLink> links;
+  std::vector<FrameForce> forces;  // if the scenario shows them
+  std::vector<FrameRuler> rulers;
   std::vector<FrameRay> rays;
   std::vector<FrameView> views;
   std::vector<FrameQuery> queries;

@@ -9,6 +9,7 @@
 #include "base/stop.hpp"
 #include "scenario/caption.hpp"
 #include "scenario/frame.hpp"
+#include "scenario/rulers.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -20,7 +21,7 @@ constexpr std::uint32_t kMostFrames = 100'000;
 
 FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
                        const std::function<bool(const Frame&)>& sink)
-    : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink) {
+    : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink), headline_(scenario.headline) {
   if (scenario.chart) plotter_.emplace(scenario);
 }
 
@@ -33,6 +34,18 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
   focus.clear();
   texture.clear();
   finding_.reset();
+  if (!step.headline.empty()) headline_ = step.headline;
+  lengths_before_.clear();
+  for (const RulerSpec& ruler : step.rulers) {
+    const auto ends = ends_of(ruler, stage_.engine.get());
+    lengths_before_.push_back(ends ? std::optional(glm::distance(ends->first, ends->second))
+                                   : std::nullopt);
+  }
+  const VerbTraits& verb = traits_of(step.verb);
+  if (verb.passes_time)
+    narrow_phase_done_ = scenario_.has_contacts();
+  else if (verb.changes_bodies)
+    narrow_phase_done_ = false;
 }
 
 bool FrameMaker::wanted(std::string_view event) const {
@@ -46,13 +59,28 @@ void FrameMaker::note_refused(const std::string& name) {
 
 void FrameMaker::show_finding(Finding finding) {
   counted_ = QueryNumbers{finding.counts, finding.hits.size()};
-  focus.insert(finding.hits.begin(), finding.hits.end());
+  focus = {finding.hits.begin(), finding.hits.end()};
   finding_ = std::move(finding);
 }
 
 Frame FrameMaker::picture(const Touched& now, std::string_view event) {
-  stop_if_asked();
+  return drawn(now, event, false);
+}
+
+void FrameMaker::add_switches(Frame& frame) const {
   const WorldSpec& world = scenario_.world;
+  frame.panels = scenario_.panels;
+  frame.dimension = world.dimension;
+  frame.bounds = world.bounds;
+  frame.show_boxes = world.show_boxes;
+  frame.show_velocities = world.show_velocities;
+  frame.show_depths = world.show_depths;
+  frame.show_coordinates = world.show_coordinates;
+  if (world.has_camera) frame.camera = Camera{world.camera_eye, world.camera_target};
+}
+
+Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) {
+  stop_if_asked();
   Frame frame;
   frame.scenario = scenario_.name;
   frame.side = scenario_.side;
@@ -64,14 +92,10 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   frame.step = step_index_;
   frame.steps = static_cast<std::uint32_t>(scenario_.steps.size());
   frame.event = event;
-  frame.panels = scenario_.panels;
   frame.time = stage_.time;
-  frame.dimension = world.dimension;
-  frame.bounds = world.bounds;
-  frame.show_boxes = world.show_boxes;
-  frame.show_velocities = world.show_velocities;
-  frame.show_depths = world.show_depths;
-  if (world.has_camera) frame.camera = Camera{world.camera_eye, world.camera_target};
+  frame.headline = headline_;
+  frame.narrow_phase_done = narrow_phase_done_;
+  add_switches(frame);
   if (stage_.engine) stage_.engine->picture(now, frame);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
@@ -80,7 +104,9 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   if (stage_.atlas) stage_.atlas->picture(now, frame);
   frame.hash = state_hash(frame);
   add_finding(frame);
-  light(frame);
+  add_rulers(frame);
+  lighting_.light({traits_of(step_->verb), focus, midst}, frame);
+  light_room(frame);
   if (plotter_) frame.chart = plotter_->chart();
   return frame;
 }
@@ -95,8 +121,11 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
     frame.chart = plotter_->chart();
   }
   // Of a side's frames the caption is that of all sides together.
-  const bool said = caption.empty() && scenario_.side.empty();
-  frame.caption = said ? fill(step_->caption, frame) : caption;
+  if (caption.empty() && scenario_.side.empty())
+    fill(step_->caption, frame);
+  else
+    frame.caption = caption;
+  frame.ending = last && step_->ending;
   verify(step_->always, frame);
   if (last) verify(step_->expect, frame);
   give(std::move(frame));
@@ -104,13 +133,13 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
 
 void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
                       std::optional<BodyId> about) {
-  Frame frame = picture(now, event);
+  Frame frame = drawn(now, event, true);
   frame.caption = std::move(caption);
   for (FrameBody& body : frame.bodies) body.lit = body.id == about;
-  give(std::move(frame));
+  give(std::move(frame), true);
 }
 
-void FrameMaker::give(Frame frame) {
+void FrameMaker::give(Frame frame, bool midst) {
   if (stopped_) return;
   if (report_.frames == kMostFrames)
     throw ScenarioError(diagnose(scenario_, step_->where,
@@ -122,6 +151,7 @@ void FrameMaker::give(Frame frame) {
     if (now.steps > last_work_.steps) frame.since_last_frame = work_between(last_work_, now);
     last_work_ = now;
   }
+  lighting_.remember(frame, midst);
   stopped_ = !sink_(frame);
 }
 
@@ -145,38 +175,40 @@ void FrameMaker::add_finding(Frame& frame) const {
   if (finding_->ray) frame.rays.push_back(*finding_->ray);
   if (finding_->view) frame.views.push_back(*finding_->view);
   if (finding_->region) frame.queries.push_back(*finding_->region);
-  if (finding_->ray) return;
-  for (FrameBody& body : frame.bodies)
-    body.dimmed = !std::binary_search(frame.hits.begin(), frame.hits.end(), body.id);
+  if (!finding_->ray) dim(frame);
 }
 
-// Bodies that the step is about, the leaves that hold them, and pairs that are new.
-void FrameMaker::light(Frame& frame) {
-  for (FrameBody& body : frame.bodies) body.lit = focus.contains(body.id);
-  if (touched.lit.empty() && touched.passed.empty()) light_leaves_of_focus(frame);
+// Who is ruled out: not found in the end; before it, tested in vain or only in nodes left out.
+void FrameMaker::dim(Frame& frame) const {
+  std::set<BodyId> within_reach;
+  for (const FrameNode& node : frame.nodes)
+    if (!node.skipped) within_reach.insert(node.bodies.begin(), node.bodies.end());
+  for (FrameBody& body : frame.bodies) {
+    if (std::ranges::binary_search(frame.hits, body.id)) continue;
+    body.dimmed =
+        finding_->done || finding_->missed.contains(body.id) || !within_reach.contains(body.id);
+  }
+}
+
+void FrameMaker::add_rulers(Frame& frame) const {
+  for (std::size_t i = 0; i < step_->rulers.size(); ++i) {
+    const RulerSpec& spec = step_->rulers[i];
+    const auto ends = ends_of(spec, stage_.engine.get());
+    if (!ends) continue;
+    FrameRuler ruler{
+        ends->first, ends->second, glm::distance(ends->first, ends->second), {}, spec.text};
+    if (spec.change) ruler.before = lengths_before_[i];
+    frame.rulers.push_back(std::move(ruler));
+  }
+}
+
+// The leaves of an atlas that are large enough.
+void FrameMaker::light_room(Frame& frame) const {
   if (const auto* ask = std::get_if<AskRoom>(&step_->verb))
     for (FrameNode& node : frame.nodes)
       if (node.leaf && node.bodies.empty() && node.box.size().x >= ask->width &&
           node.box.size().y >= ask->height)
         node.mark = Mark::lit;
-  for (FramePair& p : frame.pairs)
-    p.lit = !std::binary_search(last_pairs_.begin(), last_pairs_.end(), p.pair);
-  last_pairs_.clear();
-  for (const FramePair& p : frame.pairs) last_pairs_.push_back(p.pair);
-}
-
-// Parents stand before children, so one pass from the back hands the light up.
-void FrameMaker::light_leaves_of_focus(Frame& frame) const {
-  constexpr std::size_t kMostInFocus = 3;  // when all move, nothing stands out
-  if (focus.empty() || focus.size() > kMostInFocus) return;
-  for (std::size_t i = frame.nodes.size(); i-- > 0;) {
-    FrameNode& node = frame.nodes[i];
-    if (node.leaf && std::any_of(node.bodies.begin(), node.bodies.end(),
-                                 [&](BodyId id) { return focus.contains(id); }))
-      node.mark = Mark::lit;
-    if (node.mark != Mark::quiet && node.parent != kNone)
-      frame.nodes[node.parent].mark = Mark::passed;
-  }
 }
 
 std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
@@ -187,10 +219,13 @@ std::optional<std::string> FrameMaker::text_of(std::string_view name, const Fram
   return std::nullopt;
 }
 
-std::string FrameMaker::fill(const std::string& caption, const Frame& frame) const {
-  return fill_caption(
+// The caption, and which numbers it tells.
+void FrameMaker::fill(const std::string& caption, Frame& frame) const {
+  frame.caption = fill_caption(
       caption, [&](std::string_view name) { return text_of(name, frame); },
       [&](std::string_view name) { return frame.count(name); });
+  for (const std::string& name : placeholders_of(caption))
+    if (frame.number(name)) frame.told.push_back(name);
 }
 
 void FrameMaker::verify(const std::vector<Expectation>& expectations, const Frame& frame) {
@@ -198,10 +233,9 @@ void FrameMaker::verify(const std::vector<Expectation>& expectations, const Fram
     ++report_.expectations;
     const auto problem = unmet(expectation, frame);
     if (!problem || !reported_.insert(&expectation).second) continue;
-    report_.unmet.push_back(
-        diagnose(scenario_, expectation.where,
-                 fmt::format("{} (frame {}, time {:.6g} s{})", *problem, frame.index, frame.time,
-                             on_side())));
+    report_.unmet.push_back(diagnose(scenario_, expectation.where,
+                                     fmt::format("{} (frame {}, time {:.6g} s{})", *problem,
+                                                 frame.index, frame.time, on_side())));
   }
 }
 

@@ -196,6 +196,7 @@ TableDoc texture_table();
 TableDoc texture_pattern_table();
 TableDoc side_table();
 TableDoc expect_table();
+TableDoc ruler_table();
 
 // Those of a table for a body or a pattern: `own` and what both have.
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);

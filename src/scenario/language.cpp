@@ -30,6 +30,10 @@ TableDoc file_table() {
       key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
       key(&S::panels, "panels", "What is drawn, from left to right.",
           or_else("what the scenario uses")),
+      key(KeyType::texts, "headline",
+          "Up to three counts and measures that stand at the foot of every frame, the first one "
+          "large.",
+          or_else("what the caption quotes, then what the scenario is about")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
       key(KeyType::tables, "body", "One body each.", at_most(kMostBodies), holds("body")),
@@ -67,6 +71,13 @@ TableDoc step_table() {
           range(0, kMostCaption)),
       key(&Step::plot, "plot", "Adds a point to the [chart], or a bar with this label.",
           range(1, 40), or_else("adds none")),
+      key(KeyType::texts, "headline", "The scenario's `headline` from here on.",
+          or_else("as before")),
+      key(KeyType::tables, "ruler", "Lengths that are measured on the step's frames.",
+          at_most(kMostRulers), holds("step.ruler")),
+      key(&Step::ending, "ending",
+          "Of the last step: its last frame is what is to be kept in mind, with the headline's "
+          "numbers large."),
       key(KeyType::table, "expect", "What must hold when the step is done.", holds("expect")),
       key(KeyType::table, "always", "What must hold on every frame of the step.", holds("expect")),
   };
@@ -141,7 +152,7 @@ std::span<const TableDoc> language_tables() {
       file_table(),    world_table(),  structure_table(), planes_table(),          body_table(),
       pattern_table(), spring_table(), joint_table(),     level_table(),           chart_table(),
       problem_table(), atlas_table(),  texture_table(),   texture_pattern_table(), side_table(),
-      step_table(),    expect_table()};
+      step_table(),    ruler_table(),  expect_table()};
   return tables;
 }
 

@@ -29,6 +29,8 @@ inline constexpr std::size_t kMostLinks = 20'000;            // springs and join
 inline constexpr std::size_t kMostWalls = 2'000;             // of a level
 inline constexpr std::size_t kMostCaption = 180;             // letters
 inline constexpr std::size_t kMostSides = 4;
+inline constexpr std::size_t kMostHeadline = 3;  // counts and measures
+inline constexpr std::size_t kMostRulers = 8;    // of a step
 
 enum class KeyType {
   text,            // on one line; `least` to `most` letters

@@ -55,14 +55,17 @@ struct Expectation {
 
 struct Step {
   Verb verb;
-  std::string name;                 // for --at; may be empty
-  std::string part;                 // from here on shown behind the title; may be empty
-  std::string caption;              // with {count} and {count:noun}; may be empty
-  std::optional<std::string> plot;  // adds a point to the chart, or a bar of this label
-  std::optional<Pace> pace;         // of this step alone
-  std::vector<std::string> events;  // in event pace, only these give frames; empty for all
-  std::vector<Expectation> expect;  // after the step
-  std::vector<Expectation> always;  // on every frame of the step
+  std::string name;                   // for --at; may be empty
+  std::string part;                   // from here on shown behind the title; may be empty
+  std::string caption;                // with {count} and {count:noun}; may be empty
+  std::optional<std::string> plot;    // adds a point to the chart, or a bar of this label
+  std::optional<Pace> pace;           // of this step alone
+  std::vector<std::string> events;    // in event pace, only these give frames; empty for all
+  std::vector<Expectation> expect;    // after the step
+  std::vector<Expectation> always;    // on every frame of the step
+  std::vector<std::string> headline;  // counts and measures put in front from here on; or empty
+  std::vector<RulerSpec> rulers;      // on every frame of the step
+  bool ending = false;                // its last frame is the sequence's take-away
   SourcePosition where;
 };
 
@@ -77,7 +80,8 @@ struct ScenarioSpec {
   std::string source;  // the part of the lecture it shows
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
-  std::vector<Panel> panels;  // as wished, or all that can show something
+  std::vector<Panel> panels;          // as wished, or all that can show something
+  std::vector<std::string> headline;  // counts and measures that the foot puts in front
   WorldSpec world;
   StructureSpec structure;
   std::optional<LevelSpec> level;

@@ -77,6 +77,14 @@ std::vector<Expectation> read_expectations(const TomlValue& value, std::string_v
 // Adds a problem for each placeholder that cannot be filled in.
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state);
 
+// The counts and measures of a `headline`. Adds a problem for each that is none, or for too many;
+// with `state` also for those that are not counted at this step.
+std::vector<std::string> read_headline(const TableReader& table, Draft& draft,
+                                       const ScriptState* state);
+
+// The rulers of a step.
+std::vector<RulerSpec> read_rulers(const TableReader& step, ScriptReading& script);
+
 // Can the chart's counts be counted at this step?
 void check_plot(const TableReader& step, Draft& draft, ScriptState& state);
 

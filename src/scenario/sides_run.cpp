@@ -156,6 +156,8 @@ class SidesRun {
     frame.step = first.step;
     frame.steps = first.steps;
     frame.panels = first.panels;
+    frame.headline = first.headline;
+    frame.ending = first.ending;
     for (const Side& side : sides_) {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
       shown.held = side.holds(k);
@@ -186,10 +188,26 @@ class SidesRun {
     const bool same = !words.empty() && std::ranges::all_of(frame.sides, [&](const Frame& side) {
       return side.caption == words;
     });
-    if (!same) return filled(step, k, frame);
+    if (!same) {
+      note_told(step, frame);
+      return filled(step, k, frame);
+    }
     std::string said = words;
     for (Frame& side : frame.sides) side.caption.clear();
     return said;
+  }
+
+  // Which numbers the step's words quote, whichever side they are of.
+  void note_told(const Step& step, Frame& frame) const {
+    for (const std::string& quoted : placeholders_of(step.caption)) {
+      const std::size_t dot = quoted.find('.');
+      const bool of_side =
+          dot != std::string::npos &&
+          std::ranges::find(sides_, quoted.substr(0, dot), &Side::name) != sides_.end();
+      const std::string name = of_side ? quoted.substr(dot + 1) : quoted;
+      if (frame.sides[0].number(name) && std::ranges::find(frame.told, name) == frame.told.end())
+        frame.told.push_back(name);
+    }
   }
 
   std::string filled(const Step& step, std::size_t k, const Frame& frame) {

@@ -53,8 +53,10 @@ struct WorldSpec {
   bool may_sleep = false;
   bool show_boxes = false;  // broad-phase boxes are drawn
   bool show_velocities = false;
-  bool show_depths = false;  // how deep bodies overlap stands beside their contacts
-  Vec<3> camera_eye{0.0};    // of a 3D world
+  bool show_depths = false;       // how deep bodies overlap stands beside their contacts
+  bool show_forces = false;       // a script's forces and springs' pulls, as arrows
+  bool show_coordinates = false;  // of the lit way's borders, at the world's edges
+  Vec<3> camera_eye{0.0};         // of a 3D world
   Vec<3> camera_target{0.0};
   bool has_camera = false;
   std::vector<Warning> quiet;  // kinds of warning whose cause is meant
@@ -127,6 +129,17 @@ struct LinkSpec {
   std::optional<double> rest_length;  // else as long as it is when it comes to be
   double stiffness = 0;               // of a spring
   double damping = 0;
+  SourcePosition where;
+};
+
+// What a step measures on its frames: a length between two bodies' centres, or points.
+struct RulerSpec {
+  std::optional<std::size_t> a;  // none: from a point
+  std::optional<std::size_t> b;
+  Vec<3> from{0.0};
+  Vec<3> to{0.0};
+  bool change = false;  // compared with what it was when the step began
+  std::string text;     // may be empty
   SourcePosition where;
 };
 

@@ -158,12 +158,24 @@ void Wait::act(ScriptRun& run) const {
 
 namespace {
 
+constexpr std::string_view kOfTheStep[] = {
+    "contacts",      "contact_points",    "impulses",     "begins",
+    "ends",          "pairs_tested",      "narrow_tests", "constraint_rows",
+    "friction_rows", "force_evaluations", "rotations",    "crushes"};
+
+// The step has looked for pairs, and has found nothing else yet.
+Frame not_yet_met(Frame frame) {
+  frame.contacts.clear();
+  frame.narrow_phase_done = false;
+  for (auto& [name, number] : frame.counts)
+    if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep)) number = 0;
+  for (auto& [name, number] : frame.measures)
+    if (name == "penetration") number = 0;
+  return frame;
+}
+
 // Bodies and structure as they were before the step, contacts as it found them.
 Frame met(const Frame& before, const Frame& after) {
-  static constexpr std::string_view kOfTheStep[] = {
-      "contacts",      "contact_points",    "impulses",     "begins",
-      "ends",          "pairs_tested",      "narrow_tests", "constraint_rows",
-      "friction_rows", "force_evaluations", "rotations",    "crushes"};
   Frame frame = before;
   frame.contacts = after.contacts;
   for (auto& [name, number] : frame.counts)
@@ -198,7 +210,7 @@ void Phases::act(ScriptRun& run) const {
     shown.caption = phase_text(event, shown);
     run.frames.give(shown);
   };
-  show("broad_phase", before);
+  show("broad_phase", not_yet_met(before));
   run.let_time_pass();
   const Frame after = run.frames.picture(run.frames.touched, "integrate");
   const Frame meeting = met(before, after);
