@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "draw/mark_kind.hpp"
 #include "draw/role.hpp"
 #include "geometry/box.hpp"
 
@@ -107,6 +110,9 @@ struct DrawList {
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn
+  std::set<MarkKind> marks;    // that are drawn, for a legend
+  // Counts and measures that the page depicts, so that whoever reads one in the caption finds it.
+  std::set<std::string, std::less<>> referents;
 
   // What follows shows this, until the scope ends; then what was shown before goes on.
   class Scope {

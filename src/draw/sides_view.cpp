@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
+#include "draw/count_words.hpp"
 #include "draw/font.hpp"
 #include "draw/panels.hpp"
 
@@ -75,6 +76,9 @@ std::vector<SideCount> counts_of(const Frame& frame) {
       {"pairs", "pair", "pairs"},          {"free_leaves", "free leaf", "free leaves"},
       {"contacts", "contact", "contacts"}, {"sectors", "sector", "sectors"}};
   std::vector<SideCount> counts;
+  for (const std::string& name : frame.headline)
+    counts.push_back({name, count_words(name, true), count_words(name, false)});
+  if (!counts.empty()) return counts;
   for (const SideCount& known : kKnown)
     if (counts.size() < kMostCounts && std::ranges::any_of(frame.sides, [&](const Frame& side) {
           return side.count(known.name).has_value();
@@ -123,6 +127,7 @@ void draw_sides(const Frame& frame, const Box<2>& area, DrawList& list, Labels& 
   }
   const std::vector<Box<2>> places = places_of(frame.sides.size(), above);
   const std::vector<SideCount> counts = counts_of(frame);
+  for (const SideCount& count : counts) list.referents.insert(count.name);
   const bool own_times = std::ranges::any_of(
       frame.sides, [&](const Frame& side) { return side.time != frame.sides[0].time; });
   draw_rules(places, list);
