@@ -237,6 +237,7 @@ class AtlasView {
 
 void draw_atlas(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   AtlasView(frame, panel, list, labels).draw();
+  list.referents.insert({"textures", "refused", "atlas_area"});
 }
 
 double atlas_width(const Frame& frame, double height) {

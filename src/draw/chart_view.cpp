@@ -209,6 +209,9 @@ std::string chart_words(std::string name) {
 
 void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const FrameChart& chart = frame.chart;
+  for (const std::string& name : {chart.x_name, chart.y_name}) list.referents.insert(name);
+  for (const FrameSeries& series : chart.series)
+    list.referents.insert({series.name, chart.y_name + "." + series.name});
   const Box<2> place = shrunk(panel, 4);
   if (place.size().x < 40 || place.size().y < 40) return;
   // A chart of bars has no axes before its first bar.

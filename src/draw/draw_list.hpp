@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -108,7 +110,9 @@ struct DrawList {
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn
-  MarkSet marks;               // that are among the shapes
+  MarkSet marks;               // that are among the shapes, for a legend
+  // Counts and measures that the page depicts, so that whoever reads one in the caption finds it.
+  std::set<std::string, std::less<>> referents;
 
   // What follows shows this, until the scope ends; then what was shown before goes on.
   class Scope {

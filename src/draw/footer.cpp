@@ -1,9 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "base/grouped.hpp"
+#include "draw/count_words.hpp"
 #include "draw/font.hpp"
 #include "draw/notes.hpp"
 #include "draw/panels.hpp"
@@ -11,7 +16,7 @@
 namespace lantern::draw {
 namespace {
 
-constexpr double kCaption = 30;
+constexpr double kCaption = 30, kEnding = 34;
 constexpr double kLine = 46;        // from baseline to baseline
 constexpr double kBelowLast = 54;   // from the last baseline to the page's edge
 constexpr double kAboveFirst = 52;  // from the hairline to the first baseline
@@ -19,33 +24,33 @@ constexpr double kWidePage = 1400;  // a narrower page has its counters under th
 
 // A number and what it counts; `widest` is the longest that `noun` can get.
 struct Counter {
-  std::string name;  // of the count
-  std::int64_t number = 0;
+  std::string number;
   std::string noun;
   std::string widest = {};
+  std::vector<std::string> depicts = {};  // counts and measures
   bool main = false;
+  bool told = false;  // the caption speaks of it
 
   TextStyle style() const {
-    return main ? TextStyle{30, Weight::semibold, Role::ink}
-                : TextStyle{25, Weight::regular, Role::quiet_ink};
+    if (main) return {30, Weight::semibold, Role::ink};
+    return {25, told ? Weight::semibold : Weight::regular, told ? Role::ink : Role::quiet_ink};
   }
-  double noun_width() const {
-    const TextStyle s = style();
+  double noun_width() const { return noun_width(style()); }
+  double noun_width(const TextStyle& s) const {
     return std::max(text_width(noun, s), text_width(widest, s));
   }
   // Room for four digits at least, so that the number may grow without moving anything.
-  double number_room() const {
-    const auto digits = static_cast<std::int64_t>(fmt::format("{}", number).size());
-    return Labels::number_width(std::max<std::int64_t>(4, digits), style());
-  }
+  double number_room() const { return std::max(Labels::number_width(4, style()), number_width()); }
+  double number_width() const { return text_width(number, style()); }
 };
 
-Counter counted(const char* name, std::int64_t number, const char* one, const char* many) {
-  return {name, number, number == 1 ? one : many, many};
+Counter counted(std::int64_t number, const char* name, const std::string& one,
+                const std::string& many) {
+  return {std::to_string(number), number == 1 ? one : many, many, {name}};
 }
 
-// Two at most; the first is the main one.
-std::vector<Counter> counters_of(const Frame& frame) {
+// What it is about when nobody says so: two at most.
+std::vector<Counter> default_counters(const Frame& frame) {
   if (!frame.sides.empty()) return {};  // each counts under itself
   const auto count = [&](const char* name) { return frame.count(name).value_or(0); };
   if (!frame.textures.empty()) {
@@ -53,80 +58,151 @@ std::vector<Counter> counters_of(const Frame& frame) {
     const std::int64_t all = std::max<std::int64_t>(1, count("atlas_area"));
     auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
     if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
-    return {{"used_area", percent, "% used"},
-            {"textures", count("textures"), fmt::format("of {} textures", frame.textures.size())}};
+    return {{std::to_string(percent), "% used", "", {}},
+            {std::to_string(count("textures")),
+             fmt::format("of {} textures", frame.textures.size()),
+             "",
+             {"textures"}}};
   }
   // Of a ray, view or region: how few bodies it had to test.
   if (!frame.rays.empty() || !frame.views.empty() || !frame.queries.empty())
-    return {{"objects_tested", count("objects_tested"),
-             fmt::format("of {} bodies tested", frame.bodies.size())},
-            counted("hits", count("hits"), "hit", "hits")};
+    return {{std::to_string(count("objects_tested")),
+             fmt::format("of {} bodies tested", frame.bodies.size()),
+             "",
+             {"objects_tested", "bodies"}},
+            counted(count("hits"), "hits", "hit", "hits")};
   if (frame.count("sectors"))
-    return {counted("sectors", count("sectors"), "sector", "sectors"),
-            counted("walls", count("walls"), "wall", "walls")};
+    return {counted(count("sectors"), "sectors", "sector", "sectors"),
+            counted(count("walls"), "walls", "wall", "walls")};
   std::vector<Counter> counters;
   const auto pairs = frame.count("pairs"), bodies = frame.count("bodies");
   // With contacts only those of them are tested whose boxes overlap.
   if (pairs && frame.count("contacts"))
-    counters.push_back(counted("pairs", *pairs, "candidate pair", "candidate pairs"));
+    counters.push_back(counted(*pairs, "pairs", "candidate pair", "candidate pairs"));
   else if (pairs)
-    counters.push_back(counted("pairs", *pairs, "pair to test", "pairs to test"));
+    counters.push_back(counted(*pairs, "pairs", "pair to test", "pairs to test"));
   else if (bodies)
-    counters.push_back(counted("bodies", *bodies, "body", "bodies"));
+    counters.push_back(counted(*bodies, "bodies", "body", "bodies"));
   if (const auto all = frame.count("testable_pairs"); all && !counters.empty())
-    counters.push_back(pairs ? Counter{"testable_pairs", *all, "by brute force"}
-                             : counted("testable_pairs", *all, "pair", "pairs"));
+    counters.push_back(pairs ? counted(*all, "testable_pairs", "by brute force", "by brute force")
+                             : counted(*all, "testable_pairs", "pair", "pairs"));
   return counters;
 }
 
-// A count that a note is about stands there, too: instead of the last, if need be.
-void add_noted(const Frame& frame, std::vector<Counter>& counters) {
-  constexpr std::size_t kMost = 2;
-  for (const FrameNote& note : frame.notes) {
-    const auto number = frame.count(note.count);
-    if (note.of != NoteOf::count || !number) continue;
-    if (std::ranges::count(counters, note.count, &Counter::name) > 0) continue;
-    if (counters.size() == kMost) counters.pop_back();
-    counters.push_back({note.count, *number, chart_words(note.count)});
+// Of a count or measure that the frame has; none otherwise.
+std::optional<Counter> counter_of(const std::string& name, const Frame& frame) {
+  if (const auto n = frame.count(name)) {
+    for (Counter& known : default_counters(frame))
+      if (known.depicts == std::vector{name}) return std::move(known);
+    return Counter{grouped(*n), count_words(name, *n == 1), count_words(name, false), {name}};
   }
+  if (const auto number = frame.measure(name))
+    return Counter{fmt::format("{:.4g}", *number), count_words(name, false), "", {name}};
+  return std::nullopt;
+}
+
+// Three at most: those that the scenario puts in front; else those that the caption tells, then the
+// usual ones. The first is the main one.
+std::vector<Counter> counters_of(const Frame& frame) {
+  constexpr std::size_t kMost = 3, kMostUsual = 2;
+  std::vector<Counter> counters;
+  const auto has = [&](const std::string& name) {
+    return std::ranges::any_of(counters, [&](const Counter& c) {
+      return std::ranges::find(c.depicts, name) != c.depicts.end();
+    });
+  };
+  const auto add = [&](const std::string& name) {
+    if (counters.size() < kMost && !has(name))
+      if (auto counter = counter_of(name, frame)) counters.push_back(std::move(*counter));
+  };
+  for (const std::string& name : frame.headline) add(name);
+  for (const FrameNote& note : frame.notes)
+    if (note.of == NoteOf::count) add(note.count);
+  if (frame.headline.empty()) {
+    for (const std::string& name : frame.told) add(name);
+    for (Counter& usual : default_counters(frame))
+      if (counters.size() < kMostUsual && (usual.depicts.empty() || !has(usual.depicts[0])))
+        counters.push_back(std::move(usual));
+  }
+  for (Counter& counter : counters)
+    counter.told = std::ranges::any_of(counter.depicts, [&](const std::string& name) {
+      return std::ranges::find(frame.told, name) != frame.told.end();
+    });
+  if (!counters.empty()) counters[0].main = true;
+  return counters;
+}
+
+// The number ends at `right`; each digit of a whole number has a cell of its own.
+void draw_number(const Counter& counter, const TextStyle& style, const Vec<2>& right,
+                 const Box<2>& band, Labels& labels) {
+  const bool whole =
+      std::ranges::all_of(counter.number, [](char c) { return '0' <= c && c <= '9'; });
+  if (whole && counter.number.size() < 18)
+    labels.add_number(std::stoll(counter.number), right, style, band);
+  else
+    labels.add(counter.number, {right, 1}, style, band);
 }
 
 // Where the counter stands, for notes.
 void tell_place(const Counter& counter, double noun_left, double baseline, Labels& labels) {
-  if (!labels.has_notes()) return;
+  if (!labels.has_notes() || counter.depicts.empty()) return;
   const TextStyle style = counter.style();
-  const auto digits = static_cast<std::int64_t>(fmt::format("{}", counter.number).size());
-  const double left = noun_left - 9 - Labels::number_width(digits, style);
+  const double left = noun_left - 9 - counter.number_width();
   const Box<2> noun = Labels::extent(counter.noun, {{noun_left, baseline}, 0}, style);
-  labels.tell_place(target_of_count(counter.name), {{left - 4, noun.lo.y - 6}, noun.hi});
+  labels.tell_place(target_of_count(counter.depicts[0]), {{left - 4, noun.lo.y - 6}, noun.hi});
 }
 
 // One below the other; the longest form of each ends at the margin. Gives the left end.
 double draw_column(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
                    Labels& labels) {
-  double left = band.hi.x;
+  const bool three = counters.size() > 2;
+  const double step = three ? 34 : kLine;
+  double left = band.hi.x, y = three ? baseline - 12 : baseline;
   for (const Counter& counter : counters) {
     const double x = band.hi.x - counter.noun_width();
-    labels.add_number(counter.number, {x - 9, baseline}, counter.style(), band);
-    labels.add(counter.noun, {{x, baseline}, 0}, counter.style(), band);
-    tell_place(counter, x, baseline, labels);
+    draw_number(counter, counter.style(), {x - 9, y}, band, labels);
+    labels.add(counter.noun, {{x, y}, 0}, counter.style(), band);
+    tell_place(counter, x, y, labels);
     left = std::min(left, x - 9 - counter.number_room());
-    baseline += kLine;
+    y += step;
   }
   return left;
 }
 
-// All in one row that ends at the right.
+// All in one row that ends at the right; what has no room is left out.
 void draw_row(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
               Labels& labels) {
   double x = band.hi.x;
-  for (auto counter = counters.rbegin(); counter != counters.rend(); ++counter) {
-    x -= counter->noun_width();
-    labels.add(counter->noun, {{x, baseline}, 0}, counter->style(), band);
-    tell_place(*counter, x, baseline, labels);
-    labels.add_number(counter->number, {x - 9, baseline}, counter->style(), band);
-    x -= 9 + counter->number_room() + 16;
+  const auto width = [](const Counter& c) { return c.noun_width() + 9 + c.number_room() + 16; };
+  double all = 0;
+  std::size_t fit = 0;
+  while (fit < counters.size() && all + width(counters[fit]) <= band.size().x + 16)
+    all += width(counters[fit++]);
+  for (std::size_t i = fit; i-- > 0;) {
+    const Counter& counter = counters[i];
+    x -= counter.noun_width();
+    labels.add(counter.noun, {{x, baseline}, 0}, counter.style(), band);
+    draw_number(counter, counter.style(), {x - 9, baseline}, band, labels);
+    tell_place(counter, x, baseline, labels);
+    x -= 9 + counter.number_room() + 16;
   }
+}
+
+// Of an ending: side by side, each large over its noun. Gives the left end.
+double draw_large(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
+                  Labels& labels) {
+  constexpr double kGap = 44;
+  const TextStyle large{52, Weight::semibold, Role::ink},
+      small{25, Weight::regular, Role::quiet_ink};
+  double x = band.hi.x;
+  for (std::size_t i = counters.size(); i-- > 0;) {
+    const Counter& counter = counters[i];
+    const double width = std::max(text_width(counter.number, large), counter.noun_width(small));
+    labels.add(counter.number, {{x, baseline}, 1}, large, band);
+    labels.add(counter.noun, {{x, baseline + 40}, 1}, small, band);
+    x -= width + kGap;
+  }
+  return x + kGap;
 }
 
 // Two lines broken after a sentence, if both halves have room.
@@ -147,7 +223,7 @@ std::optional<std::vector<std::string>> by_sentence(const std::string& text, dou
 std::vector<std::string> caption_lines(const std::string& caption, double width, TextStyle& style) {
   std::string text = caption;
   std::ranges::replace(text, '\n', ' ');
-  for (style.size = kCaption; style.size > kLeastCaption; style.size -= 1.1) {
+  for (; style.size > kLeastCaption; style.size -= 1.1) {
     std::vector<std::string> lines = wrapped(text, width, style);
     if (lines.size() < 2) return lines;
     if (const auto sentences = by_sentence(text, width, style)) return *sentences;
@@ -165,26 +241,32 @@ std::vector<std::string> caption_lines(const std::string& caption, double width,
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels) {
   const bool wide = list.page.x >= kWidePage;
   if (!frame.display.caption && !frame.display.counters) return list.page.y - 26;
-  std::vector<Counter> counters;
-  if (frame.display.counters) {
-    counters = counters_of(frame);
-    add_noted(frame, counters);
-  }
-  if (!counters.empty()) counters[0].main = true;
   const double row = wide ? 0 : kLine + 4;
-  const double second = list.page.y - kBelowLast - row, first = second - kLine;
+  const double first = list.page.y - kBelowLast - row - kLine;
   const double top = first - kAboveFirst;
   const Box<2> band{{margin, top + 4}, {list.page.x - margin, list.page.y - 20}};
-  double right = band.hi.x;
-  if (wide)
-    right = draw_column(counters, band, first, labels) - 40;
-  else
-    draw_row(counters, band, list.page.y - kBelowLast + 6, labels);
+  const std::vector<Counter> counters =
+      frame.display.counters ? counters_of(frame) : std::vector<Counter>();
+  for (const Counter& counter : counters)
+    list.referents.insert(counter.depicts.begin(), counter.depicts.end());
+  double left = band.lo.x, right = band.hi.x;
   TextStyle style{kCaption, Weight::regular, Role::ink};
+  if (frame.ending) {
+    constexpr double kBar = 8;
+    list.rect({{left, first - 36}, {left + kBar, first + kLine + 14}}, Role::lit, {}, kBar / 2);
+    left += kBar + 20;
+    style = {kEnding, Weight::semibold, Role::ink};
+  }
+  if (!wide)
+    draw_row(counters, band, list.page.y - kBelowLast + 6, labels);
+  else if (frame.ending)
+    right = draw_large(counters, band, first + 6, labels) - 40;
+  else
+    right = draw_column(counters, band, first, labels) - 40;
   double baseline = first;
   if (!frame.display.caption) return top;
-  for (const std::string& line : caption_lines(frame.caption, right - band.lo.x, style)) {
-    labels.add(line, {{band.lo.x, baseline}, 0}, style, band);
+  for (const std::string& line : caption_lines(frame.caption, right - left, style)) {
+    labels.add(line, {{left, baseline}, 0}, style, band);
     baseline += kLine;
   }
   return top;

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/marks.hpp"
 #include "draw/panels.hpp"
 #include "draw/pen.hpp"
 
@@ -71,17 +72,6 @@ void add_unmade(Frame& frame) {
 void add_bodies(Frame& frame, MarkKind kind) {
   const Vec<3> c = middle_of(frame);
   switch (kind) {
-    case MarkKind::pair:
-      add_ball(frame, {c.x - 18, c.y}, 8);
-      add_ball(frame, {c.x + 18, c.y}, 8);
-      break;
-    case MarkKind::meeting:
-      add_ball(frame, {c.x - 8, c.y}, 11);
-      add_ball(frame, {c.x + 8, c.y}, 11);
-      break;
-    case MarkKind::velocity:
-      add_ball(frame, {c.x - 16, c.y}, 8).velocity = {3.4, 0, 0};
-      break;
     case MarkKind::static_body: {
       FrameBody& body = add_ball(frame, {c.x, c.y}, 12);
       body.look = Look::box;
@@ -104,7 +94,6 @@ void add_question(Frame& frame, MarkKind kind) {
   const Vec<3> c = middle_of(frame);
   const Vec<3> along{22, 0, 0};
   if (kind == MarkKind::ray) frame.rays.push_back({c - along, c + along, {}});
-  if (kind == MarkKind::hit) frame.rays.push_back({c, c, {{0, c}}});
   if (kind == MarkKind::region)
     frame.queries.push_back({{c - Vec<3>(20, 10, 0), c + Vec<3>(20, 10, 0)}, 0});
   if (kind == MarkKind::view)
@@ -114,7 +103,6 @@ void add_question(Frame& frame, MarkKind kind) {
 // The smallest world that carries the mark.
 Frame sample_of(MarkKind kind) {
   Frame frame = blank_world();
-  const Vec<3> c = middle_of(frame);
   switch (kind) {
     case MarkKind::lit:
     case MarkKind::passed:
@@ -128,20 +116,13 @@ Frame sample_of(MarkKind kind) {
     case MarkKind::not_made:
       add_unmade(frame);
       break;
-    case MarkKind::contact:
-      frame.contacts.push_back({{0, 1}, {0, 1, 0}, {{c - Vec<3>(0, 8, 0), 0, 0}}, false, false});
-      break;
     case MarkKind::spring:
       add_link(frame, FrameLink::Kind::spring);
       break;
     case MarkKind::rod:
       add_link(frame, FrameLink::Kind::distance);
       break;
-    case MarkKind::pin:
-      add_link(frame, FrameLink::Kind::pin);
-      break;
     case MarkKind::ray:
-    case MarkKind::hit:
     case MarkKind::region:
     case MarkKind::view:
       add_question(frame, kind);
@@ -149,8 +130,6 @@ Frame sample_of(MarkKind kind) {
     default:
       add_bodies(frame, kind);
   }
-  if (kind == MarkKind::pair || kind == MarkKind::meeting) frame.pairs.push_back({{0, 1}});
-  frame.display.arrows = kind == MarkKind::velocity;
   frame.display.boxes = kind == MarkKind::box;
   return frame;
 }
@@ -191,21 +170,51 @@ std::vector<Entry> entries_of(const MarkSet& marks, double width) {
 
 std::string_view words_of(MarkKind kind) {
   // By MarkKind.
-  static constexpr std::string_view kWords[] = {
-      "in question",   "passed",  "not made",  "asleep: not searched",
-      "never moves",   "asleep",  "ruled out", "to test",
-      "boxes overlap", "contact", "velocity",  "box",
-      "ray",           "hit",     "view",      "region",
-      "spring",        "rod",     "pin"};
+  static constexpr std::string_view kWords[] = {"in question",
+                                                "passed",
+                                                "not made",
+                                                "asleep: not searched",
+                                                "never moves",
+                                                "asleep",
+                                                "not found",
+                                                "to test",
+                                                "to test, among many",
+                                                "boxes apart",
+                                                "shapes apart",
+                                                "boxes overlap",
+                                                "contact",
+                                                "contact begins",
+                                                "impulse",
+                                                "velocity",
+                                                "force",
+                                                "length",
+                                                "box",
+                                                "ray",
+                                                "hit",
+                                                "order of cells",
+                                                "view",
+                                                "region",
+                                                "found",
+                                                "skipped, with all below",
+                                                "centre",
+                                                "spring",
+                                                "rod",
+                                                "pin"};
   static_assert(std::size(kWords) == kMarkKinds);
   return kWords[static_cast<std::size_t>(kind)];
 }
 
 MarkSet marks_of_sample(MarkKind kind) {
+  DrawList plain;
+  if (draw_mark(kind, {{0, 0}, {kSampleWide, kSampleHigh}}, plain)) {
+    plain.marks.add(kind);
+    return plain.marks;
+  }
   return drawn_sample(kind, {{0, 0}, {kSampleWide, kSampleHigh}}).marks;
 }
 
 void draw_sample(MarkKind kind, const Box<2>& box, DrawList& list) {
+  if (draw_mark(kind, box, list)) return;
   DrawList own = drawn_sample(kind, box);
   for (DrawShape& shape : own.shapes)
     if (!std::holds_alternative<TextShape>(shape)) list.shapes.push_back(std::move(shape));

@@ -1,4 +1,4 @@
-// The marks that a world's picture may carry, for the legend: each has one meaning everywhere.
+// The marks of worlds and trees: one mark, one meaning, in all sequences.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,30 @@ enum class MarkKind : std::uint8_t {
   sleeping_cell,
   static_body,
   sleeping_body,
-  ruled_out,
-  pair,
-  meeting,
-  contact,
-  velocity,
-  box,
+  ruled_out,       // a pale body: culled, or not met by the ray
+  candidate,       // a link: this pair is to be tested
+  faint_pair,      // the same among many
+  boxes_apart,     // a dotted link: ruled out, the boxes do not overlap
+  shapes_apart,    // a dotted link with a cross: the boxes overlap, the shapes do not touch
+  box_overlap,     // a frame: what two boxes share
+  contact,         // a short bar along the normal: they touch
+  contact_begins,  // a ring round it: since this step
+  impulse,         // an arrow from a contact: how strongly it pushes
+  velocity,        // a thin arrow
+  force,           // a heavy arrow, with its size
+  ruler,           // a line between two ticks: a length
+  box,             // round a body, in the broad phase
   ray,
-  hit,
+  ray_hit,         // a disc on a ray
+  met,             // a number on a plate: the order in which a ray meets cells
   view,
   region,
+  found,           // a tick: what a view or region has found
+  skipped,         // a disc with a cross: left out, with all below
+  centre,          // a plus
   spring,
   rod,
-  pin,
+  pin,             // a ring with a dot: two points held together
   count_,
 };
 

@@ -14,7 +14,6 @@ namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostPairs = 900;
-constexpr std::size_t kMostCased = 60;  // links with a casing and joints
 
 // Those that are drawn; half-spaces, which are ground, always are.
 BodiesById drawn_of(const Frame& frame, const std::vector<Body3D>& bodies) {
@@ -35,6 +34,13 @@ void tell_marks(const FrameBody& body, DrawList& list) {
 
 void Marks::dot(const Vec<3>& at, double radius, Role fill, const Stroke& stroke) const {
   if (const auto page = projection_.seen(at)) over().dot(*page, radius, fill, stroke);
+}
+
+void Marks::overlap_mark(const Vec<3>& at) const {
+  constexpr double kHalf = 6;
+  const auto page = projection_.seen(at);
+  const Box<2> box = page ? Box<2>::around(*page, Vec<2>(kHalf)) : Box<2>();
+  if (page && holds(shrunk(place_, 3), box)) draw_overlap(box, list_);
 }
 
 void Marks::line(const Vec<3>& from, const Vec<3>& to, const Stroke& stroke, double casing) {
@@ -71,6 +77,7 @@ void Marks::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
     pen.path(ring_of(page, reach, 60), true, {stroke.role, stroke.width});
   for (const Vec<2>& arm : {Vec<2>(kArm, 0), Vec<2>(0, kArm)})
     pen.line(page - arm, page + arm, {stroke.role, 2.2});
+  tell(MarkKind::centre);
 }
 
 void Marks3D::add(const Convex& space, Outline outline, std::vector<DrawShape> shapes) {
@@ -176,38 +183,56 @@ void Marks3D::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
 
 bool add_pairs(const Frame& frame, Marks3D& marks) {
   const BodiesById bodies = drawn_of(frame, marks.bodies);
-  const bool many = frame.pairs.size() > kMostCased;
+  const std::vector<bool> full = full_links(frame);
+  const scenario::PairStates states(frame);
   std::size_t count = 0;
-  const auto add = [&](bool lit) {
-    return for_each_pair(
-        frame, bodies, [&](const FrameBody& a, const FrameBody& b, const FramePair& pair) {
-          if (pair.lit != lit) return true;
-          if (++count > kMostPairs) return false;
-          const std::string key = pair_key("world/pair", a, b);
-          const Marks::Scope scope(marks, key, key);
-          marks.tell(MarkKind::pair);
-          marks.line(link_end(a, b), link_end(b, a),
-                     {Role::pair, (lit ? 4.4 : 3.0) * (many ? 0.6 : 1)}, many ? 0 : 2);
-          return true;
-        });
+  const auto add = [&](bool in_full) {
+    for (std::size_t i = 0; i < frame.pairs.size(); ++i) {
+      const FramePair& pair = frame.pairs[i];
+      const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
+      if (full[i] != in_full || a == bodies.end() || b == bodies.end()) continue;
+      if (++count > kMostPairs) return false;
+      const LinkLook look{states.state_of(pair.pair), in_full, pair.lit};
+      if (look.state == scenario::PairState::contact ||
+          (!in_full && look.state != scenario::PairState::candidate))
+        continue;
+      const std::string key = pair_key("world/pair", *a->second, *b->second);
+      const Marks::Scope scope(marks, key, key);
+      marks.line(link_end(*a->second, *b->second), link_end(*b->second, *a->second),
+                 stroke_of(look), in_full ? 2 : 0);
+      marks.note(kind_of(look));
+    }
+    return true;
   };
-  return add(false) && add(true);
+  const bool complete = add(false) && add(true);
+  if (complete) marks.depict("pairs");
+  return complete;
 }
 
 void draw_joints(const Frame& frame, const Marks3D& marks) {
-  if (frame.pairs.size() > kMostCased) return;
-  for_each_pair(frame, drawn_of(frame, marks.bodies),
-                [&](const FrameBody& a, const FrameBody& b, const FramePair&) {
-                  if (!overlap(a.box, b.box)) return true;
-                  const Box<3> common{glm::max(a.box.lo, b.box.lo), glm::min(a.box.hi, b.box.hi)};
-                  const std::string key = pair_key("world/joint", a, b);
-                  const Marks::Scope scope(marks, key, key);
-                  const bool grounded = is_half_space(a) || is_half_space(b);
-                  const Vec<3> foot = is_half_space(a) ? link_end(a, b) : link_end(b, a);
-                  marks.tell(MarkKind::meeting);
-                  marks.dot(grounded ? foot : common.center(), 6, Role::pair, {Role::panel, 2});
-                  return true;
-                });
+  const BodiesById bodies = drawn_of(frame, marks.bodies);
+  const std::vector<bool> full = full_links(frame);
+  const scenario::PairStates states(frame);
+  Pen pen = marks.over();
+  for (std::size_t i = 0; i < frame.pairs.size(); ++i) {
+    const FramePair& pair = frame.pairs[i];
+    const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
+    const scenario::PairState state = states.state_of(pair.pair);
+    if (!full[i] || a == bodies.end() || b == bodies.end() || state == scenario::PairState::contact)
+      continue;
+    const std::string key = pair_key("world/joint", *a->second, *b->second);
+    const Marks::Scope scope(marks, key, key);
+    const Vec<3> from = link_end(*a->second, *b->second), to = link_end(*b->second, *a->second);
+    if (state == scenario::PairState::shapes_apart)
+      if (const auto at = marks.projection().seen((from + to) * 0.5))
+        draw_cross(*at, Role::rejected_pair, pen);
+    if (!overlap(a->second->box, b->second->box)) continue;
+    const Box<3> common{glm::max(a->second->box.lo, b->second->box.lo),
+                        glm::min(a->second->box.hi, b->second->box.hi)};
+    const bool grounded = is_half_space(*a->second) || is_half_space(*b->second);
+    const Vec<3> middle = !grounded ? common.center() : is_half_space(*a->second) ? from : to;
+    marks.overlap_mark(middle);
+  }
 }
 
 }  // namespace lantern::draw

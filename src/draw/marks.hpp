@@ -2,14 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "draw/labels.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
+#include "scenario/pair_state.hpp"
 
 namespace lantern::draw {
 
@@ -34,10 +37,14 @@ class Marks {
   // What is drawn with it lies over all that bodies may hide, in the marks' place.
   Pen over() const { return {*over_, place_}; }
   void dot(const Vec<3>& at, double radius, Role fill, const Stroke& stroke = {}) const;
+  // The mark of two boxes that overlap, over all else.
+  void overlap_mark(const Vec<3>& at) const;
 
   const Projection& projection() const { return projection_; }
-  // What is drawn is such a mark.
+  const Box<2>& place() const { return place_; }
+  // What is drawn is such a mark, for the legend; and shows a number, for the caption.
   void tell(MarkKind kind) const { list_.marks.add(kind); }
+  void depict(std::string_view number) const { list_.referents.emplace(number); }
 
   // What is marked until it ends shows this, as DrawList::Scope says.
   class Scope {
@@ -62,13 +69,62 @@ class Marks {
   DrawList* over_;
 };
 
+// A sample of a mark that fills a place about 60 wide and 24 high, for a legend. False, and nothing
+// is drawn, for what is no mark by itself but a look of cells, bodies, views and springs.
+bool draw_mark(MarkKind kind, const Box<2>& place, DrawList& list);
+
+// The link of a pair, from outline to outline, by how far the pair has come; nothing for a contact,
+// which has a mark of its own. `full`: else thin and pale, one among many.
+struct LinkLook {
+  scenario::PairState state = scenario::PairState::candidate;
+  bool full = true;
+  bool lit = false;
+};
+MarkKind kind_of(const LinkLook& look);
+Stroke stroke_of(const LinkLook& look);
+void draw_link(const Vec<2>& from, const Vec<2>& to, const LinkLook& look, Pen& pen);
+// What is ruled out by shapes has a cross in the middle of its link.
+void draw_cross(const Vec<2>& at, Role role, Pen& pen);
+
+// Where two boxes share some area of the page.
+void draw_overlap(const Box<2>& common, DrawList& list);
+// A node left out, with all below it; and a plate with the place of a cell on a ray's way, from 1.
+// False, and nothing is drawn, where there is no room.
+inline constexpr double kSkipRadius = 10;
+void draw_skipped(const Vec<2>& at, DrawList& list);
+bool draw_met(std::uint32_t place, const Vec<2>& at, const Box<2>& room, DrawList& list,
+              Labels& labels);
+void draw_tick(const Vec<2>& at, DrawList& list);
+
+// A contact: a bar along the normal, which points along `normal` of the page; `k` makes it smaller
+// among many.
+void draw_contact(const Vec<2>& at, const Vec<2>& normal, double k, Pen& pen);
+void draw_beginning(const Vec<2>& at, double k, Pen& pen);
+void draw_impulse(const Vec<2>& from, const Vec<2>& to, double k, Pen& pen);
+inline constexpr Stroke kVelocityStroke{Role::ink, 1.9};
+inline constexpr double kVelocityHead = 10;
+inline constexpr Stroke kForceStroke{Role::warning, 4.6};
+inline constexpr double kForceHead = 18;
+// A line between two ticks.
+void draw_ruler(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, Pen& pen);
+
+// Of many pairs, those whose links are drawn in full: of bodies that the step is about, then those
+// that are new; all where there are few. One for each pair of the frame.
+inline constexpr std::size_t kMostFullLinks = 12;
+std::vector<bool> full_links(const Frame& frame);
+
 // The corners of a spring's line, which turns to and fro across its way; none for a short one.
 std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to);
 
 // Springs, joints and pins with their ends; velocities, the faster the longer by one rule for all
-// frames.
+// frames, from the bodies' outlines on, none of what hardly moves; forces with their sizes, the
+// largest of the frame the longest.
 void mark_links(const Frame& frame, Marks& marks);
 void mark_velocities(const Frame& frame, Marks& marks);
+void mark_forces(const Frame& frame, Marks& marks);
+void write_forces(const Frame& frame, const Projection& view, Labels& labels);
+// Lengths, with a ghost of what they were.
+void mark_rulers(const Frame& frame, Marks& marks, Labels& labels);
 // Points, normals and impulses. False if there are too many, and not all are drawn.
 bool mark_contacts(const Frame& frame, const Marks& marks);
 
@@ -90,6 +146,8 @@ void mark_rays(const Frame& frame, Marks& marks);
 void mark_eyes(const Frame& frame, const Projection& projection, const Box<2>& place,
                DrawList& list);
 void mark_hits(const Frame& frame, const Marks& marks, Labels& labels);
+// A tick at each body that a view or region has found.
+void mark_found(const Frame& frame, const Marks& marks, DrawList& list);
 
 // An eye at a place of the page that looks along `gaze`.
 void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& place, DrawList& list);

@@ -243,6 +243,7 @@ void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 60 || place.size().y < kMemoryHeading + 12) return;
   MemoryView(frame, place, list, labels).draw();
+  list.referents.insert({"slots", "entries"});
 }
 
 double memory_height(const Frame& frame, double width) {

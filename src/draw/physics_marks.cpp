@@ -12,11 +12,10 @@ namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostDrawnLinks = 120;
-constexpr std::size_t kMostArrows = 300;
 constexpr std::size_t kMostPoints = 500;
 constexpr std::size_t kFewPoints = 60;  // more are drawn smaller
-constexpr double kNormal = 24;          // page units
-constexpr double kLeastImpulse = 20, kMostImpulse = 92;
+constexpr double kContact = 10;         // half a contact's bar, page units
+constexpr double kLeastImpulse = 18, kMostImpulse = 46;
 
 constexpr std::size_t kMostDepths = 60;
 constexpr double kNumberBeside = 16;  // between a contact's outermost point and its number
@@ -42,14 +41,6 @@ std::vector<Depth> depths_of(const Frame& frame, const Projection& view) {
   std::ranges::stable_sort(found, std::greater(), &Depth::depth);
   if (found.size() > kMostDepths) found.resize(kMostDepths);
   return found;
-}
-
-// The part of its greatest length that a velocity's arrow has, in a world `extent` long. Speeds
-// far above the world's measure are pressed together, so that the scale depends on no other body
-// and an arrow changes from frame to frame only as its own body does.
-double arrow_share(double speed, double extent) {
-  const double half = 0.12 * extent;  // this far in a second: half the length
-  return speed > 0 && half > 0 ? speed / (speed + half) : 0;
 }
 
 // Of a spring or joint that is stretched, pressed together, or neither: by colour, and the more the
@@ -90,6 +81,7 @@ void mark_links(const Frame& frame, Marks& marks) {
       marks.line(link.from, link.to, {Role::ink, 1.6});
       marks.dot(link.to, 7.5, Role::panel, {Role::ink, 2.6});
       marks.dot(link.to, 2, Role::ink);
+      marks.tell(MarkKind::pin);
       continue;
     }
     if (link.kind == FrameLink::Kind::spring)
@@ -100,13 +92,29 @@ void mark_links(const Frame& frame, Marks& marks) {
   }
 }
 
+void draw_contact(const Vec<2>& at, const Vec<2>& normal, double k, Pen& pen) {
+  const double length = std::hypot(normal.x, normal.y);
+  const Vec<2> half = (length > 0 ? normal / length : Vec<2>(0, -1)) * (kContact * k);
+  pen.line(at - half, at + half, {Role::contact, 5.2 * k}, 1.8 * k);
+}
+
+void draw_beginning(const Vec<2>& at, double k, Pen& pen) {
+  pen.dot(at, 14 * k, Role::none, {Role::contact, 2 * k});
+}
+
+void draw_impulse(const Vec<2>& from, const Vec<2>& to, double k, Pen& pen) {
+  pen.arrow(from, to, {Role::contact, 2.4 * k}, 11 * k, 1.2 * k);
+}
+
 bool mark_contacts(const Frame& frame, const Marks& marks) {
-  std::size_t points = 0;
+  std::size_t points = 0, pushing = 0;
   double most = 0;  // impulse
   for (const FrameContact& contact : frame.contacts)
     for (const FrameContact::Point& point : contact.points) {
       ++points;
-      if (std::isfinite(point.impulse)) most = std::max(most, point.impulse);
+      if (!std::isfinite(point.impulse)) continue;
+      most = std::max(most, point.impulse);
+      pushing += point.impulse > 0;
     }
   const double k = points > kFewPoints ? 0.6 : 1;
   const Projection& view = marks.projection();
@@ -119,37 +127,23 @@ bool mark_contacts(const Frame& frame, const Marks& marks) {
       if (++drawn > kMostPoints) return false;
       const auto at = view.seen(point.position);
       if (!at) continue;
-      const bool pushes = point.impulse > 0 && most > 0;
-      const double share = pushes ? std::min(1.0, point.impulse / most) : 0;
-      const double length =
-          k * (pushes ? kLeastImpulse + (kMostImpulse - kLeastImpulse) * share : kNormal);
-      const auto tip =
-          view.seen(point.position + contact.normal * (length / view.scale_at(point.position)));
-      const Stroke stroke{Role::contact, (pushes ? 4.4 : 2.0) * k};
-      if (tip) pen.arrow(*at, *tip, stroke, (pushes ? 17 : 9) * k, (pushes ? 1.6 : 1.2) * k);
-      if (contact.begins) pen.dot(*at, 10 * k, Role::none, {Role::contact, 1.8});
-      marks.tell(MarkKind::contact);
-      pen.dot(*at, 5 * k, Role::contact, {Role::panel, 1.8 * k});
+      const auto beside = view.seen(
+          point.position + contact.normal * (kMostImpulse / view.scale_at(point.position)));
+      const Vec<2> normal = beside ? *beside - *at : Vec<2>(0, -1);
+      draw_contact(*at, normal, k, pen);
+      if (contact.begins) draw_beginning(*at, k, pen);
+      if (!(point.impulse > 0) || !(most > 0)) continue;
+      const double share = std::min(1.0, point.impulse / most);
+      const double length = kLeastImpulse + (kMostImpulse - kLeastImpulse) * share;
+      draw_impulse(*at, *at + normal * (k * length / kMostImpulse), k, pen);
     }
   }
+  if (points == 0) return true;
+  marks.tell(MarkKind::contact);
+  if (pushing > 0) marks.tell(MarkKind::impulse);
+  if (std::ranges::any_of(frame.contacts, &FrameContact::begins))
+    marks.tell(MarkKind::contact_begins);
   return true;
-}
-
-void mark_velocities(const Frame& frame, Marks& marks) {
-  constexpr double kLeastShare = 1.0 / 60;  // of the longest arrow
-  if (!frame.display.arrows || frame.bodies.size() > kMostArrows) return;
-  const Projection& view = marks.projection();
-  for (const FrameBody& body : frame.bodies) {
-    const double speed = glm::length(body.velocity);
-    if (is_half_space(body) || !std::isfinite(speed) || !(speed > 1e-12)) continue;
-    const double share = arrow_share(speed, view.size());
-    if (!(share > kLeastShare)) continue;
-    const Marks::Scope scope(marks, body_key("world/velocity", body));
-    marks.tell(MarkKind::velocity);
-    marks.arrow(body.position,
-                body.position + body.velocity * (share * view.longest_arrow() / speed),
-                {Role::ink, 2.8}, 13, 1.6);
-  }
 }
 
 std::string depth_text(double depth) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ void mark_hits_of(const FrameRay& ray, const Marks& marks, Labels& labels) {
     const double radius = std::max(kHit, text_width(text, style) / 2 + 4);
     const Box<2> box = Box<2>::around(*at, Vec<2>(radius));
     const bool numbered = ray.hits.size() > 1 && labels.is_free(box, picture);
-    marks.tell(MarkKind::hit);
-    marks.over().dot(*at, numbered ? radius : 6, Role::panel, {Role::ray, 2.8});
+    marks.over().dot(*at, numbered ? radius : 7, Role::panel, {Role::ray, 2.8});
+    marks.tell(MarkKind::ray_hit);
     if (!numbered) continue;
     labels.add(text, centred(*at, style), style, picture);
     labels.block(box);
@@ -113,11 +114,23 @@ void mark_rays(const Frame& frame, Marks& marks) {
   }
 }
 
+void mark_found(const Frame& frame, const Marks& marks, DrawList& list) {
+  if (!frame.rays.empty() || frame.hits.size() > kMostHits) return;
+  const Box<2> room = shrunk(marks.place(), 10);
+  for (const FrameBody& body : frame.bodies) {
+    if (!std::ranges::binary_search(frame.hits, body.id)) continue;
+    const auto at = marks.projection().seen({body.box.hi.x, body.box.hi.y, body.position.z});
+    if (at && contains(room, *at)) draw_tick(*at, list);
+  }
+  marks.depict("hits");
+}
+
 void mark_hits(const Frame& frame, const Marks& marks, Labels& labels) {
   const double k = ray_scale(frame);
   const auto rays = first_of(frame.rays, kMostRays);
   for (const FrameRay& ray : rays) marks.dot(ray.from, 5.5 * k, Role::ray, {Role::panel, 1.8 * k});
   for (const FrameRay& ray : rays) mark_hits_of(ray, marks, labels);
+  if (!rays.empty()) marks.depict("hits");
 }
 
 }  // namespace lantern::draw

@@ -33,6 +33,7 @@ enum class Role : std::uint8_t {
   pupil,
   pair,  // link between two bodies that are to be tested
   rejected_pair,
+  faint_pair,  // a link among many
   static_body,
   asleep,
   contact,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
+#include "draw/count_words.hpp"
 #include "draw/font.hpp"
 #include "draw/panels.hpp"
 
@@ -103,6 +104,9 @@ std::vector<SideNumber> numbers_of(const Frame& frame) {
       {"pairs", "pair", "pairs"},          {"free_leaves", "free leaf", "free leaves"},
       {"contacts", "contact", "contacts"}, {"sectors", "sector", "sectors"}};
   std::vector<SideNumber> numbers;
+  for (const std::string& name : frame.headline)
+    numbers.push_back({name, count_words(name, true), count_words(name, false)});
+  if (!numbers.empty()) return numbers;
   for (const SideNumber& known : kKnown)
     if (numbers.size() < kMostNumbers && std::ranges::any_of(frame.sides, [&](const Frame& side) {
           return side.number(known.name).has_value();
@@ -159,6 +163,7 @@ void draw_sides(const Frame& frame, const Box<2>& area, const Box<2>& foot, Draw
   }
   const std::vector<Box<2>> places = places_of(frame.sides.size(), above);
   const std::vector<SideNumber> numbers = numbers_of(frame);
+  for (const SideNumber& number : numbers) list.referents.insert(number.name);
   const bool own_times = std::ranges::any_of(
       frame.sides, [&](const Frame& side) { return side.time != frame.sides[0].time; });
   draw_rules(places, list);

@@ -56,6 +56,7 @@ constexpr Colors kColors[] = {
     {Role::pupil, 0x161b26, 0x11141b, 0x000000},
     {Role::pair, 0xc2185b, 0xff7bac, 0x000000},
     {Role::rejected_pair, 0x76839a, 0x7d889b, 0x808080},
+    {Role::faint_pair, 0xe2a0bc, 0x7a4459, 0xa8a8a8},
     {Role::static_body, 0xc5ccd6, 0x4a5364, 0xcfcfcf},
     {Role::asleep, 0xaab3c0, 0x5d6778, 0xe4e4e4},
     {Role::contact, 0xb3261e, 0xff8a70, 0x000000},

@@ -52,7 +52,8 @@ class TreeFold {
       std::ranges::stable_sort(children, {}, [&](std::uint32_t c) { return nodes_[c].slot; });
       Hash hash;
       hash.add(static_cast<std::uint64_t>(node.mark)).add(std::uint64_t{node.leaf});
-      hash.add(std::uint64_t{node.awake});
+      hash.add(std::uint64_t{node.awake}).add(std::uint64_t{node.skipped});
+      hash.add(std::uint64_t{node.met});
       hash.add(node.plane_name).add(named ? node.label : std::string());
       for (const BodyId id : node.bodies) hash.add(std::uint64_t{id});
       mark_[i] = node.mark;

@@ -163,6 +163,8 @@ void draw_forest(const Frame& frame, const Box<2>& area, DrawList& list, Labels&
 
 void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const std::vector<Fact> facts = facts_of(frame);
+  for (const char* name : {"nodes", "leaves", "entries"})  // the facts
+    if (frame.count(name)) list.referents.emplace(name);
   const Spacing spacing = spacing_of(facts, panel);
   const double height = lay_out_facts(facts, panel, spacing, 0, nullptr) * kFactLine;
   lay_out_facts(facts, panel, spacing, panel.hi.y - height, &labels);

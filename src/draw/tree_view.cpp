@@ -6,6 +6,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
+#include "draw/marks.hpp"
 #include "draw/notes.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
@@ -36,12 +37,19 @@ class TreeView {
       if (branches()[i].kind != Branch::Kind::levels) labels_.block(layout_.boxes[i]);
     for (std::size_t i = 0; i < branches().size(); ++i) label_branch(i);
     for (std::size_t i = 1; i < branches().size(); ++i) label_edge(i);
+    depict();
   }
 
  private:
   const std::vector<Branch>& branches() const { return layout_.branches; }
   const FrameNode& node_of(const Branch& branch) const { return frame_.nodes[branch.node]; }
   bool is_atlas() const { return !frame_.textures.empty(); }
+  // On a tree that is shown whole, its nodes can be counted.
+  void depict() const {
+    if (branches().size() != frame_.nodes.size() || frame_.nodes.empty()) return;
+    list_.referents.insert({"depth", "most_in_leaf", "nodes_asleep", "leaves_asleep",
+                            "branches_asleep", "nodes_visited", "nodes_skipped", "free_leaves"});
+  }
   bool is_empty_leaf(const Branch& branch) const {
     return node_of(branch).leaf && node_of(branch).bodies.empty();
   }
@@ -93,8 +101,9 @@ class TreeView {
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
-    const Role ground =
-        node.sleeps() && branch.mark == Mark::quiet ? Role::free_space : ground_of(branch.mark);
+    const Role ground = (node.sleeps() || node.skipped) && branch.mark == Mark::quiet
+                            ? Role::free_space
+                            : ground_of(branch.mark);
     // What never moves has sharp corners.
     const double radius = node.of_static ? 1.5 : layout_.scale.radius;
     const bool pile = branch.kind == Branch::Kind::folded ||
@@ -111,7 +120,15 @@ class TreeView {
     else
       draw_content(branch, box);
     if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
+    if (branch.kind == Branch::Kind::node) draw_walk(node, box);
     if (node.sleeps()) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
+  }
+
+  // What a ray, view or region left out, and the place of a leaf on a ray's way.
+  void draw_walk(const FrameNode& node, const Box<2>& box) {
+    if (node.skipped && (node.parent == kNone || !frame_.nodes[node.parent].skipped))
+      draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
+    if (node.met != kNone) draw_met(node.met, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
   }
 
   // A dashed line where levels are left out.

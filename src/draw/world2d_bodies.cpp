@@ -19,7 +19,6 @@ constexpr double kOnePlace = 6;        // page units between centres that count 
 constexpr std::size_t kMostCards = 7;  // drawn of the bodies at one place
 constexpr std::size_t kMostDetailed = 160;
 constexpr std::size_t kMostBoxed = 60;
-constexpr std::size_t kMostLinks = 900;
 constexpr double kRim = 24;      // from the bounds to an outside body's marker
 const Vec<2> kOverhang{34, 20};  // a body may reach this far out of the world's bounds
 constexpr double kLeastBody = 5;
@@ -99,46 +98,6 @@ void draw_stand(const Stand& stand, bool plain, const View2D& map, DrawList& lis
   }
 }
 
-// Two stands with bodies that are to be tested.
-struct Link {
-  std::size_t a, b;  // indices of stands
-  bool lit;
-};
-
-// Each two stands once, in order of the pairs; `complete` is false when there are too many.
-std::vector<Link> links_of(const Frame& frame, const std::vector<Stand>& stands, bool& complete) {
-  std::unordered_map<BodyId, std::size_t> stand_of_body;
-  for (std::size_t i = 0; i < stands.size(); ++i)
-    for (const FrameBody* body : stands[i].bodies) stand_of_body[body->id] = i;
-  std::set<std::pair<std::size_t, std::size_t>> seen;
-  std::vector<Link> links;
-  for (const FramePair& pair : frame.pairs) {
-    const auto a = stand_of_body.find(pair.pair.a), b = stand_of_body.find(pair.pair.b);
-    if (a == stand_of_body.end() || b == stand_of_body.end() || a->second == b->second) continue;
-    if (!seen.insert(std::minmax(a->second, b->second)).second) continue;
-    complete = links.size() < kMostLinks;
-    if (!complete) break;
-    links.push_back({a->second, b->second, pair.lit});
-  }
-  return links;
-}
-
-std::string link_key(std::string_view kind, const std::vector<Stand>& stands, const Link& link) {
-  return pair_key(kind, *stands[link.a].bodies[0], *stands[link.b].bodies[0]);
-}
-
-// Where a link to `stand` ends. A long wall or floor is met at its place nearest to the other body:
-// links to its middle would all run into one point, far from where the two could touch.
-Vec<2> link_end(const Stand& stand, const Vec<2>& other) {
-  constexpr double kLong = 260;  // page units
-  const Vec<2> size = stand.box.size();
-  if (stand.bodies.size() > 1 || !stand.bodies.front()->is_static || stand.outside ||
-      std::max(size.x, size.y) < kLong)
-    return stand.center;
-  const Vec<2> inset = glm::min(Vec<2>(6), size / 2.0);
-  return glm::clamp(other, stand.box.lo + inset, stand.box.hi - inset);
-}
-
 std::string names_of(const Stand& stand) {
   if (stand.bodies.size() == 1) return stand.bodies.front()->name;
   constexpr std::size_t kMostNames = 4;
@@ -197,40 +156,6 @@ std::vector<Stand> stands_of(const Frame& frame, const View2D& map) {
     }
   }
   return stands;
-}
-
-bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& list) {
-  bool complete = true;
-  const std::vector<Link> links = links_of(frame, stands, complete);
-  const bool many = links.size() > kMostBoxed;
-  for (const bool lit : {false, true})
-    for (const Link& link : links) {
-      if (link.lit != lit) continue;
-      const Vec<2> from = link_end(stands[link.a], stands[link.b].center);
-      const Vec<2> to = link_end(stands[link.b], from);
-      const double width = (lit ? 4.4 : 3.0) * (many ? 0.6 : 1);
-      const std::string key = link_key("world/pair", stands, link);
-      const DrawList::Scope scope(list, key, key);
-      if (!many) list.line(from, to, {Role::panel, width + 4});
-      list.line(from, to, {Role::pair, width});
-      list.marks.add(MarkKind::pair);
-    }
-  return complete;
-}
-
-void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList& list) {
-  bool complete = true;
-  const std::vector<Link> links = links_of(frame, stands, complete);
-  if (links.size() > kMostBoxed) return;
-  for (const Link& link : links) {
-    const Box<2>&a = stands[link.a].box, &b = stands[link.b].box;
-    if (!overlap(a, b)) continue;
-    const Box<2> common{glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
-    const std::string key = link_key("world/joint", stands, link);
-    const DrawList::Scope scope(list, key, key);
-    list.disc(common.center(), 6.5, Role::pair, {Role::panel, 2.4});
-    list.marks.add(MarkKind::meeting);
-  }
 }
 
 void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list) {

@@ -108,11 +108,29 @@ bool nearly_all_lit(const Frame& frame) {
   return frame.nodes.size() > kMany && frame.bodies.size() > kMany / 4 && 10 * lit > 7 * leaves;
 }
 
+// What a ray, view or region has left out.
+void fill_skipped(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
+  std::size_t filled = 0;
+  for (const FrameNode& node : frame.nodes) {
+    const bool topmost =
+        node.skipped && (node.parent == kNone || !frame.nodes[node.parent].skipped);
+    if (!topmost || !is_drawn(map.to_page(node.box))) continue;
+    if (++filled > kMostFills) return;
+    grounds.push_back({page_region(node, map), Role::free_space});
+    if (node.region.empty())
+      list.crisp_rect(map.to_page(node.box), Role::free_space);
+    else
+      list.polygon(grounds.back().region, Role::free_space);
+  }
+}
+
 void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
   if (nearly_all_lit(frame)) return;
   std::vector<Painted> painted = painted_of(frame);
-  std::erase_if(painted,
-                [&](const Painted& p) { return !is_drawn(map.to_page(frame.nodes[p.node].box)); });
+  std::erase_if(painted, [&](const Painted& p) {
+    // The whole world in one tone would tell nothing: it has its outline.
+    return p.node == 0 || !is_drawn(map.to_page(frame.nodes[p.node].box));
+  });
   if (painted.size() > kMostFills) return;  // some alone would say what is not so
   for (const auto& [i, tone] : painted) {
     const FrameNode& node = frame.nodes[i];
@@ -241,6 +259,7 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
     return true;
   }
   fill_cells(frame, map, list, grounds);
+  fill_skipped(frame, map, list, grounds);
   if (is_level(frame)) {
     Grounds sectors;  // over what is painted of inner nodes
     fill_sectors(frame, map, list, sectors);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <optional>
+
+#include <fmt/format.h>
 
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
@@ -20,6 +22,52 @@ double depth_behind(const std::vector<Vec<2>>& polygon, const Plane<2>& surface)
   for (const Vec<2>& p : polygon)
     depth = std::max(depth, surface.offset - surface.normal.x * p.x - surface.normal.y * p.y);
   return depth;
+}
+
+// The two half edges of a turned box, from its centre, on the page.
+struct HalfEdges {
+  Vec<2> along{0.0};
+  Vec<2> across{0.0};
+  Vec<3> half{0.0};  // sizes of the box
+};
+
+std::optional<HalfEdges> half_edges_of(const FrameBody& body, double scale) {
+  const auto* box = std::get_if<OrientedBox<3>>(&body.shape);
+  if (!box || !body.lit) return std::nullopt;
+  const double c = std::cos(body.angle), s = std::sin(body.angle);
+  if (std::abs(s) < 1e-9 || std::abs(c) < 1e-9) return std::nullopt;
+  return HalfEdges{Vec<2>(c, -s) * (box->half_size.x * scale),
+                   Vec<2>(-s, -c) * (box->half_size.y * scale), box->half_size};
+}
+
+constexpr Role kAlong = Role::ray, kAcross = Role::frustum;  // the half edges' colours
+
+// |R| h: both half edges' parts along an axis, laid end to end, are half the size of the box around
+// them.
+void draw_projections(const FrameBody& body, const HalfEdges& edges, const Box<2>& box,
+                      const View2D& map, Pen& pen, Labels& labels) {
+  constexpr double kAway = 16, kWidth = 5;
+  const TextStyle style{std::max(kLabel, 22.0), Weight::semibold, Role::ink, Role::panel};
+  const Vec<2> c = box.center();
+  pen.arrow(c, c + edges.along, {kAlong, 3.4}, 12, 1.4);
+  pen.arrow(c, c + edges.across, {kAcross, 3.4}, 12, 1.4);
+  const double cosine = std::abs(std::cos(body.angle)), sine = std::abs(std::sin(body.angle));
+  const auto sum = [](double a, double b) {
+    return fmt::format("{} + {} = {}", short_number(a), short_number(b), short_number(a + b));
+  };
+  const double above = box.lo.y - kAway, beside = box.hi.x + kAway;
+  const double x = c.x + std::abs(edges.along.x), y = c.y - std::abs(edges.along.y);
+  pen.line({c.x, above}, {x, above}, {kAlong, kWidth});
+  pen.line({x, above}, {box.hi.x, above}, {kAcross, kWidth});
+  pen.line({beside, c.y}, {beside, y}, {kAlong, kWidth});
+  pen.line({beside, y}, {beside, box.lo.y}, {kAcross, kWidth});
+  const Vec<3>& h = edges.half;
+  const std::string wide = sum(h.x * cosine, h.y * sine), high = sum(h.x * sine, h.y * cosine);
+  labels.block({{c.x, above - 4}, {box.hi.x, above + 4}});
+  labels.block({{beside - 4, box.lo.y}, {beside + 4, c.y}});
+  labels.try_add(wide, {{{c.x, above - 12}, 0}, {{box.hi.x, above - 12}, 1}}, style, map.panel());
+  labels.try_add(high, {{{beside + 12, (c.y + box.lo.y) / 2 + 8}, 0}, {{beside, c.y + 30}, 0}},
+                 style, map.panel());
 }
 
 void draw_dimension(Pen& pen, const Vec<2>& from, const Vec<2>& to) {
@@ -81,21 +129,6 @@ std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map,
   return places;
 }
 
-void draw_ground_pairs(const Frame& frame, Marks& marks) {
-  constexpr std::size_t kMostLinks = 200;
-  std::size_t drawn = 0;
-  for_each_pair(frame, by_id(frame.bodies),
-                [&](const FrameBody& a, const FrameBody& b, const FramePair& pair) {
-                  if (is_half_space(a) == is_half_space(b)) return true;
-                  const auto& [body, ground] = is_half_space(a) ? std::tie(b, a) : std::tie(a, b);
-                  const std::string key = pair_key("world/pair", a, b);
-                  const Marks::Scope scope(marks, key, key);
-                  marks.line(body.position, foot_on(ground, body.position),
-                             {Role::pair, pair.lit ? 4.4 : 3.0}, 2);
-                  return ++drawn < kMostLinks;
-                });
-}
-
 void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
                       const Grounds& grounds, Labels& labels) {
   for (const GroundPlace& place : places) {
@@ -129,7 +162,10 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
     list.marks.add(MarkKind::box);
     if (!body.lit)  // the others have one already
       list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
-    if (body.lit || frame.bodies.size() <= kFewBodies) draw_half_sizes(body, box, map, pen, labels);
+    if (const auto edges = half_edges_of(body, map.scale()))
+      draw_projections(body, *edges, box, map, pen, labels);
+    else if (body.lit || frame.bodies.size() <= kFewBodies)
+      draw_half_sizes(body, box, map, pen, labels);
   }
 }
 

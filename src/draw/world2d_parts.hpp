@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -64,10 +65,30 @@ struct Stand {
 // In order of the first body's id. Half-spaces stand nowhere.
 std::vector<Stand> stands_of(const Frame& frame, const View2D& map);
 
-// False if there are too many pairs, and not all are drawn.
-bool draw_pairs(const Frame& frame, const std::vector<Stand>& stands, DrawList& list);
-// A mark where two bodies that are to be tested cover each other, and with it their link.
-void draw_joints(const Frame& frame, const std::vector<Stand>& stands, DrawList& list);
+// The link of a pair on the page; of bodies at one place, of all their pairs.
+struct PageLink {
+  Vec<2> from{0.0};
+  Vec<2> to{0.0};
+  LinkLook look;
+  std::string key;               // of its shapes
+  std::vector<Vec<2>> bow;       // its points where it goes round a body that would hide it
+  bool close = false;            // the bodies leave no room between them: it lies over them
+  std::optional<Box<2>> common;  // what the two boxes share
+};
+struct PageLinks {
+  std::vector<PageLink> links;
+  bool complete = true;  // else there are too many, and some are missing
+};
+PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const View2D& map);
+// Under the bodies, or what lies over them.
+void draw_links(const PageLinks& links, bool over, const View2D& map, DrawList& list);
+
+// What a ray, view or region left out, and the places of cells on a ray's way; free of `bodies`.
+void mark_walk(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
+               DrawList& list, Labels& labels);
+// Where the borders of the lit way lie, at the world's lower and left edges.
+void draw_coordinates(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
+
 // `boxes`: with the dashed boxes of what is no box itself.
 void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list);
 // Free of what is covered by bodies, as far as there is room.
@@ -89,8 +110,6 @@ struct GroundPlace {
 };
 std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map, DrawList& list,
                                           Grounds& grounds);
-// From a body to the ground that it is to be tested with.
-void draw_ground_pairs(const Frame& frame, Marks& marks);
 void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
                       const Grounds& grounds, Labels& labels);
 

@@ -125,6 +125,7 @@ void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
     left_out.push_back("not all pairs are drawn");
   mark_links(frame, marks);
   mark_velocities(frame, marks);
+  mark_forces(frame, marks);
   for (const Body3D& b : marks.bodies)
     if (frame.display.boxes && (b.body->lit || marks.bodies.size() <= kMostBoxed3d)) {
       const Marks::Scope scope(marks, body_key("world/box", *b.body));
@@ -134,6 +135,15 @@ void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
   mark_views(frame, marks);
   mark_rays(frame, marks);
   mark_queries(frame, marks);
+}
+
+// The numbers that can be counted on the picture.
+void depict_contacts(DrawList& list) {
+  for (const char* name : {"contacts", "contact_points", "impulses"}) list.referents.emplace(name);
+}
+void depict_bodies(const Frame& frame, DrawList& list) {
+  for (const char* name : {"bodies", "asleep", "awake"}) list.referents.emplace(name);
+  if (frame.display.depths) list.referents.emplace("penetration");
 }
 
 bool shows(const View3D& view, const FrameBody& body) {
@@ -147,6 +157,14 @@ bool shows(const View3D& view, const FrameBody& body) {
   return overlap(box_of(outline), view.panel());
 }
 
+void add_contacts(const Frame& frame, const Marks& marks, LeftOut& left_out, DrawList& list) {
+  if (!frame.display.contacts) return;
+  if (mark_contacts(frame, marks))
+    depict_contacts(list);
+  else
+    left_out.push_back("not all contacts are drawn");
+}
+
 // What lies over the bodies.
 void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawList& list,
                 Labels& labels) {
@@ -156,10 +174,13 @@ void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawLi
   mark_eyes(frame, map, shrunk(map.picture(), -20), list);
   mark_queries(frame, inside);
   mark_velocities(frame, marks);
-  if (frame.display.contacts && !mark_contacts(frame, marks))
-    left_out.push_back("not all contacts are drawn");
+  add_contacts(frame, marks, left_out, list);
   mark_rays(frame, marks);
   mark_hits(frame, marks, labels);
+  mark_found(frame, inside, list);
+  mark_forces(frame, marks);
+  write_forces(frame, map, labels);
+  mark_rulers(frame, marks, labels);
   if (frame.eye) {
     const Vec<2> eye = map.to_page(*frame.eye);
     draw_eye(eye, {1, 0}, Role::ink, shrunk(map.picture(), -20), list);
@@ -226,10 +247,13 @@ void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Label
     left_out.push_back(fmt::format("{} bodies as dots", frame.bodies.size()));
   }
   if (frame.display.pairs) draw_joints(frame, marks);
-  if (frame.display.contacts && !mark_contacts(frame, marks))
-    left_out.push_back("not all contacts are drawn");
+  add_contacts(frame, marks, left_out, list);
   mark_eyes(frame, view, panel, list);
   mark_hits(frame, marks, labels);
+  mark_found(frame, marks, list);
+  write_forces(frame, view, labels);
+  mark_rulers(frame, marks, labels);
+  if (!crowd) depict_bodies(frame, list);
   note(left_out, panel, labels);
   std::vector<Box<2>> covered;
   for (const Body3D& body : bodies) covered.push_back(body.box);
@@ -256,9 +280,12 @@ void draw_world2d(const Frame& frame, const View2D& map, DrawList& list, Labels&
   // A ray, view or region is about bodies, not about pairs.
   const bool asks = !frame.rays.empty() || !frame.views.empty() || !frame.queries.empty();
   const bool pairs = frame.display.pairs && !asks;
-  if (pairs && !draw_pairs(frame, stands, list)) left_out.push_back("not all pairs are drawn");
-  Marks marks(map, mark_limit(map), list);
-  if (pairs) draw_ground_pairs(frame, marks);
+  const PageLinks links = pairs ? links_of(frame, stands, map) : PageLinks();
+  if (!links.complete)
+    left_out.push_back("not all pairs are drawn");
+  else if (pairs)
+    list.referents.insert({"pairs", "overlaps"});
+  draw_links(links, false, map, list);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.display.boxes;
   draw_bodies(stands, map, own_boxes, list);
   for (const Stand& stand : stands) {
@@ -266,13 +293,16 @@ void draw_world2d(const Frame& frame, const View2D& map, DrawList& list, Labels&
     const DrawList::Scope scope(list, body_key("world/over", *stand.bodies[0]));
     draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
   }
-  if (pairs) draw_joints(frame, stands, list);
+  draw_links(links, true, map, list);
+  depict_bodies(frame, list);
   draw_broad_boxes(frame, map, list, labels);
   draw_marks(frame, map, left_out, list, labels);
   note(left_out, map.picture(), labels);
   std::vector<Box<2>> covered;
   for (const Stand& stand : stands) covered.push_back(stand.box);
   write_depths(frame, map, covered, labels);
+  draw_coordinates(frame, map, list, labels);
+  mark_walk(frame, map, covered, list, labels);
   number_sectors(frame, map, grounds, labels);
   label_cells(frame, map, covered, grounds, list, labels);
   name_half_spaces(ground, map, grounds, labels);

@@ -1,5 +1,7 @@
 #include "scenario/caption.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
@@ -87,6 +89,17 @@ std::string fill_caption(std::string_view caption, const TextLookup& text,
       filled += number ? with_noun(*number, parts) : std::string(piece.written);
   });
   return filled;
+}
+
+std::vector<std::string> placeholders_of(std::string_view caption) {
+  std::vector<std::string> names;
+  for_each_piece(caption, [&](const Piece& piece) {
+    if (piece.kind != Piece::Kind::placeholder) return;
+    std::string name(parts_of(piece.inside).name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(std::move(name));
+  });
+  return names;
 }
 
 std::vector<CaptionProblem> caption_problems(

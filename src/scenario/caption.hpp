@@ -24,6 +24,9 @@ using CountLookup = std::function<std::optional<std::int64_t>(std::string_view n
 std::string fill_caption(std::string_view caption, const TextLookup& text,
                          const CountLookup& count);
 
+// The names that its placeholders quote, each once, in order.
+std::vector<std::string> placeholders_of(std::string_view caption);
+
 struct CaptionProblem {
   std::size_t offset = 0;  // in bytes, of what is wrong
   std::string message;     // empty if the only fault is that nobody knows `unknown`

@@ -38,14 +38,10 @@ void ScriptRun::witness(const Event& event) {
   if (frames.stopped()) return;
   using Kind = Event::Kind;
   if (event.kind == Kind::test) frames.touched.passed.insert(event.node);
-  if (event.kind == Kind::store || event.kind == Kind::split || event.kind == Kind::depth_limit ||
-      event.kind == Kind::no_progress)
-    frames.touched.lit.insert(event.node);
   if (!frames.by_event() || !frames.wanted(event_name(event.kind))) return;
   const StructureSpec& structure = engine().structure();
   if (event.kind == Kind::make_child && structure.children == Children::eager) return;
   Touched now = frames.touched;
-  now.lit.clear();
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
   frames.emit(
       now, event_name(event.kind),

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,9 +21,21 @@ namespace lantern::scenario {
 
 // What a ray, a view or a region found, and the walk that found it.
 struct Finding {
+  struct Met {
+    double distance = 0;  // along the ray
+    Vec<3> position{0.0};
+  };
+
   std::vector<BodyId> hits;  // of a ray in order along it, else ascending
   QueryCounts counts;
   std::vector<QueryEvent> walk;  // all that happened, in order
+  // Of the walk, what belongs to the structure of what never moves.
+  std::size_t first_static = std::numeric_limits<std::size_t>::max();
+  bool done = true;           // else the walk is still under way
+  std::set<BodyId> missed;    // while it is: tested in vain
+  bool nearest = false;       // a ray stops at its first hit
+  Vec<3> asked{0.0};          // where the ray would end if nothing stopped it
+  std::map<BodyId, Met> met;  // all that the ray's walk found, also behind the nearest
   std::optional<FrameRay> ray;
   std::optional<FrameView> view;
   std::optional<FrameQuery> region;

@@ -26,6 +26,8 @@ enum class Mark { quiet, passed, lit };
 struct Touched {
   std::set<NodeHandle> lit;
   std::set<NodeHandle> passed;
+  std::set<NodeHandle> skipped;  // left out by a ray, view or region, with all below them
+  std::vector<NodeHandle> met;   // by a ray, in this order
 
   Mark mark_of(NodeHandle node) const {
     if (lit.contains(node)) return Mark::lit;
@@ -75,6 +77,8 @@ struct FrameNode {
   bool reused = false;              // a node of a tree before stood there
   Mark mark = Mark::quiet;
   bool split = false;  // since the frame before, at the same time: the step is about its division
+  bool skipped = false;       // by a ray, view or region, itself or with a node above it
+  std::uint32_t met = kNone;  // a leaf's place in the order in which a ray met them, from 0
 
   // To be drawn so: what never moves, or holds nothing, is not said to sleep.
   bool sleeps() const { return !awake && !of_static && !(leaf && bodies.empty()); }
@@ -128,6 +132,23 @@ struct FrameLink {
   Vec<3> from{0.0};
   Vec<3> to{0.0};
   double strain = 0;  // (length - rest) / rest; 0 for a pin
+};
+
+// A force that acts on a body now: a script's, or the pull of a spring.
+struct FrameForce {
+  BodyId body = 0;
+  Vec<3> at{0.0};     // in the world
+  Vec<3> force{0.0};  // N
+  bool of_spring = false;
+};
+
+// The length between two points, measured.
+struct FrameRuler {
+  Vec<3> from{0.0};
+  Vec<3> to{0.0};
+  double length = 0;
+  std::optional<double> before;  // what it is compared with: as long as it was when the step began
+  std::string text;              // what is measured; may be empty
 };
 
 struct FrameRay {
@@ -235,8 +256,11 @@ struct Frame {
   std::uint32_t steps = 0;
   std::string event;  // the step's name or the algorithm's event; for --at
   StepPhase phase = StepPhase::whole;
-  double time = 0;      // seconds of world time
-  std::string caption;  // counts filled in
+  double time = 0;                    // seconds of world time
+  std::string caption;                // counts filled in
+  std::vector<std::string> told;      // the counts and measures that the caption quotes, in order
+  std::vector<std::string> headline;  // the numbers that the scenario puts in front; may be empty
+  bool ending = false;                // the take-away of the sequence
   StructureKind structure = StructureKind::none;
   std::string settings;  // "capacity 2, depth limit 4": what the tree was told
   int sweep_axis = 0;    // along which a sweep sorted; of other structures of no matter
@@ -252,6 +276,8 @@ struct Frame {
   std::vector<Pair> tested;      // by the narrow phase in the last step, in order of ids
   std::vector<FrameContact> contacts;
   std::vector<FrameLink> links;
+  std::vector<FrameForce> forces;  // if the scenario shows them
+  std::vector<FrameRuler> rulers;
   std::vector<FrameRay> rays;
   std::vector<FrameView> views;
   std::vector<FrameQuery> queries;

@@ -24,6 +24,8 @@ class FrameWriter {
     lines("format", whole_way_ ? "lantern.frame/2" : "lantern.frame/1", "scenario", frame_.scenario,
           "frame", frame_.index, "time", frame_.time, "step", frame_.step, "event", frame_.event,
           "caption", frame_.caption, "seed", frame_.seed);
+    if (frame_.ending) lines("ending", true);
+    if (!frame_.headline.empty()) lines("headline", frame_.headline);
     if (!frame_.sides.empty()) write_list("sides", frame_.sides);
     write_facts(frame_);
     json_.line().end_object();
@@ -49,6 +51,8 @@ class FrameWriter {
     if (whole_way_ && frame.count("pairs_tested")) lines("tested", frame.tested);
     write_list("contacts", frame.contacts);
     if (!frame.links.empty()) write_list("links", frame.links);
+    if (!frame.forces.empty()) write_list("forces", frame.forces);
+    if (!frame.rulers.empty()) write_list("rulers", frame.rulers);
     if (!frame.rays.empty()) write_list("rays", frame.rays);
     if (!frame.views.empty()) write_list("views", frame.views);
     if (!frame.queries.empty()) write_list("queries", frame.queries);
@@ -201,6 +205,8 @@ class FrameWriter {
     if (node.of_static) members("of_static", true);
     if (node.solid) members("solid", true);
     if (node.order != kNone) members("order", node.order);
+    if (node.met != kNone) members("met", node.met);
+    if (node.skipped) members("skipped", true);
     members("awake", node.awake);
     json_.end_object();
   }
@@ -216,6 +222,15 @@ class FrameWriter {
     static constexpr std::string_view kKinds[] = {"spring", "distance", "pin"};
     object("kind", kKinds[static_cast<int>(link.kind)], "from", link.from, "to", link.to, "strain",
            link.strain);
+  }
+  void write(const FrameForce& f) {
+    object("body", f.body, "at", f.at, "force", f.force, "of_spring", f.of_spring);
+  }
+  void write(const FrameRuler& ruler) {
+    json_.begin_object();
+    members("from", ruler.from, "to", ruler.to, "length", ruler.length);
+    if (ruler.before) members("before", *ruler.before);
+    json_.end_object();
   }
   void write(const FrameRay::Hit& hit) { object("body", hit.body, "position", hit.position); }
   void write(const FrameRay& ray) { object("from", ray.from, "to", ray.to, "hits", ray.hits); }

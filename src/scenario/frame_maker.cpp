@@ -10,6 +10,7 @@
 #include "geometry/flat.hpp"
 #include "scenario/caption.hpp"
 #include "scenario/frame.hpp"
+#include "scenario/rulers.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -43,7 +44,12 @@ std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
 
 FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
                        const std::function<bool(const Frame&)>& sink)
-    : scenario_(scenario), pace_(pace), stage_(stage), sink_(sink), looks_(scenario) {
+    : scenario_(scenario),
+      pace_(pace),
+      stage_(stage),
+      sink_(sink),
+      headline_(scenario.headline),
+      looks_(scenario) {
   if (scenario.chart) plotter_.emplace(scenario);
   if (std::ranges::count(scenario.panels, Panel::sparkline) > 0) {
     trace_ = FrameTrace{"pairs", {}, script_seconds(scenario, &part_), std::nullopt};
@@ -67,6 +73,13 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
   finding_.reset();
   noted_.clear();
   looks_.begin(step, stage_.time);
+  if (!step.headline.empty()) headline_ = step.headline;
+  lengths_before_.clear();
+  for (const RulerSpec& ruler : step.rulers) {
+    const auto ends = ends_of(ruler, stage_.engine.get());
+    lengths_before_.push_back(ends ? std::optional(glm::distance(ends->first, ends->second))
+                                   : std::nullopt);
+  }
 }
 
 bool FrameMaker::wanted(std::string_view event) const {
@@ -80,13 +93,16 @@ void FrameMaker::note_refused(const std::string& name) {
 
 void FrameMaker::show_finding(Finding finding) {
   counted_ = QueryNumbers{finding.counts, finding.hits.size()};
-  focus.insert(finding.hits.begin(), finding.hits.end());
+  focus = {finding.hits.begin(), finding.hits.end()};
   finding_ = std::move(finding);
 }
 
 Frame FrameMaker::picture(const Touched& now, std::string_view event) {
+  return drawn(now, event, false);
+}
+
+Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) {
   stop_if_asked();
-  const WorldSpec& world = scenario_.world;
   Frame frame;
   frame.scenario = scenario_.name;
   frame.side = scenario_.side;
@@ -104,6 +120,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   frame.dimension = world.dimension;
   frame.bounds = world.bounds;
   looks_.show(frame);
+  frame.headline = headline_;
   if (stage_.engine) stage_.engine->picture(now, frame);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
@@ -112,7 +129,9 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   if (stage_.atlas) stage_.atlas->picture(now, frame);
   frame.hash = state_hash(frame);
   add_finding(frame);
-  light(frame);
+  add_rulers(frame);
+  lighting_.light({traits_of(step_->verb), focus, midst}, frame);
+  light_room(frame);
   add_notes(frame);
   if (plotter_) frame.chart = plotter_->chart();
   if (trace_) trace(frame);
@@ -140,8 +159,11 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
     frame.chart = plotter_->chart();
   }
   // Of a side's frames the caption is that of all sides together.
-  const bool said = caption.empty() && scenario_.side.empty();
-  frame.caption = said ? fill(step_->caption, frame) : caption;
+  if (caption.empty() && scenario_.side.empty())
+    tell(step_->caption, frame);
+  else
+    frame.caption = caption;
+  frame.ending = last && step_->ending;
   verify(step_->always, frame);
   if (last) verify(step_->expect, frame);
   if (last) require_notes(frame);
@@ -150,13 +172,13 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
 
 void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
                       std::optional<BodyId> about) {
-  Frame frame = picture(now, event);
+  Frame frame = drawn(now, event, true);
   frame.caption = std::move(caption);
   for (FrameBody& body : frame.bodies) body.lit = body.id == about;
-  give(std::move(frame));
+  give(std::move(frame), true);
 }
 
-void FrameMaker::give(Frame frame) {
+void FrameMaker::give(Frame frame, bool midst) {
   if (stopped_) return;
   if (report_.frames == kMostFrames)
     throw ScenarioError(diagnose(scenario_, step_->where,
@@ -169,6 +191,7 @@ void FrameMaker::give(Frame frame) {
     last_work_ = now;
   }
   if (frame.dimension == 3) tell_splits(frame);
+  lighting_.remember(frame, midst);
   stopped_ = !sink_(frame);
 }
 
@@ -206,38 +229,40 @@ void FrameMaker::add_finding(Frame& frame) const {
   if (finding_->ray) frame.rays.push_back(*finding_->ray);
   if (finding_->view) frame.views.push_back(*finding_->view);
   if (finding_->region) frame.queries.push_back(*finding_->region);
-  if (finding_->ray) return;
-  for (FrameBody& body : frame.bodies)
-    body.dimmed = !std::binary_search(frame.hits.begin(), frame.hits.end(), body.id);
+  if (!finding_->ray) dim(frame);
 }
 
-// Bodies that the step is about, the leaves that hold them, and pairs that are new.
-void FrameMaker::light(Frame& frame) {
-  for (FrameBody& body : frame.bodies) body.lit = focus.contains(body.id);
-  if (touched.lit.empty() && touched.passed.empty()) light_leaves_of_focus(frame);
+// Who is ruled out: not found in the end; before it, tested in vain or only in nodes left out.
+void FrameMaker::dim(Frame& frame) const {
+  std::set<BodyId> within_reach;
+  for (const FrameNode& node : frame.nodes)
+    if (!node.skipped) within_reach.insert(node.bodies.begin(), node.bodies.end());
+  for (FrameBody& body : frame.bodies) {
+    if (std::ranges::binary_search(frame.hits, body.id)) continue;
+    body.dimmed =
+        finding_->done || finding_->missed.contains(body.id) || !within_reach.contains(body.id);
+  }
+}
+
+void FrameMaker::add_rulers(Frame& frame) const {
+  for (std::size_t i = 0; i < step_->rulers.size(); ++i) {
+    const RulerSpec& spec = step_->rulers[i];
+    const auto ends = ends_of(spec, stage_.engine.get());
+    if (!ends) continue;
+    FrameRuler ruler{
+        ends->first, ends->second, glm::distance(ends->first, ends->second), {}, spec.text};
+    if (spec.change) ruler.before = lengths_before_[i];
+    frame.rulers.push_back(std::move(ruler));
+  }
+}
+
+// The leaves of an atlas that are large enough.
+void FrameMaker::light_room(Frame& frame) const {
   if (const auto* ask = std::get_if<AskRoom>(&step_->verb))
     for (FrameNode& node : frame.nodes)
       if (node.leaf && node.bodies.empty() && node.box.size().x >= ask->width &&
           node.box.size().y >= ask->height)
         node.mark = Mark::lit;
-  for (FramePair& p : frame.pairs)
-    p.lit = !std::binary_search(last_pairs_.begin(), last_pairs_.end(), p.pair);
-  last_pairs_.clear();
-  for (const FramePair& p : frame.pairs) last_pairs_.push_back(p.pair);
-}
-
-// Parents stand before children, so one pass from the back hands the light up.
-void FrameMaker::light_leaves_of_focus(Frame& frame) const {
-  constexpr std::size_t kMostInFocus = 3;  // when all move, nothing stands out
-  if (focus.empty() || focus.size() > kMostInFocus) return;
-  for (std::size_t i = frame.nodes.size(); i-- > 0;) {
-    FrameNode& node = frame.nodes[i];
-    if (node.leaf && std::any_of(node.bodies.begin(), node.bodies.end(),
-                                 [&](BodyId id) { return focus.contains(id); }))
-      node.mark = Mark::lit;
-    if (node.mark != Mark::quiet && node.parent != kNone)
-      frame.nodes[node.parent].mark = Mark::passed;
-  }
 }
 
 std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
@@ -275,9 +300,16 @@ void FrameMaker::require_notes(const Frame& frame) {
                                report_.frames, why_not_noted(note, frame), on_side())));
 }
 
-std::string FrameMaker::fill(const std::string& caption, const Frame& frame) const {
+// The caption, and which numbers it tells.
+void FrameMaker::tell(const std::string& text, Frame& frame) const {
+  frame.caption = fill(text, frame);
+  for (const std::string& name : placeholders_of(text))
+    if (frame.number(name)) frame.told.push_back(name);
+}
+
+std::string FrameMaker::fill(const std::string& text, const Frame& frame) const {
   return fill_caption(
-      caption, [&](std::string_view name) { return text_of(name, frame); },
+      text, [&](std::string_view name) { return text_of(name, frame); },
       [&](std::string_view name) { return frame.count(name); });
 }
 

@@ -14,6 +14,7 @@
 #include "scenario/engine.hpp"
 #include "scenario/level_stage.hpp"
 #include "scenario/looks.hpp"
+#include "scenario/lighting.hpp"
 #include "scenario/plotter.hpp"
 
 namespace lantern::scenario {
@@ -54,7 +55,8 @@ class FrameMaker {
   std::string texture;
   void note_refused(const std::string& name);
 
-  // What a ray, view or region found: shown on this step's frames, counted from now on.
+  // What a ray, view or region has found, so far or in all: shown on this step's frames, counted
+  // from now on.
   void show_finding(Finding finding);
 
   // The state as it is; with no caption, given to nobody.
@@ -65,7 +67,7 @@ class FrameMaker {
   // A frame in the midst of the algorithm, about one body if there is one.
   void emit(const Touched& touched, std::string_view event, std::string caption,
             std::optional<BodyId> about = {});
-  void give(Frame frame);
+  void give(Frame frame, bool midst = false);
   // What a caption may quote beside counts, of a frame made now.
   std::optional<std::string> text_of(std::string_view name, const Frame& frame) const;
   // The step's promise is broken, whatever the frames say.
@@ -74,14 +76,17 @@ class FrameMaker {
   DirectorReport take_report() { return std::move(report_); }
 
  private:
+  Frame drawn(const Touched& touched, std::string_view event, bool midst);
   void add_finding(Frame& frame) const;
   void trace(Frame& frame);
-  void light(Frame& frame);
-  void light_leaves_of_focus(Frame& frame) const;
   void tell_splits(Frame& frame);
   void add_notes(Frame& frame);
   void require_notes(const Frame& frame);
-  std::string fill(const std::string& caption, const Frame& frame) const;
+  void dim(Frame& frame) const;
+  void add_rulers(Frame& frame) const;
+  void light_room(Frame& frame) const;
+  void tell(const std::string& caption, Frame& frame) const;
+  std::string fill(const std::string& text, const Frame& frame) const;
   std::string on_side() const;  // for a message; empty without sides
   void verify(const std::vector<Expectation>& expectations, const Frame& frame);
 
@@ -102,11 +107,13 @@ class FrameMaker {
   std::uint32_t step_index_ = 0;
   std::string part_;
   std::string refused_names_;
-  std::vector<Pair> last_pairs_;
-  WorldWork last_work_;                    // at the last frame that was given
-  std::optional<Finding> finding_;         // of this step
-  std::optional<QueryNumbers> counted_;    // of the last ray, view or region
-  std::set<const Expectation*> reported_;  // an unmet one is reported once
+  std::vector<std::string> headline_;
+  Lighting lighting_;
+  std::vector<std::optional<double>> lengths_before_;  // of the step's rulers
+  WorldWork last_work_;                                // at the last frame that was given
+  std::optional<Finding> finding_;                     // of this step
+  std::optional<QueryNumbers> counted_;                // of the last ray, view or region
+  std::set<const Expectation*> reported_;              // an unmet one is reported once
   // Of the last frame that was given: its structure, time and divided nodes.
   StructureKind last_structure_ = StructureKind::none;
   double last_time_ = 0;

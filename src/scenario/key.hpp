@@ -203,6 +203,7 @@ TableDoc view_table();
 TableDoc camera_table();
 TableDoc note_table();
 KeyDoc note_key();  // of a step
+TableDoc ruler_table();
 
 // Those of a table for a body or a pattern: `own` and what both have.
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);

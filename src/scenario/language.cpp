@@ -40,6 +40,10 @@ TableDoc file_table() {
           "the `sparkline`, the pairs over the time so far.",
           or_else("what the scenario uses")),
       key(KeyType::table, "display", "What frames show.", holds("display")),
+      key(KeyType::texts, "headline",
+          "Up to three counts and measures that stand at the foot of every frame, the first one "
+          "large.",
+          or_else("what the caption quotes, then what the scenario is about")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
       key(KeyType::tables, "prototype", "Keys that several bodies share.", at_most(kMostPrototypes),
@@ -80,6 +84,13 @@ TableDoc step_table() {
           range(0, kMostCaption)),
       key(&Step::plot, "plot", "Adds a point to the [chart], or a bar with this label.",
           range(1, 40), or_else("adds none")),
+      key(KeyType::texts, "headline", "The scenario's `headline` from here on.",
+          or_else("as before")),
+      key(KeyType::tables, "ruler", "Lengths that are measured on the step's frames.",
+          at_most(kMostRulers), holds("step.ruler")),
+      key(&Step::ending, "ending",
+          "Of the last step: its last frame is what is to be kept in mind, with the headline's "
+          "numbers large."),
       key(KeyType::table, "expect", "What must hold when the step is done.", holds("expect")),
       key(KeyType::table, "always", "What must hold on every frame of the step.", holds("expect")),
       key(KeyType::table, "display", "What this step's frames show.", holds("display")),
@@ -165,8 +176,8 @@ std::span<const TableDoc> language_tables() {
       prototype_table(), body_table(),    pattern_table(),   map_table(),
       spring_table(),    joint_table(),   level_table(),     chart_table(),
       problem_table(),   atlas_table(),   texture_table(),   texture_pattern_table(),
-      side_table(),      step_table(),    expect_table(),    display_table(),
-      view_table(),      camera_table(),  note_table()};
+      side_table(),      step_table(),    ruler_table(),     expect_table(),
+      display_table(),   view_table(),    camera_table(),    note_table()};
   return tables;
 }
 

@@ -22,7 +22,10 @@ class Queries {
     ray.direction = way / ray.length;
     const auto meets = [&](BodyId id) {
       const Body<D>& b = *world_.find(id);
-      return entry(ray, b.shape, b.position, b.orientation);
+      const std::optional<double> at = entry(ray, b.shape, b.position, b.orientation);
+      const auto in_box = span_in(ray, b.box());  // before it, nothing is hit
+      if (at && in_box) note_met(id, std::max(*at, in_box->from), ray);
+      return at;
     };
     std::vector<RayHit> hits;
     look([&](const auto& tree, auto& box_of, auto& told) {
@@ -38,6 +41,8 @@ class Queries {
     std::sort(hits.begin(), hits.end(), RayHit::before);
     if (!cast.all && hits.size() > 1) hits.resize(1);
     found_.ray = FrameRay{cast.from, cast.to, {}};
+    found_.nearest = !cast.all;
+    found_.asked = cast.to;
     for (const RayHit& hit : hits) {
       found_.hits.push_back(hit.id);
       found_.ray->hits.push_back({hit.id, solid(ray.at(hit.distance))});
@@ -67,11 +72,17 @@ class Queries {
   }
 
  private:
+  void note_met(BodyId id, double distance, const Ray<D>& ray) {
+    found_.met[id] = {distance, solid(ray.at(distance))};
+  }
+
   template <class F>
   void look(F&& f) {
+    std::size_t structures = 0;
     auto told = [&](const QueryEvent& event) { found_.walk.push_back(event); };
     auto box_of = [&](BodyId id) { return world_.find(id)->box(); };
     world_.broad_phase()->with_each([&](const auto& tree) {
+      if (++structures == 2) found_.first_static = found_.walk.size();
       const QueryCounts counts = f(tree, box_of, told);
       found_.counts.nodes_visited += counts.nodes_visited;
       found_.counts.nodes_skipped += counts.nodes_skipped;

@@ -137,6 +137,9 @@ class ScriptReader {
     check_caption(table, draft_, state_);
     read_look(table, step, draft_);
     read_notes(table, step, draft_, state_);
+    step.headline = read_headline(table, draft_, &state_);
+    step.rulers = read_rulers(table, script_);
+    note_ending(table, step);
     for (const TomlValue* expect : table.tables("expect"))
       step.expect = read_expectations(*expect, "expect", draft_, state_);
     for (const TomlValue* always : table.tables("always"))
@@ -147,6 +150,16 @@ class ScriptReader {
   const ScriptState& state() const { return state_; }
 
  private:
+  // Only the last step ends the sequence.
+  void note_ending(const TableReader& table, const Step& step) {
+    if (ending_ && !told_ending_) {
+      draft_.problems.add(*ending_, "'ending' is for the last step, and another one follows",
+                          "take it out, or put the step at the end");
+      told_ending_ = true;
+    }
+    if (step.ending) ending_ = table.key_place("ending");
+  }
+
   // The place of the step's verb in the list. Adds a problem and gives nothing if there is none.
   std::optional<std::size_t> verb_of(const TomlTable& entries, Place where) {
     const auto found = std::ranges::find(entries, "do", &TomlEntry::key);
@@ -207,6 +220,8 @@ class ScriptReader {
   Draft& draft_;
   ScriptState state_;
   ScriptReading script_;
+  std::optional<Place> ending_;
+  bool told_ending_ = false;
   std::vector<VerbEntry> entries_ = entries_of(static_cast<const Verb*>(nullptr));
 };
 
@@ -216,6 +231,7 @@ void read_script(const TableReader& file, Draft& draft) {
   if (file.has("step") && file.tables("step").empty() && !draft.problems.any())
     draft.problems.add(file.place("step"), "the script has no step",
                        "add [[step]] with do = \"show\"");
+  draft.scenario.headline = read_headline(file, draft, nullptr);
   ScriptReader reader(draft);
   for (const TomlValue* value : file.tables("step")) reader.read(*value);
   draft.scenario.most_frames = reader.state().frames;

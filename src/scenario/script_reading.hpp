@@ -96,6 +96,14 @@ void check_quotes(const TableReader& table, std::string_view key, Draft& draft,
 void read_look(const TableReader& step, Step& to, Draft& draft);
 void read_notes(const TableReader& step, Step& to, Draft& draft, const ScriptState& state);
 
+// The counts and measures of a `headline`. Adds a problem for each that is none, or for too many;
+// with `state` also for those that are not counted at this step.
+std::vector<std::string> read_headline(const TableReader& table, Draft& draft,
+                                       const ScriptState* state);
+
+// The rulers of a step.
+std::vector<RulerSpec> read_rulers(const TableReader& step, ScriptReading& script);
+
 // Can the chart's counts be counted at this step?
 void check_plot(const TableReader& step, Draft& draft, ScriptState& state);
 

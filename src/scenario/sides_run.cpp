@@ -200,6 +200,19 @@ class SidesRun {
     return words;
   }
 
+  // Which numbers the step's words quote, whichever side they are of.
+  void note_told(const Step& step, Frame& frame) const {
+    for (const std::string& quoted : placeholders_of(step.caption)) {
+      const std::size_t dot = quoted.find('.');
+      const bool of_side =
+          dot != std::string::npos &&
+          std::ranges::find(sides_, quoted.substr(0, dot), &Side::name) != sides_.end();
+      const std::string name = of_side ? quoted.substr(dot + 1) : quoted;
+      if (frame.sides[0].number(name) && std::ranges::find(frame.told, name) == frame.told.end())
+        frame.told.push_back(name);
+    }
+  }
+
   std::string filled(const Step& step, std::size_t k, const Frame& frame) {
     std::map<std::string, Quote, std::less<>> known;  // a name is asked for as words, then as count
     const auto quote = [&](std::string_view name) -> const Quote& {

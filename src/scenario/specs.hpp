@@ -137,6 +137,17 @@ struct LinkSpec {
   SourcePosition where;
 };
 
+// What a step measures on its frames: a length between two bodies' centres, or points.
+struct RulerSpec {
+  std::optional<std::size_t> a;  // none: from a point
+  std::optional<std::size_t> b;
+  Vec<3> from{0.0};
+  Vec<3> to{0.0};
+  bool change = false;  // compared with what it was when the step began
+  std::string text;     // may be empty
+  SourcePosition where;
+};
+
 struct LevelSpec {
   std::vector<std::vector<Vec<2>>> loops;  // closed polygons: the solid lies right of the way round
   double balance = 1;                      // weight of |front - back| in a line's score

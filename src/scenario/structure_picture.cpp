@@ -99,7 +99,7 @@ class NodePicture {
     stop_if_asked();
     FrameNode node = frame_node(view);
     node.of_static = of_static;
-    if (!of_static) node.mark = touched_.mark_of(view.handle);
+    if (!of_static) mark(node, view.handle);
     // The array of what moves is pictured; that of what does not is another one.
     if (shows_memory_ && !of_static) {
       node.first = view.first;
@@ -112,6 +112,15 @@ class NodePicture {
     if (awake) node.awake = (*awake)[view.handle];
     most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
     frame_.nodes.push_back(std::move(node));
+  }
+
+  void mark(FrameNode& node, NodeHandle handle) {
+    node.mark = touched_.mark_of(handle);
+    node.skipped = touched_.skipped.contains(handle) ||
+                   (node.parent != kNone && frame_.nodes[node.parent].skipped);
+    if (!node.leaf || touched_.met.empty()) return;
+    if (const auto at = std::ranges::find(touched_.met, handle); at != touched_.met.end())
+      node.met = static_cast<std::uint32_t>(at - touched_.met.begin());
   }
 
   void add_counters(const Counters& c, bool of_static) {
@@ -164,6 +173,15 @@ class NodePicture {
   Frame& frame_;
   std::uint32_t first_ = 0;  // node of the structure that is being added
 };
+
+// Leaves were met among inner nodes: now they count by themselves.
+void number_leaves_met(Frame& frame) {
+  std::vector<FrameNode*> leaves;
+  for (FrameNode& node : frame.nodes)
+    if (node.met != kNone) leaves.push_back(&node);
+  std::ranges::sort(leaves, {}, &FrameNode::met);
+  for (std::uint32_t i = 0; i < leaves.size(); ++i) leaves[i]->met = i;
+}
 
 // Nodes below which nothing is awake, and how many branches a walk for pairs leaves out for it.
 struct Sleepers {
@@ -255,6 +273,7 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   });
   if (spec.split_static)
     structure.with_static([&](const auto& tree) { picture.add(tree, nullptr, true); });
+  number_leaves_met(frame);
 
   const PairChain chain = structure.pair_chain(awake, kMostPairs);
   for (const Pair& pair : chain.pairs)

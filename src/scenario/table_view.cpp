@@ -12,7 +12,11 @@ constexpr const char* kGiveCamera = "its part is camera = { eye = [9, 6, 9], tar
 
 // What [world] and [display] both say.
 constexpr std::pair<const char*, const char*> kTwice[] = {
-    {"boxes", "show_boxes"}, {"arrows", "show_velocities"}, {"depths", "show_depths"}};
+    {"boxes", "show_boxes"},
+    {"arrows", "show_velocities"},
+    {"depths", "show_depths"},
+    {"forces", "show_forces"},
+    {"coordinates", "show_coordinates"}};
 
 // Depths are of contacts.
 void check_depths(const TableReader& table, const Display& display, const Draft& draft) {
@@ -98,6 +102,8 @@ TableDoc display_table() {
           key(&D::boxes, "boxes", "The boxes of the broad phase; `show_boxes` of [world]."),
           key(&D::depths, "depths",
               "How deep bodies overlap, beside their contacts; `show_depths` of [world]."),
+          key(&D::coordinates, "coordinates",
+              "The borders of the lit way, at a 2D world's edges; `show_coordinates` of [world]."),
           key(&D::counters, "counters", "The numbers at the right of the caption."),
           key(&D::title, "title", "The thin line above."),
           key(&D::caption, "caption", "The caption below."),

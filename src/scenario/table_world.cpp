@@ -110,6 +110,12 @@ TableDoc world_table() {
       key(&Display::arrows, "show_velocities", "Velocities are drawn as arrows."),
       key(&Display::depths, "show_depths",
           "Penetration depths are written beside the contacts, taking one unit as one metre."),
+      key(&Display::forces, "show_forces",
+          "The forces of `do = \"force\"` and the pulls of springs are drawn as arrows, with their "
+          "sizes."),
+      key(&Display::coordinates, "show_coordinates",
+          "Where the borders of the lit nodes and of those above them lie stands at the edges of a "
+          "2D world."),
       key(&W::camera_eye, "camera_eye", "Where a 3D world is seen from; with `camera_target`.",
           range(-kFar, kFar), or_else("so that all is seen")),
       key(&W::camera_target, "camera_target", "What is in the middle of the picture.",

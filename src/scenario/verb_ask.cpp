@@ -3,6 +3,7 @@
 
 #include "scenario/event_text.hpp"
 #include "scenario/key.hpp"
+#include "scenario/running_finding.hpp"
 #include "scenario/script_reading.hpp"
 #include "scenario/script_run.hpp"
 
@@ -26,21 +27,25 @@ void require_structure(const TableReader& table, std::string_view verb, ScriptRe
 
 KeyDoc walk_events() { return events_key({"visit", "skip", "hit", "miss"}); }
 
-// One frame for each thing that the walk did.
-void replay(const std::vector<QueryEvent>& walk, ScriptRun& run) {
+// One frame for each thing that the walk did, of which each knows what was found up to it.
+void replay(const Finding& whole, ScriptRun& run) {
   using Kind = QueryEvent::Kind;
   FrameMaker& frames = run.frames;
+  const std::vector<QueryEvent>& walk = whole.walk;
+  RunningFinding running(whole);
   for (std::size_t i = 0; i < walk.size() && !frames.stopped(); ++i) {
     const QueryEvent& event = walk[i];
-    if (event.kind == Kind::hit) continue;  // told with its test
+    const bool of_static = running.is_of_static();
+    running.go_on();
     const bool hit = i + 1 < walk.size() && walk[i + 1].kind == Kind::hit;
+    if (hit) running.go_on(), ++i;  // told with its test
     const bool is_test = event.kind == Kind::test;
     const std::string_view name =
         is_test ? (hit ? "hit" : "miss") : (event.kind == Kind::visit ? "visit" : "skip");
-    if (event.kind == Kind::visit) frames.touched.passed.insert(event.node);
     if (!frames.wanted(name)) continue;
-    Touched now{{}, frames.touched.passed};
-    if (event.kind != Kind::skip) now.lit.insert(event.node);
+    frames.show_finding(running.so_far());
+    Touched now = running.touched();
+    if (event.kind != Kind::skip && !of_static) now.lit.insert(event.node);
     frames.emit(now, name,
                 query_text(name, run.engine().label_of(event.node), run.name_of(event.body)),
                 is_test ? std::optional(event.body) : std::nullopt);
@@ -48,11 +53,11 @@ void replay(const std::vector<QueryEvent>& walk, ScriptRun& run) {
 }
 
 void answer(Finding finding, std::string_view verb, ScriptRun& run) {
-  const std::vector<QueryEvent> walk = finding.walk;
+  if (run.frames.by_event()) replay(finding, run);
+  RunningFinding all(finding);
+  for (std::size_t i = 0; i < finding.walk.size(); ++i) all.go_on();
+  run.frames.touched = all.touched();
   run.frames.show_finding(std::move(finding));
-  if (run.frames.by_event()) replay(walk, run);
-  for (const QueryEvent& event : walk)
-    if (event.kind == QueryEvent::Kind::visit) run.frames.touched.lit.insert(event.node);
   run.frames.settle(verb);
 }
 

@@ -34,8 +34,10 @@ void Insert::act(ScriptRun& run) const {
     if (run.frames.stopped()) return;
     run.engine().enter(body);
     run.focus(body);
+    run.frames.touched = {};  // the way down is each body's own
     run.engine().store(body, [&](const Event& event) { run.witness(event); });
   }
+  run.frames.touched = {};
   run.frames.settle("insert");
 }
 

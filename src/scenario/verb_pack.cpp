@@ -17,7 +17,8 @@ void witness(const AtlasEvent& event, const TextureSpec& texture, ScriptRun& run
                                                         : frames.touched.passed)
       .insert(event.node);
   if (!frames.by_event() || !frames.wanted(event_name(event.kind))) return;
-  Touched now{{event.node}, frames.touched.passed};
+  Touched now = frames.touched;
+  now.lit = {event.node};
   frames.emit(now, event_name(event.kind),
               event_text(event, run.stage.atlas->label_of(event.node), texture.name, texture.width,
                          texture.height));
@@ -70,6 +71,7 @@ void Pack::act(ScriptRun& run) const {
     if (!packed) frames.note_refused(texture.name);
     if (names) atlas.name_free_leaf(free_name, before);
     if (!last && !each) continue;
+    if (!each) frames.touched = {};
     frames.settle(
         "pack", last,
         packed ? ""

@@ -8,6 +8,7 @@
 
 #include "base/stop.hpp"
 #include "physics/energy.hpp"
+#include "physics/forces.hpp"
 #include "physics/joint_gap.hpp"
 
 namespace lantern::scenario {
@@ -148,6 +149,32 @@ void picture_world(const Players<D>& players, Frame& frame) {
 }
 
 template <int D>
+void picture_forces(const Players<D>& players, Frame& frame) {
+  const World<D>& world = players.world();
+  const auto shown = [&](BodyId id) {
+    const Body<D>* body = world.find(id);
+    return body && body->inverse_mass > 0 && players.spec_of(id) ? body : nullptr;
+  };
+  const auto motion_of = [](const Body<D>& body) {
+    return EndMotion<D>{body.orientation, body.velocity, angular_velocity(body)};
+  };
+  for (const Push<D>& push : world.forces().pushes)
+    if (const Body<D>* body = shown(push.body))
+      frame.forces.push_back({body->id, solid(body->position + push.at), solid(push.force), false});
+  for (const Spring<D>& spring : world.forces().springs) {
+    const Body<D>*a = world.find(spring.a), *b = world.find(spring.b);
+    if (!a || !b) continue;
+    const Stretch<D> s =
+        stretched(spring, Vec<D>(b->position - a->position), motion_of(*a), motion_of(*b));
+    const Vec<D> pull = s.direction * s.tension;
+    if (shown(a->id))
+      frame.forces.push_back({a->id, solid(a->position + s.arm_a), solid(pull), true});
+    if (shown(b->id))
+      frame.forces.push_back({b->id, solid(b->position + s.arm_b), solid(-pull), true});
+  }
+}
+
+template <int D>
 void measure_world(const Players<D>& players, const Scenario& scenario, Frame& frame) {
   const std::span<const Body<D>> bodies(players.world().bodies());
   const Energy now = energy(bodies, players.world().forces());
@@ -177,6 +204,8 @@ template BodyState state_of(const Body<2>&);
 template BodyState state_of(const Body<3>&);
 template void picture_world(const Players<2>&, Frame&);
 template void picture_world(const Players<3>&, Frame&);
+template void picture_forces(const Players<2>&, Frame&);
+template void picture_forces(const Players<3>&, Frame&);
 template void measure_world(const Players<2>&, const Scenario&, Frame&);
 template void measure_world(const Players<3>&, const Scenario&, Frame&);
 template void measure_bodies(const Players<2>&, const Scenario&, Frame&);

@@ -14,6 +14,10 @@ BodyState state_of(const Body<D>& body);
 template <int D>
 void picture_world(const Players<D>& players, Frame& frame);
 
+// What pushes and pulls the bodies now: a script's forces, and springs.
+template <int D>
+void picture_forces(const Players<D>& players, Frame& frame);
+
 // Energies, momenta, of contacts the deepest penetration, of joints the widest gap.
 template <int D>
 void measure_world(const Players<D>& players, const Scenario& scenario, Frame& frame);
@@ -27,6 +31,8 @@ extern template BodyState state_of(const Body<2>&);
 extern template BodyState state_of(const Body<3>&);
 extern template void picture_world(const Players<2>&, Frame&);
 extern template void picture_world(const Players<3>&, Frame&);
+extern template void picture_forces(const Players<2>&, Frame&);
+extern template void picture_forces(const Players<3>&, Frame&);
 extern template void measure_world(const Players<2>&, const Scenario&, Frame&);
 extern template void measure_world(const Players<3>&, const Scenario&, Frame&);
 extern template void measure_bodies(const Players<2>&, const Scenario&, Frame&);

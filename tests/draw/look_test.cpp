@@ -172,7 +172,7 @@ TEST(Switches, LeaveOutWhatTheySay) {
       says(list_with([](Display& d) { d.names = ShownNames::none; }), frame.bodies[0].name));
   const DrawList silent = list_with([](Display& d) { d.caption = d.counters = false; });
   EXPECT_FALSE(says_part(silent, frame.caption.substr(0, 12)));
-  EXPECT_FALSE(list_with([](Display& d) { d.pairs = false; }).marks.has(MarkKind::pair));
+  EXPECT_FALSE(list_with([](Display& d) { d.pairs = false; }).marks.has(MarkKind::candidate));
   EXPECT_FALSE(list_with([](Display& d) { d.not_made = false; }).marks.has(MarkKind::not_made));
   EXPECT_FALSE(list_with([](Display& d) { d.cells = false; }).marks.has(MarkKind::lit));
 }
@@ -253,7 +253,7 @@ TEST(Legend, ListsExactlyWhatIsDrawn) {
       });
     };
     EXPECT_EQ(has(Role::pair),
-              plain.marks.has(MarkKind::pair) || plain.marks.has(MarkKind::meeting))
+              plain.marks.has(MarkKind::candidate) || plain.marks.has(MarkKind::box_overlap))
         << name;
     EXPECT_EQ(has(Role::contact), plain.marks.has(MarkKind::contact)) << name;
     EXPECT_EQ(plain.marks, list.marks) << name;

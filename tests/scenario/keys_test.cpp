@@ -136,6 +136,8 @@ std::map<std::string, Surroundings> surroundings() {
         ""}},
       {"step.note",
        {touching + "[[step.note]]\n", {{"text", "\"here\""}, {"body", "\"red\""}}, ""}},
+      {"step.ruler",
+       {scene + kInsert + kShow + "[[step.ruler]]\n", {{"a", "\"red\""}, {"to", "[2, 2]"}}, ""}},
       // All that can be counted is counted here.
       {"expect",
        {kTitle + kRules + kLevel + "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" +
@@ -248,6 +250,12 @@ Bad bad_names(const std::string& kind) {
           {"@[]", "must not be empty"},
           {"[@1]", "a list of texts"},
           {"[@\"nobody\"]", "there is no " + kind + " 'nobody'"}};
+}
+
+Bad bad_headline() {
+  return {{"@\"pairs\"", "must be a list"},
+          {"@[]", "must not be empty"},
+          {"[@\"pair\"]", "did you mean 'pairs'?"}};
 }
 
 Bad bad_table(const std::string& header) { return {{"@1", "must be a table"}, {"@[1]", header}}; }
@@ -757,6 +765,24 @@ std::vector<KeyCase> key_cases() {
         {"{ red = @1 }", "two numbers"},
         {"{ @rd = [1, 1] }", "'red'"}}},
   };
+  const std::string four = "@[\"nodes\", \"pairs\", \"leaves\", \"entries\"]";
+  for (const std::string table : {"", "show"}) {
+    Bad bad = bad_headline();
+    bad.push_back({four, "the limit is 3"});
+    bad.push_back({"[\"pairs\", @\"pairs\"]", "stands twice"});
+    bad.push_back({"[@\"energy.rex\"]", "did you mean 'red'?"});
+    cases.push_back({table, "headline", {"[\"pairs\", \"speed.red\"]"}, bad});
+  }
+  const Bad ruled = {{"@1", "must be a text"}, {"@\"rex\"", "did you mean 'red'?"}};
+  cases.push_back({"step.ruler", "a", {}, ruled});
+  cases.push_back({"step.ruler", "b", {}, ruled, {"to"}});
+  cases.push_back({"step.ruler", "b", {}, {{"@\"red\"", "from a body to itself"}}, {"to"}});
+  cases.push_back({"step.ruler", "from", {"[0, 0]"}, bad_point(), {"a"}});
+  cases.push_back({"step.ruler", "to", {"[0, 0]"}, bad_point()});
+  cases.push_back({"step.ruler", "text", {"\"\"", "\"length\""}, bad_text("0 to 24", 24)});
+  cases.push_back({"step.ruler", "change", {"true"}, bad_truth()});
+  cases.push_back({"world", "show_forces", {"true"}, bad_truth()});
+  cases.push_back({"world", "show_coordinates", {"true"}, bad_truth()});
   add_body_cases(cases);
   add_link_cases(cases);
   add_side_cases(cases);
@@ -784,6 +810,9 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "plot", {}, {{"@1", "must be a text"}, {"@\"\"", "letters"}}});
     cases.push_back({table, "part", {"\"part 2\""}, bad_text("1 to 60", 60)});
     cases.push_back({table, "caption", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
+    cases.push_back({table, "ending", {"true", "false"}, bad_truth()});
+    cases.push_back({table, "ruler", {}, {{"@1", "[[ruler]]"}}});
+    cases.push_back({table, "headline", {}, bad_headline()});
     cases.push_back({table, "expect", {"{}"}, bad_table("[expect]")});
     cases.push_back({table, "always", {"{}"}, bad_table("[expect]")});
     cases.push_back({table, "display", {"{}"}, bad_table("[display]")});

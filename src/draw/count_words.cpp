@@ -1,0 +1,66 @@
+#include "draw/count_words.hpp"
+
+#include <algorithm>
+
+#include "draw/panels.hpp"
+
+namespace lantern::draw {
+namespace {
+
+// Those whose words do not follow from the name.
+constexpr struct {
+  std::string_view name, one, many;
+} kWords[] = {
+    {"bodies", "body", "bodies"},
+    {"leaves", "leaf", "leaves"},
+    {"entries", "entry", "entries"},
+    {"depth", "level deep", "levels deep"},
+    {"most_in_leaf", "in the fullest leaf", "in the fullest leaf"},
+    {"all_pairs", "pair in all", "pairs in all"},
+    {"testable_pairs", "by brute force", "by brute force"},
+    {"pair_tests", "pair met", "pairs met"},
+    {"overlaps", "overlap of boxes", "overlaps of boxes"},
+    {"pairs_tested", "pair tested", "pairs tested"},
+    {"contact_points", "contact point", "contact points"},
+    {"crushes", "crush", "crushes"},
+    {"begins", "contact begun", "contacts begun"},
+    {"ends", "contact ended", "contacts ended"},
+    {"asleep", "asleep", "asleep"},
+    {"awake", "awake", "awake"},
+    {"stale", "out of its cell", "out of their cells"},
+    {"static_builds", "static build", "static builds"},
+    {"dynamic_builds", "dynamic build", "dynamic builds"},
+    {"nodes_asleep", "node asleep", "nodes asleep"},
+    {"leaves_asleep", "leaf asleep", "leaves asleep"},
+    {"branches_asleep", "branch asleep", "branches asleep"},
+    {"nodes_reused", "node reused", "nodes reused"},
+    {"node_bytes", "byte of nodes", "bytes of nodes"},
+    {"node_bytes_with_bounds", "byte with bounds", "bytes with bounds"},
+    {"nodes_visited", "node visited", "nodes visited"},
+    {"nodes_skipped", "node left out", "nodes left out"},
+    {"objects_tested", "body tested", "bodies tested"},
+    {"plane_score", "score", "score"},
+    {"first_wall_score", "the first wall's score", "the first wall's score"},
+    {"sector", "sector", "sector"},
+    {"planes_tested", "line asked", "lines asked"},
+    {"refused", "refused", "refused"},
+    {"used_area", "pixel used", "pixels used"},
+    {"free_area", "pixel free", "pixels free"},
+    {"atlas_area", "pixel in all", "pixels in all"},
+    {"free_leaves", "free leaf", "free leaves"},
+    {"leaf_tests", "leaf looked at", "leaves looked at"},
+    {"room", "has room", "has room"},
+};
+
+}  // namespace
+
+std::string count_words(std::string_view name, bool one) {
+  if (const auto* row = std::ranges::find_if(kWords, [&](const auto& r) { return r.name == name; });
+      row != std::end(kWords))
+    return std::string(one ? row->one : row->many);
+  std::string words = chart_words(std::string(name));
+  if (one && words.ends_with('s')) words.pop_back();
+  return words;
+}
+
+}  // namespace lantern::draw
