@@ -25,6 +25,7 @@ bool is_one_movement(const Frame& a, const Frame& b) {
 
 InBetweens::InBetweens(const RenderOptions& options) {
   if (options.tween && options.fps) throw UsageError("--tween and --fps cannot be given together");
+  if (options.fps && !std::isfinite(*options.fps)) throw UsageError("--fps: give a number");
   number_ = options.tween.value_or(0);
   if (options.fps) {
     fps_ = *options.fps;
@@ -47,7 +48,8 @@ Motion InBetweens::motion(const Frame& a, const Frame& b) {
 
 void InBetweens::require_few(std::optional<std::uint64_t> frames) const {
   const std::uint64_t known = std::max<std::uint64_t>(frames.value_or(2), 1);
-  if (!wanted() || known + (known - 1) * number_ <= kMostPictures) return;
+  if (!wanted() || (number_ <= kMostPictures && known + (known - 1) * number_ <= kMostPictures))
+    return;
   throw UsageError(
       fmt::format("--tween {}: up to {} frames and {} in-betweens before each but the "
                   "first are more than {} pictures; ask for fewer",

@@ -94,7 +94,7 @@ void add_render(CLI::App& app, Run& run) {
   CLI::Option* tween = c->add_option("--tween", o.tween,
                                      "in-betweens after each frame but the last: "
                                      "<scenario>_0007_03.png is the third from frame 7 on");
-  tween->type_name("N");
+  tween->check(CLI::NonNegativeNumber)->type_name("N");
   c->add_option("--fps", o.fps,
                 "as many in-betweens as a film of so many pictures a second has while something "
                 "changes: half a second each, or the world's own time")
