@@ -18,7 +18,7 @@ namespace {
 constexpr double kSparkText = 24;
 constexpr double kSparkEdge = 0.7 * kSparkText;  // half of a line of text
 constexpr double kSparkDot = 6;
-constexpr std::size_t kMostSparkPoints = 1200;
+constexpr std::size_t kMostSparkPoints = 600;
 
 const TextStyle kSparkNow{kSparkText, Weight::semibold, Role::ink};
 const TextStyle kSparkQuiet{kSparkText, Weight::regular, Role::quiet_ink};

@@ -113,7 +113,7 @@ TEST(Layout, ShapesStayFew) {
       EXPECT_LT(list.shapes.size(), 5000u) << where;
     }
     if (frame.bodies.size() <= 4 && frame.nodes.size() < 10 && frame.textures.empty() &&
-        frame.chart.series.size() < 4) {
+        frame.chart.series.size() < 4 && frame.trace.points.size() < 100) {
       EXPECT_LT(list.shapes.size(), 300u) << where << ": a typical frame";
     }
     for (const DrawShape& shape : list.shapes)
