@@ -118,8 +118,9 @@ std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area
   for (const Panel panel : panels) weights.push_back(weight_of(panel));
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
   const double room = area.size().y - kPanelGap * (static_cast<double>(panels.size()) - 1);
+  const double others = 260 * (static_cast<double>(panels.size()) - 1);  // that they need
   const auto chart = std::ranges::find(panels, Panel::chart) - panels.begin();
-  if (chart < std::ssize(panels) && panels.size() > 1 && room > 1.6 * kLeastChart) {
+  if (chart < std::ssize(panels) && panels.size() > 1 && room > kLeastChart + others) {
     double& weight = weights[static_cast<std::size_t>(chart)];
     weight = std::max(weight, kLeastChart / (room - kLeastChart) * (all - weight));
   }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kNameBeside = 16;  // between the area and a name in the column
 constexpr double kAfterNumber = 8;
+constexpr double kLeader = 12;  // length, where a name had to make way
 
 // At its line's end, which a short leader finds where the name had to make way.
 void draw_name(const ColumnName& line, const PlotPaper& paper, DrawList& list, Labels& labels) {
@@ -20,7 +21,7 @@ void draw_name(const ColumnName& line, const PlotPaper& paper, DrawList& list, L
   double x = std::min(end.x, area.hi.x) + kNameBeside;
   if (std::abs(line.label - end.y) > 4) {
     list.line({end.x + 10, end.y}, {x + 8, line.label}, {Role::cell_line_3, 1.4});
-    x += 12;
+    x += kLeader;
   }
   const double y = line.label + 0.36 * paper.type.name.size;
   for (auto [words, style] :
@@ -141,7 +142,7 @@ double column_width(const std::vector<ColumnName>& names, const PlotPaper& paper
     widest = std::max(widest, text_width(line.number, title) +
                                   (line.name.empty() ? 0 : text_width(line.name, name) + 10));
   if (steady) widest = std::ceil((widest + text_width("0.000", title)) / kEvery) * kEvery;
-  return std::min(widest + 1, 0.42 * paper.place.panel.size().x) + kNameBeside + 4;
+  return std::min(widest + 1, 0.42 * paper.place.panel.size().x) + kNameBeside + kLeader + 4;
 }
 
 void draw_column(std::vector<ColumnName> names, std::size_t all, const PlotPaper& paper,

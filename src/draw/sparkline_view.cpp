@@ -16,8 +16,9 @@ namespace lantern::draw {
 namespace {
 
 constexpr double kSparkText = 24;
+constexpr double kSparkEdge = 0.7 * kSparkText;  // half of a line of text
 constexpr double kSparkDot = 6;
-constexpr std::size_t kMostSparkPoints = 1200;
+constexpr std::size_t kMostSparkPoints = 600;
 
 const TextStyle kSparkNow{kSparkText, Weight::semibold, Role::ink};
 const TextStyle kSparkQuiet{kSparkText, Weight::regular, Role::quiet_ink};
@@ -62,9 +63,8 @@ void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Lab
   const double number = Labels::number_width(digits, kSparkNow);
   const std::string top = number_text(most), end = number_text(seconds, 2) + " s";
   const double after = std::max(text_width(top, kSparkQuiet), text_width(end, kSparkQuiet)) + 14;
-  const Box<2> area{
-      place.lo + Vec<2>(number + 8 + text_width(name, kSparkQuiet) + 18, kSparkText / 2),
-      place.hi - Vec<2>(after, kSparkText / 2)};
+  const Box<2> area{place.lo + Vec<2>(number + 8 + text_width(name, kSparkQuiet) + 18, kSparkEdge),
+                    place.hi - Vec<2>(after, kSparkEdge)};
   if (area.size().x < 60) return;
 
   const double middle = area.center().y + 0.36 * kSparkText;

@@ -238,7 +238,7 @@ TEST(Chart, AxesOfASequenceStandStill) {
   AxisRanges ranges;
   for (const Frame& frame : {first, last}) ranges.see(frame);
   for (Frame* frame : {&first, &last}) ranges.settle(*frame);
-  EXPECT_EQ(ticks_of(page_of(first), 200), ticks_of(page_of(last), 200));
+  EXPECT_EQ(ticks_of(page_of(first), 150), ticks_of(page_of(last), 150));
   EXPECT_EQ(first.trace.most, 900);
 }
 

@@ -50,7 +50,8 @@ TEST(Memory, HeadingCountsSlots) {
 
 TEST(Memory, EveryLeafAndItsBodiesAreNamed) {
   const std::string texts = texts_of(three_leaves());
-  for (const char* name : {"leaf0\n", "leaf1\n", "leaf2\n"})
+  for (const char* name :
+       {"leaf0: first 0, count 1\n", "leaf1: first 4, count 2\n", "leaf2: first 8, count 3\n"})
     EXPECT_NE(texts.find(name), std::string::npos) << name;
   Work work;
   const DrawList list = draw_frame(three_leaves(), page_for(1600, 900), work);
