@@ -39,11 +39,11 @@ void draw_largest_cells(const Frame& frame, const View2D& map, DrawList& list) {
   for (const FrameNode& node : frame.nodes) {
     if (node.depth == 0 || node.depth > kDeepest) continue;
     if (node.region.empty())
-      borders.add(map.to_page(node.box), node.depth);
+      borders.add(map.to_page(node.box), node.depth, 0);
     else
       list.polygon(page_region(node, map), Role::none, {cell_line_role(node.depth), 1});
   }
-  borders.draw([](std::uint32_t depth) { return Stroke{cell_line_role(depth), 1}; }, list);
+  borders.draw_plainly({Role::cell_line_2, 1}, list);
 }
 
 }  // namespace

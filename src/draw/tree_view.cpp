@@ -100,14 +100,19 @@ class TreeView {
       list_.rect(behind, ground, outline, radius);
     }
     list_.rect(box, ground, outline, radius);
-    if (branch.copies == 1) labels_.tell_place(target_of_node(node.label), box);
-    if (labels_.has_notes()) labels_.tell_body(box);
+    if (labels_.has_notes()) tell_places(branch, box);
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
       draw_content(branch, box);
     if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
     if (node.sleeps()) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
+  }
+
+  // For notes.
+  void tell_places(const Branch& branch, const Box<2>& box) {
+    if (branch.copies == 1) labels_.tell_place(target_of_node(node_of(branch).label), box);
+    labels_.tell_body(box);
   }
 
   // A dashed line where levels are left out.
