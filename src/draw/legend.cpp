@@ -11,7 +11,7 @@ namespace lantern::draw {
 namespace {
 
 constexpr double kSampleWide = 58, kSampleHigh = 38;  // page units
-constexpr double kRim = 6;                            // of a world, around what a sample shows
+constexpr double kCutRim = 6;                         // of a world, around what a sample shows
 constexpr double kLegendRow = 46;
 constexpr double kBeforeWords = 12, kBetweenEntries = 36;
 const TextStyle kWordStyle{24, Weight::regular, Role::quiet_ink};
@@ -19,7 +19,7 @@ const TextStyle kWordStyle{24, Weight::regular, Role::quiet_ink};
 // A world of the sample's proportions: what it holds is seen as it is, a unit a page unit.
 Frame blank_world() {
   Frame frame;
-  frame.bounds = {{0, 0, 0}, {kSampleWide + 2 * kRim - 6, kSampleHigh + 2 * kRim - 6, 0}};
+  frame.bounds = {{0, 0, 0}, {kSampleWide + 2 * kCutRim - 6, kSampleHigh + 2 * kCutRim - 6, 0}};
   frame.display.names = ShownNames::none;
   return frame;
 }
@@ -137,7 +137,7 @@ Frame sample_of(MarkKind kind) {
 DrawList drawn_sample(MarkKind kind, const Box<2>& box) {
   DrawList list;
   Labels labels(list);
-  draw_world(sample_of(kind), shrunk(box, -kRim), list, labels);
+  draw_world(sample_of(kind), shrunk(box, -kCutRim), list, labels);
   keep_within(list, 0, box);  // without the world's border
   return list;
 }

@@ -43,7 +43,7 @@ void draw_largest_cells(const Frame& frame, const View2D& map, DrawList& list) {
     else
       list.polygon(page_region(node, map), Role::none, {cell_line_role(node.depth), 1});
   }
-  borders.draw_plainly({Role::cell_line_1, 1}, list);
+  borders.draw_plainly({Role::cell_line_2, 1}, list);
 }
 
 }  // namespace

@@ -113,8 +113,7 @@ class TreeView {
       list_.rect(behind, ground, outline, radius);
     }
     list_.rect(box, ground, outline, radius);
-    if (branch.copies == 1) labels_.tell_place(target_of_node(node.label), box);
-    if (labels_.has_notes()) labels_.tell_body(box);
+    if (labels_.has_notes()) tell_places(branch, box);
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
@@ -129,6 +128,12 @@ class TreeView {
     if (node.skipped && (node.parent == kNone || !frame_.nodes[node.parent].skipped))
       draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
     if (node.met != kNone) draw_met(node.met, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
+  }
+
+  // For notes.
+  void tell_places(const Branch& branch, const Box<2>& box) {
+    if (branch.copies == 1) labels_.tell_place(target_of_node(node_of(branch).label), box);
+    labels_.tell_body(box);
   }
 
   // A dashed line where levels are left out.

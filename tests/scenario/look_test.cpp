@@ -133,7 +133,7 @@ TEST(Note, OnWhatIsNotThereIsAMistake) {
   expect_mistakes(with("body = \"red\"\n@node = \"root\""), {"'node', too"});
   expect_mistakes(kSolidWorld + steps({kOne + "note = [{ text = \"x\", node = @\"1\" }]\n"}),
                   {"no structure"});
-  expect_mistakes(kFlatWorld + steps({kOne + "note = [{ text = \"{@hits}\", body = \"red\" }]\n"}),
+  expect_mistakes(kFlatWorld + steps({kOne + "note = [{ text = \"@{hits}\", body = \"red\" }]\n"}),
                   {"not counted here"});
 }
 
