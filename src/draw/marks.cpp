@@ -200,7 +200,7 @@ bool add_pairs(const Frame& frame, Marks3D& marks) {
       const Marks::Scope scope(marks, key, key);
       marks.line(link_end(*a->second, *b->second), link_end(*b->second, *a->second),
                  stroke_of(look), in_full ? 2 : 0);
-      marks.note(kind_of(look));
+      marks.tell(kind_of(look));
     }
     return true;
   };

@@ -117,8 +117,8 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   frame.panels = scenario_.panels;
   frame.cast = static_cast<std::uint32_t>(scenario_.bodies.size());
   frame.time = stage_.time;
-  frame.dimension = world.dimension;
-  frame.bounds = world.bounds;
+  frame.dimension = scenario_.world.dimension;
+  frame.bounds = scenario_.world.bounds;
   looks_.show(frame);
   frame.headline = headline_;
   if (stage_.engine) stage_.engine->picture(now, frame);
