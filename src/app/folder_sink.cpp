@@ -66,14 +66,14 @@ FolderSink::FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace
       path_(fs::path(job.options.output) / scenario.name),
       work_(work) {}
 
-void FolderSink::frame(const Frame& frame) {
+void FolderSink::draw(const Frame& frame, const Staging& staging) {
   all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
-  if (selection_.takes(frame)) take(frame);
+  if (selection_.takes(frame)) take(frame, staging);
   // Of sides each has an atlas of its own, and none is the scenario's.
   if (scenario_.atlas && scenario_.sides.empty() && frame.step + 1 == frame.steps) last_ = frame;
 }
 
-void FolderSink::finish(const DirectorReport& report) {
+void FolderSink::close(const DirectorReport& report) {
   selection_.require_some();
   if (pipeline_) pipeline_->finish();
   list_frames();
@@ -93,7 +93,7 @@ void FolderSink::open_folder() {
   write_manifest();
 }
 
-void FolderSink::take(const Frame& frame) {
+void FolderSink::take(const Frame& frame, const Staging& staging) {
   if (!folder_) open_folder();
   const std::uint32_t index = frame.index;
   taken_.insert(index);
@@ -104,7 +104,8 @@ void FolderSink::take(const Frame& frame) {
     ++kept_;
     return;
   }
-  const DrawList list = draw_frame(frame, page_for(job_.picture.width, job_.picture.height), work_);
+  const DrawList list =
+      draw_frame(frame, staging, page_for(job_.picture.width, job_.picture.height), work_);
   const fs::path file = folder_->file(index, job_.options.format);
   if (job_.svg) {
     write_counted(file, picture_of(job_, job_.picture, frame, list, from, work_));

@@ -14,7 +14,7 @@
 namespace lantern::draw {
 namespace {
 
-constexpr double kLeastRow = 25;  // a name has room in it
+constexpr double kLeastRow = 29;  // a name has room in it
 constexpr double kMostRow = 96;
 constexpr double kGroupGap = 0.55;  // between groups, in rows
 constexpr double kAfter = 10;       // between a bar and its number, or its name
@@ -151,7 +151,7 @@ class Bars {
 
 // A panel that has the page for itself gets larger type.
 double type_size(const Box<2>& panel) {
-  return panel.size().x > 1000 && panel.size().y > 380 ? 1.22 * kLabel : kLabel;
+  return panel.size().x > 1000 && panel.size().y > 380 ? 1.1 * kLabel : kLabel;
 }
 
 Plot plot_of(const FrameChart& chart) {

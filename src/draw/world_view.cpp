@@ -6,6 +6,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
+#include "draw/naming.hpp"
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
 #include "draw/projection.hpp"
@@ -16,8 +17,6 @@
 namespace lantern::draw {
 namespace {
 
-constexpr std::size_t kMostNamed = 35;          // of more bodies, only those that the step is about
-constexpr std::ptrdiff_t kMostQuietCells = 10;  // of more, only lit ones: in space names soon crowd
 constexpr std::size_t kMostCells = 16;
 constexpr double kWidestName = 210;
 
@@ -41,7 +40,7 @@ void name_body(const Body3D& b, const std::vector<Body3D>& bodies, const View3D&
 void name_cell(const FrameNode& node, const std::vector<Body3D>& bodies, const View3D& view,
                DrawList& list, Labels& labels) {
   const bool lit = node.mark == Mark::lit;
-  const TextStyle style{18, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink};
+  const TextStyle style{kLeastLabel, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink};
   if (!view.in_front(node.box.center())) return;
   const Vec<2> middle = view.to_page(view.bounds().center());
   const Vec<2> own = view.to_page(node.box.center());
@@ -72,21 +71,20 @@ void name_cell(const FrameNode& node, const std::vector<Body3D>& bodies, const V
   }
 }
 
-void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const View3D& view,
-                  DrawList& list, Labels& labels) {
+void name_world3d(const Frame& frame, const Staging& staging, const std::vector<Body3D>& bodies,
+                  const View3D& view, DrawList& list, Labels& labels) {
   for (const bool lit : {true, false})
     for (const Body3D& b : bodies)
-      if (b.body->lit == lit && !b.body->name.empty() && (lit || bodies.size() <= kMostNamed)) {
+      if (b.body->lit == lit && shows_name(frame, *b.body)) {
         const DrawList::Scope scope(list, body_key("world/name", *b.body));
         name_body(b, bodies, view, labels);
       }
   std::vector<const FrameNode*> cells;
   for (const FrameNode& node : frame.nodes)
     if (node.leaf && node.depth > 0 && !node.of_static && !node.label.empty() &&
-        is_valid(node.box) && (node.mark == Mark::lit || !node.bodies.empty()))
+        is_valid(node.box) && shows_id(staging, node) &&
+        (node.mark == Mark::lit || !node.bodies.empty()))
       cells.push_back(&node);
-  const auto is_quiet = [](const FrameNode* n) { return n->mark != Mark::lit; };
-  if (std::ranges::count_if(cells, is_quiet) > kMostQuietCells) std::erase_if(cells, is_quiet);
   std::ranges::stable_sort(cells, {}, [](const FrameNode* n) {
     return std::pair{n->mark != Mark::lit, n->depth};
   });
@@ -156,7 +154,8 @@ void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawLi
     labels.block(Box<2>::around(eye, {24, 18}));
   }
 }
-void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                  Labels& labels) {
   const View3D view(frame.bounds, frame.camera, panel);
   LeftOut left_out;
   const bool crowd = frame.bodies.size() > kCrowd;
@@ -179,7 +178,7 @@ void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Label
   std::vector<Box<2>> covered;
   for (const Body3D& body : bodies) covered.push_back(body.box);
   write_depths(frame, view, covered, labels);
-  name_world3d(frame, bodies, view, list, labels);
+  name_world3d(frame, staging, bodies, view, list, labels);
 }
 
 }  // namespace
@@ -196,8 +195,9 @@ bool shows_a_body(const Frame& frame) {
   return is_seen([&](const FrameBody& body) { return shows(view, body); });
 }
 
-void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  if (frame.dimension == 3) return draw_world3d(frame, panel, list, labels);
+void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                Labels& labels) {
+  if (frame.dimension == 3) return draw_world3d(frame, staging, panel, list, labels);
   const View2D map(flat(frame.bounds), panel);
   Grounds grounds;
   LeftOut left_out;
@@ -232,9 +232,9 @@ void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   for (const Stand& stand : stands) covered.push_back(stand.box);
   write_depths(frame, map, covered, labels);
   number_sectors(frame, map, grounds, labels);
-  label_cells(frame, map, covered, grounds, list, labels);
-  name_half_spaces(ground, map, grounds, labels);
-  name_bodies(stands, covered, map, grounds, labels);
+  label_cells(frame, staging, map, covered, grounds, list, labels);
+  name_half_spaces(frame, ground, map, grounds, labels);
+  name_bodies(frame, stands, covered, name_sides(staging, panel), map, grounds, labels);
 }
 
 }  // namespace lantern::draw
