@@ -54,7 +54,7 @@ class Bars {
     }
     const double x = x_of(zero());
     list_.crisp_line({x, area_.lo.y}, {x, area_.hi.y}, {Role::ink, 2.2});
-    if (!note_.empty()) labels_.add(note_, {{area_.lo.x, panel_.hi.y - 5}, 0}, type_.tick, panel_);
+    if (!note_.empty()) labels_.add(note_, {{area_.lo.x, panel_.hi.y - 7}, 0}, type_.tick, panel_);
   }
 
  private:

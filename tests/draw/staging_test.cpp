@@ -160,7 +160,10 @@ TEST(Staging, KnowsWhatAnyFrameHas) {
 
 TEST(Staging, OfManyBodiesOnlyThoseOfTheStoryAreNamed) {
   Frame frame = samples::crowd(9, 0.5);
-  frame.bodies[3].lit = true;
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
+    frame.bodies[i].name = fmt::format("crate {}", i);
+    frame.bodies[i].lit = i == 3;
+  }
   frame.caption = frame.bodies[5].name + " falls";
   for (std::size_t i = 0; i < frame.bodies.size(); ++i)
     EXPECT_EQ(shows_name(frame, frame.bodies[i]), i == 3 || i == 5) << frame.bodies[i].name;
