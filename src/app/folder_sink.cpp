@@ -68,14 +68,14 @@ FolderSink::FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace
       path_(fs::path(job.options.output) / scenario.name),
       work_(work) {}
 
-void FolderSink::frame(const Frame& frame) {
+void FolderSink::draw(const Frame& frame, const Staging& staging) {
   all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
-  if (selection_.takes(frame)) take(frame);
+  if (selection_.takes(frame)) take(frame, staging);
   // Of sides each has an atlas of its own, and none is the scenario's.
   if (scenario_.atlas && scenario_.sides.empty() && frame.step + 1 == frame.steps) last_ = frame;
 }
 
-void FolderSink::finish(const DirectorReport& report) {
+void FolderSink::close(const DirectorReport& report) {
   selection_.require_some();
   if (pipeline_) pipeline_->finish();
   list_frames();
@@ -95,7 +95,7 @@ void FolderSink::open_folder() {
   write_manifest();
 }
 
-void FolderSink::take(const Frame& frame) {
+void FolderSink::take(const Frame& frame, const Staging& staging) {
   if (!folder_) open_folder();
   const std::uint32_t index = frame.index;
   taken_.insert(index);
@@ -103,11 +103,12 @@ void FolderSink::take(const Frame& frame) {
   if (!folder_->stands(index, "json"))
     write_counted(folder_->file(index, "json"), facts_of(job_, frame, from));
   std::optional<DrawList> list;
-  if (before_ && before_->index + 1 == index) take_in_betweens(frame, list);
+  if (before_ && before_->index + 1 == index) take_in_betweens(frame, staging, list);
   if (folder_->stands(index, job_.options.format)) {
     ++kept_;
   } else {
-    write_picture(folder_->file(index, job_.options.format), list_of(frame, list), frame, from);
+    write_picture(folder_->file(index, job_.options.format), list_of(frame, staging, list), frame,
+                  from);
     ++drawn_;
   }
   if (!job_.in_betweens.wanted()) return;
@@ -116,7 +117,8 @@ void FolderSink::take(const Frame& frame) {
 }
 
 // From the frame before to this one.
-void FolderSink::take_in_betweens(const Frame& frame, std::optional<DrawList>& list) {
+void FolderSink::take_in_betweens(const Frame& frame, const Staging& staging,
+                                  std::optional<DrawList>& list) {
   const std::uint32_t index = before_->index;
   const std::uint64_t count = job_.in_betweens.between(*before_, frame);
   const Motion motion = InBetweens::motion(*before_, frame);
@@ -129,8 +131,8 @@ void FolderSink::take_in_betweens(const Frame& frame, std::optional<DrawList>& l
     stop_if_asked();
     if (folder_->in_between_stands(index, k)) continue;
     const double t = static_cast<double>(k) / static_cast<double>(count + 1);
-    const DrawList& from = list_of(*before_, drawn_so_);
-    const DrawList between_two = between(from, list_of(frame, list), t, motion);
+    const DrawList& from = list_of(*before_, staging, drawn_so_);
+    const DrawList between_two = between(from, list_of(frame, staging, list), t, motion);
     ++work_.in_betweens;
     write_picture(folder_->in_between(index, k), between_two, frame,
                   manifest_.in_between_from(index, k));
@@ -138,8 +140,9 @@ void FolderSink::take_in_betweens(const Frame& frame, std::optional<DrawList>& l
 }
 
 // Drawn when it is first needed.
-const DrawList& FolderSink::list_of(const Frame& frame, std::optional<DrawList>& list) {
-  if (!list) list = job_.page_of(frame, work_);
+const DrawList& FolderSink::list_of(const Frame& frame, const Staging& staging,
+                                    std::optional<DrawList>& list) {
+  if (!list) list = job_.page_of(frame, staging, work_);
   return *list;
 }
 

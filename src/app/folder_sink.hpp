@@ -13,33 +13,36 @@
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
+#include "app/staged_sink.hpp"
 
 namespace lantern::app {
 
-// Each chosen frame is drawn when it comes by, unless its picture stands there already. The disk is
-// left as it was until the first one. All that is given to it must outlive this.
-class FolderSink : public FrameSink {
+// Each chosen frame is drawn when its group is whole, unless its picture stands there already. The
+// disk is left as it was until the first one. All that is given to it must outlive this.
+class FolderSink : public StagedSink {
  public:
   FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace, Selection& selection,
              Work& work);
-
-  // Throws IoError, BackendError, and UsageError for a picture that is too large.
-  void frame(const Frame& frame) override;
-  // Throws UsageError if no frame was chosen.
-  void finish(const DirectorReport& report) override;
 
   std::size_t drawn() const { return drawn_; }
   std::size_t kept() const { return kept_; }
   std::size_t in_betweens() const { return in_betweens_; }  // there now
   const std::filesystem::path& path() const { return path_; }
 
+ protected:
+  // Throws IoError, BackendError, and UsageError for a picture that is too large.
+  void draw(const Frame& frame, const Staging& staging) override;
+  // Throws UsageError if no frame was chosen.
+  void close(const DirectorReport& report) override;
+
  private:
   void open_folder();
-  void take(const Frame& frame);
-  void take_in_betweens(const Frame& frame, std::optional<DrawList>& list);
+  void take(const Frame& frame, const Staging& staging);
+  void take_in_betweens(const Frame& frame, const Staging& staging, std::optional<DrawList>& list);
   void write_picture(const std::filesystem::path& file, const DrawList& list, const Frame& frame,
                      const MadeFrom& from);
-  const DrawList& list_of(const Frame& frame, std::optional<DrawList>& list);
+  const DrawList& list_of(const Frame& frame, const Staging& staging,
+                          std::optional<DrawList>& list);
   void write_counted(const std::filesystem::path& file, const std::string& bytes);
   void tell_of_strange_files() const;
   Pipeline& pipeline();

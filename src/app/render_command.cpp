@@ -12,6 +12,7 @@
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
+#include "app/staged_sink.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
@@ -22,18 +23,19 @@ namespace lantern::app {
 namespace {
 
 // The picture of the one chosen frame to standard output.
-class StdoutSink : public FrameSink {
+class StdoutSink : public StagedSink {
  public:
   StdoutSink(const RenderJob& job, const Manifest& manifest, Selection& selection, Work& work)
       : job_(job), manifest_(manifest), selection_(selection), work_(work) {}
 
-  void frame(const Frame& frame) override {
+ protected:
+  void draw(const Frame& frame, const Staging& staging) override {
     if (!selection_.takes(frame) || ++chosen_ > 1) return;
     const Pipeline::Config& as = job_.picture;
-    const DrawList list = job_.page_of(frame, work_);
+    const DrawList list = job_.page_of(frame, staging, work_);
     bytes_ = picture_of(job_, as, frame, list, manifest_.frame_from(frame.index), work_);
   }
-  void finish(const DirectorReport&) override {
+  void close(const DirectorReport&) override {
     selection_.require_some();
     if (chosen_ != 1)
       throw UsageError(fmt::format(

@@ -33,17 +33,17 @@ RenderJob::RenderJob(const RenderOptions& o)
                         : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-DrawList RenderJob::page_of(const Frame& frame, Work& work) const {
+DrawList RenderJob::page_of(const Frame& frame, const Staging& staging, Work& work) const {
   const Vec<2> page = page_for(picture.width, picture.height);
   Display display = frame.display;
   if (options.no_title) display.title = false;
   if (options.no_caption) display.caption = false;
   if (options.no_counters) display.counters = false;
   if (options.legend) display.legend = true;
-  if (display == frame.display) return draw_frame(frame, page, work);
+  if (display == frame.display) return draw_frame(frame, staging, page, work);
   Frame switched = frame;
   switched.display = display;
-  return draw_frame(switched, page, work);
+  return draw_frame(switched, staging, page, work);
 }
 
 Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {

@@ -25,7 +25,7 @@ struct RenderJob {
   InBetweens in_betweens;
 
   // The frame as a page, with what the command line switches on and off.
-  DrawList page_of(const Frame& frame, Work& work) const;
+  DrawList page_of(const Frame& frame, const Staging& staging, Work& work) const;
 
   // Of a folder that holds no frame yet.
   Manifest manifest(const Scenario& scenario, Pace pace) const;

@@ -19,7 +19,7 @@ constexpr double kQueueGap = 26;
 constexpr int kMostPanelShapes = 2200;  // of all packed textures together
 constexpr int kMostTextures = 3000;
 constexpr std::size_t kMostFree = 400;
-constexpr double kAtlasHeading = 30;
+constexpr double kAtlasHeading = 36;
 constexpr double kTextureGap = 8;  // between textures in the strip
 
 Vec<2> atlas_size(const Frame& frame) {
@@ -112,7 +112,7 @@ class AtlasView {
 
   // The name on a plate of its own, so that it can be read on any pattern.
   bool draw_plate(const std::string& name, const Box<2>& box) {
-    const TextStyle style{kLabel - 1, Weight::semibold, Role::ink};
+    const TextStyle style{kLabel, Weight::semibold, Role::ink};
     const Box<2> plate = plate_of(name, box.center(), style, {6, 5});
     const Anchor anchor = centred(box.center(), style);
     if (name.empty() || !holds(shrunk(box, 1), plate)) return false;
@@ -126,7 +126,7 @@ class AtlasView {
   void name_free(const FrameNode& node) {
     const Box<2> box = on_page(flat(node.box));
     const DrawList::Scope scope = shown("atlas/name", node);
-    TextStyle style{kLabel - 1, Weight::regular, Role::quiet_ink};
+    TextStyle style{kLabel, Weight::regular, Role::quiet_ink};
     if (node.mark == Mark::lit) style.role = Role::lit_ink;
     const Vec<2> size = node.box.size();
     const std::string numbers = fmt::format("{:.0f} × {:.0f}", size.x, size.y);
@@ -179,14 +179,14 @@ class AtlasView {
     const auto digits = static_cast<std::int64_t>(std::to_string(frame_.textures.size()).size());
     const double number = Labels::number_width(digits, style);
     labels_.add_number(static_cast<std::int64_t>(queue.size()),
-                       {area.lo.x + number, area.lo.y + 18}, style, panel_);
-    labels_.add(heading, {{area.lo.x + number + 7, area.lo.y + 18}, 0}, style, panel_);
+                       {area.lo.x + number, area.lo.y + 23}, style, panel_);
+    labels_.add(heading, {{area.lo.x + number + 7, area.lo.y + 23}, 0}, style, panel_);
     const double end = area.lo.x + number + 7 + text_width(heading, style);
-    const TextStyle note{kLabel - 1, Weight::regular, Role::quiet_ink};
-    const double name_line = crossed ? 24 : 0;
+    const TextStyle note{kLabel, Weight::regular, Role::quiet_ink};
+    const double name_line = crossed ? 30 : 0;
     if (strip_scale_ < scale_ && !queue.empty())
       labels_.try_add(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)",
-                      {{{end + 10, area.lo.y + 18}, 0}}, note, panel_);
+                      {{{end + 10, area.lo.y + 23}, 0}}, note, panel_);
     Vec<2> at{area.lo.x, area.lo.y + kAtlasHeading};
     double row = 0;
     for (std::size_t i = 0; i < queue.size(); ++i) {
@@ -194,10 +194,10 @@ class AtlasView {
       const double name = crossed ? text_width(queue[i]->name, note) : 0;
       if (at.x > area.lo.x && at.x + std::max(size.x, name) > area.hi.x)
         at = {area.lo.x, at.y + row}, row = 0;
-      const double last = area.hi.y - (i + 1 < queue.size() ? 26 : 4);
+      const double last = area.hi.y - (i + 1 < queue.size() ? 32 : 4);
       if (at.y + size.y + name_line > last) {
         labels_.try_add(fmt::format("and {} more", queue.size() - i),
-                        {{{area.lo.x, at.y + row + 18}, 0}, {{area.lo.x, area.hi.y - 6}, 0}}, note,
+                        {{{area.lo.x, at.y + row + 23}, 0}, {{area.lo.x, area.hi.y - 6}, 0}}, note,
                         panel_);
         return;
       }
@@ -218,9 +218,9 @@ class AtlasView {
       list_.line(box.lo, box.hi, {role, width});
       list_.line({box.lo.x, box.hi.y}, {box.hi.x, box.lo.y}, {role, width});
     }
-    const TextStyle style{kLabel - 1, Weight::regular, Role::warning};
+    const TextStyle style{kLabel, Weight::regular, Role::warning};
     const std::string name = shortened(texture.name, panel_.hi.x - box.lo.x, style);
-    labels_.try_add(name, {{{box.lo.x, box.hi.y + 20}, 0}}, style, panel_);
+    labels_.try_add(name, {{{box.lo.x, box.hi.y + 23}, 0}}, style, panel_);
   }
 
   const Frame& frame_;

@@ -165,9 +165,11 @@ struct DrawList {
   }
 };
 
-inline constexpr double kLeastCaption = 23.4;  // 2.6 % of 900
-inline constexpr double kLeastLabel = 17.1;    // 1.9 % of 900
-inline constexpr double kLabel = 19;
+inline constexpr double kLeastCaption = 24;  // of 900: nothing that is read is smaller
+inline constexpr double kLeastLabel = 24;
+inline constexpr double kLabel = 24;
+inline constexpr double kLeastDeskLabel = 17.1;  // on pages that are read at a desk
+inline constexpr double kDeskLabel = 19;
 
 // The least of `box` that a text or shape `inset` inside it may use.
 inline Box<2> shrunk(const Box<2>& box, double inset) {

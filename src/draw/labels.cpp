@@ -125,7 +125,7 @@ void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyl
 }
 
 void Labels::add_note(std::string_view note, const Box<2>& picture) {
-  const TextStyle style{kLabel - 1, Weight::regular, Role::ink};
+  const TextStyle style{kLabel, Weight::regular, Role::ink};
   const std::string text = shortened(note, picture.size().x - 40, style);
   if (text.empty()) return;
   const Anchor anchor{{picture.lo.x + 20, picture.hi.y - 20}, 0};

@@ -126,7 +126,8 @@ class Ledger {
     double most = 0;
     for (const bool named : {true, false})
       for (const bool corner : {true, false})
-        for (double cell = kMostLedgerCell; cell >= (named ? kLeastNamed : kLeastLedgerCell); --cell) {
+        for (double cell = kMostLedgerCell; cell >= (named ? kLeastNamed : kLeastLedgerCell);
+             --cell) {
           const LedgerPlan plan{cell, named, corner};
           if (!fits(plan)) continue;
           if (cell * (named ? kWorthOfNames : 1) > most) {

@@ -137,7 +137,8 @@ Frame sample_of(MarkKind kind) {
 DrawList drawn_sample(MarkKind kind, const Box<2>& box) {
   DrawList list;
   Labels labels(list);
-  draw_world(sample_of(kind), shrunk(box, -kCutRim), list, labels);
+  const Frame sample = sample_of(kind);
+  draw_world(sample, Staging(sample), shrunk(box, -kCutRim), list, labels);
   keep_within(list, 0, box);  // without the world's border
   return list;
 }

@@ -27,16 +27,16 @@ enum class MarkKind : std::uint8_t {
   ruler,           // a line between two ticks: a length
   box,             // round a body, in the broad phase
   ray,
-  ray_hit,         // a disc on a ray
-  met,             // a number on a plate: the order in which a ray meets cells
+  ray_hit,  // a disc on a ray
+  met,      // a number on a plate: the order in which a ray meets cells
   view,
   region,
-  found,           // a tick: what a view or region has found
-  skipped,         // a disc with a cross: left out, with all below
-  centre,          // a plus
+  found,    // a tick: what a view or region has found
+  skipped,  // a disc with a cross: left out, with all below
+  centre,   // a plus
   spring,
   rod,
-  pin,             // a ring with a dot: two points held together
+  pin,  // a ring with a dot: two points held together
   count_,
 };
 

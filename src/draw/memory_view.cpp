@@ -21,7 +21,7 @@ constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
 constexpr double kSlots[] = {100, 84, 72, 62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
 constexpr std::size_t kMostSlotShapes = 2600;  // that slots may take
 
-const TextStyle kIndex{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink};
+const TextStyle kIndex{kLeastLabel, Weight::regular, Role::quiet_ink};
 
 // How slots are laid out on a panel.
 struct Strip {
@@ -193,7 +193,7 @@ class MemoryView {
     const Stroke stroke{outline.role, 1.8};
     list_.crisp_line(from, to, stroke);
     for (const Vec<2>& end : {from, to}) list_.crisp_line(end - Vec<2>(0, 4), end, stroke);
-    TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::quiet_ink};
+    TextStyle style{kLeastLabel, Weight::semibold, Role::quiet_ink};
     if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
     const std::size_t dot = leaf.label.rfind('.');
     const std::string brief = dot == std::string::npos ? "" : "…" + leaf.label.substr(dot + 1);
@@ -222,7 +222,7 @@ class MemoryView {
       text += fmt::format(" — the first {} are drawn", number_text(double(shown_)));
     else if (leaves_left_out)
       text += " — not all leaves are drawn";
-    const TextStyle style{kLabel + 1, Weight::semibold, Role::ink};
+    const TextStyle style{kLabel, Weight::semibold, Role::ink};
     labels_.add(shortened(text, panel_.size().x, style),
                 {{panel_.lo.x, panel_.lo.y + 0.8 * style.size}, 0}, style, panel_);
   }

@@ -3,6 +3,7 @@
 
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
+#include "draw/staging.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern::draw {
@@ -12,7 +13,11 @@ namespace lantern::draw {
 Vec<2> page_for(int width, int height);
 
 // Title line, the frame's panels side by side (one above the other on a tall page), caption and
-// counters. Counts one layout for each panel that is there.
+// counters. `staging` is of the group that the frame belongs to: it says what all of them share.
+// Counts one layout for each panel that is there.
+DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& page, Work& work);
+
+// The same of a frame that stands alone.
 DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work);
 
 // Does the world panel show any body that is no ground? What another body hides counts as shown,

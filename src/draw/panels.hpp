@@ -4,26 +4,32 @@
 #include <string>
 
 #include "draw/labels.hpp"
+#include "draw/staging.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern::draw {
 
 // Node cells, bodies as characters, candidate pairs and marks. A 2D world as large as
 // frame.bounds fit into the panel, y upwards; a 3D one as frame.camera sees it, with its floor.
-void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                Labels& labels);
 
 // The structure or atlas as a node-link diagram, and under it what it was told and what it counts.
-// A tree too large for the panel is condensed (tree_fold.hpp); a node is never narrower than
-// kLeastNode. Two trees, of what never moves and of what does, stand side by side or one above the
-// other; sort and sweep has no tree and shows its intervals.
-void draw_tree(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+// All nodes that the group's frames have stand in one layout; where that is too large for the panel
+// a frame's tree is condensed (tree_fold.hpp); a node is never narrower than kLeastNode. Two trees,
+// of what never moves and of what does, stand side by side or one above the other; sort and sweep
+// has no tree and shows its intervals.
+void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+               Labels& labels);
 inline constexpr double kLeastNode = 34;
 // The intervals of sort and sweep along the axis that it sorted by, one row a body in the order of
 // the sweep. A pair that it compares is linked where the later interval begins; where one body is
 // lit, the sweep stands at its beginning, and the intervals that are open there are marked.
 void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 // The diagram alone, of a frame whose nodes are one tree.
-void draw_one_tree(const Frame& frame, const Box<2>& diagram, DrawList& list, Labels& labels);
+struct TreeStage;
+void draw_one_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage,
+                   DrawList& list, Labels& labels);
 
 // The packed image, and beside it the textures that wait or were refused. It wants this width at a
 // height.

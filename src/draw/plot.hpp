@@ -75,7 +75,7 @@ struct Plot {
   std::vector<Vec<2>> front;    // the Pareto front's corners, ascending in x; drawn as stairs
   std::string front_name = "Pareto front";
   PlotNames names = PlotNames::ends;
-  double size = kLabel;             // of the names; all else follows it
+  double size = kDeskLabel;         // of the names; all else follows it
   double mark = 0;                  // radius of the marks; 0 follows the size
   std::string beyond = "diverged";  // the name of the strip at the upper edge
   std::string empty = "no point";   // said when there is none

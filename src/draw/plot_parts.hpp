@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,10 +15,11 @@ namespace lantern::draw {
 // The type of a plot: `size` is that of its names, all else follows it.
 struct PlotType {
   explicit PlotType(double size)
-      : tick{(kLeastLabel + 0.4) / kLabel * size, Weight::regular, Role::quiet_ink},
+      : tick{size < kLeastLabel ? 0.92 * size : std::max(kLeastLabel, 0.92 * size), Weight::regular,
+             Role::quiet_ink},
         name{size, Weight::regular, Role::ink},
         title{size, Weight::semibold, Role::ink},
-        unit(std::min(1.0, size / kLabel)) {}
+        unit(std::min(1.0, size / kDeskLabel)) {}
   TextStyle tick, name, title;
   double unit;  // of lines and gaps, which do not grow with large type
 

@@ -19,7 +19,7 @@ double ray_scale(const Frame& frame) { return frame.rays.size() > 12 ? 0.6 : 1; 
 
 void mark_hits_of(const FrameRay& ray, const Marks& marks, Labels& labels) {
   constexpr double kHit = 12.5;  // radius of a numbered mark
-  const TextStyle style{kLeastLabel + 0.4, Weight::semibold, Role::ink};
+  const TextStyle style{kLeastLabel, Weight::semibold, Role::ink};
   const Box<2>& picture = marks.projection().picture();
   int number = 0;
   for (const auto& hit : first_of(ray.hits, kMostHits)) {

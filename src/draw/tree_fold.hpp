@@ -37,13 +37,18 @@ class TreeFold {
  public:
   // The frame must outlive this.
   explicit TreeFold(const Frame& frame)
-      : nodes_(frame.nodes),
+      : TreeFold(frame.nodes, !frame.textures.empty(), frame.hits) {}
+
+  // `named`: leaves differ by their names only, as an atlas's free ones do. `hits` are what a query
+  // has found. The nodes must outlive this.
+  TreeFold(const std::vector<FrameNode>& nodes, bool named, const std::vector<BodyId>& hits)
+      : nodes_(nodes),
         children_(nodes_.size()),
         size_(nodes_.size(), 1),
         mark_(nodes_.size()),
-        shape_(nodes_.size()) {
-    // An atlas's free leaves differ by their names only.
-    const bool named = !frame.textures.empty();
+        shape_(nodes_.size()),
+        shown_(nodes_.size()) {
+    find_shown(hits);
     for (std::uint32_t i = 0; i < nodes_.size(); ++i)
       if (nodes_[i].parent != kNone) children_[nodes_[i].parent].push_back(i);
     for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -78,30 +83,30 @@ class TreeFold {
   }
 
   // At most `rows` (4 or more) rows. Empty leaves and equal subtrees of one parent become one
-  // branch; the path to the deepest lit leaf is open; of the rest as much is opened, level by level
-  // and what is lit first, as `fits` allows.
+  // branch; the ways to all that is lit are open, or, if not even they fit, the one to the deepest
+  // lit leaf; of the rest as much is opened, level by level, as `fits` allows.
   using Fits = std::function<bool(const std::vector<Branch>&)>;
 
   std::vector<Branch> condensed(std::uint32_t rows, const Fits& fits) const {
-    Opening opening;
-    opening.rows = rows;
-    opening.spine = spine();
-    const auto length = static_cast<std::uint32_t>(opening.spine.size());
-    if (length > rows) {
-      const std::uint32_t tail = rows >= 6 ? 3 : 2;
-      opening.hidden_from = rows - tail - 1;
-      opening.hidden_to = length - tail;
-    }
-    for (const std::uint32_t node : opening.spine)
-      if (!nodes_[node].leaf) opening.open.insert(node);
-    std::vector<Branch> list = build(opening);
-    if (!fits(list)) {
-      opening.lone_spine = true;
-      return build(opening);
-    }
-    open_rows(opening, list, fits);
+    std::vector<Branch> list;
+    for (const bool all_lit : {true, false})
+      for (const bool lone : {false, true}) {
+        Opening opening = opening_for(rows, all_lit, lone);
+        list = build(opening);
+        if (!fits(list)) continue;
+        if (!lone) open_rows(opening, list, fits);
+        return list;
+      }
     return list;
   }
+
+  // The least that shows all that is lit: whatever else is folded.
+  std::vector<Branch> least(std::uint32_t rows) const {
+    return build(opening_for(rows, true, true));
+  }
+
+  // Is this node lit, or a leaf that holds a hit? It must be seen.
+  bool must_be_seen(std::uint32_t node) const { return shown_[node]; }
 
  private:
   // What is open, and which part of the spine is left out.
@@ -111,12 +116,60 @@ class TreeFold {
     std::uint32_t hidden_from = kNone;  // positions in the spine that become one mark
     std::uint32_t hidden_to = kNone;
     std::uint32_t rows = 0;
-    bool lone_spine = false;  // its siblings share one mark
+    bool lone = false;  // what is not on a way that must be open shares one mark with its siblings
+    std::set<std::uint32_t> ways;  // nodes on the ways that must be open
 
     bool on_spine(std::uint32_t node, std::uint32_t position) const {
       return position < spine.size() && spine[position] == node;
     }
   };
+
+  // In a large tree that is nearly all lit the marks tell nothing.
+  void find_shown(const std::vector<BodyId>& hits) {
+    constexpr std::size_t kMany = 200;
+    std::size_t leaves = 0, lit = 0;
+    for (const FrameNode& node : nodes_) {
+      leaves += node.leaf;
+      lit += node.leaf && node.mark == Mark::lit;
+    }
+    if (nodes_.size() > kMany && 10 * lit > 7 * leaves) return;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const FrameNode& node = nodes_[i];
+      const auto is_hit = [&](BodyId id) { return std::ranges::count(hits, id) > 0; };
+      shown_[i] = node.mark == Mark::lit || (node.leaf && node.mark == Mark::passed &&
+                                             std::ranges::any_of(node.bodies, is_hit));
+    }
+  }
+
+  Opening opening_for(std::uint32_t rows, bool all_lit, bool lone) const {
+    Opening opening;
+    opening.rows = rows;
+    opening.lone = lone;
+    opening.spine = spine();
+    const auto length = static_cast<std::uint32_t>(opening.spine.size());
+    if (length > rows) {
+      const std::uint32_t tail = rows >= 6 ? 3 : 2;
+      opening.hidden_from = rows - tail - 1;
+      opening.hidden_to = length - tail;
+    }
+    opening.ways.insert(opening.spine.begin(), opening.spine.end());
+    for (std::uint32_t i = 0; all_lit && i < nodes_.size(); ++i)
+      for (std::uint32_t at = shown_[i] ? i : kNone;
+           at != kNone && (at == i || !opening.ways.contains(at)); at = nodes_[at].parent)
+        if (nodes_[at].depth < rows) opening.ways.insert(at);
+    for (const std::uint32_t node : opening.ways) {
+      const bool on_spine = opening.on_spine(node, nodes_[node].depth);
+      const bool has_room = nodes_[node].depth + 1 < rows && leads_on(node, opening);
+      if (!nodes_[node].leaf && (on_spine || has_room)) opening.open.insert(node);
+    }
+    return opening;
+  }
+
+  // Does a way go on below the node?
+  bool leads_on(std::uint32_t node, const Opening& opening) const {
+    return std::ranges::any_of(children_[node],
+                               [&](std::uint32_t child) { return opening.ways.contains(child); });
+  }
 
   // To the deepest lit leaf; without one to the deepest leaf that holds too much; the first of
   // them.
@@ -171,7 +224,7 @@ class TreeFold {
       return push(branch_for(opening.spine[opening.hidden_to], 1, opening));
     if (parent.kind != Branch::Kind::node || !opening.open.contains(parent.node)) return;
 
-    Branch rest{.kind = Branch::Kind::folded, .copies = 0};  // the spine's siblings in one
+    Branch rest{.kind = Branch::Kind::folded, .copies = 0};  // siblings of a way's nodes in one
     std::vector<bool> taken(children_[parent.node].size());
     for (std::size_t i = 0; i < taken.size(); ++i) {
       if (taken[i]) continue;
@@ -184,7 +237,7 @@ class TreeFold {
               .mark = nodes_[child].mark});
         continue;
       }
-      if (in_spine && opening.lone_spine && !spine_child) {
+      if (opening.lone && opening.ways.contains(parent.node) && !opening.ways.contains(child)) {
         if (rest.count == 0) rest.node = child;
         rest.count += size_[child];
         rest.mark = std::max(rest.mark, mark_[child]);
@@ -237,6 +290,7 @@ class TreeFold {
   std::vector<std::uint32_t> size_;   // nodes of each subtree
   std::vector<Mark> mark_;            // the strongest of each subtree
   std::vector<std::uint64_t> shape_;  // equal for subtrees that look alike
+  std::vector<bool> shown_;           // nodes that must be seen
 };
 
 }  // namespace lantern::draw

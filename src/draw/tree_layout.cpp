@@ -1,6 +1,8 @@
 #include "draw/tree_layout.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -14,20 +16,20 @@ namespace {
 // Trees of a few levels may be drawn larger than others.
 constexpr double kScales[] = {1.8, 1.65, 1.5, 1.35, 1.2, 1.1, 1.0, 0.88, 0.76, 0.66, 0.57, 0.5};
 constexpr double kLargest = 1.2;
-constexpr std::uint32_t kFewRows = 3;
-constexpr double kSmallest = 0.4;     // for a path that must stay open
-constexpr double kComfortable = 0.6;  // while a condensed tree is opened
+constexpr std::uint32_t kFewRows = 4;
+// Of a condensed tree: the first is comfortable, the others are for ways that must be open.
+constexpr double kFoldScales[] = {0.6, 0.5, 0.4, 0.3, 0.25};
 constexpr std::size_t kMostBranches = 300;
-constexpr double kUnderLeaf = 28;    // for the label under the last row
-constexpr double kBetweenRows = 34;  // at least; a leaf's label and an edge's elbow fit in
+constexpr double kUnderLeaf = 34;    // for the label under the last row
+constexpr double kBetweenRows = 42;  // at least; a leaf's label and an edge's elbow fit in
 constexpr double kElbow = 8.5;       // over a box, clear of the card behind a pile
 constexpr double kLeastFan = 34;     // height in which slanting edges are still told apart
-constexpr double kLeastHeight = 28;  // of a box
+constexpr double kLeastHeight = 30;  // of a box
 constexpr std::uint32_t kLeastRows = 4;
 
-double width_of(const Branch& branch, const Frame& frame, const TreeScale& scale,
+double width_of(const Branch& branch, const FrameNode& node, bool atlas, const TreeScale& scale,
                 const TreeWords& words) {
-  const BranchText content = text_of(branch, frame, scale, words);
+  const BranchText content = text_of(branch, node, atlas, scale, words);
   if (branch.kind == Branch::Kind::levels)  // the text stands beside a line
     return 2 * (text_width(content.text, scale.text, Weight::regular) + 16);
   const auto icons = static_cast<double>(content.icons);
@@ -36,6 +38,35 @@ double width_of(const Branch& branch, const Frame& frame, const TreeScale& scale
     width += text_width(content.text, scale.text, Weight::semibold) + (icons > 0 ? 6 : 0);
   return std::max(scale.box_width, width + 0.42 * scale.icon + 6);
 }
+
+// The largest count of as many digits, and of two at least.
+std::uint32_t widest_count(std::uint32_t count) {
+  return count < 100 ? 99 : count < 1000 ? 999 : std::max(count, 9999u);
+}
+
+// A tree to be laid out: its nodes, and what the group needs of room for each.
+struct Wanted {
+  const std::vector<FrameNode>& nodes;
+  const std::vector<std::string>& ways;
+  const UnionTree& tree;
+  bool atlas = false;
+
+  // Room for all that the branch shows on any frame.
+  double width(const Branch& branch, const TreeScale& scale, const TreeWords& words) const {
+    const FrameNode& node = nodes[branch.node];
+    if (branch.kind != Branch::Kind::node || branch.copies > 1) {
+      Branch widest = branch;
+      if (branch.kind != Branch::Kind::levels) widest.count = widest_count(branch.count);
+      return width_of(widest, node, atlas, scale, words);
+    }
+    const UnionNode* all = tree.find(ways[branch.node]);
+    double width = all ? 0 : width_of(branch, node, atlas, scale, words);
+    if (all)
+      for (const FrameNode& form : all->shown)
+        width = std::max(width, width_of(branch, form, atlas, scale, words));
+    return width;
+  }
+};
 
 std::uint32_t row_count(const std::vector<Branch>& branches) {
   return branches.empty() ? 0 : std::ranges::max(branches, {}, &Branch::row).row + 1;
@@ -54,12 +85,12 @@ struct Spread {
   double width = 0;
 };
 
-Spread spread(const std::vector<Branch>& branches, const Frame& frame, const TreeScale& scale,
+Spread spread(const std::vector<Branch>& branches, const Wanted& wanted, const TreeScale& scale,
               const TreeWords& words) {
   Spread s;
   std::vector<TidyNode> nodes;
   for (const Branch& branch : branches) {
-    nodes.push_back({branch.parent, width_of(branch, frame, scale, words)});
+    nodes.push_back({branch.parent, wanted.width(branch, scale, words)});
     s.widths.push_back(nodes.back().width);
   }
   s.x = tidy_tree(nodes, scale.gap);
@@ -68,74 +99,133 @@ Spread spread(const std::vector<Branch>& branches, const Frame& frame, const Tre
   return s;
 }
 
-bool fits(const std::vector<Branch>& branches, const Frame& frame, const Box<2>& panel, double s,
-          const TreeWords& words = {}) {
-  const Vec<2> room = panel.size();
-  const std::uint32_t rows = row_count(branches);
-  if (branches.size() > kMostBranches || rows > most_rows(room.y)) return false;
+// Do they fit at scale `s`, whose measures are those of `rows` rows?
+bool fits(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room, double s,
+          std::uint32_t rows, const TreeWords& words = {}) {
+  if (branches.size() > kMostBranches || row_count(branches) > most_rows(room.y)) return false;
   const TreeScale scale(s, rows, room.y);
   if (s > kLargest) {
     const double airy = (2 * rows - 1) * full_height(s) + scale.under;
     if (rows > kFewRows || airy > room.y) return false;
   }
-  return spread(branches, frame, scale, words).width <= room.x;
+  return spread(branches, wanted, scale, words).width <= room.x;
 }
 
 // As many words as there is room for without drawing anything smaller.
-TreeWords best_words(const std::vector<Branch>& branches, const Frame& frame, const Box<2>& panel,
-                     double s) {
+TreeWords best_words(const std::vector<Branch>& branches, const Wanted& wanted,
+                     const TreeStage& stage) {
   for (const TreeWords words : {TreeWords{true, true}, {false, true}, {true, false}})
-    if (fits(branches, frame, panel, s, words)) return words;
+    if (fits(branches, wanted, stage.panel.size(), stage.scale, stage.rows, words)) return words;
   return {};
 }
 
 // The largest scale at which they fit; 0 if none.
-double best_scale(const std::vector<Branch>& branches, const Frame& frame, const Box<2>& panel) {
+double best_scale(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room) {
   for (const double s : kScales)
-    if (fits(branches, frame, panel, s)) return s;
-  return fits(branches, frame, panel, kSmallest) ? kSmallest : 0;
+    if (fits(branches, wanted, room, s, row_count(branches))) return s;
+  return 0;
 }
 
-// Condensed until it fits: the path that must stay open may be drawn small, the rest is opened only
-// as far as it stays comfortable; on a narrow panel levels are left out one after another.
-std::vector<Branch> condensed(const TreeFold& fold, const Frame& frame, const Box<2>& panel) {
+// Condensed until it fits; on a narrow panel levels are left out one after another.
+std::vector<Branch> condensed(const TreeFold& fold, const Wanted& wanted, const TreeStage& stage) {
   std::vector<Branch> branches;
-  for (std::uint32_t rows = most_rows(panel.size().y); rows >= kLeastRows; --rows) {
-    bool path_alone = true;
-    branches = fold.condensed(rows, [&](const std::vector<Branch>& tried) {
-      const double s = path_alone ? kSmallest : kComfortable;
-      path_alone = false;
-      return fits(tried, frame, panel, s);
-    });
-    if (fits(branches, frame, panel, kSmallest)) break;
+  const Vec<2> room = stage.panel.size();
+  const auto has_room = [&](const std::vector<Branch>& tried) {
+    return fits(tried, wanted, room, stage.scale, stage.rows);
+  };
+  for (std::uint32_t rows = std::max(stage.rows, kLeastRows); rows >= kLeastRows; --rows) {
+    branches = fold.condensed(rows, has_room);
+    if (has_room(branches)) break;
   }
   return branches;
 }
 
-void place(const Frame& frame, const Box<2>& panel, double s, TreeLayout& layout) {
-  const std::uint32_t rows = row_count(layout.branches);
-  layout.scale = TreeScale(s, rows, panel.size().y);
-  layout.words = best_words(layout.branches, frame, panel, s);
-  const Spread sideways = spread(layout.branches, frame, layout.scale, layout.words);
+// How wide a text centred under each branch may be: it keeps clear of the places of its neighbours'
+// labels and of the edges that lead down from them.
+std::vector<double> label_rooms(const TreeLayout& layout, const Wanted& wanted,
+                                const Box<2>& panel) {
+  constexpr double kBesideEdge = 8, kBesideLabel = 4;
+  const std::vector<Branch>& branches = layout.branches;
+  std::vector<bool> open(branches.size());
+  for (const Branch& other : branches)
+    if (other.parent != kNone) open[other.parent] = true;
+  std::vector<double> rooms;
+  for (std::size_t k = 0; k < branches.size(); ++k) {
+    const double center = layout.boxes[k].center().x;
+    double room = std::min(center - panel.lo.x, panel.hi.x - center);
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      if (i == k || branches[i].row != branches[k].row) continue;
+      const double away = std::abs(layout.boxes[i].center().x - center);
+      if (open[i]) room = std::min(room, away - kBesideEdge);
+      if (has_label_below(branches[i], wanted.nodes[branches[i].node]))
+        room = std::min(room, away / 2 - kBesideLabel);
+    }
+    rooms.push_back(2 * room);
+  }
+  return rooms;
+}
+
+// Rows as far apart as the panel allows, in its middle. The root stands over the panel's middle
+// where the tree does not show all of its nodes: these come and go, and it must stand still.
+void place(const Wanted& wanted, const TreeStage& stage, TreeLayout& layout) {
+  const Box<2>& panel = stage.panel;
+  layout.scale = TreeScale(stage.scale, stage.rows, panel.size().y);
+  if (stage.alone) layout.words = best_words(layout.branches, wanted, stage);
+  const Spread sideways = spread(layout.branches, wanted, layout.scale, layout.words);
   const double around = layout.scale.box_height + layout.scale.under;
-  const double most = 165 * std::max(rows <= kFewRows ? 1.2 : 1.0, s / kLargest);
-  const double pitch = rows < 2 ? 0 : std::min(most, (panel.size().y - around) / (rows - 1));
-  const double spare = panel.size().y - (rows - 1) * pitch - around;
+  const double most = 190 * std::max(1.0, stage.scale / kLargest);
+  const double gaps = std::max(1.0, stage.rows - 1.0);
+  const double pitch = std::min(most, (panel.size().y - around) / gaps);
+  const double spare = panel.size().y - (stage.rows - 1.0) * pitch - around;
   const double left = panel.center().x - sideways.width / 2;
-  // A larger tree from the top, so that the root stays in its place while it grows.
-  const double top = panel.lo.y + (rows <= kFewRows ? std::max(spare / 2, 0.0)
-                                                    : std::clamp(spare * 0.42, 0.0, 44.0));
+  const double top = panel.lo.y + std::max(spare / 2, 0.0);
   for (std::size_t i = 0; i < layout.branches.size(); ++i) {
-    const Vec<2> center{left + sideways.x[i],
+    const bool centred = i == 0 && !stage.whole;
+    const Vec<2> center{centred ? panel.center().x : left + sideways.x[i],
                         top + layout.branches[i].row * pitch + layout.scale.box_height / 2};
     layout.boxes.push_back(
         Box<2>::around(center, Vec<2>(sideways.widths[i], layout.scale.box_height) * 0.5));
   }
-  std::vector<bool> labelled(rows);
+  std::vector<bool> labelled(row_count(layout.branches));
   for (const Branch& branch : layout.branches)
-    if (has_label_below(branch, frame)) labelled[branch.row] = true;
+    if (has_label_below(branch, wanted.nodes[branch.node])) labelled[branch.row] = true;
+  layout.labels_between = !stage.whole && !stage.alone;
   for (const Branch& branch : layout.branches)
     if (branch.row > 0 && labelled[branch.row - 1]) layout.labels_between = true;
+  layout.room = label_rooms(layout, wanted, panel);
+}
+
+std::vector<FrameNode> nodes_of(const UnionTree& tree) {
+  std::vector<FrameNode> nodes;
+  for (const UnionNode& node : tree.nodes) {
+    nodes.push_back(node.node);
+    // Somewhere it is a leaf, and then its label needs a place.
+    for (const FrameNode& form : node.shown) nodes.back().leaf = nodes.back().leaf || form.leaf;
+  }
+  return nodes;
+}
+
+std::vector<std::string> all_ways(const UnionTree& tree) {
+  std::vector<std::string> ways;
+  for (const UnionNode& node : tree.nodes) ways.push_back(node.way);
+  return ways;
+}
+
+// The largest scale at which on every frame all that is lit can be seen.
+double fold_scale(const UnionTree& tree, const std::vector<TreeOfFrame>& trees, bool atlas,
+                  std::uint32_t rows, const Vec<2>& room) {
+  const double smallest = std::end(kFoldScales)[-1];
+  std::size_t at = 0;
+  for (const TreeOfFrame& of : trees) {
+    if (of.nodes.empty()) continue;
+    const std::vector<std::string> ways = ways_of(of.nodes);
+    const Wanted wanted{of.nodes, ways, tree, atlas};
+    const std::vector<Branch> least = TreeFold(of.nodes, atlas, of.hits).least(rows);
+    // What does not fit at all shall not make the others small.
+    if (!fits(least, wanted, room, smallest, rows)) continue;
+    while (!fits(least, wanted, room, kFoldScales[at], rows)) ++at;
+  }
+  return kFoldScales[at];
 }
 
 }  // namespace
@@ -147,9 +237,9 @@ TreeScale::TreeScale(double s, std::uint32_t rows, double height)
       gap(std::max(9.0, 34 * s)),
       icon(std::min(std::max(18.0, 31 * s), box_height - 8)),
       radius(std::max(6.0, 9 * s)),
-      text(std::clamp(20 * s, kLeastLabel + 0.4, 30.0)),
-      label(std::clamp(text, 17.5, std::clamp(18.5 * s / kLargest, 18.5, 24.0))),
-      under(label + kUnderLeaf - 18.5) {}
+      text(std::clamp(20 * s, kLeastLabel, 30.0)),
+      label(kLeastLabel),
+      under(kUnderLeaf) {}
 
 std::string short_label(const std::string& label) {
   const std::size_t dot = label.rfind('.');
@@ -160,8 +250,7 @@ bool is_long_way(const std::string& label) {
   return std::count(label.begin(), label.end(), '.') > 2;
 }
 
-bool has_label_below(const Branch& branch, const Frame& frame) {
-  const FrameNode& node = frame.nodes[branch.node];
+bool has_label_below(const Branch& branch, const FrameNode& node) {
   if (branch.kind == Branch::Kind::folded) return true;
   if (branch.kind != Branch::Kind::node || !node.leaf) return false;
   return !node.label.empty() || branch.copies > 1 || node.over_capacity;
@@ -178,27 +267,8 @@ std::vector<Vec<2>> TreeLayout::edge(std::size_t branch) const {
   return {from, {from.x, elbow}, {to.x, elbow}, to};
 }
 
-double TreeLayout::label_room(std::size_t branch, const Frame& frame, const Box<2>& panel) const {
-  constexpr double kBesideEdge = 8, kBesideLabel = 4;
-  const double center = boxes[branch].center().x;
-  double room = std::min(center - panel.lo.x, panel.hi.x - center);
-  std::vector<bool> open(branches.size());
-  for (const Branch& other : branches)
-    if (other.parent != kNone) open[other.parent] = true;
-  for (std::size_t i = 0; i < branches.size(); ++i) {
-    if (i == branch || branches[i].row != branches[branch].row) continue;
-    const double away = std::abs(boxes[i].center().x - center);
-    if (open[i])
-      room = std::min(room, away - kBesideEdge);
-    else if (has_label_below(branches[i], frame))
-      room = std::min(room, away / 2 - kBesideLabel);
-  }
-  return 2 * room;
-}
-
-BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& scale,
+BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, const TreeScale& scale,
                    const TreeWords& words) {
-  const FrameNode& node = frame.nodes[branch.node];
   const char* each = branch.each && words.each ? " each" : "";
   using Kind = Branch::Kind;
   if (branch.kind == Kind::empties) return {fmt::format("×{}{}", branch.count, each), 0};
@@ -207,7 +277,7 @@ BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& sc
   if (branch.kind == Kind::levels) return {fmt::format("{} levels", branch.count), 0};
   if (!node.leaf) {
     if (branch.copies > 1) return {fmt::format("×{}{}", branch.copies, each), 0};
-    if (!frame.textures.empty()) return {};  // an atlas's inner node shows its cut
+    if (atlas) return {};  // an atlas's inner node shows its cut
     const bool named = node.plane && !node.plane_name.empty();
     const TextStyle style{scale.text, Weight::semibold, Role::ink};
     const std::string_view text = named ? node.plane_name : node.label;
@@ -217,7 +287,7 @@ BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& sc
         !named && !brief.empty() && (is_long_way(node.label) || text_width(text, style) > width);
     return {shortened(use_brief ? brief : text, width, style), 0};
   }
-  if (!frame.textures.empty() && node.bodies.empty() && node.label.empty()) {
+  if (atlas && node.bodies.empty() && node.label.empty()) {
     const double width = text_width("free", scale.text, Weight::regular);
     return {width + 8 <= scale.box_width ? "free" : "", 0};
   }
@@ -226,21 +296,79 @@ BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& sc
   return {fmt::format("+{}", bodies - (most - 1)), most - 1};
 }
 
-TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel) {
+TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& trees, bool atlas,
+                     const Box<2>& panel) {
+  TreeStage stage;
+  stage.panel = panel;
+  stage.alone = trees.size() == 1;
+  const Vec<2> room = panel.size();
+  if (tree.complete && tree.nodes.size() <= kMostBranches) {
+    const std::vector<FrameNode> nodes = nodes_of(tree);
+    const std::vector<std::string> ways = all_ways(tree);
+    const Wanted wanted{nodes, ways, tree, atlas};
+    std::vector<Branch> branches = TreeFold(nodes, atlas, {}).whole();
+    if (const double s = best_scale(branches, wanted, room); s > 0) {
+      stage.scale = s;
+      stage.rows = tree.rows();
+      stage.whole = true;
+      stage.all.branches = std::move(branches);
+      place(wanted, stage, stage.all);
+      return stage;
+    }
+  }
+  stage.rows = std::min(tree.rows(), most_rows(room.y));
+  stage.scale = fold_scale(tree, trees, atlas, stage.rows, room);
+  return stage;
+}
+
+TreeLayout lay_out_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage) {
   TreeLayout layout;
-  const TreeFold fold(frame);
   if (frame.nodes.empty()) return layout;
-  double s = 0;
-  if (frame.nodes.size() <= kMostBranches) {
-    layout.branches = fold.whole();
-    s = best_scale(layout.branches, frame, panel);
+  const TreeFold fold(frame);
+  const std::vector<std::string> ways = ways_of(frame.nodes);
+  const Wanted wanted{frame.nodes, ways, tree, !frame.textures.empty()};
+  layout.branches = stage.whole ? fold.whole() : condensed(fold, wanted, stage);
+  for (const Branch& branch : layout.branches) layout.ways.push_back(ways[branch.node]);
+  if (!stage.whole) {
+    place(wanted, stage, layout);
+    return layout;
   }
-  if (s == 0) {
-    layout.branches = condensed(fold, frame, panel);
-    s = best_scale(layout.branches, frame, panel);
+  layout.scale = stage.all.scale;
+  layout.words = stage.all.words;
+  layout.labels_between = stage.all.labels_between;
+  for (const std::string& way : layout.ways) {
+    const std::uint32_t i = tree.index.at(way);
+    layout.boxes.push_back(stage.all.boxes[i]);
+    layout.room.push_back(stage.all.room[i]);
   }
-  place(frame, panel, s > 0 ? s : kSmallest, layout);
   return layout;
+}
+
+TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel) {
+  const Staging staging(frame);
+  if (frame.nodes.empty()) return {};
+  const UnionTree& tree = staging.trees()[0];
+  const bool atlas = !frame.textures.empty();
+  return lay_out_tree(frame, tree, stage_tree(tree, {{frame.nodes, frame.hits}}, atlas, panel));
+}
+
+double tree_size_in(const Staging& staging, const Box<2>& panel) {
+  constexpr double kFolded = 0.5;  // a condensed tree uses whatever room it gets, and shows less
+  constexpr double kLarge = 1.35;  // scale from which a tree need not grow
+  const Vec<2> room = panel.size();
+  const double folded = kFolded * std::sqrt(room.x * room.y);
+  if (staging.trees().size() != 1) return folded;
+  const UnionTree& tree = staging.trees()[0];
+  if (!tree.complete || tree.nodes.size() > kMostBranches) return folded;
+  const std::vector<FrameNode> nodes = nodes_of(tree);
+  const std::vector<std::string> ways = all_ways(tree);
+  const Wanted wanted{nodes, ways, tree, !staging.frames()[0]->textures.empty()};
+  const std::vector<Branch> branches = TreeFold(nodes, wanted.atlas, {}).whole();
+  const double s = best_scale(branches, wanted, room);
+  if (s == 0) return folded;
+  const double width = spread(branches, wanted, TreeScale(1, tree.rows(), room.y), {}).width;
+  const double size = std::min(s, kLarge) * std::sqrt(width * tree.rows() * 110);
+  return std::max(folded, std::min(size, std::sqrt(room.x * room.y)));
 }
 
 }  // namespace lantern::draw

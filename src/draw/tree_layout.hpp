@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "draw/labels.hpp"
+#include "draw/staging.hpp"
 #include "draw/tree_fold.hpp"
 
 namespace lantern::draw {
@@ -34,7 +35,8 @@ struct BranchText {
   std::string text;       // may be empty
   std::size_t icons = 0;  // bodies or textures before it
 };
-BranchText text_of(const Branch& branch, const Frame& frame, const TreeScale& scale,
+// `node` is the one that the branch shows; `atlas`: its tree is an atlas's.
+BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, const TreeScale& scale,
                    const TreeWords& words);
 
 // The last step of the way down, "…3", for a label whose whole way has no room; empty if the way
@@ -45,25 +47,49 @@ std::string short_label(const std::string& label);
 bool is_long_way(const std::string& label);
 
 // Whether something is written under the branch's box.
-bool has_label_below(const Branch& branch, const Frame& frame);
+bool has_label_below(const Branch& branch, const FrameNode& node);
 
 struct TreeLayout {
   std::vector<Branch> branches;
+  std::vector<std::string> ways;  // of the branches' nodes
   TreeScale scale{1, 1, 1e9};
   TreeWords words;
   std::vector<Box<2>> boxes;
+  std::vector<double> room;     // how wide the label under each box may be
   bool labels_between = false;  // labels stand beside nodes that have children
 
   // The corners of the line from a branch's parent to it. Where labels stand between the rows it
-  // leads straight down past them first.
+  // goes straight down past them first.
   std::vector<Vec<2>> edge(std::size_t branch) const;
-
-  // How wide a text centred under the branch may be: it keeps clear of the places of its
-  // neighbours' labels and of the edges that lead down from them.
-  double label_room(std::size_t branch, const Frame& frame, const Box<2>& panel) const;
 };
 
-// The largest and least condensed layout that the panel has room for, centred between its sides.
+// How the tree of a group stands in a panel: measures that all its frames share, and, if every node
+// that any of them has fits the panel at once, the places of all.
+struct TreeStage {
+  Box<2> panel;
+  double scale = 1;
+  std::uint32_t rows = 1;
+  bool whole = false;  // `all` holds the union's places
+  bool alone = false;  // the group is one frame
+  TreeLayout all;
+};
+
+// `trees` are the nodes of this tree on each frame of the group, `atlas` as of text_of.
+struct TreeOfFrame {
+  std::vector<FrameNode> nodes;
+  std::vector<BodyId> hits;
+};
+TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& trees, bool atlas,
+                     const Box<2>& panel);
+
+// One frame's tree: in its places of the union, or else condensed until it fits at the group's
+// scale, with the root in the middle.
+TreeLayout lay_out_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage);
+
+// Of a frame that stands alone.
 TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel);
+
+// How large a group's tree gets in a panel, as the side of a square of that area.
+double tree_size_in(const Staging& staging, const Box<2>& panel);
 
 }  // namespace lantern::draw

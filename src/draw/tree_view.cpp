@@ -17,12 +17,13 @@ namespace {
 
 class TreeView {
  public:
-  TreeView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
+  TreeView(const Frame& frame, const UnionTree& tree, const TreeStage& stage, DrawList& list,
+           Labels& labels)
       : frame_(frame),
-        panel_(panel),
+        panel_(stage.panel),
         list_(list),
         labels_(labels),
-        layout_(lay_out_tree(frame, panel)),
+        layout_(lay_out_tree(frame, tree, stage)),
         bodies_(by_id(frame.bodies)) {
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
@@ -145,7 +146,8 @@ class TreeView {
 
   // Icons from the left and the text after them, centred in the box.
   void draw_content(const Branch& branch, const Box<2>& box) {
-    const BranchText content = text_of(branch, frame_, layout_.scale, layout_.words);
+    const BranchText content =
+        text_of(branch, node_of(branch), is_atlas(), layout_.scale, layout_.words);
     const TextStyle style = text_style(branch);
     const double icon = layout_.scale.icon;
     const double text = text_width(content.text, style);
@@ -204,7 +206,7 @@ class TreeView {
   void label_levels(const Branch& branch, const Vec<2>& c) {
     const TextStyle style{layout_.scale.text, Weight::regular, Role::quiet_ink, Role::paper};
     labels_.try_add(
-        text_of(branch, frame_, layout_.scale, layout_.words).text,
+        text_of(branch, node_of(branch), is_atlas(), layout_.scale, layout_.words).text,
         {{{c.x + 12, c.y + 0.36 * style.size}, 0}, {{c.x - 12, c.y + 0.36 * style.size}, 1}}, style,
         panel_);
   }
@@ -214,13 +216,13 @@ class TreeView {
     const FrameNode& node = node_of(branch);
     const DrawList::Scope scope = named("tree/name", i);
     if (branch.kind == Branch::Kind::levels) return label_levels(branch, layout_.boxes[i].center());
-    if (!has_label_below(branch, frame_)) return;
+    if (!has_label_below(branch, node)) return;
     TextStyle style{layout_.scale.label, Weight::semibold, Role::quiet_ink, Role::paper};
     if (branch.mark == Mark::lit) style.role = Role::lit_ink;
     if (node.over_capacity && node.leaf) style.role = Role::warning;
     const Box<2>& box = layout_.boxes[i];
     const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
-    const double room = layout_.label_room(i, frame_, panel_);
+    const double room = layout_.room[i];
     for (const std::string& text : label_choices(branch))
       if (text_width(text, style) <= room && labels_.try_add(text, {under}, style, panel_)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
@@ -273,9 +275,7 @@ class TreeView {
           branch.copies > 1
               ? copies_choices(branch, true).front()
               : fmt::format("{} holds {}", brief.empty() ? node.label : brief, node.bodies.size());
-      if (text_width(least, layout_.scale.label, Weight::semibold) >
-          layout_.label_room(i, frame_, panel_))
-        return false;
+      if (text_width(least, layout_.scale.label, Weight::semibold) > layout_.room[i]) return false;
     }
     return true;
   }
@@ -303,8 +303,7 @@ class TreeView {
     if (corners.size() > 3) return;  // no room for words between the rows
     const Vec<2> a = corners[corners.size() - 2], b = corners.back();
     const Vec<2> middle = a + (b - a) * 0.5;
-    const TextStyle style{std::max(kLabel - 1, layout_.scale.label), Weight::regular,
-                          Role::quiet_ink, Role::paper};
+    const TextStyle style{layout_.scale.label, Weight::regular, Role::quiet_ink, Role::paper};
     const double align = b.x < a.x ? 1 : 0;
     const double beside = b.x < a.x ? -14 : 14;
     labels_.try_add(side, {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}},
@@ -322,8 +321,9 @@ class TreeView {
 
 }  // namespace
 
-void draw_one_tree(const Frame& frame, const Box<2>& diagram, DrawList& list, Labels& labels) {
-  TreeView(frame, shrunk(diagram, 6), list, labels).draw();
+void draw_one_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage,
+                   DrawList& list, Labels& labels) {
+  TreeView(frame, tree, stage, list, labels).draw();
 }
 
 }  // namespace lantern::draw

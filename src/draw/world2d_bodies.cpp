@@ -9,7 +9,6 @@
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
-#include "draw/shown_names.hpp"
 #include "draw/world2d_parts.hpp"
 
 namespace lantern::draw {
@@ -98,24 +97,30 @@ void draw_stand(const Stand& stand, bool plain, const View2D& map, DrawList& lis
   }
 }
 
-std::string names_of(const Stand& stand) {
-  if (stand.bodies.size() == 1) return stand.bodies.front()->name;
+// Of the bodies that show theirs; empty if none does.
+std::string names_of(const Frame& frame, const Stand& stand) {
+  std::vector<std::string> shown;
+  for (const FrameBody* body : stand.bodies)
+    if (shows_name(frame, *body)) shown.push_back(body->name);
+  if (stand.bodies.size() == 1 || shown.empty()) return shown.empty() ? "" : shown.front();
   constexpr std::size_t kMostNames = 4;
   std::string names;
-  for (std::size_t i = 0; i < std::min(stand.bodies.size(), kMostNames); ++i)
-    names += (i == 0 ? "" : ", ") + stand.bodies[i]->name;
-  if (stand.bodies.size() > kMostNames)
-    names += fmt::format(" + {}", stand.bodies.size() - kMostNames);
+  for (std::size_t i = 0; i < std::min(shown.size(), kMostNames); ++i)
+    names += (i == 0 ? "" : ", ") + shown[i];
+  if (const std::size_t more = stand.bodies.size() - std::min(shown.size(), kMostNames); more > 0)
+    names += fmt::format(" + {}", more);
   return names + (stand.outside ? " — outside" : " — one place");
 }
 
-// Below, above, beside; first where no body is covered and inside the bounds, then anywhere in the
-// panel. Among many bodies a name that covers one would be read as its name, so it is left out.
+// On its side, or below, above, beside; first where no body is covered and inside the bounds, then
+// anywhere in the panel. Among many bodies a name that covers one would be read as its name, so it
+// is left out.
 void name_stand(const std::string& text, const Stand& stand, const std::vector<Box<2>>& covered,
-                const View2D& map, const Grounds& grounds, Labels& labels) {
+                const NameSides& sides, const View2D& map, const Grounds& grounds, Labels& labels) {
   constexpr std::size_t kFew = 12;
   TextStyle style;
-  const auto anchors = anchors_around(stand.box, 7, style);
+  const auto anchors =
+      on_its_side(anchors_around(stand.box, kNameGap, style), sides, stand.bodies.front()->name);
   for (const bool strict : {true, false}) {
     if (!strict && covered.size() > kFew) return;
     const Anchor* free = labels.free_anchor(
@@ -129,11 +134,6 @@ void name_stand(const std::string& text, const Stand& stand, const std::vector<B
 
 bool is_lit(const Stand& stand) {
   return std::ranges::any_of(stand.bodies, [](const FrameBody* body) { return body->lit; });
-}
-
-bool names(const Frame& frame, const Stand& stand) {
-  return std::ranges::any_of(stand.bodies,
-                             [&](const FrameBody* body) { return shows_name(frame, *body); });
 }
 
 }  // namespace
@@ -187,26 +187,20 @@ void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes
 }
 
 void name_bodies(const Frame& frame, const std::vector<Stand>& stands,
-                 const std::vector<Box<2>>& covered, const View2D& map, const Grounds& grounds,
-                 Labels& labels) {
-  constexpr std::size_t kMostNamed = 35;        // of more, only those the step is about
-  constexpr std::size_t kMostStaticNamed = 12;  // of more bodies, no wall or pillar that is quiet
-  constexpr double kWidestName = 210;
-  // Bodies, not stands: these merge and part as bodies move, and names must not come and go.
-  std::size_t bodies = 0;
-  for (const Stand& stand : stands) bodies += stand.bodies.size();
+                 const std::vector<Box<2>>& covered, const NameSides& sides, const View2D& map,
+                 const Grounds& grounds, Labels& labels) {
+  constexpr std::size_t kMostNamed = 35;
+  constexpr double kWidestName = 240;
   std::vector<const Stand*> order;
-  for (const Stand& stand : stands)
-    if (names(frame, stand) &&
-        (is_lit(stand) || (bodies <= kMostNamed &&
-                           (bodies <= kMostStaticNamed || !stand.bodies.front()->is_static))))
-      order.push_back(&stand);
+  for (const Stand& stand : stands) order.push_back(&stand);
   std::ranges::stable_partition(order, [](const Stand* s) { return is_lit(*s); });
-  if (order.size() > kMostNamed) order.resize(kMostNamed);
+  std::size_t named = 0;
   for (const Stand* stand : order) {
+    const std::string names = names_of(frame, *stand);
+    if (names.empty() || named++ == kMostNamed) continue;
     const double widest = stand->bodies.size() > 1 ? map.panel().size().x - 16 : kWidestName;
     const DrawList::Scope scope(labels.list(), body_key("world/name", *stand->bodies[0]));
-    name_stand(shortened(names_of(*stand), widest, {}), *stand, covered, map, grounds, labels);
+    name_stand(shortened(names, widest, {}), *stand, covered, sides, map, grounds, labels);
   }
 }
 

@@ -83,7 +83,7 @@ void draw_half_sizes(const FrameBody& body, const Box<2>& box, const View2D& map
                      Labels& labels) {
   constexpr double kAway = 12, kLeastSize = 44;
   if (std::min(box.size().x, box.size().y) < kLeastSize) return;
-  const TextStyle style{kLeastLabel + 0.4, Weight::regular, Role::quiet_ink, Role::panel};
+  const TextStyle style{kLeastLabel, Weight::regular, Role::quiet_ink, Role::panel};
   const Vec<2> c = box.center();
   const Vec<3> half = body.box.size() * 0.5;
   const double above = box.lo.y - kAway, beside = box.hi.x + kAway;
@@ -129,9 +129,10 @@ std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map,
   return places;
 }
 
-void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
+void name_half_spaces(const Frame& frame, const std::vector<GroundPlace>& places, const View2D& map,
                       const Grounds& grounds, Labels& labels) {
   for (const GroundPlace& place : places) {
+    if (!shows_name(frame, *place.body)) continue;
     TextStyle style;
     style.halo = ground_at(grounds, place.label);
     const std::string name = shortened(place.body->name, 210, style);

@@ -46,7 +46,7 @@ void label_cell(const FrameNode& node, const View2D& map, const std::vector<Box<
   const Box<2> whole = map.to_page(node.box), &picture = map.picture();
   const Box<2> cell{glm::clamp(whole.lo, picture.lo, picture.hi),
                     glm::clamp(whole.hi, picture.lo, picture.hi)};
-  TextStyle style{node.depth <= 1 ? 20.0 : 18.0, Weight::semibold, Role::quiet_ink};
+  TextStyle style{kLeastLabel, Weight::semibold, Role::quiet_ink};
   if (node.mark == Mark::lit) style.role = Role::lit_ink;
   const double width = text_width(node.label, style);
   constexpr double kInset = 9;
@@ -171,8 +171,9 @@ std::vector<Box<2>> unmade_quarters(const Frame& frame) {
   return quarters;
 }
 
-void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
-                 const Grounds& grounds, DrawList& list, Labels& labels) {
+void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
+                 const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
+                 Labels& labels) {
   if (!frame.display.cells) return;
   label_planes(frame, map, bodies, list, labels);
   // Of two trees only one has its leaves named, or the same names would stand there twice.
@@ -180,7 +181,8 @@ void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>
       std::ranges::any_of(frame.nodes, [](const FrameNode& node) { return !node.of_static; });
   std::vector<const FrameNode*> leaves;
   for (const FrameNode& node : frame.nodes)
-    if (node.leaf && !node.label.empty() && !(node.of_static && dynamic)) leaves.push_back(&node);
+    if (node.leaf && !node.label.empty() && !(node.of_static && dynamic) && shows_id(staging, node))
+      leaves.push_back(&node);
   std::ranges::stable_sort(leaves, {}, &FrameNode::depth);
   if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);
   for (const FrameNode* leaf : leaves) {

@@ -9,6 +9,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/labels.hpp"
 #include "draw/marks.hpp"
+#include "draw/naming.hpp"
 
 namespace lantern::draw {
 
@@ -49,8 +50,9 @@ void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place,
 
 // The names of leaves in their corners, and of dividing lines. Bodies cover cells, so names keep
 // clear of `bodies`, their boxes on the page.
-void label_cells(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
-                 const Grounds& grounds, DrawList& list, Labels& labels);
+void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
+                 const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
+                 Labels& labels);
 
 // --- bodies: who stands where on the page, as what, and under which name ---
 
@@ -91,10 +93,11 @@ void draw_coordinates(const Frame& frame, const View2D& map, DrawList& list, Lab
 
 // `boxes`: with the dashed boxes of what is no box itself.
 void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list);
-// Free of what is covered by bodies, as far as there is room.
+// Of those that show one; each on its side and free of what is covered by bodies, as far as there
+// is room.
 void name_bodies(const Frame& frame, const std::vector<Stand>& stands,
-                 const std::vector<Box<2>>& covered, const View2D& map, const Grounds& grounds,
-                 Labels& labels);
+                 const std::vector<Box<2>>& covered, const NameSides& sides, const View2D& map,
+                 const Grounds& grounds, Labels& labels);
 
 // Too many bodies to tell apart: one mark for each small square of the page that holds any.
 // Returns how many marks it made.
@@ -110,7 +113,7 @@ struct GroundPlace {
 };
 std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map, DrawList& list,
                                           Grounds& grounds);
-void name_half_spaces(const std::vector<GroundPlace>& places, const View2D& map,
+void name_half_spaces(const Frame& frame, const std::vector<GroundPlace>& places, const View2D& map,
                       const Grounds& grounds, Labels& labels);
 
 // Dashed, with its half sizes where the step is about the body or there are few bodies.

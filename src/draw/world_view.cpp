@@ -7,12 +7,12 @@
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/locator.hpp"
+#include "draw/naming.hpp"
 #include "draw/notes.hpp"
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
-#include "draw/shown_names.hpp"
 #include "draw/world2d_parts.hpp"
 #include "draw/world3d_parts.hpp"
 #include "geometry/flat.hpp"
@@ -20,8 +20,6 @@
 namespace lantern::draw {
 namespace {
 
-constexpr std::size_t kMostNamed = 35;          // of more bodies, only those that the step is about
-constexpr std::ptrdiff_t kMostQuietCells = 10;  // of more, only lit ones: in space names soon crowd
 constexpr std::size_t kMostCells = 16;
 constexpr double kWidestName = 210;
 
@@ -45,7 +43,7 @@ void name_body(const Body3D& b, const std::vector<Body3D>& bodies, const View3D&
 void name_cell(const FrameNode& node, const std::vector<Body3D>& bodies, const View3D& view,
                DrawList& list, Labels& labels) {
   const bool lit = node.mark == Mark::lit;
-  const TextStyle style{18, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink};
+  const TextStyle style{kLeastLabel, Weight::semibold, lit ? Role::lit_ink : Role::quiet_ink};
   if (!view.in_front(node.box.center())) return;
   const Vec<2> middle = view.to_page(view.bounds().center());
   const Vec<2> own = view.to_page(node.box.center());
@@ -76,23 +74,20 @@ void name_cell(const FrameNode& node, const std::vector<Body3D>& bodies, const V
   }
 }
 
-void name_world3d(const Frame& frame, const std::vector<Body3D>& bodies, const View3D& view,
-                  DrawList& list, Labels& labels) {
+void name_world3d(const Frame& frame, const Staging& staging, const std::vector<Body3D>& bodies,
+                  const View3D& view, DrawList& list, Labels& labels) {
   for (const bool lit : {true, false})
     for (const Body3D& b : bodies)
-      if (b.body->lit == lit && shows_name(frame, *b.body) &&
-          (lit || bodies.size() <= kMostNamed)) {
+      if (b.body->lit == lit && shows_name(frame, *b.body)) {
         const DrawList::Scope scope(list, body_key("world/name", *b.body));
         name_body(b, bodies, view, labels);
       }
   std::vector<const FrameNode*> cells;
   for (const FrameNode& node : frame.nodes)
     if (frame.display.cells && node.leaf && node.depth > 0 && !node.of_static &&
-        !node.label.empty() && is_valid(node.box) &&
+        !node.label.empty() && is_valid(node.box) && shows_id(staging, node) &&
         (node.mark == Mark::lit || !node.bodies.empty()))
       cells.push_back(&node);
-  const auto is_quiet = [](const FrameNode* n) { return n->mark != Mark::lit; };
-  if (std::ranges::count_if(cells, is_quiet) > kMostQuietCells) std::erase_if(cells, is_quiet);
   std::ranges::stable_sort(cells, {}, [](const FrameNode* n) {
     return std::pair{n->mark != Mark::lit, n->depth};
   });
@@ -227,7 +222,8 @@ void tell_places(const Frame& frame, const View3D& view, const std::vector<Body3
       labels.tell_place(target_of_note(i), {*at, *at});
 }
 
-void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                  Labels& labels) {
   const View3D view(frame.bounds, frame.camera, panel);
   LeftOut left_out;
   const bool crowd = frame.bodies.size() > kCrowd;
@@ -258,12 +254,13 @@ void draw_world3d(const Frame& frame, const Box<2>& panel, DrawList& list, Label
   std::vector<Box<2>> covered;
   for (const Body3D& body : bodies) covered.push_back(body.box);
   write_depths(frame, view, covered, labels);
-  name_world3d(frame, bodies, view, list, labels);
+  name_world3d(frame, staging, bodies, view, list, labels);
   write_heights(bodies, view, list, labels);
   if (labels.has_notes()) tell_places(frame, view, bodies, labels);
 }
 
-void draw_world2d(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
+void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map, DrawList& list,
+                  Labels& labels) {
   Grounds grounds;
   LeftOut left_out;
   if (!draw_cells(frame, map, list, grounds))
@@ -304,9 +301,9 @@ void draw_world2d(const Frame& frame, const View2D& map, DrawList& list, Labels&
   draw_coordinates(frame, map, list, labels);
   mark_walk(frame, map, covered, list, labels);
   number_sectors(frame, map, grounds, labels);
-  label_cells(frame, map, covered, grounds, list, labels);
-  name_half_spaces(ground, map, grounds, labels);
-  name_bodies(frame, stands, covered, map, grounds, labels);
+  label_cells(frame, staging, map, covered, grounds, list, labels);
+  name_half_spaces(frame, ground, map, grounds, labels);
+  name_bodies(frame, stands, covered, name_sides(staging, map.panel()), map, grounds, labels);
   if (labels.has_notes()) tell_places(frame, map, stands, labels);
 }
 
@@ -325,16 +322,17 @@ bool shows_a_body(const Frame& frame) {
   return is_seen([&](const FrameBody& body) { return shows(view, body); });
 }
 
-void draw_world(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  if (frame.dimension == 3) return draw_world3d(frame, panel, list, labels);
+void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                Labels& labels) {
+  if (frame.dimension == 3) return draw_world3d(frame, staging, panel, list, labels);
   const View2D map(flat(frame.bounds), panel, frame.view);
-  if (!frame.view) return draw_world2d(frame, map, list, labels);
+  if (!frame.view) return draw_world2d(frame, staging, map, list, labels);
   // Of a part all is drawn as ever and then cut. The corner with the whole is kept free of names.
   const Box<2> corner = place_of_locator(frame, map);
   labels.block(shrunk(corner, -4));
   if (labels.has_notes()) labels.tell_body(corner);
   const std::size_t first = list.shapes.size();
-  draw_world2d(frame, map, list, labels);
+  draw_world2d(frame, staging, map, list, labels);
   keep_within(list, first, map.picture());
   draw_locator(frame, corner, list);
 }

@@ -45,7 +45,7 @@ double draw_page_foot(const std::string& sentence, const std::vector<std::string
                       const std::string& small, double margin, DrawList& list, Labels& labels) {
   constexpr double kSentence = 25, kLineHeight = 36, kNoteHeight = 26;
   TextStyle style{kSentence, Weight::regular, Role::ink, Role::none};
-  const TextStyle quiet{kLeastLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
+  const TextStyle quiet{kLeastDeskLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
   const double width = list.page.x - 2 * margin;
   std::vector<std::string> lines = wrapped(sentence, width, style);
   if (lines.size() > 2) {
@@ -81,9 +81,9 @@ void draw_plot_pair(Plot left, Plot right, double bottom, double margin, DrawLis
   if (!names_its_lanes(left, left_panel)) {
     const std::vector<LegendEntry> legend = legend_of(left);
     const double height =
-        std::min(plot_legend_height(legend, width, kLabel), 0.3 * (bottom - kTop));
-    draw_plot_legend(legend, {{margin, bottom - height}, {margin + width, bottom}}, kLabel, list,
-                     labels);
+        std::min(plot_legend_height(legend, width, kDeskLabel), 0.3 * (bottom - kTop));
+    draw_plot_legend(legend, {{margin, bottom - height}, {margin + width, bottom}}, kDeskLabel,
+                     list, labels);
     left_panel.hi.y -= height;
     left.names = PlotNames::none;
   }

@@ -135,8 +135,7 @@ void check_quotes(const TableReader& table, std::string_view key, Draft& draft,
     return is_text ? Placeholder::text : Placeholder::unknown;
   };
   const auto can_be_quoted = [&](std::string_view name) {
-    if (is_of_body(name))
-      return note_body_measure({std::string(name), table.place(key)}, draft);
+    if (is_of_body(name)) return note_body_measure({std::string(name), table.place(key)}, draft);
     return kind_of(name) != Placeholder::unknown && why_not_counted(name, draft, state).empty();
   };
   // What is said of another side is checked when that one is read.

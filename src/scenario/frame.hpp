@@ -76,8 +76,8 @@ struct FrameNode {
   std::uint32_t pool_slot = kNone;  // its place in the pool of nodes, where there is one
   bool reused = false;              // a node of a tree before stood there
   Mark mark = Mark::quiet;
-  bool split = false;  // since the frame before, at the same time: the step is about its division
-  bool skipped = false;       // by a ray, view or region, itself or with a node above it
+  bool split = false;    // since the frame before, at the same time: the step is about its division
+  bool skipped = false;  // by a ray, view or region, itself or with a node above it
   std::uint32_t met = kNone;  // a leaf's place in the order in which a ray met them, from 0
 
   // To be drawn so: what never moves, or holds nothing, is not said to sleep.

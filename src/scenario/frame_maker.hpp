@@ -13,8 +13,8 @@
 #include "scenario/director.hpp"
 #include "scenario/engine.hpp"
 #include "scenario/level_stage.hpp"
-#include "scenario/looks.hpp"
 #include "scenario/lighting.hpp"
+#include "scenario/looks.hpp"
 #include "scenario/plotter.hpp"
 
 namespace lantern::scenario {

@@ -34,7 +34,8 @@ TableDoc file_table() {
       key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
       key(&S::panels, "panels",
           "What is drawn, from left to right: the `world`, the `tree` (of `sort_and_sweep` its "
-          "intervals), the `atlas`, the `chart`; the `ledger`, a triangle with a cell for each pair "
+          "intervals), the `atlas`, the `chart`; the `ledger`, a triangle with a cell for each "
+          "pair "
           "of bodies and how far it came; and as strips below, the `memory` of the array that all "
           "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
           "the `sparkline`, the pairs over the time so far.",
@@ -96,8 +97,7 @@ TableDoc step_table() {
       key(KeyType::table, "display", "What this step's frames show.", holds("display")),
       key(KeyType::table, "view", "The part of a 2D world that is shown from here on.",
           holds("view")),
-      key(KeyType::table, "camera", "From where a 3D world is seen from here on.",
-          holds("camera")),
+      key(KeyType::table, "camera", "From where a 3D world is seen from here on.", holds("camera")),
       key(&Step::orbit, "orbit",
           "How far the camera goes round its target while time passes in this step, "
           "counter-clockwise from above; in a step without time it is there at once.",
@@ -172,12 +172,12 @@ const KeyDoc* TableDoc::find(std::string_view key) const {
 
 std::span<const TableDoc> language_tables() {
   static const std::vector<TableDoc> tables = {
-      file_table(),      world_table(),   structure_table(), planes_table(),
-      prototype_table(), body_table(),    pattern_table(),   map_table(),
-      spring_table(),    joint_table(),   level_table(),     chart_table(),
-      problem_table(),   atlas_table(),   texture_table(),   texture_pattern_table(),
-      side_table(),      step_table(),    ruler_table(),     expect_table(),
-      display_table(),   view_table(),    camera_table(),    note_table()};
+      file_table(),      world_table(), structure_table(), planes_table(),
+      prototype_table(), body_table(),  pattern_table(),   map_table(),
+      spring_table(),    joint_table(), level_table(),     chart_table(),
+      problem_table(),   atlas_table(), texture_table(),   texture_pattern_table(),
+      side_table(),      step_table(),  ruler_table(),     expect_table(),
+      display_table(),   view_table(),  camera_table(),    note_table()};
   return tables;
 }
 

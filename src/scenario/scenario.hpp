@@ -66,8 +66,8 @@ struct Step {
   std::optional<Display> display;   // of this step alone; none: the scenario's
   std::optional<ViewSpec> view;     // from here on, as is the camera; none: as before
   std::optional<CameraSpec> camera;
-  double orbit = 0;             // radians that the camera goes round its target meanwhile
-  std::vector<NoteSpec> notes;  // on all frames of the step
+  double orbit = 0;                   // radians that the camera goes round its target meanwhile
+  std::vector<NoteSpec> notes;        // on all frames of the step
   std::vector<std::string> headline;  // counts and measures put in front from here on; or empty
   std::vector<RulerSpec> rulers;      // on every frame of the step
   bool ending = false;                // its last frame is the sequence's take-away
@@ -89,7 +89,7 @@ struct ScenarioSpec {
   std::vector<std::string> needs;        // names of scenarios to be seen before
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
-  std::vector<Panel> panels;          // as wished, or all that can show something
+  std::vector<Panel> panels;  // as wished, or all that can show something
   Display display;
   std::vector<std::string> headline;  // counts and measures that the foot puts in front
   WorldSpec world;

@@ -11,12 +11,11 @@ constexpr const char* kGiveView = "a part of it: view = { at = [4, 3], width = 6
 constexpr const char* kGiveCamera = "its part is camera = { eye = [9, 6, 9], target = [2, 2, 2] }";
 
 // What [world] and [display] both say.
-constexpr std::pair<const char*, const char*> kTwice[] = {
-    {"boxes", "show_boxes"},
-    {"arrows", "show_velocities"},
-    {"depths", "show_depths"},
-    {"forces", "show_forces"},
-    {"coordinates", "show_coordinates"}};
+constexpr std::pair<const char*, const char*> kTwice[] = {{"boxes", "show_boxes"},
+                                                          {"arrows", "show_velocities"},
+                                                          {"depths", "show_depths"},
+                                                          {"forces", "show_forces"},
+                                                          {"coordinates", "show_coordinates"}};
 
 // Depths are of contacts.
 void check_depths(const TableReader& table, const Display& display, const Draft& draft) {

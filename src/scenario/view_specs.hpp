@@ -27,10 +27,10 @@ struct Display {
   bool contacts = true;
   bool arrows = false;  // velocities
   bool forces = false;  // of scripts and springs, with their sizes
-  bool cells = true;  // of the world panel: borders, grounds and names
+  bool cells = true;    // of the world panel: borders, grounds and names
   bool not_made = true;
-  bool boxes = false;   // the bodies' broad-phase boxes
-  bool depths = false;  // beside contacts
+  bool boxes = false;        // the bodies' broad-phase boxes
+  bool depths = false;       // beside contacts
   bool coordinates = false;  // of the lit way's borders, at the world's edges
   bool counters = true;
   bool title = true;

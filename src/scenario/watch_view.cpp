@@ -63,8 +63,8 @@ class ViewWatch : public Watcher {
   const SourcePosition* view_ = nullptr;     // of the step that chose what is shown now
   const SourcePosition* at_view_ = nullptr;  // and on the first empty frame
   std::uint64_t seen_ = 0;                   // frames with bodies
-  std::uint64_t empty_ = 0;  // of those, that show none
-  std::string name_;         // a body that the first of them does not show
+  std::uint64_t empty_ = 0;                  // of those, that show none
+  std::string name_;                         // a body that the first of them does not show
   Vec<3> at_{0.0};
   std::uint32_t first_ = 0;
   double time_ = 0;

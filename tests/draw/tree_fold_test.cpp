@@ -112,7 +112,7 @@ TEST(TreeView, EdgesStrikeNoLabel) {
   for (const Frame& frame : trees()) {
     DrawList list;
     Labels labels(list);
-    draw_tree(frame, panel, list, labels);
+    draw_tree(frame, Staging(frame), panel, list, labels);
     std::size_t edges = 0;
     for (const DrawShape& shape : list.shapes) {
       if (std::holds_alternative<RectShape>(shape)) break;  // edges come before all boxes

@@ -18,7 +18,7 @@ const Box<2> kPanel{{60, 104}, {1540, 720}};
 DrawList drawn(const Frame& frame, const Box<2>& panel = kPanel) {
   DrawList list;
   Labels labels(list);
-  draw_world(frame, panel, list, labels);
+  draw_world(frame, Staging(frame), panel, list, labels);
   return list;
 }
 

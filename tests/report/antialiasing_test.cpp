@@ -291,7 +291,7 @@ TEST(Antialiasing, ThePageSaysItsSentence) {
   const DrawList list = draw_picture_page(report, "s", "made here");
   EXPECT_TRUE(says_part(list, "The cheapest way under 10 levels RMS is coverage 1 × 1"));
   EXPECT_TRUE(says_part(list, "made here"));
-  expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, "a page of pictures");
+  expect_laid_out(list, {{0, 0}, list.page}, kLeastDeskLabel, "a page of pictures");
 }
 
 TEST(Antialiasing, SizesThatCannotBeSupersampledAreRefused) {

@@ -10,7 +10,6 @@
 namespace lantern::report {
 namespace {
 
-
 BroadPhaseCostConfig config_of(int repeats) {
   BroadPhaseCostConfig config;
   config.timing = {repeats, 0};
@@ -31,7 +30,7 @@ void expect_readable(const DrawList& list, const std::string& what) {
   }
   for (const DrawShape& shape : list.shapes)
     if (const auto* text = std::get_if<TextShape>(&shape)) {
-      EXPECT_GE(text->size, kLeastLabel) << text->text << " is too small for a lecture";
+      EXPECT_GE(text->size, kLeastDeskLabel) << text->text << " is too small for a lecture";
     }
 }
 

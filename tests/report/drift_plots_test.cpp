@@ -69,7 +69,7 @@ TEST(DriftPlots, MakeAPageAndStandOnTheWebPage) {
     EXPECT_EQ(plots.has_value(), !problem.rows[0].samples.empty());
     if (!plots) continue;
     const DrawList list = draw_drift(problem, m);
-    expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, problem.problem);
+    expect_laid_out(list, {{0, 0}, list.page}, kLeastDeskLabel, problem.problem);
     EXPECT_NO_THROW(check_draw_list(list));
     ++drawn;
   }

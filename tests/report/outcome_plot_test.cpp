@@ -60,7 +60,7 @@ TEST(OutcomePage, IsLaidOutHoweverManyTakePart) {
         const DrawList list = draw_problem(problem, m);
         const std::string where =
             fmt::format("{} methods, {} steps, {}", methods, wrong.size(), how);
-        expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, where);
+        expect_laid_out(list, {{0, 0}, list.page}, kLeastDeskLabel, where);
         for (const MethodRows& c : by_method(problem))
           EXPECT_TRUE(methods > 17 || says_part(list, method_words(c.method))) << where;
       };

@@ -15,7 +15,6 @@
 namespace lantern::report {
 namespace {
 
-
 // Measurements that reports must bear.
 std::vector<std::pair<std::string, Measurement>> measurements() {
   std::vector<std::pair<std::string, Measurement>> all = {
@@ -54,7 +53,7 @@ TEST(ProblemPage, IsLaidOut) {
     for (const ProblemRows& problem : by_problem(m.rows)) {
       const DrawList list = draw_problem(problem, m);
       EXPECT_EQ(list.page, Vec<2>(1600, 900));
-      expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, name + " " + problem.problem);
+      expect_laid_out(list, {{0, 0}, list.page}, kLeastDeskLabel, name + " " + problem.problem);
       EXPECT_NO_THROW(check_draw_list(list));
     }
 }

@@ -81,7 +81,7 @@ TEST(StabilityPicture, NoLabelCoversAnotherOrLeavesThePage) {
   }
   for (const DrawShape& shape : list.shapes) {
     if (const auto* text = std::get_if<TextShape>(&shape)) {
-      EXPECT_GE(text->size, kLeastLabel - kHair) << text->text;
+      EXPECT_GE(text->size, kLeastDeskLabel - kHair) << text->text;
     }
     if (const auto* rect = std::get_if<RectShape>(&shape)) {
       EXPECT_TRUE(is_valid(rect->box) && holds(page, rect->box)) << "a rectangle leaves the page";

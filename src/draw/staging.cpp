@@ -1,0 +1,206 @@
+#include "draw/staging.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lantern::draw {
+namespace {
+
+constexpr std::size_t kMostNodes = 4096;  // of a union; of more no diagram shows any
+constexpr std::size_t kIcons = 5;         // more bodies than this need no more room
+
+template <class T>
+void add_once(std::vector<T>& list, const T& item) {
+  if (std::ranges::find(list, item) == list.end()) list.push_back(item);
+}
+
+// Do both need the same room in a diagram?
+bool is_shown_alike(const FrameNode& a, const FrameNode& b) {
+  const auto digits = [](const FrameNode& n) {
+    return n.bodies.size() < kIcons ? n.bodies.size()
+                                    : kIcons + std::to_string(n.bodies.size()).size();
+  };
+  return a.leaf == b.leaf && digits(a) == digits(b) && a.label == b.label &&
+         a.plane_name == b.plane_name;
+}
+
+// A copy without what a diagram does not show.
+FrameNode without_region(const FrameNode& node) {
+  FrameNode copy = node;
+  copy.region.clear();
+  copy.mark = Mark::quiet;
+  return copy;
+}
+
+void add_form(UnionNode& into, const FrameNode& node) {
+  into.node.leaf = into.node.leaf && node.leaf;
+  for (const FrameNode& form : into.shown)
+    if (is_shown_alike(form, node)) return;
+  into.shown.push_back(without_region(node));
+}
+
+// Parents before children, row by row, children in order of their slots.
+void put_in_order(UnionTree& tree) {
+  std::vector<std::vector<std::uint32_t>> children(tree.nodes.size());
+  for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)
+    if (tree.nodes[i].node.parent != kNone) children[tree.nodes[i].node.parent].push_back(i);
+  std::vector<std::uint32_t> order{0}, parents{kNone};
+  for (std::uint32_t at = 0; at < order.size(); ++at) {
+    auto& own = children[order[at]];
+    std::ranges::stable_sort(own, {}, [&](std::uint32_t c) { return tree.nodes[c].node.slot; });
+    for (const std::uint32_t child : own) {
+      order.push_back(child);
+      parents.push_back(at);
+    }
+  }
+  std::vector<UnionNode> sorted;
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    UnionNode& node = sorted.emplace_back(std::move(tree.nodes[order[i]]));
+    node.node.id = i;
+    node.node.parent = parents[i];
+    tree.index[node.way] = i;
+  }
+  tree.nodes = std::move(sorted);
+}
+
+}  // namespace
+
+std::vector<std::string> ways_of(const std::vector<FrameNode>& nodes) {
+  std::vector<std::string> ways;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) ways.push_back(way_of(nodes, i));
+  return ways;
+}
+
+std::uint32_t UnionTree::leaves() const {
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(nodes, [](const UnionNode& n) { return n.node.leaf; }));
+}
+
+std::uint32_t UnionTree::rows() const {
+  std::uint32_t rows = 0;
+  for (const UnionNode& n : nodes) rows = std::max(rows, n.node.depth + 1);
+  return rows;
+}
+
+const UnionNode* UnionTree::find(std::string_view way) const {
+  const auto found = index.find(way);
+  return found == index.end() ? nullptr : &nodes[found->second];
+}
+
+void ValueRange::add(double value) {
+  if (!std::isfinite(value)) return;
+  lo = any ? std::min(lo, value) : value;
+  hi = any ? std::max(hi, value) : value;
+  any = true;
+}
+
+std::vector<const Frame*> Staging::each_of(std::span<const Frame> frames) {
+  std::vector<const Frame*> each;
+  for (const Frame& frame : frames) each.push_back(&frame);
+  return each;
+}
+
+Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) {
+  std::set<std::string> bodies;
+  std::map<std::string, std::vector<const Frame*>> sides;
+  for (const Frame* each : frames_) {
+    const Frame& frame = *each;
+    for (const Frame& side : frame.sides) sides[side.side].push_back(&side);
+    if (settings_told_.empty() || frame.settings != settings_.back()) {
+      settings_told_.insert(frame.index);
+      settings_.push_back(frame.settings);
+    }
+    for (const auto& [name, n] : frame.counts) {
+      const auto found = most_.try_emplace(name, n).first;
+      found->second = std::max(found->second, n);
+    }
+    for (const FrameBody& body : frame.bodies)
+      if (bodies.insert(body.name).second) body_names_.push_back(body.name);
+    add_nodes(frame);
+    add_chart(frame.chart);
+  }
+  for (UnionTree& tree : trees_) put_in_order(tree);
+  std::ranges::stable_sort(trees_, {}, &UnionTree::of_static);
+  for (const auto& [name, own] : sides) sides_.emplace(name, Staging(own));
+}
+
+bool Staging::is_one_group(const Frame& before, const Frame& next) {
+  const bool same_world = before.dimension == next.dimension &&
+                          before.bounds.lo == next.bounds.lo && before.bounds.hi == next.bounds.hi;
+  const bool other_part = before.part != next.part && before.settings != next.settings;
+  const bool same_sides = std::ranges::equal(
+      before.sides, next.sides,
+      [](const Frame& a, const Frame& b) { return a.side == b.side && is_one_group(a, b); });
+  return same_world && same_sides && before.panels == next.panels &&
+         before.structure == next.structure && !other_part;
+}
+
+const Staging& Staging::of_side(std::string_view side) const {
+  const auto found = sides_.find(side);
+  return found == sides_.end() ? *this : found->second;
+}
+
+std::uint32_t Staging::leaves() const {
+  std::uint32_t sum = 0;
+  for (const UnionTree& tree : trees_) sum += tree.leaves();
+  return sum;
+}
+
+std::int64_t Staging::most(const std::string& count) const {
+  const auto found = most_.find(count);
+  return found == most_.end() ? 0 : found->second;
+}
+
+const Staging::ChartRange* Staging::chart(const FrameChart& chart) const {
+  const auto found = charts_.find({chart.x_name, chart.y_name, chart.over_time});
+  return found == charts_.end() ? nullptr : &found->second;
+}
+
+void Staging::add_nodes(const Frame& frame) {
+  const std::vector<std::string> ways = ways_of(frame.nodes);
+  std::vector<std::pair<std::size_t, std::uint32_t>> places;  // tree, and place in it
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    const FrameNode& node = frame.nodes[i];
+    std::size_t t = 0;
+    if (node.parent != kNone)
+      t = places[node.parent].first;
+    else
+      while (t < trees_.size() && trees_[t].nodes[0].way != ways[i]) ++t;
+    if (t == trees_.size()) trees_.emplace_back().of_static = node.of_static;
+    UnionTree& tree = trees_[t];
+    const auto known = tree.index.find(ways[i]);
+    const bool lost = node.parent != kNone && places[node.parent].second == kNone;
+    if (known == tree.index.end() && (lost || tree.nodes.size() >= kMostNodes)) {
+      tree.complete = false;
+      places.emplace_back(t, kNone);
+      continue;
+    }
+    if (known == tree.index.end()) {
+      UnionNode& fresh = tree.nodes.emplace_back(UnionNode{without_region(node), ways[i], {}});
+      fresh.node.parent = node.parent == kNone ? kNone : places[node.parent].second;
+      tree.index.emplace(ways[i], static_cast<std::uint32_t>(tree.nodes.size() - 1));
+    }
+    places.emplace_back(t, tree.index.find(ways[i])->second);
+    add_form(tree.nodes[places.back().second], node);
+  }
+}
+
+void Staging::add_chart(const FrameChart& chart) {
+  if (chart.series.empty() && chart.bars.empty()) return;
+  ChartRange& range = charts_[{chart.x_name, chart.y_name, chart.over_time}];
+  for (const FrameSeries& line : chart.series) {
+    add_once(range.names, line.name);
+    for (const Vec<2>& point : line.points) {
+      if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+      range.x.add(point.x);
+      range.y.add(point.y);
+    }
+  }
+  for (const FrameBar& bar : chart.bars) {
+    add_once(range.names, bar.label);
+    range.y.add(bar.value);
+  }
+}
+
+}  // namespace lantern::draw

@@ -1,0 +1,121 @@
+// What the frames of a sequence share on the page: collected over all of them before the first is
+// drawn, so that what has not changed does not move.
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "draw/keys.hpp"
+#include "geometry/box.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern::draw {
+
+// way_of() each node: the same way on the next frame is the same node.
+std::vector<std::string> ways_of(const std::vector<FrameNode>& nodes);
+
+// One tree of a group: every node that any of the frames has, parents before children, children in
+// order of their slots. `node` is a node as one of the frames shows it; `shown` are the forms of it
+// that need different room, such as a leaf of one body and a leaf of four.
+struct UnionNode {
+  FrameNode node;  // its parent and id are of the union; a leaf if it is one on every frame
+  std::string way;
+  std::vector<FrameNode> shown;
+};
+struct UnionTree {
+  bool of_static = false;
+  bool complete = true;  // false: there were too many nodes to keep them all
+  std::vector<UnionNode> nodes;
+  std::map<std::string, std::uint32_t, std::less<>> index;  // by way
+
+  std::uint32_t leaves() const;
+  std::uint32_t rows() const;
+  // Nothing for a node beyond those kept.
+  const UnionNode* find(std::string_view way) const;
+};
+
+// Smallest and largest of finite values; none if there were none.
+struct ValueRange {
+  double lo = 0, hi = 0;
+  void add(double value);
+  bool any = false;
+};
+
+class Staging {
+ public:
+  // A group of frames, in order. They must outlive this.
+  explicit Staging(std::span<const Frame> frames) : Staging(each_of(frames)) {}
+  explicit Staging(const Frame& frame) : Staging(std::vector{&frame}) {}
+
+  // Belongs `next` to the group of `before`? It does while panels, structure and world stay; a new
+  // part begins a group if its settings are others.
+  static bool is_one_group(const Frame& before, const Frame& next);
+
+  const std::vector<const Frame*>& frames() const { return frames_; }
+
+  // What the frames of one side share, by its name; of a side that no frame has, this.
+  const Staging& of_side(std::string_view side) const;
+
+  // Of the structure: the tree of what moves, the one of what never does; those that there are.
+  const std::vector<UnionTree>& trees() const { return trees_; }
+  // Leaves that the trees come to have together.
+  std::uint32_t leaves() const;
+
+  // Is this frame the first with its settings?
+  bool tells_settings(const Frame& frame) const { return settings_told_.contains(frame.index); }
+  const std::vector<std::string>& settings() const { return settings_; }  // each once, in order
+
+  // The largest that this count gets; 0 if no frame has it.
+  std::int64_t most(const std::string& count) const;
+
+  // Of all points that any frame draws of this chart, along x and along y; of bars, their values
+  // are y. Nothing if none of the frames has one with these names.
+  struct ChartRange {
+    ValueRange x, y;
+    std::vector<std::string> names;  // of its lines or bars, each once, in order
+  };
+  const ChartRange* chart(const FrameChart& chart) const;
+
+  // The names of all bodies that there are, each once, in order of appearance.
+  const std::vector<std::string>& body_names() const { return body_names_; }
+
+  // What `make` gives, made once for all frames: `what` says what it is, `place` where. The same
+  // words and place must always stand for the same.
+  template <class T>
+  const T& once(const std::string& what, const Box<2>& place,
+                const std::function<T()>& make) const {
+    const Place key{what, place.lo.x, place.lo.y, place.hi.x, place.hi.y};
+    auto found = made_.find(key);
+    if (found == made_.end()) found = made_.emplace(key, make()).first;
+    return std::any_cast<const T&>(found->second);
+  }
+
+ private:
+  explicit Staging(std::vector<const Frame*> frames);
+  static std::vector<const Frame*> each_of(std::span<const Frame> frames);
+  void add_nodes(const Frame& frame);
+  void add_chart(const FrameChart& chart);
+
+  using Place = std::tuple<std::string, double, double, double, double>;
+  using ChartKey = std::tuple<std::string, std::string, bool>;
+
+  std::vector<const Frame*> frames_;
+  std::map<std::string, Staging, std::less<>> sides_;
+  std::vector<UnionTree> trees_;
+  std::set<std::uint32_t> settings_told_;
+  std::vector<std::string> settings_;
+  std::map<std::string, std::int64_t> most_;
+  std::map<ChartKey, ChartRange> charts_;
+  std::vector<std::string> body_names_;
+  mutable std::map<Place, std::any> made_;
+};
+
+}  // namespace lantern::draw
