@@ -70,13 +70,13 @@ bool has_any(const TomlTable& table, std::initializer_list<std::string_view> key
 }
 
 // A prototype as the map uses it.
-struct Kind {
+struct MapKind {
   std::string name;
   const TomlTable* keys = nullptr;
   bool fills = false;   // without a shape of its own it is a box that fills its cells
   bool merges = false;  // and of one that never moves or turns, several cells are one box
 
-  Kind(const std::string& called, const TomlTable& prototype) : name(called), keys(&prototype) {
+  MapKind(const std::string& called, const TomlTable& prototype) : name(called), keys(&prototype) {
     fills = !has_any(prototype, {"radius", "half_size", "capsule", "ground"});
     const TomlEntry* is_static = entry_of(prototype, "static");
     const TomlEntry* kind = entry_of(prototype, "kind");
@@ -131,7 +131,7 @@ class MapReader {
   }
 
   std::size_t kind_of(const std::string& name, const TomlTable& keys) {
-    const auto found = std::ranges::find(kinds_, name, &Kind::name);
+    const auto found = std::ranges::find(kinds_, name, &MapKind::name);
     if (found != kinds_.end()) return static_cast<std::size_t>(found - kinds_.begin());
     kinds_.emplace_back(name, keys);
     return kinds_.size() - 1;
@@ -235,7 +235,7 @@ class MapReader {
     if (blocks.empty() ||
         !draft_.has_room_for(before + blocks.size(), kMostBodies, "bodies", table_.place("rows")))
       return;
-    const Kind& of = kinds_[kind];
+    const MapKind& of = kinds_[kind];
     const NamedRange all{before, blocks.size(), table_.place("rows")};
     if (blocks.size() > 1) draft_.bodies.add(of.name, all, true, draft_.problems);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -246,7 +246,7 @@ class MapReader {
   }
 
   // The keys of a body that stands there.
-  TomlValue body_of(const Kind& kind, const Block& block, const std::string& name,
+  TomlValue body_of(const MapKind& kind, const Block& block, const std::string& name,
                     std::size_t index) const {
     const Place where = rows_[block.row][block.column].where;
     const Vec<2> size =
@@ -274,7 +274,7 @@ class MapReader {
   Rows rows_;  // views into the text
   Vec<3> corner_{0.0};
   std::map<std::string, std::size_t, std::less<>> legend_;  // the kind of each letter
-  std::vector<Kind> kinds_;
+  std::vector<MapKind> kinds_;
   std::vector<std::vector<std::size_t>> cells_;
 };
 

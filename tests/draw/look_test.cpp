@@ -42,7 +42,8 @@ TEST(View, OfAPartIsCutToItsPanelAndHasALocator) {
     if (frame.dimension != 2 || frame.bodies.empty()) continue;
     DrawList list;
     Labels labels(list);
-    draw_world(zoomed(frame), panel, list, labels);
+    const Frame part = zoomed(frame);
+    draw_world(part, Staging(part), panel, list, labels);
     EXPECT_EQ(runs_of(list, "world/locator"), 1u) << name;
     for (const DrawShape& shape : list.shapes)
       EXPECT_TRUE(holds(shrunk(panel, -6), reach_of(shape))) << name << " " << shape.index();
@@ -213,7 +214,7 @@ TEST(Legend, EveryMarkHasAPictureAndWordsOfItsOwnAlsoInGrey) {
   Labels labels(blank);
   Frame nothing;
   nothing.bounds = {{0, 0, 0}, {64, 44, 0}};
-  draw_world(nothing, {{-6, -6}, {64, 44}}, blank, labels);
+  draw_world(nothing, Staging(nothing), {{-6, -6}, {64, 44}}, blank, labels);
   keep_within(blank, 0, {{0, 0}, {58, 38}});
   EXPECT_FALSE(pictures.contains(in_colors(blank, *theme_named("print"))))
       << "a sample shows nothing";

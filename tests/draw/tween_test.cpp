@@ -36,7 +36,7 @@ DrawList things(const std::vector<Thing>& things) {
 }
 
 // The rectangles of this role, each with its opacity.
-std::vector<std::pair<Box<2>, double>> rects(const DrawList& list, Role role) {
+std::vector<std::pair<Box<2>, double>> tinted_rects(const DrawList& list, Role role) {
   std::vector<std::pair<Box<2>, double>> found;
   for (std::size_t i = 0; i < list.shapes.size(); ++i)
     if (const auto* rect = std::get_if<RectShape>(&list.shapes[i]); rect && rect->fill == role)
@@ -45,7 +45,7 @@ std::vector<std::pair<Box<2>, double>> rects(const DrawList& list, Role role) {
 }
 
 std::pair<Box<2>, double> only(const DrawList& list, Role role) {
-  const auto found = rects(list, role);
+  const auto found = tinted_rects(list, role);
   EXPECT_EQ(found.size(), 1u);
   return found.empty() ? std::pair{Box<2>{}, -1.0} : found[0];
 }
@@ -110,7 +110,7 @@ TEST(Tween, ChildrenComeOutOfTheirParentAndGoBackIntoIt) {
       const DrawList list = out ? between(one, all, t) : between(all, one, t);
       EXPECT_EQ(only(list, Role::body_1).first, kUpper);
       for (const Role role : {Role::body_2, Role::body_3})
-        for (const auto& [box, opacity] : rects(list, role)) {
+        for (const auto& [box, opacity] : tinted_rects(list, role)) {
           seen = true;
           EXPECT_GE(box.lo.x, kUpper.lo.x - 1e-9);
           EXPECT_LE(box.lo.y, 600);
@@ -145,7 +145,7 @@ TEST(Tween, WhatIsHandedDownIsNeverGoneNorThereTwice) {
   const DrawList two = things(
       {{"tree/body/blue/root.0", "tree/body/blue/root", kLower, Role::body_1},
        {"tree/body/blue/root.1", "tree/body/blue/root", {{500, 400}, {560, 440}}, Role::body_1}});
-  const auto found = rects(between(a, two, 0.05), Role::body_1);
+  const auto found = tinted_rects(between(a, two, 0.05), Role::body_1);
   ASSERT_EQ(found.size(), 2u);
   for (const auto& [box, opacity] : found) {
     EXPECT_EQ(opacity, 1);

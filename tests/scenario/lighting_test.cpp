@@ -128,8 +128,8 @@ TEST(Findings, PhasesTellNoContactBeforeTheNarrowPhase) {
   const Frame& broad = at(frames, "broad_phase");
   EXPECT_EQ(broad.count("contacts"), 0);
   EXPECT_TRUE(broad.contacts.empty());
-  EXPECT_FALSE(broad.narrow_phase_done);
-  EXPECT_TRUE(at(frames, "narrow_phase").narrow_phase_done);
+  EXPECT_EQ(broad.phase, StepPhase::broad);
+  EXPECT_EQ(at(frames, "narrow_phase").phase, StepPhase::narrow);
 }
 
 TEST(Told, AreTheNumbersThatACaptionQuotes) {

@@ -137,7 +137,7 @@ TEST(Note, OnWhatIsNotThereIsAMistake) {
                   {"not counted here"});
 }
 
-std::string unmet_of(const std::string& text) {
+std::string told_of(const std::string& text) {
   const Scenario scenario = good(text);
   Work work;
   const DirectorReport report =
@@ -150,13 +150,13 @@ std::string unmet_of(const std::string& text) {
 
 TEST(Note, WithoutItsNodeIsNotKept) {
   const std::string note = "note = [{ text = \"x\", node = \"1.3\" }]\n";
-  EXPECT_NE(unmet_of(kFlatWorld + steps({kBoth + note})).find("there is no node '1.3'"),
+  EXPECT_NE(told_of(kFlatWorld + steps({kBoth + note})).find("there is no node '1.3'"),
             std::string::npos);
   const std::string view = "view = { at = [60, 30], width = 4 }\n";
   const std::string of_body = "note = [{ text = \"x\", body = \"red\" }]\n";
-  EXPECT_NE(unmet_of(kFlatWorld + steps({kBoth + view + of_body})).find("outside the view"),
+  EXPECT_NE(told_of(kFlatWorld + steps({kBoth + view + of_body})).find("outside the view"),
             std::string::npos);
-  EXPECT_EQ(unmet_of(kFlatWorld + steps({kBoth + of_body})), "");
+  EXPECT_EQ(told_of(kFlatWorld + steps({kBoth + of_body})), "");
 }
 
 }  // namespace

@@ -70,13 +70,12 @@ TEST(Dimension, OfASolidWorldReachesMinToo) {
 // --- the world ---
 
 TEST(World, RulesAreRead) {
-  const Scenario rules =
-      good(
-          "title = \"x\"\n[world]\nsize = [1, 1]\ngravity = [0, -9.81]\ncontacts = \"soft\"\n"
-          "integrator = \"implicit_midpoint\"\nsub_steps = 4\niterations = 20\nimpact_budget = "
-          "30\nmay_sleep = true\n"
-          "frame_every = 5\nshow_boxes = true\nshow_velocities = true\n" +
-          kShow);
+  const Scenario rules = good(
+      "title = \"x\"\n[world]\nsize = [1, 1]\ngravity = [0, -9.81]\ncontacts = \"soft\"\n"
+      "integrator = \"implicit_midpoint\"\nsub_steps = 4\niterations = 20\nimpact_budget = "
+      "30\nmay_sleep = true\n"
+      "frame_every = 5\nshow_boxes = true\nshow_velocities = true\n" +
+      kShow);
   const WorldSpec& w = rules.world;
   EXPECT_EQ(w.gravity, Vec<3>(0, -9.81, 0));
   EXPECT_EQ(w.contacts, ContactMethod::soft);
