@@ -149,7 +149,7 @@ void draw_column(std::vector<ColumnName> names, std::size_t all, const PlotPaper
                  DrawList& list, Labels& labels) {
   const Box<2>&area = paper.place.area, panel = paper.place.panel;
   const double pitch = 1.35 * paper.type.name.size;
-  const double top = panel.lo.y + 14, bottom = area.hi.y - 8;
+  const double top = panel.lo.y + 14, bottom = area.hi.y - 0.6 * paper.type.name.size;
   std::ranges::stable_sort(names, {}, [](const ColumnName& name) { return name.end.y; });
   const auto most = static_cast<std::size_t>(std::max(1.0, (bottom - top) / pitch));
   if (names.size() > most) names.resize(most);

@@ -23,7 +23,8 @@ inline constexpr std::size_t kPairStates = 6;
 
 class PairStates {
  public:
-  // Keeps nothing of the frame.
+  // Keeps nothing of the frame. Without a structure no pairs are listed: all that do not touch then
+  // count as ruled out.
   explicit PairStates(const Frame& frame);
 
   // Of two bodies of the frame, the lower id first.

@@ -192,7 +192,7 @@ TEST(Verbs, AWaitInVainIsReportedAtItsLine) {
 
 TEST(Verbs, PhasesShowsOneWorldStepInFiveFrames) {
   const auto frames =
-      played("contacts = \"impulse\"", kWallAndBall,
+      played("contacts = \"impulse\"", "[structure]\nkind = \"brute_force\"\n" + kWallAndBall,
              {kInsertBoth, "do = \"move\"\nbody = \"ball\"\nto = [12.05, 8]", "do = \"phases\""});
   ASSERT_EQ(frames.size(), 7u);
   const Frame &moved = frames[1], &broad = frames[2], &boxes = frames[3], &narrow = frames[4];
