@@ -1,6 +1,7 @@
 #include "app/staged_sink.hpp"
 
 #include "base/stop.hpp"
+#include "draw/axis_ranges.hpp"
 
 namespace lantern::app {
 namespace {
@@ -30,8 +31,7 @@ std::size_t estimated_bytes(const Frame& frame) {
 
 void StagedSink::frame(const Frame& frame) {
   const std::size_t bytes = estimated_bytes(frame);
-  if (!waiting_.empty() && (waiting_.size() >= bound_.frames || bytes_ + bytes > bound_.bytes ||
-                            !Staging::is_one_group(waiting_.back(), frame)))
+  if (!waiting_.empty() && (waiting_.size() >= bound_.frames || bytes_ + bytes > bound_.bytes))
     flush();
   waiting_.push_back(frame);
   bytes_ += bytes;
@@ -43,11 +43,20 @@ void StagedSink::finish(const DirectorReport& report) {
 }
 
 void StagedSink::flush() {
-  if (waiting_.empty()) return;
-  const Staging staging{std::span<const Frame>(waiting_)};
-  for (const Frame& frame : waiting_) {
-    stop_if_asked();
-    draw(frame, staging);
+  draw::AxisRanges axes;
+  for (const Frame& frame : waiting_) axes.see(frame);
+  for (Frame& frame : waiting_) axes.settle(frame);
+  std::size_t first = 0;
+  for (std::size_t next = 1; next <= waiting_.size(); ++next) {
+    if (next < waiting_.size() && Staging::is_one_group(waiting_[next - 1], waiting_[next]))
+      continue;
+    const std::span<const Frame> group = std::span(waiting_).subspan(first, next - first);
+    const Staging staging{group};
+    for (const Frame& frame : group) {
+      stop_if_asked();
+      draw(frame, staging);
+    }
+    first = next;
   }
   waiting_.clear();
   bytes_ = 0;

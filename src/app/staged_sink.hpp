@@ -8,10 +8,10 @@
 
 namespace lantern::app {
 
-// Keeps the frames of a group, at most `Bound` of them, and then gives each with what the group
-// shares. A frame's picture depends on the scenario alone: the bound is counted in frames and in
-// bytes estimated from what a frame lists. When a run is stopped, the frames of the group that was
-// not whole are not drawn.
+// Keeps the frames of a sequence, at most `Bound` of them, and then gives each with what its group
+// shares; the axes of charts are those of all that were kept. A frame's picture depends on the
+// scenario alone: the bound is counted in frames and in bytes estimated from what a frame lists.
+// When a run is stopped before its end, frames that were waiting are not drawn.
 class StagedSink : public FrameSink {
  public:
   struct Bound {

@@ -52,9 +52,10 @@ void add_link(Frame& frame, FrameLink::Kind kind) {
   frame.links.push_back({kind, c - Vec<3>(reach, 0, 0), c + Vec<3>(reach, 0, 0), 0});
 }
 
-// One cell that is marked so; `sleeping` is what lies in it.
+// One cell of a world that is marked so.
 void add_marked(Frame& frame, Mark mark, bool awake) {
-  FrameNode& node = add_cell(frame, frame.bounds, kNone);
+  if (awake) add_cell(frame, frame.bounds, kNone).leaf = false;
+  FrameNode& node = add_cell(frame, frame.bounds, awake ? 0 : kNone);
   node.mark = mark;
   node.awake = awake;
   if (!awake) node.bodies = {0};
@@ -107,8 +108,7 @@ Frame sample_of(MarkKind kind) {
     case MarkKind::lit:
     case MarkKind::passed:
       add_marked(frame, kind == MarkKind::lit ? Mark::lit : Mark::passed, true);
-      frame.nodes[0].depth = 1;  // a cell in the world, not the world
-      frame.nodes[0].box = {frame.bounds.lo + Vec<3>(8, 8, 0), frame.bounds.hi - Vec<3>(8, 8, 0)};
+      frame.nodes[1].box = {frame.bounds.lo + Vec<3>(8, 8, 0), frame.bounds.hi - Vec<3>(8, 8, 0)};
       break;
     case MarkKind::sleeping_cell:
       add_marked(frame, Mark::quiet, false);

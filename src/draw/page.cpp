@@ -83,20 +83,22 @@ void draw_panel(const Frame& frame, const Staging& staging, Panel panel, const B
   }
 }
 
-void draw_panels(const Frame& frame, const Staging& staging, const Box<2>& area, DrawList& list,
-                 Labels& labels, Work& work) {
+// `arranged_for`: with what the panels' places are chosen; of a side it is that of all sides.
+void draw_panels(const Frame& frame, const Staging& staging, const Staging& arranged_for,
+                 const Box<2>& area, DrawList& list, Labels& labels, Work& work) {
   if (frame.panels.empty()) return;
   if (!frame.sides.empty())
     return draw_sides(frame, area,
                       {{area.lo.x, area.hi.y + kOverFooter}, {area.hi.x, list.page.y - 12}}, list,
                       labels, [&](const Frame& side, const Box<2>& place) {
-                        draw_panels(side, staging.of_side(side.side), place, list, labels, work);
+                        draw_panels(side, staging.of_side(side.side), staging.largest_side(), place,
+                                    list, labels, work);
                         draw_notes(side, place, list, labels);
                         labels.forget_places();  // the next side has bodies of the same names
                       });
   const Vec<2> whole = frame.side.empty() ? list.page : area.size();
   const bool tall = whole.x / whole.y < kStackBelow;
-  const std::vector<Box<2>> boxes = arranged(frame, staging, area, tall);
+  const std::vector<Box<2>> boxes = arranged(frame, arranged_for, area, tall);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     work.world_layouts += frame.panels[i] == Panel::world;
     work.tree_layouts += frame.panels[i] == Panel::tree;
@@ -121,7 +123,7 @@ Box<2> cut_legend(const Frame& frame, const Staging& staging, const DrawList& pa
     Work work;
     Box<2> rest = area;
     if (height > 0) rest.hi.y -= height + kAboveLegend;
-    draw_panels(frame, staging, rest, trial, labels, work);
+    draw_panels(frame, staging, staging, rest, trial, labels, work);
     height = std::max(height, legend_height(trial.marks, area.size().x));
   }
   if (height == 0) return strip;
@@ -160,7 +162,7 @@ DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& pa
   Box<2> area{{margin, frame.display.title ? kTop : kTopWithoutTitle},
               {list.page.x - margin, bottom - (has_foot(frame) ? kOverFooter : 14)}};
   const Box<2> strip = cut_legend(frame, staging, list, area);
-  draw_panels(frame, staging, area, list, labels, work);
+  draw_panels(frame, staging, staging, area, list, labels, work);
   if (frame.display.legend) draw_legend(list.marks, strip, list, labels);
   if (frame.sides.empty())
     draw_notes(frame, {area.lo - Vec<2>(margin - 20, 12), {list.page.x - 20, bottom - 6}}, list,

@@ -106,7 +106,10 @@ Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) 
   std::map<std::string, std::vector<const Frame*>> sides;
   for (const Frame* each : frames_) {
     const Frame& frame = *each;
-    for (const Frame& side : frame.sides) sides[side.side].push_back(&side);
+    for (const Frame& side : frame.sides) {
+      const auto known = structure_of_.try_emplace(side.side, to_string(side.structure)).first;
+      sides[known->second].push_back(&side);
+    }
     if (settings_told_.empty() || frame.settings != settings_.back()) {
       settings_told_.insert(frame.index);
       settings_.push_back(frame.settings);
@@ -122,7 +125,7 @@ Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) 
   }
   for (UnionTree& tree : trees_) put_in_order(tree);
   std::ranges::stable_sort(trees_, {}, &UnionTree::of_static);
-  for (const auto& [name, own] : sides) sides_.emplace(name, Staging(own));
+  for (const auto& [structure, own] : sides) sides_.emplace(structure, Staging(own));
 }
 
 bool Staging::is_one_group(const Frame& before, const Frame& next) {
@@ -137,8 +140,15 @@ bool Staging::is_one_group(const Frame& before, const Frame& next) {
 }
 
 const Staging& Staging::of_side(std::string_view side) const {
-  const auto found = sides_.find(side);
-  return found == sides_.end() ? *this : found->second;
+  const auto found = structure_of_.find(side);
+  return found == structure_of_.end() ? *this : sides_.find(found->second)->second;
+}
+
+const Staging& Staging::largest_side() const {
+  const Staging* largest = this;
+  for (const auto& [structure, side] : sides_)
+    if (largest == this || side.leaves() > largest->leaves()) largest = &side;
+  return *largest;
 }
 
 std::uint32_t Staging::leaves() const {

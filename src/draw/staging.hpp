@@ -61,8 +61,11 @@ class Staging {
 
   const std::vector<const Frame*>& frames() const { return frames_; }
 
-  // What the frames of one side share, by its name; of a side that no frame has, this.
+  // What the frames of one side share, by its name: with all sides of the same structure, so that
+  // their trees can be compared node by node. Of a side that no frame has, this.
   const Staging& of_side(std::string_view side) const;
+  // The one of the sides that has the most leaves: the page is arranged for it.
+  const Staging& largest_side() const;
 
   // Of the structure: the tree of what moves, the one of what never does; those that there are.
   const std::vector<UnionTree>& trees() const { return trees_; }
@@ -108,7 +111,8 @@ class Staging {
   using ChartKey = std::tuple<std::string, std::string, bool>;
 
   std::vector<const Frame*> frames_;
-  std::map<std::string, Staging, std::less<>> sides_;
+  std::map<std::string, std::string, std::less<>> structure_of_;  // by side
+  std::map<std::string, Staging, std::less<>> sides_;             // by structure
   std::vector<UnionTree> trees_;
   std::set<std::uint32_t> settings_told_;
   std::vector<std::string> settings_;

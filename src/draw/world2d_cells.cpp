@@ -173,16 +173,14 @@ void draw_planes(const Frame& frame, const View2D& map, DrawList& list) {
   }
 }
 
-// Branches that sleep, each from its highest node on, are hatched against the grain of what is
-// not made.
-void hatch_asleep(const Frame& frame, const View2D& map, DrawList& list) {
+// Branches that sleep, each from its highest node on, have a tone: hatching is what is not made.
+void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
   constexpr std::size_t kMostShapes = 1500;
-  Pen pen(list, map.picture());
   for (const FrameNode& node : frame.nodes) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
     if (!node.sleeps() || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
-    pen.hatch(page_region(node, map), 19, -1, {Role::asleep, 1.1}, 60);
+    list.polygon(cut_to(page_region(node, map), map.picture()), Role::free_space);
     list.marks.add(MarkKind::sleeping_cell);
   }
 }
@@ -266,7 +264,7 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
     grounds.insert(grounds.begin(), sectors.begin(), sectors.end());
   }
   grounds.insert(grounds.end(), under.begin(), under.end());
-  hatch_asleep(frame, map, list);
+  tone_asleep(frame, map, list);
   bool complete = draw_borders(frame, map, false, list);
   complete &= draw_borders(frame, map, true, list);
   outline_lit(frame, map, list);

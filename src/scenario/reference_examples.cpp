@@ -176,6 +176,8 @@ bool is_of_level(std::string_view verb) {
 std::string panel_example(Panel panel) {
   const std::string only =
       fmt::format("panels = [\"{}\"]\n", names(panel)[static_cast<std::size_t>(panel)]);
+  if (panel == Panel::sparkline)
+    return only + std::string(kWorldExample) + "\n[[step]]\ndo = \"run\"\nseconds = 4\n";
   if (panel == Panel::chart) return only + std::string(kChartExample);
   if (panel != Panel::atlas) return only + std::string(kWorldExample);
   for (const TableDoc& verb : language_verbs())

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Files = std::map<std::string, std::string>;
 
-Files files_in(const fs::path& folder) {
+Files pictures_in(const fs::path& folder) {
   Files files;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() != ".lock")
@@ -39,7 +39,7 @@ TEST(InBetweens, StandByNameBetweenTheFramesThatTheyLeadFromAndTo) {
   const fs::path out = fresh_folder("tween");
   const Outcome o = render("--tween 3 --json", out);
   ASSERT_EQ(o.code, 0) << o.err;
-  const Files files = files_in(out / "ghost_quadtree");
+  const Files files = pictures_in(out / "ghost_quadtree");
   EXPECT_TRUE(files.contains("ghost_quadtree_0000_01.png"));
   EXPECT_TRUE(files.contains("ghost_quadtree_0006_03.png"));
   EXPECT_FALSE(files.contains("ghost_quadtree_0006_04.png"));
@@ -62,8 +62,8 @@ TEST(InBetweens, FramesAreAsWithoutThem) {
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(json::parse(o.out)["work"]["in_betweens"], 0);
   ASSERT_EQ(render("--tween 2", out / "with").code, 0);
-  const Files without = files_in(out / "without/ghost_quadtree");
-  Files with = files_in(out / "with/ghost_quadtree");
+  const Files without = pictures_in(out / "without/ghost_quadtree");
+  Files with = pictures_in(out / "with/ghost_quadtree");
   EXPECT_EQ(in_betweens_of(without), 0u);
   EXPECT_EQ(without.at("manifest.json").find("tween"), std::string::npos);
   for (const auto& [name, bytes] : without)
@@ -78,9 +78,9 @@ TEST(InBetweens, AreTheSameWhateverTheThreads) {
     const std::string words = std::string("--tween 2 --format ") + format + " -j ";
     ASSERT_EQ(render(words + "1", out / format / "one").code, 0);
     ASSERT_EQ(render(words + "5", out / format / "five").code, 0);
-    const Files one = files_in(out / format / "one/ghost_quadtree");
+    const Files one = pictures_in(out / format / "one/ghost_quadtree");
     EXPECT_EQ(in_betweens_of(one), 14u);
-    EXPECT_EQ(one, files_in(out / format / "five/ghost_quadtree"));
+    EXPECT_EQ(one, pictures_in(out / format / "five/ghost_quadtree"));
   }
 }
 
@@ -89,16 +89,16 @@ TEST(InBetweens, OfAnEarlierRunStayOrGoAsFramesDo) {
   const fs::path out = fresh_folder("tween-older");
   const std::string wanted = "--tween 2";
   ASSERT_EQ(render(wanted, out / "clean").code, 0);
-  const Files clean = files_in(out / "clean/ghost_quadtree");
+  const Files clean = pictures_in(out / "clean/ghost_quadtree");
   for (const char* before : {"", "--tween 5", "--fps 10", "--tween 2 --theme dark",
                              "--tween 2 --format svg", "--tween 2 --frames 2-4", "--tween 2"}) {
     const fs::path folder = out / std::to_string(std::hash<std::string>()(before));
     ASSERT_EQ(render(before, folder).code, 0) << before;
     ASSERT_EQ(render(wanted, folder).code, 0) << before;
-    EXPECT_EQ(files_in(folder / "ghost_quadtree"), clean) << "after " << before;
+    EXPECT_EQ(pictures_in(folder / "ghost_quadtree"), clean) << "after " << before;
   }
   ASSERT_EQ(render("", out / "clean").code, 0);
-  EXPECT_EQ(in_betweens_of(files_in(out / "clean/ghost_quadtree")), 0u);
+  EXPECT_EQ(in_betweens_of(pictures_in(out / "clean/ghost_quadtree")), 0u);
 }
 
 TEST(InBetweens, ThatStandAreNotMadeAgain) {
@@ -113,7 +113,7 @@ TEST(InBetweens, ThatStandAreNotMadeAgain) {
 TEST(InBetweens, OfSomeFramesAreThoseBetweenThem) {
   const fs::path out = fresh_folder("tween-some");
   ASSERT_EQ(render("--tween 2 --frames 3-5", out).code, 0);
-  const Files files = files_in(out / "ghost_quadtree");
+  const Files files = pictures_in(out / "ghost_quadtree");
   EXPECT_EQ(in_betweens_of(files), 4u);
   EXPECT_TRUE(files.contains("ghost_quadtree_0004_02.png"));
 }

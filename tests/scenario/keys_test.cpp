@@ -811,7 +811,7 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "part", {"\"part 2\""}, bad_text("1 to 60", 60)});
     cases.push_back({table, "caption", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
     cases.push_back({table, "ending", {"true", "false"}, bad_truth()});
-    cases.push_back({table, "ruler", {}, {{"@1", "[[ruler]]"}}});
+    cases.push_back({table, "ruler", {}, {{"@1", "[[step.ruler]]"}}});
     cases.push_back({table, "headline", {}, bad_headline()});
     cases.push_back({table, "expect", {"{}"}, bad_table("[expect]")});
     cases.push_back({table, "always", {"{}"}, bad_table("[expect]")});
