@@ -8,13 +8,18 @@ void AxisRanges::see(const scenario::Frame& frame) {
   const scenario::FrameChart& chart = frame.chart;
   for (const scenario::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
   for (const scenario::FrameSeries& series : chart.series)
-    for (const Vec<2>& p : series.points) chart_.add(p.y, chart.logarithmic);
+    for (const Vec<2>& p : series.points) {
+      chart_.add(p.y, chart.logarithmic);
+      chart_x_.add(p.x, chart.logarithmic && !chart.over_time);
+    }
   for (const Vec<2>& p : frame.trace.points) trace_ = std::max(trace_, p.y);
   for (const scenario::Frame& side : frame.sides) see(side);
 }
 
 void AxisRanges::settle(scenario::Frame& frame) const {
   if (!chart_.empty()) frame.chart.range = std::pair(chart_.least, chart_.most);
+  if (!chart_x_.empty() && !frame.chart.over_time)
+    frame.chart.x_range = std::pair(chart_x_.least, chart_x_.most);
   if (trace_ > 0) frame.trace.most = trace_;
   for (scenario::Frame& side : frame.sides) settle(side);
 }

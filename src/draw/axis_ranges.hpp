@@ -14,7 +14,7 @@ class AxisRanges {
   void settle(scenario::Frame& frame) const;
 
  private:
-  PlotRange chart_;
+  PlotRange chart_, chart_x_;
   double trace_ = 0;
 };
 

@@ -183,6 +183,7 @@ Plot plot_of(const FrameChart& chart) {
   plot.least = chart.least;
   plot.most = chart.most;
   plot.range = chart.range;
+  plot.x_range = chart.x_range;
   plot.log_y = chart.logarithmic;
   plot.log_x = chart.logarithmic && !chart.over_time;
   plot.x_name = chart.over_time ? "time, s" : chart_words(chart.x_name);

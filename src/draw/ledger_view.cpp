@@ -35,10 +35,15 @@ constexpr double kLeastLedgerCell = 5;
 
 const TextStyle kLedgerStyle{kLedgerText, Weight::regular, Role::ink};
 
-std::string key_text(PairState state, std::uint64_t n) {
+// Without a structure nobody has looked at a pair; once boxes are compared, a candidate's overlap.
+std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
+  const bool looked = frame.structure != StructureKind::none;
+  const bool compared =
+      frame.count("contacts").has_value() && frame.phase != scenario::StepPhase::broad;
+  const char* const candidate = compared ? "boxes overlap" : n == 1 ? "candidate" : "candidates";
   const char* const words[] = {
-      "static, never tested", "ruled out",    n == 1 ? "candidate" : "candidates",
-      "boxes apart",          "shapes apart", n == 1 ? "contact" : "contacts"};
+      "static, never tested", looked ? "ruled out" : "not looked at", candidate, "boxes apart",
+      "shapes apart",         n == 1 ? "contact" : "contacts"};
   return fmt::format("{} {}", number_text(static_cast<double>(n)),
                      words[static_cast<std::size_t>(state)]);
 }
@@ -71,9 +76,9 @@ class Ledger {
     rows_ = std::max<std::size_t>(frame.cast, bodies_.size());
     states_ = states_of(pairs_);
     for (const PairState state : states_)
-      key_width_ =
-          std::max(key_width_,
-                   kKeyMark + 10 + text_width(key_text(state, pairs_.all() + 1), kLedgerStyle) + 2);
+      key_width_ = std::max(
+          key_width_,
+          kKeyMark + 10 + text_width(key_text(state, pairs_.all() + 1, frame_), kLedgerStyle) + 2);
   }
 
   void draw() {
@@ -181,7 +186,7 @@ class Ledger {
       const DrawList::Scope scope(list_, fmt::format("ledger/key/{}", k));
       const Box<2> mark{at + Vec<2>(0, 4), at + Vec<2>(kKeyMark, 4 + kKeyMark)};
       draw_pair_mark(states_[k], false, shrunk(mark, 1), list_);
-      labels_.add(key_text(states_[k], n),
+      labels_.add(key_text(states_[k], n, frame_),
                   centred({mark.hi.x + 10, mark.center().y}, kLedgerStyle, 0), kLedgerStyle,
                   panel_);
     }

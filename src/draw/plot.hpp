@@ -90,6 +90,7 @@ struct Plot {
       most;  // ends of y; lines leave the picture beyond them
   // The least and the greatest y that there will ever be: the axis holds them from the beginning.
   std::optional<std::pair<double, double>> range;
+  std::optional<std::pair<double, double>> x_range;
 
   // On the axis of x.
   bool has_place(const PlotPoint& p) const {

@@ -177,6 +177,9 @@ class PlotLayout {
   void find_ranges() {
     if (plot_.range)
       for (const double end : {plot_.range->first, plot_.range->second}) ys_.add(end, plot_.log_y);
+    if (plot_.x_range)
+      for (const double end : {plot_.x_range->first, plot_.x_range->second})
+        xs_.add(end, plot_.log_x);
     for (const PlotSeries& series : plot_.series)
       for (const PlotPoint& p : series.points) {
         if (!is_drawn(p)) continue;

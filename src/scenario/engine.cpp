@@ -160,7 +160,7 @@ class EngineOf : public Engine {
   void picture(const Touched& touched, Frame& frame) override {
     if (has_structure()) bring_up_to_date();
     picture_world(players_, frame);
-    if (scenario_.display.forces) picture_forces(players_, frame);
+    if (frame.display.forces) picture_forces(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
     picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, frame);
     work_.pair_searches += has_structure();

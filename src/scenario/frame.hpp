@@ -209,6 +209,7 @@ struct FrameChart {
   // Of y over all frames of the sequence or part, once somebody knows them: the axis holds them
   // from the first frame on.
   std::optional<std::pair<double, double>> range;
+  std::optional<std::pair<double, double>> x_range;  // the same along x, but over time
   std::string x_unit;  // "J"; empty for what is counted
   std::string y_unit;
   std::vector<FrameSeries> series;

@@ -148,8 +148,15 @@ Json table_schema(const TableDoc& table) {
                               {"properties", properties},
                               {"additionalProperties", false}});
   if (table.by_side) schema["additionalProperties"] = reference(table.name);
-  if (!required.empty()) schema["required"] = required;
-  if (!groups.empty()) schema[table.groups.exactly_one ? "oneOf" : "anyOf"] = groups;
+  Json all = Json::object();
+  if (!required.empty()) all["required"] = required;
+  if (!groups.empty()) all[table.groups.exactly_one ? "oneOf" : "anyOf"] = groups;
+  // Who is like a prototype may have the rest from it.
+  if (table.find("like") && !all.empty())
+    schema["anyOf"] =
+        Json::array({Json::object({{"required", Json::array({"name", "like"})}}), all});
+  else
+    schema.update(all);
   return schema;
 }
 

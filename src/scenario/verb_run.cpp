@@ -202,6 +202,8 @@ caption = "Of {pairs:candidate pair}, {contacts} in contact."
 }
 
 void Phases::read(const TableReader&, ScriptReading& script) {
+  constexpr std::uint64_t kMostPhases = 5;
+  script.frames = kMostPhases;
   ++script.state.ticks;
   ++script.state.least_ticks;
 }

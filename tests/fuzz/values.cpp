@@ -297,6 +297,7 @@ std::string right_value(const KeyDoc& key, const Surroundings& around, Dice& dic
       if (around.dimension != 3 || dice.chance(0.5)) return amount;
       return fmt::format("{{ {} = {}, axis = [0, {}, 1] }}", key.of, amount, dice.whole(-2, 2));
     }
+    case KeyType::part:
     case KeyType::table:
       return inline_table(key.of, around, dice);
     case KeyType::tables: {

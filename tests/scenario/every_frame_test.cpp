@@ -184,7 +184,9 @@ void expect_memory_in_order(const Frame& frame) {
 }
 
 void expect_words(const Frame& frame) {
-  EXPECT_FALSE(frame.caption.empty()) << "frame " << frame.index << " is silent";
+  const bool a_side_speaks = std::ranges::any_of(
+      frame.sides, [](const Frame& side) { return !side.held && !side.caption.empty(); });
+  EXPECT_TRUE(a_side_speaks || !frame.caption.empty()) << "frame " << frame.index << " is silent";
   EXPECT_FALSE(frame.event.empty());
   EXPECT_EQ(frame.caption.find('{'), std::string::npos) << frame.caption;
 }
