@@ -24,7 +24,8 @@ struct Fact {
 
 // Counts first, each in its place on all frames of the group; then, in lines of their own, what the
 // tree was told, where that is new.
-std::vector<Fact> facts_of(const Frame& frame, const Staging& staging) {
+std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box<2>& panel) {
+  constexpr double kLeastForSettings = 330;  // height; on a lower one the rows need the room
   std::vector<Fact> facts;
   if (!frame.side.empty()) return facts;  // its title and its counts say it
   const std::pair<const char*, const char*> counted[] = {
@@ -33,7 +34,9 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging) {
     if (const auto n = frame.count(many)) {
       facts.push_back({*n == 1 ? one : many, n, many, staging.most(many)});
     }
-  if (!frame.display.settings || !staging.tells_settings(frame)) return facts;
+  if (!frame.display.settings || !staging.tells_settings(frame) ||
+      panel.size().y < kLeastForSettings)
+    return facts;
   const std::string& settings = frame.settings;
   for (std::size_t at = 0; at < settings.size();) {
     const std::size_t comma = std::min(settings.find(", ", at), settings.size());
@@ -85,7 +88,7 @@ double height_of_facts(const Staging& staging, const Box<2>& panel) {
   return staging.once<double>("facts", panel, [&] {
     int lines = 0;
     for (const Frame* frame : staging.frames()) {
-      lines = std::max(lines, lay_out_facts(facts_of(*frame, staging), panel, 0, nullptr));
+      lines = std::max(lines, lay_out_facts(facts_of(*frame, staging, panel), panel, 0, nullptr));
     }
     return lines * kFactLine;
   });
@@ -172,7 +175,7 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   for (const char* name : {"nodes", "leaves", "entries"})  // the facts
     if (frame.count(name)) list.referents.emplace(name);
   const double height = height_of_facts(staging, panel);
-  lay_out_facts(facts_of(frame, staging), panel, panel.hi.y - height, &labels);
+  lay_out_facts(facts_of(frame, staging, panel), panel, panel.hi.y - height, &labels);
   Box<2> diagram = panel;
   diagram.hi.y -= height + 4;
   if (frame.structure == StructureKind::sort_and_sweep)

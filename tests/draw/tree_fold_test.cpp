@@ -152,7 +152,9 @@ TEST(TreeView, CountsStandWhereTheyDidAndInFrontOfNothing) {
     EXPECT_LT(starts(&frame == &frames[0] ? "5" : "125"), panel.lo.x + 3)
         << "they begin at the left";
     EXPECT_GT(starts("nodes"), panel.lo.x);
-    if (entries != 0) EXPECT_NEAR(starts("7"), entries, 1e-9);
+    if (entries != 0) {
+      EXPECT_NEAR(starts("7"), entries, 1e-9);
+    }
     entries = starts("7");
   }
 }
