@@ -265,7 +265,7 @@ std::vector<Vec<2>> TreeLayout::edge(std::size_t branch) const {
   if (!labels_between) return {from, to};
   const double fan = from.y + scale.under;
   if (to.y - fan >= kLeastFan) return {from, {from.x, fan}, to};
-  const double elbow = to.y - kElbow;
+  const double elbow = to.y - std::min(kElbow, (to.y - from.y) / 2);
   return {from, {from.x, elbow}, {to.x, elbow}, to};
 }
 
