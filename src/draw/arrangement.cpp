@@ -56,7 +56,8 @@ std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& p
 }
 
 double weight_of(Panel panel) {
-  if (panel == Panel::tree || panel == Panel::ledger) return 1.1;
+  if (panel == Panel::tree) return 1.2;
+  if (panel == Panel::ledger) return 1.1;
   if (panel == Panel::memory) return 0.6;
   if (panel == Panel::pool) return 0.4;
   return panel == Panel::bytes || panel == Panel::sparkline ? 0.28 : 1.0;
@@ -73,7 +74,9 @@ std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area
   for (const Panel panel : panels) weights.push_back(weight_of(panel));
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
   const double room = area.size().y - kPanelGap * (static_cast<double>(panels.size()) - 1);
-  const double others = 260 * (static_cast<double>(panels.size()) - 1);  // that they need
+  const auto trees = static_cast<double>(std::ranges::count(panels, Panel::tree));
+  const double others =  // that they need; a tree has four rows and their labels
+      260 * (static_cast<double>(panels.size()) - 1 - trees) + 320 * trees;
   const auto chart = std::ranges::find(panels, Panel::chart) - panels.begin();
   if (chart < std::ssize(panels) && panels.size() > 1 && room > kLeastChart + others) {
     double& weight = weights[static_cast<std::size_t>(chart)];

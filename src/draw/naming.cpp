@@ -55,6 +55,15 @@ bool shows_name(const Frame& frame, const FrameBody& body) {
   return named <= kFewBodies || names(frame.caption, body.name);
 }
 
+std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
+  const std::size_t dot = leaf.label.rfind('.');
+  if (frame.structure != StructureKind::bsp || dot == std::string::npos) return {leaf.label};
+  if (leaf.mark != Mark::lit && !leaf.over_capacity) return {};
+  const std::string side = leaf.label.substr(dot + 1);
+  if (leaf.parent == kNone || frame.nodes[leaf.parent].plane_name.empty()) return {side};
+  return {frame.nodes[leaf.parent].plane_name + ": " + side, side};
+}
+
 bool shows_id(const Staging& staging, const FrameNode& node) {
   return node.mark != Mark::quiet || staging.leaves() <= kFewLeaves;
 }

@@ -32,4 +32,9 @@ std::array<Anchor, 8> on_its_side(std::array<Anchor, 8> anchors, const NameSides
 
 inline constexpr double kNameGap = 7;  // between a body's box and its name
 
+// What is written at a leaf, the best first; nothing for an unlit one of a BSP more than one step
+// down: its way is longer than anyone reads. Lit, it says on which side of its last plane it lies,
+// "net: back".
+std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf);
+
 }  // namespace lantern::draw

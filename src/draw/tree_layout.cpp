@@ -21,8 +21,8 @@ constexpr std::uint32_t kFewRows = 4;
 constexpr double kFoldScales[] = {0.6, 0.5, 0.4, 0.3, 0.25};
 constexpr std::size_t kMostBranches = 300;
 constexpr double kUnderLeaf = 34;    // for the label under the last row
-constexpr double kBetweenRows = 42;  // at least; a leaf's label and an edge's elbow fit in
-constexpr double kElbow = 8.5;       // over a box, clear of the card behind a pile
+constexpr double kBetweenRows = 38;  // at least; a leaf's label and an edge's elbow fit in
+constexpr double kElbow = 8;         // over a box, clear of the card behind a pile
 constexpr double kLeastFan = 34;     // height in which slanting edges are still told apart
 constexpr double kLeastHeight = 30;  // of a box
 constexpr std::uint32_t kLeastRows = 4;
@@ -192,6 +192,8 @@ void place(const Wanted& wanted, const TreeStage& stage, TreeLayout& layout) {
   layout.labels_between = !stage.whole && !stage.alone;
   for (const Branch& branch : layout.branches)
     if (branch.row > 0 && labelled[branch.row - 1]) layout.labels_between = true;
+  layout.room_between = pitch >= layout.scale.box_height + kBetweenRows - 1;
+  layout.last_row = std::max(stage.rows, 1u) - 1;
   layout.room = label_rooms(layout, wanted, panel);
 }
 
@@ -263,7 +265,7 @@ std::vector<Vec<2>> TreeLayout::edge(std::size_t branch) const {
   if (!labels_between) return {from, to};
   const double fan = from.y + scale.under;
   if (to.y - fan >= kLeastFan) return {from, {from.x, fan}, to};
-  const double elbow = to.y - kElbow;
+  const double elbow = to.y - std::min(kElbow, (to.y - from.y) / 2);
   return {from, {from.x, elbow}, {to.x, elbow}, to};
 }
 
@@ -336,6 +338,8 @@ TreeLayout lay_out_tree(const Frame& frame, const UnionTree& tree, const TreeSta
   layout.scale = stage.all.scale;
   layout.words = stage.all.words;
   layout.labels_between = stage.all.labels_between;
+  layout.room_between = stage.all.room_between;
+  layout.last_row = stage.all.last_row;
   for (const std::string& way : layout.ways) {
     const std::uint32_t i = tree.index.at(way);
     layout.boxes.push_back(stage.all.boxes[i]);
@@ -367,8 +371,14 @@ double tree_size_in(const Staging& staging, const Box<2>& panel) {
   const double s = best_scale(branches, wanted, room);
   if (s == 0) return folded;
   const double width = spread(branches, wanted, TreeScale(1, tree.rows(), room.y), {}).width;
-  const double size = std::min(s, kLarge) * std::sqrt(width * tree.rows() * 110);
-  return std::max(folded, std::min(size, std::sqrt(room.x * room.y)));
+  // Rows come first: where they stand closer than their labels need, the tree is hard to read.
+  constexpr double kAround = 16, kFacts = 36;  // margins, and the line of counts under the tree
+  const double least = kUnderLeaf + kLeastHeight * tree.rows() + kBetweenRows * (tree.rows() - 1) +
+                       kAround + (staging.frames()[0]->side.empty() ? kFacts : 0);
+  const double squeezed = std::min(1.0, room.y / least);
+  const double size =
+      squeezed * squeezed * std::min(s, kLarge) * std::sqrt(width * tree.rows() * 110);
+  return std::max(squeezed * squeezed * folded, std::min(size, std::sqrt(room.x * room.y)));
 }
 
 }  // namespace lantern::draw

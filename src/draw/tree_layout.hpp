@@ -57,6 +57,8 @@ struct TreeLayout {
   std::vector<Box<2>> boxes;
   std::vector<double> room;     // how wide the label under each box may be
   bool labels_between = false;  // labels stand beside nodes that have children
+  bool room_between = false;    // rows are far enough apart for labels between them
+  std::uint32_t last_row = 0;   // of the group's tree
 
   // The corners of the line from a branch's parent to it. Where labels stand between the rows it
   // goes straight down past them first.

@@ -19,34 +19,28 @@ struct Fact {
   std::optional<std::int64_t> number = std::nullopt;
   std::string widest = {};  // that the words can get
   std::int64_t most = 0;    // that the number can get
-  bool said = true;         // otherwise only its place is kept
+  bool new_line = false;
 };
 
-// Does the caption say it, "12 nodes"?
-bool says(const std::string& caption, const std::string& fact) {
-  for (std::size_t at = caption.find(fact); at != std::string::npos;
-       at = caption.find(fact, at + 1))
-    if (at == 0 || caption[at - 1] == ' ') return true;
-  return false;
-}
-
-// Counts first, each in its place on all frames of the group; then what the tree was told, where
-// that is new.
-std::vector<Fact> facts_of(const Frame& frame, const Staging& staging,
-                           const std::string& settings) {
+// Counts first, each in its place on all frames of the group; then, in lines of their own, what the
+// tree was told, where that is new.
+std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box<2>& panel) {
+  constexpr double kLeastForSettings = 330;  // height; on a lower one the rows need the room
   std::vector<Fact> facts;
   if (!frame.side.empty()) return facts;  // its title and its counts say it
   const std::pair<const char*, const char*> counted[] = {
       {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
   for (const auto& [many, one] : counted)
     if (const auto n = frame.count(many)) {
-      const std::string words = *n == 1 ? one : many;
-      facts.push_back({words, n, many, staging.most(many),
-                       !says(frame.caption, fmt::format("{} {}", *n, words))});
+      facts.push_back({*n == 1 ? one : many, n, many, staging.most(many)});
     }
+  if (!frame.display.settings || !staging.tells_settings(frame) ||
+      panel.size().y < kLeastForSettings)
+    return facts;
+  const std::string& settings = frame.settings;
   for (std::size_t at = 0; at < settings.size();) {
     const std::size_t comma = std::min(settings.find(", ", at), settings.size());
-    facts.push_back({.words = settings.substr(at, comma - at)});
+    facts.push_back({.words = settings.substr(at, comma - at), .new_line = at == 0});
     at = comma + 2;
   }
   return facts;
@@ -55,28 +49,31 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging,
 constexpr double kFactLine = 32;
 constexpr double kFactGap = 26;
 
+double number_width(std::int64_t number, const TextStyle& style) {
+  return Labels::number_width(static_cast<std::int64_t>(std::to_string(number).size()), style);
+}
+
 // Lays the facts out in lines and draws them when `labels` is given; gives the number of lines.
-// Counts have cells for two digits at least, so that nothing moves while a small tree grows;
-// settings that do not stand beside them begin a line.
+// A count has room for two digits at least, so that the others do not move while a small tree
+// grows.
 int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, double top, Labels* labels) {
   const TextStyle style{kLabel, Weight::regular, Role::quiet_ink};
   constexpr double kSpace = 6;
   double x = panel.lo.x;
   int line = 0;
   for (const Fact& fact : facts) {
-    double number = 0;  // room for it
+    double number = 0, room = 0;  // width of this one, and of the widest
     if (fact.number) {
-      const auto digits =
-          static_cast<std::int64_t>(std::to_string(std::max(*fact.number, fact.most)).size());
-      number = Labels::number_width(std::max<std::int64_t>(2, digits), style) + kSpace;
+      number = number_width(*fact.number, style) + kSpace;
+      room = number_width(std::max({*fact.number, fact.most, std::int64_t{10}}), style) + kSpace;
     }
     const std::string words = shortened(fact.words, panel.size().x, style);
-    const double width = number + text_width(fact.widest.empty() ? words : fact.widest, style);
-    if (x > panel.lo.x && x + width > panel.hi.x) {
+    const double width = room + text_width(fact.widest.empty() ? words : fact.widest, style);
+    if (x > panel.lo.x && (fact.new_line || x + width > panel.hi.x)) {
       x = panel.lo.x;
       ++line;
     }
-    if (labels && fact.said) {
+    if (labels) {
       const double y = top + line * kFactLine + 23;
       if (fact.number) labels->add_number(*fact.number, {x + number - kSpace, y}, style, panel);
       labels->add(words, {{x + number, y}, 0}, style, panel);
@@ -91,9 +88,7 @@ double height_of_facts(const Staging& staging, const Box<2>& panel) {
   return staging.once<double>("facts", panel, [&] {
     int lines = 0;
     for (const Frame* frame : staging.frames()) {
-      const std::string settings = staging.tells_settings(*frame) ? frame->settings : "";
-      const std::vector<Fact> facts = facts_of(*frame, staging, settings);
-      lines = std::max(lines, lay_out_facts(facts, panel, 0, nullptr));
+      lines = std::max(lines, lay_out_facts(facts_of(*frame, staging, panel), panel, 0, nullptr));
     }
     return lines * kFactLine;
   });
@@ -180,9 +175,7 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   for (const char* name : {"nodes", "leaves", "entries"})  // the facts
     if (frame.count(name)) list.referents.emplace(name);
   const double height = height_of_facts(staging, panel);
-  const std::string settings =
-      frame.display.settings && staging.tells_settings(frame) ? frame.settings : "";
-  lay_out_facts(facts_of(frame, staging, settings), panel, panel.hi.y - height, &labels);
+  lay_out_facts(facts_of(frame, staging, panel), panel, panel.hi.y - height, &labels);
   Box<2> diagram = panel;
   diagram.hi.y -= height + 4;
   if (frame.structure == StructureKind::sort_and_sweep)

@@ -7,6 +7,7 @@
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/marks.hpp"
+#include "draw/naming.hpp"
 #include "draw/notes.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
@@ -91,7 +92,7 @@ class TreeView {
     const bool dashed = is_empty_leaf(branch);
     if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
     if (node.over_capacity) return {Role::warning, 2.6};
-    if (node.sleeps()) return {Role::quiet_ink, 2.0, 2.6};
+    if (frame_.sleeps(node)) return {Role::quiet_ink, 2.0, 2.6};
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
 
@@ -102,7 +103,7 @@ class TreeView {
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
-    const Role ground = (node.sleeps() || node.skipped) && branch.mark == Mark::quiet
+    const Role ground = (frame_.sleeps(node) || node.skipped) && branch.mark == Mark::quiet
                             ? Role::free_space
                             : ground_of(branch.mark);
     // What never moves has sharp corners.
@@ -121,7 +122,7 @@ class TreeView {
       draw_content(branch, box);
     if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
     if (branch.kind == Branch::Kind::node) draw_walk(node, box);
-    if (node.sleeps()) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
+    if (frame_.sleeps(node)) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
   }
 
   // What a ray, view or region left out, and the place of a leaf on a ray's way.
@@ -194,9 +195,9 @@ class TreeView {
                upright ? Vec<2>(c.x, icon.hi.y) : Vec<2>(icon.hi.x, c.y), {role, 3.2});
   }
 
-  // A warning triangle on the box's corner.
+  // A warning triangle on the box's side, clear of the edges above.
   void draw_badge(const Box<2>& box) {
-    const Vec<2> c{box.hi.x - 1, box.lo.y + 1};
+    const Vec<2> c{box.hi.x - 1, box.lo.y + 9};
     list_.polygon({c + Vec<2>(0, -10), c + Vec<2>(10, 7), c + Vec<2>(-10, 7)}, Role::warning,
                   {Role::paper, 2});
     list_.line(c + Vec<2>(0, -3.5), c + Vec<2>(0, 1), {Role::paper, 2.2});
@@ -221,12 +222,30 @@ class TreeView {
     if (branch.mark == Mark::lit) style.role = Role::lit_ink;
     if (node.over_capacity && node.leaf) style.role = Role::warning;
     const Box<2>& box = layout_.boxes[i];
+    if (branch.row < layout_.last_row && !layout_.room_between) return label_beside(i, style);
     const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
     const double room = layout_.room[i];
     for (const std::string& text : label_choices(branch))
       if (text_width(text, style) <= room && labels_.try_add(text, {under}, style, panel_)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
       labels_.try_add(shortened(node.label, room, style), {under}, style, panel_);
+  }
+
+  // Where rows stand too close for words between them: in the gap to a neighbour, if that is wide
+  // enough to tell whose name it is.
+  void label_beside(std::size_t i, const TextStyle& style) {
+    constexpr double kNear = 5, kFar = 14;
+    const Box<2>& box = layout_.boxes[i];
+    for (const std::string& text : label_choices(branches()[i]))
+      for (const double align : {0.0, 1.0}) {
+        const Anchor anchor = centred(
+            {align > 0 ? box.lo.x - kNear : box.hi.x + kNear, box.center().y}, style, align);
+        Box<2> extent = Labels::extent(text, anchor, style);
+        (align > 0 ? extent.lo.x : extent.hi.x) += align > 0 ? -kFar : kFar;
+        if (!text.empty() && labels_.is_free(extent, panel_) &&
+            labels_.try_add(text, {anchor}, style, panel_))
+          return;
+      }
   }
 
   // What may stand under a branch, the best first. A way of many steps is spelt out only where the
@@ -239,9 +258,13 @@ class TreeView {
     const bool holds = overfull && says_holds_[branch.row];
     if (branch.copies > 1) return copies_choices(branch, holds);
     std::vector<std::string> names;
-    if (overfull || branch.mark == Mark::lit || !is_long_way(node.label))
+    if (frame_.structure == StructureKind::bsp)
+      names = leaf_names(frame_, node);
+    else if (overfull || branch.mark == Mark::lit || !is_long_way(node.label))
       names.push_back(node.label);
-    if (const std::string brief = short_label(node.label); !brief.empty()) names.push_back(brief);
+    if (const std::string brief = short_label(node.label);
+        !brief.empty() && frame_.structure != StructureKind::bsp)
+      names.push_back(brief);
     std::vector<std::string> choices;
     if (holds)
       for (const std::string& name : names)

@@ -178,7 +178,7 @@ void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
   constexpr std::size_t kMostShapes = 1500;
   for (const FrameNode& node : frame.nodes) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
-    if (!node.sleeps() || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (!frame.sleeps(node) || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
     list.polygon(cut_to(page_region(node, map), map.picture()), Role::free_space);
     list.marks.add(MarkKind::sleeping_cell);
@@ -279,7 +279,7 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
 
 void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place, DrawList& list) {
   if (!frame.display.cells) return;
-  constexpr double kLeastOver = 4;  // page units; smaller cells would hide the body in turn
+  constexpr double kLeastOver = 20;  // page units; smaller cells would hide the body in turn
   Borders borders;
   for (const FrameNode& node : frame.nodes) {
     const Box<2> cell = map.to_page(node.box);
@@ -289,7 +289,7 @@ void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place,
       continue;
     borders.add_inside(place, cell, node.depth);
   }
-  borders.draw_plainly({Role::body_line, 1}, list);
+  borders.draw_plainly({Role::quiet_ink, 0.7}, list);
 }
 
 }  // namespace lantern::draw

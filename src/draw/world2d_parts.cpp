@@ -1,39 +1,114 @@
 #include "draw/world2d_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <span>
 
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
+#include "draw/naming.hpp"
 
 namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostLabels = 120;
 
-// A dividing line's name, on a plate that sits on the line.
-void label_planes(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
-                  DrawList& list, Labels& labels) {
-  const TextStyle style{kLabel, Weight::semibold, Role::ink};
+// Where along its line a name may stand: near the end of the first line; the others end on a line,
+// where it would not be clear whose name it is.
+std::array<double, 7> plate_places(const FrameNode& node) {
+  return {node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4};
+}
+
+const TextStyle kPlateStyle{kLabel, Weight::semibold, Role::ink};
+
+bool has_plate(const FrameNode& node) {
+  return node.plane && !node.plane_name.empty() && dividing_line(node);
+}
+
+// The point and the plate, for each of the places.
+std::array<std::pair<Vec<2>, Box<2>>, 7> plates_of(const FrameNode& node, const View2D& map) {
+  const auto line = *dividing_line(node);
+  Vec<2> a = map.in_reach(map.to_page(line.first));
+  Vec<2> b = map.in_reach(map.to_page(line.second));
+  if (b.y < a.y) std::swap(a, b);
+  const std::array<double, 7> places = plate_places(node);
+  std::array<std::pair<Vec<2>, Box<2>>, 7> plates;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Vec<2> p = a + (b - a) * places[k];
+    plates[k] = {p, plate_of(node.plane_name, p, kPlateStyle, {9, 7})};
+  }
+  return plates;
+}
+
+// Of a plane, over the frames of a group: on how many each of its places is free of bodies, and its
+// plates on the first of them.
+struct PlateCounts {
+  std::string plane;
+  std::array<int, 7> free{};
+  std::array<std::pair<Vec<2>, Box<2>>, 7> plates;
+};
+
+void count_plates(const Frame& frame, const Box<2>& panel, std::vector<PlateCounts>& counts) {
+  const View2D map(flat(frame.bounds), panel, frame.view);
+  std::vector<Box<2>> covered;
+  for (const Stand& stand : stands_of(frame, map)) covered.push_back(stand.box);
+  const Box<2> room = shrunk(map.picture(), 6);
+  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
+    if (!has_plate(frame.nodes[i])) continue;
+    const std::string plane = node_key("world/plane name", frame.nodes, i);
+    const auto plates = plates_of(frame.nodes[i], map);
+    auto found = std::ranges::find(counts, plane, &PlateCounts::plane);
+    if (found == counts.end()) found = counts.insert(found, {plane, {}, plates});
+    for (std::size_t k = 0; k < plates.size(); ++k)
+      found->free[k] += holds(room, plates[k].second) && !touches(covered, plates[k].second);
+  }
+}
+
+// By the plane's key: its place, the same on all frames of the group, so that no name jumps when a
+// body passes.
+using PlatePlaces = std::map<std::string, std::size_t, std::less<>>;
+const PlatePlaces& chosen_plates(const Staging& staging, const Box<2>& panel) {
+  return staging.once<PlatePlaces>("plates of planes", panel, [&] {
+    constexpr std::size_t kMostLookedAt = 120;  // frames of a group, here and there
+    std::vector<PlateCounts> counts;
+    const std::size_t all = staging.frames().size(), looked_at = std::min(all, kMostLookedAt);
+    for (std::size_t i = 0; i < looked_at; ++i)
+      count_plates(*staging.frames()[i * all / looked_at], panel, counts);
+    PlatePlaces places;
+    std::vector<Box<2>> taken;
+    for (PlateCounts& plane : counts) {
+      for (std::size_t k = 0; k < plane.free.size(); ++k)
+        if (touches(taken, plane.plates[k].second)) plane.free[k] = -1;
+      const auto best = std::ranges::max_element(plane.free) - plane.free.begin();
+      places[plane.plane] = static_cast<std::size_t>(best);
+      taken.push_back(plane.plates[places[plane.plane]].second);
+    }
+    return places;
+  });
+}
+
+// A dividing line's name, on a plate that sits on the line. While something else is there it waits;
+// on a frame that stands alone it may stand elsewhere.
+void label_planes(const Frame& frame, const Staging& staging, const View2D& map,
+                  const std::vector<Box<2>>& bodies, DrawList& list, Labels& labels) {
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
-    if (!node.plane || node.plane_name.empty()) continue;
-    const DrawList::Scope scope(list, node_key("world/plane name", frame.nodes, i));
-    const auto line = dividing_line(node);
-    if (!line) continue;
-    Vec<2> a = map.in_reach(map.to_page(line->first));
-    Vec<2> b = map.in_reach(map.to_page(line->second));
-    if (b.y < a.y) std::swap(a, b);
-    // Near the end of the first line; the others end on a line, where it would not be clear whose
-    // name it is.
-    for (const double t : {node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4}) {
-      const Vec<2> p = a + (b - a) * t;
-      const Box<2> plate = plate_of(node.plane_name, p, style, {9, 7});
+    if (!has_plate(node)) continue;
+    const std::string key = node_key("world/plane name", frame.nodes, i);
+    const DrawList::Scope scope(list, key);
+    auto plates = plates_of(node, map);
+    const PlatePlaces& places = chosen_plates(staging, map.panel());
+    if (const auto found = places.find(key); found != places.end())
+      std::swap(plates[0], plates[found->second]);
+    const std::size_t tried = staging.frames().size() > 1 ? 1 : plates.size();
+    for (const auto& [at, plate] : std::span(plates).first(tried)) {
       if (touches(bodies, plate) || !labels.is_free(plate, shrunk(map.picture(), 6))) continue;
       const Role role = node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth);
       list.rect(plate, Role::panel, {role, 1.8}, 6);
-      labels.add(node.plane_name, centred(p, style), style, map.picture());
+      labels.add(node.plane_name, centred(at, kPlateStyle), kPlateStyle, map.picture());
       labels.block(plate);
       break;
     }
@@ -41,16 +116,16 @@ void label_planes(const Frame& frame, const View2D& map, const std::vector<Box<2
 }
 
 // A leaf's name in the corner of its cell that no body covers; without one it has none.
-void label_cell(const FrameNode& node, const View2D& map, const std::vector<Box<2>>& bodies,
-                const Grounds& grounds, Labels& labels) {
+bool label_cell(const FrameNode& node, const std::string& name, const View2D& map,
+                const std::vector<Box<2>>& bodies, const Grounds& grounds, Labels& labels) {
   const Box<2> whole = map.to_page(node.box), &picture = map.picture();
   const Box<2> cell{glm::clamp(whole.lo, picture.lo, picture.hi),
                     glm::clamp(whole.hi, picture.lo, picture.hi)};
   TextStyle style{kLeastLabel, Weight::semibold, Role::quiet_ink};
   if (node.mark == Mark::lit) style.role = Role::lit_ink;
-  const double width = text_width(node.label, style);
+  const double width = text_width(name, style);
   constexpr double kInset = 9;
-  if (cell.size().x < width + 2 * kInset || cell.size().y < style.size + 2 * kInset) return;
+  if (cell.size().x < width + 2 * kInset || cell.size().y < style.size + 2 * kInset) return false;
   const double cap = cap_height(style.weight) * style.size;
   const double top = cell.lo.y + kInset + cap + 1, bottom = cell.hi.y - kInset;
   const Polygon region = inset(page_region(node, map), 5);
@@ -60,11 +135,12 @@ void label_cell(const FrameNode& node, const View2D& map, const std::vector<Box<
                             {{cell.hi.x - kInset, bottom}, 1},
                             centred(cell.center(), style)};
   const Anchor* free = labels.free_anchor(
-      node.label, anchors, style, map.picture(),
+      name, anchors, style, map.picture(),
       [&](const Box<2>& box) { return !touches(bodies, box) && inside(region, box); });
-  if (!free) return;
-  style.halo = ground_at(grounds, Labels::extent(node.label, *free, style).center());
-  labels.add(node.label, *free, style, map.picture());
+  if (!free) return false;
+  style.halo = ground_at(grounds, Labels::extent(name, *free, style).center());
+  labels.add(name, *free, style, map.picture());
+  return true;
 }
 
 void label_unmade(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
@@ -175,7 +251,7 @@ void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
                  const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
                  Labels& labels) {
   if (!frame.display.cells) return;
-  label_planes(frame, map, bodies, list, labels);
+  label_planes(frame, staging, map, bodies, list, labels);
   // Of two trees only one has its leaves named, or the same names would stand there twice.
   const bool dynamic =
       std::ranges::any_of(frame.nodes, [](const FrameNode& node) { return !node.of_static; });
@@ -188,7 +264,8 @@ void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
   for (const FrameNode* leaf : leaves) {
     const auto at = static_cast<std::uint32_t>(leaf - frame.nodes.data());
     const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
-    label_cell(*leaf, map, bodies, grounds, labels);
+    for (const std::string& name : leaf_names(frame, *leaf))
+      if (label_cell(*leaf, name, map, bodies, grounds, labels)) break;
   }
   if (frame.display.not_made) label_unmade(frame, map, bodies, labels);
 }

@@ -82,8 +82,10 @@ void merge(std::vector<Edge> on_line, std::vector<Edge>& merged) {
 
 class Edges {
  public:
-  explicit Edges(const View3D& view)
-      : view_(view), grain_(std::exp2(std::ceil(std::log2(view.size())) - 32)) {}
+  Edges(const View3D& view, bool may_sleep)
+      : view_(view),
+        may_sleep_(may_sleep),
+        grain_(std::exp2(std::ceil(std::log2(view.size())) - 32)) {}
 
   // The twelve edges of a cell. In a column's cell those at the top are left out,
   // unless it is lit.
@@ -98,7 +100,7 @@ class Edges {
         if (column && axis != 1 && top && node.depth > 0 && node.mark != Mark::lit) continue;
         const bool before = faces_eye(box, j, high_j) && faces_eye(box, k, high_k);
         const bool faint = column && (axis == 1 || top) && node.depth > 0;
-        const int dashed = node.of_static ? 2 : node.awake ? 0 : 1;
+        const int dashed = node.of_static ? 2 : node.awake || !may_sleep_ ? 0 : 1;
         edges_.push_back(
             {axis,
              {rounded(high_j ? box.hi[j] : box.lo[j]), rounded(high_k ? box.hi[k] : box.lo[k])},
@@ -147,6 +149,7 @@ class Edges {
   }
 
   const View3D& view_;
+  bool may_sleep_;
   double grain_;
   std::vector<Edge> edges_;
 };
@@ -265,7 +268,7 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
 }
 
 bool add_cells(const Frame& frame, Marks3D& marks) {
-  Edges edges(marks.view);
+  Edges edges(marks.view, frame.may_sleep);
   const bool flat = traits_of(frame.structure).ignores_height;
   const bool shown = frame.display.cells && !frame.nodes.empty();
   for (std::uint32_t i = 0; shown && i < frame.nodes.size(); ++i)

@@ -162,6 +162,7 @@ class EngineOf : public Engine {
     picture_world(players_, frame);
     if (frame.display.forces) picture_forces(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
+    frame.may_sleep = scenario_.world.may_sleep;
     picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, frame);
     work_.pair_searches += has_structure();
     work_.pairs_found += frame.pairs.size();

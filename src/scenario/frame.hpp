@@ -79,9 +79,6 @@ struct FrameNode {
   bool split = false;    // since the frame before, at the same time: the step is about its division
   bool skipped = false;  // by a ray, view or region, itself or with a node above it
   std::uint32_t met = kNone;  // a leaf's place in the order in which a ray met them, from 0
-
-  // To be drawn so: what never moves, or holds nothing, is not said to sleep.
-  bool sleeps() const { return !awake && !of_static && !(leaf && bodies.empty()); }
 };
 
 struct FrameTexture {
@@ -273,6 +270,7 @@ struct Frame {
   std::vector<FrameNote> notes;  // of what is there
   std::vector<FrameBody> bodies;
   std::vector<FrameNode> nodes;  // parents before children
+  bool may_sleep = true;         // some body of this world can fall asleep
   std::vector<FramePair> pairs;  // in order of ids
   std::vector<Pair> tested;      // by the narrow phase in the last step, in order of ids
   std::vector<FrameContact> contacts;
@@ -302,6 +300,12 @@ struct Frame {
   std::string side;  // of one of these: its name, and what stands over it
   std::string side_title;
   bool held = false;  // it has nothing more to show in this step, and shows its last frame
+
+  // Is this node drawn as one that sleeps? What never moves or holds nothing is not, nor what only
+  // rests in a world where nothing falls asleep.
+  bool sleeps(const FrameNode& node) const {
+    return may_sleep && !node.awake && !node.of_static && !(node.leaf && node.bodies.empty());
+  }
 
   // The side of that name; null if there is none.
   const Frame* side_named(std::string_view name) const;

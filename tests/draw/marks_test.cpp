@@ -7,6 +7,7 @@
 #include "base/random.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/draw_list.hpp"
+#include "draw/naming.hpp"
 #include "draw/page.hpp"
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
@@ -195,8 +196,25 @@ TEST(Marks, ASleepingBranchIsHatchedOnce) {
   const auto toned = [](const PolygonShape& ground) { return ground.fill == Role::free_space; };
   Frame frame = sample("world_sleepers");
   EXPECT_GT(count<PolygonShape>(page_of(frame), toned), 0);
+  frame.may_sleep = false;
+  EXPECT_EQ(count<PolygonShape>(page_of(frame), toned), 0) << "what only rests is not asleep";
+  frame.may_sleep = true;
   for (FrameNode& node : frame.nodes) node.awake = true;
   EXPECT_EQ(count<PolygonShape>(page_of(frame), toned), 0);
+}
+
+TEST(Marks, LeavesOfABspAreNamedByTheirLastPlane) {
+  Frame frame = sample("world_level");
+  for (FrameNode& node : frame.nodes) {
+    if (!node.leaf || node.label.find('.') == std::string::npos) continue;
+    node.mark = Mark::quiet;
+    EXPECT_TRUE(leaf_names(frame, node).empty()) << node.label;
+    node.mark = Mark::lit;
+    EXPECT_EQ(leaf_names(frame, node)[0],
+              frame.nodes[node.parent].plane_name + (node.slot == 0 ? ": back" : ": front"));
+  }
+  for (const LabelBox& label : page_of(frame).labels)
+    EXPECT_EQ(label.text.find("front."), std::string::npos) << label.text;
 }
 
 TEST(Marks, BothTreesOfAForestAreDrawn) {

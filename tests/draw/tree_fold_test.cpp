@@ -107,8 +107,7 @@ bool strikes(const Vec<2>& from, const Vec<2>& to, const Box<2>& box) {
   return false;
 }
 
-TEST(TreeView, EdgesStrikeNoLabel) {
-  const Box<2> panel{{0, 0}, {740, 580}};
+void check_edges(const Box<2>& panel) {
   for (const Frame& frame : trees()) {
     DrawList list;
     Labels labels(list);
@@ -124,6 +123,39 @@ TEST(TreeView, EdgesStrikeNoLabel) {
             << frame.title << ": an edge runs through \"" << label.text << '"';
     }
     EXPECT_GT(edges, 0u) << frame.title;
+  }
+}
+
+TEST(TreeView, EdgesStrikeNoLabel) {
+  check_edges({{0, 0}, {740, 580}});
+  check_edges({{0, 0}, {740, 260}});
+  check_edges({{0, 0}, {740, 220}});
+}
+
+TEST(TreeView, CountsStandWhereTheyDidAndInFrontOfNothing) {
+  const Box<2> panel{{0, 0}, {740, 580}};
+  std::vector<Frame> frames(2, trees()[0]);
+  frames[0].counts = {{"nodes", 5}, {"leaves", 4}, {"entries", 7}};
+  frames[1].counts = {{"nodes", 125}, {"leaves", 94}, {"entries", 7}};
+  frames[0].caption = "These are 5 nodes.";
+  const Staging staging(frames);
+  double entries = 0;
+  for (const Frame& frame : frames) {
+    DrawList list;
+    Labels labels(list);
+    draw_tree(frame, staging, panel, list, labels);
+    const auto starts = [&](const std::string& text) {
+      const auto found = std::ranges::find(list.labels, text, &LabelBox::text);
+      EXPECT_NE(found, list.labels.end()) << text;
+      return found == list.labels.end() ? 0 : found->box.lo.x;
+    };
+    EXPECT_LT(starts(&frame == &frames[0] ? "5" : "125"), panel.lo.x + 3)
+        << "they begin at the left";
+    EXPECT_GT(starts("nodes"), panel.lo.x);
+    if (entries != 0) {
+      EXPECT_NEAR(starts("7"), entries, 1e-9);
+    }
+    entries = starts("7");
   }
 }
 
