@@ -104,8 +104,13 @@ std::vector<SideNumber> numbers_of(const Frame& frame) {
       {"pairs", "pair", "pairs"},          {"free_leaves", "free leaf", "free leaves"},
       {"contacts", "contact", "contacts"}, {"sectors", "sector", "sectors"}};
   std::vector<SideNumber> numbers;
-  for (const std::string& name : frame.headline)
-    numbers.push_back({name, count_words(name, true), count_words(name, false)});
+  for (const std::string& written : frame.headline) {
+    const std::size_t dot = written.find('.');
+    const bool of_side = dot != std::string::npos && frame.side_named(written.substr(0, dot));
+    const std::string name = of_side ? written.substr(dot + 1) : written;
+    if (std::ranges::find(numbers, name, &SideNumber::name) == numbers.end())
+      numbers.push_back({name, count_words(name, true), count_words(name, false)});
+  }
   if (!numbers.empty()) return numbers;
   for (const SideNumber& known : kKnown)
     if (numbers.size() < kMostNumbers && std::ranges::any_of(frame.sides, [&](const Frame& side) {
