@@ -212,15 +212,31 @@ void draw_row(const std::vector<Counter>& counters, const Box<2>& band, double b
 }
 
 // Of an ending: side by side, each large over its noun. Gives the left end.
-double draw_large(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
+double draw_large(std::vector<Counter> counters, const Box<2>& band, double baseline,
                   Labels& labels) {
-  constexpr double kGap = 44;
+  constexpr double kGap = 44, kMostOfBand = 0.55;  // the caption needs the rest
   const TextStyle large{52, Weight::semibold, Role::ink},
       small{25, Weight::regular, Role::quiet_ink};
+  const auto width_of = [&](const Counter& counter) {
+    return std::max(text_width(counter.number, large), counter.noun_width(small));
+  };
+  const auto is_wide = [&] {
+    double all = -kGap;
+    for (const Counter& counter : counters) all += width_of(counter) + kGap;
+    return all > kMostOfBand * band.size().x;
+  };
+  // What is counted stands under the sides: their names say which is which.
+  if (is_wide())
+    for (Counter& counter : counters)
+      if (const std::size_t comma = counter.noun.rfind(", "); comma != std::string::npos) {
+        counter.noun.erase(0, comma + 2);
+        counter.widest.clear();
+      }
+  while (counters.size() > 1 && is_wide()) counters.pop_back();
   double x = band.hi.x;
   for (std::size_t i = counters.size(); i-- > 0;) {
     const Counter& counter = counters[i];
-    const double width = std::max(text_width(counter.number, large), counter.noun_width(small));
+    const double width = width_of(counter);
     labels.add(counter.number, {{x, baseline}, 1}, large, band);
     labels.add(counter.noun, {{x, baseline + 40}, 1}, small, band);
     x -= width + kGap;

@@ -1,6 +1,7 @@
 #include "draw/sides_view.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -130,8 +131,12 @@ std::string number_on(const Frame& side, const std::string& name) {
 // at the same place of each.
 double number_room(const Frame& frame, const SideNumber& number) {
   double room = Labels::number_width(4, kNumber);
-  for (const Frame& side : frame.sides)
-    room = std::max(room, text_width(number_on(side, number.name), kNumber));
+  for (const Frame& side : frame.sides) {
+    const auto count = side.count(number.name);
+    const std::string text = number_on(side, number.name);
+    room = std::max(room, count ? Labels::number_width(std::ssize(std::to_string(*count)), kNumber)
+                                : text_width(text, kNumber));
+  }
   return room;
 }
 

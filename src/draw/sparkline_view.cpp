@@ -89,7 +89,7 @@ void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Lab
   std::vector<Vec<2>> stairs;
   for (const Vec<2>& p : points) {
     const std::size_t n = stairs.size();
-    if (n > 1 && stairs[n - 1].y == at(p).y && stairs[n - 2].y == at(p).y) stairs.pop_back();
+    if (n > 1 && stairs[n - 1].y == stairs[n - 2].y) stairs.pop_back();
     if (n > 0 && stairs.back().y != at(p).y) stairs.push_back({at(p).x, stairs.back().y});
     stairs.push_back(at(p));
   }

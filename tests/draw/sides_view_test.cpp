@@ -44,6 +44,10 @@ TEST(SidesView, AnEndingShowsTheCountsOfSidesLarge) {
   EXPECT_TRUE(says(list, "node, " + frame.sides[1].side));
   EXPECT_TRUE(says(list, "13\u2009022"));
   EXPECT_EQ(boxes_of(list, "nodes").size(), 1u) << "under the first side, once";
+  for (Frame& side : frame.sides) side.side += " under settings with a long name";
+  frame.headline.clear();
+  for (const Frame& side : frame.sides) frame.headline.push_back(side.side + ".nodes");
+  EXPECT_TRUE(says(samples::page_of(frame), frame.sides[0].side)) << "the caption keeps its room";
 }
 
 TEST(SidesView, OneScaleHoldsForAll) {
