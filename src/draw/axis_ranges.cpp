@@ -12,7 +12,11 @@ void AxisRanges::see(const scenario::Frame& frame) {
       chart_.add(p.y, chart.logarithmic);
       chart_x_.add(p.x, chart.logarithmic && !chart.over_time);
     }
-  for (const Vec<2>& p : frame.trace.points) trace_ = std::max(trace_, p.y);
+  for (const Vec<2>& p : frame.trace.points) {
+    trace_ = std::max(trace_, p.y);
+    double& seconds = seconds_[frame.part];
+    seconds = std::max(seconds, p.x);
+  }
   for (const scenario::Frame& side : frame.sides) see(side);
 }
 
@@ -21,6 +25,9 @@ void AxisRanges::settle(scenario::Frame& frame) const {
   if (!chart_x_.empty() && !frame.chart.over_time)
     frame.chart.x_range = std::pair(chart_x_.least, chart_x_.most);
   if (trace_ > 0) frame.trace.most = trace_;
+  const auto seconds = seconds_.find(frame.part);
+  if (!frame.trace.seconds && seconds != seconds_.end() && seconds->second > 0)
+    frame.trace.seconds = seconds->second;
   for (scenario::Frame& side : frame.sides) settle(side);
 }
 

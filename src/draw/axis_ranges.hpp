@@ -1,6 +1,9 @@
 // What the axes of a sequence must hold, so that none of them changes from frame to frame.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "draw/plot_layout.hpp"
 #include "scenario/frame.hpp"
 
@@ -16,6 +19,7 @@ class AxisRanges {
  private:
   PlotRange chart_, chart_x_;
   double trace_ = 0;
+  std::map<std::string, double> seconds_;  // of the sparkline, by part
 };
 
 }  // namespace lantern::draw

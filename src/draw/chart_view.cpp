@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,19 +13,28 @@
 #include "draw/plot.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
+#include "spatial/structure_kinds.hpp"
 
 namespace lantern::draw {
 namespace {
 
 constexpr double kChartType = 26;  // of names; the ticks' is the least that the back row reads
-constexpr double kLeastRow = 32;   // a name has room in it
+constexpr double kGoodRow = 32;    // a name has room in it
+constexpr double kLeastRow = 28;   // names of neighbours do not touch
 constexpr double kMostRow = 96;
-constexpr double kGroupGap = 0.55;  // between groups, in rows
-constexpr double kAfter = 10;       // between a bar and its number, or its name
+constexpr double kGroupGap = 0.55, kLeastGroupGap = 0.2;  // between groups, in rows
+constexpr double kAfter = 10;  // between a bar and its number, or its name
 constexpr double kTickLine = 40;
 
 std::string value_text(double value) {
   return value == std::floor(value) ? number_text(value) : short_number(value);
+}
+
+// The look that bars and lines named as a structure have in all charts.
+std::optional<int> look_of_structure(const std::string& name) {
+  for (const StructureKind kind : kStructureKinds)
+    if (name == chart_words(std::string(to_string(kind)))) return static_cast<int>(kind) - 1;
+  return std::nullopt;
 }
 
 // "energy, J": what is on the y axis, and in which unit.
@@ -42,20 +54,18 @@ class Bars {
     std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
     for (FrameBar& bar : bars_) bar.label = chart_words(bar.label);
     std::ranges::stable_sort(bars_, {}, &FrameBar::group);
-    for (const FrameBar& bar : bars_)
-      if (std::ranges::find(names_, bar.label) == names_.end()) names_.push_back(bar.label);
   }
 
   void draw() {
     paper_.heading(heading(), type_.title);
     if (area_.lo.y > panel_.lo.y) area_.lo.y += 0.28 * type_.name.size;
-    leave_out();
+    find_room();
     if (bars_.empty()) return;
     measure();
-    paper_.level_ticks(axis_, area_.lo.y, area_.hi.y + 6, {Role::rule, 1.6}, 4, 14);
-    double y = area_.lo.y + (row_ * kGroupGap) / 4;
+    if (ticks_) paper_.level_ticks(axis_, area_.lo.y, area_.hi.y + 6, {Role::rule, 1.6}, 4, 14);
+    double y = area_.lo.y + (row_ * gap_) / 4;
     for (std::size_t i = 0; i < bars_.size(); ++i) {
-      if (i > 0 && bars_[i].group != bars_[i - 1].group) y += kGroupGap * row_;
+      if (i > 0 && bars_[i].group != bars_[i - 1].group) y += gap_ * row_;
       draw_bar(bars_[i], y);
       y += row_;
     }
@@ -74,8 +84,7 @@ class Bars {
   }
 
   double rows() const {
-    return static_cast<double>(bars_.size()) + kGroupGap * static_cast<double>(groups() - 1) +
-           kGroupGap / 2;
+    return static_cast<double>(bars_.size()) + gap_ * static_cast<double>(groups() - 1) + gap_ / 2;
   }
   std::size_t groups() const {
     std::size_t count = 1;
@@ -83,11 +92,32 @@ class Bars {
     return count;
   }
 
-  // The last bars go when not all have room.
-  void leave_out() {
+  double below() const { return kTickLine * ((ticks_ ? 1 : 0) + (note_.empty() ? 0 : 1)); }
+  bool fits(double row) const { return rows() * row <= area_.size().y - below(); }
+
+  // The newest bar but for the last one, whose step is told of, and the largest, which is never
+  // left out.
+  std::ptrdiff_t spare() const {
+    const auto length = [](const FrameBar& bar) { return std::abs(bar.value); };
+    const auto largest = std::ranges::max_element(bars_, {}, length) - bars_.begin();
+    const auto last = std::ssize(bars_) - 1;
+    if (last == 1) return largest == 0 ? 1 : 0;
+    return largest == last - 1 ? last - 2 : last - 1;
+  }
+
+  // Gaps between groups shrink first, then rows; then ticks go, for each bar has its number; then
+  // bars.
+  void find_room() {
+    if (fits(kGoodRow)) return;
+    gap_ = kLeastGroupGap;
+    if (fits(kLeastRow)) return;
+    ticks_ = false;
     const std::size_t all = bars_.size();
-    const auto room = [&] { return area_.size().y - kTickLine * (bars_.size() < all ? 2 : 1); };
-    while (!bars_.empty() && rows() * kLeastRow > room()) bars_.pop_back();
+    while (bars_.size() > 1 && !fits(kLeastRow)) {
+      note_ = " ";
+      bars_.erase(bars_.begin() + spare());
+    }
+    if (!fits(kLeastRow)) bars_.clear();
     if (bars_.size() < all)
       note_ =
           shortened(fmt::format("and {} more", all - bars_.size()), panel_.size().x, type_.tick);
@@ -112,7 +142,7 @@ class Bars {
     values += 1;
     area_.lo.x += std::min(names, 0.4 * panel_.size().x) + kAfter;
     area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter + (chart_.logarithmic ? 13 : 0);
-    area_.hi.y -= kTickLine * (note_.empty() ? 1 : 2);
+    area_.hi.y -= below();
     row_ = std::min(kMostRow, area_.size().y / rows());
     area_.hi.y = area_.lo.y + rows() * row_;
     const int ticks = std::clamp(static_cast<int>(area_.size().x / 110), 2, 8);
@@ -129,11 +159,9 @@ class Bars {
   double zero() const { return chart_.logarithmic ? 0 : std::max(0.0, axis_.low()); }
   double x_of(double value) const { return area_.lo.x + axis_.share(value) * area_.size().x; }
 
-  // One for each name, from the first bar on: groups to come have bars of the same names, and no
-  // bar may change its colour when they do.
-  Role color_of(const FrameBar& bar) const {
-    const auto at = std::ranges::find(names_, bar.label) - names_.begin();
-    return plot_role(static_cast<int>(at));
+  // A structure's, or that of all bars of one quantity or side.
+  static Role color_of(const FrameBar& bar) {
+    return plot_role(look_of_structure(bar.label).value_or(bar.line));
   }
 
   void draw_bar(const FrameBar& bar, double top) {
@@ -168,9 +196,9 @@ class Bars {
   DrawList& list_;
   Labels& labels_;
   std::vector<FrameBar> bars_;
-  std::vector<std::string> names_;
   std::string note_;
-  double row_ = kLeastRow;
+  double row_ = kLeastRow, gap_ = kGroupGap;
+  bool ticks_ = true;
   Axis axis_;
 };
 
@@ -190,11 +218,16 @@ Plot plot_of(const FrameChart& chart) {
   if (!chart.x_unit.empty()) plot.x_name += ", " + chart.x_unit;
   if (plot.log_x) plot.x_note = plot.x_name.empty() ? "both logarithmic" : "  (both logarithmic)";
   plot.title = title_of(chart);
+  const bool of_structures = std::ranges::all_of(chart.series, [](const FrameSeries& series) {
+    return look_of_structure(chart_words(series.name)).has_value();
+  });
   for (const FrameSeries& series : chart.series) {
     PlotSeries& line = plot.series.emplace_back();
     line.name = chart_words(series.name);
     line.look = static_cast<int>(plot.series.size()) - 1;
     line.color = series.color;
+    if (const auto look = of_structures ? look_of_structure(line.name) : std::nullopt)
+      line.look = *look;
     for (const Vec<2>& p : series.points) line.points.push_back({p});
   }
   if (plot.series.size() == 1 && plot.title.empty()) plot.title = plot.series[0].name;

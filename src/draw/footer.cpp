@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,7 +31,14 @@ struct Counter {
   std::string widest = {};
   std::vector<std::string> depicts = {};  // counts and measures
   bool main = false;
-  bool told = false;  // the caption speaks of it
+  bool told = false;                       // the caption speaks of it
+  std::optional<std::int64_t> whole = {};  // the number, if it counts
+
+  static Counter of_count(std::int64_t number, std::string noun, std::string widest,
+                          std::vector<std::string> depicts) {
+    return {grouped(number), std::move(noun), std::move(widest), std::move(depicts), false,
+            false,           number};
+  }
 
   TextStyle style() const {
     if (main) return {30, Weight::semibold, Role::ink};
@@ -41,12 +50,15 @@ struct Counter {
   }
   // Room for four digits at least, so that the number may grow without moving anything.
   double number_room() const { return std::max(Labels::number_width(4, style()), number_width()); }
-  double number_width() const { return text_width(number, style()); }
+  double number_width() const {
+    if (!whole) return text_width(number, style());
+    return Labels::number_width(std::ssize(std::to_string(*whole)), style());
+  }
 };
 
 Counter counted(std::int64_t number, const char* name, const std::string& one,
                 const std::string& many) {
-  return {std::to_string(number), number == 1 ? one : many, many, {name}};
+  return Counter::of_count(number, number == 1 ? one : many, many, {name});
 }
 
 // What it is about when nobody says so: two at most.
@@ -58,18 +70,16 @@ std::vector<Counter> default_counters(const Frame& frame) {
     const std::int64_t all = std::max<std::int64_t>(1, count("atlas_area"));
     auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
     if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
-    return {{std::to_string(percent), "% used", "", {}},
-            {std::to_string(count("textures")),
-             fmt::format("of {} textures", frame.textures.size()),
-             "",
-             {"textures"}}};
+    return {
+        Counter::of_count(percent, "% used", "", {}),
+        Counter::of_count(count("textures"), fmt::format("of {} textures", frame.textures.size()),
+                          "", {"textures"})};
   }
   // Of a ray, view or region: how few bodies it had to test.
   if (!frame.rays.empty() || !frame.views.empty() || !frame.queries.empty())
-    return {{std::to_string(count("objects_tested")),
-             fmt::format("of {} bodies tested", frame.bodies.size()),
-             "",
-             {"objects_tested", "bodies"}},
+    return {Counter::of_count(count("objects_tested"),
+                              fmt::format("of {} bodies tested", frame.bodies.size()), "",
+                              {"objects_tested", "bodies"}),
             counted(count("hits"), "hits", "hit", "hits")};
   if (frame.count("sectors"))
     return {counted(count("sectors"), "sectors", "sector", "sectors"),
@@ -89,12 +99,27 @@ std::vector<Counter> default_counters(const Frame& frame) {
   return counters;
 }
 
+// Under the sides stand the numbers of each; the foot puts some of them large in the end.
+std::optional<Counter> counter_of_side(const std::string& name, const Frame& frame) {
+  const std::size_t dot = name.find('.');
+  if (!frame.ending || dot == std::string::npos || !frame.side_named(name.substr(0, dot)))
+    return std::nullopt;
+  const std::string of = ", " + chart_words(name.substr(0, dot)), what = name.substr(dot + 1);
+  if (const auto n = frame.count(name))
+    return Counter::of_count(*n, count_words(what, *n == 1) + of, count_words(what, false) + of,
+                             {name});
+  if (const auto number = frame.measure(name))
+    return Counter{fmt::format("{:.4g}", *number), count_words(what, false) + of, "", {name}};
+  return std::nullopt;
+}
+
 // Of a count or measure that the frame has; none otherwise.
 std::optional<Counter> counter_of(const std::string& name, const Frame& frame) {
+  if (!frame.sides.empty()) return counter_of_side(name, frame);
   if (const auto n = frame.count(name)) {
     for (Counter& known : default_counters(frame))
       if (known.depicts == std::vector{name}) return std::move(known);
-    return Counter{grouped(*n), count_words(name, *n == 1), count_words(name, false), {name}};
+    return Counter::of_count(*n, count_words(name, *n == 1), count_words(name, false), {name});
   }
   if (const auto number = frame.measure(name))
     return Counter{fmt::format("{:.4g}", *number), count_words(name, false), "", {name}};
@@ -135,10 +160,8 @@ std::vector<Counter> counters_of(const Frame& frame) {
 // The number ends at `right`; each digit of a whole number has a cell of its own.
 void draw_number(const Counter& counter, const TextStyle& style, const Vec<2>& right,
                  const Box<2>& band, Labels& labels) {
-  const bool whole =
-      std::ranges::all_of(counter.number, [](char c) { return '0' <= c && c <= '9'; });
-  if (whole && counter.number.size() < 18)
-    labels.add_number(std::stoll(counter.number), right, style, band);
+  if (counter.whole)
+    labels.add_number(*counter.whole, right, style, band);
   else
     labels.add(counter.number, {right, 1}, style, band);
 }
@@ -189,15 +212,31 @@ void draw_row(const std::vector<Counter>& counters, const Box<2>& band, double b
 }
 
 // Of an ending: side by side, each large over its noun. Gives the left end.
-double draw_large(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
+double draw_large(std::vector<Counter> counters, const Box<2>& band, double baseline,
                   Labels& labels) {
-  constexpr double kGap = 44;
+  constexpr double kGap = 44, kMostOfBand = 0.55;  // the caption needs the rest
   const TextStyle large{52, Weight::semibold, Role::ink},
       small{25, Weight::regular, Role::quiet_ink};
+  const auto width_of = [&](const Counter& counter) {
+    return std::max(text_width(counter.number, large), counter.noun_width(small));
+  };
+  const auto is_wide = [&] {
+    double all = -kGap;
+    for (const Counter& counter : counters) all += width_of(counter) + kGap;
+    return all > kMostOfBand * band.size().x;
+  };
+  // What is counted stands under the sides: their names say which is which.
+  if (is_wide())
+    for (Counter& counter : counters)
+      if (const std::size_t comma = counter.noun.rfind(", "); comma != std::string::npos) {
+        counter.noun.erase(0, comma + 2);
+        counter.widest.clear();
+      }
+  while (counters.size() > 1 && is_wide()) counters.pop_back();
   double x = band.hi.x;
   for (std::size_t i = counters.size(); i-- > 0;) {
     const Counter& counter = counters[i];
-    const double width = std::max(text_width(counter.number, large), counter.noun_width(small));
+    const double width = width_of(counter);
     labels.add(counter.number, {{x, baseline}, 1}, large, band);
     labels.add(counter.noun, {{x, baseline + 40}, 1}, small, band);
     x -= width + kGap;

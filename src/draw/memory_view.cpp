@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,14 +33,47 @@ struct Strip {
   double gutter = 0;  // before each row, for the number of its first slot
   std::uint32_t columns = 1;
   std::uint32_t rows = 1;
+  enum class Names { none, brief, full } names = Names::none;  // of bodies, under them
 
-  bool named() const { return slot >= kNamedSlot; }
+  bool named() const { return names != Names::none; }
   bool drawn() const { return slot >= kDrawnSlot; }
 };
 
-Strip strip_for(std::uint32_t slots, double slot, double width) {
+// The first letter, and the digits that a name ends with: "b12" of "body 12". A name without digits
+// stays whole: of its first letter nobody could tell who it is.
+std::string brief_name(const std::string& name) {
+  std::size_t digits = name.size();
+  while (digits > 0 && name[digits - 1] >= '0' && name[digits - 1] <= '9') --digits;
+  if (digits == 0 || digits == name.size()) return name;
+  return name.substr(0, std::min(digits, first_letter(name).bytes)) + name.substr(digits);
+}
+
+// The room that the bodies' names need.
+struct NameWidths {
+  double full = 0, brief = 0;
+};
+
+NameWidths name_widths(const Frame& frame) {
+  if (frame.display.names == ShownNames::none) return {1e9, 1e9};
+  NameWidths widest;
+  std::map<std::string, std::string> meant;  // by brief names
+  for (const FrameBody& body : frame.bodies) {
+    const std::string brief = brief_name(body.name);
+    widest.full = std::max(widest.full, text_width(body.name, kIndex));
+    widest.brief = std::max(widest.brief, text_width(brief, kIndex));
+    if (meant.emplace(brief, body.name).first->second != body.name) widest.brief = 1e9;
+  }
+  if (widest.brief > widest.full) widest.brief = widest.full;  // brief ones would be mistaken
+  return widest;
+}
+
+// All bodies have the longest names that fit, or none has one.
+Strip strip_for(std::uint32_t slots, double slot, double width, const NameWidths& widest) {
   Strip s;
   s.slot = slot;
+  const double room = slot - 4;
+  if (slot >= kNamedSlot && widest.brief <= room)
+    s.names = widest.full <= room ? Strip::Names::full : Strip::Names::brief;
   s.height = s.named() ? slot + 16 : slot;
   s.pitch = s.height + (s.drawn() ? kBracket + kRowGap : 10);
   const std::string last = number_text(slots);
@@ -52,10 +87,10 @@ Strip strip_for(std::uint32_t slots, double slot, double width) {
 }
 
 // The largest slots at which all of them have room, or the smallest there are.
-Strip best_strip(std::uint32_t slots, const Vec<2>& room) {
+Strip best_strip(std::uint32_t slots, const Vec<2>& room, const NameWidths& widest) {
   Strip s;
   for (const double slot : kSlots) {
-    s = strip_for(slots, slot, room.x);
+    s = strip_for(slots, slot, room.x, widest);
     if (s.rows * s.pitch <= room.y) break;
   }
   return s;
@@ -66,7 +101,7 @@ class MemoryView {
   MemoryView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
       : frame_(frame), panel_(panel), list_(list), labels_(labels), bodies_(by_id(frame.bodies)) {
     const Box<2> area{panel.lo + Vec<2>(0, kMemoryHeading), panel.hi};
-    strip_ = best_strip(frame.array_size, area.size());
+    strip_ = best_strip(frame.array_size, area.size(), name_widths(frame));
     const double rows = std::max(1.0, std::floor((area.size().y + 4) / strip_.pitch));
     shown_ = static_cast<std::uint32_t>(
         std::min<double>(frame.array_size, rows * double(strip_.columns)));
@@ -171,20 +206,11 @@ class MemoryView {
                             Vec<2>(std::min(30.0, 0.33 * strip_.slot)));
       TextStyle style = kIndex;
       style.role = ground == Role::lit_fill ? Role::ink : Role::quiet_ink;
-      std::string name = body.name;
-      if (text_width(name, style) > box.size().x - 7) name = initial(name);
-      if (text_width(name, style) <= box.size().x - 4)
-        labels_.try_add(name, {{{box.center().x, box.hi.y - 7}, 0.5}}, style, panel_);
+      const bool full = strip_.names == Strip::Names::full;
+      labels_.try_add(full ? body.name : brief_name(body.name),
+                      {{{box.center().x, box.hi.y - 7}, 0.5}}, style, panel_);
     }
     draw_character(body, chip, false, list_);
-  }
-
-  // The first letter, and the digits that a name ends with: "b12" of "body 12".
-  static std::string initial(const std::string& name) {
-    const std::size_t end = name.empty() ? 0 : first_letter(name).bytes;
-    std::size_t digits = name.size();
-    while (digits > end && name[digits - 1] >= '0' && name[digits - 1] <= '9') --digits;
-    return name.substr(0, end) + name.substr(digits);
   }
 
   void draw_bracket(const FrameNode& leaf, const Box<2>& run, const Stroke& outline) {
@@ -247,9 +273,10 @@ void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels
 
 double memory_height(const Frame& frame, double width) {
   constexpr double kMostRows = 3;
+  const NameWidths widest = name_widths(frame);
   Strip s;
   for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {
-    s = strip_for(frame.array_size, slot, width - 6);
+    s = strip_for(frame.array_size, slot, width - 6, widest);
     if (s.rows <= kMostRows - (s.named() ? 1 : 0)) break;
   }
   return kMemoryHeading + 8 + std::min<double>(s.rows, kMostRows) * s.pitch;

@@ -148,11 +148,19 @@ double column_width(const std::vector<ColumnName>& names, const PlotPaper& paper
 void draw_column(std::vector<ColumnName> names, std::size_t all, const PlotPaper& paper,
                  DrawList& list, Labels& labels) {
   const Box<2>&area = paper.place.area, panel = paper.place.panel;
-  const double pitch = 1.35 * paper.type.name.size;
-  const double top = panel.lo.y + 14, bottom = area.hi.y - 0.6 * paper.type.name.size;
+  const double size = paper.type.name.size, least_pitch = 1.1 * size;
+  const double top = panel.lo.y + 0.6 * size;
   std::ranges::stable_sort(names, {}, [](const ColumnName& name) { return name.end.y; });
-  const auto most = static_cast<std::size_t>(std::max(1.0, (bottom - top) / pitch));
-  if (names.size() > most) names.resize(most);
+  // Above the axis if all have room there.
+  double bottom = area.hi.y - 0.6 * size;
+  const auto gaps = static_cast<double>(names.empty() ? 0 : names.size() - 1);
+  if (top + gaps * least_pitch > bottom) bottom = std::min(top + gaps * least_pitch, area.hi.y);
+  const auto most =
+      static_cast<std::size_t>(std::max(0.0, (bottom - top) / least_pitch + 1e-9)) + 1;
+  const bool crowded = names.size() > most;
+  if (crowded) names.resize(most);
+  const double room = names.size() < 2 ? 0 : (bottom - top) / double(names.size() - 1);
+  const double pitch = std::clamp(room, least_pitch, 1.35 * size);
   double least = top;
   for (ColumnName& line : names) {
     line.label = std::max(least, std::clamp(line.end.y, area.lo.y, area.hi.y));
@@ -164,7 +172,7 @@ void draw_column(std::vector<ColumnName> names, std::size_t all, const PlotPaper
     limit = line->label - pitch;
   }
   for (const ColumnName& line : names) draw_name(line, paper, list, labels);
-  if (names.size() == most && all > most)
+  if (crowded)
     labels.try_add(fmt::format("and {} more", all - most),
                    {{{panel.hi.x, area.hi.y + paper.type.under_ticks()}, 1}}, paper.type.tick,
                    panel);

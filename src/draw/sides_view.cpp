@@ -1,6 +1,7 @@
 #include "draw/sides_view.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -104,8 +105,13 @@ std::vector<SideNumber> numbers_of(const Frame& frame) {
       {"pairs", "pair", "pairs"},          {"free_leaves", "free leaf", "free leaves"},
       {"contacts", "contact", "contacts"}, {"sectors", "sector", "sectors"}};
   std::vector<SideNumber> numbers;
-  for (const std::string& name : frame.headline)
-    numbers.push_back({name, count_words(name, true), count_words(name, false)});
+  for (const std::string& written : frame.headline) {
+    const std::size_t dot = written.find('.');
+    const bool of_side = dot != std::string::npos && frame.side_named(written.substr(0, dot));
+    const std::string name = of_side ? written.substr(dot + 1) : written;
+    if (std::ranges::find(numbers, name, &SideNumber::name) == numbers.end())
+      numbers.push_back({name, count_words(name, true), count_words(name, false)});
+  }
   if (!numbers.empty()) return numbers;
   for (const SideNumber& known : kKnown)
     if (numbers.size() < kMostNumbers && std::ranges::any_of(frame.sides, [&](const Frame& side) {
@@ -125,8 +131,12 @@ std::string number_on(const Frame& side, const std::string& name) {
 // at the same place of each.
 double number_room(const Frame& frame, const SideNumber& number) {
   double room = Labels::number_width(4, kNumber);
-  for (const Frame& side : frame.sides)
-    room = std::max(room, text_width(number_on(side, number.name), kNumber));
+  for (const Frame& side : frame.sides) {
+    const auto count = side.count(number.name);
+    const std::string text = number_on(side, number.name);
+    room = std::max(room, count ? Labels::number_width(std::ssize(std::to_string(*count)), kNumber)
+                                : text_width(text, kNumber));
+  }
   return room;
 }
 

@@ -1,12 +1,13 @@
 // A thin strip under what moves: one count over the time so far.
 //
 //   12 pairs |- - - - - - - - - | 64
-//            |__/\__o___________| 4 s
+//            |__|~|_o___________| 4 s
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "draw/count_words.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panels.hpp"
@@ -58,19 +59,20 @@ void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Lab
   const double most = trace.most ? std::max(*trace.most, highest) : power_of_two_over(highest);
   const double seconds = std::max(trace.seconds.value_or(power_of_two_over(now.x)), now.x);
 
-  const std::string name = chart_words(trace.name);
+  const std::string one = count_words(trace.name, true), many = count_words(trace.name, false);
   const auto digits = static_cast<std::int64_t>(number_text(most).size());
   const double number = Labels::number_width(digits, kSparkNow);
   const std::string top = number_text(most), end = number_text(seconds, 2) + " s";
   const double after = std::max(text_width(top, kSparkQuiet), text_width(end, kSparkQuiet)) + 14;
-  const Box<2> area{place.lo + Vec<2>(number + 8 + text_width(name, kSparkQuiet) + 18, kSparkEdge),
+  const double words = std::max(text_width(one, kSparkQuiet), text_width(many, kSparkQuiet));
+  const Box<2> area{place.lo + Vec<2>(number + 8 + words + 18, kSparkEdge),
                     place.hi - Vec<2>(after, kSparkEdge)};
   if (area.size().x < 60) return;
 
   const double middle = area.center().y + 0.36 * kSparkText;
   labels.add_number(static_cast<std::int64_t>(now.y), {place.lo.x + number, middle}, kSparkNow,
                     place);
-  labels.add(name, {{place.lo.x + number + 8, middle}, 0}, kSparkQuiet, place);
+  labels.add(now.y == 1 ? one : many, {{place.lo.x + number + 8, middle}, 0}, kSparkQuiet, place);
   list.crisp_line(area.lo, {area.hi.x, area.lo.y}, {Role::rule, 1.4, 5});
   list.crisp_line({area.lo.x, area.hi.y}, area.hi, {Role::cell_line_2, 1.8});
   labels.add(top, centred({area.hi.x + 12, area.lo.y}, kSparkQuiet, 0), kSparkQuiet, place);
@@ -82,8 +84,16 @@ void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Lab
                   area.hi.y - std::clamp(share.y, 0.0, 1.0) * area.size().y};
   };
   const std::vector<Vec<2>> points = outline_of(trace.points);
-  for (std::size_t i = 1; i < points.size(); ++i)
-    list.line(at(points[i - 1]), at(points[i]), {Role::pair, 2.6});
+  // A count holds until it changes.
+  Pen pen(list, place);
+  std::vector<Vec<2>> stairs;
+  for (const Vec<2>& p : points) {
+    const std::size_t n = stairs.size();
+    if (n > 1 && stairs[n - 1].y == stairs[n - 2].y) stairs.pop_back();
+    if (n > 0 && stairs.back().y != at(p).y) stairs.push_back({at(p).x, stairs.back().y});
+    stairs.push_back(at(p));
+  }
+  pen.path(stairs, false, {Role::pair, 2.6});
   const DrawList::Scope scope(list, "sparkline/now");
   list.disc(at(now), kSparkDot, Role::pair, {Role::panel, 1.6});
 }

@@ -193,6 +193,7 @@ struct FrameBar {
   std::string label;
   double value = 0;
   int group = 0;  // bars of one group stand together
+  int line = 0;   // which of the chart's quantities, or sides: those of one look alike
 };
 
 struct FrameChart {

@@ -10,6 +10,7 @@
 #include "geometry/flat.hpp"
 #include "scenario/caption.hpp"
 #include "scenario/frame.hpp"
+#include "scenario/language.hpp"
 #include "scenario/rulers.hpp"
 
 namespace lantern::scenario {
@@ -33,6 +34,12 @@ bool in_view(const FrameNote& note, const Frame& frame) {
   return true;
 }
 
+// What the sparkline shows: the number that the scenario puts in front, if it is a count.
+std::string trace_name(const Scenario& scenario) {
+  const auto& front = scenario.headline;
+  return !front.empty() && find_in(known_counts(), front[0]) ? front[0] : "pairs";
+}
+
 std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
   if (note.of == NoteOf::node && !has_node(frame, note.name))
     return fmt::format("there is no node '{}'", note.name);
@@ -52,7 +59,7 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       looks_(scenario) {
   if (scenario.chart) plotter_.emplace(scenario);
   if (std::ranges::count(scenario.panels, Panel::sparkline) > 0) {
-    trace_ = FrameTrace{"pairs", {}, script_seconds(scenario, &part_), std::nullopt};
+    trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_), std::nullopt};
   }
 }
 

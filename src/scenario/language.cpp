@@ -38,12 +38,13 @@ TableDoc file_table() {
           "pair "
           "of bodies and how far it came; and as strips below, the `memory` of the array that all "
           "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
-          "the `sparkline`, the pairs over the time so far.",
+          "the `sparkline`, the first count of the headline, or the pairs, over the time so far.",
           or_else("what the scenario uses")),
       key(KeyType::table, "display", "What frames show.", holds("display")),
       key(KeyType::texts, "headline",
           "Up to three counts and measures that stand at the foot of every frame, the first one "
-          "large.",
+          "large. Of sides they stand under each; one of a single side, as `eager.nodes`, is large "
+          "at the ending's foot, too.",
           or_else("what the caption quotes, then what the scenario is about")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),

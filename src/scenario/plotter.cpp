@@ -134,10 +134,10 @@ void Plotter::add(const std::string& label, const std::string& part, const Frame
   if (!chart_.bars.empty() && part != part_) ++group_;
   part_ = part;
   if (spec_.x.empty()) {
-    for (const std::string& name : spec_.y)
-      if (const auto y = frame.number(name))
-        chart_.bars.push_back(
-            {frame.sides.empty() ? label : label + ", " + before_dot(name), *y, group_});
+    for (std::size_t i = 0; i < spec_.y.size(); ++i)
+      if (const auto y = frame.number(spec_.y[i]))
+        chart_.bars.push_back({frame.sides.empty() ? label : label + ", " + before_dot(spec_.y[i]),
+                               *y, group_, static_cast<int>(i)});
     return;
   }
   for (std::size_t i = 0; i < chart_.series.size(); ++i)

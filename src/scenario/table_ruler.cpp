@@ -5,12 +5,17 @@
 
 #include "scenario/key.hpp"
 #include "scenario/script_reading.hpp"
+#include "scenario/table_side.hpp"
 
 namespace lantern::scenario {
 namespace {
 
-// Empty if it is counted or measured there; a measure of one body is noted.
-bool is_counted(const Named& number, Draft& draft, const ScriptState* state) {
+// Is it counted or measured there? A measure of one body is noted. What is said of another side is
+// checked when that one is read.
+bool is_counted(const Named& written, Draft& draft, const ScriptState* state) {
+  const std::string_view side = side_of(written.name, draft.sides);
+  if (!side.empty() && side != draft.scenario.side) return true;
+  const Named number{std::string(within_side(written.name, draft.sides)), written.where};
   if (is_of_body(number.name)) return note_body_measure(number, draft);
   if (!find_count(number.name)) {
     draft.problems.add(number.where,

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "draw/layout_check.hpp"
 #include "draw/number_text.hpp"
 #include "draw/page.hpp"
+#include "draw/panels.hpp"
 #include "draw/sample_frames.hpp"
 
 namespace lantern::draw {
@@ -240,6 +242,7 @@ TEST(Chart, AxesOfASequenceStandStill) {
   for (Frame* frame : {&first, &last}) ranges.settle(*frame);
   EXPECT_EQ(ticks_of(page_of(first), 150), ticks_of(page_of(last), 150));
   EXPECT_EQ(first.trace.most, 900);
+  EXPECT_EQ(first.trace.seconds, last.trace.points.back().x) << "where the script does not say";
 }
 
 TEST(Chart, NamesStandAtTheirLinesEnds) {
@@ -267,6 +270,70 @@ TEST(Chart, WhatHasNoRoomIsSaid) {
   EXPECT_TRUE(std::any_of(list.labels.begin(), list.labels.end(), [](const LabelBox& label) {
     return label.text.starts_with("and ") && label.text.ends_with(" more");
   }));
+}
+
+TEST(Chart, NeitherTheLargestBarNorTheNewestIsLeftOut) {
+  FrameChart chart;
+  for (int i = 0; i < 100; ++i)
+    chart.bars.push_back({"bar " + std::to_string(i), i == 60 ? 12345.0 : 1.0 + i, i / 20});
+  const DrawList list = page_of(charted(chart));
+  for (const char* name : {"bar 0", "bar 60", "bar 99"}) EXPECT_TRUE(says(list, name)) << name;
+}
+
+// A chart alone on a panel of that size.
+DrawList chart_in(const FrameChart& chart, const Vec<2>& size) {
+  DrawList list;
+  list.page = {1600, 900};
+  Labels labels(list);
+  draw_chart(charted(chart), {{40, 40}, Vec<2>{40, 40} + size}, list, labels);
+  return list;
+}
+
+TEST(Chart, RowsAndGapsShrinkBeforeABarIsLeftOut) {
+  FrameChart chart;
+  chart.y_name = "nodes";
+  for (int i = 0; i < 6; ++i) chart.bars.push_back({"limit " + std::to_string(i), 1.0 + i, i / 3});
+  const DrawList list = chart_in(chart, {500, 236});
+  for (const FrameBar& bar : chart.bars) EXPECT_TRUE(says(list, bar.label)) << bar.label;
+  expect_laid_out(list, {{0, 0}, {1600, 900}}, 0, "six bars");
+}
+
+std::set<Role> hues_of(const FrameChart& chart) {
+  std::set<Role> hues;
+  for (const DrawShape& shape : page_of(charted(chart)).shapes)
+    if (const auto* rect = std::get_if<RectShape>(&shape);
+        rect && rect->fill >= Role::body_1 && rect->fill <= Role::body_8)
+      hues.insert(rect->fill);
+  return hues;
+}
+
+TEST(Chart, BarsOfOneQuantityHaveOneHueAndStructuresTheirOwn) {
+  FrameChart chart;
+  chart.bars = {{"limit 2", 9, 0}, {"limit 4", 29, 0}, {"parted", 5, 1}};
+  EXPECT_EQ(hues_of(chart).size(), 1u);
+  chart.bars = {{"one", 9, 0, 0}, {"other", 29, 0, 1}};
+  EXPECT_EQ(hues_of(chart).size(), 2u) << "of two sides";
+  chart.bars = {{"quadtree", 9, 0}};
+  const std::set<Role> alone = hues_of(chart);
+  chart.bars = {{"kd_tree", 9, 0}, {"quadtree", 8, 0}};
+  const std::set<Role> both = hues_of(chart);
+  EXPECT_EQ(both.size(), 2u);
+  EXPECT_TRUE(both.contains(*alone.begin())) << "beside others, too";
+}
+
+TEST(Chart, ThreeNamesFitALowPanel) {
+  FrameChart chart;
+  chart.y_name = "penetration";
+  chart.over_time = true;
+  chart.seconds = 10;
+  chart.series = {{"ten sweeps", {{0, 0}, {10, 0}}},
+                  {"thousand sweeps", {{0, 0}, {10, 0}}},
+                  {"all at once", {{0, 0}, {10, 0.7}}}};
+  const DrawList list = chart_in(chart, {1500, 190});
+  for (const FrameSeries& series : chart.series)
+    EXPECT_TRUE(says(list, series.name)) << series.name << " has no name";
+  EXPECT_FALSE(says_part(list, " more"));
+  expect_laid_out(list, {{0, 0}, {1600, 900}}, 0, "three lines");
 }
 
 TEST(Chart, ALongLineKeepsItsPeaks) {

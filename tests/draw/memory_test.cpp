@@ -63,6 +63,17 @@ TEST(Memory, EveryLeafAndItsBodiesAreNamed) {
   EXPECT_EQ(count("c"), 1);
 }
 
+TEST(Memory, NamesAreWholeOrNotThere) {
+  Frame frame = three_leaves();
+  frame.display.names = ShownNames::none;
+  EXPECT_EQ(texts_of(frame).find("\na\n"), std::string::npos);
+  frame = three_leaves();
+  frame.bodies[0].name = "a very long name";
+  const std::string texts = texts_of(frame);
+  EXPECT_EQ(texts.find("\na\n"), std::string::npos) << "not cut to a letter";
+  EXPECT_EQ(texts.find("\nc\n"), std::string::npos) << "all or none";
+}
+
 TEST(Memory, OnlyTheLitLeafIsLit) {
   Work work;
   int grounds = 0;

@@ -32,6 +32,24 @@ TEST(SidesView, EachHasItsTitleAndItsCounts) {
   EXPECT_NEAR(nodes[0].lo.x - a[0].lo.x, nodes[1].lo.x - b[0].lo.x, 1e-9);
 }
 
+TEST(SidesView, AnEndingShowsTheCountsOfSidesLarge) {
+  Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(3)});
+  frame.sides[0].counts = {{"nodes", 13022}};
+  frame.sides[1].counts = {{"nodes", 1}};
+  for (const Frame& side : frame.sides) frame.headline.push_back(side.side + ".nodes");
+  EXPECT_FALSE(says(samples::page_of(frame), "nodes, " + frame.sides[0].side));
+  frame.ending = true;
+  const DrawList list = samples::page_of(frame);
+  EXPECT_TRUE(says(list, "nodes, " + frame.sides[0].side));
+  EXPECT_TRUE(says(list, "node, " + frame.sides[1].side));
+  EXPECT_TRUE(says(list, "13\u2009022"));
+  EXPECT_EQ(boxes_of(list, "nodes").size(), 1u) << "under the first side, once";
+  for (Frame& side : frame.sides) side.side += " under settings with a long name";
+  frame.headline.clear();
+  for (const Frame& side : frame.sides) frame.headline.push_back(side.side + ".nodes");
+  EXPECT_TRUE(says(samples::page_of(frame), frame.sides[0].side)) << "the caption keeps its room";
+}
+
 TEST(SidesView, OneScaleHoldsForAll) {
   const Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(2)});
   const DrawList list = samples::page_of(frame);

@@ -307,9 +307,19 @@ TEST(Sides, MistakesInWhatIsSaidOfThem) {
   said("caption = @\"{egaer.pairs}\"\n", {"did you mean 'eager'?"});
   said("caption = \"@{eager.piars}\"\n", {"did you mean 'pairs'?"});
   said("caption = \"@{lazy.contacts}\"\n", {"'contacts' is not counted here"});
+  said("headline = [@\"egaer.pairs\"]\n", {"did you mean 'eager'?"});
+  said("headline = [@\"eager.piars\"]\n", {"did you mean 'pairs'?"});
+  said("headline = [@\"lazy.contacts\"]\n", {"'contacts' is not counted here"});
   said("expect = { @egaer = { nodes = 3 } }\n", {"unknown key 'egaer'"});
   said("expect = { eager = { @nods = 3 } }\n", {"did you mean 'nodes'?"});
   said("@sed = 3\n", {"unknown key 'sed'"});
+}
+
+TEST(Sides, AHeadlineMayNameACountOfOne) {
+  const auto frames = frames_of(
+      good(sided("", kSides, kSideScript + "headline = [\"eager.nodes\", \"lazy.nodes\"]\n")));
+  EXPECT_EQ(frames.back().headline, (std::vector<std::string>{"eager.nodes", "lazy.nodes"}));
+  EXPECT_TRUE(frames.back().count("lazy.nodes").has_value());
 }
 
 TEST(Sides, AMistakeOfOneSideSaysOfWhich) {
