@@ -161,7 +161,10 @@ class TreeView {
       draw_icon(node_of(branch).bodies[k], branch,
                 {{x, c.y - icon / 2}, {x + icon, c.y + icon / 2}});
     if (content.icons > 0) x += 1;
-    labels_.add(content.text, centred({x, c.y}, style, 0), style, panel_);
+    const Anchor at = centred({x, c.y}, style, 0);
+    // Of a tree that has no room at all, words go before the nodes.
+    if (holds(panel_, Labels::extent(content.text, at, style)))
+      labels_.add(content.text, at, style, panel_);
   }
 
   TextStyle text_style(const Branch& branch) const {

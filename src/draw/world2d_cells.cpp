@@ -180,7 +180,9 @@ void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
     if (!frame.sleeps(node) || under_another || !is_drawn(map.to_page(node.box))) continue;
     if (list.shapes.size() > kMostShapes) return;
-    list.polygon(cut_to(page_region(node, map), map.picture()), Role::free_space);
+    std::vector<Vec<2>> ground = cut_to(page_region(node, map), map.picture());
+    if (ground.empty()) continue;
+    list.polygon(std::move(ground), Role::free_space);
     list.marks.add(MarkKind::sleeping_cell);
   }
 }
