@@ -40,11 +40,9 @@ std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
   const bool looked = frame.structure != StructureKind::none;
   const bool compared =
       frame.count("contacts").has_value() && frame.phase != scenario::StepPhase::broad;
-  const char* const candidate = compared ? "with boxes that overlap"
-                                : n == 1 ? "candidate"
-                                         : "candidates";
+  const char* const candidate = compared ? "boxes overlap" : n == 1 ? "candidate" : "candidates";
   const char* const words[] = {
-      "static, never tested", looked ? "ruled out" : "not looked at", candidate, "with boxes apart",
+      "static, never tested", looked ? "ruled out" : "not looked at", candidate, "boxes apart",
       "shapes apart",         n == 1 ? "contact" : "contacts"};
   return fmt::format("{} {}", number_text(static_cast<double>(n)),
                      words[static_cast<std::size_t>(state)]);

@@ -45,8 +45,8 @@ TEST(Ledger, KeySumsToAllPairs) {
   EXPECT_TRUE(says(list, "1 static, never tested"));
   int sum = 0;
   for (const LabelBox& label : list.labels)
-    for (const char* words : {"static, never tested", "ruled out", "not looked at", "candidate", "boxes that overlap",
-                              "boxes apart", "shapes apart", "contact"})
+    for (const char* words : {"static, never tested", "ruled out", "not looked at", "candidate",
+                              "boxes overlap", "boxes apart", "shapes apart", "contact"})
       if (label.text.find(words) != std::string::npos) sum += std::stoi(label.text);
   EXPECT_EQ(sum, 10);
 }
