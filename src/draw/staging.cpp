@@ -1,7 +1,6 @@
 #include "draw/staging.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace lantern::draw {
@@ -9,11 +8,6 @@ namespace {
 
 constexpr std::size_t kMostNodes = 4096;  // of a union; of more no diagram shows any
 constexpr std::size_t kIcons = 5;         // more bodies than this need no more room
-
-template <class T>
-void add_once(std::vector<T>& list, const T& item) {
-  if (std::ranges::find(list, item) == list.end()) list.push_back(item);
-}
 
 // Do both need the same room in a diagram?
 bool is_shown_alike(const FrameNode& a, const FrameNode& b) {
@@ -88,13 +82,6 @@ const UnionNode* UnionTree::find(std::string_view way) const {
   return found == index.end() ? nullptr : &nodes[found->second];
 }
 
-void ValueRange::add(double value) {
-  if (!std::isfinite(value)) return;
-  lo = any ? std::min(lo, value) : value;
-  hi = any ? std::max(hi, value) : value;
-  any = true;
-}
-
 std::vector<const Frame*> Staging::each_of(std::span<const Frame> frames) {
   std::vector<const Frame*> each;
   for (const Frame& frame : frames) each.push_back(&frame);
@@ -102,7 +89,6 @@ std::vector<const Frame*> Staging::each_of(std::span<const Frame> frames) {
 }
 
 Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) {
-  std::set<std::string> bodies;
   std::map<std::string, std::vector<const Frame*>> sides;
   for (const Frame* each : frames_) {
     const Frame& frame = *each;
@@ -118,10 +104,7 @@ Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) 
       const auto found = most_.try_emplace(name, n).first;
       found->second = std::max(found->second, n);
     }
-    for (const FrameBody& body : frame.bodies)
-      if (bodies.insert(body.name).second) body_names_.push_back(body.name);
     add_nodes(frame);
-    add_chart(frame.chart);
   }
   for (UnionTree& tree : trees_) put_in_order(tree);
   std::ranges::stable_sort(trees_, {}, &UnionTree::of_static);
@@ -162,11 +145,6 @@ std::int64_t Staging::most(const std::string& count) const {
   return found == most_.end() ? 0 : found->second;
 }
 
-const Staging::ChartRange* Staging::chart(const FrameChart& chart) const {
-  const auto found = charts_.find({chart.x_name, chart.y_name, chart.over_time});
-  return found == charts_.end() ? nullptr : &found->second;
-}
-
 void Staging::add_nodes(const Frame& frame) {
   const std::vector<std::string> ways = ways_of(frame.nodes);
   std::vector<std::pair<std::size_t, std::uint32_t>> places;  // tree, and place in it
@@ -193,23 +171,6 @@ void Staging::add_nodes(const Frame& frame) {
     }
     places.emplace_back(t, tree.index.find(ways[i])->second);
     add_form(tree.nodes[places.back().second], node);
-  }
-}
-
-void Staging::add_chart(const FrameChart& chart) {
-  if (chart.series.empty() && chart.bars.empty()) return;
-  ChartRange& range = charts_[{chart.x_name, chart.y_name, chart.over_time}];
-  for (const FrameSeries& line : chart.series) {
-    add_once(range.names, line.name);
-    for (const Vec<2>& point : line.points) {
-      if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
-      range.x.add(point.x);
-      range.y.add(point.y);
-    }
-  }
-  for (const FrameBar& bar : chart.bars) {
-    add_once(range.names, bar.label);
-    range.y.add(bar.value);
   }
 }
 

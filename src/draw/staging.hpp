@@ -42,13 +42,6 @@ struct UnionTree {
   const UnionNode* find(std::string_view way) const;
 };
 
-// Smallest and largest of finite values; none if there were none.
-struct ValueRange {
-  double lo = 0, hi = 0;
-  void add(double value);
-  bool any = false;
-};
-
 class Staging {
  public:
   // A group of frames, in order. They must outlive this.
@@ -79,17 +72,6 @@ class Staging {
   // The largest that this count gets; 0 if no frame has it.
   std::int64_t most(const std::string& count) const;
 
-  // Of all points that any frame draws of this chart, along x and along y; of bars, their values
-  // are y. Nothing if none of the frames has one with these names.
-  struct ChartRange {
-    ValueRange x, y;
-    std::vector<std::string> names;  // of its lines or bars, each once, in order
-  };
-  const ChartRange* chart(const FrameChart& chart) const;
-
-  // The names of all bodies that there are, each once, in order of appearance.
-  const std::vector<std::string>& body_names() const { return body_names_; }
-
   // What `make` gives, made once for all frames: `what` says what it is, `place` where. The same
   // words and place must always stand for the same.
   template <class T>
@@ -105,10 +87,8 @@ class Staging {
   explicit Staging(std::vector<const Frame*> frames);
   static std::vector<const Frame*> each_of(std::span<const Frame> frames);
   void add_nodes(const Frame& frame);
-  void add_chart(const FrameChart& chart);
 
   using Place = std::tuple<std::string, double, double, double, double>;
-  using ChartKey = std::tuple<std::string, std::string, bool>;
 
   std::vector<const Frame*> frames_;
   std::map<std::string, std::string, std::less<>> structure_of_;  // by side
@@ -117,8 +97,6 @@ class Staging {
   std::set<std::uint32_t> settings_told_;
   std::vector<std::string> settings_;
   std::map<std::string, std::int64_t> most_;
-  std::map<ChartKey, ChartRange> charts_;
-  std::vector<std::string> body_names_;
   mutable std::map<Place, std::any> made_;
 };
 

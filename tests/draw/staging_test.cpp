@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "draw/axis_ranges.hpp"
 #include "draw/naming.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
@@ -148,14 +149,15 @@ TEST(Staging, KnowsWhatAnyFrameHas) {
   ASSERT_EQ(staging.trees().size(), 1u);
   EXPECT_EQ(staging.trees()[0].nodes.size(), frames[1].nodes.size());
   EXPECT_EQ(staging.most("nodes"), 9);
-  EXPECT_EQ(staging.body_names().size(), 4u);
   EXPECT_TRUE(staging.tells_settings(frames[0]));
   EXPECT_FALSE(staging.tells_settings(frames[1]));
-  const Staging::ChartRange* range = staging.chart(frames[0].chart);
-  ASSERT_NE(range, nullptr);
-  EXPECT_EQ(range->x.hi, 2);
-  EXPECT_EQ(range->y.lo, -1);
-  EXPECT_EQ(range->y.hi, 5);
+  AxisRanges axes;
+  for (const Frame& frame : frames) axes.see(frame);
+  axes.settle(frames[0]);
+  ASSERT_TRUE(frames[0].chart.range && frames[0].chart.x_range);
+  EXPECT_EQ(frames[0].chart.x_range->second, 2);
+  EXPECT_EQ(frames[0].chart.range->first, -1);
+  EXPECT_EQ(frames[0].chart.range->second, 5);
 }
 
 TEST(Staging, OfManyBodiesOnlyThoseOfTheStoryAreNamed) {
