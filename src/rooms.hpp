@@ -27,6 +27,9 @@ using namespace scenario;
 namespace render {
 using namespace draw;
 }
+namespace publish {
+using namespace render;
+}
 namespace measure {
 using namespace scenario;
 }
@@ -38,6 +41,7 @@ using namespace measure;
 using namespace render;
 }
 namespace app {
+using namespace publish;
 using namespace report;
 }
 

@@ -20,7 +20,8 @@ enum ExitCode {
 
 struct RenderOptions {
   std::vector<std::string> files;
-  std::string output = "output";  // "-" is standard output
+  std::string output = "output";  // folder or file, see Destination; "-" is standard output
+  std::string sheet;              // "3x2": frames across and down a page; empty for none
   std::string frames;             // "7", "3-9", "3-", "-9"; empty for all
   std::string at;                 // an event or a time in seconds; empty for all
   std::string size = "1600x900";
@@ -33,8 +34,8 @@ struct RenderOptions {
   bool transparent = false;
   bool no_title = false, no_caption = false, no_counters = false;  // not drawn
   bool legend = false;                                             // drawn in any case
-  bool strict = false;                                // warnings are errors
-  int threads = 0;                                    // that encode; 0 for one a core
+  bool strict = false;                                             // warnings are errors
+  int threads = 0;                                                 // that encode; 0 for one a core
   std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
   std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
   bool json = false;

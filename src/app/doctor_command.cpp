@@ -1,6 +1,5 @@
-#include <cstdlib>
-#include <filesystem>
-#include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -9,24 +8,13 @@
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/printable.hpp"
+#include "base/program.hpp"
 #include "embedded/version.hpp"
 #include "measure/peers.hpp"
 #include "render/context.hpp"
 
 namespace lantern::app {
 namespace {
-
-// The program in PATH, if there is one: ffmpeg makes films of frames, but is never needed.
-std::string find_program(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    std::error_code error;
-    const auto file = std::filesystem::path(folder) / name;
-    if (std::filesystem::is_regular_file(file, error)) return file.string();
-  }
-  return {};
-}
 
 // The other physics engines that runs can be measured beside.
 struct PeerReport {
@@ -49,7 +37,7 @@ std::string as_text(const std::vector<BackendReport>& reports, const std::string
     text += fmt::format("         {}\n", r.works ? r.library + ", " + r.renderer : r.problem);
   }
   text += fmt::format("{:<8} {}\n", "ffmpeg",
-                      ffmpeg.empty() ? "not found; only needed to make films of frames" : ffmpeg);
+                      ffmpeg.empty() ? "not found; only needed to make films (ffmpeg)" : ffmpeg);
   text += "peers    other engines, only needed to measure beside them\n";
   for (const std::string& peer : peers.found) text += fmt::format("         {}\n", peer);
   for (const std::string& peer : peers.missing) text += fmt::format("         {}\n", peer);
@@ -60,7 +48,8 @@ std::string as_text(const std::vector<BackendReport>& reports, const std::string
 
 int doctor_command(const DoctorOptions& options) {
   const std::vector<BackendReport> reports = examine_backends();
-  const std::string ffmpeg = find_program("ffmpeg");
+  const auto found = find_program("ffmpeg");
+  const std::string ffmpeg = found ? found->string() : "";
   const PeerReport peers = examine_peers();
   bool any = false;
   JsonWriter json;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -7,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/destination.hpp"
+#include "app/file_sink.hpp"
 #include "app/folder_sink.hpp"
 #include "app/forecast.hpp"
 #include "app/render_job.hpp"
@@ -84,14 +87,56 @@ void tell_of(const FolderSink& sink, const Scenario& scenario, const DirectorRep
                   sink.kept() ? fmt::format(", {} of them there already", sink.kept()) : ""));
 }
 
+std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence) {
+  switch (sequence.to.kind()) {
+    case OutputKind::picture:
+      return make_picture_sink(sequence);
+    case OutputKind::film:
+      return make_film_sink(sequence);
+    case OutputKind::document:
+      return make_document_sink(sequence);
+    case OutputKind::sheet:
+      return make_sheet_sink(sequence);
+    case OutputKind::page:
+      return make_page_sink(sequence);
+    case OutputKind::folder:
+    case OutputKind::standard_output:
+      break;
+  }
+  throw UsageError(fmt::format("-o {}: no file", sequence.to.ending()));
+}
+
+// The same of files that the user named.
+void tell_of(const FileSink::Made& made, const Scenario& scenario, const DirectorReport& report,
+             JsonWriter& json) {
+  json.line().begin_object().member("scenario", scenario.name).key("files").begin_array();
+  for (const auto& file : made.files) json.value(file.string());
+  json.end_array().members("frames", made.frames, "expectations", report.expectations, "unmet",
+                           report.unmet.size());
+  json.end_object();
+  const std::string where =
+      made.files.size() == 1 ? made.files.front().string()
+                             : fmt::format("{} files, {} to {}", made.files.size(),
+                                           made.files.front().string(), made.files.back().string());
+  say(fmt::format("{}: {} frames in {}", scenario.name, made.frames, where));
+}
+
 // Draws one scenario; the exit code that it deserves.
-int render_one(const RenderJob& job, const Scenario& scenario, Work& work, JsonWriter& json) {
+int render_one(const RenderJob& job, const Destination& to, const Scenario& scenario, Work& work,
+               JsonWriter& json) {
   const RenderOptions& options = job.options;
   const Pace pace = pace_of(options.pace, scenario);
   Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
-  if (options.output == "-") {
+  if (to.kind() == OutputKind::standard_output) {
     StdoutSink sink(job, job.manifest(scenario, pace), selection, work);
     return tell(run_scenario(scenario, pace, sink, work), options.strict);
+  }
+  if (to.kind() != OutputKind::folder) {
+    const auto sink = make_file_sink({job, to, scenario, pace, selection, work});
+    const RunResult result = run_scenario(scenario, pace, *sink, work, selection.most());
+    const int code = tell(result, options.strict);
+    tell_of(sink->made(), scenario, result.report, json);
+    return code;
   }
   const auto most = selection.most() ? selection.most() : extent_of(scenario, pace).frames;
   job.in_betweens.require_few(most);
@@ -107,11 +152,15 @@ int render_one(const RenderJob& job, const Scenario& scenario, Work& work, JsonW
 
 int render_command(const RenderOptions& options) {
   const RenderJob job(options);
-  const bool to_stdout = options.output == "-";
+  const Destination to(options.output, !options.sheet.empty());
+  const bool to_stdout = to.kind() == OutputKind::standard_output;
   if (to_stdout && options.files.size() != 1)
     throw UsageError("-o - writes one frame of one scenario");
   if (to_stdout && (options.tween || options.fps))
     throw UsageError("-o - writes one frame; in-betweens (--tween, --fps) need a folder");
+  if (to.kind() != OutputKind::folder && options.files.size() > 1 && !to.is_by("scenario"))
+    throw UsageError(fmt::format("-o {}: a file for each of {} scenarios; write {{scenario}} in it",
+                                 options.output, options.files.size()));
   int code = kGood;
   const std::vector<Scenario> scenarios = load_all(options.files, code);
   Work work;
@@ -119,7 +168,7 @@ int render_command(const RenderOptions& options) {
   json.begin_object().key("scenarios").begin_array();
   for (const Scenario& scenario : scenarios) {
     try {
-      code = std::max(code, render_one(job, scenario, work, json));
+      code = std::max(code, render_one(job, to, scenario, work, json));
     } catch (const ScenarioError& e) {
       complain(e);
       code = std::max<int>(code, kBadScenario);

@@ -1,7 +1,11 @@
-# lantern_room(NAME LINKS ...): the library lantern_NAME of all sources in src/NAME.
+# lantern_room(NAME LINKS ... [SOURCES ...]): the library lantern_NAME of all sources in src/NAME, or
+# of these.
 function(lantern_room name)
-  cmake_parse_arguments(ROOM "" "" "LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  cmake_parse_arguments(ROOM "" "" "LINKS;SOURCES" ${ARGN})
+  set(sources ${ROOM_SOURCES})
+  if(NOT sources)
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  endif()
   list(TRANSFORM ROOM_LINKS REPLACE "^([a-z]+)$" "lantern_\\1")
   if(sources)
     add_library(lantern_${name} STATIC ${sources})

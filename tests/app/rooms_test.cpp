@@ -26,10 +26,11 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"scenario", {"physics", "atlas"}},
     {"draw", {"scenario"}},
     {"render", {"draw"}},
+    {"publish", {"render"}},
     {"measure", {"scenario"}},
     {"peers", {"measure"}},
     {"report", {"measure", "draw", "render"}},
-    {"app", {"report"}},
+    {"app", {"publish", "report"}},
 };
 
 std::set<std::string> seen_from(const std::string& room) {
@@ -52,7 +53,7 @@ TEST(Rooms, IncludeOnlyWhatTheTableAllows) {
   std::size_t includes = 0;
   for (const fs::path& path : sources()) {
     const std::string room = path.parent_path().filename();
-    if (room == "src") continue;  // rooms.hpp, which is in none
+    if (room == "src") continue;  // rooms.hpp and the program's main.cpp: in none
     ASSERT_TRUE(kRooms.contains(room)) << path << " stands in no room of the table";
     const std::set<std::string> allowed = seen_from(room);
     std::ifstream file(path);

@@ -1,0 +1,108 @@
+#include "app/destination.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/terminal.hpp"
+#include "base/suggest.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Ending {
+  std::string_view name;
+  OutputKind kind;
+};
+constexpr std::array kEndings = {
+    Ending{"png", OutputKind::picture},  Ending{"svg", OutputKind::picture},
+    Ending{"pdf", OutputKind::document}, Ending{"html", OutputKind::page},
+    Ending{"mp4", OutputKind::film},     Ending{"webm", OutputKind::film},
+    Ending{"gif", OutputKind::film},     Ending{"apng", OutputKind::film},
+    Ending{"webp", OutputKind::film},
+};
+constexpr std::array<std::string_view, 3> kPlaceholders = {"scenario", "step", "frame"};
+
+// "mp4" of "talk.mp4"; empty where a folder is meant: no ending, or a folder that stands there.
+std::string ending_of(const std::string& words) {
+  std::error_code error;
+  std::string ending = fs::path(words).extension().string();
+  if (ending.size() < 2 || fs::is_directory(words, error)) return {};
+  ending.erase(0, 1);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return ending;
+}
+
+OutputKind kind_of(const std::string& words, const std::string& ending) {
+  if (words == "-") return OutputKind::standard_output;
+  if (ending.empty()) return OutputKind::folder;
+  std::vector<std::string_view> names;
+  for (const Ending& e : kEndings) {
+    if (e.name == ending) return e.kind;
+    names.push_back(e.name);
+  }
+  throw UsageError(
+      fmt::format("-o {}: there is no output '.{}'; {}. A folder's name that has a dot ends with /",
+                  words, ending, suggestion(ending, names)));
+}
+
+// f(text) for what stands between placeholders, g(name) for each of them.
+template <class F, class G>
+void for_each_part(std::string_view words, const F& f, const G& g) {
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t open = std::min(words.find('{', at), words.size());
+    f(words.substr(at, open - at));
+    if (open == words.size()) return;
+    const std::size_t close = words.find('}', open);
+    if (close == std::string_view::npos)
+      throw UsageError(fmt::format("-o {}: a {{ without its }}", words));
+    g(words.substr(open + 1, close - open - 1));
+    at = close + 1;
+  }
+}
+
+}  // namespace
+
+Destination::Destination(const std::string& words, bool sheet)
+    : words_(words), ending_(words == "-" ? "" : ending_of(words)), kind_(kind_of(words, ending_)) {
+  for_each_part(
+      words_, [](std::string_view) {},
+      [&](std::string_view name) {
+        if (std::find(kPlaceholders.begin(), kPlaceholders.end(), name) == kPlaceholders.end())
+          throw UsageError(
+              fmt::format("-o {}: there is no placeholder {{{}}}; {}", words_, name,
+                          suggestion(name, {kPlaceholders.begin(), kPlaceholders.end()})));
+        if (kind_ == OutputKind::folder)
+          throw UsageError(fmt::format(
+              "-o {}: a placeholder stands in the name of a file, such as {{frame}}.png", words_));
+      });
+  if (!sheet) return;
+  if (ending_ != "pdf" && ending_ != "png")
+    throw UsageError("--sheet makes a .pdf or a .png: name one after -o, such as sheet.pdf");
+  kind_ = OutputKind::sheet;
+}
+
+bool Destination::is_by(std::string_view placeholder) const {
+  return words_.find(fmt::format("{{{}}}", placeholder)) != std::string::npos;
+}
+
+fs::path Destination::file(const NameParts& parts) const {
+  std::string name;
+  for_each_part(
+      words_, [&](std::string_view text) { name += text; },
+      [&](std::string_view part) {
+        if (part == "scenario")
+          name += parts.scenario;
+        else
+          name += fmt::format("{:04}", part == "step" ? parts.step : parts.frame);
+      });
+  return name;
+}
+
+}  // namespace lantern::app

@@ -1,0 +1,118 @@
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "app/option_words.hpp"
+
+namespace lantern::app {
+namespace {
+
+void add_measure(CLI::App& app, Run& run) {
+  const auto [c, o] = command(
+      app, run, "measure", "Error against run time: problems with known answers, method by method",
+      measure_command);
+  c->add_option("PROBLEM", o.problems,
+                "problems or families by name, or scenario files; the default is all problems; "
+                "'pictures' measures antialiasing, 'broad_phase' the trees' settings");
+  c->add_option("-o,--output", o.output, "folder for tables, plots and the overview page")
+      ->check(kNotEmpty)
+      ->type_name("DIR")
+      ->capture_default_str();
+  c->add_option("--method", o.methods, "only these: velocity_verlet, soft:16, impulse:100, ...")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  c->add_option("--step", o.steps, "only these time steps, seconds")
+      ->allow_extra_args(false)
+      ->type_name("H");
+  CLI::Option* quick =
+      c->add_flag("--quick", o.quick, "about a minute: plain problems, few repeats");
+  c->add_flag("--full", o.full, "every run, however long it takes")->excludes(quick);
+  c->add_option("--longest", o.longest, "leave out runs that would take more seconds than this")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  c->add_flag("!--no-peers", o.peers, "without other engines");
+  add_choice(*c, "--theme", o.theme, "colours of the plots", kThemes);
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL, for the PNG files", kBackends);
+  c->add_flag("--list", o.list, "name the problems, measure nothing");
+  c->add_option("--from", o.from,
+                "measure nothing: report.html of these folders or measure.json files, one a "
+                "machine, side by side")
+      ->allow_extra_args(false)
+      ->type_name("PATH");
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void add_bench_step(CLI::App& bench, Run& run) {
+  const auto [c, o] =
+      command(bench, run, "step", "Milliseconds and penetration of piles of bodies, beside engines",
+              bench_step_command);
+  c->add_option("--pile", o.piles,
+                "boxes2d:N, balls2d:N, boxes3d:N, balls3d:N; the default is some of 500 and 2,000")
+      ->allow_extra_args(false)
+      ->type_name("PILE");
+  c->add_option("--seconds", o.seconds, "of the fall; the default is 4, with --full 10")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->type_name("S");
+  c->add_option("--longest", o.longest,
+                "a solver ends early at a pile that takes it more seconds than this; the default "
+                "is 20, with --full 600")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  c->add_option("--only", o.only, "only these: soft:8, impulse:100, Box2D, ...")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  c->add_option("--broad-phase", o.broad_phase, "ours: sort_and_sweep, quadtree, octree, ...")
+      ->type_name("KIND")
+      ->capture_default_str();
+  c->add_option("-o,--output", o.output, "folder for bench_step.csv and bench_step.json")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  c->add_flag("--full", o.full, "500, 2,000 and 5,000 boxes and balls in 2D and 3D: hours");
+  c->add_flag("!--no-peers", o.peers, "without other engines");
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void add_bench(CLI::App& app, Run& run) {
+  CLI::App* c = app.add_subcommand("bench", "Measure speed against named peers");
+  c->require_subcommand(1);
+  const auto [frames, o] = command(
+      *c, run, "frames", "Frames per second written to disk, beside cairo", bench_frames_command);
+  frames->add_option("FILE", o.scenario, "scenario file")->capture_default_str();
+  frames->add_option("--rounds", o.rounds, "repeats; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_memory(*frames);
+  add_json(*frames, o.json);
+  add_bench_step(*c, run);
+}
+
+void add_stress(CLI::App& app, Run& run) {
+  const auto [c, o] =
+      command(app, run, "stress", "Check extreme input, stiff springs and the limits of stability",
+              stress_command);
+  c->add_option("CASE", o.cases, "names of cases; the default is all that are not slow");
+  c->add_option("-o,--output", o.output,
+                "folder for stress.csv, stress.json, stability_map.png and .svg")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  add_choice(*c, "--theme", o.theme, "colours of the stability map", kThemes);
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
+  c->add_flag("--list", o.list, "list the cases and exit");
+  c->add_flag("--full", o.full, "run the slow cases, too");
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
+}  // namespace
+
+void add_lab_commands(CLI::App& app, Run& run) {
+  add_measure(app, run);
+  add_bench(app, run);
+  add_stress(app, run);
+}
+
+}  // namespace lantern::app
