@@ -9,6 +9,7 @@
 #include "app/option_words.hpp"
 #include "base/file.hpp"
 #include "embedded/version.hpp"
+#include "rooms.hpp"
 #include "scenario/reference.hpp"
 
 namespace lantern::app {

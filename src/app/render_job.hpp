@@ -9,6 +9,7 @@
 #include "app/in_betweens.hpp"
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
+#include "draw/staging.hpp"
 #include "render/pipeline.hpp"
 #include "scenario/frame.hpp"
 
