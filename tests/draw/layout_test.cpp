@@ -41,50 +41,69 @@ std::string written(const DrawList& list) {
   return text;
 }
 
-TEST(Layout, LabelsNeverOverlapEachOther) {
-  for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
-    for (std::size_t i = 0; i < list.labels.size(); ++i)
-      for (std::size_t j = i + 1; j < list.labels.size(); ++j)
-        EXPECT_FALSE(overlap(shrunk(list.labels[i].box, kHair), shrunk(list.labels[j].box, kHair)))
-            << where << ": '" << list.labels[i].text << "' covers '" << list.labels[j].text << "'";
-  });
+void expect_labels_apart(const std::string& where, const DrawList& list) {
+  for (std::size_t i = 0; i < list.labels.size(); ++i)
+    for (std::size_t j = i + 1; j < list.labels.size(); ++j)
+      EXPECT_FALSE(overlap(shrunk(list.labels[i].box, kHair), shrunk(list.labels[j].box, kHair)))
+          << where << ": '" << list.labels[i].text << "' covers '" << list.labels[j].text << "'";
 }
 
-TEST(Layout, LabelsStayInTheirPanelsOnThePage) {
-  for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
-    const Box<2> page{Vec<2>(0.0), list.page};
-    for (const LabelBox& label : list.labels) {
-      EXPECT_TRUE(holds(shrunk(label.panel, -kHair), label.box))
-          << where << ": '" << label.text << "' leaves its panel";
-      EXPECT_TRUE(holds(page, label.box)) << where << ": '" << label.text << "'";
+void expect_labels_in_panels(const std::string& where, const DrawList& list) {
+  const Box<2> page{Vec<2>(0.0), list.page};
+  for (const LabelBox& label : list.labels) {
+    EXPECT_TRUE(holds(shrunk(label.panel, -kHair), label.box))
+        << where << ": '" << label.text << "' leaves its panel";
+    EXPECT_TRUE(holds(page, label.box)) << where << ": '" << label.text << "'";
+  }
+}
+
+void expect_shapes_on_page(const std::string& where, const DrawList& list) {
+  const Box<2> page{Vec<2>(0.0), list.page};
+  for (const DrawShape& shape : list.shapes) {
+    const Box<2> r = reach_of(shape);
+    EXPECT_TRUE(is_valid(r) && holds(page, r))
+        << where << ": a shape of kind " << shape.index() << " reaches from (" << r.lo.x << ", "
+        << r.lo.y << ") to (" << r.hi.x << ", " << r.hi.y << ")";
+  }
+}
+
+void expect_large_type(const std::string& where, const Frame& frame, const DrawList& list) {
+  for (const DrawShape& shape : list.shapes) {
+    const auto* text = std::get_if<TextShape>(&shape);
+    if (!text) continue;
+    EXPECT_GE(text->size, kLeastLabel - kHair) << where << ": '" << text->text << "'";
+    const bool caption =
+        text->text.size() > 12 && frame.caption.find(text->text) != std::string::npos;
+    if (caption) {
+      EXPECT_GE(text->size, kLeastCaption - kHair) << where << ": '" << text->text << "'";
     }
-  });
+  }
 }
 
-TEST(Layout, EveryShapeLiesOnThePage) {
-  for_each_page([](const std::string& where, const Frame&, const DrawList& list) {
-    const Box<2> page{Vec<2>(0.0), list.page};
-    for (const DrawShape& shape : list.shapes) {
-      const Box<2> r = reach_of(shape);
-      EXPECT_TRUE(is_valid(r) && holds(page, r))
-          << where << ": a shape of kind " << shape.index() << " reaches from (" << r.lo.x << ", "
-          << r.lo.y << ") to (" << r.hi.x << ", " << r.hi.y << ")";
+void expect_few_shapes(const std::string& where, const Frame& frame, const DrawList& list) {
+  // Round bodies in space are many small pieces.
+  const bool many_pieces = where.starts_with("solid_pit") || where.starts_with("solid_crowd");
+  if (!many_pieces) {
+    EXPECT_LT(list.shapes.size(), 5000u) << where;
+  }
+  if (frame.sides.empty() && frame.bodies.size() <= 4 && frame.nodes.size() < 10 &&
+      frame.textures.empty() && frame.chart.series.size() < 4 && frame.trace.points.size() < 100) {
+    EXPECT_LT(list.shapes.size(), 300u) << where << ": a typical frame";
+  }
+  for (const DrawShape& shape : list.shapes)
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+      EXPECT_LE(polygon->points.size(), 64u) << where << ": each pixel is tested against each edge";
     }
-  });
 }
 
-TEST(Layout, TypeIsLargeEnoughForTheBackRow) {
+// Each page is drawn once for all of them: that is most of the time.
+TEST(Layout, EveryPageKeepsTheRules) {
   for_each_page([](const std::string& where, const Frame& frame, const DrawList& list) {
-    for (const DrawShape& shape : list.shapes) {
-      const auto* text = std::get_if<TextShape>(&shape);
-      if (!text) continue;
-      EXPECT_GE(text->size, kLeastLabel - kHair) << where << ": '" << text->text << "'";
-      const bool caption =
-          text->text.size() > 12 && frame.caption.find(text->text) != std::string::npos;
-      if (caption) {
-        EXPECT_GE(text->size, kLeastCaption - kHair) << where << ": '" << text->text << "'";
-      }
-    }
+    expect_labels_apart(where, list);
+    expect_labels_in_panels(where, list);
+    expect_shapes_on_page(where, list);
+    expect_large_type(where, frame, list);
+    expect_few_shapes(where, frame, list);
   });
 }
 
@@ -103,26 +122,6 @@ TEST(Layout, CaptionHasAtMostTwoLinesAndLosesNoWordThatFits) {
       EXPECT_LE(lines, 2);
     }
   }
-}
-
-TEST(Layout, ShapesStayFew) {
-  for_each_page([](const std::string& where, const Frame& frame, const DrawList& list) {
-    // Round bodies in space are many small pieces.
-    const bool many_pieces = where.starts_with("solid_pit") || where.starts_with("solid_crowd");
-    if (!many_pieces) {
-      EXPECT_LT(list.shapes.size(), 5000u) << where;
-    }
-    if (frame.sides.empty() && frame.bodies.size() <= 4 && frame.nodes.size() < 10 &&
-        frame.textures.empty() && frame.chart.series.size() < 4 &&
-        frame.trace.points.size() < 100) {
-      EXPECT_LT(list.shapes.size(), 300u) << where << ": a typical frame";
-    }
-    for (const DrawShape& shape : list.shapes)
-      if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        EXPECT_LE(polygon->points.size(), 64u)
-            << where << ": each pixel is tested against each edge";
-      }
-  });
 }
 
 TEST(Layout, TheSameFrameGivesTheSameList) {
