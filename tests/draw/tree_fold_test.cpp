@@ -102,6 +102,7 @@ TEST(TreeLayout, NodesNeverOverlapNorShrinkBelowLegibility) {
 
 // Whether the segment comes into the box, in small steps.
 bool strikes(const Vec<2>& from, const Vec<2>& to, const Box<2>& box) {
+  if (!overlap(Box<2>{glm::min(from, to), glm::max(from, to)}, box)) return false;
   for (int k = 0; k <= 2000; ++k)
     if (holds(box, Box<2>::around(from + (to - from) * (k / 2000.0), Vec<2>(0.0)))) return true;
   return false;
