@@ -321,7 +321,6 @@ TEST_F(GoldenCommand, AnInterruptedUpdateLeavesNoListOfFramesThatAreNotThere) {
                           " golden --update --size 128x72 " +
                           repository("tests/cases/walls300ev.toml").string());
   EXPECT_EQ(o.code, 130) << o.err;
-  EXPECT_TRUE(says(o, "interrupted"));
   EXPECT_FALSE(fs::exists(folder_ / "golden/walls300ev/golden.txt"));
 }
 
