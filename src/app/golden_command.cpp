@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/forecast.hpp"
 #include "app/golden_list.hpp"
 #include "app/golden_sink.hpp"
 #include "app/render_job.hpp"
