@@ -103,20 +103,57 @@ void add_doctor(CLI::App& app, Run& run) {
   add_json(*c, o.json);
 }
 
+void add_allowance(CLI::App& c, int& tolerance, double& fraction) {
+  c.add_option("--tolerance", tolerance, "by how many levels a channel may differ")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
+  c.add_option("--fraction", fraction, "fraction of the pixels that may differ")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+}
+
 void add_compare(CLI::App& app, Run& run) {
-  const auto [c, o] = command(app, run, "compare", "Compare two PNG images, or two folders of them",
-                              compare_command);
-  c->add_option("EXPECTED", o.expected, "image or folder")->required();
-  c->add_option("ACTUAL", o.actual, "image or folder")->required();
+  const auto [c, o] =
+      command(app, run, "compare", "Compare two PNG, SVG or JSON files, or two folders of them",
+              compare_command);
+  c->add_option("EXPECTED", o.expected, "picture, facts or folder")->required();
+  c->add_option("ACTUAL", o.actual, "picture, facts or folder")->required();
   c->add_option("-o,--output", o.output,
                 "where the difference picture goes (a folder when folders are compared)")
       ->type_name("PATH");
-  c->add_option("--tolerance", o.tolerance, "by how many levels a channel may differ")
-      ->check(CLI::Range(0, 255))
+  add_allowance(*c, o.tolerance, o.fraction);
+  add_json(*c, o.json);
+}
+
+void add_golden(CLI::App& app, Run& run) {
+  const auto [c, o] = command(
+      app, run, "golden", "Compare scenarios' pictures and facts with golden ones, or update those",
+      golden_command);
+  c->add_option("FILE", o.files, "scenario files")->required();
+  CLI::Option* update =
+      c->add_flag("--update", o.update, "make today's frames the golden ones: writes what changed");
+  c->add_option("--dir", o.folder, "the golden frames are in DIR/<scenario>")
+      ->check(kNotEmpty)
+      ->type_name("DIR")
       ->capture_default_str();
-  c->add_option("--fraction", o.fraction, "fraction of the pixels that may differ")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  c->add_option("--report", o.report,
+                "page of what differs, with pictures side by side: a file, or a folder for "
+                "golden.html; without it output/golden.html, made only if something differs")
+      ->check(kNotEmpty)
+      ->excludes(update)
+      ->type_name("PATH");
+  c->add_option("--junit", o.junit, "findings as JUnit's XML, for whatever builds and tests")
+      ->check(kNotEmpty)
+      ->excludes(update)
+      ->type_name("FILE");
+  add_allowance(*c, o.tolerance, o.fraction);
+  c->add_option("--size", o.size, "pixels")->type_name("WxH")->capture_default_str();
+  add_choice(*c, "--theme", o.theme, "colours", kThemes);
+  c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
+  c->add_option("--frames", o.frames, "as for render")->check(kNotEmpty)->type_name("A-B");
+  c->add_option("--at", o.at, "as for render")->check(kNotEmpty)->type_name("EVENT|TIME");
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
+  add_memory(*c);
   add_json(*c, o.json);
 }
 
@@ -154,6 +191,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_list(app, run);
   add_explain(app, run);
   add_doctor(app, run);
+  add_golden(app, run);
   add_compare(app, run);
   add_lab_commands(app, run);
   add_texts(app, run);

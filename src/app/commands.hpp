@@ -83,6 +83,23 @@ struct CompareOptions {
 };
 int compare_command(const CompareOptions& options);
 
+struct GoldenOptions {
+  std::vector<std::string> files;
+  std::string folder = "golden";  // the golden frames are in folder/<scenario>
+  bool update = false;            // today's frames become the golden ones
+  std::string report;             // an HTML file, or a folder for golden.html; empty: the usual one
+  std::string junit;              // an XML file; empty for none
+  int tolerance = 0;
+  double fraction = 0;  // of the pixels that may differ
+  std::string size = "640x360";
+  std::string theme = "light";
+  std::string pace;        // step, event; empty for the scenario's own
+  std::string frames, at;  // as for render
+  std::string backend = "auto";
+  bool json = false;
+};
+int golden_command(const GoldenOptions& options);
+
 struct MeasureOptions {
   std::vector<std::string> problems;  // names, families or files; empty for all
   std::string output = "output/measure";

@@ -2,6 +2,10 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,20 +14,14 @@
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "render/compare.hpp"
+#include "render/compare_facts.hpp"
 #include "render/png.hpp"
+#include "render/seal.hpp"
 
 namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMostPixelBytes = 1u << 30;
-
-Image load(const fs::path& path) {
-  const auto image = decode_png(read_file(path, kMostPixelBytes));
-  if (!image) throw IoError(fmt::format("'{}' is no PNG image, or it is damaged", path.string()));
-  return *image;
-}
 
 struct Result {
   std::string name;
@@ -31,52 +29,120 @@ struct Result {
   std::string finding;
 };
 
-Result compare_files(const fs::path& expected, const fs::path& actual, const fs::path& picture,
-                     const CompareOptions& o) {
-  Result result{actual.string(), false, {}};
-  const Image a = load(expected);
-  const Image b = load(actual);
-  const Comparison c = compare(a, b, o.tolerance);
-  const double allowed = o.fraction * static_cast<double>(a.width) * a.height;
-  result.equal = c.same_size && static_cast<double>(c.differing) <= allowed;
-  result.finding =
-      c.same_size ? fmt::format("{} pixels differ, at most by {} levels", c.differing, c.largest)
-                  : fmt::format("expected {} x {} pixels, found {} x {}", a.width, a.height,
-                                b.width, b.height);
-  if (!result.equal && !picture.empty()) {
-    if (picture.has_parent_path()) make_folder(picture.parent_path());
-    write_file(picture, encode_png(difference_picture(a, b, o.tolerance), PngEffort::fast, {}, 0));
-  }
-  return result;
+std::string bytes_of(const fs::path& path) {
+  constexpr std::size_t kMostFileBytes = 1u << 30;
+  return read_file(path, kMostFileBytes);
 }
 
-std::set<std::string> pictures_in(const fs::path& folder) {
+Image image_of(const fs::path& path, std::string_view bytes) {
+  auto image = decode_png(bytes);
+  if (!image) throw IoError(fmt::format("'{}' is no PNG image, or it is damaged", path.string()));
+  return *std::move(image);
+}
+
+// The first line in which they differ.
+std::string first_line(std::string_view expected, std::string_view actual) {
+  const auto differ = std::ranges::mismatch(expected, actual);
+  return fmt::format("line {} differs first", 1 + std::count(expected.begin(), differ.in1, '\n'));
+}
+
+class FileComparison {
+ public:
+  FileComparison(const fs::path& expected, const fs::path& actual, const CompareOptions& options)
+      : expected_(expected),
+        actual_(actual),
+        options_(options),
+        before_(bytes_of(expected)),
+        now_(bytes_of(actual)) {}
+
+  // A difference picture goes to `picture`, unless that is empty.
+  Result result(const fs::path& picture) const {
+    const std::string kind = actual_.extension().string();
+    Result result{actual_.string(), true, "same bytes"};
+    if (before_ == now_ && (kind == ".svg" || kind == ".json")) return result;
+    if (kind == ".svg") {
+      const auto before = before_seal(FileKind::svg, before_);
+      const auto now = before_seal(FileKind::svg, now_);
+      result.equal = before == now;
+      result.finding = result.equal ? "made from something else" : first_line(before, now);
+    } else if (kind == ".json") {
+      compare_json(result);
+    } else {
+      compare_pictures(result, picture);
+    }
+    return result;
+  }
+
+ private:
+  void compare_json(Result& result) const {
+    const auto compared = compare_facts(before_, now_);
+    for (const auto& [path, bytes] : {std::pair{&expected_, &before_}, std::pair{&actual_, &now_}})
+      if (!compared && !are_facts(*bytes))
+        throw IoError(fmt::format("'{}' is no JSON object, or it is damaged", path->string()));
+    result.equal = compared->total == 0;
+    result.finding = result.equal ? "the same facts" : finding(*compared);
+  }
+
+  void compare_pictures(Result& result, const fs::path& picture) const {
+    const Image a = image_of(expected_, before_), b = image_of(actual_, now_);
+    const Comparison compared = compare(a, b, options_.tolerance);
+    result.equal = passes(compared, a, {options_.tolerance, options_.fraction});
+    result.finding = finding(compared);
+    if (result.equal || picture.empty()) return;
+    if (picture.has_parent_path()) make_folder(picture.parent_path());
+    write_file(picture,
+               encode_png(difference_picture(a, b, options_.tolerance), PngEffort::fast, {}, 0));
+  }
+
+  const fs::path &expected_, &actual_;
+  const CompareOptions& options_;
+  std::string before_, now_;
+};
+
+// Pictures and facts; not the lists of how a folder was made.
+std::set<std::string> files_in(const fs::path& folder) {
   std::set<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".png")
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string kind = entry.path().extension().string();
+    if (entry.path().filename() == "manifest.json") continue;
+    if (kind == ".png" || kind == ".svg" || kind == ".json")
       names.insert(fs::relative(entry.path(), folder).string());
+  }
   return names;
 }
 
-// Every picture of either folder; one that stands only in one of them differs.
+// Every file of either folder; one that stands only in one of them differs.
 std::vector<Result> compare_folders(const CompareOptions& o) {
-  const std::set<std::string> expected = pictures_in(o.expected);
-  const std::set<std::string> actual = pictures_in(o.actual);
+  const fs::path expected_folder = o.expected, actual_folder = o.actual;
+  const std::set<std::string> expected = files_in(expected_folder);
+  const std::set<std::string> actual = files_in(actual_folder);
   std::set<std::string> all = expected;
   all.insert(actual.begin(), actual.end());
-  if (all.empty()) throw UsageError("there are no PNG files in these folders");
+  if (all.empty()) throw UsageError("there are no PNG, SVG or JSON files in these folders");
   std::vector<Result> results;
   for (const std::string& name : all) {
-    if (!actual.contains(name))
+    if (!actual.contains(name)) {
       results.push_back({name, false, "is missing"});
-    else if (!expected.contains(name))
+    } else if (!expected.contains(name)) {
       results.push_back({name, false, "was not expected"});
-    else
-      results.push_back(compare_files(fs::path(o.expected) / name, fs::path(o.actual) / name,
-                                      o.output.empty() ? fs::path() : fs::path(o.output) / name,
-                                      o));
+    } else {
+      const fs::path a = expected_folder / name, b = actual_folder / name;
+      const fs::path picture = o.output.empty() ? fs::path() : fs::path(o.output) / name;
+      results.push_back(FileComparison(a, b, o).result(picture));
+      results.back().name = name;
+    }
   }
   return results;
+}
+
+std::vector<Result> compare_two_files(const CompareOptions& o) {
+  const fs::path a = o.expected, b = o.actual;
+  const auto is_text = [](const fs::path& path) {
+    return path.extension() == ".svg" || path.extension() == ".json";
+  };
+  if ((is_text(a) || is_text(b)) && a.extension() != b.extension())
+    throw UsageError(fmt::format("'{}' and '{}' are files of two kinds", o.expected, o.actual));
+  return {FileComparison(a, b, o).result(o.output)};
 }
 
 }  // namespace
@@ -88,26 +154,22 @@ int compare_command(const CompareOptions& options) {
   if (folders != fs::is_directory(options.actual, error))
     throw UsageError("compare two files, or two folders");
   const std::vector<Result> results =
-      folders
-          ? compare_folders(options)
-          : std::vector{compare_files(options.expected, options.actual, options.output, options)};
-  bool equal = true;
+      folders ? compare_folders(options) : compare_two_files(options);
+  const auto different = std::ranges::count_if(results, [](const Result& r) { return !r.equal; });
   JsonWriter json;
-  json.begin_array();
+  json.begin_object().line().member("format", "lantern.compare/1");
+  json.line().member("equal", different == 0).line().key("files").begin_array();
   for (const Result& r : results) {
-    equal = equal && r.equal;
     json.line().begin_object().member("name", r.name).member("equal", r.equal);
     json.member("finding", r.finding).end_object();
     if (!options.json && (!r.equal || !folders))
       say(fmt::format("{}: {}; {}", r.name, r.equal ? "equal" : "different", r.finding));
   }
-  json.line().end_array();
+  json.line().end_array().line().end_object();
   if (options.json) write_stdout(json.text() + "\n");
-  const auto different =
-      std::count_if(results.begin(), results.end(), [](const Result& r) { return !r.equal; });
   if (folders && !options.json)
-    say(fmt::format("{} of {} pictures differ", different, results.size()));
-  return equal ? kGood : kFailed;
+    say(fmt::format("{} of {} files differ", different, results.size()));
+  return different == 0 ? kGood : kFailed;
 }
 
 }  // namespace lantern::app

@@ -45,18 +45,6 @@ std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList
   return json.text() + "\n";
 }
 
-// "ghosts: left alone: a.png, b.png and 17 more"
-void say_files(const std::string& scenario, const char* what,
-               const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 5;
-  if (names.empty()) return;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-    text += (i > 0 ? ", " : "") + names[i];
-  if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
-  say(fmt::format("{}: {}: {}", scenario, what, text));
-}
-
 }  // namespace
 
 FolderSink::FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace,

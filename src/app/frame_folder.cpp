@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
@@ -112,6 +113,29 @@ bool is_of_this_build(const std::filesystem::path& manifest) try {
 
 std::string frame_file(const std::string& scenario, std::uint32_t index, std::string_view ending) {
   return fmt::format("{}_{:04}.{}", scenario, index, ending);
+}
+
+std::optional<std::uint32_t> frame_of(std::string_view file, const std::string& scenario) {
+  const auto part = part_of(file, scenario);
+  const std::size_t dot = file.find('.');
+  if (!part || dot == file.npos || !kind_of(file.substr(dot + 1))) return std::nullopt;
+  return number_of<std::uint32_t>(*part);
+}
+
+bool is_as_made(std::string_view file, std::string_view bytes) {
+  const auto kind = kind_of(file.substr(file.find('.') + 1));
+  return kind && made_from(*kind, bytes);
+}
+
+void say_files(const std::string& scenario, const char* what,
+               const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 5;
+  if (names.empty()) return;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += (i > 0 ? ", " : "") + names[i];
+  if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
+  say(fmt::format("{}: {}: {}", scenario, what, text));
 }
 
 std::string in_between_file(const Manifest& m, std::uint32_t index, std::uint64_t number) {

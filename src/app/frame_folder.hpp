@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/folder_lock.hpp"
@@ -56,9 +58,18 @@ std::string to_json(const Manifest& manifest);
 
 // "ghost_quadtree_0007.png"
 std::string frame_file(const std::string& scenario, std::uint32_t index, std::string_view ending);
+// The index of the frame whose picture or facts have this name; nothing for any other file.
+std::optional<std::uint32_t> frame_of(std::string_view file, const std::string& scenario);
+// Are these the bytes of such a file exactly as Lantern wrote it? By its ending: png, svg, json.
+bool is_as_made(std::string_view file, std::string_view bytes);
 // "ghost_quadtree_0007_03.png", the third on the way from frame 7 to frame 8: by name in-betweens
 // stand where they are seen.
 std::string in_between_file(const Manifest& manifest, std::uint32_t index, std::uint64_t number);
+
+// Tells a person of files, the first few of them by name: "ghosts: removed: a.png, b.png and 17
+// more". Says nothing if there are none.
+void say_files(const std::string& scenario, const char* what,
+               const std::vector<std::string>& names);
 
 class FrameFolder {
  public:

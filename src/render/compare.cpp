@@ -4,6 +4,11 @@
 #include <array>
 #include <cstdlib>
 #include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/hash.hpp"
 
 namespace lantern::render {
 namespace {
@@ -42,11 +47,22 @@ void put(Image& image, int x, int y, const Pixel& p) {
   std::ranges::copy(p, image.rgba.begin() + 4 * (std::ptrdiff_t{y} * image.width + x));
 }
 
+std::string size_of(const Image& image) {
+  return fmt::format("{} x {}", image.width, image.height);
+}
+
+// Transparent.
+Image blank(int width, int height) {
+  return {width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
+}
+
 }  // namespace
 
 Comparison compare(const Image& expected, const Image& actual, int tolerance) {
   Comparison result;
   result.same_size = expected.width == actual.width && expected.height == actual.height;
+  if (!result.same_size)
+    result.sizes = fmt::format("{} pixels, found {}", size_of(expected), size_of(actual));
   if (result.same_size && expected.rgba == actual.rgba) return result;
   for (int y = 0; y < std::max(expected.height, actual.height); ++y)
     for (int x = 0; x < std::max(expected.width, actual.width); ++x) {
@@ -57,17 +73,47 @@ Comparison compare(const Image& expected, const Image& actual, int tolerance) {
   return result;
 }
 
+bool passes(const Comparison& comparison, const Image& expected, const Allowance& allowance) {
+  const double most = allowance.fraction * static_cast<double>(expected.width) * expected.height;
+  return comparison.same_size && static_cast<double>(comparison.differing) <= most;
+}
+
+std::string finding(const Comparison& comparison) {
+  if (!comparison.same_size) return fmt::format("expected {}", comparison.sizes);
+  return fmt::format("{} pixels differ, at most by {} levels", comparison.differing,
+                     comparison.largest);
+}
+
+std::string pixel_hash(const Image& image) {
+  Hash hash;
+  hash.add(std::uint64_t(image.width)).add(std::uint64_t(image.height));
+  hash.add(std::string_view(reinterpret_cast<const char*>(image.rgba.data()), image.rgba.size()));
+  return fmt::format("{:016x}", hash.value());
+}
+
+Image marked_picture(const Image& expected, const Image& actual, int tolerance) {
+  Image picture =
+      blank(std::max(expected.width, actual.width), std::max(expected.height, actual.height));
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const auto e = pixel(expected, x, y), a = pixel(actual, x, y);
+      const bool differs = !e || !a || difference(e, a) > tolerance;
+      if (e || a) put(picture, x, y, marked(e.value_or(Pixel{}), differs));
+    }
+  return picture;
+}
+
 Image difference_picture(const Image& expected, const Image& actual, int tolerance) {
-  const int width = std::max(expected.width, actual.width);
-  Image picture{3 * width, std::max(expected.height, actual.height), {}};
-  picture.rgba.assign(std::size_t{4} * picture.width * picture.height, 0);
+  const Image third = marked_picture(expected, actual, tolerance);
+  const int width = third.width;
+  Image picture = blank(3 * width, third.height);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < width; ++x) {
-      const auto e = pixel(expected, x, y), a = pixel(actual, x, y);
-      if (e) put(picture, x, y, *e);
-      if (a) put(picture, width + x, y, *a);
-      const bool differs = !e || !a || difference(e, a) > tolerance;
-      if (e || a) put(picture, 2 * width + x, y, marked(e.value_or(Pixel{}), differs));
+      int left = 0;
+      for (const Image* image : {&expected, &actual, &third}) {
+        if (const auto p = pixel(*image, x, y)) put(picture, left + x, y, *p);
+        left += width;
+      }
     }
   return picture;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "render/image.hpp"
 
@@ -11,13 +12,32 @@ struct Comparison {
   bool same_size = false;
   std::uint64_t differing = 0;  // pixels that differ by more than the tolerance
   int largest = 0;              // greatest difference of one channel, 0 ... 255
+  std::string sizes = {};       // "640 x 360 pixels, found 320 x 180"; empty if they are the same
+};
+
+// How far images may be apart that pass for equal.
+struct Allowance {
+  int tolerance = 0;    // levels by which a channel may differ, 0 ... 255
+  double fraction = 0;  // of the pixels that may differ by more, 0 ... 1
 };
 
 // `tolerance` is the greatest difference of a channel that still counts as equal.
 Comparison compare(const Image& expected, const Image& actual, int tolerance);
 
-// Expected, actual and the difference side by side; the differing pixels are marked on the paled
-// expected image. Images of different sizes are laid over each other from the upper left corner.
+// Of the same size, and no more pixels differ than the allowance's fraction of `expected`.
+bool passes(const Comparison& comparison, const Image& expected, const Allowance& allowance);
+
+// "812 pixels differ, at most by 90 levels", or "expected 640 x 360 pixels, found 320 x 180".
+std::string finding(const Comparison& comparison);
+
+// Of the size and the pixels, as 16 hexadecimal digits: the same however a file packs them.
+std::string pixel_hash(const Image& image);
+
+// The differing pixels marked on the paled expected image.
+Image marked_picture(const Image& expected, const Image& actual, int tolerance);
+
+// Expected, actual and the marked picture side by side. Images of different sizes are laid over
+// each other from the upper left corner.
 Image difference_picture(const Image& expected, const Image& actual, int tolerance);
 
 }  // namespace lantern::render

@@ -17,6 +17,10 @@ std::string_view ending(FileKind kind) {
   return kEndings[static_cast<int>(kind)];
 }
 
+// What the seal of a kind begins with.
+constexpr std::string_view kSvgSeal = "<!-- Lantern made this from ";
+constexpr std::string_view kJsonSeal = ",\n\"made_from\": \"";
+
 // The seal of what stands before it.
 std::string seal(FileKind kind, std::string_view before, const MadeFrom& from) {
   std::uint32_t crc = libdeflate_crc32(0, before.data(), before.size());
@@ -25,9 +29,8 @@ std::string seal(FileKind kind, std::string_view before, const MadeFrom& from) {
   const std::string keys = from.facts + "-" + from.picture;
   if (kind == FileKind::png)
     return png_text({"Made from", fmt::format("{}, checksum {:08x}", keys, crc)});
-  if (kind == FileKind::svg)
-    return fmt::format("<!-- Lantern made this from {}, checksum {:08x} -->\n", keys, crc);
-  return fmt::format(",\n\"made_from\": \"{}\",\n\"checksum\": \"{:08x}\"", keys, crc);
+  if (kind == FileKind::svg) return fmt::format("{}{}, checksum {:08x} -->\n", kSvgSeal, keys, crc);
+  return fmt::format("{}{}\",\n\"checksum\": \"{:08x}\"", kJsonSeal, keys, crc);
 }
 
 }  // namespace
@@ -56,6 +59,14 @@ std::optional<MadeFrom> made_from(FileKind kind, std::string_view bytes) {
                       std::string(written.substr(keys + kKey + 1, kKey))};
   if (seal(kind, before, from) != written) return std::nullopt;
   return from;
+}
+
+std::string_view before_seal(FileKind kind, std::string_view bytes) {
+  if (kind == FileKind::png) return bytes;
+  const std::size_t at = bytes.rfind(kind == FileKind::svg ? kSvgSeal : kJsonSeal);
+  if (at != bytes.npos) return bytes.substr(0, at);
+  const std::string_view end = ending(kind);
+  return bytes.substr(0, bytes.size() - (bytes.ends_with(end) ? end.size() : 0));
 }
 
 }  // namespace lantern::render

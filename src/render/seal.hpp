@@ -27,4 +27,8 @@ std::string sealed(FileKind kind, std::string bytes, const MadeFrom& from);
 // Nothing if there is no seal, or if a single bit is not as it was written.
 std::optional<MadeFrom> made_from(FileKind kind, std::string_view bytes);
 
+// What the file itself says: an SVG or JSON up to its seal, be that right or broken; all of one
+// without a seal, but for the end that a JSON object has, and all of a PNG.
+std::string_view before_seal(FileKind kind, std::string_view bytes);
+
 }  // namespace lantern::render

@@ -19,6 +19,7 @@
 #include "base/hash.hpp"
 #include "render/compare.hpp"
 #include "render/png.hpp"
+#include "render/seal.hpp"
 
 namespace lantern::app {
 namespace {
@@ -32,17 +33,11 @@ bool setting() { return std::getenv("LANTERN_SET_GOLDEN") != nullptr; }
 // Of a picture's pixels, or of facts without their seal.
 std::string hash_of(const fs::path& file) {
   const std::string bytes = read_text(file);
-  Hash hash;
   if (file.extension() == ".png") {
     const auto image = decode_png(bytes);
-    if (!image) return "no picture";
-    hash.add(std::uint64_t(image->width)).add(std::uint64_t(image->height));
-    hash.add(
-        std::string_view(reinterpret_cast<const char*>(image->rgba.data()), image->rgba.size()));
-  } else {
-    hash.add(std::string_view(bytes).substr(0, bytes.find(",\n\"made_from\"")));
+    return image ? pixel_hash(*image) : "no picture";
   }
-  return fmt::format("{:016x}", hash.value());
+  return fmt::format("{:016x}", Hash().add(before_seal(FileKind::json, bytes)).value());
 }
 
 // File name -> hash.
@@ -63,9 +58,8 @@ std::string explain(const std::string& name, const fs::path& actual, const Image
   fs::copy_file(actual, folder / (name + ".actual.png"), fs::copy_options::overwrite_existing);
   write_text(folder / (name + ".difference.png"),
              encode_png(difference_picture(expected, found, 0), PngEffort::fast, {}, 0));
-  const Comparison c = compare(expected, found, 0);
-  return fmt::format("{} pixels of {} differ, at most by {} levels; look at {}/{}.difference.png",
-                     c.differing, name, c.largest, folder.string(), name);
+  return fmt::format("{}: {}; look at {}/{}.difference.png", name,
+                     finding(compare(expected, found, 0)), folder.string(), name);
 }
 
 // Is the picture of frame `index` of `count` kept? So many of each sequence are, the first and the

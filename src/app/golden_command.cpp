@@ -1,0 +1,291 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/forecast.hpp"
+#include "app/golden_list.hpp"
+#include "app/golden_sink.hpp"
+#include "app/render_job.hpp"
+#include "app/run_scenario.hpp"
+#include "app/selection.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/json_writer.hpp"
+#include "embedded/version.hpp"
+#include "publish/golden_report.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostShown = 30;  // frames whose pictures the page holds
+constexpr const char* kUsualReport = "output/golden.html";
+
+RenderOptions drawn_as(const GoldenOptions& o) {
+  RenderOptions as;
+  as.size = o.size;
+  as.theme = o.theme;
+  as.pace = o.pace;
+  as.backend = o.backend;
+  as.png = "small";
+  return as;
+}
+
+// What the options must say so that frames are made as the goldens were; empty if they are.
+std::string other_words(const GoldenList::MadeWith& golden, const GoldenList::MadeWith& now) {
+  std::string words;
+  if (golden.size != now.size) words += " --size " + golden.size;
+  if (golden.theme != now.theme) words += " --theme " + golden.theme;
+  if (golden.pace != now.pace) words += " --pace " + golden.pace;
+  return words;
+}
+
+// One run of the command.
+class GoldenRun {
+ public:
+  explicit GoldenRun(const GoldenOptions& options)
+      : options_(options), as_(drawn_as(options)), job_(as_) {}
+
+  int run() {
+    make_ready();
+    load();
+    json_.begin_object().line().member("format", "lantern.golden/1");
+    json_.line().key("scenarios").begin_array();
+    for (auto& [suite, scenario] : loaded_) {
+      if (scenario) try_one(suite, *scenario);
+      tell_of(suite);
+      suites_.push_back(std::move(suite));
+    }
+    json_.line().end_array();
+    const std::string report = write_reports();
+    tell_end(report);
+    if (!report.empty()) json_.line().member("report", report);
+    json_.line().key("work");
+    write(json_, work_);
+    json_.line().end_object();
+    if (options_.json) write_stdout(json_.text() + "\n");
+    return code_;
+  }
+
+ private:
+  void make_ready() const {
+    if (!std::isfinite(options_.fraction))
+      throw UsageError("--fraction must be a number from 0 to 1");
+    for (const fs::path& file : {fs::path(options_.junit), report_file()}) {
+      std::error_code error;
+      if (fs::is_directory(file, error))
+        throw UsageError(fmt::format("'{}' is a folder; give a file's name", file.string()));
+    }
+    if (fs::path(options_.junit).has_parent_path())
+      make_folder(fs::path(options_.junit).parent_path());
+  }
+
+  fs::path report_file() const {
+    if (options_.report.empty()) return kUsualReport;
+    const fs::path path = options_.report;
+    std::error_code error;
+    const bool folder = !path.has_filename() || fs::is_directory(path, error);
+    return folder ? path / "golden.html" : path;
+  }
+
+  void load() {
+    std::map<std::string, std::string> files;
+    for (const std::string& file : options_.files) {
+      GoldenSuite suite;
+      suite.scenario = suite.file = file;
+      auto scenario = load_or_complain(file, code_);
+      if (scenario)
+        suite.scenario = scenario->name;
+      else
+        suite.error = why_not_read(file);
+      if (scenario && !files.emplace(scenario->name, file).second)
+        throw UsageError(
+            fmt::format("'{}' and '{}' are both scenarios named '{}'; they would have "
+                        "the same golden frames",
+                        files[scenario->name], file, scenario->name));
+      loaded_.emplace_back(std::move(suite), std::move(scenario));
+    }
+  }
+
+  static std::string why_not_read(const std::string& file) try {
+    load_scenario(file);
+    return "could not be read";
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+
+  // An error of this scenario lets the others run.
+  void try_one(GoldenSuite& suite, const Scenario& scenario) {
+    const auto note = [&](const std::exception& e, int code) {
+      suite.error = e.what();
+      code_ = std::max(code_, code);
+    };
+    try {
+      one(suite, scenario);
+    } catch (const ScenarioError& e) {
+      complain(e);
+      note(e, kBadScenario);
+    } catch (const IoError& e) {
+      complain(e.what());
+      note(e, kFailed);
+    }
+    if (!suite.good()) code_ = std::max<int>(code_, kFailed);
+  }
+
+  void one(GoldenSuite& suite, const Scenario& scenario) {
+    const fs::path folder = fs::path(options_.folder) / scenario.name;
+    const Pace pace = pace_of(options_.pace, scenario);
+    Selection selection(options_.frames, options_.at, extent_of(scenario, pace).frames);
+    const auto list = read_list(folder / kGoldenList, selection);
+    const Goldens goldens{
+        job_, scenario, pace, selection, work_, folder, list.value_or(GoldenList())};
+    const std::string words = list ? other_words(list->made_with, goldens.made_with()) : "";
+    if (options_.update) return update(suite, goldens, words);
+    if (!list) {
+      suite.findings.push_back(
+          fmt::format("there are no golden frames in '{}'; --update makes them", folder.string()));
+    } else if (!words.empty()) {
+      suite.findings.push_back(fmt::format(
+          "the golden frames were made with{}; compare so, or --update makes others", words));
+    } else {
+      compare(suite, goldens);
+    }
+  }
+
+  // A damaged list is no hindrance for a new one of all frames.
+  std::optional<GoldenList> read_list(const fs::path& file, const Selection& selection) const try {
+    return read_golden_list(file);
+  } catch (const DamagedGoldens&) {
+    if (!options_.update || !selection.takes_all()) throw;
+    return std::nullopt;
+  }
+
+  void compare(GoldenSuite& suite, const Goldens& goldens) {
+    const GoldenList::MadeWith then = goldens.list.made_with, now = goldens.made_with();
+    if (then.facts != now.facts)
+      suite.findings.push_back(fmt::format(
+          "the golden facts are {}, those of today {}; look at the pictures, then --update",
+          then.facts, now.facts));
+    GoldenComparison sink(goldens, {options_.tolerance, options_.fraction}, suite, shown_left_);
+    run_it(suite, goldens, sink);
+    if (suite.first() != nullptr && then.version != now.version)
+      suite.findings.push_back(fmt::format("the golden frames are of Lantern {}, this is {}",
+                                           then.version, now.version));
+  }
+
+  void update(GoldenSuite& suite, const Goldens& goldens, const std::string& words) {
+    if (!words.empty() && !goldens.selection.takes_all())
+      throw UsageError(fmt::format("{}: the golden frames were made with{}; --update all frames",
+                                   goldens.scenario.name, words));
+    GoldenUpdate sink(goldens);
+    run_it(suite, goldens, sink);
+    say_files(suite.scenario, "written", sink.written());
+    say_files(suite.scenario, "removed", sink.removed());
+    say_files(suite.scenario, "left alone, since it is not as Lantern made it", sink.strange());
+    if (sink.written().empty() && sink.removed().empty())
+      say(fmt::format("{}: the golden frames are as they were", suite.scenario));
+    written_ = sink.written();
+    removed_ = sink.removed();
+  }
+
+  void run_it(GoldenSuite& suite, const Goldens& goldens, FrameSink& sink) {
+    const RunResult result =
+        run_scenario(goldens.scenario, goldens.pace, sink, work_, goldens.selection.most());
+    code_ = std::max(code_, tell(result, false));
+    for (const Diagnostic& d : result.report.unmet) suite.unmet.push_back(to_string(d));
+  }
+
+  void tell_of(const GoldenSuite& suite) {
+    json_.line().begin_object().members("scenario", suite.scenario, "file", suite.file, "good",
+                                        suite.good(), "frames", suite.cases.size(), "differing",
+                                        suite.differing(), "unmet", suite.unmet.size());
+    if (!suite.error.empty()) json_.member("error", suite.error);
+    list_in_json("findings", suite.findings);
+    json_.line().key("frames_that_differ").begin_array();
+    for (const GoldenCase& c : suite.cases)
+      if (!c.findings.empty()) tell_of(c);
+    json_.end_array();
+    if (options_.update) {
+      list_in_json("written", std::exchange(written_, {}));
+      list_in_json("removed", std::exchange(removed_, {}));
+    }
+    json_.end_object();
+    std::string line;
+    if (const GoldenCase* first = suite.first()) {
+      line = fmt::format("{}, first {}: ", differing_of(suite.differing(), suite.cases.size()),
+                         name_of(*first));
+      for (const std::string& text : first->findings)
+        line += (&text == &first->findings.front() ? "" : "; ") + text;
+    }
+    for (const std::string& text : suite.findings) line += (line.empty() ? "" : "; ") + text;
+    if (!line.empty()) say(fmt::format("{}: {}", suite.scenario, line));
+  }
+
+  void tell_of(const GoldenCase& c) {
+    json_.line().begin_object().members("frame", c.frame, "event", c.event);
+    list_in_json("findings", c.findings);
+    json_.key("facts").begin_array();
+    for (const FactsDifference& d : c.facts.differences) {
+      json_.begin_object();
+      json_.members("path", d.path, "expected", d.expected, "found", d.actual).end_object();
+    }
+    json_.end_array().end_object();
+  }
+
+  void list_in_json(const char* name, const std::vector<std::string>& texts) {
+    json_.key(name).begin_array();
+    for (const std::string& text : texts) json_.value(text);
+    json_.end_array();
+  }
+
+  // The page is made if frames differ or it is asked for. Its file, if there is one.
+  std::string write_reports() const {
+    if (!options_.junit.empty()) write_file(options_.junit, golden_junit(suites_));
+    const auto differs = [](const GoldenSuite& s) { return s.first() != nullptr; };
+    if (options_.report.empty() && std::ranges::none_of(suites_, differs)) return {};
+    const fs::path page = report_file();
+    if (page.has_parent_path()) make_folder(page.parent_path());
+    write_file(page, golden_page(suites_, fmt::format("Lantern {}", kVersion)));
+    return page.string();
+  }
+
+  void tell_end(const std::string& report) const {
+    if (options_.update) return;
+    std::size_t frames = 0;
+    for (const GoldenSuite& s : suites_) frames += s.cases.size();
+    const auto bad = std::ranges::count_if(suites_, [](const auto& s) { return !s.good(); });
+    const std::string place = report.empty() ? "" : fmt::format("; see {}", report);
+    const std::string of =
+        suites_.size() == 1 ? "1 scenario" : fmt::format("{} scenarios", suites_.size());
+    if (bad == 0)
+      say(fmt::format("{} of {} as expected{}", counted_frames(frames), of, place));
+    else
+      say(fmt::format("{} of {} not as expected{}", bad, of, place));
+  }
+
+  const GoldenOptions& options_;
+  RenderOptions as_;
+  RenderJob job_;
+  std::vector<std::pair<GoldenSuite, std::optional<Scenario>>> loaded_;
+  std::vector<GoldenSuite> suites_;
+  std::size_t shown_left_ = kMostShown;
+  std::vector<std::string> written_, removed_;  // of the scenario that was updated last
+  Work work_;
+  JsonWriter json_;
+  int code_ = kGood;
+};
+
+}  // namespace
+
+int golden_command(const GoldenOptions& options) { return GoldenRun(options).run(); }
+
+}  // namespace lantern::app

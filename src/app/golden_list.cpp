@@ -1,0 +1,96 @@
+#include "app/golden_list.hpp"
+
+#include <array>
+#include <charconv>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/file.hpp"
+#include "base/printable.hpp"
+
+namespace lantern::app {
+namespace {
+
+constexpr std::string_view kGoldenFormat = "lantern.golden_frames/";
+constexpr std::string_view kGoldenVersion = "1";
+
+using Member = std::pair<std::string_view, std::string GoldenList::MadeWith::*>;
+constexpr std::array<Member, 5> kMembers = {{{"version", &GoldenList::MadeWith::version},
+                                             {"size", &GoldenList::MadeWith::size},
+                                             {"theme", &GoldenList::MadeWith::theme},
+                                             {"pace", &GoldenList::MadeWith::pace},
+                                             {"facts", &GoldenList::MadeWith::facts}}};
+
+bool is_hash(std::string_view word) {
+  return word.size() == 16 && word.find_first_not_of("0123456789abcdef") == word.npos;
+}
+
+// "7 1f0c6e2a... split": the frame, its pixels, and what is left of the line.
+bool read_frame(std::string_view line, GoldenList& list) {
+  std::uint32_t index = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), index);
+  if (error != std::errc() || end == line.data() + line.size() || *end != ' ') return false;
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()) + 1);
+  const std::string_view hash = line.substr(0, line.find(' '));
+  line.remove_prefix(hash.size());
+  if (!line.empty()) line.remove_prefix(1);
+  return is_hash(hash) &&
+         list.frames.emplace(index, GoldenList::Entry{std::string(hash), std::string(line)}).second;
+}
+
+bool read_line(std::string_view line, GoldenList& list) {
+  const std::string_view key = line.substr(0, line.find(' '));
+  if (key.size() == line.size()) return false;
+  line.remove_prefix(key.size() + 1);
+  if (key == "frame") return read_frame(line, list);
+  for (const auto& [name, member] : kMembers)
+    if (key == name && (list.made_with.*member).empty()) {
+      list.made_with.*member = line;
+      return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+std::string to_text(const GoldenList& list) {
+  std::string text = fmt::format("{}{}\n", kGoldenFormat, kGoldenVersion);
+  for (const auto& [name, member] : kMembers)
+    text += fmt::format("{} {}\n", name, list.made_with.*member);
+  for (const auto& [index, entry] : list.frames)
+    text += fmt::format("frame {} {} {}\n", index, entry.pixels, printable(entry.event));
+  return text;
+}
+
+std::optional<GoldenList> read_golden_list(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
+    return std::nullopt;
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+  std::istringstream lines(read_file(file, kMostBytes));
+  GoldenList list;
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (line.ends_with('\r')) line.pop_back();  // as some version control systems give it
+    if (number == 1) {
+      if (!line.starts_with(kGoldenFormat))
+        throw IoError(fmt::format("'{}' is not Lantern's: move it, or give --dir another folder",
+                                  file.string()));
+      if (line.substr(kGoldenFormat.size()) != kGoldenVersion)
+        throw IoError(fmt::format("'{}' is of a later Lantern: {}", file.string(), line));
+    } else if (!read_line(line, list)) {
+      throw DamagedGoldens(
+          fmt::format("'{}' is damaged in line {}; --update makes it anew", file.string(), number));
+    }
+  }
+  for (const auto& [name, member] : kMembers)
+    if ((list.made_with.*member).empty())
+      throw DamagedGoldens(
+          fmt::format("'{}' is damaged: no {}; --update makes it anew", file.string(), name));
+  return list;
+}
+
+}  // namespace lantern::app
