@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
@@ -92,8 +93,8 @@ int compare_command(const CompareOptions& options) {
           ? compare_folders(options)
           : std::vector{compare_files(options.expected, options.actual, options.output, options)};
   bool equal = true;
-  JsonWriter json;
-  json.begin_array();
+  JsonWriter json = answer_of("compare");
+  json.line().key("pictures").begin_array();
   for (const Result& r : results) {
     equal = equal && r.equal;
     json.line().begin_object().member("name", r.name).member("equal", r.equal);
@@ -101,8 +102,8 @@ int compare_command(const CompareOptions& options) {
     if (!options.json && (!r.equal || !folders))
       say(fmt::format("{}: {}; {}", r.name, r.equal ? "equal" : "different", r.finding));
   }
-  json.line().end_array();
-  if (options.json) write_stdout(json.text() + "\n");
+  json.line().end_array().line().end_object();
+  if (options.json) answer(json.text());
   const auto different =
       std::count_if(results.begin(), results.end(), [](const Result& r) { return !r.equal; });
   if (folders && !options.json)

@@ -46,15 +46,14 @@ std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList
 }
 
 // "ghosts: left alone: a.png, b.png and 17 more"
-void say_files(const std::string& scenario, const char* what,
-               const std::vector<std::string>& names) {
+std::string about_files(const std::string& scenario, const char* what,
+                        const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 5;
-  if (names.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
     text += (i > 0 ? ", " : "") + names[i];
   if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
-  say(fmt::format("{}: {}: {}", scenario, what, text));
+  return fmt::format("{}: {}: {}", scenario, what, text);
 }
 
 }  // namespace
@@ -91,7 +90,8 @@ void FolderSink::close(const DirectorReport& report) {
 // Only when there is a frame for it.
 void FolderSink::open_folder() {
   folder_.emplace(path_, manifest_, selection_.takes_all());
-  say_files(scenario_.name, "removed what an earlier run has left", folder_->removed());
+  if (!folder_->removed().empty())
+    say(about_files(scenario_.name, "removed what an earlier run has left", folder_->removed()));
   write_manifest();
 }
 
@@ -167,8 +167,10 @@ void FolderSink::tell_of_strange_files() const {
   std::vector<std::string> left, replaced;
   for (const std::string& name : folder_->strange())
     (written_.contains(name) ? replaced : left).push_back(name);
-  say_files(scenario_.name, "left alone, since it is not as Lantern made it", left);
-  say_files(scenario_.name, "replaced, though it was not as Lantern made it", replaced);
+  if (!left.empty())
+    warn(about_files(scenario_.name, "left alone, since it is not as Lantern made it", left));
+  if (!replaced.empty())
+    warn(about_files(scenario_.name, "replaced, though it was not as Lantern made it", replaced));
 }
 
 // Made when there is something to draw.
