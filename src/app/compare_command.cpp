@@ -8,6 +8,7 @@
 #include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "render/compare.hpp"
@@ -40,10 +41,11 @@ Result compare_files(const fs::path& expected, const fs::path& actual, const fs:
   const Comparison c = compare(a, b, o.tolerance);
   const double allowed = o.fraction * static_cast<double>(a.width) * a.height;
   result.equal = c.same_size && static_cast<double>(c.differing) <= allowed;
-  result.finding =
-      c.same_size ? fmt::format("{} pixels differ, at most by {} levels", c.differing, c.largest)
-                  : fmt::format("expected {} x {} pixels, found {} x {}", a.width, a.height,
-                                b.width, b.height);
+  result.finding = c.same_size ? fmt::format("{} {}, at most by {}", counted(c.differing, "pixel"),
+                                             c.differing == 1 ? "differs" : "differ",
+                                             counted(c.largest, "level"))
+                               : fmt::format("expected {} x {} pixels, found {} x {}", a.width,
+                                             a.height, b.width, b.height);
   if (!result.equal && !picture.empty()) {
     if (picture.has_parent_path()) make_folder(picture.parent_path());
     write_file(picture, encode_png(difference_picture(a, b, o.tolerance), PngEffort::fast, {}, 0));
@@ -92,11 +94,10 @@ int compare_command(const CompareOptions& options) {
       folders
           ? compare_folders(options)
           : std::vector{compare_files(options.expected, options.actual, options.output, options)};
-  bool equal = true;
+  const auto different = std::ranges::count_if(results, [](const Result& r) { return !r.equal; });
   JsonWriter json = answer_of("compare");
-  json.line().key("pictures").begin_array();
+  json.line().member("equal", different == 0).line().key("files").begin_array();
   for (const Result& r : results) {
-    equal = equal && r.equal;
     json.line().begin_object().member("name", r.name).member("equal", r.equal);
     json.member("finding", r.finding).end_object();
     if (!options.json && (!r.equal || !folders))
@@ -104,11 +105,9 @@ int compare_command(const CompareOptions& options) {
   }
   json.line().end_array().line().end_object();
   if (options.json) answer(json.text());
-  const auto different =
-      std::count_if(results.begin(), results.end(), [](const Result& r) { return !r.equal; });
   if (folders && !options.json)
-    say(fmt::format("{} of {} pictures differ", different, results.size()));
-  return equal ? kGood : kFailed;
+    say(fmt::format("{} of {} differ", different, counted(results.size(), "picture")));
+  return different == 0 ? kGood : kFailed;
 }
 
 }  // namespace lantern::app

@@ -108,7 +108,7 @@ TEST(JsonStyle, EveryCommandAnswersAsItsSchemaSays) {
   const std::string picture = (out / "ghost_quadtree" / "ghost_quadtree_000").string();
   answer_to("compare --json " + picture + "0.png " + picture + "0.png", 0);
   const json different = answer_to("compare --json " + picture + "0.png " + picture + "1.png", 1);
-  EXPECT_FALSE(different["pictures"][0]["equal"]);
+  EXPECT_FALSE(different["files"][0]["equal"]);
   EXPECT_NE(answer_to("reference --json", 0)["markdown"].get<std::string>().find("# "),
             std::string::npos);
 }
