@@ -31,8 +31,9 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app, int argc, char** a
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with('-')) {
-      const CLI::Option* option = commands.back()->get_option_no_throw(word);
-      if (option != nullptr && option->get_items_expected_max() > 0) ++i;
+      const auto options = commands.back()->get_options(  // get_option_no_throw may run out of room
+          [&](const CLI::Option* one) { return one->check_name(word); });
+      if (!options.empty() && options.front()->get_items_expected_max() > 0) ++i;
       continue;
     }
     if (commands.back()->get_subcommands(nullptr).empty()) break;
