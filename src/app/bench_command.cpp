@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
+#include "app/inputs.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "draw/page.hpp"
 #include "report/bench_frames.hpp"
@@ -36,7 +39,8 @@ class ScratchFolder {
 }  // namespace
 
 int bench_frames_command(const BenchOptions& options) {
-  const Scenario scenario = load_scenario(options.scenario);
+  const Scenario scenario =
+      load_scenario(options.scenario.empty() ? own_scenario("ghost_quadtree") : options.scenario);
   FrameBenchConfig config;
   config.rounds = options.rounds;
   config.theme = *theme_named("light");
@@ -48,11 +52,12 @@ int bench_frames_command(const BenchOptions& options) {
   });
   if (lists.size() < 2)
     throw UsageError("the scenario gives fewer than two frames; equal pictures are encoded once");
-  say(fmt::format("measuring {} rounds of {} frames at {} x {}; this takes a minute", config.rounds,
-                  config.frames, config.width, config.height));
+  say(fmt::format("measuring {} of {} at {} x {}; this takes a minute",
+                  counted(config.rounds, "round"), counted(config.frames, "frame"), config.width,
+                  config.height));
   const ScratchFolder folder;
   const FrameBenchResult result = bench_frames(lists, folder.path(), config);
-  options.json ? write_stdout(to_json(result)) : print(to_table(result));
+  options.json ? answer(to_json(result)) : print(to_table(result));
   return kGood;
 }
 

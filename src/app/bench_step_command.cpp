@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/clock.hpp"
-#include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
@@ -55,7 +56,7 @@ int bench_step_command(const BenchStepOptions& options) {
   result.circumstances = here(kVersion, kSourceHash);
   ReportFolder folder(options.output, "bench_step");
   const std::size_t piles = result.config.piles.size();
-  say(fmt::format("{} piles; each solver has {} at each", piles,
+  say(fmt::format("{}; each solver has {} at each", counted(piles, "pile"),
                   duration_text(result.config.longest)));
   std::size_t begun = 0;
   try {
@@ -73,9 +74,9 @@ int bench_step_command(const BenchStepOptions& options) {
   for (const std::string& missing : result.missing) say(missing);
   folder.write("bench_step.csv", to_csv(result));
   folder.write("bench_step.json", to_json(result));
-  options.json ? write_stdout(to_json(result)) : print(to_table(result));
+  options.json ? answer(to_json(result)) : print(to_table(result));
   if (interrupted()) {
-    say("interrupted; the piles that were done have been reported");
+    complain("interrupted; the piles that were done have been reported");
     return kInterrupted;
   }
   folder.finish();

@@ -1,9 +1,13 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
+#include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 
 namespace lantern::app {
@@ -18,6 +22,7 @@ class NoSink : public FrameSink {
 
 struct Verdict {
   std::string file;
+  std::string name;  // empty if it could not be read
   int code = kGood;
   DirectorReport report;
   std::vector<Diagnostic> problems;
@@ -27,9 +32,11 @@ struct Verdict {
 
 // Runs one scenario; what is wrong with it goes to standard error.
 Verdict check_one(const std::string& file, const CheckOptions& options, Work& work) {
-  Verdict verdict{file, kGood, {}, {}, {}, {}};
+  Verdict verdict;
+  verdict.file = file == "-" ? kStandardInput : file;
   try {
     const Scenario scenario = load_scenario(file);
+    verdict.name = scenario.name;
     NoSink sink;
     const RunResult result = run_scenario(scenario, pace_of(options.pace, scenario), sink, work);
     verdict.code = tell(result, options.strict);
@@ -61,7 +68,9 @@ void write(JsonWriter& json, const char* key, const std::vector<Diagnostic>& dia
 }
 
 void write(JsonWriter& json, const Verdict& v) {
-  json.line().begin_object().member("file", v.file).member("good", v.code == kGood);
+  json.line().begin_object().member("file", v.file).key("name");
+  v.name.empty() ? json.null() : json.value(v.name);
+  json.member("good", v.code == kGood);
   json.member("frames", v.report.frames).member("expectations", v.report.expectations);
   write(json, "problems", v.problems);
   write(json, "warnings", v.warnings);
@@ -77,30 +86,33 @@ std::string joined_facts(const std::vector<std::string>& facts) {
   return all;
 }
 
-std::string counted(const std::vector<Diagnostic>& warnings) {
-  if (warnings.empty()) return "";
-  return fmt::format("; {} warning{}", warnings.size(), warnings.size() > 1 ? "s" : "");
+// "x.toml: good; 8 frames, 1 expectation holds; 2 warnings"
+std::string summary_of(const Verdict& v) {
+  const std::uint64_t expectations = v.report.expectations;
+  std::string text = fmt::format("{}: good; {}, {} {}{}", v.file, counted(v.report.frames, "frame"),
+                                 counted(expectations, "expectation"),
+                                 expectations == 1 ? "holds" : "hold", joined_facts(v.facts));
+  if (!v.warnings.empty()) text += "; " + counted(v.warnings.size(), "warning");
+  return text;
 }
 
 }  // namespace
 
 int check_command(const CheckOptions& options) {
   Work work;
-  JsonWriter json;
-  json.begin_object().key("scenarios").begin_array();
+  JsonWriter json = answer_of("check");
+  json.line().key("scenarios").begin_array();
   int code = kGood;
-  for (const std::string& file : options.files) {
+  for (const std::string& file : input_files(options.files)) {
     const Verdict v = check_one(file, options, work);
     code = std::max(code, v.code);
     write(json, v);
-    if (v.code == kGood && !options.json)
-      say(fmt::format("{}: good; {} frames, {} expectations hold{}{}", file, v.report.frames,
-                      v.report.expectations, joined_facts(v.facts), counted(v.warnings)));
+    if (v.code == kGood && !options.json) say(summary_of(v));
   }
   json.line().end_array().line().key("work");
   write(json, work);
   json.line().end_object();
-  if (options.json) write_stdout(json.text() + "\n");
+  if (options.json) answer(json.text());
   return code;
 }
 

@@ -1,13 +1,17 @@
 #include "app/command_line.hpp"
 
-#include <optional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "app/commands.hpp"
 #include "app/option_words.hpp"
+#include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "embedded/output_schema.hpp"
 #include "embedded/version.hpp"
 #include "rooms.hpp"
 #include "scenario/reference.hpp"
@@ -15,10 +19,13 @@
 namespace lantern::app {
 namespace {
 
+constexpr const char* kFilesHelp =
+    "scenario files, folders of them (by 'lecture', then by name), or - for standard input";
+
 void add_render(CLI::App& app, Run& run) {
   const auto [c, o] =
       command(app, run, "render", "Draw a scenario's frames to PNG or SVG files", render_command);
-  c->add_option("FILE", o.files, "scenario files")->required();
+  c->add_option("FILE", o.files, kFilesHelp)->required();
   c->add_option(
        "-o,--output", o.output,
        "a folder, for DIR/<scenario>/<scenario>_0000.png ...; or a file, whose ending says "
@@ -74,7 +81,7 @@ void add_render(CLI::App& app, Run& run) {
 void add_check(CLI::App& app, Run& run) {
   const auto [c, o] = command(app, run, "check",
                               "Run scenarios without drawing, verify expectations", check_command);
-  c->add_option("FILE", o.files, "scenario files")->required();
+  c->add_option("FILE", o.files, kFilesHelp)->required();
   c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
   add_memory(*c);
   c->add_flag("--strict", o.strict, "turn warnings into errors (exit code 3)");
@@ -84,7 +91,7 @@ void add_check(CLI::App& app, Run& run) {
 void add_list(CLI::App& app, Run& run) {
   const auto [c, o] = command(
       app, run, "list", "List the scenarios in a folder in the order of a lecture", list_command);
-  c->add_option("DIR", o.folders, "folders; the default is scenarios");
+  c->add_option("DIR", o.folders, "folders or files; the default is scenarios");
   add_json(*c, o.json);
 }
 
@@ -92,7 +99,7 @@ void add_explain(CLI::App& app, Run& run) {
   const auto [c, o] =
       command(app, run, "explain", "Run a scenario without pixels, tell what each stage did",
               explain_command);
-  c->add_option("FILE", o.file, "scenario file")->required();
+  c->add_option("FILE", o.file, "scenario file; - is standard input")->required();
   add_memory(*c);
   add_json(*c, o.json);
 }
@@ -157,15 +164,34 @@ void add_golden(CLI::App& app, Run& run) {
   add_json(*c, o.json);
 }
 
+// `help bench step` prints what `bench step --help` does.
+void print_help(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  std::string before;  // the words before the command's own name
+  for (const std::string& word : words) {
+    const auto next =
+        command->get_subcommands([&](const CLI::App* one) { return one->get_name() == word; });
+    if (next.empty()) throw UsageError(no_command(*command, word));
+    before += (before.empty() ? "" : " ") + command->get_name();
+    command = next.front();
+  }
+  const std::string name = (before.empty() ? "" : before + " ") + command->get_name();
+  print(command->get_formatter()->make_help(command, name, CLI::AppFormatMode::Normal));
+}
+
+void add_help(CLI::App& app, Run& run) {
+  const auto words = std::make_shared<std::vector<std::string>>();
+  CLI::App* c = app.add_subcommand("help", "Print the help of a command, as its --help does");
+  c->add_option("COMMAND", *words, "its name, such as: bench step; without one, all commands");
+  c->callback([&app, &run, words] {
+    run = [&app, words] {
+      print_help(app, *words);
+      return int{kGood};
+    };
+  });
+}
+
 void add_texts(CLI::App& app, Run& run) {
-  const auto print = [&app, &run](const char* name, const char* help, std::string (*text)()) {
-    app.add_subcommand(name, help)->callback([&run, text] {
-      run = [text] {
-        write_stdout(text());
-        return int{kGood};
-      };
-    });
-  };
   const auto [c, o] =
       command(app, run, "reference", "Print the scenario language's reference page (Markdown)",
               reference_command);
@@ -173,7 +199,17 @@ void add_texts(CLI::App& app, Run& run) {
       ->check(kNotEmpty)
       ->type_name("DIR");
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
-  print("schema", "Print the scenario language's JSON Schema", json_schema);
+  add_json(*c, o.json);
+  const auto of = std::make_shared<std::string>("scenario");
+  CLI::App* schema = app.add_subcommand("schema", "Print a JSON Schema");
+  add_choice(*schema, "--of", *of, "scenario files, or what commands print with --json",
+             {"scenario", "output"});
+  schema->callback([&run, of] {
+    run = [of] {
+      write_stdout(*of == "output" ? std::string(output::output_schema_json) : json_schema());
+      return int{kGood};
+    };
+  });
 }
 
 }  // namespace
@@ -195,6 +231,8 @@ void add_commands(CLI::App& app, Run& run) {
   add_compare(app, run);
   add_lab_commands(app, run);
   add_texts(app, run);
+  add_help(app, run);
+  add_manners(app);  // behind all commands, since it goes through them
 }
 
 }  // namespace lantern::app

@@ -65,6 +65,7 @@ int explain_command(const ExplainOptions& options);
 struct ReferenceOptions {
   std::string pictures;  // folder; empty: the page is printed
   std::string backend = "auto";
+  bool json = false;
 };
 int reference_command(const ReferenceOptions& options);
 
@@ -118,7 +119,7 @@ struct MeasureOptions {
 int measure_command(const MeasureOptions& options);
 
 struct BenchOptions {
-  std::string scenario = "scenarios/ghost_quadtree.toml";
+  std::string scenario;  // file; empty for ghost_quadtree of those that come with Lantern
   int rounds = 5;
   bool json = false;
 };

@@ -9,8 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "render/compare.hpp"
@@ -156,8 +158,7 @@ int compare_command(const CompareOptions& options) {
   const std::vector<Result> results =
       folders ? compare_folders(options) : compare_two_files(options);
   const auto different = std::ranges::count_if(results, [](const Result& r) { return !r.equal; });
-  JsonWriter json;
-  json.begin_object().line().member("format", "lantern.compare/1");
+  JsonWriter json = answer_of("compare");
   json.line().member("equal", different == 0).line().key("files").begin_array();
   for (const Result& r : results) {
     json.line().begin_object().member("name", r.name).member("equal", r.equal);
@@ -166,9 +167,9 @@ int compare_command(const CompareOptions& options) {
       say(fmt::format("{}: {}; {}", r.name, r.equal ? "equal" : "different", r.finding));
   }
   json.line().end_array().line().end_object();
-  if (options.json) write_stdout(json.text() + "\n");
+  if (options.json) answer(json.text());
   if (folders && !options.json)
-    say(fmt::format("{} of {} files differ", different, results.size()));
+    say(fmt::format("{} of {} differ", different, counted(results.size(), "file")));
   return different == 0 ? kGood : kFailed;
 }
 

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/printable.hpp"
 #include "base/program.hpp"
@@ -52,21 +52,20 @@ int doctor_command(const DoctorOptions& options) {
   const std::string ffmpeg = found ? found->string() : "";
   const PeerReport peers = examine_peers();
   bool any = false;
-  JsonWriter json;
-  json.begin_object().member("version", kVersion).key("backends").begin_array();
+  JsonWriter json = answer_of("doctor");
+  json.line().member("version", kVersion).line().key("backends").begin_array();
   for (const BackendReport& r : reports) {
     any |= r.works;
     json.line().begin_object().member("name", r.name).member("works", r.works);
     json.member("library", r.library).member("renderer", r.renderer);
     json.member("problem", r.problem).end_object();
   }
-  json.line().end_array().member("ffmpeg", ffmpeg).key("peers").begin_array();
+  json.line().end_array().line().member("ffmpeg", ffmpeg).line().key("peers").begin_array();
   for (const std::string& peer : peers.found) json.value(peer);
-  json.end_array().key("missing_peers").begin_array();
+  json.end_array().line().key("missing_peers").begin_array();
   for (const std::string& peer : peers.missing) json.value(peer);
-  json.end_array().end_object();
-  options.json ? write_stdout(json.text() + "\n")
-               : print(as_text(reports, printable(ffmpeg), peers));
+  json.end_array().line().end_object();
+  options.json ? answer(json.text()) : print(as_text(reports, printable(ffmpeg), peers));
   return any ? kGood : kNoBackend;
 }
 

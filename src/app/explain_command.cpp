@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
 #include "base/clock.hpp"
-#include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/grouped.hpp"
 #include "base/json_writer.hpp"
 #include "base/memory.hpp"
@@ -25,17 +26,17 @@ std::string told(const StageTally& stage) {
 
 std::string json_of(const Scenario& scenario, const std::vector<StageTally>& stages,
                     std::uint64_t frames, double seconds) {
-  JsonWriter json;
-  json.begin_object().member("scenario", scenario.name).member("frames", frames);
-  json.member("seconds", seconds).key("stages").begin_array();
+  JsonWriter json = answer_of("explain");
+  json.line().member("scenario", scenario.name).member("frames", frames);
+  json.member("seconds", seconds).line().key("stages").begin_array();
   for (const StageTally& stage : stages) {
     json.line().begin_object().member("stage", stage.stage).member("used", stage.used());
     json.key("counts").begin_object();
     for (const Amount& a : stage.amounts) json.member(a.many, a.n);
     json.end_object().member("note", stage.note).end_object();
   }
-  json.line().end_array().end_object();
-  return json.text() + "\n";
+  json.line().end_array().line().end_object();
+  return json.text();
 }
 
 }  // namespace
@@ -58,14 +59,15 @@ int explain_command(const ExplainOptions& options) {
   const double seconds = watch.seconds();
   const std::vector<StageTally> stages = tally.stages(report);
   if (options.json) {
-    write_stdout(json_of(scenario, stages, report.frames, seconds));
+    answer(json_of(scenario, stages, report.frames, seconds));
     return kGood;
   }
   std::vector<std::vector<std::string>> rows;
   for (const StageTally& stage : stages)
     rows.push_back({stage.used() ? "uses" : "leaves out", std::string(stage.stage), told(stage)});
-  print(fmt::format("{}: {}\n\n{}\nCounted in a run without pixels: {} frames in {:.2g} s.\n",
-                    scenario.name, scenario.title, table(rows), report.frames, seconds));
+  print(fmt::format("{}: {}\n\n{}\nCounted in a run without pixels: {} in {:.2g} s.\n",
+                    scenario.name, scenario.title, table(rows), counted(report.frames, "frame"),
+                    seconds));
   return kGood;
 }
 

@@ -79,7 +79,8 @@ void FolderSink::close(const DirectorReport& report) {
 // Only when there is a frame for it.
 void FolderSink::open_folder() {
   folder_.emplace(path_, manifest_, selection_.takes_all());
-  say_files(scenario_.name, "removed what an earlier run has left", folder_->removed());
+  if (!folder_->removed().empty())
+    say(about_files(scenario_.name, "removed what an earlier run has left", folder_->removed()));
   write_manifest();
 }
 
@@ -155,8 +156,10 @@ void FolderSink::tell_of_strange_files() const {
   std::vector<std::string> left, replaced;
   for (const std::string& name : folder_->strange())
     (written_.contains(name) ? replaced : left).push_back(name);
-  say_files(scenario_.name, "left alone, since it is not as Lantern made it", left);
-  say_files(scenario_.name, "replaced, though it was not as Lantern made it", replaced);
+  if (!left.empty())
+    warn(about_files(scenario_.name, "left alone, since it is not as Lantern made it", left));
+  if (!replaced.empty())
+    warn(about_files(scenario_.name, "replaced, though it was not as Lantern made it", replaced));
 }
 
 // Made when there is something to draw.

@@ -14,6 +14,10 @@ std::string grouped_plainly(std::uint64_t number) {
   return grouped(static_cast<std::int64_t>(number), " ");
 }
 
+std::string counted_plainly(std::uint64_t number, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped_plainly(number), noun, number == 1 ? "" : "s");
+}
+
 std::string left_text(const std::optional<TimeLeft>& left) {
   if (!left) return "";
   return fmt::format(", {} {} left", left->at_least ? "more than" : "about",
@@ -47,19 +51,19 @@ std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state
 }
 
 std::string forecast_text(const RunExtent& extent, const RunState& state) {
-  std::string text = extent.frames ? fmt::format("up to {} frames", grouped_plainly(*extent.frames))
+  std::string text = extent.frames ? "up to " + counted_plainly(*extent.frames, "frame")
                                    : "as many frames as there are events, not known beforehand";
   if (extent.world_steps > 0)
-    text += fmt::format("{} {} world steps", extent.frames ? " of" : "; up to",
-                        grouped_plainly(extent.world_steps));
+    text += fmt::format("{} {}", extent.frames ? " of" : "; up to",
+                        counted_plainly(extent.world_steps, "world step"));
   const std::uint64_t written = extent.chosen.value_or(extent.frames.value_or(1));
   const std::uint64_t between =
       (written - std::min<std::uint64_t>(written, 1)) * extent.in_betweens;
   if (between > 0)
-    text += fmt::format(" and {} in-betweens", grouped_plainly(between));
+    text += " and " + counted_plainly(between, "in-between");
   else if (extent.in_betweens > 0)
-    text += fmt::format(" and {} in-betweens before each but the first",
-                        grouped_plainly(extent.in_betweens));
+    text += fmt::format(" and {} before each but the first",
+                        counted_plainly(extent.in_betweens, "in-between"));
   const auto left = time_left(extent, state);
   text += left ? left_text(left) : ", how long cannot be told yet";
   if (state.files > 0 && extent.frames)
@@ -73,14 +77,13 @@ std::string forecast_text(const RunExtent& extent, const RunState& state) {
 }
 
 std::string progress_text(const RunExtent& extent, const RunState& state) {
-  std::string text =
-      extent.frames ? fmt::format("{} of {} frames", state.frames, grouped_plainly(*extent.frames))
-                    : fmt::format("{} frames", state.frames);
-  if (extent.in_betweens > 0)
-    text += fmt::format(", {} in-betweens", grouped_plainly(state.in_betweens));
+  std::string text = extent.frames ? fmt::format("{} of {}", state.frames,
+                                                 counted_plainly(*extent.frames, "frame"))
+                                   : counted_plainly(state.frames, "frame");
+  if (extent.in_betweens > 0) text += ", " + counted_plainly(state.in_betweens, "in-between");
   if (extent.world_steps > 0)
-    text += fmt::format(", {} of {} world steps", grouped_plainly(state.world_steps),
-                        grouped_plainly(extent.world_steps));
+    text += fmt::format(", {} of {}", grouped_plainly(state.world_steps),
+                        counted_plainly(extent.world_steps, "world step"));
   if (state.files > 0) text += fmt::format(", {} on the disk", memory_text(state.bytes));
   return text + left_text(time_left(extent, state));
 }

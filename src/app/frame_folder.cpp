@@ -127,15 +127,14 @@ bool is_as_made(std::string_view file, std::string_view bytes) {
   return kind && made_from(*kind, bytes);
 }
 
-void say_files(const std::string& scenario, const char* what,
-               const std::vector<std::string>& names) {
+std::string about_files(const std::string& scenario, const char* what,
+                        const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 5;
-  if (names.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
     text += (i > 0 ? ", " : "") + names[i];
   if (names.size() > kMost) text += fmt::format(" and {} more", names.size() - kMost);
-  say(fmt::format("{}: {}: {}", scenario, what, text));
+  return fmt::format("{}: {}: {}", scenario, what, text);
 }
 
 std::string in_between_file(const Manifest& m, std::uint32_t index, std::uint64_t number) {

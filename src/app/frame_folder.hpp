@@ -66,10 +66,9 @@ bool is_as_made(std::string_view file, std::string_view bytes);
 // stand where they are seen.
 std::string in_between_file(const Manifest& manifest, std::uint32_t index, std::uint64_t number);
 
-// Tells a person of files, the first few of them by name: "ghosts: removed: a.png, b.png and 17
-// more". Says nothing if there are none.
-void say_files(const std::string& scenario, const char* what,
-               const std::vector<std::string>& names);
+// Words about files, the first few of them by name: "ghosts: removed: a.png, b.png and 17 more".
+std::string about_files(const std::string& scenario, const char* what,
+                        const std::vector<std::string>& names);
 
 class FrameFolder {
  public:

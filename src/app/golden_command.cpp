@@ -9,10 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/forecast.hpp"
 #include "app/golden_list.hpp"
 #include "app/golden_sink.hpp"
+#include "app/inputs.hpp"
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
@@ -58,7 +60,6 @@ class GoldenRun {
   int run() {
     make_ready();
     load();
-    json_.begin_object().line().member("format", "lantern.golden/1");
     json_.line().key("scenarios").begin_array();
     for (auto& [suite, scenario] : loaded_) {
       if (scenario) try_one(suite, *scenario);
@@ -72,7 +73,7 @@ class GoldenRun {
     json_.line().key("work");
     write(json_, work_);
     json_.line().end_object();
-    if (options_.json) write_stdout(json_.text() + "\n");
+    if (options_.json) answer(json_.text());
     return code_;
   }
 
@@ -99,7 +100,7 @@ class GoldenRun {
 
   void load() {
     std::map<std::string, std::string> files;
-    for (const std::string& file : options_.files) {
+    for (const std::string& file : input_files(options_.files)) {
       GoldenSuite suite;
       suite.scenario = suite.file = file;
       auto scenario = load_or_complain(file, code_);
@@ -188,9 +189,10 @@ class GoldenRun {
                                    goldens.scenario.name, words));
     GoldenUpdate sink(goldens);
     run_it(suite, goldens, sink);
-    say_files(suite.scenario, "written", sink.written());
-    say_files(suite.scenario, "removed", sink.removed());
-    say_files(suite.scenario, "left alone, since it is not as Lantern made it", sink.strange());
+    for (const auto& [what, names] :
+         {std::pair{"written", sink.written()}, std::pair{"removed", sink.removed()},
+          std::pair{"left alone, since it is not as Lantern made it", sink.strange()}})
+      if (!names.empty()) say(about_files(suite.scenario, what, names));
     if (sink.written().empty() && sink.removed().empty())
       say(fmt::format("{}: the golden frames are as they were", suite.scenario));
     written_ = sink.written();
@@ -280,7 +282,7 @@ class GoldenRun {
   std::size_t shown_left_ = kMostShown;
   std::vector<std::string> written_, removed_;  // of the scenario that was updated last
   Work work_;
-  JsonWriter json_;
+  JsonWriter json_ = answer_of("golden");
   int code_ = kGood;
 };
 

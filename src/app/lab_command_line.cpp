@@ -81,7 +81,7 @@ void add_bench(CLI::App& app, Run& run) {
   c->require_subcommand(1);
   const auto [frames, o] = command(
       *c, run, "frames", "Frames per second written to disk, beside cairo", bench_frames_command);
-  frames->add_option("FILE", o.scenario, "scenario file")->capture_default_str();
+  frames->add_option("FILE", o.scenario, "scenario file; the default is Lantern's ghost_quadtree");
   frames->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

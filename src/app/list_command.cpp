@@ -1,45 +1,14 @@
-#include <algorithm>
-#include <filesystem>
-#include <tuple>
-
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
+#include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 
 namespace lantern::app {
 namespace {
-
-namespace fs = std::filesystem;
-
-// scenarios/ here, or beside the folder in which this program was built.
-fs::path default_folder() {
-  std::error_code error;
-  if (fs::is_directory("scenarios", error)) return "scenarios";
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return program.parent_path().parent_path() / "scenarios";
-}
-
-std::vector<fs::path> scenario_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (it->path().extension() == ".toml") files.push_back(it->path());
-  if (error) throw IoError(fmt::format("cannot list '{}': {}", folder.string(), error.message()));
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-// In the order in which one would teach; those without a place behind the others, by name.
-void sort_for_teaching(std::vector<Scenario>& scenarios) {
-  std::ranges::stable_sort(scenarios, [](const Scenario& a, const Scenario& b) {
-    if (a.lecture.has_value() != b.lecture.has_value()) return a.lecture.has_value();
-    return std::tie(a.lecture, a.name) < std::tie(b.lecture, b.name);
-  });
-}
 
 std::vector<std::string> row_of(const Scenario& s) {
   return {s.lecture ? fmt::format("{}", *s.lecture) : "", s.name, s.title, s.idea,
@@ -61,24 +30,23 @@ void add_member(JsonWriter& json, const Scenario& s) {
 }  // namespace
 
 int list_command(const ListOptions& options) {
-  std::vector<fs::path> folders(options.folders.begin(), options.folders.end());
-  if (folders.empty()) folders.push_back(default_folder());
-  std::vector<std::vector<std::string>> rows;
-  JsonWriter json;
-  json.begin_array();
-  int code = kGood;
-  for (const fs::path& folder : folders) {
-    std::vector<Scenario> scenarios;
-    for (const fs::path& file : scenario_files(folder))
-      if (auto s = load_or_complain(file.string(), code)) scenarios.push_back(std::move(*s));
-    sort_for_teaching(scenarios);
-    for (const Scenario& s : scenarios) {
-      rows.push_back(row_of(s));
-      add_member(json, s);
-    }
+  std::vector<std::string> words = options.folders;
+  if (words.empty()) {
+    const auto own = own_scenarios();
+    if (!own) throw UsageError("there is no folder scenarios here: name one");
+    words.push_back(own->string());
   }
-  json.line().end_array();
-  options.json ? write_stdout(json.text() + "\n") : print(table(rows));
+  std::vector<std::vector<std::string>> rows;
+  JsonWriter json = answer_of("list");
+  json.line().key("scenarios").begin_array();
+  int code = kGood;
+  for (const std::string& file : input_files(words))
+    if (const auto scenario = load_or_complain(file, code)) {
+      rows.push_back(row_of(*scenario));
+      add_member(json, *scenario);
+    }
+  json.line().end_array().line().end_object();
+  options.json ? answer(json.text()) : print(table(rows));
   return code;
 }
 

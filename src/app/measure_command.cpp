@@ -6,13 +6,16 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
 #include "app/measure_unsuited.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
+#include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
@@ -94,14 +97,21 @@ PlanOptions plan_options(const MeasureOptions& options) {
   return plan;
 }
 
-int list_problems() {
+int list_problems(bool as_json) {
   std::vector<std::vector<std::string>> rows = {{"problem", "family", "variant", "title"}};
+  JsonWriter json = answer_of("measure.list");
+  json.line().key("problems").begin_array();
   for (const std::string_view name : problem_names()) {
     const Scenario s = known_problem(name);
-    rows.push_back({s.name, std::string(to_string(s.problem->solution)),
-                    std::string(to_string(s.problem->variant)), s.title});
+    const std::string_view family = to_string(s.problem->solution);
+    const std::string_view variant = to_string(s.problem->variant);
+    rows.push_back({s.name, std::string(family), std::string(variant), s.title});
+    json.line().begin_object().members("name", s.name, "family", family, "variant", variant,
+                                       "title", s.title);
+    json.end_object();
   }
-  print(table(rows));
+  json.line().end_array().line().end_object();
+  as_json ? answer(json.text()) : print(table(rows));
   return kGood;
 }
 
@@ -155,7 +165,8 @@ class Measuring {
 
  private:
   void save() {
-    if (!measurement_.rows.empty()) folder_.write("measure.json", report::to_json(measurement_));
+    if (std::ranges::any_of(measurement_.rows, &Row::was_run))
+      folder_.write("measure.json", report::to_json(measurement_));
   }
 
   // Rows of an earlier run that this one did not come to.
@@ -222,16 +233,17 @@ class Measuring {
       ++long_ones;
       if (!longest || plan_.seconds(job) > plan_.seconds(*longest)) longest = &job;
     }
-    say(fmt::format("{} runs, about {}{}", plan_.jobs().size() - kept - long_ones,
+    say(fmt::format("{}, about {}{}", counted(plan_.jobs().size() - kept - long_ones, "run"),
                     duration_text(left_),
                     kept ? fmt::format("; {} are finished from before", kept) : ""));
     for (const std::string& missing : plan_.missing_peers()) say(missing);
     if (longest)
       say(
-          fmt::format("{} runs are left out as too long; the longest ({}, {} at {:.3g} s) would "
+          fmt::format("{} left out as too long; the longest ({}, {} at {:.3g} s) would "
                       "take {}. --full runs them all",
-                      long_ones, plan_.scenario(*longest).name, plan_.solver(*longest).name(),
-                      longest->step, duration_text(plan_.seconds(*longest))));
+                      long_ones == 1 ? "1 run is" : fmt::format("{} runs are", long_ones),
+                      plan_.scenario(*longest).name, plan_.solver(*longest).name(), longest->step,
+                      duration_text(plan_.seconds(*longest))));
   }
 
   Plan& plan_;
@@ -277,9 +289,9 @@ int measure_problems(const MeasureOptions& options) {
     complain("nothing was measured: no method applies, or every run is too long (--full)");
     return kFailed;
   }
-  options.json ? write_stdout(report::to_json(m)) : print(to_table(m));
+  options.json ? answer(report::to_json(m)) : print(to_table(m));
   if (interrupted()) {
-    say("interrupted; the same command goes on from here");
+    complain("interrupted; the same command goes on from here");
     return kInterrupted;
   }
   save_pages(folder, m, options);
@@ -302,14 +314,17 @@ int page_of_earlier(const MeasureOptions& options) {
   ReportFolder folder(options.output, "measure_page");
   folder.write("report.html", to_html(measurements, {}));
   folder.finish();
-  say(fmt::format("the page is {}", (folder.path() / "report.html").string()));
+  const std::string page = (folder.path() / "report.html").string();
+  say(fmt::format("the page is {}", page));
+  if (options.json)
+    answer(answer_of("measure.page").line().member("file", page).line().end_object().text());
   return kGood;
 }
 
 }  // namespace
 
 int measure_command(const MeasureOptions& options) {
-  if (options.list) return list_problems();
+  if (options.list) return list_problems(options.json);
   if (!options.from.empty()) return page_of_earlier(options);
   const std::vector<std::string>& words = options.problems;
   const std::string first = words.empty() ? "" : words[0];

@@ -1,11 +1,13 @@
 // What is measured beside the problems: antialiasing, and the settings of trees.
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
+#include "app/inputs.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
+#include "base/counted.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "measure/broad_phase_cost.hpp"
@@ -18,8 +20,7 @@ namespace lantern::app {
 namespace {
 
 // Upright lines and text, slanted edges, and a solid world.
-constexpr const char* kDefaults[] = {"scenarios/ghost_quadtree.toml", "scenarios/obb_to_aabb.toml",
-                                     "scenarios/octree_split.toml"};
+constexpr const char* kDefaults[] = {"ghost_quadtree", "obb_to_aabb", "octree_split"};
 
 // The frame with the most shapes; of equals the last.
 PictureScene scene_of(const std::string& file, const PictureConfig& config) {
@@ -69,11 +70,12 @@ int measure_pictures_command(const MeasureMoreOptions& options) {
     config.height = 360;
   }
   std::vector<std::string> files = options.files;
-  if (files.empty()) files.assign(std::begin(kDefaults), std::end(kDefaults));
+  if (files.empty())
+    for (const char* name : kDefaults) files.push_back(own_scenario(name));
   std::vector<PictureScene> scenes;
   for (const std::string& file : files) scenes.push_back(scene_of(file, config));
-  say(fmt::format("{} pictures of {} x {}, each against one of 16 x 16 times as many pixels",
-                  scenes.size(), config.width, config.height));
+  say(fmt::format("{} of {} x {}, each against one of 16 x 16 times as many pixels",
+                  counted(scenes.size(), "picture"), config.width, config.height));
   PictureReport report;
   {
     Progress progress("measure pictures", kPictureRows * scenes.size(), "rows");
@@ -90,7 +92,7 @@ int measure_pictures_command(const MeasureMoreOptions& options) {
     pages.push_back({"pictures_" + scene, draw_picture_page(report, scene, circumstances)});
   folder.draw(pages, options.theme);
   folder.finish();
-  options.json ? write_stdout(json) : print(table);
+  options.json ? answer(json) : print(table);
   return kGood;
 }
 
@@ -118,9 +120,10 @@ int measure_broad_phase_command(const MeasureMoreOptions& options) {
   folder.write("broad_phase.json", json);
   if (folder.wanted()) folder.draw(pages_of(rows, scenes), options.theme);
   folder.finish();
-  options.json ? write_stdout(json) : print(table);
+  options.json ? answer(json) : print(table);
   if (wrong == 0) return kGood;
-  complain(fmt::format("{} pairs are missed or invented; see the column 'wrong'", wrong));
+  complain(fmt::format("{} missed or invented; see the column 'wrong'",
+                       wrong == 1 ? "1 pair is" : fmt::format("{} pairs are", wrong)));
   return kFailed;
 }
 

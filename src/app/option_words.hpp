@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,7 +12,9 @@
 #include <fmt/format.h>
 
 #include "app/command_line.hpp"
+#include "app/terminal.hpp"
 #include "base/memory.hpp"
+#include "base/suggest.hpp"
 
 namespace lantern::app {
 
@@ -47,6 +50,33 @@ inline void add_memory(CLI::App& command) {
           },
           "memory to take at most, such as 800M or 4G; the default is half of the machine's")
       ->type_name("SIZE");
+}
+
+// That `parent` has no command of this name, and which it has.
+inline std::string no_command(const CLI::App& parent, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* one : parent.get_subcommands(nullptr)) names.push_back(one->get_name());
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  return fmt::format("there is no command '{}'; {}", word,
+                     known.empty() ? "see 'lantern help'" : suggestion(word, known, known.size()));
+}
+
+// On the program and on each of its commands, however deep: before and after the command's name.
+inline void add_manners(CLI::App& app) {
+  app.add_flag_callback("--quiet", be_quiet, "say nothing but errors and warnings")
+      ->trigger_on_parse();
+  app.add_option_function<std::string>(
+         "--color",
+         [](const std::string& when) {
+           set_colour(when == "always"  ? ColourMode::always
+                      : when == "never" ? ColourMode::never
+                                        : ColourMode::automatic);
+         },
+         "colour in messages; auto asks the terminal, NO_COLOR and CLICOLOR_FORCE")
+      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->trigger_on_parse()
+      ->type_name("WHEN");
+  for (CLI::App* command : app.get_subcommands(nullptr)) add_manners(*command);
 }
 
 // A command and its options, which live as long as it can be run.

@@ -10,28 +10,70 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
+#include "app/option_words.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
 #include "base/stop.hpp"
-#include "base/suggest.hpp"
 
 namespace lantern::app {
 namespace {
 
+// The commands that the words name, from the outermost: "bench", "step". What stands before them
+// are options and their values.
+std::vector<const CLI::App*> commands_of(const CLI::App& app, int argc, char** argv,
+                                         std::string& unknown) {
+  std::vector<const CLI::App*> commands = {&app};
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.starts_with('-')) {
+      const auto options = commands.back()->get_options(  // get_option_no_throw may run out of room
+          [&](const CLI::Option* one) { return one->check_name(word); });
+      if (!options.empty() && options.front()->get_items_expected_max() > 0) ++i;
+      continue;
+    }
+    if (commands.back()->get_subcommands(nullptr).empty()) break;
+    const auto known = commands.back()->get_subcommands(
+        [&](const CLI::App* one) { return one->get_name() == word; });
+    if (known.empty()) {
+      unknown = word;
+      break;
+    }
+    commands.push_back(known.front());
+  }
+  return commands;
+}
+
+// The names of these, without the program's own.
+std::string names_of(const std::vector<const CLI::App*>& commands, std::string_view between) {
+  std::string names;
+  for (std::size_t i = 1; i < commands.size(); ++i)
+    names += (names.empty() ? "" : std::string(between)) + commands[i]->get_name();
+  return names;
+}
+
 // A misspelt command gets the nearest one.
 std::string usage_hint(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return "see 'lantern --help'";
-  const std::string word = argv[1];
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), word) != names.end())
-    return "see 'lantern " + word + " --help'";
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  return "there is no command '" + word + "'; " + suggestion(word, known);
+  std::string unknown;
+  const auto commands = commands_of(app, argc, argv, unknown);
+  if (unknown.empty()) {
+    const std::string names = names_of(commands, " ");
+    return "see 'lantern " + names + (names.empty() ? "" : " ") + "--help'";
+  }
+  return no_command(*commands.back(), unknown);
+}
+
+// A wish for JSON holds even if the other words make no sense.
+void owe_answer_if_wanted(const CLI::App& app, int argc, char** argv) {
+  const auto end = std::find(argv, argv + argc, std::string_view("--"));
+  if (std::find(argv, end, std::string_view("--json")) == end) return;
+  std::string unknown;
+  const std::string names = names_of(commands_of(app, argc, argv, unknown), ".");
+  owe_answer(names.empty() || !unknown.empty() ? "error" : names);
 }
 
 // Made before it is needed, when there may be no room for it.
@@ -53,10 +95,11 @@ int run_and_report(const Run& run) noexcept {
   } catch (const ReaderGone&) {
     return kFailed;
   } catch (const Stopped&) {
-    say("interrupted");
+    complain("interrupted");
     return kInterrupted;
   } catch (const std::bad_alloc&) {
     write_stderr(out_of_memory);  // and needs none
+    write_answer_without_memory();
     return kFailed;
   } catch (const std::exception& e) {
     complain(e.what());
@@ -72,11 +115,13 @@ int run_words(int argc, char** argv) {
   CLI::App app;
   Run run;
   add_commands(app, run);
+  owe_answer_if_wanted(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0)
       throw UsageError(std::string(e.what()) + "; " + usage_hint(app, argc, argv));
+    owe_no_answer();
     std::ostringstream text;  // --help, --version
     app.exit(e, text, text);
     print(text.str());
@@ -94,7 +139,11 @@ int run_program(int argc, char** argv) {
   hold_standard_streams();
   keep_freed_memory();
   catch_interrupts();
-  return run_and_report([&] { return run_words(argc, argv); });
+  const int code = run_and_report([&] { return run_words(argc, argv); });
+  return run_and_report([&] {
+    write_answer(code);
+    return code;
+  });
 }
 
 }  // namespace lantern::app

@@ -50,7 +50,7 @@ Progress::Progress(std::string name, std::uint64_t total, std::string unit)
 
 // A system that gives no thread gets no progress; the work goes on.
 void Progress::start() {
-  if (!has_listener()) return;
+  if (is_quiet() || !has_listener()) return;
   try {
     thread_ = std::thread([this] { watch(); });
   } catch (const std::system_error&) {

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/stop.hpp"
@@ -90,7 +92,15 @@ int draw_pictures(const ReferenceOptions& options) {
     write_file(path, painter.painted(list, theme, from));
     ++drawn;
   }
-  print(fmt::format("{}: {} pictures, {} of them new\n", folder.string(), names.size(), drawn));
+  if (options.json)
+    answer(answer_of("reference")
+               .lines("folder", folder.string(), "pictures", names.size(), "drawn", drawn)
+               .line()
+               .end_object()
+               .text());
+  else
+    print(fmt::format("{}: {}, {} of them new\n", folder.string(), counted(names.size(), "picture"),
+                      drawn));
   return kGood;
 }
 
@@ -98,7 +108,15 @@ int draw_pictures(const ReferenceOptions& options) {
 
 int reference_command(const ReferenceOptions& options) {
   if (!options.pictures.empty()) return draw_pictures(options);
-  write_stdout(reference_page());
+  if (options.json)
+    answer(answer_of("reference")
+               .line()
+               .member("markdown", reference_page())
+               .line()
+               .end_object()
+               .text());
+  else
+    write_stdout(reference_page());
   return kGood;
 }
 

@@ -7,16 +7,19 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/destination.hpp"
 #include "app/file_sink.hpp"
 #include "app/folder_sink.hpp"
 #include "app/forecast.hpp"
+#include "app/inputs.hpp"
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
 #include "app/staged_sink.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
@@ -33,7 +36,10 @@ class StdoutSink : public StagedSink {
 
  protected:
   void draw(const Frame& frame, const Staging& staging) override {
-    if (!selection_.takes(frame) || ++chosen_ > 1) return;
+    if (!selection_.takes(frame)) return;
+    last_ = frame.index;
+    if (++chosen_ > 1) return;
+    first_ = frame.index;
     const Pipeline::Config& as = job_.picture;
     const DrawList list = job_.page_of(frame, staging, work_);
     bytes_ = picture_of(job_, as, frame, list, manifest_.frame_from(frame.index), work_);
@@ -41,8 +47,10 @@ class StdoutSink : public StagedSink {
   void close(const DirectorReport&) override {
     selection_.require_some();
     if (chosen_ != 1)
-      throw UsageError(fmt::format(
-          "-o - writes one frame, but {} are chosen; pick one with --frames or --at", chosen_));
+      throw UsageError(
+          fmt::format("-o - writes one frame, but {} are chosen, from {} to {}; --frames {} is the "
+                      "last of them",
+                      chosen_, first_, last_, last_));
     write_stdout(bytes_);
   }
 
@@ -52,6 +60,7 @@ class StdoutSink : public StagedSink {
   Selection& selection_;
   Work& work_;
   std::size_t chosen_ = 0;
+  std::uint32_t first_ = 0, last_ = 0;  // index of a chosen frame
   std::string bytes_;
 };
 
@@ -81,9 +90,9 @@ void tell_of(const FolderSink& sink, const Scenario& scenario, const DirectorRep
                                      "unmet", report.unmet.size());
   json.end_object();
   const std::string between =
-      sink.in_betweens() > 0 ? fmt::format(" and {} in-betweens", sink.in_betweens()) : "";
-  say(fmt::format("{}: {} frames{} in {}{}", scenario.name, sink.drawn() + sink.kept(), between,
-                  sink.path().string(),
+      sink.in_betweens() > 0 ? " and " + counted(sink.in_betweens(), "in-between") : "";
+  say(fmt::format("{}: {}{} in {}{}", scenario.name, counted(sink.drawn() + sink.kept(), "frame"),
+                  between, sink.path().string(),
                   sink.kept() ? fmt::format(", {} of them there already", sink.kept()) : ""));
 }
 
@@ -118,7 +127,7 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
       made.files.size() == 1 ? made.files.front().string()
                              : fmt::format("{} files, {} to {}", made.files.size(),
                                            made.files.front().string(), made.files.back().string());
-  say(fmt::format("{}: {} frames in {}", scenario.name, made.frames, where));
+  say(fmt::format("{}: {} in {}", scenario.name, counted(made.frames, "frame"), where));
 }
 
 // Draws one scenario; the exit code that it deserves.
@@ -154,18 +163,22 @@ int render_command(const RenderOptions& options) {
   const RenderJob job(options);
   const Destination to(options.output, !options.sheet.empty());
   const bool to_stdout = to.kind() == OutputKind::standard_output;
-  if (to_stdout && options.files.size() != 1)
-    throw UsageError("-o - writes one frame of one scenario");
+  const std::vector<std::string> files = input_files(options.files);
+  if (to_stdout && files.size() != 1) throw UsageError("-o - writes one frame of one scenario");
+  if (to_stdout && options.json)
+    throw UsageError(
+        "-o - writes a picture to standard output, where --json writes, too; "
+        "name a file after -o, or leave out --json");
   if (to_stdout && (options.tween || options.fps))
     throw UsageError("-o - writes one frame; in-betweens (--tween, --fps) need a folder");
-  if (to.kind() != OutputKind::folder && options.files.size() > 1 && !to.is_by("scenario"))
+  if (to.kind() != OutputKind::folder && files.size() > 1 && !to.is_by("scenario"))
     throw UsageError(fmt::format("-o {}: a file for each of {} scenarios; write {{scenario}} in it",
-                                 options.output, options.files.size()));
+                                 options.output, files.size()));
   int code = kGood;
-  const std::vector<Scenario> scenarios = load_all(options.files, code);
+  const std::vector<Scenario> scenarios = load_all(files, code);
   Work work;
-  JsonWriter json;
-  json.begin_object().key("scenarios").begin_array();
+  JsonWriter json = answer_of("render");
+  json.line().key("scenarios").begin_array();
   for (const Scenario& scenario : scenarios) {
     try {
       code = std::max(code, render_one(job, to, scenario, work, json));
@@ -173,14 +186,14 @@ int render_command(const RenderOptions& options) {
       complain(e);
       code = std::max<int>(code, kBadScenario);
     } catch (const Stopped&) {
-      say("interrupted; the same command goes on where this one stopped");
+      complain("interrupted; the same command goes on where this one stopped");
       return kInterrupted;
     }
   }
   json.line().end_array().line().key("work");
   write(json, work);
   json.line().end_object();
-  if (options.json && !to_stdout) write_stdout(json.text() + "\n");
+  if (options.json) answer(json.text());
   return code;
 }
 

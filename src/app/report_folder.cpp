@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 
 namespace lantern::app {
@@ -43,7 +44,7 @@ void ReportFolder::remove_old_pages() {
     if (is_page_of(report_, it->path())) old.push_back(it->path());
   for (const fs::path& page : old) fs::remove(page, error);
   if (!old.empty())
-    say(fmt::format("{} pages of an earlier report are removed from {}", old.size(),
+    say(fmt::format("{} of an earlier report removed from {}", counted(old.size(), "page"),
                     path_.string()));
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
@@ -38,18 +38,18 @@ std::vector<StressCase> chosen_cases(const StressOptions& options) {
   return chosen;
 }
 
-std::string list_text(bool as_json) {
+void list_cases(bool as_json) {
   std::vector<std::vector<std::string>> rows;
-  JsonWriter json;
-  json.begin_array();
+  JsonWriter json = answer_of("stress.list");
+  json.line().key("cases").begin_array();
   for (const StressCase& one : stress_cases()) {
     rows.push_back({std::string(one.group), std::string(one.name),
                     std::string(one.what) + (one.slow ? " (with --full)" : "")});
     json.line().begin_object().member("name", one.name).member("group", one.group);
     json.member("slow", one.slow).member("what", one.what).end_object();
   }
-  json.line().end_array();
-  return as_json ? json.text() + "\n" : table(rows);
+  json.line().end_array().line().end_object();
+  as_json ? answer(json.text()) : print(table(rows));
 }
 
 StressReport run_all(const std::vector<StressCase>& cases) {
@@ -78,7 +78,7 @@ void draw_map(const ReportFolder& folder, const StressOptions& options) {
 
 int stress_command(const StressOptions& options) {
   if (options.list) {
-    write_stdout(list_text(options.json));
+    list_cases(options.json);
     return kGood;
   }
   const std::vector<StressCase> cases = chosen_cases(options);
@@ -86,10 +86,10 @@ int stress_command(const StressOptions& options) {
   const StressReport report = run_all(cases);
   folder.write("stress.csv", to_csv(report));
   folder.write("stress.json", to_json(report));
-  options.json ? write_stdout(to_json(report)) : print(to_table(report));
+  options.json ? answer(to_json(report)) : print(to_table(report));
   if (folder.wanted() && report.finished) draw_map(folder, options);
   if (interrupted()) {
-    say("interrupted; what is finished has been reported");
+    complain("interrupted; what is finished has been reported");
     return kInterrupted;
   }
   folder.finish();

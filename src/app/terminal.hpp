@@ -1,6 +1,7 @@
 // Messages to a person, on standard error. None of them throws: one that cannot be said is lost,
 // and the work goes on. Whatever stands in them, a terminal gets printable text
-// (base/printable.hpp).
+// (base/printable.hpp). What is in the way or was surely not meant is kept, too, for the program
+// that reads a command's JSON (app/answer.hpp).
 #pragma once
 
 #include <stdexcept>
@@ -12,16 +13,31 @@
 
 namespace lantern::app {
 
-// Standard error is a terminal, and NO_COLOR is not set.
+// With --quiet nothing is said but errors and warnings, and no progress is shown.
+void be_quiet() noexcept;
+bool is_quiet() noexcept;
+
+// When words have colour: as NO_COLOR, CLICOLOR_FORCE and the terminal want it, or as told.
+enum class ColourMode { automatic, always, never };
+void set_colour(ColourMode mode) noexcept;
+
+// Do messages have colour? Told nothing: not if NO_COLOR is set, surely if CLICOLOR_FORCE is set to
+// anything but 0, and otherwise if standard error is a terminal. See no-color.org and
+// bixense.com/clicolors; an empty variable counts as none.
 bool colourful();
-// Standard error is a terminal.
+// Standard error is a terminal that a person looks at: progress is drawn in place.
 bool animated();
 
-void say(std::string_view message) noexcept;         // a line
+void say(std::string_view message) noexcept;         // a line, unless quiet
+void warn(std::string_view message) noexcept;        // a line "lantern: warning: ..."
 void complain(std::string_view message) noexcept;    // a line "lantern: error: ..."
 void complain(const BackendError& error) noexcept;   // the same, and a line a backend
 void complain(const ScenarioError& error) noexcept;  // each of its diagnostics
 void complain(const std::vector<Diagnostic>& diagnostics) noexcept;  // errors and warnings
+
+// From here on, errors and warnings are kept as they are told.
+void keep_diagnostics() noexcept;
+std::vector<Diagnostic> kept_diagnostics();
 
 // Lines for a person on standard output, printable, too. Throws IoError as write_stdout does.
 void print(std::string_view text);

@@ -13,6 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
+#include "base/stop.hpp"
 
 namespace lantern {
 namespace {
@@ -87,6 +88,27 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
   }
   bytes.resize(done);
   return bytes;
+}
+
+std::string read_stdin(std::size_t most_bytes) {
+  std::string bytes;
+  char part[1 << 16];
+  for (;;) {
+    stop_if_asked();
+    const ssize_t n = ::read(STDIN_FILENO, part, sizeof part);
+    if (n < 0 && errno == EAGAIN) {
+      pollfd something{STDIN_FILENO, POLLIN, 0};
+      ::poll(&something, 1, -1);
+      continue;
+    }
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw IoError(fmt::format("cannot read standard input: {}", std::strerror(errno)));
+    if (n == 0) return bytes;
+    bytes.append(part, static_cast<std::size_t>(n));
+    if (bytes.size() > most_bytes)
+      throw IoError(
+          fmt::format("cannot read standard input: it has more than {} bytes", most_bytes));
+  }
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -12,6 +12,10 @@ namespace lantern {
 // larger than `most_bytes` (found from its size, before it is read).
 std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
 
+// The bytes of standard input, to its end. Throws IoError if it cannot be read or has more than
+// `most_bytes`, and Stopped if that is wished while it waits.
+std::string read_stdin(std::size_t most_bytes);
+
 // Writes under a temporary name in the same folder, then renames, so that `path` is either the old
 // file or the whole new one. A symbolic link at `path` is replaced, not followed. Throws IoError
 // naming path and reason, and removes the temporary file.

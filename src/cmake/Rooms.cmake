@@ -43,6 +43,9 @@ file(GLOB problems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenarios/problems/*.
   ${PROJECT_SOURCE_DIR}/scenarios/problems/crowds/*.toml)  # these take minutes to run
 lantern_embed(lantern_problems problem problems.hpp ${problems})
 
+lantern_embed(lantern_output_schema output output_schema.hpp
+  ${PROJECT_SOURCE_DIR}/scenarios/output.schema.json)
+
 # lantern_version: the version, and a hash of everything that decides what a frame looks like.
 file(GLOB_RECURSE lantern_sources CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/src/*.?pp ${PROJECT_SOURCE_DIR}/shaders/*)

@@ -40,10 +40,15 @@ std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
   const bool looked = frame.structure != StructureKind::none;
   const bool compared =
       frame.count("contacts").has_value() && frame.phase != scenario::StepPhase::broad;
-  const char* const candidate = compared ? "boxes overlap" : n == 1 ? "candidate" : "candidates";
-  const char* const words[] = {
-      "static, never tested", looked ? "ruled out" : "not looked at", candidate, "boxes apart",
-      "shapes apart",         n == 1 ? "contact" : "contacts"};
+  const bool one = n == 1;
+  const char* const overlap = one ? "box pair overlaps" : "boxes overlap";
+  const char* const candidate = one ? "candidate" : "candidates";
+  const char* const words[] = {"static, never tested",
+                               looked ? "ruled out" : "not looked at",
+                               compared ? overlap : candidate,
+                               one ? "box pair apart" : "boxes apart",
+                               one ? "shape pair apart" : "shapes apart",
+                               one ? "contact" : "contacts"};
   return fmt::format("{} {}", number_text(static_cast<double>(n)),
                      words[static_cast<std::size_t>(state)]);
 }

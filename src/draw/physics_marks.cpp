@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -106,6 +107,29 @@ void draw_impulse(const Vec<2>& from, const Vec<2>& to, double k, Pen& pen) {
   pen.arrow(from, to, {Role::contact, 2.4 * k}, 11 * k, 1.2 * k);
 }
 
+// How large the moving bodies are: of each id the longest side of its box, world units.
+using Sizes = std::unordered_map<BodyId, double>;
+
+Sizes sizes_of_moving(const Frame& frame) {
+  Sizes sizes;
+  for (const FrameBody& body : frame.bodies) {
+    const Vec<3> size = body.box.size();
+    if (!body.is_static) sizes[body.id] = std::max({size.x, size.y, size.z});
+  }
+  return sizes;
+}
+
+// Marks of small bodies are small: else they would hide them.
+double mark_scale(const FrameContact& contact, const Vec<3>& at, const Sizes& sizes,
+                  const Projection& view, double k) {
+  constexpr double kWide = 1.5;   // as many times the body as the longest arrow is long
+  constexpr double kLeast = 0.2;  // below this nothing can be told apart
+  for (const BodyId id : {contact.pair.a, contact.pair.b})
+    if (const auto size = sizes.find(id); size != sizes.end())
+      k = std::min(k, kWide * size->second * view.scale_at(at) / kMostImpulse);
+  return std::max(k, kLeast);
+}
+
 bool mark_contacts(const Frame& frame, const Marks& marks) {
   std::size_t points = 0, pushing = 0;
   double most = 0;  // impulse
@@ -116,7 +140,8 @@ bool mark_contacts(const Frame& frame, const Marks& marks) {
       most = std::max(most, point.impulse);
       pushing += point.impulse > 0;
     }
-  const double k = points > kFewPoints ? 0.6 : 1;
+  const double most_scale = points > kFewPoints ? 0.6 : 1;
+  const Sizes sizes = sizes_of_moving(frame);
   const Projection& view = marks.projection();
   Pen pen = marks.over();
   std::size_t drawn = 0;
@@ -130,6 +155,7 @@ bool mark_contacts(const Frame& frame, const Marks& marks) {
       const auto beside = view.seen(
           point.position + contact.normal * (kMostImpulse / view.scale_at(point.position)));
       const Vec<2> normal = beside ? *beside - *at : Vec<2>(0, -1);
+      const double k = mark_scale(contact, point.position, sizes, view, most_scale);
       draw_contact(*at, normal, k, pen);
       if (contact.begins) draw_beginning(*at, k, pen);
       if (!(point.impulse > 0) || !(most > 0)) continue;

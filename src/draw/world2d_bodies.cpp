@@ -97,6 +97,17 @@ void draw_stand(const Stand& stand, bool plain, const View2D& map, DrawList& lis
   }
 }
 
+// Not only on the page: their centres are the same.
+bool is_one_place(const Stand& stand) {
+  const Box<3>& first = stand.bodies.front()->box;
+  const Vec<3> size = first.size();
+  const double slip = 1e-6 * std::max({size.x, size.y, size.z});
+  return std::ranges::all_of(stand.bodies, [&](const FrameBody* body) {
+    const Vec<3> apart = body->box.center() - first.center();
+    return std::hypot(apart.x, apart.y, apart.z) <= slip;
+  });
+}
+
 // Of the bodies that show theirs; empty if none does.
 std::string names_of(const Frame& frame, const Stand& stand) {
   std::vector<std::string> shown;
@@ -109,7 +120,8 @@ std::string names_of(const Frame& frame, const Stand& stand) {
     names += (i == 0 ? "" : ", ") + shown[i];
   if (const std::size_t more = stand.bodies.size() - std::min(shown.size(), kMostNames); more > 0)
     names += fmt::format(" + {}", more);
-  return names + (stand.outside ? " — outside" : " — one place");
+  if (stand.outside) return names + " — outside";
+  return names + (is_one_place(stand) ? " — one place" : " — close together");
 }
 
 // On its side, or below, above, beside; first where no body is covered and inside the bounds, then

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "base/hash.hpp"
 
 namespace lantern::render {
@@ -80,8 +81,9 @@ bool passes(const Comparison& comparison, const Image& expected, const Allowance
 
 std::string finding(const Comparison& comparison) {
   if (!comparison.same_size) return fmt::format("expected {}", comparison.sizes);
-  return fmt::format("{} pixels differ, at most by {} levels", comparison.differing,
-                     comparison.largest);
+  return fmt::format("{} {}, at most by {}", counted(comparison.differing, "pixel"),
+                     comparison.differing == 1 ? "differs" : "differ",
+                     counted(comparison.largest, "level"));
 }
 
 std::string pixel_hash(const Image& image) {

@@ -1,5 +1,6 @@
 // What a frame counts, and what else a caption may quote.
 #include <algorithm>
+#include <iterator>
 
 #include "scenario/language.hpp"
 
@@ -154,6 +155,7 @@ std::string_view when_counted(CountNeed need) {
       "with `split_static`",
       "with a structure and `may_sleep`, contacts or `split_static`",
       "with contacts",
+      "with rods or pins",
       "with `may_sleep`, contacts or `split_static`",
       "with contacts, gravity, springs or joints",
       "after a ray, cull or query",
@@ -161,6 +163,7 @@ std::string_view when_counted(CountNeed need) {
       "after a `locate`",
       "with an atlas",
       "after an `ask_room`"};
+  static_assert(std::size(kWhen) == static_cast<std::size_t>(room) + 1);
   return kWhen[static_cast<std::size_t>(need)];
 }
 

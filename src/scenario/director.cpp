@@ -43,10 +43,12 @@ void ScriptRun::witness(const Event& event) {
   if (event.kind == Kind::make_child && structure.children == Children::eager) return;
   Touched now = frames.touched;
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
-  frames.emit(
-      now, event_name(event.kind),
-      event_text(event, engine().label_of(event.node), name_of(event.body), structure.max_depth),
-      event.body);
+  const StructureTraits traits = traits_of(structure.kind);
+  const std::string text = traits.is_tree
+                               ? event_text(event, engine().label_of(event.node),
+                                            name_of(event.body), structure.max_depth)
+                               : list_event_text(event, traits.words, name_of(event.body));
+  frames.emit(now, event_name(event.kind), text, event.body);
 }
 
 std::string ScriptRun::name_of(BodyId id) const {

@@ -64,6 +64,10 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
   return {};
 }
 
+std::string list_event_text(const Event& e, std::string_view structure, const std::string& body) {
+  return fmt::format("{} lists {}: {} in all.", capitalised(std::string(structure)), body, e.count);
+}
+
 std::string event_text(const AtlasEvent& e, const std::string& node, const std::string& texture,
                        int width, int height) {
   const std::string size = fmt::format("{} ({} × {})", texture, width, height);

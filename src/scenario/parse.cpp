@@ -30,7 +30,8 @@ constexpr Place kTop{1, 1};
 
 void read_name(const TableReader& file, const std::string& path, Draft& draft) {
   if (file.has("name")) return;
-  const std::string stem = std::filesystem::path(path).stem().string();
+  const std::string stem =
+      path == kStandardInput ? "stdin" : std::filesystem::path(path).stem().string();
   draft.scenario.name = stem;
   const NamePattern& pattern = *language_table("").find("name")->pattern;
   if (matches(stem, pattern)) return;
@@ -120,8 +121,41 @@ bool is_blank(std::string_view text) {
   return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
 }
 
+// A table or list of tables of a name that there is none of: what is in it is lost, and most other
+// mistakes that would be found only follow from that.
+bool has_strange_table(const TomlTable& table) {
+  return std::ranges::any_of(table, [](const TomlEntry& entry) {
+    if (language_table("").find(entry.key) != nullptr) return false;
+    const auto* list = std::get_if<TomlArray>(&entry.value.data);
+    return std::holds_alternative<TomlTable>(entry.value.data) ||
+           (list && !list->empty() && std::holds_alternative<TomlTable>(list->front().data));
+  });
+}
+
+// Settings of trees are refused where no tree that splits ever stands.
+void check_settings(const TableReader& file, Draft& draft) {
+  const auto splits = [](const StructureSpec& s) {
+    return s.kind != StructureKind::none && traits_of(s.kind).splits;
+  };
+  const ScenarioSpec& s = draft.scenario;
+  if (!s.side.empty()) return;  // its table is one with what all sides share
+  if (s.structure.kind == StructureKind::none || splits(s.structure)) return;
+  for (const Step& step : s.steps)
+    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb);
+        rebuild && splits(rebuild->structure))
+      return;
+  for (const TomlValue* value : file.tables("structure"))
+    for (const char* setting : {"capacity", "max_depth", "children", "no_progress_stop"})
+      if (const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting))
+        draft.problems.add(entry->where,
+                           fmt::format("a structure of kind '{}' has no '{}'",
+                                       to_string(s.structure.kind), setting),
+                           "only trees that split have; leave it out, or take kind = \"quadtree\"");
+}
+
 void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   const TableReader file(table, kTop, language_table(""), draft.problems, 0);
+  if (has_strange_table(table)) return;
   file.fill(draft.scenario);
   read_name(file, path, draft);
   read_world(file, draft);
@@ -134,6 +168,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   read_atlas(file, draft);
   read_script(file, draft);
   check_panels(file, draft);
+  check_settings(file, draft);
 }
 
 // What a reading of the file begins with.
@@ -218,12 +253,30 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
 }
 
 Scenario load_scenario(const std::string& path) {
+  if (path == "-") return parse_scenario(read_stdin(kMostFileBytes), std::string(kStandardInput));
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error)) {
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
     if (!error && bytes > kMostFileBytes) refuse_size(path, bytes);
   }
   return parse_scenario(read_file(path, kMostFileBytes), path);
+}
+
+Glance glance_at(const std::string& path) try {
+  Problems problems;
+  const std::string text = read_file(path, kMostFileBytes);
+  const TomlTable table = read_toml(without_mark(text), problems);
+  Glance glance;
+  if (problems.any() || table.empty()) return glance;
+  glance.is_scenario = std::ranges::any_of(
+      table, [](const TomlEntry& entry) { return language_table("").find(entry.key) != nullptr; });
+  if (const TomlEntry* lecture = entry_of(table, "lecture"))
+    if (const auto* place = std::get_if<std::int64_t>(&lecture->value.data);
+        place && std::in_range<std::uint32_t>(*place))
+      glance.lecture = static_cast<std::uint32_t>(*place);
+  return glance;
+} catch (const IoError&) {
+  return {};
 }
 
 }  // namespace lantern::scenario

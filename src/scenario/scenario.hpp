@@ -131,8 +131,20 @@ class Scenario : public ScenarioSpec {
   explicit Scenario(ScenarioSpec spec);
 };
 
-// Throws ScenarioError with every mistake found, IoError if the file cannot be read.
+// What standard input is called as a file, in messages and facts.
+inline constexpr std::string_view kStandardInput = "<stdin>";
+
+// Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is standard
+// input; without a name of its own, the scenario from there is called `stdin`.
 Scenario load_scenario(const std::string& path);
+
+// Of a file of a folder, what must be known before it is read as a scenario.
+struct Glance {
+  bool is_scenario = true;               // false: sound TOML that has no key of a scenario
+  std::optional<std::uint32_t> lecture;  // as in the file, if it is a whole number
+};
+// Whatever cannot be read counts as a scenario: reading it as one tells what is wrong.
+Glance glance_at(const std::string& path);
 
 // The same from text; `path` gives the name and is shown in messages. Never touches the disk.
 Scenario parse_scenario(std::string_view text, const std::string& path);

@@ -52,7 +52,9 @@ void TableReader::check_unknown(const TomlEntry& e) {
                 [&key = e.key, &here = doc_] {
                   std::vector<std::string_view> known;
                   for (const KeyDoc& k : here.keys) known.push_back(k.key);
-                  if (nearest_name(key, known)) return nearest(key, known);
+                  const std::string one =  // "bodies" of [[body]]
+                      key.ends_with("ies") ? key.substr(0, key.size() - 3) + "y" : key;
+                  if (nearest_name(one, known)) return nearest(one, known);
                   const std::string home = home_of(key, here);
                   return home.empty() ? nearest(key, known) : home;
                 });

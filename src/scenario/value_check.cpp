@@ -163,6 +163,8 @@ class Check {
     const auto* list = list_in(value, fmt::format("{} {}", how_many, form));
     if (!list) return;
     const auto count = static_cast<int>(std::min<std::size_t>(list->size(), 4));
+    if (dimension_ == 2 && count == 3 && doc_.key.starts_with("camera_"))
+      return add(value.where, "a 2D world has no camera", "for a 3D one, size = [16, 9, 16]");
     if (dimension_ == 0 ? count != 2 && count != 3 : count != dimension_)
       return add(value.where,
                  fmt::format("'{}' must have {}, not {}", doc_.key, how_many, list->size()),

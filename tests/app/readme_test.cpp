@@ -96,7 +96,8 @@ TEST(Readme, ListsTheScenariosAsLanternDoes) {
   std::string table = "|---|---|---|---|\n";
   std::set<std::string> before;
   const Outcome listed = shell("lantern list --json " + repository("scenarios").string());
-  for (const auto& s : nlohmann::json::parse(listed.out)) {
+  const auto list = nlohmann::json::parse(listed.out);
+  for (const auto& s : list["scenarios"]) {
     std::string needs;
     for (const std::string need : s["needs"]) {
       EXPECT_TRUE(before.contains(need)) << s["name"] << " needs " << need << ", which is later";

@@ -154,6 +154,21 @@ TEST(Layout, BodiesAtOnePlaceShareOneLabelThatNamesAll) {
       1);
 }
 
+TEST(Layout, BodiesThatOnlyLookAsOneAreNotSaidToBe) {
+  Work work;
+  Frame frame = samples::coincident(8);
+  for (FrameBody& body : frame.bodies) {
+    const double aside = 0.02 * body.id;  // less than a pixel
+    body.position.x += aside;
+    body.box.lo.x += aside;
+    body.box.hi.x += aside;
+  }
+  const DrawList list = draw_frame(frame, page_for(1600, 900), work);
+  EXPECT_TRUE(std::ranges::any_of(list.labels, [](const LabelBox& l) {
+    return l.text == "pink, red, player — close together";
+  }));
+}
+
 TEST(Layout, CountsComeBeforeSettings) {
   Frame frame = samples::ghosts(4);
   frame.settings = "capacity 2, depth limit 8, all children made, stops without progress";

@@ -46,14 +46,16 @@ TEST(Ledger, KeySumsToAllPairs) {
   int sum = 0;
   for (const LabelBox& label : list.labels)
     for (const char* words : {"static, never tested", "ruled out", "not looked at", "candidate",
-                              "boxes overlap", "boxes apart", "shapes apart", "contact"})
+                              "boxes overlap", "box pair overlaps", "boxes apart", "box pair apart",
+                              "shapes apart", "shape pair apart", "contact"})
       if (label.text.find(words) != std::string::npos) sum += std::stoi(label.text);
   EXPECT_EQ(sum, 10);
 }
 
 TEST(Ledger, SaysNothingOfStatesThatDoNotOccur) {
   const DrawList list = samples::page_of(ledger("ledger_broad"));
-  for (const char* words : {"boxes apart", "shapes apart", "contact"})
+  for (const char* words :
+       {"boxes apart", "box pair apart", "shapes apart", "shape pair apart", "contact"})
     EXPECT_FALSE(says_part(list, words)) << words << ", in the broad phase";
 }
 

@@ -139,6 +139,34 @@ TEST(Marks, AnImpulseTwiceAsLargeHasALongerArrow) {
   EXPECT_GT(lengths[0], 0) << "up in the world is up on the page";
 }
 
+TEST(Marks, OfSmallBodiesAreSmallThemselves) {
+  const Box<2> panel{{0, 0}, {600, 600}};
+  const auto longest = [&](double radius) {
+    Frame frame;
+    frame.bounds = {{-4, -4, -1}, {4, 4, 1}};
+    FrameBody bead;
+    bead.id = 1;
+    bead.box = Box<3>::around({1, 1, 0}, Vec<3>(radius));
+    frame.bodies = {bead};
+    FrameContact contact;
+    contact.pair = {0, 1};
+    contact.normal = {0, 1, 0};
+    contact.points.push_back({{1, 1, 0}, 0, 2.0});
+    frame.contacts = {contact};
+    DrawList list;
+    const View2D plane(flat(frame.bounds), panel);
+    const Marks marks(plane, panel, list);
+    EXPECT_TRUE(mark_contacts(frame, marks));
+    double most = 0;
+    for (const DrawShape& shape : list.shapes)
+      if (const auto* line = std::get_if<LineShape>(&shape))
+        most = std::max(most, glm::distance(line->from, line->to));
+    return most;
+  };
+  EXPECT_LT(longest(0.1), 0.3 * 600 / 8) << "not much more than the bead, 0.2 of 8 units wide";
+  EXPECT_GT(longest(1.0), 40) << "and of a large one as large as they come";
+}
+
 TEST(Marks, HitsAreNumberedInOrder) {
   const DrawList list = page_of(sample("world_rays"));
   for (const char* number : {"1", "2", "3", "4", "5"}) EXPECT_GE(labels(list, number), 1) << number;

@@ -114,5 +114,17 @@ seconds = 2
   }
 }
 
+TEST(Director, OfOneListNothingIsSaidAsOfATree) {
+  const std::string text = world_text("size = [9, 9]",
+                                      "[structure]\nkind = \"sort_and_sweep\"\n"
+                                      "[[body]]\nname = \"a\"\nradius = 1\nposition = [2, 2]\n"
+                                      "[[body]]\nname = \"b\"\nradius = 1\nposition = [6, 6]\n"
+                                      "[[step]]\ndo = \"insert\"\nbodies = [\"a\", \"b\"]\n");
+  const std::vector<Frame> frames = frames_of(parse_scenario(text, "list.toml"), Pace::event);
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames[0].caption, "Sort and sweep lists a: 1 in all.");
+  EXPECT_EQ(frames[1].caption, "Sort and sweep lists b: 2 in all.");
+}
+
 }  // namespace
 }  // namespace lantern::scenario

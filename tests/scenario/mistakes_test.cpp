@@ -312,6 +312,32 @@ TEST(Mistakes, BringAboutNoOthers) {
                   {"must be a number"});
 }
 
+// Whatever names what would be in it is not told.
+TEST(Mistakes, OfATablesNameAreToldAlone) {
+  const std::string bodies =
+      "[[body]]\nname = \"red\"\nradius = 1\nposition = [1, 1]\n"
+      "[[pattern]]\nname = \"dot\"\ncount = 3\nradius = 1\n";
+  const std::string world = "title = \"x\"\n[world]\nsize = [9, 9]\n";
+  const std::string insert =
+      "[[step]]\ndo = \"insert\"\nbodies = [\"red\", \"dot\"]\nexpect = { bodies = 4 }\n";
+  expect_mistakes("title = \"x\"\n[@wordl]\nsize = [9, 9]\n" + bodies + insert,
+                  {"did you mean 'world'?"});
+  expect_mistakes(world + "[[@bodies]]\nname = \"red\"\nradius = 1\nposition = [1, 1]\n" + insert,
+                  {"did you mean 'body'?"});
+  expect_mistakes(world + "[@structur]\nkind = \"quadtree\"\n" + bodies + insert,
+                  {"did you mean 'structure'?"});
+}
+
+TEST(Mistakes, OfSettingsThatAStructureHasNot) {
+  const std::string scene =
+      "title = \"x\"\n[world]\nsize = [9, 9]\n[[body]]\nname = \"red\"\nradius = 1\n"
+      "position = [1, 1]\n[structure]\nkind = \"sort_and_sweep\"\n";
+  const std::string show = "[[step]]\ndo = \"show\"\n";
+  expect_mistakes(scene + "@capacity = 2\n@max_depth = 3\n" + show,
+                  {"'sort_and_sweep' has no 'capacity'", "has no 'max_depth'"});
+  good(scene + "capacity = 2\n" + show + "[[step]]\ndo = \"rebuild\"\nkind = \"quadtree\"\n");
+}
+
 TEST(Mistakes, OfPanelsThatCannotBe) {
   expect_mistakes("panels = [\"world\", @\"atlas\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
                   {"needs an [atlas]"});

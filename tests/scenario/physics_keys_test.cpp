@@ -113,6 +113,7 @@ TEST(World, ACameraIsOfASolidOneAndWhole) {
   EXPECT_TRUE(w.has_camera);
   EXPECT_EQ(w.camera_eye, Vec<3>(0, 5, 20));
   expect_mistakes(kFlat + "@camera_eye = [0, 5]\n" + kShow, {"a 2D world has no camera"});
+  expect_mistakes(kFlat + "camera_eye = @[0, 5, 9]\n" + kShow, {"a 2D world has no camera"});
   expect_mistakes(kDeep + "@camera_eye = [0, 5, 1]\n" + kShow, {"no 'camera_target'"});
   expect_mistakes(kDeep + "@camera_target = [0, 5, 1]\n" + kShow, {"no 'camera_eye'"});
   expect_mistakes(kDeep + "camera_eye = [0, 5, 1]\ncamera_target = @[0, 5, 1]\n" + kShow,
