@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "app/run_scenario.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
@@ -29,7 +30,7 @@ struct Verdict {
 Verdict check_one(const std::string& file, const CheckOptions& options, Work& work) {
   Verdict verdict{file, kGood, {}, {}, {}, {}};
   try {
-    const Scenario scenario = load_scenario(file);
+    const Scenario scenario = load_scenario(scenario_file(file));
     NoSink sink;
     const RunResult result = run_scenario(scenario, pace_of(options.pace, scenario), sink, work);
     verdict.code = tell(result, options.strict);

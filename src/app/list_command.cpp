@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/run_scenario.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
@@ -15,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// scenarios/ here, or beside the folder in which this program was built.
+// scenarios/ here, or the nearest one that came with this program.
 fs::path default_folder() {
-  std::error_code error;
-  if (fs::is_directory("scenarios", error)) return "scenarios";
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return program.parent_path().parent_path() / "scenarios";
+  const std::vector<fs::path> folders = scenario_folders();
+  if (folders.empty()) throw IoError("no folder scenarios here, and none came with this program");
+  if (folders.front() != "scenarios") say(fmt::format("from {}", folders.front().string()));
+  return folders.front();
 }
 
 std::vector<fs::path> scenario_files(const fs::path& folder) {
