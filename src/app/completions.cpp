@@ -164,7 +164,9 @@ std::string zsh_option(const OptionWords& o) {
       o.kind == ValueKind::none ? "" : ":" + zsh_text(o.value) + ":" + zsh_action(o);
   for (const std::string& name : o.names) {
     const std::string others = o.repeats ? "*" : fmt::format("({})", fmt::join(o.names, " "));
-    const std::string spec = fmt::format("{}{}[{}]{}", others, name, zsh_text(o.help), value);
+    const bool takes_equals = !value.empty() && name.starts_with("--");  // --theme=dark
+    const std::string spec =
+        fmt::format("{}{}{}[{}]{}", others, name, takes_equals ? "=" : "", zsh_text(o.help), value);
     text += " \\\n    " + in_quotes(spec);
   }
   return text;
@@ -194,7 +196,8 @@ std::string zsh_branches(const CommandPath& path) {
       "  local state line\n  local -a commands=({})\n{} \\\n    ': :->command' '*:: :->rest'\n"
       "  case $state in\n    command) _describe command commands ;;\n    rest)\n"
       "      case $words[1] in\n{}      esac ;;\n  esac\n",
-      names, std::string("  local curcontext=$curcontext\n") + zsh_arguments(path, "-s -S -C"),
+      names,
+      std::string("  local curcontext=$curcontext\n") + zsh_arguments(path, "-s -S -A \"-*\" -C"),
       branches);
 }
 
