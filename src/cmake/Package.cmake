@@ -28,8 +28,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME lantern-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libdeflate-dev, libtomlplusplus-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
-"libraries of Lantern: trees, contacts, rendering
-Static libraries, headers and CMake's files for find_package(Lantern): the
+"Static libraries, headers and CMake's files for find_package(Lantern): the
 targets Lantern::spatial, Lantern::physics, Lantern::render, and
 Lantern::program for a Lantern with structures of your own.")
 include(CPack)

@@ -45,9 +45,11 @@ lantern_embed(lantern_font font font.hpp
   ${LANTERN_FONT_DIR}/Inter-Regular.otf ${LANTERN_FONT_DIR}/Inter-SemiBold.otf)
 file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*)
 lantern_embed(lantern_shaders shader shaders.hpp ${shaders})
-file(GLOB problems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenarios/problems/*.toml
-  ${PROJECT_SOURCE_DIR}/scenarios/problems/crowds/*.toml)  # these take minutes to run
-lantern_embed(lantern_problems problem problems.hpp ${problems})
+if(LANTERN_LAB)
+  file(GLOB problems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenarios/problems/*.toml
+    ${PROJECT_SOURCE_DIR}/scenarios/problems/crowds/*.toml)  # these take minutes to run
+  lantern_embed(lantern_problems problem problems.hpp ${problems})
+endif()
 
 # lantern_version: the version, and a hash of everything that decides what a frame looks like.
 file(GLOB_RECURSE lantern_sources CONFIGURE_DEPENDS
