@@ -5,7 +5,7 @@
 
 #include "app/answer.hpp"
 #include "app/commands.hpp"
-#include "app/inputs.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
@@ -40,7 +40,7 @@ class ScratchFolder {
 
 int bench_frames_command(const BenchOptions& options) {
   const Scenario scenario =
-      load_scenario(options.scenario.empty() ? own_scenario("ghost_quadtree") : options.scenario);
+      load_scenario(scenario_file(options.scenario.empty() ? "ghost_quadtree" : options.scenario));
   FrameBenchConfig config;
   config.rounds = options.rounds;
   config.theme = *theme_named("light");

@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/json_writer.hpp"
@@ -35,7 +36,7 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
   Verdict verdict;
   verdict.file = file == "-" ? kStandardInput : file;
   try {
-    const Scenario scenario = load_scenario(file);
+    const Scenario scenario = load_scenario(scenario_file(file));
     verdict.name = scenario.name;
     NoSink sink;
     const RunResult result = run_scenario(scenario, pace_of(options.pace, scenario), sink, work);

@@ -1,6 +1,8 @@
 #include "app/command_line.hpp"
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -214,13 +216,27 @@ void add_texts(CLI::App& app, Run& run) {
 
 }  // namespace
 
+std::span<const ExitMeaning> exit_codes() {
+  static constexpr ExitMeaning kCodes[] = {
+      {kGood, "good"},
+      {kFailed, "failed"},
+      {kUsage, "usage"},
+      {kBadScenario, "scenario error"},
+      {kNoBackend, "no graphics backend"},
+      {kInterrupted, "interrupted"},
+  };
+  return kCodes;
+}
+
 void add_commands(CLI::App& app, Run& run) {
   app.description("Lantern renders lecture scenarios about spatial partitioning as pictures.");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string(kVersion));
-  app.footer(
-      "Exit codes: 0 good, 1 failed, 2 usage, 3 scenario error, 4 no graphics backend, "
-      "130 interrupted.\nStart with: lantern render scenarios/ghost_quadtree.toml");
+  std::vector<std::string> codes;
+  for (const ExitMeaning& exit : exit_codes())
+    codes.push_back(fmt::format("{} {}", exit.code, exit.means));
+  app.footer(fmt::format("Exit codes: {}.\nStart with: lantern render ghost_quadtree",
+                         fmt::join(codes, ", ")));
   add_memory(app);
   add_render(app, run);
   add_check(app, run);
@@ -231,6 +247,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_compare(app, run);
   add_lab_commands(app, run);
   add_texts(app, run);
+  add_manual_commands(app, run);
   add_help(app, run);
   add_manners(app);  // behind all commands, since it goes through them
 }

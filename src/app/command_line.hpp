@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <string_view>
 
 namespace CLI {
 class App;
@@ -18,5 +20,15 @@ void add_commands(CLI::App& app, Run& run);
 
 // Of these: measure, bench and stress.
 void add_lab_commands(CLI::App& app, Run& run);
+
+// Of these: man and completions, which are made from all of them.
+void add_manual_commands(CLI::App& app, Run& run);
+
+// What the program ends with, and what it means.
+struct ExitMeaning {
+  int code;
+  std::string_view means;
+};
+std::span<const ExitMeaning> exit_codes();
 
 }  // namespace lantern::app

@@ -3,6 +3,7 @@
 #include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/clock.hpp"
 #include "base/counted.hpp"
@@ -42,7 +43,7 @@ std::string json_of(const Scenario& scenario, const std::vector<StageTally>& sta
 }  // namespace
 
 int explain_command(const ExplainOptions& options) {
-  const Scenario scenario = load_scenario(options.file);
+  const Scenario scenario = load_scenario(scenario_file(options.file));
   Work work;
   Tally tally(scenario, work);
   DirectorReport report;

@@ -56,30 +56,7 @@ void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   for (Lesson& lesson : lessons) files.push_back(std::move(lesson.file));
 }
 
-std::vector<fs::path> own_folders() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path above = program.parent_path().parent_path();
-  return {"scenarios", above / "scenarios", above / "share" / "lantern" / "scenarios"};
-}
-
 }  // namespace
-
-std::optional<fs::path> own_scenarios() {
-  std::error_code error;
-  for (const fs::path& folder : own_folders())
-    if (fs::is_directory(folder, error)) return folder;
-  return std::nullopt;
-}
-
-std::string own_scenario(std::string_view name) {
-  std::error_code error;
-  for (const fs::path& folder : own_folders())
-    if (const fs::path file = folder / fmt::format("{}.toml", name); fs::exists(file, error))
-      return file.string();
-  throw UsageError(
-      fmt::format("Lantern's own scenario {} is nowhere to be found: name a file", name));
-}
 
 std::vector<std::string> input_files(const std::vector<std::string>& words) {
   if (std::count(words.begin(), words.end(), "-") > 1)

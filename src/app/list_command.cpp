@@ -4,6 +4,7 @@
 #include "app/commands.hpp"
 #include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/json_writer.hpp"
 
@@ -32,9 +33,10 @@ void add_member(JsonWriter& json, const Scenario& s) {
 int list_command(const ListOptions& options) {
   std::vector<std::string> words = options.folders;
   if (words.empty()) {
-    const auto own = own_scenarios();
-    if (!own) throw UsageError("there is no folder scenarios here: name one");
-    words.push_back(own->string());
+    const auto folders = scenario_folders();
+    if (folders.empty()) throw UsageError("there is no folder scenarios here: name one");
+    if (folders.front() != "scenarios") say(fmt::format("from {}", folders.front().string()));
+    words.push_back(folders.front().string());
   }
   std::vector<std::vector<std::string>> rows;
   JsonWriter json = answer_of("list");

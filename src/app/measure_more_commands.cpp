@@ -3,7 +3,7 @@
 
 #include "app/answer.hpp"
 #include "app/commands.hpp"
-#include "app/inputs.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
@@ -71,7 +71,7 @@ int measure_pictures_command(const MeasureMoreOptions& options) {
   }
   std::vector<std::string> files = options.files;
   if (files.empty())
-    for (const char* name : kDefaults) files.push_back(own_scenario(name));
+    for (const char* name : kDefaults) files.push_back(scenario_file(name));
   std::vector<PictureScene> scenes;
   for (const std::string& file : files) scenes.push_back(scene_of(file, config));
   say(fmt::format("{} of {} x {}, each against one of 16 x 16 times as many pixels",

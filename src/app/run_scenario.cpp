@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/memory.hpp"
 #include "base/stop.hpp"
@@ -22,7 +23,7 @@ Pace pace_of(std::string_view word, const Scenario& scenario) {
 std::string_view to_string(Pace pace) { return pace == Pace::event ? "event" : "step"; }
 
 std::optional<Scenario> load_or_complain(const std::string& file, int& code) try {
-  Scenario scenario = load_scenario(file);
+  Scenario scenario = load_scenario(scenario_file(file));
   if (!scenario.file_stem.empty())
     say(fmt::format("'{}' is called '{}': names are of a–z, 0–9 and _", file, scenario.name));
   return scenario;

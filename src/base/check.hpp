@@ -22,12 +22,13 @@ template <class A, class B>
 
 }  // namespace lantern::detail
 
-// LANTERN_CHECK(a, ==, b): stops with both values unless the comparison holds. Always on.
-#define LANTERN_CHECK(a, op, b)                                                         \
-  do {                                                                                  \
-    const auto& lantern_a = (a);                                                        \
-    const auto& lantern_b = (b);                                                        \
-    if (!(lantern_a op lantern_b))                                                      \
-      ::lantern::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b, lantern_a, \
-                                      lantern_b);                                       \
+// LANTERN_CHECK(a, ==, b): stops with both values unless the comparison holds. Always on. It names
+// the file without its folder: where Lantern was built is nobody's business where it is installed.
+#define LANTERN_CHECK(a, op, b)                                                              \
+  do {                                                                                       \
+    const auto& lantern_a = (a);                                                             \
+    const auto& lantern_b = (b);                                                             \
+    if (!(lantern_a op lantern_b))                                                           \
+      ::lantern::detail::check_failed(__FILE_NAME__, __LINE__, #a " " #op " " #b, lantern_a, \
+                                      lantern_b);                                            \
   } while (false)

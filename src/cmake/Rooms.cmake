@@ -1,5 +1,6 @@
 # lantern_room(NAME LINKS ... [SOURCES ...]): the library lantern_NAME of all sources in src/NAME, or
-# of these.
+# of these. Packages that only sources include are linked as $<BUILD_INTERFACE:...>: who uses the
+# installed library need not have them.
 function(lantern_room name)
   cmake_parse_arguments(ROOM "" "" "LINKS;SOURCES" ${ARGN})
   set(sources ${ROOM_SOURCES})
@@ -7,16 +8,19 @@ function(lantern_room name)
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   endif()
   list(TRANSFORM ROOM_LINKS REPLACE "^([a-z]+)$" "lantern_\\1")
+  set(includes $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/lantern>)
   if(sources)
     add_library(lantern_${name} STATIC ${sources})
-    target_include_directories(lantern_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(lantern_${name} PUBLIC ${includes})
     target_link_libraries(lantern_${name} PUBLIC ${ROOM_LINKS})
     lantern_precompile(lantern_${name} FROM lantern_headers)
   else()
     add_library(lantern_${name} INTERFACE)
-    target_include_directories(lantern_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(lantern_${name} INTERFACE ${includes})
     target_link_libraries(lantern_${name} INTERFACE ${ROOM_LINKS})
   endif()
+  lantern_installed_library(${name})
 endfunction()
 
 # lantern_embed(TARGET NAMESPACE HEADER file...): a library whose header HEADER declares, for each
@@ -32,16 +36,20 @@ function(lantern_embed target namespace header)
     DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/src/cmake/Embed.cmake
     VERBATIM)
   add_library(${target} STATIC ${dir}/${target}.cpp ${dir}/embedded/${header})
-  target_include_directories(${target} PUBLIC ${dir})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${dir}>)
+  string(REPLACE "lantern_" "" name ${target})
+  lantern_installed_library(${name})
 endfunction()
 
 lantern_embed(lantern_font font font.hpp
   ${LANTERN_FONT_DIR}/Inter-Regular.otf ${LANTERN_FONT_DIR}/Inter-SemiBold.otf)
 file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*)
 lantern_embed(lantern_shaders shader shaders.hpp ${shaders})
-file(GLOB problems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenarios/problems/*.toml
-  ${PROJECT_SOURCE_DIR}/scenarios/problems/crowds/*.toml)  # these take minutes to run
-lantern_embed(lantern_problems problem problems.hpp ${problems})
+if(LANTERN_LAB)
+  file(GLOB problems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenarios/problems/*.toml
+    ${PROJECT_SOURCE_DIR}/scenarios/problems/crowds/*.toml)  # these take minutes to run
+  lantern_embed(lantern_problems problem problems.hpp ${problems})
+endif()
 
 lantern_embed(lantern_output_schema output output_schema.hpp
   ${PROJECT_SOURCE_DIR}/scenarios/output.schema.json)

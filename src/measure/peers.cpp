@@ -145,8 +145,10 @@ std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missin
   for (const Module& module : kModules) {
     const fs::path path = place_of(module);
     if (path.empty()) {
-      missing.push_back(fmt::format("{}: not built in; apt-get install {} and build again",
-                                    module.name, module.package));
+      missing.push_back(
+          fmt::format("{}: not built in; apt-get install {} and build again: an installed Lantern "
+                      "has no engines beside it",
+                      module.name, module.package));
       continue;
     }
     const Library library({path.c_str()});

@@ -12,7 +12,7 @@ namespace lantern::measure {
 
 // Loads their modules from the folder "peers" beside the program, or beside the program's folder.
 // A line is added to `missing` for each engine that is not there: "Box2D: not built in; apt-get
-// install libbox2d-dev and build again". A module once loaded stays.
+// install libbox2d-dev and build again: ...". A module once loaded stays.
 std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing);
 
 }  // namespace lantern::measure

@@ -29,8 +29,8 @@ std::vector<std::string> blocks(const std::string& page, const std::string& lang
 }
 
 // `./run demo` draws with the release build whoever asks, and what is measured under sanitizers
-// says nothing: their tests need not. The measurement of everything takes a minute: it is run where
-// LANTERN_ALL is set, as tests/deep/readme.sh does.
+// says nothing, and sanitized libraries are large to install: their tests need not. The measurement
+// of everything takes a minute: it is run where LANTERN_ALL is set, as tests/deep/readme.sh does.
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kRunsAll = false;
 #else
@@ -40,7 +40,8 @@ bool is_left_out(const std::string& line) {
   if (line == "build/lantern measure --quick" && std::getenv("LANTERN_ALL") == nullptr) return true;
   const bool is_long = line == "./run demo" || line.find("lantern measure") != std::string::npos ||
                        line.find("lantern bench step") != std::string::npos ||
-                       line.find("lantern stress") != std::string::npos;
+                       line.find("lantern stress") != std::string::npos ||
+                       line.find("install") != std::string::npos;
   return !kRunsAll && is_long;
 }
 
@@ -49,6 +50,8 @@ fs::path look_alike() {
   const fs::path folder = fresh_folder("readme");
   fs::create_directories(folder / "build");
   fs::create_symlink(LANTERN_BINARY, folder / "build" / "lantern");
+  fs::create_symlink(fs::path(LANTERN_BINARY).parent_path() / "cmake_install.cmake",
+                     folder / "build" / "cmake_install.cmake");
   fs::create_directory_symlink(repository("scenarios"), folder / "scenarios");
   return folder;
 }

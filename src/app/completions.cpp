@@ -1,0 +1,273 @@
+#include "app/completions.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/check.hpp"
+
+namespace lantern::app {
+namespace {
+
+// In single quotes, as all three shells read them.
+std::string in_quotes(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string all_names(const CommandWords& command) {
+  std::vector<std::string> names;
+  for (const OptionWords& o : command.options)
+    names.insert(names.end(), o.names.begin(), o.names.end());
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+const OptionWords* first_positional(const CommandWords& command) {
+  for (const OptionWords& o : command.options)
+    if (o.is_positional()) return &o;
+  return nullptr;
+}
+
+std::string names_of_commands(const CommandWords& command) {
+  std::vector<std::string> names;
+  for (const CommandWords& c : command.commands) names.push_back(c.name);
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+// "bench step"; nothing for the program itself.
+std::string below_root(const CommandPath& path) {
+  return joined({path.names.begin() + 1, path.names.end()}, " ");
+}
+
+// ---- bash
+
+// The call that offers what an option, or a word by itself, may be.
+std::string bash_offer(const OptionWords& o) {
+  switch (o.kind) {
+    case ValueKind::words:
+      return fmt::format("_lantern_words {}",
+                         in_quotes(fmt::format("{}", fmt::join(o.choices, " "))));
+    case ValueKind::scenario:
+      return "_lantern_scenarios";
+    case ValueKind::folder:
+      return "_lantern_folders";
+    case ValueKind::file:
+      return "_lantern_files";
+    case ValueKind::none:
+    case ValueKind::free:
+      break;
+  }
+  return "return";
+}
+
+std::string bash_values(const CommandPath& path) {
+  std::string text;
+  for (const OptionWords& o : path.command->options) {
+    if (o.is_positional() || o.kind == ValueKind::none) continue;
+    std::vector<std::string> patterns;
+    for (const std::string& name : o.names)
+      patterns.push_back(in_quotes(below_root(path) + " " + name));
+    const std::string offer = o.kind == ValueKind::free ? "" : bash_offer(o) + "; ";
+    text += fmt::format("    {}) {}return ;;\n", fmt::join(patterns, " | "), offer);
+  }
+  return text;
+}
+
+std::string bash_rest(const CommandPath& path) {
+  const CommandWords& command = *path.command;
+  const OptionWords* word = first_positional(command);
+  std::string otherwise = word ? bash_offer(*word) : "return";
+  if (!command.commands.empty())
+    otherwise = fmt::format("_lantern_words {}", in_quotes(names_of_commands(command)));
+  return fmt::format("    {})\n      if [[ $cur == -* ]]; then _lantern_words {}; else {}; fi ;;\n",
+                     in_quotes(below_root(path)), in_quotes(all_names(command)), otherwise);
+}
+
+constexpr const char* kBashHead =
+    R"(# Completion for bash: put it where bash-completion looks, or source it.
+_lantern_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
+_lantern_files() {
+  compopt -o filenames 2>/dev/null
+  mapfile -t COMPREPLY < <(compgen -f -- "$cur")
+}
+_lantern_folders() {
+  compopt -o filenames 2>/dev/null
+  mapfile -t COMPREPLY < <(compgen -d -- "$cur")
+}
+_lantern_scenarios() {
+  compopt -o filenames 2>/dev/null
+  mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$cur"; compgen -d -- "$cur")
+}
+_lantern() {
+  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command="" i
+  COMPREPLY=()
+  # --theme=dark comes as three words.
+  if [[ $cur == "=" ]]; then cur=""; elif [[ $prev == "=" ]]; then prev=${COMP_WORDS[COMP_CWORD-2]}; fi
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    case "$command ${COMP_WORDS[i]}" in
+)";
+
+std::string for_bash(const CommandWords& root) {
+  std::string text = kBashHead;
+  const std::vector<CommandPath> all = all_commands(root);
+  for (const CommandPath& path : all) {
+    if (path.names.size() == 1) continue;
+    const std::string above = joined({path.names.begin() + 1, path.names.end() - 1}, " ");
+    text += fmt::format("      {}) command={} ;;\n", in_quotes(above + " " + path.names.back()),
+                        in_quotes(below_root(path)));
+  }
+  text += "    esac\n  done\n  case \"$command $prev\" in\n";
+  for (const CommandPath& path : all) text += bash_values(path);
+  text += "  esac\n  case $command in\n";
+  for (const CommandPath& path : all) text += bash_rest(path);
+  return text + "  esac\n}\ncomplete -F _lantern lantern\n";
+}
+
+// ---- zsh
+
+std::string zsh_function(const CommandPath& path) { return "_" + joined(path.names, "_"); }
+
+// Brackets and colons divide a line of _arguments.
+std::string zsh_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+std::string zsh_action(const OptionWords& o) {
+  switch (o.kind) {
+    case ValueKind::words:
+      return fmt::format("({})", fmt::join(o.choices, " "));
+    case ValueKind::scenario:
+      return "_files -g \"*.toml\"";
+    case ValueKind::folder:
+      return "_files -/";
+    case ValueKind::file:
+      return "_files";
+    case ValueKind::none:
+    case ValueKind::free:
+      break;
+  }
+  return " ";
+}
+
+std::string zsh_option(const OptionWords& o) {
+  std::string text;
+  const std::string value =
+      o.kind == ValueKind::none ? "" : ":" + zsh_text(o.value) + ":" + zsh_action(o);
+  for (const std::string& name : o.names) {
+    const std::string others = o.repeats ? "*" : fmt::format("({})", fmt::join(o.names, " "));
+    const bool takes_equals = !value.empty() && name.starts_with("--");  // --theme=dark
+    const std::string spec =
+        fmt::format("{}{}{}[{}]{}", others, name, takes_equals ? "=" : "", zsh_text(o.help), value);
+    text += " \\\n    " + in_quotes(spec);
+  }
+  return text;
+}
+
+std::string zsh_arguments(const CommandPath& path, const char* flags) {
+  std::string text = std::string("  _arguments ") + flags;
+  for (const OptionWords& o : path.command->options)
+    if (!o.is_positional()) text += zsh_option(o);
+  for (const OptionWords& o : path.command->options)
+    if (o.is_positional())
+      text += " \\\n    " + in_quotes(fmt::format("{}:{}:{}", o.repeats ? "*" : "",
+                                                  zsh_text(o.value), zsh_action(o)));
+  return text;
+}
+
+// A command that has commands of its own: their names, then whatever they take.
+std::string zsh_branches(const CommandPath& path) {
+  std::string names, branches;
+  for (const CommandWords& c : path.command->commands) {
+    std::vector<std::string> below = path.names;
+    below.push_back(c.name);
+    names += "\n    " + in_quotes(zsh_text(c.name) + ":" + zsh_text(c.help));
+    branches += fmt::format("        {}) {} ;;\n", c.name, zsh_function({below, &c}));
+  }
+  return fmt::format(
+      "  local state line\n  local -a commands=({})\n{} \\\n    ': :->command' '*:: :->rest'\n"
+      "  case $state in\n    command) _describe command commands ;;\n    rest)\n"
+      "      case $words[1] in\n{}      esac ;;\n  esac\n",
+      names,
+      std::string("  local curcontext=$curcontext\n") + zsh_arguments(path, "-s -S -A \"-*\" -C"),
+      branches);
+}
+
+std::string for_zsh(const CommandWords& root) {
+  std::string text = "#compdef lantern\n";
+  for (const CommandPath& path : all_commands(root))
+    text += fmt::format(
+        "{}() {{\n{}}}\n", zsh_function(path),
+        path.command->commands.empty() ? zsh_arguments(path, "-s -S") + "\n" : zsh_branches(path));
+  return text + "_lantern \"$@\"\n";
+}
+
+// ---- fish
+
+// When these words are of this command, and of none below it.
+std::string fish_condition(const CommandPath& path) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 1; i < path.names.size(); ++i)
+    parts.push_back("__fish_seen_subcommand_from " + path.names[i]);
+  if (!path.command->commands.empty())
+    parts.push_back("not __fish_seen_subcommand_from " + names_of_commands(*path.command));
+  return in_quotes(fmt::format("{}", fmt::join(parts, "; and ")));
+}
+
+std::string fish_values(const OptionWords& o) {
+  switch (o.kind) {
+    case ValueKind::words:
+      return fmt::format(" -a {}", in_quotes(fmt::format("{}", fmt::join(o.choices, " "))));
+    case ValueKind::scenario:
+      return " -k -a '(__fish_complete_suffix .toml)'";
+    case ValueKind::folder:
+      return " -a '(__fish_complete_directories)'";
+    case ValueKind::file:
+      return " -F";
+    case ValueKind::none:
+    case ValueKind::free:
+      break;
+  }
+  return "";
+}
+
+std::string fish_line(const CommandPath& path, const OptionWords& o) {
+  std::string names;
+  for (const std::string& name : o.names)
+    names += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+  const bool takes = !o.is_positional() && o.kind != ValueKind::none;
+  return fmt::format("complete -c lantern -n {}{}{}{} -d {}\n", fish_condition(path), names,
+                     takes ? (o.kind == ValueKind::file ? " -r" : " -x") : "", fish_values(o),
+                     in_quotes(o.help));
+}
+
+std::string for_fish(const CommandWords& root) {
+  std::string text = "complete -c lantern -f\n";
+  for (const CommandPath& path : all_commands(root)) {
+    for (const CommandWords& c : path.command->commands)
+      text += fmt::format("complete -c lantern -n {} -a {} -d {}\n", fish_condition(path), c.name,
+                          in_quotes(c.help));
+    for (const OptionWords& o : path.command->options)
+      if (!o.is_positional() || o.kind != ValueKind::free) text += fish_line(path, o);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string completions(std::string_view shell, const CommandWords& root) {
+  if (shell == "bash") return for_bash(root);
+  if (shell == "zsh") return for_zsh(root);
+  LANTERN_CHECK(shell, ==, "fish");
+  return for_fish(root);
+}
+
+}  // namespace lantern::app

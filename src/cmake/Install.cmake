@@ -1,0 +1,83 @@
+# What `cmake --install` puts where, and what other projects link. Two components: `runtime` is the
+# program and what it brings along, `development` the libraries, their headers and CMake's files.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(lantern_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Lantern)
+# The rooms whose headers others may include.
+set(lantern_public_rooms base geometry lecture spatial atlas physics scenario draw render)
+
+# lantern_installed_library(NAME): lantern_NAME goes along, whoever links it finds it.
+function(lantern_installed_library name)
+  set_target_properties(lantern_${name} PROPERTIES EXPORT_NAME room_${name})
+  install(TARGETS lantern_${name} EXPORT LanternTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+endfunction()
+
+# lantern_public(NAME ROOM): Lantern::NAME, here and after find_package(Lantern), is ROOM and the rooms
+# that it sees, with <lantern/ROOM/....hpp> and <lantern/version.hpp>.
+function(lantern_public name room)
+  add_library(lantern_public_${name} INTERFACE)
+  add_library(Lantern::${name} ALIAS lantern_public_${name})
+  set_target_properties(lantern_public_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(lantern_public_${name} INTERFACE lantern_${room})
+  target_compile_features(lantern_public_${name} INTERFACE cxx_std_20)
+  # Headers hold arithmetic, too: it is rounded as in the libraries, on whatever machine.
+  target_compile_options(lantern_public_${name} INTERFACE -ffp-contract=off)
+  target_include_directories(lantern_public_${name} INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  install(TARGETS lantern_public_${name} EXPORT LanternTargets COMPONENT development)
+endfunction()
+
+# build/include/lantern looks as include/lantern will.
+function(lantern_link_headers)
+  set(dir ${PROJECT_BINARY_DIR}/include/lantern)
+  configure_file(${PROJECT_SOURCE_DIR}/src/cmake/version.hpp.in ${dir}/version.hpp @ONLY)
+  foreach(name ${lantern_public_rooms} app rooms.hpp)
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${name} ${dir}/${name} SYMBOLIC)
+  endforeach()
+endfunction()
+
+function(lantern_install_development)
+  set(here DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lantern COMPONENT development)
+  list(TRANSFORM lantern_public_rooms PREPEND ${PROJECT_SOURCE_DIR}/src/ OUTPUT_VARIABLE folders)
+  # gl.hpp is not for others: it would ask them for OpenGL's headers.
+  install(DIRECTORY ${folders} ${here} FILES_MATCHING PATTERN *.hpp PATTERN gl.hpp EXCLUDE)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/rooms.hpp ${PROJECT_BINARY_DIR}/include/lantern/version.hpp
+    ${here})
+  install(FILES ${PROJECT_SOURCE_DIR}/src/app/program.hpp
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lantern/app COMPONENT development)
+  install(EXPORT LanternTargets NAMESPACE Lantern:: DESTINATION ${lantern_cmake_dir}
+    COMPONENT development)
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/src/cmake/LanternConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/LanternConfig.cmake INSTALL_DESTINATION ${lantern_cmake_dir})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/LanternConfigVersion.cmake
+    COMPATIBILITY SameMinorVersion)  # until 1.0 a new minor version may break its users
+  install(FILES ${PROJECT_BINARY_DIR}/LanternConfig.cmake
+    ${PROJECT_BINARY_DIR}/LanternConfigVersion.cmake
+    DESTINATION ${lantern_cmake_dir} COMPONENT development)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/cmake/copyright
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lantern-dev COMPONENT development)
+endfunction()
+
+# lantern_install(): after all rooms and the program.
+function(lantern_install)
+  lantern_link_headers()
+  lantern_install_development()
+  install(TARGETS lantern RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/lantern COMPONENT runtime)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/cmake/copyright ${PROJECT_SOURCE_DIR}/src/THIRD_PARTY.md
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lantern COMPONENT runtime)
+  # Manual pages and completions are the program's own: written by it when it is installed.
+  find_program(LANTERN_GZIP gzip)
+  mark_as_advanced(LANTERN_GZIP)
+  install(CODE "
+    set(lantern \"$<TARGET_FILE:lantern>\")
+    set(gzip \"${LANTERN_GZIP}\")
+    set(work \"${PROJECT_BINARY_DIR}/manual\")
+    set(changelog \"${PROJECT_SOURCE_DIR}/CHANGELOG.md\")
+    set(data_dir \"${CMAKE_INSTALL_DATADIR}\")
+    set(man_dir \"${CMAKE_INSTALL_MANDIR}\")
+    include(\"${PROJECT_SOURCE_DIR}/src/cmake/InstallManual.cmake\")" COMPONENT runtime)
+endfunction()

@@ -1,0 +1,34 @@
+# `cpack -G DEB` in the build folder: the packages lantern (the program) and lantern-dev (libraries).
+set(CPACK_PACKAGE_NAME lantern)
+set(CPACK_PACKAGE_CONTACT "Lantern maintainers <maintainers@users.noreply.h-seed-c57911ac.example>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "lecture figures of trees, pairs and contacts from text files")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE
+  GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME lantern)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+# Loaded while it runs, so that the linker does not know of it: to draw, for PDF, for films; and the
+# other backend.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS libosmesa6)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libcairo2, ffmpeg")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "libegl1, libgl1-mesa-dri, lantern-dev")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+"Lantern turns scripted scenarios about broad phase and narrow phase into
+pictures, films, documents and lesson pages. It needs no display. A real engine
+runs what a text file says, and every node, pair and count on a picture is the
+engine's own. The scenarios of the lecture come along: lantern list")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME lantern-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libdeflate-dev, libtomlplusplus-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+"Static libraries, headers and CMake's files for find_package(Lantern): the
+targets Lantern::spatial, Lantern::physics, Lantern::render, and
+Lantern::program for a Lantern with structures of your own.")
+include(CPack)
