@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "app/file_sink.hpp"
+#include "app/forecast.hpp"
 #include "app/named_files.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
