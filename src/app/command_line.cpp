@@ -48,8 +48,16 @@ void add_render(CLI::App& app, Run& run) {
                 "frame at or after this time in seconds")
       ->check(kNotEmpty)
       ->type_name("EVENT|TIME");
-  c->add_option("--size", o.size, "pixels")->type_name("WxH")->capture_default_str();
+  c->add_option("--size", o.size, "pixels; the default is 1600x900, of a sheet A4 across")
+      ->check(kNotEmpty)
+      ->type_name("WxH");
+  c->add_option("--dpi", o.dpi, "pixels to the inch: how large a PDF's page is, and a PNG on paper")
+      ->check(CLI::Range(72, 1200))
+      ->type_name("N")
+      ->capture_default_str();
   add_choice(*c, "--format", o.format, "file format", {"png", "svg"});
+  add_choice(*c, "--text", o.text, "an SVG's letters: outlines, or text in the reader's Inter",
+             {"outlines", "text"});
   CLI::Option* tween = c->add_option("--tween", o.tween,
                                      "in-betweens after each frame but the last: "
                                      "<scenario>_0007_03.png is the third from frame 7 on");

@@ -24,8 +24,10 @@ struct RenderOptions {
   std::string sheet;              // "3x2": frames across and down a page; empty for none
   std::string frames;             // "7", "3-9", "3-", "-9"; empty for all
   std::string at;                 // an event or a time in seconds; empty for all
-  std::string size = "1600x900";
-  std::string format = "png";  // png, svg
+  std::string size;               // pixels; empty for 1600x900, and for a sheet A4 across
+  int dpi = 160;                  // pixels to the inch, where a picture meets paper
+  std::string format = "png";     // png, svg
+  std::string text = "outlines";  // of SVG: outlines, text
   std::string theme = "light";
   std::string pace;              // step, event; empty for the scenario's own
   std::string png = "fast";      // fast, small

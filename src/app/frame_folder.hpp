@@ -34,7 +34,7 @@ struct Manifest {
   std::string in_betweens;    // how many are wanted, as InBetweens says it; empty for none
   int in_between_digits = 2;  // of their numbers, so that they stand in order by name
   bool transparent = false;
-  std::vector<std::string> switches;  // of the command line, as "no-title"
+  std::vector<std::string> switches;  // of the command line, as "no-title", "dpi-300"
   std::uint64_t scenario_hash = 0;    // of the file's bytes
   bool finished = false;
   std::uint64_t expectations = 0;

@@ -1,6 +1,8 @@
 #include "app/render_job.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -9,6 +11,7 @@
 
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
+#include "base/hash.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "render/svg.hpp"
@@ -16,30 +19,48 @@
 namespace lantern::app {
 namespace {
 
-// 160 pixels to the inch, so that a frame of 1600 pixels is 10 inches wide in a document.
-constexpr int kPixelsPerMetre = 6299;
+constexpr const char* kUsualSize = "1600x900";
+constexpr int kUsualDots = 160;  // to the inch: a frame of 1600 pixels is 10 inches wide on paper
+
+// The ids of two files differ unless they show the same frame in the same way. A new version of
+// Lantern changes none of them, so that files can be compared.
+SvgWords svg_words(const RenderJob& job, const Frame& frame, const MadeFrom& from) {
+  const std::uint64_t key = Hash().add(frame.scenario).add(from.picture).value();
+  return {frame.title, frame.caption, fmt::format("l{:08x}-", key >> 32),
+          job.options.text == "text"};
+}
 
 }  // namespace
 
 RenderJob::RenderJob(const RenderOptions& o)
     : options(o), backend(*backend_named(o.backend)), svg(o.format == "svg"), in_betweens(o) {
-  std::tie(picture.width, picture.height) = parse_size(o.size, Renderer::kMostPixels);
+  std::tie(picture.width, picture.height) =
+      parse_size(o.size.empty() ? kUsualSize : o.size, Renderer::kMostPixels);
   picture.theme = *theme_named(o.theme);
   picture.transparent = o.transparent;
   picture.effort = o.png == "small" ? PngEffort::small : PngEffort::fast;
-  picture.pixels_per_metre = kPixelsPerMetre;
+  picture.pixels_per_metre = static_cast<int>(std::lround(o.dpi / 0.0254));
   picture.threads = o.threads > 0
                         ? o.threads
                         : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-DrawList RenderJob::page_of(const Frame& frame, const Staging& staging, Work& work) const {
-  const Vec<2> page = page_for(picture.width, picture.height);
+Display RenderJob::display_of(const Frame& frame) const {
   Display display = frame.display;
   if (options.no_title) display.title = false;
   if (options.no_caption) display.caption = false;
   if (options.no_counters) display.counters = false;
   if (options.legend) display.legend = true;
+  return display;
+}
+
+Vec<2> RenderJob::points() const {
+  return Vec<2>(picture.width, picture.height) * (72.0 / options.dpi);
+}
+
+DrawList RenderJob::page_of(const Frame& frame, const Staging& staging, Work& work) const {
+  const Vec<2> page = page_for(picture.width, picture.height);
+  const Display display = display_of(frame);
   if (display == frame.display) return draw_frame(frame, staging, page, work);
   Frame switched = frame;
   switched.display = display;
@@ -66,6 +87,8 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
        {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},
         std::pair{options.no_counters, "no-counters"}, std::pair{options.legend, "legend"}})
     if (on) m.switches.emplace_back(name);
+  if (svg && options.text == "text") m.switches.emplace_back("text");
+  if (!svg && options.dpi != kUsualDots) m.switches.push_back(fmt::format("dpi-{}", options.dpi));
   return m;
 }
 
@@ -80,7 +103,10 @@ std::vector<PngText> texts_of(const Frame& frame) {
 std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
                        const DrawList& list, const MadeFrom& from, Work& work) {
   if (job.svg)
-    return sealed(FileKind::svg, to_svg(list, as.theme, as.transparent, as.width, as.height), from);
+    return sealed(
+        FileKind::svg,
+        to_svg(list, as.theme, as.transparent, as.width, as.height, svg_words(job, frame, from)),
+        from);
   Renderer renderer(Context::create(job.backend), as.width, as.height);
   ++work.graphics_contexts;
   Image image;

@@ -25,6 +25,12 @@ struct RenderJob {
   bool svg = false;
   InBetweens in_betweens;
 
+  // What of the frame is shown: as the scenario has it, and the command line.
+  Display display_of(const Frame& frame) const;
+
+  // The picture on paper, in points of 1/72 inch.
+  Vec<2> points() const;
+
   // The frame as a page, with what the command line switches on and off.
   DrawList page_of(const Frame& frame, const Staging& staging, Work& work) const;
 

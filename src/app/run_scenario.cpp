@@ -1,10 +1,12 @@
 #include "app/run_scenario.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/missing_letters.hpp"
 #include "app/progress.hpp"
 #include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
@@ -57,6 +59,7 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
       &watch);
   sink.finish(result.report);
   result.warnings = watch.warnings();
+  for (Diagnostic& found : missing_letters(scenario)) result.warnings.push_back(std::move(found));
   result.facts = watch.facts();
   return result;
 }

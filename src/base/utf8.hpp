@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace lantern {
@@ -18,5 +19,8 @@ Letter first_letter(std::string_view text);
 
 // How many there are; a byte that is no UTF-8 counts as one.
 std::size_t letters(std::string_view text);
+
+// The letter's bytes behind the text; `code` is a valid one, as first_letter() gives it.
+void append_utf8(std::string& text, char32_t code);
 
 }  // namespace lantern

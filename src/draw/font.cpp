@@ -56,8 +56,8 @@ struct FontFace {
 };
 
 const FontFace& face(Weight weight) {
-  static const FontFace regular(font::inter_regular_otf);
-  static const FontFace semibold(font::inter_semibold_otf);
+  static const FontFace regular(font_file(Weight::regular));
+  static const FontFace semibold(font_file(Weight::semibold));
   return weight == Weight::regular ? regular : semibold;
 }
 
@@ -69,7 +69,7 @@ int next_codepoint(std::string_view text, std::size_t& at) {
   return !code ? kReplacement : *code < ' ' ? ' ' : static_cast<int>(*code);
 }
 
-// Calls place(glyph, x in ems) for each glyph; gives the width of the line in ems.
+// Calls place(glyph, x in ems, letter) for each glyph; gives the width of the line in ems.
 template <class Place>
 double walk(std::string_view text, Weight weight, const Place& place) {
   const FontFace& f = face(weight);
@@ -79,7 +79,7 @@ double walk(std::string_view text, Weight weight, const Place& place) {
     const int code = next_codepoint(text, at);
     const int glyph = f.glyph(code);
     if (last >= 0) x += f.advance(last, last_glyph, code, glyph);
-    place(glyph, x);
+    place(glyph, x, code);
     last = code;
     last_glyph = glyph;
   }
@@ -88,8 +88,17 @@ double walk(std::string_view text, Weight weight, const Place& place) {
 
 }  // namespace
 
+std::string_view font_file(Weight weight) {
+  return weight == Weight::regular ? font::inter_regular_otf : font::inter_semibold_otf;
+}
+
+bool has_glyph(char32_t letter) {
+  // Control characters are drawn as blanks.
+  return letter < ' ' || face(Weight::regular).glyph(static_cast<int>(letter)) != 0;
+}
+
 double text_width(std::string_view text, double size, Weight weight) {
-  return size * walk(text, weight, [](int, double) {});
+  return size * walk(text, weight, [](int, double, int) {});
 }
 
 double cap_height(Weight weight) { return face(weight).cap_height; }
@@ -97,7 +106,9 @@ double cap_height(Weight weight) { return face(weight).cap_height; }
 std::vector<PlacedGlyph> shape_text(std::string_view text, double size, Weight weight) {
   std::vector<PlacedGlyph> glyphs;
   glyphs.reserve(text.size());
-  walk(text, weight, [&](int glyph, double x) { glyphs.push_back({glyph, x * size}); });
+  walk(text, weight, [&](int glyph, double x, int letter) {
+    glyphs.push_back({glyph, x * size, static_cast<char32_t>(letter)});
+  });
   return glyphs;
 }
 

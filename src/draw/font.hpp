@@ -13,12 +13,19 @@ namespace lantern::draw {
 // Width of a line of text, page units, at an em of `size`; kerning included.
 double text_width(std::string_view text, double size, Weight weight);
 
+// The OpenType file of a weight, for those who embed it.
+std::string_view font_file(Weight weight);
+
 // Height of a capital letter, as a part of the em.
 double cap_height(Weight weight);
 
+// Can the letter be shown? Another one is drawn as a box, in every picture alike.
+bool has_glyph(char32_t letter);
+
 struct PlacedGlyph {
-  int glyph = 0;  // index in the font
-  double x = 0;   // of its origin from the left end of the line, page units
+  int glyph = 0;        // index in the font
+  double x = 0;         // of its origin from the left end of the line, page units
+  char32_t letter = 0;  // that it shows
 };
 
 // The glyphs of one line of UTF-8, kerned. Bytes that are no UTF-8 become U+FFFD.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/markup.hpp"
 #include "base/stop.hpp"
 #include "draw/font.hpp"
 #include "render/check_list.hpp"
@@ -31,7 +32,8 @@ std::string number(double x) {
 
 class SvgWriter {
  public:
-  SvgWriter(const DrawList& list, const Theme& theme) : list_(list), theme_(theme) {}
+  SvgWriter(const DrawList& list, const Theme& theme, const SvgWords& words)
+      : list_(list), theme_(theme), words_(words) {}
 
   std::string write(bool transparent, int width, int height) {
     for (std::size_t i = 0; i < list_.shapes.size(); ++i) {
@@ -44,8 +46,8 @@ class SvgWriter {
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{}\" height=\"{}\" "
-        "viewBox=\"0 0 {} {}\">\n",
-        width, height, w, h);
+        "viewBox=\"0 0 {} {}\"{}{}>\n{}",
+        width, height, w, h, words_.letters ? kFace : "", role(), told());
     if (!defs_.empty()) svg += fmt::format("<defs>\n{}</defs>\n", defs_);
     if (!transparent)
       svg += fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", w, h,
@@ -54,6 +56,22 @@ class SvgWriter {
   }
 
  private:
+  // For screen readers: it is one picture, with this name.
+  std::string role() const {
+    if (words_.title.empty()) return "";
+    const std::string& p = words_.prefix;
+    const std::string more = words_.description.empty() ? "" : fmt::format(" {}desc", p);
+    return fmt::format(" role=\"img\" aria-labelledby=\"{}title{}\"", p, more);
+  }
+  std::string told() const {
+    std::string text;
+    for (const auto& [name, words] :
+         {std::pair{"title", words_.title}, std::pair{"desc", words_.description}})
+      if (!words.empty())
+        text += fmt::format("<{0} id=\"{1}{0}\">{2}</{0}>\n", name, words_.prefix, escaped(words));
+    return text;
+  }
+
   void add(const RectShape& s) {
     const Vec<2> size = s.box.size();
     if (size.x < 0 || size.y < 0) return;
@@ -80,12 +98,14 @@ class SvgWriter {
   }
   void add(const TextShape& s) {
     if (s.size <= 0) return;
+    if (words_.letters) return add_letters(s);
     const double width = s.align == 0 ? 0 : text_width(s.text, s.size, s.weight);
     std::string letters;
     for (const PlacedGlyph& g : shape_text(s.text, 1.0, s.weight)) {
       const int id = glyph(g.glyph, s.weight);
       if (id >= 0)
-        letters += fmt::format("<use xlink:href=\"#g{}\" x=\"{}\"/>", id, number(1000 * g.x));
+        letters += fmt::format("<use xlink:href=\"#{}g{}\" x=\"{}\"/>", words_.prefix, id,
+                               number(1000 * g.x));
     }
     if (letters.empty()) return;
     // Glyphs are kept at a thousand units to the em, so that three decimals suffice.
@@ -100,6 +120,24 @@ class SvgWriter {
       body_ += fmt::format("<g{}{}>{}</g>\n", place, colored("fill", ink), letters);
   }
 
+  // The halo is a text of its own: not every program knows paint-order.
+  void add_letters(const TextShape& s) {
+    const double width = text_width(s.text, s.size, s.weight);
+    if (width <= 0) return;
+    const std::string place = fmt::format(
+        " x=\"{}\" y=\"{}\" font-size=\"{}\"{} textLength=\"{}\" "
+        "lengthAdjust=\"spacingAndGlyphs\"",
+        number(s.at.x - s.align * width), number(s.at.y), number(s.size),
+        s.weight == Weight::semibold ? " font-weight=\"600\"" : "", number(width));
+    if (const Paint halo = tinted(theme_, s.halo, tint_, &Tint::line); halo[3] != 0)
+      body_ += fmt::format(
+          "<text{}{}{} stroke-width=\"6\" stroke-linejoin=\"round\" aria-hidden=\"true\">{}"
+          "</text>\n",
+          place, colored("fill", halo), colored("stroke", halo), escaped(s.text));
+    if (const Paint ink = fill_of(s.role); ink[3] != 0)
+      body_ += fmt::format("<text{}{}>{}</text>\n", place, colored("fill", ink), escaped(s.text));
+  }
+
   // The number of a glyph in <defs>, where it is put when first met; -1 for a blank.
   int glyph(int index, Weight weight) {
     const auto [it, fresh] = glyphs_.try_emplace({index, weight}, -1);
@@ -107,7 +145,8 @@ class SvgWriter {
     const std::string path = glyph_path(index, weight);
     if (path.empty()) return -1;
     it->second = static_cast<int>(glyphs_.size()) - 1;
-    defs_ += fmt::format("<path id=\"g{}\" d=\"{}\"/>\n", it->second, thousandfold(path));
+    defs_ += fmt::format("<path id=\"{}g{}\" d=\"{}\"/>\n", words_.prefix, it->second,
+                         thousandfold(path));
     return it->second;
   }
 
@@ -154,9 +193,11 @@ class SvgWriter {
     return text;
   }
 
+  static constexpr const char* kFace = " font-family=\"Inter, sans-serif\" xml:space=\"preserve\"";
   static constexpr const char* kRoundCap = " stroke-linecap=\"round\"";
   const DrawList& list_;
   const Theme& theme_;
+  const SvgWords& words_;
   const Tint* tint_ = nullptr;  // of the shape that is being added
   std::map<std::pair<int, Weight>, int> glyphs_;
   std::string defs_, body_;
@@ -165,10 +206,10 @@ class SvgWriter {
 }  // namespace
 
 std::string to_svg(const DrawList& list, const Theme& theme, bool transparent, int width,
-                   int height) {
+                   int height, const SvgWords& words) {
   check_draw_list(list);
   if (width < 1 || height < 1) throw Refused("an SVG's width and height must be at least 1");
-  return SvgWriter(list, theme).write(transparent, width, height);
+  return SvgWriter(list, theme, words).write(transparent, width, height);
 }
 
 }  // namespace lantern::render

@@ -3,20 +3,15 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <memory>
+#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
-#include "render/canvas.hpp"
+#include "render/cairo_painter.hpp"
 #include "render/image.hpp"
 
 namespace lantern::report {
-
-struct CairoFunctions;
 
 // Its own choices of antialiasing, as <cairo.h> numbers them.
 enum class CairoAntialias { standard = 0, none = 1, fast = 4, best = 6 };
@@ -28,6 +23,8 @@ class CairoPeer {
   // Throws BackendError, naming the package to install, if there is no cairo.
   CairoPeer(int width, int height, CairoAntialias antialias = CairoAntialias::standard);
   ~CairoPeer();
+  CairoPeer(const CairoPeer&) = delete;
+  CairoPeer& operator=(const CairoPeer&) = delete;
 
   std::string version() const;
   void draw(const DrawList& list, const Theme& theme);
@@ -37,28 +34,10 @@ class CairoPeer {
   void write_png(const std::filesystem::path& path);
 
  private:
-  void add(const RectShape& shape);
-  void add(const LineShape& shape);
-  void add(const PolygonShape& shape);
-  void add(const TextShape& shape);
-  void outline(const Box<2>& box, double radius);
-  void paint(Role fill, const Stroke& stroke, double line_width);
-  void set_color(Role role);
-  void letters(const TextShape& shape, const Vec<2>& at);
-
-  // An outline's commands, parsed once a glyph: a letter and up to three points each.
-  struct PathStep {
-    char letter = 'Z';
-    Vec<2> points[3] = {};
-  };
-  const std::vector<PathStep>& glyph(int index, Weight weight);
-
-  std::unique_ptr<CairoFunctions> cairo_;
+  int width_, height_;
   void* surface_ = nullptr;
   void* context_ = nullptr;
-  Canvas canvas_;
-  const Theme* theme_ = nullptr;
-  std::map<std::pair<int, Weight>, std::vector<PathStep>> glyphs_;
+  std::optional<CairoPainter> painter_;
 };
 
 }  // namespace lantern::report

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.hpp"
 #include "draw/theme.hpp"
 #include "report/claims.hpp"
 #include "report/drift_plots.hpp"

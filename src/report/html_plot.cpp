@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/printable.hpp"
+#include "base/markup.hpp"
 #include "draw/axis.hpp"
 #include "report/sentences.hpp"
 
@@ -224,23 +224,6 @@ class SvgPlot {
 };
 
 }  // namespace
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string svg_marks() {
   std::string text = "<svg width=\"0\" height=\"0\" aria-hidden=\"true\"><defs>";

@@ -10,9 +10,6 @@
 
 namespace lantern::report {
 
-// Text between tags and in quoted attributes.
-std::string escaped(std::string_view text);
-
 // The marks of plots, to stand once in a page before its plots: symbols "mark0" ... "mark13".
 std::string svg_marks();
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.hpp"
 #include "report/html_plot.hpp"
 #include "report/sentences.hpp"
 

@@ -20,6 +20,17 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kKeys = {"capacity", "max_depth", "kind", "at"};
 
+TEST(Utf8, WritesWhatItReads) {
+  for (const char32_t code : {U'a', U'\x7f', U'\x80', U'ß', U'\u07ff', U'\u0800', U'日', U'\uffff',
+                              U'\U00010000', U'😀', U'\U0010ffff'}) {
+    std::string text = "x";
+    append_utf8(text, code);
+    const Letter read = first_letter(std::string_view(text).substr(1));
+    EXPECT_EQ(read.code, code);
+    EXPECT_EQ(read.bytes, text.size() - 1);
+  }
+}
+
 TEST(Suggest, FindsTheNearestName) {
   EXPECT_EQ(nearest_name("capcity", kKeys), "capacity");
   EXPECT_EQ(nearest_name("Kind", kKeys), "kind") << "case is not a difference";

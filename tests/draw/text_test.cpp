@@ -25,6 +25,20 @@ TEST(Font, WidthGrowsWithSizeAndWeight) {
   EXPECT_NEAR(cap_height(Weight::regular), 0.727, 0.001);
 }
 
+TEST(Font, KnowsWhichLettersItHas) {
+  for (const char32_t letter : {U'A', U'ä', U'я', U'Ω', U'×', U'…', U'\n'})
+    EXPECT_TRUE(has_glyph(letter)) << static_cast<unsigned>(letter);
+  for (const char32_t letter : {U'日', U'א', U'😀'})
+    EXPECT_FALSE(has_glyph(letter)) << static_cast<unsigned>(letter);
+}
+
+TEST(Font, SaysWhichLetterAGlyphShows) {
+  std::u32string read;
+  for (const PlacedGlyph& placed : shape_text("a×\t\xff日", 10, Weight::regular))
+    read += placed.letter;
+  EXPECT_EQ(read, U"a× \ufffd日") << "control characters are blanks";
+}
+
 TEST(Font, PlacesGlyphsInOrder) {
   const auto glyphs = shape_text("To × …", 50, Weight::semibold);
   ASSERT_EQ(glyphs.size(), 6u) << "one glyph a character, not one a byte";

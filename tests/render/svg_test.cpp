@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "draw/font.hpp"
 #include "render/renderer.hpp"
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct Element {
   std::string name;
   std::map<std::string, std::string> attributes;
+  std::string text = {};  // of title, desc and text
 };
 
 // Reads the small part of XML that an SVG of ours may use; a failure tells where it is not well-
@@ -50,6 +52,9 @@ class Xml {
       }
       EXPECT_EQ(text_[at_], '>') << "at " << at_;
       ++at_;
+      if (!open.empty() &&
+          (open.back() == "title" || open.back() == "desc" || open.back() == "text"))
+        all.back().text = words();
     }
     EXPECT_TRUE(open.empty());
     return all;
@@ -77,6 +82,14 @@ class Xml {
       at_ = end + 1;
     }
     return e;
+  }
+
+  std::string words() {
+    const std::size_t end = text_.find('<', at_);
+    const std::string found = text_.substr(at_, end - at_);
+    EXPECT_EQ(found.find_first_of(">\""), std::string::npos) << found;
+    at_ = end;
+    return found;
   }
 
   const std::string& text_;
@@ -144,6 +157,62 @@ TEST(Svg, HalosLieBelowTheirLetters) {
   EXPECT_EQ(groups[0].attributes.at("stroke-width"), "600") << "6 units, at 100 to the unit";
   EXPECT_EQ(groups[1].attributes.at("fill"), "#000000");
   EXPECT_EQ(groups[1].attributes.count("stroke"), 0u);
+}
+
+std::set<std::string> ids(const std::string& svg) {
+  std::set<std::string> found;
+  for (const Element& e : Xml(svg).elements())
+    if (e.attributes.contains("id")) {
+      EXPECT_TRUE(found.insert(e.attributes.at("id")).second);
+    }
+  return found;
+}
+
+TEST(Svg, FilesOfDifferentPrefixesShareNoId) {
+  const std::set<std::string> a = ids(to_svg(sample_scene(), plain_theme(), false, 1600, 900,
+                                             {"A", "a", "one-", false})),
+                              b = ids(to_svg(sample_scene(), plain_theme(), false, 1600, 900,
+                                             {"A", "a", "two-", false}));
+  EXPECT_EQ(a.size(), b.size());
+  EXPECT_GT(a.size(), 20u);
+  for (const std::string& id : a) EXPECT_FALSE(b.contains(id)) << id;
+}
+
+TEST(Svg, SaysWhatItShowsToWhoeverDoesNotSeeIt) {
+  const DrawList list = page_of(160, 90, {});
+  const auto all = Xml(to_svg(list, plain_theme(), true, 16, 9,
+                              {"Trees & <nodes>", "it's \"split\"", "p-", false}))
+                       .elements();
+  EXPECT_EQ(all.at(0).attributes.at("role"), "img");
+  EXPECT_EQ(all.at(0).attributes.at("aria-labelledby"), "p-title p-desc");
+  EXPECT_EQ(named(all, "title").at(0).attributes.at("id"), "p-title");
+  EXPECT_EQ(named(all, "title").at(0).text, "Trees &amp; &lt;nodes&gt;");
+  EXPECT_EQ(named(all, "desc").at(0).attributes.at("id"), "p-desc");
+  EXPECT_EQ(named(all, "desc").at(0).text, "it's &quot;split&quot;");
+  const auto bare =
+      Xml(to_svg(list, plain_theme(), true, 16, 9, {"T", "", "p-", false})).elements();
+  EXPECT_EQ(bare.at(0).attributes.at("aria-labelledby"), "p-title");
+  EXPECT_TRUE(named(bare, "desc").empty());
+}
+
+TEST(Svg, LettersMayBeTextThatHoldsItsWidth) {
+  const DrawList list = page_of(
+      160, 90, {text("a < b", 80, 20, 10, Role::ink, 0.5, Weight::semibold, Role::warning)});
+  const std::string svg = to_svg(list, plain_theme(), true, 16, 9, {"", "", "", true});
+  const auto all = Xml(svg).elements();
+  EXPECT_TRUE(named(all, "use").empty());
+  EXPECT_TRUE(named(all, "path").empty());
+  const auto texts = named(all, "text");
+  ASSERT_EQ(texts.size(), 2u) << "the halo below, then the letters";
+  EXPECT_EQ(texts[0].attributes.at("stroke"), "#ff0000");
+  EXPECT_EQ(texts[0].attributes.at("aria-hidden"), "true") << "it is read once";
+  const auto& letters = texts[1].attributes;
+  EXPECT_EQ(texts[1].text, "a &lt; b");
+  EXPECT_EQ(all.at(0).attributes.at("font-family"), "Inter, sans-serif");
+  EXPECT_EQ(letters.at("font-weight"), "600");
+  const double width = text_width("a < b", 10, Weight::semibold);
+  EXPECT_NEAR(std::stod(letters.at("textLength")), width, 1e-3);
+  EXPECT_NEAR(std::stod(letters.at("x")), 80 - width / 2, 1e-3);
 }
 
 TEST(Svg, RefusesWhatIsNotFinite) {

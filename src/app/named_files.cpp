@@ -1,0 +1,42 @@
+#include "app/named_files.hpp"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+
+namespace lantern::app {
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+}  // namespace
+
+void refuse_in_betweens(const Sequence& sequence) {
+  if (sequence.job.in_betweens.wanted())
+    throw UsageError(fmt::format(
+        "-o {}: a page does not move; in-betweens (--tween, --fps) need a folder or a film",
+        sequence.job.options.output));
+}
+
+void NamedFiles::write(const std::filesystem::path& file, std::string_view bytes,
+                       std::uint64_t frames) {
+  make_folder(folder_of(file));
+  write_file(file, bytes);
+  work_.bytes_written += bytes.size();
+  work_.frames_written += frames;
+  made_.frames += frames;
+  made_.files.push_back(file);
+}
+
+void NamedFiles::settle() const {
+  std::set<std::filesystem::path> folders;
+  for (const auto& file : made_.files) folders.insert(folder_of(file));
+  for (const auto& folder : folders) make_durable(folder);
+}
+
+}  // namespace lantern::app

@@ -1,0 +1,156 @@
+#include "publish/sheet.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "draw/font.hpp"
+#include "draw/labels.hpp"
+#include "draw/page.hpp"
+
+namespace lantern::publish {
+namespace {
+
+// In millimetres of an A4 page.
+constexpr double kMargin = 12, kTop = 21, kBottom = 14, kGapAcross = 7, kGapDown = 6;
+constexpr double kTitleLine = 14.5, kTitleRule = 17, kTitleSize = 4.6, kFootSize = 3.0;
+constexpr double kMostType = 3.3, kLeastType = 2.2;         // 9.4 and 6.2 points
+constexpr double kTypeOfWidth = 0.038;                      // of a picture
+constexpr double kLineHeight = 1.32, kAboveCaption = 1.45;  // ems
+constexpr double kLeastWidth = 10, kLeastHeight = 10;       // of picture and caption
+constexpr double kUsualCaption = 150;                       // letters that have room
+constexpr double kMostWords = 0.55;                         // of the height of picture and caption
+constexpr double kLetter = 0.52;                            // ems, on average
+constexpr double kWidest = 16.0 / 9, kSquarest = 1.6;       // aspects of a picture
+
+void move(RectShape& s, const Vec<2>& by) { s.box = {s.box.lo + by, s.box.hi + by}; }
+void move(LineShape& s, const Vec<2>& by) { s.from += by, s.to += by; }
+void move(PolygonShape& s, const Vec<2>& by) {
+  for (Vec<2>& p : s.points) p += by;
+}
+void move(TextShape& s, const Vec<2>& by) { s.at += by; }
+
+// As many lines as there may be; the last one ends with an ellipsis if the text goes on.
+std::vector<std::string> lines_of(const std::string& text, double width, std::size_t most,
+                                  TextStyle& style) {
+  const double least = 0.82 * style.size;
+  std::vector<std::string> lines = wrapped(text, width, style);
+  while (lines.size() > most && style.size > least) {
+    style.size *= 0.97;
+    lines = wrapped(text, width, style);
+  }
+  if (lines.size() <= most) return lines;
+  std::string rest = lines[most - 1];
+  for (std::size_t i = most; i < lines.size(); ++i) rest += " " + lines[i];
+  lines.resize(most);
+  lines.back() = shortened(rest, width, style);
+  return lines;
+}
+
+}  // namespace
+
+std::optional<SheetGrid> sheet_grid(std::string_view words) {
+  SheetGrid grid;
+  const char* const last = words.data() + words.size();
+  const auto columns = std::from_chars(words.data(), last, grid.columns);
+  if (columns.ec != std::errc() || columns.ptr == last || *columns.ptr != 'x') return std::nullopt;
+  const auto rows = std::from_chars(columns.ptr + 1, last, grid.rows);
+  if (rows.ec != std::errc() || rows.ptr != last) return std::nullopt;
+  for (const int number : {grid.columns, grid.rows})
+    if (number < 1 || number > SheetGrid::kMost) return std::nullopt;
+  return grid;
+}
+
+SheetLayout::SheetLayout(const Vec<2>& paper, const SheetGrid& grid) : grid_(grid) {
+  const double share = std::sqrt(paper.x * paper.y / (297.0 * 210.0));
+  const Vec<2> size = paper / share;  // as large as A4
+  const auto parts = [](double room, int number, double gap) {
+    return (room - gap * (number - 1)) / number;
+  };
+  const double width = parts(size.x - 2 * kMargin, grid.columns, kGapAcross);
+  const double height = parts(size.y - kTop - kBottom, grid.rows, kGapDown);
+  if (!(width >= kLeastWidth && height >= kLeastHeight))
+    throw Refused(
+        fmt::format("pages {:.3g} times as wide as high have no room for {} x {} pictures",
+                    paper.x / paper.y, grid.columns, grid.rows));
+  const double type = std::clamp(kTypeOfWidth * width, kLeastType, kMostType);
+  lines_ = static_cast<std::size_t>(
+      std::clamp(std::ceil(kUsualCaption * kLetter * type / width), 2.0, 5.0));
+  const auto words = [&] {
+    return type * (kAboveCaption + kLineHeight * (static_cast<double>(lines_) - 0.7));
+  };
+  while (lines_ > 1 && words() > kMostWords * height) --lines_;
+  const double room = height - words();
+  Vec<2> picture(width, std::min(room, width / kSquarest));
+  picture.x = std::min(picture.x, picture.y * kWidest);
+  // A picture's own page says how many units it has.
+  picture_ = page_for(static_cast<int>(std::lround(16 * picture.x)),
+                      static_cast<int>(std::lround(16 * picture.y)));
+  unit_ = picture_.x / picture.x;
+  page_ = size * unit_;
+  cell_ = Vec<2>(width, height) * unit_;
+  type_ = type * unit_;
+}
+
+DrawList SheetLayout::page(const std::vector<SheetPicture>& pictures,
+                           const SheetWords& words) const {
+  DrawList list;
+  list.page = page_;
+  add_words(words, list);
+  for (std::size_t i = 0; i < std::min(pictures.size(), grid_.pictures()); ++i) {
+    const auto columns = static_cast<std::size_t>(grid_.columns);
+    const Vec<2> place(static_cast<double>(i % columns), static_cast<double>(i / columns));
+    add_picture(
+        pictures[i],
+        Vec<2>(kMargin, kTop) * unit_ + place * (cell_ + Vec<2>(kGapAcross, kGapDown) * unit_),
+        list);
+  }
+  return list;
+}
+
+void SheetLayout::add_words(const SheetWords& words, DrawList& list) const {
+  const double left = kMargin * unit_, right = page_.x - left;
+  if (!words.title.empty()) {
+    const TextStyle style{kTitleSize * unit_, Weight::semibold, Role::ink};
+    list.shapes.emplace_back(TextShape{shortened(words.title, right - left, style),
+                                       {left, kTitleLine * unit_},
+                                       style.size,
+                                       style.weight});
+    list.crisp_line({left, kTitleRule * unit_}, {right, kTitleRule * unit_},
+                    {Role::rule, 0.25 * unit_});
+  }
+  if (!words.page.empty())
+    list.shapes.emplace_back(TextShape{words.page,
+                                       {right, page_.y - 0.55 * kBottom * unit_},
+                                       kFootSize * unit_,
+                                       Weight::regular,
+                                       1,
+                                       Role::quiet_ink});
+}
+
+// The picture on top of its cell, framed, its number and caption under it.
+void SheetLayout::add_picture(const SheetPicture& picture, const Vec<2>& corner,
+                              DrawList& list) const {
+  const Vec<2> at = corner + Vec<2>(0.5 * (cell_.x - picture_.x), 0);
+  for (DrawShape shape : picture.list.shapes) {
+    std::visit([&](auto& s) { move(s, at); }, shape);
+    list.shapes.push_back(std::move(shape));
+  }
+  list.crisp_rect({at, at + picture_}, Role::none, {Role::rule, 0.2 * unit_});
+  const TextStyle bold{type_, Weight::semibold, Role::ink};
+  Vec<2> baseline(corner.x, at.y + picture_.y + kAboveCaption * type_);
+  list.shapes.emplace_back(TextShape{picture.number, baseline, bold.size, bold.weight});
+  const double indent = text_width(picture.number, bold) + 0.7 * type_;
+  TextStyle style{type_, Weight::regular, Role::ink};
+  for (std::string& line : lines_of(picture.caption, cell_.x - indent, lines_, style)) {
+    list.shapes.emplace_back(
+        TextShape{std::move(line), {baseline.x + indent, baseline.y}, style.size, style.weight});
+    baseline.y += kLineHeight * style.size;
+  }
+}
+
+}  // namespace lantern::publish

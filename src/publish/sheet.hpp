@@ -1,0 +1,59 @@
+// Contact sheets: several pictures a page, each with its number and caption.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+
+namespace lantern::publish {
+
+struct SheetGrid {
+  static constexpr int kMost = 10;  // across or down: more could not be read
+  int columns = 1, rows = 1;
+  std::size_t pictures() const { return static_cast<std::size_t>(columns) * rows; }
+};
+
+// "3x2" is three across and two down. Nothing for other words, and beyond kMost.
+std::optional<SheetGrid> sheet_grid(std::string_view words);
+
+struct SheetPicture {
+  DrawList list;  // made for SheetLayout::picture()
+  std::string number, caption;
+};
+
+// What stands above and below the pictures; nothing where it is empty.
+struct SheetWords {
+  std::string title, page;  // "page 2 of 5"
+};
+
+// Where everything stands on the pages of a sheet. Pictures keep their own units, so that they are
+// drawn as they would be alone; type has its size from the paper.
+class SheetLayout {
+ public:
+  // The paper, in millimetres. Throws Refused if it is so long or so high that pictures of the grid
+  // have no room.
+  SheetLayout(const Vec<2>& paper, const SheetGrid& grid);
+
+  // The page that a picture is to be drawn for, page units.
+  const Vec<2>& picture() const { return picture_; }
+
+  // At most as many pictures as the grid has places, in the order of reading.
+  DrawList page(const std::vector<SheetPicture>& pictures, const SheetWords& words) const;
+
+ private:
+  void add_words(const SheetWords& words, DrawList& list) const;
+  void add_picture(const SheetPicture& picture, const Vec<2>& corner, DrawList& list) const;
+
+  SheetGrid grid_;
+  double unit_ = 1;  // page units a millimetre of an A4 page, or its share of another one
+  Vec<2> page_{0.0}, picture_{0.0};
+  Vec<2> cell_{0.0};       // picture and caption, page units
+  double type_ = 0;        // em of captions, page units
+  std::size_t lines_ = 0;  // of a caption
+};
+
+}  // namespace lantern::publish

@@ -1,0 +1,229 @@
+#include "render/cairo_painter.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <variant>
+
+#include "base/stop.hpp"
+#include "base/utf8.hpp"
+#include "draw/font.hpp"
+#include "render/check_list.hpp"
+
+namespace lantern::render {
+namespace {
+
+constexpr int kButtCap = 0, kRoundCap = 1, kSquareCap = 2, kMiterJoin = 0, kRoundJoin = 1;
+constexpr double kQuarterTurn = 1.5707963267948966;
+
+// Letters are as wide as they are drawn, not as a screen would have them.
+void turn_hinting_off(const Cairo& cairo, void* context) {
+  constexpr int kNoHints = 1, kNoHintedMetrics = 1;
+  void* options = cairo.font_options_create();
+  cairo.font_options_set_hint_style(options, kNoHints);
+  cairo.font_options_set_hint_metrics(options, kNoHintedMetrics);
+  cairo.set_font_options(context, options);
+  cairo.font_options_destroy(options);
+}
+
+}  // namespace
+
+CairoPainter::CairoPainter(void* context, For what)
+    : cairo_(cairo()), context_(context), for_(what) {
+  if (for_ == For::pixels) return;
+  cairo_face(Weight::regular);
+  turn_hinting_off(cairo_, context_);
+}
+
+void CairoPainter::draw(const DrawList& list, const Theme& theme, bool paper,
+                        const Canvas& canvas) {
+  check_draw_list(list);
+  canvas_ = canvas;
+  theme_ = &theme;
+  tint_ = nullptr;
+  if (paper) {
+    set_color(tinted(theme, Role::paper, nullptr, &Tint::fill));
+    cairo_.paint(context_);
+  }
+  for (std::size_t i = 0; i < list.shapes.size(); ++i) {
+    stop_if_asked();
+    tint_ = list.tints.empty() ? nullptr : &list.tints[i];
+    std::visit([&](const auto& s) { add(s); }, list.shapes[i]);
+  }
+}
+
+void CairoPainter::set_color(const Paint& c) {
+  cairo_.set_source_rgba(context_, c[0] / 255.0, c[1] / 255.0, c[2] / 255.0, c[3] / 255.0);
+}
+
+// Fills and outlines the current path, and ends it.
+void CairoPainter::fill_and_stroke(Role fill, const Stroke& stroke, double line_width) {
+  if (const Paint ground = tinted(*theme_, fill, tint_, &Tint::fill); ground[3] != 0) {
+    set_color(ground);
+    cairo_.fill_preserve(context_);
+  }
+  const Paint line = tinted(*theme_, stroke.role, tint_, &Tint::line);
+  if (line[3] != 0 && line_width > 0) {
+    set_color(line);
+    cairo_.set_line_width(context_, line_width);
+    const double dash = stroke.dash * canvas_.scale;
+    cairo_.set_dash(context_, &dash, dash > 0 ? 1 : 0, 0);
+    cairo_.stroke_preserve(context_);
+  }
+  cairo_.new_path(context_);
+}
+
+void CairoPainter::outline(const Box<2>& box, double radius) {
+  if (radius <= 0) {  // from the upper right corner, where Lantern's dashes begin, too
+    cairo_.move_to(context_, box.hi.x, box.lo.y);
+    cairo_.line_to(context_, box.hi.x, box.hi.y);
+    cairo_.line_to(context_, box.lo.x, box.hi.y);
+    cairo_.line_to(context_, box.lo.x, box.lo.y);
+    cairo_.close_path(context_);
+    return;
+  }
+  const Vec<2> lo = box.lo + Vec<2>(radius), hi = box.hi - Vec<2>(radius);
+  cairo_.arc(context_, hi.x, lo.y, radius, -kQuarterTurn, 0);
+  cairo_.arc(context_, hi.x, hi.y, radius, 0, kQuarterTurn);
+  cairo_.arc(context_, lo.x, hi.y, radius, kQuarterTurn, 2 * kQuarterTurn);
+  cairo_.arc(context_, lo.x, lo.y, radius, 2 * kQuarterTurn, 3 * kQuarterTurn);
+  cairo_.close_path(context_);
+}
+
+void CairoPainter::add(const RectShape& shape) {
+  Box<2> box = canvas_.pixels(shape.box);
+  if (box.size().x < 0 || box.size().y < 0) return;
+  double width = shape.stroke.width * canvas_.scale;
+  if (shape.snapped && for_ == For::pixels) {
+    const bool has_line = shape.stroke.role != Role::none && width > 0;
+    width = has_line ? snapped_width(width) : 0;
+    for (int i = 0; i < 2; ++i) {
+      box.lo[i] = has_line ? snapped(box.lo[i], width) : rounded(box.lo[i]);
+      box.hi[i] = has_line ? snapped(box.hi[i], width) : rounded(box.hi[i]);
+    }
+  }
+  cairo_.set_line_cap(context_, kButtCap);
+  cairo_.set_line_join(context_, kMiterJoin);
+  outline(box, std::min(shape.radius * canvas_.scale, 0.5 * std::min(box.size().x, box.size().y)));
+  fill_and_stroke(shape.fill, shape.stroke, width);
+}
+
+void CairoPainter::add(const LineShape& shape) {
+  Vec<2> from = canvas_.pixel(shape.from), to = canvas_.pixel(shape.to);
+  double width = shape.stroke.width * canvas_.scale;
+  const bool on_pixels = shape.snapped && for_ == For::pixels;
+  if (on_pixels) {
+    width = snapped_width(width);
+    for (Vec<2>* end : {&from, &to}) *end = {snapped(end->x, width), snapped(end->y, width)};
+  }
+  cairo_.set_line_cap(context_, shape.stroke.dash > 0 || on_pixels ? kButtCap
+                                : shape.snapped                    ? kSquareCap
+                                                                   : kRoundCap);
+  cairo_.move_to(context_, from.x, from.y);
+  cairo_.line_to(context_, to.x, to.y);
+  fill_and_stroke(Role::none, shape.stroke, width);
+}
+
+void CairoPainter::add(const PolygonShape& shape) {
+  if (shape.points.empty()) return;
+  for (const Vec<2>& corner : shape.points) {
+    const Vec<2> p = canvas_.pixel(corner);
+    cairo_.line_to(context_, p.x, p.y);
+  }
+  cairo_.close_path(context_);
+  cairo_.set_line_cap(context_, kButtCap);
+  cairo_.set_line_join(context_, kRoundJoin);
+  fill_and_stroke(shape.fill, shape.stroke, shape.stroke.width * canvas_.scale);
+}
+
+void CairoPainter::add(const TextShape& shape) {
+  if (shape.size <= 0 || shape.text.empty()) return;
+  const double width = text_width(shape.text, shape.size, shape.weight);
+  Vec<2> at = canvas_.pixel({shape.at.x - shape.align * width, shape.at.y});
+  if (for_ == For::vectors) return add_letters(shape, at);
+  at.y = rounded(at.y);
+  add_outlines(shape, at);
+  stroke_halo(tinted(*theme_, shape.halo, tint_, &Tint::line));
+  set_color(tinted(*theme_, shape.role, tint_, &Tint::fill));
+  cairo_.fill(context_);
+}
+
+// Round the letters of the current path, which stays.
+void CairoPainter::stroke_halo(const Paint& halo) {
+  constexpr double kHalo = 6;  // 3 units on either side
+  if (halo[3] == 0) return;
+  const double none = 0;
+  set_color(halo);
+  cairo_.set_dash(context_, &none, 0, 0);
+  cairo_.set_line_join(context_, kRoundJoin);
+  cairo_.set_line_width(context_, kHalo * canvas_.scale);
+  cairo_.stroke_preserve(context_);
+}
+
+// Letters with what they mean, so that they can be searched and copied; their halo is outlines.
+void CairoPainter::add_letters(const TextShape& shape, const Vec<2>& at) {
+  const double em = shape.size * canvas_.scale;
+  std::string text;
+  std::vector<CairoGlyph> glyphs;
+  std::vector<CairoCluster> clusters;
+  for (const PlacedGlyph& placed : shape_text(shape.text, em, shape.weight)) {
+    const std::size_t before = text.size();
+    append_utf8(text, placed.letter);
+    glyphs.push_back({static_cast<unsigned long>(placed.glyph), at.x + placed.x, at.y});
+    clusters.push_back({static_cast<int>(text.size() - before), 1});
+  }
+  const int count = static_cast<int>(glyphs.size());
+  cairo_.set_font_face(context_, cairo_face(shape.weight));
+  cairo_.set_font_size(context_, em);
+  if (const Paint halo = tinted(*theme_, shape.halo, tint_, &Tint::line); halo[3] != 0) {
+    cairo_.glyph_path(context_, glyphs.data(), count);
+    stroke_halo(halo);
+    cairo_.new_path(context_);
+  }
+  const Paint ink = tinted(*theme_, shape.role, tint_, &Tint::fill);
+  if (ink[3] == 0) return;
+  set_color(ink);
+  cairo_.show_text_glyphs(context_, text.c_str(), static_cast<int>(text.size()), glyphs.data(),
+                          count, clusters.data(), count, 0);
+}
+
+// Adds the letters' outlines to the current path.
+void CairoPainter::add_outlines(const TextShape& shape, const Vec<2>& at) {
+  const double em = shape.size * canvas_.scale;
+  for (const PlacedGlyph& placed : shape_text(shape.text, em, shape.weight)) {
+    const Vec<2> origin(at.x + placed.x, at.y);
+    Vec<2> pen = origin;
+    for (const PathStep& step : glyph(placed.glyph, shape.weight)) {
+      const Vec<2> a = origin + em * step.points[0], b = origin + em * step.points[1],
+                   c = origin + em * step.points[2];
+      if (step.letter == 'M') cairo_.move_to(context_, a.x, a.y);
+      if (step.letter == 'L') cairo_.line_to(context_, a.x, a.y);
+      if (step.letter == 'Z') cairo_.close_path(context_);
+      if (step.letter == 'C') cairo_.curve_to(context_, a.x, a.y, b.x, b.y, c.x, c.y);
+      if (step.letter == 'Q') {  // as the cubic curve that it is
+        const Vec<2> p = (pen + 2.0 * a) / 3.0, q = (b + 2.0 * a) / 3.0;
+        cairo_.curve_to(context_, p.x, p.y, q.x, q.y, b.x, b.y);
+      }
+      pen = step.letter == 'C' ? c : step.letter == 'Q' ? b : a;
+    }
+  }
+}
+
+const std::vector<CairoPainter::PathStep>& CairoPainter::glyph(int index, Weight weight) {
+  const auto [it, fresh] = glyphs_.try_emplace({index, weight});
+  if (!fresh) return it->second;
+  const std::string path = glyph_path(index, weight);
+  const char* const last = path.data() + path.size();
+  for (const char* at = path.data(); at != last;) {
+    PathStep step{*at++};
+    const int points = step.letter == 'Z' ? 0 : step.letter == 'C' ? 3 : step.letter == 'Q' ? 2 : 1;
+    for (int i = 0; i < 2 * points; ++i) {
+      at = std::from_chars(at, last, step.points[i / 2][i % 2]).ptr;
+      while (at != last && *at == ' ') ++at;
+    }
+    it->second.push_back(step);
+  }
+  return it->second;
+}
+
+}  // namespace lantern::render

@@ -1,0 +1,261 @@
+// Figures: documents, contact sheets, SVG for papers and pages; dots to the inch; letters that the
+// type lacks.
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+#include "base/program.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+Outcome render(const std::string& words, const std::string& before = "") {
+  return shell(before + "lantern render " + kGhosts + " " + words);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+void expect_refused(const std::string& words, const std::string& says) {
+  const fs::path out = fresh_folder("refused-figure");
+  const Outcome o = shell("cd " + out.string() + "; lantern render " + kGhosts + " " + words);
+  EXPECT_EQ(o.code, 2) << words << o.err;
+  EXPECT_NE(o.err.find(says), std::string::npos) << words << ": " << o.err;
+  EXPECT_EQ(files_in(out), 0u) << words;
+}
+
+// --- documents ---
+
+TEST(Document, HasAPageAFrameAndTheWordsOfEach) {
+  const fs::path out = fresh_folder("document");
+  const fs::path file = out / "new" / "fig.pdf";
+  const Outcome o = render("--json -o " + file.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.err.find("8 frames in " + file.string()), std::string::npos) << o.err;
+  const json said = json::parse(o.out);
+  EXPECT_EQ(said["scenarios"][0]["frames"], 8);
+  EXPECT_EQ(said["scenarios"][0]["files"], json::array({file.string()}));
+  EXPECT_EQ(said["work"]["graphics_contexts"], 0) << "no OpenGL is needed";
+  EXPECT_EQ(files_in(out / "new"), 1u);
+  const std::string pdf = read_text(file);
+  EXPECT_EQ(count(pdf, "/MediaBox [ 0 0 720 405 ]"), 8u) << "10 inches wide";
+  EXPECT_EQ(count(pdf, "/Creator (Lantern "), 1u);
+  ASSERT_EQ(render("-o " + (out / "again.pdf").string()).code, 0);
+  EXPECT_EQ(read_text(out / "again.pdf"), pdf);
+  if (!find_program("pdftotext")) GTEST_SKIP() << "no poppler-utils";
+  const std::string text = shell("pdftotext -f 3 -l 3 " + file.string() + " -").out;
+  for (const char* words : {"Ghosts fill a quadtree", "blue", "root", "step"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << " in:\n" << text;
+}
+
+TEST(Document, OfOneStepIsSmall) {
+  const fs::path file = fresh_folder("small-document") / "fig.pdf";
+  ASSERT_EQ(render("--at four -o " + file.string()).code, 0);
+  EXPECT_LT(fs::file_size(file), 60'000u);
+}
+
+TEST(Document, DotsToTheInchSayHowLargeThePageIs) {
+  const fs::path file = fresh_folder("dots-document") / "fig.pdf";
+  ASSERT_EQ(render("--frames 0 --size 800x450 --dpi 200 -o " + file.string()).code, 0);
+  EXPECT_EQ(count(read_text(file), "/MediaBox [ 0 0 288 162 ]"), 1u);
+}
+
+TEST(Document, APlaceholderMakesAFileAFrame) {
+  const fs::path out = fresh_folder("documents");
+  const Outcome o = render("--frames 2-3 -o " + (out / "{scenario}_{frame}.pdf").string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(files_in(out), 2u);
+  for (const char* number : {"0002", "0003"})
+    EXPECT_EQ(
+        count(read_text(out / ("ghost_quadtree_" + std::string(number) + ".pdf")), "/MediaBox"), 1u)
+        << number;
+}
+
+TEST(Document, SwitchesAndThemesChangeIt) {
+  const fs::path out = fresh_folder("document-switches");
+  std::set<std::string> all;
+  for (const char* words : {"", "--no-title", "--no-caption", "--no-counters", "--legend",
+                            "--theme dark", "--theme print", "--transparent"}) {
+    const Outcome o =
+        render("--frames 2 -o " + (out / "a.pdf").string() + " " + std::string(words));
+    ASSERT_EQ(o.code, 0) << words << o.err;
+    EXPECT_TRUE(all.insert(read_text(out / "a.pdf")).second) << words << " changes nothing";
+  }
+}
+
+TEST(Document, DoesNotMove) {
+  expect_refused("--tween 3 -o fig.pdf", "does not move");
+  expect_refused("--fps 25 --sheet 3x2 -o fig.pdf", "does not move");
+  expect_refused("--dpi 20 -o fig.pdf", "--dpi");
+}
+
+// A library that cannot be loaded passes for one that is not there.
+TEST(Document, AMissingLibraryIsToldBeforeTheRunAndTheOlderFileStays) {
+  for (const char* library : {"libcairo.so.2", "libfreetype.so.6"}) {
+    const fs::path out = fresh_folder("no-cairo");
+    fs::create_directory(out / "lib");
+    write_text(out / "lib" / library, "no library");
+    write_text(out / "old.pdf", "old");
+    const std::string fake = "export LD_LIBRARY_PATH=" + (out / "lib").string() + "; ";
+    for (const std::string name : {"old.pdf", "new/fig.pdf"})
+      for (const std::string sheet : {"", " --sheet 2x2"}) {
+        const Outcome o = render("-o " + (out / name).string() + sheet, fake);
+        EXPECT_EQ(o.code, 4) << library << o.err;
+        EXPECT_NE(o.err.find("install the packages libcairo2 and libfreetype6"), std::string::npos)
+            << o.err;
+      }
+    EXPECT_EQ(read_text(out / "old.pdf"), "old");
+    EXPECT_EQ(files_in(out), 2u);
+  }
+}
+
+TEST(Document, AFailingWriteIsToldAndTheOlderFileStays) {
+  const fs::path out = fresh_folder("full-document");
+  write_text(out / "fig.pdf", "old");
+  for (const std::string sheet : {"", " --sheet 2x2"}) {
+    const Outcome o = render("-o " + (out / "fig.pdf").string() + sheet, "ulimit -f 8; ");
+    EXPECT_EQ(o.code, 1) << o.err;
+    EXPECT_NE(o.err.find("cannot write '" + (out / "fig.pdf").string()), std::string::npos)
+        << o.err;
+    EXPECT_EQ(read_text(out / "fig.pdf"), "old");
+    EXPECT_EQ(files_in(out), 1u) << "something half written is left";
+  }
+  EXPECT_EQ(render("-o " + (out / "fig.pdf" / "a.pdf").string()).code, 1);
+}
+
+// --- contact sheets ---
+
+TEST(Sheet, OfAPdfHasAsManyPagesAsNeeded) {
+  const fs::path file = fresh_folder("sheet") / "sheet.pdf";
+  const Outcome o = render("--sheet 3x2 -o " + file.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.err.find("8 frames in"), std::string::npos) << o.err;
+  const std::string pdf = read_text(file);
+  EXPECT_EQ(count(pdf, "/MediaBox"), 2u);
+  EXPECT_EQ(count(pdf, "/MediaBox [ 0 0 841.889764 595.275591 ]"), 2u) << "A4 across";
+  if (!find_program("pdftotext")) GTEST_SKIP() << "no poppler-utils";
+  const std::string text = shell("pdftotext " + file.string() + " -").out;
+  for (const char* words : {"Ghosts fill a quadtree", "page 1 of 2", "page 2 of 2"})
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  EXPECT_EQ(count(text, "Ghosts fill a quadtree"), 2u) << "once a page, not over each picture";
+}
+
+TEST(Sheet, OfPngIsAPageAFile) {
+  const fs::path out = fresh_folder("png-sheet");
+  const std::string small = "--sheet 2x2 --size 320x226 ";
+  ASSERT_EQ(render(small + "--frames 4-7 -o " + (out / "one.png").string()).code, 0);
+  EXPECT_EQ(read_text(out / "one.png").substr(16, 8), std::string("\0\0\x01\x40\0\0\0\xe2", 8));
+  ASSERT_EQ(render(small + "-o " + (out / "p_{frame}.png").string()).code, 0);
+  EXPECT_TRUE(fs::exists(out / "p_0000.png"));
+  EXPECT_TRUE(fs::exists(out / "p_0004.png")) << "named after its first frame";
+  EXPECT_EQ(files_in(out), 3u);
+}
+
+TEST(Sheet, IsRefusedWhereItCannotBe) {
+  for (const char* words : {"3", "0x2", "100x100", "3x2x1", "3*2"})
+    expect_refused("--sheet " + std::string(words) + " -o a.pdf", "3x2");
+  expect_refused("--sheet 3x2 -o a.png", "write {frame} in its name");
+  expect_refused("--sheet 3x2 -o a_{step}.pdf", "{frame}");
+  expect_refused("--sheet 3x2 -o a.svg", ".pdf or a .png");
+  expect_refused("--sheet 3x2 --dpi 1200 -o a_{frame}.png", "--dpi");
+  expect_refused("--sheet 3x2 --size 8000x16 -o a.pdf", "no room");
+  expect_refused("--sheet 3x2 --at nothing -o a.pdf", "nothing");
+}
+
+TEST(Sheet, SaysOnlyWhatIsWanted) {
+  if (!find_program("pdftotext")) GTEST_SKIP() << "no poppler-utils";
+  const fs::path file = fresh_folder("bare-sheet") / "a.pdf";
+  const auto text = [&](const std::string& words) {
+    EXPECT_EQ(render("--sheet 1x1 --frames 7 -o " + file.string() + " " + words).code, 0);
+    return shell("pdftotext " + file.string() + " - | tr '\\n' ' '").out;
+  };
+  const json facts = [] {
+    const fs::path out = fresh_folder("sheet-facts");
+    EXPECT_EQ(render("--size 160x90 --frames 7 -o " + out.string()).code, 0);
+    return json::parse(read_text(out / "ghost_quadtree" / "ghost_quadtree_0007.json"));
+  }();
+  const std::string caption = std::string(facts["caption"]).substr(0, 12);
+  EXPECT_NE(text("").find(caption), std::string::npos);
+  EXPECT_EQ(text("--no-caption").find(caption), std::string::npos);
+  EXPECT_EQ(text("--no-title").find("Ghosts fill a quadtree"), std::string::npos);
+}
+
+// --- SVG and PNG ---
+
+TEST(Figures, SvgsOfAFolderShareNoId) {
+  const fs::path out = fresh_folder("svg-ids");
+  ASSERT_EQ(render("--format svg --frames 4-5 -o " + out.string()).code, 0);
+  const auto ids = [&](const char* number) {
+    const std::string svg =
+        read_text(out / "ghost_quadtree" / ("ghost_quadtree_" + std::string(number) + ".svg"));
+    EXPECT_NE(svg.find(">Ghosts fill a quadtree</title>"), std::string::npos);
+    EXPECT_NE(svg.find("</desc>"), std::string::npos);
+    std::set<std::string> found;
+    for (std::size_t at = svg.find(" id=\""); at != svg.npos; at = svg.find(" id=\"", at + 1))
+      found.insert(svg.substr(at + 5, svg.find('"', at + 5) - at - 5));
+    return found;
+  };
+  const std::set<std::string> a = ids("0004"), b = ids("0005");
+  EXPECT_GT(a.size(), 20u);
+  for (const std::string& id : a) EXPECT_FALSE(b.contains(id)) << id;
+}
+
+TEST(Figures, AResumedRunDrawsAnewWhatIsAskedForOtherwise) {
+  const fs::path out = fresh_folder("resumed-figures");
+  const auto run = [&](const std::string& words) {
+    const Outcome o = render("--size 160x90 --frames 3-4 --json -o " + out.string() + " " + words);
+    EXPECT_EQ(o.code, 0) << o.err;
+    return int{json::parse(o.out)["scenarios"][0]["drawn"]};
+  };
+  EXPECT_EQ(run(""), 2);
+  EXPECT_EQ(run("--dpi 300"), 2);
+  EXPECT_EQ(run("--dpi 300"), 0);
+  EXPECT_EQ(run("--dpi 300 --text text"), 0) << "no matter for a PNG";
+  const std::string png = read_text(out / "ghost_quadtree" / "ghost_quadtree_0003.png");
+  EXPECT_NE(png.find(std::string("pHYs\0\0\x2e\x23\0\0\x2e\x23\1", 13)), std::string::npos)
+      << "11811 pixels a metre";
+  EXPECT_EQ(run("--format svg"), 2);
+  EXPECT_EQ(run("--format svg --text text"), 2);
+  EXPECT_EQ(run("--format svg --text text --dpi 300"), 0) << "no matter for an SVG";
+  EXPECT_NE(read_text(out / "ghost_quadtree" / "ghost_quadtree_0003.svg").find("<text "),
+            std::string::npos);
+}
+
+// --- letters ---
+
+TEST(Letters, ThatTheTypeLacksAreToldWhereTheyStand) {
+  const fs::path out = fresh_folder("letters");
+  const fs::path file = out / "letters.toml";
+  const std::string rest =
+      "[world]\nsize = [1, 1]\n[[body]]\nname = \"a\"\nradius = 0.1\nposition = [0.5, 0.5]\n"
+      "[[step]]\ndo = \"insert\"\nbodies = [\"a\"]\ncaption = \"Привет, κόσμε: 日本 😀\"\n";
+  write_text(file, "title = \"t\" # 日\n# 日\n" + rest);
+  const Outcome o = shell("lantern check " + file.string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(count(o.err, "warning:"), 1u) << o.err;
+  EXPECT_NE(o.err.find("no '日', '本', '😀'"), std::string::npos) << o.err;
+  EXPECT_EQ(shell("lantern check --strict " + file.string()).code, 3);
+  write_text(file, "title = \"one: אב\"\n" + rest.substr(0, rest.find("caption")));
+  const Outcome title =
+      shell("lantern render --size 160x90 " + file.string() + " -o " + (out / "pictures").string());
+  EXPECT_EQ(title.code, 0);
+  EXPECT_NE(title.err.find("letters.toml:1:15: warning: "), std::string::npos) << title.err;
+}
+
+}  // namespace
+}  // namespace lantern::app
