@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +14,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
@@ -46,7 +48,7 @@ int run_and_report(const Run& run) noexcept {
     return kUsage;
   } catch (const ScenarioError& e) {
     complain(e);
-    return kBadScenario;
+    return exit_code_of(e);
   } catch (const BackendError& e) {
     complain(e);
     return kNoBackend;
@@ -90,11 +92,18 @@ int run_words(int argc, char** argv) {
 
 }  // namespace
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, std::vector<OwnKind> own) {
   hold_standard_streams();
   keep_freed_memory();
   catch_interrupts();
-  return run_and_report([&] { return run_words(argc, argv); });
+  return run_and_report([&] {
+    try {
+      know_own_structures(std::move(own));
+    } catch (const Refused& refused) {
+      throw UsageError(refused.what());
+    }
+    return run_words(argc, argv);
+  });
 }
 
 }  // namespace lantern::app
