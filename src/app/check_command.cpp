@@ -47,7 +47,7 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
     auto& list = options.strict ? verdict.problems : verdict.warnings;
     list.insert(list.end(), result.warnings.begin(), result.warnings.end());
   } catch (const ScenarioError& e) {
-    verdict.code = kBadScenario;
+    verdict.code = exit_code_of(e);
     complain(e);
     verdict.problems = e.diagnostics();
   } catch (const IoError& e) {

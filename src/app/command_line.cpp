@@ -129,6 +129,56 @@ void add_allowance(CLI::App& c, int& tolerance, double& fraction) {
       ->capture_default_str();
 }
 
+void add_structure_check(CLI::App& structure, Run& run) {
+  const auto [c, o] =
+      command(structure, run, "check",
+              "Hold structures against brute force on random worlds; the smallest world on which "
+              "one fails is told and written as a scenario",
+              structure_check_command);
+  c->add_option("NAME", o.names, "structures; the default is all of them");
+  c->add_option("--worlds", o.worlds, "how many worlds")
+      ->check(CLI::Range(1, 10'000'000))
+      ->type_name("N")
+      ->capture_default_str();
+  c->add_option("--seed", o.seed, "of the random worlds")->type_name("S")->capture_default_str();
+  c->add_option("-o,--output", o.output, "folder for NAME_fails.toml")
+      ->check(kNotEmpty)
+      ->type_name("DIR")
+      ->capture_default_str();
+  add_json(*c, o.json);
+}
+
+void add_structure_bench(CLI::App& structure, Run& run) {
+  const auto [c, o] = command(structure, run, "bench",
+                              "Time structures beside each other and brute force, in turns",
+                              structure_bench_command);
+  c->add_option("NAME", o.names, "structures; the default is all of them");
+  c->add_option("--bodies", o.bodies, "how many bodies; the default is 100, 400 and 1600")
+      ->allow_extra_args(false)
+      ->check(CLI::Range(2, 1'000'000))
+      ->type_name("N");
+  c->add_option("--seed", o.seed, "of the random worlds")->type_name("S")->capture_default_str();
+  c->add_option("--rounds", o.rounds, "repeats; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  c->add_option("-o,--output", o.output, "folder for bench_structure.csv and .json")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void add_structure(CLI::App& app, Run& run) {
+  CLI::App* c = app.add_subcommand(
+      "structure", "The spatial structures, and those of your own: list, check, bench");
+  c->require_subcommand(1);
+  const auto [list, o] = command(*c, run, "list", "List the structures that this program knows",
+                                 structure_list_command);
+  add_json(*list, o.json);
+  add_structure_check(*c, run);
+  add_structure_bench(*c, run);
+}
+
 void add_compare(CLI::App& app, Run& run) {
   const auto [c, o] =
       command(app, run, "compare", "Compare two PNG, SVG or JSON files, or two folders of them",
@@ -253,6 +303,7 @@ void add_commands(CLI::App& app, Run& run) {
   add_doctor(app, run);
   add_golden(app, run);
   add_compare(app, run);
+  add_structure(app, run);
   add_lab_commands(app, run);
   add_texts(app, run);
   add_manual_commands(app, run);

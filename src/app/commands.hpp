@@ -76,6 +76,30 @@ struct DoctorOptions {
 };
 int doctor_command(const DoctorOptions& options);
 
+struct StructureListOptions {
+  bool json = false;
+};
+int structure_list_command(const StructureListOptions& options);
+
+struct StructureCheckOptions {
+  std::vector<std::string> names;  // empty for all
+  std::uint64_t worlds = 500;
+  std::uint64_t seed = 1;
+  std::string output = "output";  // folder of the scenario that shows a fault; empty for none
+  bool json = false;
+};
+int structure_check_command(const StructureCheckOptions& options);
+
+struct StructureBenchOptions {
+  std::vector<std::string> names;     // empty for all
+  std::vector<std::uint64_t> bodies;  // empty for the usual numbers
+  std::uint64_t seed = 1;
+  int rounds = 9;
+  std::string output;  // folder; empty for none
+  bool json = false;
+};
+int structure_bench_command(const StructureBenchOptions& options);
+
 struct CompareOptions {
   std::string expected;
   std::string actual;

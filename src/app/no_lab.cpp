@@ -20,6 +20,7 @@ int refused(const char* command) {
 int measure_command(const MeasureOptions&) { return refused("measure"); }
 int stress_command(const StressOptions&) { return refused("stress"); }
 int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
+int structure_bench_command(const StructureBenchOptions&) { return refused("structure bench"); }
 int bench_step_command(const BenchStepOptions&) { return refused("bench step"); }
 
 }  // namespace lantern::app

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
 #include "app/option_words.hpp"
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
@@ -88,7 +90,7 @@ int run_and_report(const Run& run) noexcept {
     return kUsage;
   } catch (const ScenarioError& e) {
     complain(e);
-    return kBadScenario;
+    return exit_code_of(e);
   } catch (const BackendError& e) {
     complain(e);
     return kNoBackend;
@@ -135,11 +137,18 @@ int run_words(int argc, char** argv) {
 
 }  // namespace
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, std::vector<OwnKind> own) {
   hold_standard_streams();
   keep_freed_memory();
   catch_interrupts();
-  const int code = run_and_report([&] { return run_words(argc, argv); });
+  const int code = run_and_report([&] {
+    try {
+      know_own_structures(std::move(own));
+    } catch (const Refused& refused) {
+      throw UsageError(refused.what());
+    }
+    return run_words(argc, argv);
+  });
   return run_and_report([&] {
     write_answer(code);
     return code;

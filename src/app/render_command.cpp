@@ -184,7 +184,7 @@ int render_command(const RenderOptions& options) {
       code = std::max(code, render_one(job, to, scenario, work, json));
     } catch (const ScenarioError& e) {
       complain(e);
-      code = std::max<int>(code, kBadScenario);
+      code = std::max(code, exit_code_of(e));
     } catch (const Stopped&) {
       complain("interrupted; the same command goes on where this one stopped");
       return kInterrupted;

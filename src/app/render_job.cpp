@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -11,10 +13,12 @@
 
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
+#include "base/file.hpp"
 #include "base/hash.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "render/svg.hpp"
+#include "spatial/own_structure.hpp"
 
 namespace lantern::app {
 namespace {
@@ -67,6 +71,19 @@ DrawList RenderJob::page_of(const Frame& frame, const Staging& staging, Work& wo
   return draw_frame(switched, staging, page, work);
 }
 
+namespace {
+
+// What a structure that this program was given says depends on its code, which is no part of
+// Lantern's sources.
+std::uint64_t program_hash() {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 31;
+  static const std::uint64_t hash =
+      std::hash<std::string>()(read_file("/proc/self/exe", kMostBytes));
+  return hash;
+}
+
+}  // namespace
+
 Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   Manifest m;
   m.scenario = scenario.name;
@@ -83,6 +100,7 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   m.in_between_digits =
       std::max(2, static_cast<int>(fmt::formatted_size("{}", in_betweens.most())));
   m.scenario_hash = scenario.text_hash;
+  if (!own_structures().empty()) m.scenario_hash ^= program_hash();
   for (const auto& [on, name] :
        {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},
         std::pair{options.no_counters, "no-counters"}, std::pair{options.legend, "legend"}})

@@ -73,6 +73,10 @@ int tell(const RunResult& result, bool strict) {
   return strict && !warnings.empty() ? std::max<int>(code, kBadScenario) : code;
 }
 
+int exit_code_of(const ScenarioError& error) {
+  return dynamic_cast<const BrokenStructure*>(&error) ? kFailed : kBadScenario;
+}
+
 void write(JsonWriter& json, const Work& work) {
   json.begin_object();
   for (const auto& [stage, count] : work.listed()) json.member(stage, count);

@@ -48,6 +48,9 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
 // deserves; with `strict` a warning is an error of the scenario.
 int tell(const RunResult& result, bool strict);
 
+// Of a run that ended with this.
+int exit_code_of(const ScenarioError& error);
+
 // The counters of the stages, as an object.
 void write(JsonWriter& json, const Work& work);
 

@@ -47,6 +47,13 @@ class ScenarioError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
+// A structure that the program was given (spatial/own_structure.hpp) cannot be used: the scenario
+// is right, and says where it happened. Exit code 1.
+class BrokenStructure : public ScenarioError {
+ public:
+  using ScenarioError::ScenarioError;
+};
+
 // A value that an engine room refuses where it enters (NaN, negative size, more than a stated
 // budget). The message names the object and the field; whoever was called is left as it was,
 // unless it says otherwise. The scenario room turns it into a ScenarioError with a position.

@@ -45,6 +45,9 @@ std::string why_not_in(const StructureSpec& structure, CountNeed need,
   if (kind == StructureKind::none) return "there is no structure at this step";
   if (need == CountNeed::kd_tree && kind != StructureKind::kd_tree)
     return "there is no kd_tree at this step";
+  if (need == CountNeed::inside && traits_of(kind).is_own)
+    return fmt::format("'{}' is seen from outside, nobody counts its tests and its memory",
+                       to_string(kind));
   if (need == CountNeed::split && !structure.split_static)
     return "the structure has no split_static";
   if (need == CountNeed::asleep_nodes && !scenario.tells_sleepers())
@@ -66,6 +69,7 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
     case CountNeed::structure:
     case CountNeed::kd_tree:
     case CountNeed::array:
+    case CountNeed::inside:
     case CountNeed::split:
     case CountNeed::asleep_nodes:
       return why_not_in(state.structure, need, s);

@@ -82,6 +82,9 @@ void ScriptRun::play(const Step& step, std::uint32_t index) {
     std::visit([&](const auto& verb) { act(verb, *this); }, step.verb);
   } catch (const Refused& refused) {
     throw ScenarioError(diagnose(scenario, step.where, refused.what()));
+  } catch (const StructureFault& broken) {
+    const auto name_of = [this](BodyId id) { return engine().name_of(id); };
+    throw BrokenStructure(diagnose(scenario, step.where, text_of(broken.fault(), name_of)));
   }
 }
 

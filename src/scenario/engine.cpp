@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "base/check.hpp"
 #include "scenario/brains.hpp"
 #include "scenario/queries.hpp"
@@ -143,6 +145,17 @@ class EngineOf : public Engine {
     return scenario::label_of(structure_, *players_.world().broad_phase(), node);
   }
   const StructureSpec& structure() const override { return structure_; }
+  std::string name_of(BodyId id) const override {
+    const Body<D>* body = players_.world().find(id);
+    return fmt::format("'{}'", body ? body->name : "");
+  }
+  std::vector<std::string> structure_faults() const override {
+    std::vector<std::string> texts;
+    if (!players_.world().broad_phase()) return texts;
+    for (const OwnFault& fault : players_.world().broad_phase()->faults())
+      texts.push_back(text_of(fault, [&](BodyId id) { return name_of(id); }));
+    return texts;
+  }
   void observe(std::vector<BodyState>& states) const override {
     states.resize(scenario_.bodies.size());
     for (std::size_t i = 0; i < states.size(); ++i) {

@@ -74,6 +74,9 @@ class Engine {
   virtual bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const = 0;
   virtual std::string label_of(NodeHandle node) const = 0;
   virtual const StructureSpec& structure() const = 0;
+  virtual std::string name_of(BodyId id) const = 0;  // "'red'": for messages
+  // What is not so of a structure that the program was given, as it stands.
+  virtual std::vector<std::string> structure_faults() const = 0;
 
   // One state a body of the scenario, in its order; without pixels, and without structures.
   virtual void observe(std::vector<BodyState>& states) const = 0;

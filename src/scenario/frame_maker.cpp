@@ -129,6 +129,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   looks_.show(frame);
   frame.headline = headline_;
   if (stage_.engine) stage_.engine->picture(now, frame);
+  if (stage_.engine) tell_faults(frame);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
     if (!std::isfinite(number)) throw Refused(fmt::format("the measure '{}' overflows", name));
@@ -143,6 +144,14 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   if (plotter_) frame.chart = plotter_->chart();
   if (trace_) trace(frame);
   return frame;
+}
+
+// A wrong tree is drawn as it is, and its run fails; each fault is told where it is first seen.
+void FrameMaker::tell_faults(const Frame& frame) {
+  constexpr std::size_t kMost = 8;
+  for (const std::string& fault : stage_.engine->structure_faults())
+    if (faults_.size() < kMost && faults_.insert(fault).second)
+      fail(fmt::format("{} (frame {}, time {:.6g} s)", fault, frame.index, frame.time));
 }
 
 // One point a moment: the last that was so.

@@ -79,6 +79,7 @@ class FrameMaker {
   Frame drawn(const Touched& touched, std::string_view event, bool midst);
   void add_finding(Frame& frame) const;
   void trace(Frame& frame);
+  void tell_faults(const Frame& frame);
   void tell_splits(Frame& frame);
   void add_notes(Frame& frame);
   void require_notes(const Frame& frame);
@@ -120,6 +121,7 @@ class FrameMaker {
   std::set<std::string> divided_;
   Looks looks_;
   std::set<const NoteSpec*> noted_;  // of this step, on some frame
+  std::set<std::string> faults_;     // of a structure that the program was given, once told
   bool stopped_ = false;
 };
 

@@ -26,6 +26,7 @@ void add(const Note& note, KeyDoc& doc) {
   if (note.unit.starts_with("°")) doc.scale = kDegree;
   if (!note.of.empty()) doc.of = note.of;
   if (!note.form.empty()) doc.form = note.form;
+  if (!note.advice.empty()) doc.advice = note.advice;
   if (note.pattern) doc.pattern = *note.pattern;
   if (note.choices.empty()) return;
   doc.choices.assign(note.choices.begin(), note.choices.end());
@@ -47,6 +48,8 @@ Note written(std::string_view form) { return {.form = form}; }
 Note by_default(std::string_view literal) { return {.fallback = literal}; }
 Note or_else(std::string_view words) { return {.otherwise = words}; }
 Note one_of(std::span<const std::string_view> choices) { return {.choices = choices}; }
+
+Note advising(std::string_view advice) { return {.advice = advice}; }
 
 KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
             std::initializer_list<Note> notes) {

@@ -129,6 +129,7 @@ struct Note {  // of KeyDoc's members, those that it sets
   std::string_view fallback = {}, otherwise = {}, unit = {}, of = {}, form = {};
   const NamePattern* pattern = nullptr;
   std::span<const std::string_view> choices = {};
+  std::string_view advice = {};
 };
 
 Note must();
@@ -146,6 +147,9 @@ Note one_of(std::span<const std::string_view> choices);
 inline Note one_of(std::initializer_list<std::string_view> choices) {
   return one_of(std::span(choices.begin(), choices.size()));
 }
+
+// To who chooses something that is not there.
+Note advising(std::string_view advice);
 
 // Read by the reader of its table.
 KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,

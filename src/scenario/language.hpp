@@ -94,7 +94,8 @@ struct KeyDoc {
   std::vector<std::string_view> choices = {};  // of a whole number, what 1, 2, … are called
   std::optional<NamePattern> pattern = {};     // of a text
   std::string_view of = {};
-  std::string_view form = {};  // of two numbers: "[x, y]"
+  std::string_view form = {};    // of two numbers: "[x, y]"
+  std::string_view advice = {};  // to who writes a choice that is not known, nor like one
 
   // Writes a good value, times `scale`, into the member that the key is bound to, `offset` bytes
   // into an `owner`. A key without an owner is read by the reader of its table.
@@ -149,8 +150,9 @@ enum class CountNeed {
   tree,  // a structure, a compiled level or an atlas
   structure,
   kd_tree,
-  array,  // a structure whose leaves share one
-  split,  // one structure for what never moves, one for what does
+  array,   // a structure whose leaves share one
+  inside,  // a structure of ours, which counts what it does
+  split,   // one structure for what never moves, one for what does
   asleep_nodes,
   contacts,  // the world parts bodies that touch
   joints,    // rods or pins hold its bodies

@@ -258,7 +258,11 @@ EnumNames names_up_to(E last) {
   return all;
 }
 
-inline EnumNames names(StructureKind) { return names_up_to(kStructureKinds.back()); }
+inline EnumNames names(StructureKind) {
+  EnumNames all = names_up_to(kStructureKinds.back());
+  for (const OwnKind& own : own_structures()) all.push_back(own.name);
+  return all;
+}
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
   return {"world", "tree", "atlas", "chart", "memory", "ledger", "pool", "bytes", "sparkline"};

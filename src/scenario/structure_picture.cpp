@@ -49,6 +49,7 @@ std::string settings_text(const StructureSpec& s, int sweep_axis) {
     return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
                        split);
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
+  if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
   if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
   return fmt::format("{}, {}{}{}", limits,
@@ -292,10 +293,11 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   frame.add_count("all_pairs", all_pairs(frame.bodies.size()));
   frame.add_count("testable_pairs", testable_pairs_of(frame));
   frame.add_count("overlaps", chain.overlapping.size());
-  frame.add_count("box_tests", c.box_tests);
+  const bool inside = !traits_of(spec.kind).is_own;
+  if (inside) frame.add_count("box_tests", c.box_tests);
   frame.add_count("splits", c.splits);
-  frame.add_count("nodes_reused", c.nodes_reused);
-  frame.add_count("allocations", c.allocations);
+  if (inside) frame.add_count("nodes_reused", c.nodes_reused);
+  if (inside) frame.add_count("allocations", c.allocations);
   if (c.node_bytes > 0) {
     frame.add_count("slots", c.places);
     frame.add_count("node_bytes", c.node_bytes);

@@ -91,8 +91,9 @@ TableDoc structure_table() {
           "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a `quadtree` "
           "cuts a 3D world along x and z, an `octree` along all three; `lecture_quadtree` is the "
           "lecture's own code, which makes all children at a split and has no stop but the depth "
-          "limit. At most 2000000 pairs may be met on one frame.",
-          must()),
+          "limit. A program may be given structures of a user's own, by their names "
+          "(`src/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
+          must(), advising("for a structure of your own see src/spatial/own_structure.hpp")),
       key(&S::capacity, "capacity", "A leaf that holds more splits, if depth is left.",
           range(1, 1000), in("bodies")),
       key(&S::max_depth, "max_depth",

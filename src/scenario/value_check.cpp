@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.hpp"
+#include "base/suggest.hpp"
 #include "scenario/key.hpp"
 #include "scenario/table_reader.hpp"
 
@@ -137,9 +138,16 @@ class Check {
     if (!text) return wrong_type(value, "a text", "a text stands in \"quotes\"");
     if (std::find(doc_.choices.begin(), doc_.choices.end(), *text) != doc_.choices.end()) return;
     good_ = false;
-    problems_.add(
-        value.where, fmt::format("'{}' cannot be {}", doc_.key, in_quotes(*text)),
-        [&choices = doc_.choices, &written = *text] { return nearest(written, choices); });
+    problems_.add(value.where, fmt::format("'{}' cannot be {}", doc_.key, in_quotes(*text)),
+                  [&doc = doc_, &written = *text] {
+                    std::string hint = nearest(written, doc.choices);
+                    if (doc.advice.empty()) return hint;
+                    const bool listed = !nearest_name(written, doc.choices);
+                    return fmt::format(
+                        "{} ({}{})", hint,
+                        listed ? "" : fmt::format("known: {}; ", fmt::join(doc.choices, ", ")),
+                        doc.advice);
+                  });
   }
 
   void check_two(const TomlValue& value) {

@@ -132,7 +132,7 @@ void BroadPhase<D>::build(Store& store) {
   }
   for (;;) {
     try {
-      build_structure<D>(store.structure, items_);
+      with_names(store, [&] { build_structure<D>(store.structure, items_); });
       break;
     } catch (const Refused&) {
       if (!config_.in_proportion || store.depth == 0) throw;
@@ -165,13 +165,26 @@ void BroadPhase<D>::insert(const Proxy<D>& proxy, const Watch& watch) {
         [&](auto& structure) {
           if constexpr (requires { structure.insert(Item<D>{}, told); }) {
             counters_.*store.builds += number == 0;
-            structure.insert(Item<D>{number, proxy.box}, told);
+            with_names(store, [&] { structure.insert(Item<D>{number, proxy.box}, told); });
           } else {
             build(store);
           }
         },
         store.structure);
   });
+}
+
+// A fault is told of bodies by their ids, not by their places in the list.
+template <int D>
+template <class F>
+void BroadPhase<D>::with_names(const Store& store, F&& f) {
+  try {
+    f();
+  } catch (const StructureFault& broken) {
+    OwnFault fault = broken.fault();
+    for (BodyId& body : fault.bodies) body = store.names[body];
+    throw StructureFault(std::move(fault));
+  }
 }
 
 template <int D>
@@ -199,6 +212,20 @@ std::optional<Box<D>> BroadPhase<D>::box_of(BodyId id) const {
   std::size_t place = 0;
   const Store* store = store_of(id, place);
   return store ? std::optional(store->bodies[place].box) : std::nullopt;
+}
+
+template <int D>
+std::vector<OwnFault> BroadPhase<D>::faults() const {
+  std::vector<OwnFault> all;
+  for (const Store* store : stores()) {
+    const auto* own = std::get_if<OwnStructure<D>>(&store->structure);
+    if (!own) continue;
+    for (OwnFault fault : own->faults()) {
+      for (BodyId& body : fault.bodies) body = store->names[body];
+      all.push_back(std::move(fault));
+    }
+  }
+  return all;
 }
 
 template <int D>

@@ -106,8 +106,9 @@ class BroadPhase {
   // update; nothing is built for bodies of which none is awake. Throws Refused, naming the body,
   // for a box that is not valid and for two proxies of one id; nothing changes then. Throws
   // Refused, too, when more than `most_pairs` meet (coincident bodies have n(n-1)/2 pairs), or when
-  // they need more memory than the budget. Whatever is thrown half way, Stopped too: there are no
-  // pairs and no structures then, and the next update begins as the first.
+  // they need more memory than the budget. Throws StructureFault for a structure that a program was
+  // given and that cannot be read. Whatever is thrown half way, Stopped too: there are no pairs and
+  // no structures then, and the next update begins as the first.
   void update(std::span<const Proxy<D>> proxies);
 
   // The structures of these bodies, awake or not; no pairs are looked for. Throws as `update` does.
@@ -132,6 +133,9 @@ class BroadPhase {
   std::optional<Box<D>> box_of(BodyId id) const;
   // Of these, which no longer lies where a structure that is fitted to its bodies has it.
   bool is_stale(const Item<D>& item) const;
+
+  // Of structures that a program was given: what of them is not so, the bodies named by their ids.
+  std::vector<OwnFault> faults() const;
 
   // Of the dynamic structure, if it sweeps: the axis along which it sorted last.
   std::optional<int> sweep_axis() const;
@@ -202,6 +206,8 @@ class BroadPhase {
   void renew();
   void forget();
   void build(Store& store);
+  template <class F>
+  static void with_names(const Store& store, F&& f);
   void empty(Store& store);
   void find_pairs();
   void pair_dynamic();

@@ -57,6 +57,15 @@ Box<D> endless_at_rim(Box<D> box, const Box<D>& root) {
   }
   return box;
 }
+// The same of a box whose edges may have been rounded by as much as `slack`, grown by that.
+template <int D>
+Box<D> endless_at_rim(Box<D> box, const Box<D>& root, double slack) {
+  for (int i = 0; i < D; ++i) {
+    box.lo[i] = box.lo[i] <= root.lo[i] + slack ? -kInfinity : box.lo[i] - slack;
+    box.hi[i] = box.hi[i] >= root.hi[i] - slack ? kInfinity : box.hi[i] + slack;
+  }
+  return box;
+}
 
 // The zones of nodes in the order of visiting, for a Probe, which has
 //   Part                        what of the probe is left in a zone; copyable
@@ -87,6 +96,9 @@ class ZoneWalk {
     } else if constexpr (Structure::kZones == Zones::endless_rim) {
       if (node.parent == kNone) root_ = node.box;
       return probe_.in_box(endless_at_rim(node.box, root_));
+    } else if constexpr (Structure::kZones == Zones::rounded_rim) {
+      if (node.parent == kNone) root_ = node.box;
+      return probe_.in_box(endless_at_rim(node.box, root_, node.slack));
     } else {
       return probe_.in_box(node.box);
     }

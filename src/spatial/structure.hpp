@@ -16,7 +16,7 @@
 //   made(config)             an empty one; throws Refused for settings that it does not allow
 //   counters()               exact counts of the work done and the tree that stands
 //
-// structure_kinds.hpp lists them all.
+// structure_kinds.hpp lists them all; own_structure.hpp brings one of your own.
 //
 // Ids may be any numbers, but no two items of a structure may have the same one. An observer may
 // call `visit` and `counters` while it is told something, but must not change the structure. While
@@ -80,6 +80,7 @@ struct NodeView {
   std::uint32_t depth = 0;       // the root has depth 0
   bool leaf = true;
   Box<D> box = {};                      // its bounds, derived on the way down; of a BSP the world's
+  double slack = 0;                     // how far its zone may reach beyond, by rounding
   const Plane<D>* plane = nullptr;      // a BSP's inner nodes
   std::span<const BodyId> bodies = {};  // a leaf's contents, ascending
   std::uint32_t first = kNone;  // where they begin in the array that all leaves share, if there
@@ -90,6 +91,7 @@ struct NodeView {
 enum class Zones {
   fitted,       // within its box
   endless_rim,  // within its box, but without end where that box lies at the root's rim
+  rounded_rim,  // as endless_rim, and beyond the box by its slack
   half_spaces,  // on the node's sides of all planes above it; its box says nothing
 };
 
@@ -123,6 +125,7 @@ struct StructureTraits {
   bool ignores_height = false;  // in three dimensions it looks at x and z only
   bool is_plain = false;        // makes all children, has no stop but the depth limit, and asks for
                                 // memory anew each time
+  bool is_own = false;          // a user's: seen from outside, its tests and memory are not counted
 };
 
 // What an algorithm does, told while it does it.

@@ -1,5 +1,10 @@
 #include "spatial/structure_kinds.hpp"
 
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
 namespace lantern::spatial {
 
 namespace {
@@ -16,19 +21,66 @@ constexpr KindRow kKinds[] = {
 #undef LANTERN_KIND
 };
 
+// Given before anything else runs, and never changed again.
+std::vector<OwnKind>& own_kinds() {
+  static std::vector<OwnKind> kinds;
+  return kinds;
+}
+
+StructureKind own_number(std::size_t place) {
+  return static_cast<StructureKind>(static_cast<std::size_t>(StructureKind::own) + place);
+}
+
+void require_name(const std::string& name) {
+  const bool written_well = !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!written_well)
+    throw Refused(fmt::format("structure '{}': a name is of a–z, 0–9 and _", name));
+  if (structure_named(name))
+    throw Refused(fmt::format("structure '{}': there is one of this name already", name));
+}
+
 }  // namespace
 
+void know_own_structures(std::vector<OwnKind> kinds) {
+  for (OwnKind& kind : kinds) {
+    require_name(kind.name);
+    if (kind.words.empty()) kind.words = kind.name;
+    own_kinds().push_back(std::move(kind));
+  }
+}
+
+const OwnKind* own_structure(StructureKind kind) {
+  if (kind < StructureKind::own) return nullptr;
+  return &own_kinds().at(static_cast<std::size_t>(kind) -
+                         static_cast<std::size_t>(StructureKind::own));
+}
+
+std::span<const OwnKind> own_structures() { return own_kinds(); }
+
+std::vector<StructureKind> known_structures() {
+  std::vector<StructureKind> kinds(kStructureKinds.begin(), kStructureKinds.end());
+  for (std::size_t i = 0; i < own_kinds().size(); ++i) kinds.push_back(own_number(i));
+  return kinds;
+}
+
 std::string_view to_string(StructureKind kind) {
+  if (const OwnKind* own = own_structure(kind)) return own->name;
   return kKinds[static_cast<std::size_t>(kind)].name;
 }
 
 std::optional<StructureKind> structure_named(std::string_view name) {
   for (const KindRow& row : kKinds)
     if (row.name == name) return row.kind;
+  for (std::size_t i = 0; i < own_kinds().size(); ++i)
+    if (own_kinds()[i].name == name) return own_number(i);
   return std::nullopt;
 }
 
 StructureTraits traits_of(StructureKind kind) {
+  if (const OwnKind* own = own_structure(kind))
+    return {.words = own->words, .ignores_height = true, .is_own = true};
   return kKinds[static_cast<std::size_t>(kind)].traits;
 }
 
@@ -36,14 +88,16 @@ template <int D>
 AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& config) {
   switch (kind) {
     case StructureKind::none:
-      break;
+      throw Refused("there is no structure to make");
 #define LANTERN_KIND(name, Type) \
   case StructureKind::name:      \
     return Type<D>::made(config);
       LANTERN_STRUCTURES(LANTERN_KIND)
 #undef LANTERN_KIND
+    case StructureKind::own:
+      break;
   }
-  throw Refused("there is no structure to make");
+  return OwnStructure<D>(*own_structure(kind), config);
 }
 
 template <int D>
@@ -57,6 +111,7 @@ void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items)
           for (const Item<D>& item : items) s.insert(item);
         }
         if constexpr (requires { s.sort(); }) s.sort();
+        if constexpr (requires { s.look(); }) s.look();
       },
       structure);
 }

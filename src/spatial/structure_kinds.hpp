@@ -1,4 +1,5 @@
-// The list of structures: a new kind is its own file, one line here, and its picture.
+// The list of structures: a new kind is its own file, one line here, and its picture. A program may
+// be given more of them (own_structure.hpp): they come behind ours.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <string_view>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "spatial/brute_force.hpp"
 #include "spatial/bsp.hpp"
@@ -15,6 +17,7 @@
 #include "spatial/kd_tree.hpp"
 #include "spatial/lecture_quadtree.hpp"
 #include "spatial/orthtree.hpp"
+#include "spatial/own_kind.hpp"
 #include "spatial/sort_and_sweep.hpp"
 
 namespace lantern::spatial {
@@ -45,11 +48,12 @@ using OctreeIn = std::conditional_t<D == 3, Octree, NoOctree>;
 enum class StructureKind {
   none,  // nobody asks for one
 #define LANTERN_KIND(name, Type) name,
-  LANTERN_STRUCTURES(LANTERN_KIND)
+  // The last is the first that this program was given; the others are the numbers behind.
+  LANTERN_STRUCTURES(LANTERN_KIND) own
 #undef LANTERN_KIND
 };
 
-// All but `none`.
+// All of ours.
 inline constexpr std::array kStructureKinds = {
 #define LANTERN_KIND(name, Type) StructureKind::name,
     LANTERN_STRUCTURES(LANTERN_KIND)
@@ -67,7 +71,7 @@ struct Of {
 };
 template <int D, class First, class... Rest>
 struct Of<D, First, Rest...> {
-  using Any = std::variant<Rest...>;
+  using Any = std::variant<Rest..., OwnStructure<D>>;
 };
 #define LANTERN_KIND(name, Type) , Type<D>
 template <int D>
@@ -77,6 +81,12 @@ using Any = typename Of<D, void LANTERN_STRUCTURES(LANTERN_KIND)>::Any;
 
 template <int D>
 using AnyStructure = structure_list::Any<D>;
+
+// Ours, and those that this program was given.
+std::vector<StructureKind> known_structures();
+
+// Null for one of ours.
+const OwnKind* own_structure(StructureKind kind);
 
 // "none", "brute_force", "sort_and_sweep", ...: as the enumerators are written.
 std::string_view to_string(StructureKind kind);

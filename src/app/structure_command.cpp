@@ -1,0 +1,161 @@
+// `structure list` and `structure check`: the structures that this program knows, and whether they
+// find what brute force finds.
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/answer.hpp"
+#include "app/commands.hpp"
+#include "app/structure_names.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/json_writer.hpp"
+#include "base/suggest.hpp"
+#include "spatial/structure_trial.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string point(const Vec<2>& p) { return fmt::format("[{}, {}]", p.x, p.y); }
+
+void write_step(std::string& text, const std::string& what) { text += "\n[[step]]\n" + what; }
+
+// A scenario that shows what goes wrong; its first lines say it in words.
+std::string scenario_of(const Trial& trial) {
+  const TrialWorld& w = trial.smallest;
+  std::string text = fmt::format(
+      "# {}\ntitle = \"Where {} goes wrong\"\n\n[world]\nmin = {}\nmax = {}\n\n[structure]\n"
+      "kind = \"{}\"\ncapacity = {}\nmax_depth = {}\n",
+      trial.fault, to_string(trial.kind), point(w.bounds.lo), point(w.bounds.hi),
+      to_string(trial.kind), w.capacity, w.max_depth);
+  std::string names;
+  for (std::size_t i = 0; i < w.bodies.size(); ++i) {
+    const std::string name = fmt::format("b{}", i + 1);
+    names += (i > 0 ? ", " : "") + json_string(name);
+    text += fmt::format(
+        "\n[[body]]\nname = \"{}\"\nhalf_size = {}\nposition = {}\nmass = 1\ncolor = {}\n", name,
+        point(w.bodies[i].half), point(w.bodies[i].center), i % 8 + 1);
+  }
+  if (!names.empty()) write_step(text, fmt::format("do = \"insert\"\nbodies = [{}]\n", names));
+  for (std::size_t i = 0; i < w.moved.size(); ++i)
+    write_step(text, fmt::format("do = \"move\"\nbody = \"b{}\"\nto = {}\n", i + 1,
+                                 point(w.moved[i].center)));
+  return text;
+}
+
+// Empty if there is nothing to write, or nothing that a scenario can show.
+std::string write_scenario(const Trial& trial, const std::string& folder) {
+  if (trial.failed == 0 || folder.empty() || trial.smallest.bodies.empty()) return {};
+  fs::create_directories(folder);
+  const fs::path file = fs::path(folder) / fmt::format("{}_fails.toml", to_string(trial.kind));
+  write_file(file, scenario_of(trial));
+  return file.string();
+}
+
+void tell_fault(const Trial& trial, const std::string& file) {
+  const TrialWorld& w = trial.smallest;
+  complain(fmt::format("{}: {} of {} worlds go wrong; the smallest, shrunk to {} bod{}: {}",
+                       to_string(trial.kind), trial.failed, trial.worlds, w.bodies.size(),
+                       w.bodies.size() == 1 ? "y" : "ies", trial.fault));
+  say(fmt::format("  world {} to {}, capacity {}, max_depth {}", point(w.bounds.lo),
+                  point(w.bounds.hi), w.capacity, w.max_depth));
+  for (std::size_t i = 0; i < w.bodies.size(); ++i) {
+    const TrialBody& b = w.bodies[i];
+    say(fmt::format(
+        "  b{}: {} to {}{}", i + 1, point(b.center - b.half), point(b.center + b.half),
+        w.moved.empty() ? "" : fmt::format(", then around {}", point(w.moved[i].center))));
+  }
+  if (!file.empty()) say(fmt::format("  to see it: render {}", file));
+}
+
+void write(JsonWriter& json, const char* name, const std::vector<TrialBody>& bodies) {
+  json.key(name).begin_array();
+  for (const TrialBody& b : bodies)
+    json.begin_object()
+        .members("x", b.center.x, "y", b.center.y, "half_width", b.half.x, "half_height", b.half.y)
+        .end_object();
+  json.end_array();
+}
+
+void write(JsonWriter& json, const Trial& trial, const std::string& file) {
+  json.line().begin_object().members("name", to_string(trial.kind), "good", trial.failed == 0,
+                                     "worlds", trial.worlds, "failed", trial.failed);
+  if (trial.failed > 0) {
+    const TrialWorld& w = trial.smallest;
+    json.members("fault", trial.fault, "sort", w.sort, "capacity", w.capacity, "max_depth",
+                 w.max_depth);
+    write(json, "bodies", w.bodies);
+    write(json, "moved", w.moved);
+    json.key("scenario");
+    file.empty() ? json.null() : json.value(file);
+  }
+  json.end_object();
+}
+
+}  // namespace
+
+std::vector<StructureKind> structures_called(const std::vector<std::string>& names) {
+  std::vector<StructureKind> kinds = known_structures();
+  std::erase_if(kinds, [](StructureKind kind) {
+    return !is_possible(kind, 2) || kind == StructureKind::bsp;
+  });
+  if (names.empty()) return kinds;
+  std::vector<std::string_view> known;
+  for (const StructureKind kind : kinds) known.push_back(to_string(kind));
+  std::vector<StructureKind> chosen;
+  for (const std::string& name : names) {
+    const auto kind = structure_named(name);
+    if (!kind || *kind == StructureKind::none)
+      throw UsageError(fmt::format("no structure '{}'; {}", name, suggestion(name, known)));
+    if (std::ranges::find(kinds, *kind) == kinds.end())
+      throw UsageError(fmt::format("{}: random flat worlds are not for it; take one of {}", name,
+                                   fmt::join(known, ", ")));
+    chosen.push_back(*kind);
+  }
+  return chosen;
+}
+
+int structure_list_command(const StructureListOptions& options) {
+  std::vector<std::vector<std::string>> rows;
+  JsonWriter json = answer_of("structure.list");
+  json.line().key("structures").begin_array();
+  for (const StructureKind kind : known_structures()) {
+    const StructureTraits traits = traits_of(kind);
+    rows.push_back(
+        {std::string(to_string(kind)), std::string(traits.words), traits.is_own ? "your own" : ""});
+    json.line().begin_object().members("name", to_string(kind), "words", traits.words, "own",
+                                       traits.is_own);
+    json.end_object();
+  }
+  json.line().end_array().end_object();
+  options.json ? answer(json.text()) : print(table(rows));
+  return kGood;
+}
+
+int structure_check_command(const StructureCheckOptions& options) {
+  const std::vector<StructureKind> kinds = structures_called(options.names);
+  JsonWriter json = answer_of("structure.check");
+  json.line().member("seed", options.seed);
+  json.key("structures").begin_array();
+  int code = kGood;
+  for (const StructureKind kind : kinds) {
+    const Trial trial = try_structure(kind, options.worlds, options.seed);
+    const std::string file = write_scenario(trial, options.output);
+    write(json, trial, file);
+    if (trial.failed > 0) {
+      tell_fault(trial, file);
+      code = kFailed;
+    } else if (!options.json) {
+      say(fmt::format("{}: good; the pairs of {} worlds are those of brute force", to_string(kind),
+                      trial.worlds));
+    }
+  }
+  json.line().end_array().end_object();
+  if (options.json) answer(json.text());
+  return code;
+}
+
+}  // namespace lantern::app

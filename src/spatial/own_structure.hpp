@@ -1,0 +1,110 @@
+// Bring your own structure: a tree of your own, in C++, as one more kind that every scenario may
+// ask for, drawn, checked and timed as ours are. tests/example/ is a whole project that does it.
+//
+//   struct MyTree {                            // the adaptor: some 30 lines
+//     QuadTree tree;                           // your class
+//     MyTree(const Box<2>& bounds, unsigned capacity, unsigned max_depth);
+//     void insert(BodyId id, const Box<2>& box);
+//     void visit(const NodeSink& f) const;     // f(OwnNode{...}) for each node
+//     void clear();                            // if you like; else a new one is made instead
+//   };
+//   int main(int argc, char** argv) {        // app/program.hpp
+//     return lantern::app::run_program(argc, argv, {own<MyTree>("mine", "my quadtree")});
+//   }
+//
+// What your tree must do is what the lecture's does. Its root is the world, or larger; children lie
+// within their parent and do not overlap. Bodies lie in leaves only, and each in every leaf that it
+// reaches; touching is reaching, but which of two leaves has a body that only touches the border
+// between them is up to you, as long as two bodies that touch share a leaf. No node lies deeper
+// than `max_depth`. Boxes come cut to the bounds: what lies outside the world lies on its border.
+//
+// `visit` tells each node before its children, and each child with all that lies below it before
+// the next. Everything else is worked out from that: parents, events, counts, queries, the order
+// along a ray. Nothing it says is believed: see own_view.hpp for what is looked at, and how it is
+// told. What crashes or never returns in your own code, nobody can catch.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "spatial/structure.hpp"
+
+namespace lantern::spatial {
+
+// A node, as your tree tells it.
+struct OwnNode {
+  Box<2> box;                           // its bounds
+  std::uint32_t depth = 0;              // the root has 0, its children 1
+  bool leaf = true;                     // it has no children
+  std::span<const BodyId> bodies = {};  // of a leaf, in any order; read before the call returns
+};
+using NodeSink = std::function<void(const OwnNode&)>;
+
+// An adaptor, whatever its type is.
+class OwnTree {
+ public:
+  virtual ~OwnTree() = default;
+  virtual void insert(BodyId id, const Box<2>& box) = 0;
+  virtual void visit(const NodeSink& f) const = 0;
+  // Forgets all bodies; false if it cannot.
+  virtual bool clear() = 0;
+};
+
+template <class A>
+concept OwnAdaptor = std::constructible_from<A, Box<2>, std::uint32_t, std::uint32_t> &&
+    requires(A tree, const A seen, Box<2> box, NodeSink f) {
+  tree.insert(BodyId{}, box);
+  seen.visit(f);
+};
+
+// A kind of structure that this program was given.
+struct OwnKind {
+  std::string name;   // "mine", for scenarios: of a–z, 0–9 and _
+  std::string words;  // "my quadtree", for people
+  std::function<std::unique_ptr<OwnTree>(const Box<2>& bounds, std::uint32_t capacity,
+                                         std::uint32_t max_depth)>
+      make;
+};
+
+// In a world of three dimensions it looks at x and z only, as the lecture's quadtree does.
+template <OwnAdaptor A>
+OwnKind own(std::string name, std::string words) {
+  class Tree : public OwnTree {
+   public:
+    Tree(const Box<2>& bounds, std::uint32_t capacity, std::uint32_t max_depth)
+        : adaptor_(bounds, capacity, max_depth) {}
+    void insert(BodyId id, const Box<2>& box) override { adaptor_.insert(id, box); }
+    void visit(const NodeSink& f) const override { adaptor_.visit(f); }
+    bool clear() override {
+      if constexpr (requires(A a) { a.clear(); }) {
+        adaptor_.clear();
+        return true;
+      } else {
+        return false;
+      }
+    }
+
+   private:
+    A adaptor_;
+  };
+  return {std::move(name), std::move(words),
+          [](const Box<2>& bounds, std::uint32_t capacity, std::uint32_t max_depth) {
+            return std::make_unique<Tree>(bounds, capacity, max_depth);
+          }};
+}
+
+// From now on this program knows these kinds, too. To be called once, before anything else: what
+// was read or made earlier does not know them. Throws Refused for a name that is not of a–z, 0–9
+// and _ or that is taken.
+void know_own_structures(std::vector<OwnKind> kinds);
+
+// In the order in which they were given.
+std::span<const OwnKind> own_structures();
+
+}  // namespace lantern::spatial

@@ -1,0 +1,115 @@
+// The example project: a student's quadtree in the program that she builds, from the check to the
+// picture, and the same with a mistake in it.
+#include <regex>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string kMine = LANTERN_ROOT "/tests/example/mine.toml";
+
+Outcome my_tree(const std::string& words) { return shell(LANTERN_EXAMPLE " " + words); }
+
+std::string replaced(const std::string& text, const std::string& what, const std::string& by) {
+  return std::regex_replace(text, std::regex(what), by);
+}
+
+json frame_of(const fs::path& folder, const std::string& name, int index) {
+  return json::parse(read_text(folder / name / (name + "_000" + std::to_string(index) + ".json")));
+}
+
+TEST(OwnStructureProgram, TheRightTreePassesTheCheck) {
+  const Outcome check = my_tree("structure check mine --worlds 150");
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.err.find("mine: good; the pairs of 150 worlds are those of brute force"),
+            std::string::npos)
+      << check.err;
+}
+
+TEST(OwnStructureProgram, TheWrongTreeIsCaughtOnASmallWorldThatCanBeDrawn) {
+  const fs::path out = fresh_folder("own_wrong");
+  const Outcome check =
+      my_tree("structure check wrong --worlds 60 --json -o " + (out / "found").string());
+  EXPECT_EQ(check.code, 1);
+  const json facts = json::parse(check.out).at("structures").at(0);
+  EXPECT_EQ(facts.at("name"), "wrong");
+  EXPECT_LE(facts.at("bodies").size(), 2u);
+  const std::string fault = facts.at("fault");
+  EXPECT_NE(fault.find("structure 'wrong': node "), std::string::npos) << fault;
+  const std::string file = facts.at("scenario");
+  const Outcome render = my_tree("render " + file + " --format svg -o " + out.string());
+  EXPECT_EQ(render.code, 1) << render.err;
+  EXPECT_NE(render.err.find("wrong_fails.toml:"), std::string::npos) << render.err;
+  EXPECT_NE(render.err.find(", which reaches it: its box goes from"), std::string::npos)
+      << render.err;
+  EXPECT_TRUE(fs::exists(out / "wrong_fails" / "wrong_fails_0000.svg"));
+}
+
+TEST(OwnStructureProgram, HerFramesSayWhatOursSay) {
+  const fs::path out = fresh_folder("own_frames");
+  const std::string text = read_text(kMine);
+  write_text(out / "hers.toml", text);
+  write_text(out / "ours.toml",
+             replaced(text, "kind = \"mine\"", "kind = \"quadtree\"\nchildren = \"eager\""));
+  const Outcome render = my_tree("render " + (out / "hers.toml").string() + " " +
+                                 (out / "ours.toml").string() + " --format svg -o " + out.string());
+  ASSERT_EQ(render.code, 0) << render.err;
+  for (int i = 0; i < 4; ++i) {
+    const json hers = frame_of(out, "hers", i), ours = frame_of(out, "ours", i);
+    EXPECT_EQ(hers.at("hash"), ours.at("hash")) << i;
+    for (const char* part : {"nodes", "pairs", "bodies"})
+      EXPECT_EQ(hers.at(part), ours.at(part)) << part << " of frame " << i;
+    EXPECT_FALSE(hers.at("counts").contains("box_tests")) << "nobody counts them";
+  }
+}
+
+TEST(OwnStructureProgram, ItsEventsAreFrames) {
+  const fs::path out = fresh_folder("own_events");
+  const Outcome render =
+      my_tree("render " + kMine + " --pace event --at split --format svg -o " + out.string());
+  EXPECT_EQ(render.code, 0) << render.err;
+  EXPECT_FALSE(fs::is_empty(out / "mine"));
+}
+
+TEST(OwnStructureProgram, BenchTimesItBesideOurs) {
+  const Outcome bench = my_tree("structure bench mine quadtree --bodies 40 --rounds 2 --json");
+  ASSERT_EQ(bench.code, 0) << bench.err;
+  const json rows = json::parse(bench.out).at("rows");
+  ASSERT_EQ(rows.size(), 6u);  // brute force too, and two scenes
+  for (const json& row : rows) {
+    EXPECT_EQ(row.at("missed"), 0);
+    EXPECT_GT(row.at("build_s"), 0.0);
+  }
+  EXPECT_EQ(rows[1].at("structure"), "mine");
+  EXPECT_EQ(my_tree("structure bench wrong --bodies 200 --rounds 1").code, 1);
+}
+
+TEST(OwnStructureProgram, ItIsOneOfTheKindsThere) {
+  EXPECT_NE(my_tree("structure list").out.find("my quadtree"), std::string::npos);
+  EXPECT_NE(my_tree("schema").out.find("\"mine\""), std::string::npos);
+  EXPECT_EQ(shell("lantern schema").out.find("\"mine\""), std::string::npos);
+}
+
+TEST(OwnStructureProgram, WithoutHerProgramItIsNotKnown) {
+  const Outcome check = shell("lantern check " + kMine);
+  EXPECT_EQ(check.code, 3);
+  EXPECT_NE(check.err.find("mine.toml:9:8: error: 'kind' cannot be 'mine'"), std::string::npos)
+      << check.err;
+  EXPECT_NE(check.err.find("quadtree"), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("for a structure of your own see"), std::string::npos) << check.err;
+  const Outcome unknown = shell("lantern structure check quadtre");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("did you mean 'quadtree'?"), std::string::npos) << unknown.err;
+  EXPECT_EQ(shell("lantern structure check octree").code, 2);
+}
+
+}  // namespace
+}  // namespace lantern::app
