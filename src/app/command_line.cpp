@@ -67,7 +67,18 @@ void add_render(CLI::App& app, Run& run) {
   c->add_option("-j,--threads", o.threads, "encoding threads; the default is one per core")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
+  add_shard(*c, o.shard);
   add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void add_merge(CLI::App& app, Run& run) {
+  const auto [c, o] = command(app, run, "merge",
+                              "Make one folder of the parts that --shard has made", merge_command);
+  c->add_option("OUT", o.output, "folder of the whole")->check(kNotEmpty)->required();
+  c->add_option("IN", o.folders, "folders that shards wrote into with -o; the default is OUT")
+      ->check(kNotEmpty);
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL, for a report's plots", kBackends);
   add_json(*c, o.json);
 }
 
@@ -150,6 +161,7 @@ void add_commands(CLI::App& app, Run& run) {
       "130 interrupted.\nStart with: lantern render scenarios/ghost_quadtree.toml");
   add_memory(app);
   add_render(app, run);
+  add_merge(app, run);
   add_check(app, run);
   add_list(app, run);
   add_explain(app, run);

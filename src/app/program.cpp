@@ -13,6 +13,7 @@
 #include "app/command_line.hpp"
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
+#include "app/shard.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
@@ -94,6 +95,7 @@ int run_program(int argc, char** argv) {
   hold_standard_streams();
   keep_freed_memory();
   catch_interrupts();
+  remember_command_line(argc, argv);
   return run_and_report([&] { return run_words(argc, argv); });
 }
 

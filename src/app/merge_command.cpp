@@ -1,0 +1,51 @@
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/merge.hpp"
+#include "app/shard_set.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/json_writer.hpp"
+
+namespace lantern::app {
+namespace {
+
+using Merge = int (*)(const ShardSet&, const MergeOptions&, JsonWriter&);
+
+Merge merge_of(std::string_view command) {
+  if (command == "render") return merge_frames;
+  if (command == "measure") return merge_measurements;
+  if (command == "stress") return merge_stress;
+  throw UsageError(fmt::format("shards of '{}' cannot be merged", command));
+}
+
+}  // namespace
+
+UnfitShard::UnfitShard(const ShardSet& set, const FoundShard& shard, const std::string& what)
+    : runtime_error(fmt::format("shard {} in '{}': {}: {}", shard.record.shard.text(),
+                                shard.path.string(), what, set.advice(shard.record.shard))) {}
+
+int merge_command(const MergeOptions& options) {
+  const ShardSet set(options.folders.empty() ? std::vector{options.output} : options.folders);
+  const Merge merge = merge_of(set.run().command);
+  const std::vector<std::string> missing = set.missing();
+  for (const std::string& sentence : missing) complain(sentence);
+  JsonWriter json;
+  json.begin_object().lines("format", "lantern.merge/1", "command", set.run().command, "shards",
+                            set.run().shard.of, "merged", missing.empty());
+  json.line().key("missing").begin_array();
+  for (std::uint32_t i = 0; i < set.shards().size(); ++i)
+    if (set.shards()[i] == nullptr) json.value(i + 1);
+  json.end_array();
+  const int code = missing.empty() ? merge(set, options, json) : int{kFailed};
+  json.line().end_object();
+  if (options.json) write_stdout(json.text() + "\n");
+  return code;
+}
+
+}  // namespace lantern::app
