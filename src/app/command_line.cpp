@@ -15,9 +15,10 @@
 namespace lantern::app {
 namespace {
 
-void add_render(CLI::App& app, Run& run) {
-  const auto [c, o] =
-      command(app, run, "render", "Draw a scenario's frames to PNG or SVG files", render_command);
+// `render`, and `watch`, which takes the same options.
+void add_render(CLI::App& app, Run& run, const char* name, const char* help,
+                int (*start)(const RenderOptions&)) {
+  const auto [c, o] = command(app, run, name, help, start);
   c->add_option("FILE", o.files, "scenario files")->required();
   c->add_option(
        "-o,--output", o.output,
@@ -67,7 +68,7 @@ void add_render(CLI::App& app, Run& run) {
   c->add_option("-j,--threads", o.threads, "encoding threads; the default is one per core")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
-  add_shard(*c, o.shard);
+  if (start == render_command) add_shard(*c, o.shard);
   add_memory(*c);
   add_json(*c, o.json);
 }
@@ -160,7 +161,8 @@ void add_commands(CLI::App& app, Run& run) {
       "Exit codes: 0 good, 1 failed, 2 usage, 3 scenario error, 4 no graphics backend, "
       "130 interrupted.\nStart with: lantern render scenarios/ghost_quadtree.toml");
   add_memory(app);
-  add_render(app, run);
+  add_render(app, run, "render", "Draw a scenario's frames to PNG or SVG files", render_command);
+  add_render(app, run, "watch", "Render scenarios again whenever they are saved", watch_command);
   add_merge(app, run);
   add_check(app, run);
   add_list(app, run);

@@ -38,10 +38,13 @@ struct RenderOptions {
   int threads = 0;                                                 // that encode; 0 for one a core
   std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
   std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
+  bool reloading = false;  // a page loads itself again when it was made again (app/reload.hpp)
   std::string shard = "";  // "2/4": the second of four parts; empty for all
   bool json = false;
 };
 int render_command(const RenderOptions& options);
+// Renders, and again what was saved since, until Ctrl-C: exit code 130.
+int watch_command(const RenderOptions& options);
 
 // Parts that --shard has made.
 struct MergeOptions {
