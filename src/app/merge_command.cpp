@@ -1,6 +1,7 @@
-#include <array>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,6 +25,15 @@ Merge merge_of(std::string_view command) {
   throw UsageError(fmt::format("shards of '{}' cannot be merged", command));
 }
 
+// The whole would stand where a part of it does.
+void require_apart(const ShardSet& set, const std::string& output) {
+  std::error_code not_there;
+  for (const FoundShard* shard : set.shards())
+    if (shard != nullptr && std::filesystem::equivalent(output, shard->path, not_there))
+      throw UsageError(fmt::format("'{}' is the folder of shard {}; give another one for the whole",
+                                   output, shard->record.shard.text()));
+}
+
 }  // namespace
 
 UnfitShard::UnfitShard(const ShardSet& set, const FoundShard& shard, const std::string& what)
@@ -33,6 +43,7 @@ UnfitShard::UnfitShard(const ShardSet& set, const FoundShard& shard, const std::
 int merge_command(const MergeOptions& options) {
   const ShardSet set(options.folders.empty() ? std::vector{options.output} : options.folders);
   const Merge merge = merge_of(set.run().command);
+  require_apart(set, options.output);
   const std::vector<std::string> missing = set.missing();
   for (const std::string& sentence : missing) complain(sentence);
   JsonWriter json;

@@ -1,10 +1,12 @@
 #include "app/shard_record.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
@@ -116,6 +118,9 @@ ShardFolder::ShardFolder(const std::filesystem::path& path, ShardRecord record)
 }
 
 void ShardFolder::finish() {
+  if (std::ranges::none_of(record_.inputs, [](const ShardInput& i) { return i.here > 0; }))
+    say(fmt::format("shard {} is empty: there is too little for {}", record_.shard.text(),
+                    record_.shard.of));
   record_.finished = true;
   write_file(path_ / kShardFile, to_json(record_));
   make_durable(path_);

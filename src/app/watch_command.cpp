@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,7 +23,7 @@ constexpr auto kLook = std::chrono::milliseconds(25);  // a signal is heard as s
 // is said, and the watch goes on. A machine without graphics will not be.
 void render_and_tell(const RenderOptions& options) {
   try {
-    if (render_command(options) == kInterrupted) throw Stopped();
+    render_command(options);
   } catch (const UsageError& e) {
     complain(e.what());
   } catch (const IoError& e) {

@@ -200,7 +200,10 @@ TEST_F(Shards, OfRangesAndInBetweensAreOneRun) {
 // Some have none of its frames, and need no folder for it.
 TEST_F(Shards, MayBeMoreThanThereAreFrames) {
   ASSERT_EQ(run("--frames 2", "one").code, 0);
-  run_shards(2, "parts", "--frames 2");
+  ASSERT_EQ(run("--frames 2 --shard 1/2", "parts").code, 0);
+  const Outcome empty = run("--frames 2 --shard 2/2", "parts");
+  EXPECT_EQ(empty.code, 0);
+  EXPECT_EQ(empty.err, "shard 2/2 is empty: there is too little for 2\n");
   EXPECT_EQ(merge("whole").code, 0);
   EXPECT_FALSE(fs::exists(home_ / "parts/shard-2-of-2/six"));
   expect_same(home_ / "one", home_ / "whole");
@@ -347,6 +350,9 @@ TEST_F(Shards, AFolderWithoutAnyOrOneThatCannotBeWrittenIsRefused) {
       << o.err;
   EXPECT_EQ(merge("whole", "nowhere").code, 2);
   run_shards(1, "parts");
+  o = merge("parts/shard-1-of-1");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("is the folder of shard 1/1; give another one"), std::string::npos) << o.err;
   write_text(home_ / "file", "");
   o = merge("file/whole");
   EXPECT_EQ(o.code, 1);
@@ -370,7 +376,7 @@ TEST_F(Shards, AreOfFoldersOnly) {
 // --- stress and measure ---
 
 TEST_F(Shards, OfStressHaveTheSameRows) {
-  const std::string stress = "lantern stress root_too_small cradle ";
+  const std::string stress = "lantern stress root_too_small cradle overflow ";
   ASSERT_EQ(shell(stress + "-o " + at("one")).code, 0);
   for (const char* shard : {"1/2", "2/2"})
     ASSERT_EQ(shell(stress + "--shard " + shard + " -o " + at("parts")).code, 0);
@@ -388,7 +394,7 @@ json without_times(const fs::path& file) {
 
 TEST_F(Shards, OfMeasureHaveTheSameRowsButForTimes) {
   const std::string measure =
-      "lantern measure kepler oscillator --quick --no-peers --method velocity_verlet "
+      "lantern measure kepler oscillator projectile --quick --no-peers --method velocity_verlet "
       "--step 0.01 --longest 600 ";
   const Outcome one = shell(measure + "-o " + at("one"));
   ASSERT_EQ(one.code, 0) << one.err;

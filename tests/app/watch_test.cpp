@@ -70,8 +70,7 @@ TEST(Watch, DrawsWhatWasSavedAndGoesOnThroughErrors) {
             "kill -INT $lantern; wait $lantern; echo ended $?; cat said");
   EXPECT_EQ(o.code, 0) << o.err << o.out;
   EXPECT_NE(o.out.find("ended 130"), std::string::npos) << o.out;
-  EXPECT_NE(o.out.find("pong_bsp.toml:"), std::string::npos) << "the place of the error\n"
-                                                              << o.out;
+  EXPECT_NE(o.out.find("pong_bsp.toml:"), std::string::npos) << "the place of the error\n" << o.out;
 }
 
 TEST(Watch, WhatNoSaveCanMendEndsIt) {

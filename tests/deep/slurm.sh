@@ -17,9 +17,10 @@ trap stop EXIT
 cd "$work"
 fail() { echo "FAILED: $*"; exit 1; }
 recipe=$root/tests/deep/recipes/slurm.sbatch
-files="$root/scenarios/pong_bsp.toml $root/scenarios/kdtree_atlas.toml $root/scenarios/n_squared.toml"
+course=""
+for s in pong_bsp kdtree_atlas n_squared; do course="$course $root/scenarios/$s.toml"; done
 export LANTERN="$lantern"
-"$lantern" render $files -o one >one.log 2>&1 || fail "one run: $(tail -n 3 one.log)"
+"$lantern" render $course -o one >one.log 2>&1 || fail "one run: $(tail -n 3 one.log)"
 
 same_as_one() {
   rm -rf compared
@@ -91,11 +92,11 @@ END
 
 begun=$(date +%s%N)
 if start_slurm; then
-  job=$(sbatch --parsable --array=1-3 "$recipe" out 4 $files)
+  job=$(sbatch --parsable --array=1-3 "$recipe" out 4 $course)
   sbatch --wait --dependency=afterany:"$job" --output merge.log --wrap "$lantern merge out" >said 2>&1 &&
     fail "a merge without shard 4"
   grep -q "shard 4/4 of pong_bsp and 2 more is missing: run lantern render" merge.log || fail "$(cat merge.log)"
-  sbatch --wait --array=4 "$recipe" out 4 $files >said 2>&1 || fail "shard 4: $(cat said lantern-*.log)"
+  sbatch --wait --array=4 "$recipe" out 4 $course >said 2>&1 || fail "shard 4: $(cat said lantern-*.log)"
   sbatch --wait --output merge.log --wrap "$lantern merge out" >said 2>&1 || fail "$(cat said merge.log)"
   same_as_one
   echo "a job array of 4 shards on one node, one of them done again by its number: the same bytes," \
@@ -104,7 +105,7 @@ else
   echo "Slurm does not run here: $why"
   echo "so the tasks of the array are run by hand"
   for task in 1 2 3 4; do
-    SLURM_ARRAY_TASK_ID=$task sh "$recipe" out 4 $files >task.log 2>&1 || fail "$(cat task.log)"
+    SLURM_ARRAY_TASK_ID=$task sh "$recipe" out 4 $course >task.log 2>&1 || fail "$(cat task.log)"
   done
   "$lantern" merge out >merge.log 2>&1 || fail "$(cat merge.log)"
   same_as_one
