@@ -76,7 +76,7 @@ TEST(Watch, DrawsWhatWasSavedAndGoesOnThroughErrors) {
 TEST(Watch, WhatNoSaveCanMendEndsIt) {
   EXPECT_EQ(shell("lantern watch " + kGhosts + " -o -").code, 2);
   EXPECT_EQ(shell("lantern watch " + kGhosts + " --size 1x1").code, 2);
-  const Outcome o = shell("lantern watch nowhere.toml");
+  const Outcome o = shell("timeout 20 " LANTERN_BINARY " watch nowhere.toml");
   EXPECT_EQ(o.code, 1);
   EXPECT_NE(o.err.find("'nowhere.toml' is not there to be watched"), std::string::npos) << o.err;
 }
