@@ -24,9 +24,10 @@ namespace {
 constexpr const char* kFilesHelp =
     "scenario files, folders of them (by 'lecture', then by name), or - for standard input";
 
-void add_render(CLI::App& app, Run& run) {
-  const auto [c, o] =
-      command(app, run, "render", "Draw a scenario's frames to PNG or SVG files", render_command);
+// `render`, and `watch`, which takes the same options.
+void add_render(CLI::App& app, Run& run, const char* name, const char* help,
+                int (*start)(const RenderOptions&)) {
+  const auto [c, o] = command(app, run, name, help, start);
   c->add_option("FILE", o.files, kFilesHelp)->required();
   c->add_option(
        "-o,--output", o.output,
@@ -84,7 +85,18 @@ void add_render(CLI::App& app, Run& run) {
   c->add_option("-j,--threads", o.threads, "encoding threads; the default is one per core")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
+  if (start == render_command) add_shard(*c, o.shard);
   add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void add_merge(CLI::App& app, Run& run) {
+  const auto [c, o] = command(app, run, "merge",
+                              "Make one folder of the parts that --shard has made", merge_command);
+  c->add_option("OUT", o.output, "folder of the whole")->check(kNotEmpty)->required();
+  c->add_option("IN", o.folders, "folders that shards wrote into with -o; the default is OUT")
+      ->check(kNotEmpty);
+  add_choice(*c, "--backend", o.backend, "off-screen OpenGL, for a report's plots", kBackends);
   add_json(*c, o.json);
 }
 
@@ -296,7 +308,9 @@ void add_commands(CLI::App& app, Run& run) {
   app.footer(fmt::format("Exit codes: {}.\nStart with: lantern render ghost_quadtree",
                          fmt::join(codes, ", ")));
   add_memory(app);
-  add_render(app, run);
+  add_render(app, run, "render", "Draw a scenario's frames to PNG or SVG files", render_command);
+  add_render(app, run, "watch", "Render scenarios again whenever they are saved", watch_command);
+  add_merge(app, run);
   add_check(app, run);
   add_list(app, run);
   add_explain(app, run);

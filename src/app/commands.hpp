@@ -40,9 +40,22 @@ struct RenderOptions {
   int threads = 0;                                                 // that encode; 0 for one a core
   std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
   std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
+  bool reloading = false;  // a page loads itself again when it was made again (app/reload.hpp)
+  std::string shard = "";  // "2/4": the second of four parts; empty for all
   bool json = false;
 };
 int render_command(const RenderOptions& options);
+// Renders, and again what was saved since, until Ctrl-C: exit code 130.
+int watch_command(const RenderOptions& options);
+
+// Parts that --shard has made.
+struct MergeOptions {
+  std::string output;                // folder of the whole
+  std::vector<std::string> folders;  // that shards wrote into; empty: the same
+  std::string backend = "auto";      // auto, osmesa, egl; for a report's plots
+  bool json = false;
+};
+int merge_command(const MergeOptions& options);
 
 struct CheckOptions {
   std::vector<std::string> files;
@@ -139,6 +152,7 @@ struct MeasureOptions {
   bool peers = true;
   std::string theme = "light";
   std::string backend = "auto";
+  std::string shard = "";  // "2/4": the second of four parts; empty for all
   bool list = false;
   bool json = false;
 };
@@ -169,6 +183,7 @@ struct StressOptions {
   std::string output;              // folder; empty for none
   std::string theme = "light";
   std::string backend = "auto";  // auto, osmesa, egl
+  std::string shard = "";        // "2/4": the second of four parts; empty for all
   bool list = false;
   bool full = false;  // the slow ones, too
   bool json = false;

@@ -47,14 +47,26 @@ std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList
 
 }  // namespace
 
+void tell_of_strange(const std::string& scenario, const FrameFolder& folder,
+                     const std::set<std::string>& written) {
+  std::vector<std::string> left, replaced;
+  for (const std::string& name : folder.strange())
+    (written.contains(name) ? replaced : left).push_back(name);
+  if (!left.empty())
+    warn(about_files(scenario, "left alone, since it is not as Lantern made it", left));
+  if (!replaced.empty())
+    warn(about_files(scenario, "replaced, though it was not as Lantern made it", replaced));
+}
+
 FolderSink::FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace,
-                       Selection& selection, Work& work)
+                       Selection& selection, Work& work, const Part& part)
     : job_(job),
       scenario_(scenario),
       selection_(selection),
       manifest_(job.manifest(scenario, pace)),
       path_(fs::path(job.options.output) / scenario.name),
-      work_(work) {}
+      work_(work),
+      part_(part) {}
 
 void FolderSink::draw(const Frame& frame, const Staging& staging) {
   all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
@@ -66,9 +78,10 @@ void FolderSink::draw(const Frame& frame, const Staging& staging) {
 void FolderSink::close(const DirectorReport& report) {
   selection_.require_some();
   if (pipeline_) pipeline_->finish();
+  if (!folder_ && !part_.is_all()) return;  // none of the frames is of this part
   list_frames();
-  if (last_ && manifest_.frames.size() == all_.size()) write_atlas(*last_);
-  tell_of_strange_files();
+  if (wants_atlas()) write_atlas(*last_);
+  tell_of_strange(scenario_.name, *folder_, written_);
   manifest_.finished = true;
   manifest_.expectations = report.expectations;
   manifest_.unmet = report.unmet.size();
@@ -85,24 +98,36 @@ void FolderSink::open_folder() {
 }
 
 void FolderSink::take(const Frame& frame, const Staging& staging) {
-  if (!folder_) open_folder();
-  const std::uint32_t index = frame.index;
-  taken_.insert(index);
-  const MadeFrom from = manifest_.frame_from(index);
-  if (!folder_->stands(index, "json"))
-    write_counted(folder_->file(index, "json"), facts_of(job_, frame, from));
+  const bool is_here = part_.has(chosen_++);
+  if (is_here) take_facts(frame);
   std::optional<DrawList> list;
-  if (before_ && before_->index + 1 == index) take_in_betweens(frame, staging, list);
-  if (folder_->stands(index, job_.options.format)) {
-    ++kept_;
-  } else {
-    write_picture(folder_->file(index, job_.options.format), list_of(frame, staging, list), frame,
-                  from);
-    ++drawn_;
-  }
-  if (!job_.in_betweens.wanted()) return;
+  // The way from a frame to the next belongs to the first of them.
+  if (before_ && before_->index + 1 == frame.index) take_in_betweens(frame, staging, list);
+  if (is_here) take_picture(frame, staging, list);
+  before_.reset();
+  if (!is_here || !job_.in_betweens.wanted()) return;
   before_ = frame;
   drawn_so_ = std::move(list);
+}
+
+void FolderSink::take_facts(const Frame& frame) {
+  if (!folder_) open_folder();
+  taken_.insert(frame.index);
+  if (!folder_->stands(frame.index, "json"))
+    write_counted(folder_->file(frame.index, "json"),
+                  facts_of(job_, frame, manifest_.frame_from(frame.index)));
+}
+
+void FolderSink::take_picture(const Frame& frame, const Staging& staging,
+                              std::optional<DrawList>& list) {
+  const std::string& format = job_.options.format;
+  if (folder_->stands(frame.index, format)) {
+    ++kept_;
+    return;
+  }
+  write_picture(folder_->file(frame.index, format), list_of(frame, staging, list), frame,
+                manifest_.frame_from(frame.index));
+  ++drawn_;
 }
 
 // From the frame before to this one.
@@ -152,16 +177,6 @@ void FolderSink::write_counted(const fs::path& file, const std::string& bytes) {
   work_.bytes_written += bytes.size();
 }
 
-void FolderSink::tell_of_strange_files() const {
-  std::vector<std::string> left, replaced;
-  for (const std::string& name : folder_->strange())
-    (written_.contains(name) ? replaced : left).push_back(name);
-  if (!left.empty())
-    warn(about_files(scenario_.name, "left alone, since it is not as Lantern made it", left));
-  if (!replaced.empty())
-    warn(about_files(scenario_.name, "replaced, though it was not as Lantern made it", replaced));
-}
-
 // Made when there is something to draw.
 Pipeline& FolderSink::pipeline() {
   if (!pipeline_) try {
@@ -172,18 +187,27 @@ Pipeline& FolderSink::pipeline() {
   return *pipeline_;
 }
 
-// Those of this run, and those of earlier ranges that still stand.
+// Those of this run, and those of earlier ranges that still stand. A part is what it is, whatever
+// stands beside it.
 void FolderSink::list_frames() {
+  const auto still_stands = [&](std::uint32_t i) {
+    return part_.is_all() && folder_->stands(i, job_.options.format) && folder_->stands(i, "json");
+  };
   for (std::uint32_t i = 0; i < all_.size(); ++i)
-    if (taken_.contains(i) ||
-        (folder_->stands(i, job_.options.format) && folder_->stands(i, "json")))
-      list_frame(i);
+    if (taken_.contains(i) || still_stands(i)) list_frame(i);
 }
 
 void FolderSink::list_frame(std::uint32_t index) {
   ListedFrame& listed = manifest_.frames.emplace(index, std::move(all_[index])).first->second;
-  if (job_.in_betweens.wanted() && listed.in_betweens == 0)
+  if (job_.in_betweens.wanted() && listed.in_betweens == 0 && part_.is_all())
     listed.in_betweens = folder_->in_betweens_standing(index);
+}
+
+// Of a run in parts, with the last frame of all.
+bool FolderSink::wants_atlas() const {
+  if (!last_) return false;
+  if (part_.is_all()) return manifest_.frames.size() == all_.size();
+  return chosen_ == all_.size() && taken_.contains(last_->index);
 }
 
 // Transparent, in its own size, as soon as all frames are there.
@@ -201,6 +225,7 @@ void FolderSink::write_atlas(const Frame& frame) {
   if (!folder_->atlas_stands("json"))
     write_counted(folder_->atlas("json"),
                   sealed(FileKind::json, atlas_facts(job_, frame, list), from));
+  has_atlas_ = true;
 }
 
 void FolderSink::write_manifest() { write_file(path_ / "manifest.json", to_json(manifest_)); }

@@ -137,6 +137,10 @@ std::string about_files(const std::string& scenario, const char* what,
   return fmt::format("{}: {}: {}", scenario, what, text);
 }
 
+std::string atlas_file(const std::string& scenario, std::string_view ending) {
+  return fmt::format("{}_{}.{}", scenario, kAtlas, ending);
+}
+
 std::string in_between_file(const Manifest& m, std::uint32_t index, std::uint64_t number) {
   return fmt::format("{}_{:04}_{:0{}}.{}", m.scenario, index, number, m.in_between_digits,
                      m.format);
@@ -244,7 +248,7 @@ std::uint64_t FrameFolder::in_betweens_standing(std::uint32_t index) const {
 }
 
 fs::path FrameFolder::atlas(std::string_view ending) const {
-  return path_ / fmt::format("{}_{}.{}", wanted_.scenario, kAtlas, ending);
+  return path_ / atlas_file(wanted_.scenario, ending);
 }
 
 bool FrameFolder::stands(std::uint32_t index, std::string_view ending) const {

@@ -55,6 +55,9 @@ struct Manifest {
 bool is_of_this_build(const std::filesystem::path& manifest);
 
 std::string to_json(const Manifest& manifest);
+// What to_json wrote, but for the digits of in-betweens, which it does not tell. Nothing for a text
+// that is damaged, of another format, or of another build.
+std::optional<Manifest> read_manifest(std::string_view json);
 
 // "ghost_quadtree_0007.png"
 std::string frame_file(const std::string& scenario, std::uint32_t index, std::string_view ending);
@@ -62,6 +65,8 @@ std::string frame_file(const std::string& scenario, std::uint32_t index, std::st
 std::optional<std::uint32_t> frame_of(std::string_view file, const std::string& scenario);
 // Are these the bytes of such a file exactly as Lantern wrote it? By its ending: png, svg, json.
 bool is_as_made(std::string_view file, std::string_view bytes);
+// "ghost_quadtree_atlas.png"
+std::string atlas_file(const std::string& scenario, std::string_view ending);
 // "ghost_quadtree_0007_03.png", the third on the way from frame 7 to frame 8: by name in-betweens
 // stand where they are seen.
 std::string in_between_file(const Manifest& manifest, std::uint32_t index, std::uint64_t number);
@@ -86,6 +91,7 @@ class FrameFolder {
   bool stands(std::uint32_t index, std::string_view ending) const;
   bool in_between_stands(std::uint32_t index, std::uint64_t number) const;
   bool atlas_stands(std::string_view ending) const;
+  bool stands(const std::string& name) const { return standing_.contains(name); }
   // How many in-betweens stand from this frame on.
   std::uint64_t in_betweens_standing(std::uint32_t index) const;
 

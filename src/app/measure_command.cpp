@@ -9,6 +9,8 @@
 #include "app/answer.hpp"
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
+#include "app/measure_pages.hpp"
+#include "app/measure_shard.hpp"
 #include "app/measure_unsuited.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
@@ -21,12 +23,8 @@
 #include "embedded/version.hpp"
 #include "measure/plan.hpp"
 #include "measure/problems.hpp"
-#include "report/bars.hpp"
-#include "report/drift_plots.hpp"
 #include "report/html_page.hpp"
-#include "report/measure_plots.hpp"
 #include "report/measure_tables.hpp"
-#include "report/pages.hpp"
 #include "scenario/method.hpp"
 
 namespace lantern::app {
@@ -255,37 +253,20 @@ class Measuring {
   Progress progress_;
 };
 
-// The tables of all, a page of plots for each problem, the overview, and all on one web page.
-void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
-  folder.write("measure.csv", to_csv(m));
-  folder.write("drift.csv", drift_csv(m));
-  folder.write("circumstances.csv", to_csv(m.circumstances));
-  folder.write("peers.csv", to_csv(m.peers));
-  std::vector<ReportPage> pages;
-  const bool all = options.problems.empty();  // the bars belong to the whole
-  const std::vector<Bar> bars = all ? measured_bars() : std::vector<Bar>();
-  folder.write("report.html", to_html(std::span(&m, 1), bars));
-  pages.push_back({"overview", draw_overview(m, bars)});
-  for (const ProblemRows& problem : by_problem(m.rows)) {
-    pages.push_back({problem.problem, draw_problem(problem, m)});
-    if (std::ranges::any_of(problem.rows, [](const Row& row) { return !row.samples.empty(); }))
-      pages.push_back({problem.problem + "_drift", draw_drift(problem, m)});
-  }
-  if (!m.peers.empty()) pages.push_back({"peers", draw_peers(m)});
-  folder.draw(pages, options.theme, options.backend);
-}
-
 int measure_problems(const MeasureOptions& options) {
   PlanOptions planned = plan_options(options);
-  ReportFolder folder(options.output, "measure");
+  MeasureShard shard(options, planned);
+  ReportFolder folder(shard.folder(), "measure");
   Plan plan(std::move(planned), [](const Scenario&) {});
   // Of all problems some suit no other engine: only who asks for a few is told.
   for (const std::string& line : unsuited_words(plan.unsuited(), !options.problems.empty()))
     say(line);
   Measuring measuring(plan, folder, options);
-  measuring.run();
   const Measurement& m = measuring.measurement();
-  if (std::ranges::none_of(m.rows, &Row::was_run) && !interrupted()) {
+  shard.begin(plan, m.circumstances);
+  measuring.run();
+  const bool is_nothing = std::ranges::none_of(m.rows, &Row::was_run);
+  if (is_nothing && !shard.is_one() && !interrupted()) {
     complain("nothing was measured: no method applies, or every run is too long (--full)");
     return kFailed;
   }
@@ -294,7 +275,13 @@ int measure_problems(const MeasureOptions& options) {
     complain("interrupted; the same command goes on from here");
     return kInterrupted;
   }
-  save_pages(folder, m, options);
+  if (shard.is_one()) {
+    shard.finish(plan);
+    say(fmt::format("the rows are in {}; 'lantern merge' makes the report", shard.folder()));
+    return kGood;
+  }
+  // The bars belong to the whole.
+  save_pages(folder, m, {options.problems.empty(), options.theme, options.backend});
   folder.finish();
   say(fmt::format("the report is in {}", options.output));
   return kGood;
@@ -321,15 +308,24 @@ int page_of_earlier(const MeasureOptions& options) {
   return kGood;
 }
 
+// What has a measurement of its own.
+bool measures_more(const MeasureOptions& options) {
+  return !options.problems.empty() &&
+         (options.problems[0] == "pictures" || options.problems[0] == "broad_phase");
+}
+
 }  // namespace
 
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems(options.json);
+  const bool is_of_problems = options.from.empty() && !measures_more(options);
+  if (!options.shard.empty() && !is_of_problems)
+    throw UsageError("--shard divides measurements of problems and scenarios only");
+  if (is_of_problems) return measure_problems(options);
   if (!options.from.empty()) return page_of_earlier(options);
   const std::vector<std::string>& words = options.problems;
-  const std::string first = words.empty() ? "" : words[0];
-  if (first != "pictures" && first != "broad_phase") return measure_problems(options);
-  const auto measure = first == "pictures" ? measure_pictures_command : measure_broad_phase_command;
+  const auto measure =
+      words[0] == "pictures" ? measure_pictures_command : measure_broad_phase_command;
   return measure({{words.begin() + 1, words.end()},
                   options.output,
                   options.theme,

@@ -3,9 +3,9 @@
 
 #include "app/answer.hpp"
 #include "app/commands.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "draw/page.hpp"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/merge.hpp"
 #include "app/terminal.hpp"
 #include "measure/peers.hpp"
 
@@ -22,6 +23,11 @@ int stress_command(const StressOptions&) { return refused("stress"); }
 int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
 int structure_bench_command(const StructureBenchOptions&) { return refused("structure bench"); }
 int bench_step_command(const BenchStepOptions&) { return refused("bench step"); }
+
+int merge_measurements(const ShardSet&, const MergeOptions&, JsonWriter&) {
+  return refused("merge");
+}
+int merge_stress(const ShardSet&, const MergeOptions&, JsonWriter&) { return refused("merge"); }
 
 }  // namespace lantern::app
 

@@ -35,6 +35,15 @@ inline void add_choice(CLI::App& command, const char* name, std::string& word, c
   command.add_option(name, word, help)->check(CLI::IsMember(words))->capture_default_str();
 }
 
+inline void add_shard(CLI::App& command, std::string& words) {
+  command
+      .add_option("--shard", words,
+                  "only the I-th of N parts, into DIR/shard-I-of-N; 'lantern merge' makes one of "
+                  "them")
+      ->check(kNotEmpty)
+      ->type_name("I/N");
+}
+
 // Before a command, and after one that runs a scenario.
 inline void add_memory(CLI::App& command) {
   command

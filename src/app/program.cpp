@@ -17,6 +17,7 @@
 #include "app/interrupts.hpp"
 #include "app/option_words.hpp"
 #include "app/run_scenario.hpp"
+#include "app/shard.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
@@ -141,6 +142,7 @@ int run_program(int argc, char** argv, std::vector<OwnKind> own) {
   hold_standard_streams();
   keep_freed_memory();
   catch_interrupts();
+  remember_command_line(argc, argv);
   const int code = run_and_report([&] {
     try {
       know_own_structures(std::move(own));

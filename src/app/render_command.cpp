@@ -17,6 +17,7 @@
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
+#include "app/shard_render.hpp"
 #include "app/staged_sink.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
@@ -130,9 +131,9 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
   say(fmt::format("{}: {} in {}", scenario.name, counted(made.frames, "frame"), where));
 }
 
-// Draws one scenario; the exit code that it deserves.
+// Draws scenario `index`, or the shard's part of it; the exit code that it deserves.
 int render_one(const RenderJob& job, const Destination& to, const Scenario& scenario, Work& work,
-               JsonWriter& json) {
+               JsonWriter& json, RenderShard& shard, std::size_t index) {
   const RenderOptions& options = job.options;
   const Pace pace = pace_of(options.pace, scenario);
   Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
@@ -149,9 +150,13 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   }
   const auto most = selection.most() ? selection.most() : extent_of(scenario, pace).frames;
   job.in_betweens.require_few(most);
-  FolderSink sink(job, scenario, pace, selection, work);
+  const Part& part = shard.part(index);
+  if (part.is_none()) return kGood;
+  FolderSink sink(job, scenario, pace, selection, work, part);
+  const auto of_part = part.is_all() || !most ? selection.most() : std::optional(part.count(*most));
   const RunResult result =
-      run_scenario(scenario, pace, sink, work, selection.most(), job.in_betweens.most());
+      run_scenario(scenario, pace, sink, work, of_part, job.in_betweens.most());
+  shard.drawn(index, sink);
   const int code = tell(result, options.strict);
   tell_of(sink, scenario, result.report, json);
   return code;
@@ -159,7 +164,8 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
 
 }  // namespace
 
-int render_command(const RenderOptions& options) {
+int render_command(const RenderOptions& asked) {
+  const RenderOptions options = options_of_shard(asked);
   const RenderJob job(options);
   const Destination to(options.output, !options.sheet.empty());
   const bool to_stdout = to.kind() == OutputKind::standard_output;
@@ -179,17 +185,21 @@ int render_command(const RenderOptions& options) {
   Work work;
   JsonWriter json = answer_of("render");
   json.line().key("scenarios").begin_array();
-  for (const Scenario& scenario : scenarios) {
+  RenderShard shard(job, scenarios);
+  bool whole = scenarios.size() == files.size();
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
     try {
-      code = std::max(code, render_one(job, to, scenario, work, json));
+      code = std::max(code, render_one(job, to, scenarios[i], work, json, shard, i));
     } catch (const ScenarioError& e) {
       complain(e);
       code = std::max(code, exit_code_of(e));
+      whole = false;
     } catch (const Stopped&) {
       complain("interrupted; the same command goes on where this one stopped");
       return kInterrupted;
     }
   }
+  if (whole) shard.finish();
   json.line().end_array().line().key("work");
   write(json, work);
   json.line().end_object();

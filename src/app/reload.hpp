@@ -1,0 +1,18 @@
+// A page that is open in a browser loads itself again when it was made again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace lantern::app {
+
+// A <script> element for the page that will stand at `page`. From a file a page may not read
+// others, but may run a script that lies beside it: it runs PAGE.version.js twice a second, and
+// loads itself again when that tells of another version. What is after the # stays.
+std::string reload_script(const std::filesystem::path& page);
+
+// Writes PAGE.version.js, when the page stands with these bytes. Throws IoError.
+void tell_version(const std::filesystem::path& page, std::string_view bytes);
+
+}  // namespace lantern::app

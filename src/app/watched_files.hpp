@@ -1,0 +1,41 @@
+// Files that an editor saves, looked at again and again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace lantern::app {
+
+// A file counts as changed when its bytes have, whoever has written them and however: in place, or
+// under another name that then became its own. It is looked at by its name, not followed by its
+// inode, so this holds on every file system, those of a network among them. One that is gone is
+// waited for.
+class WatchedFiles {
+ public:
+  // As they are now is what they have changed from.
+  explicit WatchedFiles(const std::vector<std::string>& files);
+
+  // Those that have changed since they were told last, and have rested for one more look. Each is
+  // told once.
+  std::vector<std::string> changed();
+
+ private:
+  // When it was written, its size, and which file it is; nothing if there is none.
+  using Stamp =
+      std::optional<std::tuple<std::filesystem::file_time_type, std::uintmax_t, std::uint64_t>>;
+  struct Watched {
+    std::string file;
+    Stamp looked_at, told;   // last
+    std::uint64_t hash = 0;  // of the bytes told last
+  };
+  static Stamp stamp_of(const std::string& file);
+  static std::optional<std::uint64_t> hash_of(const std::string& file);
+
+  std::vector<Watched> files_;
+};
+
+}  // namespace lantern::app

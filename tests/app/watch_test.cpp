@@ -1,0 +1,98 @@
+// `lantern watch`: what is saved is drawn again.
+#include <gtest/gtest.h>
+
+#include "app/process.hpp"
+#include "app/reload.hpp"
+#include "app/watched_files.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Looks until a change is told or it has looked often enough; a look apart the clock has ticked.
+std::vector<std::string> looked(WatchedFiles& watched) {
+  for (int i = 0; i < 3; ++i) {
+    ::usleep(10'000);
+    if (auto changed = watched.changed(); !changed.empty()) return changed;
+  }
+  return {};
+}
+
+TEST(WatchedFiles, TellsOfOtherBytesOnce) {
+  const fs::path folder = fresh_folder("watched");
+  const std::string a = folder / "a.toml", b = folder / "b.toml";
+  write_text(a, "one");
+  write_text(b, "one");
+  WatchedFiles watched({a, b});
+  EXPECT_TRUE(looked(watched).empty());
+  write_text(a, "two");
+  EXPECT_EQ(looked(watched), std::vector{a}) << "written in place";
+  EXPECT_TRUE(looked(watched).empty());
+  write_text(folder / "new", "six");
+  fs::rename(folder / "new", b);
+  EXPECT_EQ(looked(watched), std::vector{b}) << "written elsewhere and renamed";
+  write_text(a, "two");
+  EXPECT_TRUE(looked(watched).empty()) << "saved without a change";
+  fs::remove(a);
+  EXPECT_TRUE(looked(watched).empty()) << "between two saves";
+  write_text(a, "ten");
+  EXPECT_EQ(looked(watched), std::vector{a});
+}
+
+// Waits, in the shell, until a command succeeds; 10 s at most.
+std::string until(const std::string& command) {
+  return "i=0; until " + command +
+         "; do i=$((i+1)); test $i -lt 1000 || exit 9; sleep 0.01; done\n";
+}
+
+TEST(Watch, DrawsWhatWasSavedAndGoesOnThroughErrors) {
+  const fs::path home = fresh_folder("watch");
+  const std::string file = home / "pong_bsp.toml";
+  const std::string text = read_text(scenario("pong_bsp"));
+  write_text(file, text);
+  std::string wrong = text;
+  wrong.replace(wrong.find("[world]"), 7, "[wrold]");
+  write_text(home / "wrong", wrong);
+  std::string titled = text;
+  titled.replace(titled.find("title = \""), 9, "title = \"Renamed: ");
+  write_text(home / "titled", titled);
+  const std::string manifest = home / "out/pong_bsp/manifest.json";
+  const Outcome o =
+      shell("cd " + home.string() +
+            "\nenv --default-signal=INT " LANTERN_BINARY
+            " watch pong_bsp.toml --size 80x45 --frames 0-1 -o out 2>said & lantern=$!\n" +
+            until("grep -q 'watching pong_bsp.toml' said") +  //
+            "grep -q 'finished\": true' " + manifest + " || exit 8\n" +
+            "cp wrong new; mv new pong_bsp.toml\n" + until("grep -q wrold said") +
+            "cp titled pong_bsp.toml\n" +
+            until("grep -q 'finished\": true' " + manifest + " && grep -q Renamed " + manifest) +
+            "kill -INT $lantern; wait $lantern; echo ended $?; cat said");
+  EXPECT_EQ(o.code, 0) << o.err << o.out;
+  EXPECT_NE(o.out.find("ended 130"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("pong_bsp.toml:"), std::string::npos) << "the place of the error\n" << o.out;
+}
+
+TEST(Watch, WhatNoSaveCanMendEndsIt) {
+  EXPECT_EQ(shell("lantern watch " + kGhosts + " -o -").code, 2);
+  EXPECT_EQ(shell("lantern watch " + kGhosts + " --size 1x1").code, 2);
+  const Outcome o = shell("timeout 20 " LANTERN_BINARY " watch nowhere.toml");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("'nowhere.toml' is not there to be watched"), std::string::npos) << o.err;
+}
+
+TEST(Reload, AVersionBelongsToItsPage) {
+  const fs::path home = fresh_folder("reload");
+  const fs::path page = home / "a lesson.html";
+  EXPECT_NE(reload_script(page).find("encodeURIComponent(\"a lesson.html.version.js\")"),
+            std::string::npos)
+      << reload_script(page);
+  EXPECT_EQ(reload_script("<b>.html").find("<b>.html"), std::string::npos);
+  tell_version(page, "one");
+  const std::string first = read_text(home / "a lesson.html.version.js");
+  tell_version(page, "two");
+  EXPECT_NE(read_text(home / "a lesson.html.version.js"), first);
+}
+
+}  // namespace
+}  // namespace lantern::app
