@@ -38,6 +38,8 @@ struct RenderOptions {
   int threads = 0;                                                 // that encode; 0 for one a core
   std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
   std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
+  std::optional<double> hold = std::nullopt;          // seconds of each still of a film
+  bool format_given = false, png_given = false;       // on the command line
   bool json = false;
 };
 int render_command(const RenderOptions& options);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/frame_folder.hpp"
+#include "app/frame_walk.hpp"
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
@@ -38,11 +39,9 @@ class FolderSink : public StagedSink {
  private:
   void open_folder();
   void take(const Frame& frame, const Staging& staging);
-  void take_in_betweens(const Frame& frame, const Staging& staging, std::optional<DrawList>& list);
+  void take_in_betweens();
   void write_picture(const std::filesystem::path& file, const DrawList& list, const Frame& frame,
                      const MadeFrom& from);
-  const DrawList& list_of(const Frame& frame, const Staging& staging,
-                          std::optional<DrawList>& list);
   void write_counted(const std::filesystem::path& file, const std::string& bytes);
   void tell_of_strange_files() const;
   Pipeline& pipeline();
@@ -63,9 +62,8 @@ class FolderSink : public StagedSink {
   std::set<std::uint32_t> taken_;  // of these, chosen
   std::set<std::string> written_;  // names of files
   std::size_t drawn_ = 0, kept_ = 0, in_betweens_ = 0;
-  std::optional<Frame> before_;       // chosen last, where there are in-betweens,
-  std::optional<DrawList> drawn_so_;  // and as it is drawn, once it is
-  std::optional<Frame> last_;         // of an atlas
+  FrameWalk walk_;
+  std::optional<Frame> last_;  // of an atlas
 };
 
 }  // namespace lantern::app

@@ -113,12 +113,16 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
   for (const auto& file : made.files) json.value(file.string());
   json.end_array().members("frames", made.frames, "expectations", report.expectations, "unmet",
                            report.unmet.size());
+  if (made.seconds) json.members("seconds", *made.seconds, "fps", made.rate);
   json.end_object();
   const std::string where =
       made.files.size() == 1 ? made.files.front().string()
                              : fmt::format("{} files, {} to {}", made.files.size(),
                                            made.files.front().string(), made.files.back().string());
-  say(fmt::format("{}: {} frames in {}", scenario.name, made.frames, where));
+  const std::string length =
+      made.seconds ? fmt::format(", {:.1f} s at {:.4g} pictures a second", *made.seconds, made.rate)
+                   : "";
+  say(fmt::format("{}: {} frames in {}{}", scenario.name, made.frames, where, length));
 }
 
 // Draws one scenario; the exit code that it deserves.
@@ -148,19 +152,39 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   return code;
 }
 
+// Throws UsageError if what else the command line asks for does not go with where it shall go.
+void require_fit(const RenderOptions& options, const Destination& to) {
+  const OutputKind kind = to.kind();
+  const bool is_folder = kind == OutputKind::folder, is_film = kind == OutputKind::film;
+  const bool is_stdout = kind == OutputKind::standard_output;
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(fmt::format("-o {}: {}", options.output, why));
+  };
+  if (is_stdout && options.files.size() != 1) refuse("writes one frame of one scenario");
+  if (!is_folder && options.files.size() > 1 && !to.is_by("scenario"))
+    refuse(fmt::format("a file for each of {} scenarios; write {{scenario}} in it",
+                       options.files.size()));
+  if (is_folder && options.tween && options.fps)
+    refuse("--tween and --fps both say how many in-betweens; give one of them");
+  if ((is_stdout || kind == OutputKind::picture) && (options.tween || options.fps))
+    refuse("in-betweens (--tween, --fps) need a folder or a film");
+  if (options.hold && !is_film) refuse("only a film is held (--hold), such as talk.mp4");
+  if (is_folder || is_stdout) return;
+  if (options.format_given && options.format != to.ending())
+    refuse(fmt::format("the ending says what it becomes; leave out --format {}", options.format));
+  if (options.png_given && to.ending() != "png")
+    refuse(fmt::format("no PNG; leave out --png {}", options.png));
+}
+
 }  // namespace
 
-int render_command(const RenderOptions& options) {
+int render_command(const RenderOptions& asked) {
+  const Destination to(asked.output, !asked.sheet.empty());
+  require_fit(asked, to);
+  RenderOptions options = asked;
+  if (to.kind() == OutputKind::picture) options.format = to.ending();
   const RenderJob job(options);
-  const Destination to(options.output, !options.sheet.empty());
   const bool to_stdout = to.kind() == OutputKind::standard_output;
-  if (to_stdout && options.files.size() != 1)
-    throw UsageError("-o - writes one frame of one scenario");
-  if (to_stdout && (options.tween || options.fps))
-    throw UsageError("-o - writes one frame; in-betweens (--tween, --fps) need a folder");
-  if (to.kind() != OutputKind::folder && options.files.size() > 1 && !to.is_by("scenario"))
-    throw UsageError(fmt::format("-o {}: a file for each of {} scenarios; write {{scenario}} in it",
-                                 options.output, options.files.size()));
   int code = kGood;
   const std::vector<Scenario> scenarios = load_all(options.files, code);
   Work work;
@@ -173,7 +197,9 @@ int render_command(const RenderOptions& options) {
       complain(e);
       code = std::max<int>(code, kBadScenario);
     } catch (const Stopped&) {
-      say("interrupted; the same command goes on where this one stopped");
+      say(to.kind() == OutputKind::folder
+              ? "interrupted; the same command goes on where this one stopped"
+              : "interrupted");
       return kInterrupted;
     }
   }
