@@ -16,26 +16,33 @@ constexpr const char* kThreads = "4";
 void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
 
 // As sRGB is looked at in a film: the numbers of BT.709, of which the file says so.
-std::string in_bt709(const FilmSettings& s, const char* pixels) {
+std::string in_bt709(const char* pixels) {
   return fmt::format(
-      "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_inp,format={},"
-      "fps={}",
-      pixels, s.rate);
+      "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_inp,format={}",
+      pixels);
 }
 const Words kBt709 = {"-color_primaries", "bt709", "-color_trc",   "bt709",
                       "-colorspace",      "bt709", "-color_range", "tv"};
 
+// Presentation programs expect a picture at each moment; in the others a still is one picture.
 void add_mp4(Words& words, const FilmSettings& s) {
-  add(words, {"-vf", in_bt709(s, "yuv420p"), "-c:v", "libx264", "-preset", "medium", "-crf", "18",
-              "-threads", kThreads});
+  add(words, {"-vf", fmt::format("{},fps={}", in_bt709("yuv420p"), s.rate), "-c:v", "libx264",
+              "-preset", "medium", "-crf", "18", "-threads", kThreads});
   add(words, kBt709);
   add(words, {"-movflags", "+faststart", "-f", "mp4"});
 }
 
 void add_webm(Words& words, const FilmSettings& s) {
-  add(words, {"-vf", in_bt709(s, s.transparent ? "yuva420p" : "yuv420p"), "-c:v", "libvpx-vp9",
-              "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1",
-              "-tile-columns", "1", "-threads", kThreads});
+  add(words, {"-vf",           in_bt709(s.transparent ? "yuva420p" : "yuv420p"),
+              "-fps_mode",     "vfr",
+              "-c:v",          "libvpx-vp9",
+              "-crf",          "24",
+              "-b:v",          "0",
+              "-deadline",     "good",
+              "-cpu-used",     "5",
+              "-row-mt",       "1",
+              "-tile-columns", "1",
+              "-threads",      kThreads});
   if (s.transparent) add(words, {"-auto-alt-ref", "0"});  // it knows no alpha
   add(words, kBt709);
   add(words, {"-f", "webm"});
