@@ -34,7 +34,7 @@ void add_render(CLI::App& app, Run& run, const char* name, const char* help,
        "a folder, for DIR/<scenario>/<scenario>_0000.png ...; or a file, whose ending says "
        "what it becomes: .png .svg pictures, .mp4 .webm .gif .apng .webp a film, .pdf a "
        "document, .html a lesson page; {scenario}, {step} and {frame} in its name make "
-       "several; - writes one picture to standard output")
+       "several, of a film with {step} a clip a step; - writes one picture to standard output")
       ->check(kNotEmpty)
       ->type_name("PATH")
       ->capture_default_str();
@@ -56,23 +56,31 @@ void add_render(CLI::App& app, Run& run, const char* name, const char* help,
       ->check(CLI::Range(72, 1200))
       ->type_name("N")
       ->capture_default_str();
-  add_choice(*c, "--format", o.format, "file format", {"png", "svg"});
+  add_choice(*c, "--format", o.format, "file format in a folder", {"png", "svg"})
+      .each([&format = o.format_given](const std::string&) { format = true; });
   add_choice(*c, "--text", o.text, "an SVG's letters: outlines, or text in the reader's Inter",
              {"outlines", "text"});
-  CLI::Option* tween = c->add_option("--tween", o.tween,
-                                     "in-betweens after each frame but the last: "
-                                     "<scenario>_0007_03.png is the third from frame 7 on");
-  tween->check(CLI::NonNegativeNumber)->type_name("N");
+  c->add_option("--tween", o.tween,
+                "in-betweens after each frame but the last: <scenario>_0007_03.png is the third "
+                "from frame 7 on; a film shows so many in the same time, and cuts at 0")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
   c->add_option("--fps", o.fps,
                 "as many in-betweens as a film of so many pictures a second has while something "
-                "changes: half a second each, or the world's own time")
+                "changes: half a second each, or the world's own time; of a film, its rate: 30, "
+                "25 for a .gif")
       ->check(CLI::Range(1.0, 240.0))
-      ->excludes(tween)
       ->type_name("F");
+  c->add_option("--hold", o.hold,
+                "how long a film stands still where nothing moves, seconds; the default is as long "
+                "as it takes to read the caption")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->type_name("S");
   add_choice(*c, "--theme", o.theme, "colours", kThemes);
   c->add_option("--pace", o.pace, "one frame per step, or one for each thing the algorithm does")
       ->check(CLI::IsMember({"step", "event"}));
-  add_choice(*c, "--png", o.png, "fast to write, or small", {"fast", "small"});
+  add_choice(*c, "--png", o.png, "fast to write, or small", {"fast", "small"})
+      .each([&png = o.png_given](const std::string&) { png = true; });
   add_choice(*c, "--facts", o.facts, "version of lantern.frame; 1 only until the next release",
              {"1", "2"});
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
@@ -308,7 +316,8 @@ void add_commands(CLI::App& app, Run& run) {
   app.footer(fmt::format("Exit codes: {}.\nStart with: lantern render ghost_quadtree",
                          fmt::join(codes, ", ")));
   add_memory(app);
-  add_render(app, run, "render", "Draw a scenario's frames to PNG or SVG files", render_command);
+  add_render(app, run, "render",
+             "Draw a scenario's frames: pictures, films, documents, lesson pages", render_command);
   add_render(app, run, "watch", "Render scenarios again whenever they are saved", watch_command);
   add_merge(app, run);
   add_check(app, run);

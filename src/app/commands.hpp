@@ -42,6 +42,8 @@ struct RenderOptions {
   std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
   bool reloading = false;  // a page loads itself again when it was made again (app/reload.hpp)
   std::string shard = "";  // "2/4": the second of four parts; empty for all
+  std::optional<double> hold = std::nullopt;     // seconds of each still of a film
+  bool format_given = false, png_given = false;  // on the command line
   bool json = false;
 };
 int render_command(const RenderOptions& options);

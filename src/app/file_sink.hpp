@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/destination.hpp"
@@ -30,8 +31,10 @@ struct Sequence {
 class FileSink : public StagedSink {
  public:
   struct Made {
-    std::uint64_t frames = 0;                  // in the files
-    std::vector<std::filesystem::path> files;  // whole, in order
+    std::uint64_t frames = 0;                      // in the files
+    std::vector<std::filesystem::path> files;      // whole, in order
+    std::optional<double> seconds = std::nullopt;  // that films take in all,
+    double rate = 0;                               // at so many pictures a second
   };
   // After finish().
   virtual Made made() const = 0;

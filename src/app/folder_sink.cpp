@@ -9,9 +9,7 @@
 #include "atlas/atlas.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
-#include "base/stop.hpp"
 #include "draw/page.hpp"
-#include "draw/tween.hpp"
 
 namespace lantern::app {
 namespace {
@@ -66,7 +64,8 @@ FolderSink::FolderSink(const RenderJob& job, const Scenario& scenario, Pace pace
       manifest_(job.manifest(scenario, pace)),
       path_(fs::path(job.options.output) / scenario.name),
       work_(work),
-      part_(part) {}
+      part_(part),
+      walk_(job, work) {}
 
 void FolderSink::draw(const Frame& frame, const Staging& staging) {
   all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
@@ -98,16 +97,12 @@ void FolderSink::open_folder() {
 }
 
 void FolderSink::take(const Frame& frame, const Staging& staging) {
-  const bool is_here = part_.has(chosen_++);
-  if (is_here) take_facts(frame);
-  std::optional<DrawList> list;
+  const bool was_here = std::exchange(is_here_, part_.has(chosen_++));
+  if (is_here_) take_facts(frame);
+  walk_.go_on(frame, staging);
   // The way from a frame to the next belongs to the first of them.
-  if (before_ && before_->index + 1 == frame.index) take_in_betweens(frame, staging, list);
-  if (is_here) take_picture(frame, staging, list);
-  before_.reset();
-  if (!is_here || !job_.in_betweens.wanted()) return;
-  before_ = frame;
-  drawn_so_ = std::move(list);
+  if (was_here && walk_.goes_on() && job_.in_betweens.wanted()) take_in_betweens();
+  if (is_here_) take_picture(frame);
 }
 
 void FolderSink::take_facts(const Frame& frame) {
@@ -118,46 +113,33 @@ void FolderSink::take_facts(const Frame& frame) {
                   facts_of(job_, frame, manifest_.frame_from(frame.index)));
 }
 
-void FolderSink::take_picture(const Frame& frame, const Staging& staging,
-                              std::optional<DrawList>& list) {
+void FolderSink::take_picture(const Frame& frame) {
   const std::string& format = job_.options.format;
   if (folder_->stands(frame.index, format)) {
     ++kept_;
     return;
   }
-  write_picture(folder_->file(frame.index, format), list_of(frame, staging, list), frame,
+  write_picture(folder_->file(frame.index, format), walk_.page(), frame,
                 manifest_.frame_from(frame.index));
   ++drawn_;
 }
 
 // From the frame before to this one.
-void FolderSink::take_in_betweens(const Frame& frame, const Staging& staging,
-                                  std::optional<DrawList>& list) {
-  const std::uint32_t index = before_->index;
-  const std::uint64_t count = job_.in_betweens.between(*before_, frame);
-  const Motion motion = InBetweens::motion(*before_, frame);
+void FolderSink::take_in_betweens() {
+  const Frame &before = *walk_.before(), &here = walk_.here();
+  const std::uint32_t index = before.index;
+  const std::uint64_t count = job_.in_betweens.between(before, here);
   all_[index].in_betweens = count;
   in_betweens_ += count;
   if (all_.size() + in_betweens_ > InBetweens::kMostPictures)
     throw UsageError(fmt::format("{}: more than {} pictures; ask for fewer in-betweens",
                                  scenario_.name, InBetweens::kMostPictures));
   for (std::uint64_t k = 1; k <= count; ++k) {
-    stop_if_asked();
     if (folder_->in_between_stands(index, k)) continue;
     const double t = static_cast<double>(k) / static_cast<double>(count + 1);
-    const DrawList& from = list_of(*before_, staging, drawn_so_);
-    const DrawList between_two = between(from, list_of(frame, staging, list), t, motion);
-    ++work_.in_betweens;
-    write_picture(folder_->in_between(index, k), between_two, frame,
+    write_picture(folder_->in_between(index, k), walk_.in_between(t), here,
                   manifest_.in_between_from(index, k));
   }
-}
-
-// Drawn when it is first needed.
-const DrawList& FolderSink::list_of(const Frame& frame, const Staging& staging,
-                                    std::optional<DrawList>& list) {
-  if (!list) list = job_.page_of(frame, staging, work_);
-  return *list;
 }
 
 void FolderSink::write_picture(const fs::path& file, const DrawList& list, const Frame& frame,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/frame_folder.hpp"
+#include "app/frame_walk.hpp"
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
@@ -47,12 +48,10 @@ class FolderSink : public StagedSink {
   void open_folder();
   void take(const Frame& frame, const Staging& staging);
   void take_facts(const Frame& frame);
-  void take_picture(const Frame& frame, const Staging& staging, std::optional<DrawList>& list);
-  void take_in_betweens(const Frame& frame, const Staging& staging, std::optional<DrawList>& list);
+  void take_picture(const Frame& frame);
+  void take_in_betweens();
   void write_picture(const std::filesystem::path& file, const DrawList& list, const Frame& frame,
                      const MadeFrom& from);
-  const DrawList& list_of(const Frame& frame, const Staging& staging,
-                          std::optional<DrawList>& list);
   void write_counted(const std::filesystem::path& file, const std::string& bytes);
   Pipeline& pipeline();
   void list_frames();
@@ -76,9 +75,9 @@ class FolderSink : public StagedSink {
   std::uint64_t chosen_ = 0;       // of the whole run
   std::size_t drawn_ = 0, kept_ = 0, in_betweens_ = 0;
   bool has_atlas_ = false;
-  std::optional<Frame> before_;       // taken last, where there are in-betweens,
-  std::optional<DrawList> drawn_so_;  // and as it is drawn, once it is
-  std::optional<Frame> last_;         // of an atlas
+  FrameWalk walk_;
+  bool is_here_ = false;       // where it stands is of the part
+  std::optional<Frame> last_;  // of an atlas
 };
 
 }  // namespace lantern::app

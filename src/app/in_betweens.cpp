@@ -16,15 +16,9 @@ std::uint64_t within(double seconds, double fps) {
   return static_cast<std::uint64_t>(std::max(0.0, std::floor(seconds * fps + 0.5) - 1));
 }
 
-bool is_one_movement(const Frame& a, const Frame& b) {
-  const double passed = b.time - a.time;
-  return passed > 0 && passed < InBetweens::kChange;
-}
-
 }  // namespace
 
 InBetweens::InBetweens(const RenderOptions& options) {
-  if (options.tween && options.fps) throw UsageError("--tween and --fps cannot be given together");
   if (options.fps && !std::isfinite(*options.fps)) throw UsageError("--fps: give a number");
   number_ = options.tween.value_or(0);
   if (options.fps) {
@@ -40,6 +34,11 @@ std::string InBetweens::setting() const {
 
 std::uint64_t InBetweens::between(const Frame& a, const Frame& b) const {
   return fps_ > 0 && is_one_movement(a, b) ? within(b.time - a.time, fps_) : number_;
+}
+
+bool InBetweens::is_one_movement(const Frame& a, const Frame& b) {
+  const double passed = b.time - a.time;
+  return passed > 0 && passed < kChange;
 }
 
 Motion InBetweens::motion(const Frame& a, const Frame& b) {

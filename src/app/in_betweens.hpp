@@ -19,7 +19,7 @@ class InBetweens {
   static constexpr double kChange = 0.5;
 
   InBetweens() = default;
-  // Throws UsageError if both are asked for.
+  // Both are asked for only of a film, which has a clock of its own (app/film_clock.hpp).
   explicit InBetweens(const RenderOptions& options);
 
   bool wanted() const { return number_ > 0; }
@@ -31,6 +31,8 @@ class InBetweens {
   // Between two frames that follow each other. World time that goes on in small steps is shown at
   // its own speed: the more pictures a second, the more fit between two moments.
   std::uint64_t between(const Frame& a, const Frame& b) const;
+  // Does the world's time go on from the one to the other in a small step?
+  static bool is_one_movement(const Frame& a, const Frame& b);
   // A change is eased; moments of one movement are passed steadily.
   static Motion motion(const Frame& a, const Frame& b);
 

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
 
 // A file of a shard that the whole has, too.
-struct PartFile {
+struct ShardFile {
   const FoundShard* shard = nullptr;
   std::string name;
   FileKind kind = FileKind::png;
@@ -35,11 +35,11 @@ struct PartFile {
 // One scenario of the run: what of it each shard has.
 struct MergedSequence {
   Manifest manifest;
-  std::vector<PartFile> files;
+  std::vector<ShardFile> files;
 };
 
 // Its bytes, if they are as the shard wrote them.
-std::optional<std::string> whole_bytes(const fs::path& folder, const PartFile& file) try {
+std::optional<std::string> whole_bytes(const fs::path& folder, const ShardFile& file) try {
   std::string bytes = read_file(folder / file.name, kMostFileBytes);
   return made_from(file.kind, bytes) == file.from ? std::optional(std::move(bytes)) : std::nullopt;
 } catch (const IoError&) {
@@ -62,9 +62,9 @@ Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardIn
   return std::move(*manifest);
 }
 
-std::vector<PartFile> files_of(const FoundShard& shard, const Manifest& m, bool atlas) {
+std::vector<ShardFile> files_of(const FoundShard& shard, const Manifest& m, bool atlas) {
   const FileKind picture = m.format == "svg" ? FileKind::svg : FileKind::png;
-  std::vector<PartFile> files;
+  std::vector<ShardFile> files;
   for (const auto& [index, frame] : m.frames) {
     const MadeFrom from = m.frame_from(index);
     files.push_back(
@@ -82,9 +82,9 @@ std::vector<PartFile> files_of(const FoundShard& shard, const Manifest& m, bool 
 
 // Throws UnfitShard unless each of the files is whole.
 void require_whole(const ShardSet& set, const FoundShard& shard, const std::string& scenario,
-                   const std::vector<PartFile>& files) {
+                   const std::vector<ShardFile>& files) {
   std::vector<std::string> bad;
-  for (const PartFile& file : files) {
+  for (const ShardFile& file : files) {
     stop_if_asked();
     if (!whole_bytes(shard.path / scenario, file)) bad.push_back(file.name);
   }
@@ -96,13 +96,13 @@ void require_whole(const ShardSet& set, const FoundShard& shard, const std::stri
 
 // What lies in the shard's folder and is not its own stays there, and is named.
 void tell_of_others(const FoundShard& shard, const std::string& scenario,
-                    const std::vector<PartFile>& files) {
+                    const std::vector<ShardFile>& files) {
   std::vector<std::string> others;
   std::error_code error;
   for (fs::directory_iterator it(shard.path / scenario, error), end; !error && it != end;
        it.increment(error)) {
     const std::string name = it->path().filename().string();
-    if (name != "manifest.json" && std::ranges::find(files, name, &PartFile::name) == files.end())
+    if (name != "manifest.json" && std::ranges::find(files, name, &ShardFile::name) == files.end())
       others.push_back(name);
   }
   std::ranges::sort(others);
@@ -126,7 +126,7 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
     const ShardInput& input = shard->record.inputs[index];
     if (input.here == 0) continue;
     Manifest part = manifest_of(set, *shard, input);
-    std::vector<PartFile> files = files_of(*shard, part, input.atlas);
+    std::vector<ShardFile> files = files_of(*shard, part, input.atlas);
     require_whole(set, *shard, input.name, files);
     tell_of_others(*shard, input.name, files);
     if (!whole) {
@@ -149,7 +149,7 @@ void require_equal(const ShardSet& set, const ShardSet::Twins& twins) {
     if (same && first.here > 0) {
       const Manifest m = manifest_of(set, *twins.first, first);
       same = to_json(m) == to_json(manifest_of(set, *twins.second, second));
-      for (const PartFile& file : files_of(*twins.first, m, first.atlas))
+      for (const ShardFile& file : files_of(*twins.first, m, first.atlas))
         same = same && whole_bytes(twins.first->path / first.name, file) ==
                            whole_bytes(twins.second->path / first.name, file);
     }
@@ -178,7 +178,7 @@ Counted write_whole(const fs::path& path, MergedSequence& whole, bool all_frames
   write_manifest(whole.manifest);
   Counted counted;
   std::set<std::string> written;
-  for (const PartFile& file : whole.files) {
+  for (const ShardFile& file : whole.files) {
     stop_if_asked();
     if (folder.stands(file.name)) {
       ++counted.kept;

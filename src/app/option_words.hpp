@@ -30,9 +30,9 @@ inline void add_json(CLI::App& command, bool& json) {
 }
 
 // One of some words.
-inline void add_choice(CLI::App& command, const char* name, std::string& word, const char* help,
-                       const std::vector<std::string>& words) {
-  command.add_option(name, word, help)->check(CLI::IsMember(words))->capture_default_str();
+inline CLI::Option& add_choice(CLI::App& command, const char* name, std::string& word,
+                               const char* help, const std::vector<std::string>& words) {
+  return *command.add_option(name, word, help)->check(CLI::IsMember(words))->capture_default_str();
 }
 
 inline void add_shard(CLI::App& command, std::string& words) {

@@ -123,12 +123,16 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
   for (const auto& file : made.files) json.value(file.string());
   json.end_array().members("frames", made.frames, "expectations", report.expectations, "unmet",
                            report.unmet.size());
+  if (made.seconds) json.members("seconds", *made.seconds, "fps", made.rate);
   json.end_object();
   const std::string where =
       made.files.size() == 1 ? made.files.front().string()
                              : fmt::format("{} files, {} to {}", made.files.size(),
                                            made.files.front().string(), made.files.back().string());
-  say(fmt::format("{}: {} in {}", scenario.name, counted(made.frames, "frame"), where));
+  const std::string length =
+      made.seconds ? fmt::format(", {:.1f} s at {:.4g} pictures a second", *made.seconds, made.rate)
+                   : "";
+  say(fmt::format("{}: {} in {}{}", scenario.name, counted(made.frames, "frame"), where, length));
 }
 
 // Draws scenario `index`, or the shard's part of it; the exit code that it deserves.
@@ -162,24 +166,42 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   return code;
 }
 
+// Throws UsageError if what else the command line asks for does not go with where it shall go.
+void require_fit(const RenderOptions& options, const Destination& to, std::size_t files) {
+  const OutputKind kind = to.kind();
+  const bool is_folder = kind == OutputKind::folder, is_film = kind == OutputKind::film;
+  const bool is_stdout = kind == OutputKind::standard_output;
+  const auto refuse = [&](const std::string& why) {
+    throw UsageError(fmt::format("-o {}: {}", options.output, why));
+  };
+  if (is_stdout && files != 1) refuse("writes one frame of one scenario");
+  if (is_stdout && options.json)
+    refuse(
+        "writes a picture to standard output, where --json writes, too; name a file after -o, or "
+        "leave out --json");
+  if (!is_folder && files > 1 && !to.is_by("scenario"))
+    refuse(fmt::format("a file for each of {} scenarios; write {{scenario}} in it", files));
+  if (is_folder && options.tween && options.fps)
+    refuse("--tween and --fps both say how many in-betweens; give one of them");
+  if ((is_stdout || kind == OutputKind::picture) && (options.tween || options.fps))
+    refuse("in-betweens (--tween, --fps) need a folder or a film");
+  if (options.hold && !is_film) refuse("only a film is held (--hold), such as talk.mp4");
+  if (is_folder || is_stdout) return;
+  if (options.format_given && options.format != to.ending())
+    refuse(fmt::format("the ending says what it becomes; leave out --format {}", options.format));
+  if (options.png_given && to.ending() != "png")
+    refuse(fmt::format("no PNG; leave out --png {}", options.png));
+}
+
 }  // namespace
 
 int render_command(const RenderOptions& asked) {
-  const RenderOptions options = options_of_shard(asked);
-  const RenderJob job(options);
+  RenderOptions options = options_of_shard(asked);
   const Destination to(options.output, !options.sheet.empty());
-  const bool to_stdout = to.kind() == OutputKind::standard_output;
   const std::vector<std::string> files = input_files(options.files);
-  if (to_stdout && files.size() != 1) throw UsageError("-o - writes one frame of one scenario");
-  if (to_stdout && options.json)
-    throw UsageError(
-        "-o - writes a picture to standard output, where --json writes, too; "
-        "name a file after -o, or leave out --json");
-  if (to_stdout && (options.tween || options.fps))
-    throw UsageError("-o - writes one frame; in-betweens (--tween, --fps) need a folder");
-  if (to.kind() != OutputKind::folder && files.size() > 1 && !to.is_by("scenario"))
-    throw UsageError(fmt::format("-o {}: a file for each of {} scenarios; write {{scenario}} in it",
-                                 options.output, files.size()));
+  require_fit(options, to, files.size());
+  if (to.kind() == OutputKind::picture) options.format = to.ending();
+  const RenderJob job(options);
   int code = kGood;
   const std::vector<Scenario> scenarios = load_all(files, code);
   Work work;
@@ -195,7 +217,9 @@ int render_command(const RenderOptions& asked) {
       code = std::max(code, exit_code_of(e));
       whole = false;
     } catch (const Stopped&) {
-      complain("interrupted; the same command goes on where this one stopped");
+      complain(to.kind() == OutputKind::folder
+                   ? "interrupted; the same command goes on where this one stopped"
+                   : "interrupted");
       return kInterrupted;
     }
   }

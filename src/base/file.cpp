@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -36,12 +37,6 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int number() const { return number_; }
-  // Closes now and tells whether that went well: some disks report a failed write only here.
-  bool close() {
-    const int number = number_;
-    number_ = -1;
-    return ::close(number) == 0;
-  }
 
  private:
   int number_;
@@ -111,34 +106,70 @@ std::string read_stdin(std::size_t most_bytes) {
   }
 }
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
+// A file without a name vanishes with a killed process. Not every file system has those.
+PartFile::PartFile(std::filesystem::path path) : path_(std::move(path)) {
   static std::atomic<unsigned> serial{0};
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const std::filesystem::path part =
-      folder / fmt::format("{}{}-{}", kTemporary, ::getpid(), serial++);
-  const auto check = [&](bool good) {
-    if (good) return;
-    const int code = errno;
-    ::unlink(part.c_str());
-    fail("write", path, code);
-  };
-  // A file without a name vanishes with a killed process; only a whole one is given its name, at
-  // once if it is new, by way of another name if it replaces a file.
-  if (const Descriptor file(::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
-      file.number() >= 0) {
-    check(write_all(file.number(), bytes));
-    const std::string self = fmt::format("/proc/self/fd/{}", file.number());
-    const auto give_name = [&](const std::filesystem::path& name) {
-      return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
-    };
-    if (give_name(path)) return;
-    if (errno == EEXIST && give_name(part)) return check(::rename(part.c_str(), path.c_str()) == 0);
+  const std::filesystem::path folder = path_.has_parent_path() ? path_.parent_path() : ".";
+  spare_ = folder / fmt::format("{}{}-{}", kTemporary, ::getpid(), serial++);
+  descriptor_ = ::open(folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) open_spare();
+}
+
+PartFile::~PartFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void PartFile::open_spare() {
+  descriptor_ = ::open(spare_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail_to_write();
+  temporary_ = spare_;
+}
+
+void PartFile::fail_to_write() const { fail("write", path_, errno); }
+
+void PartFile::write(std::string_view bytes) {
+  if (!write_all(descriptor_, bytes)) fail_to_write();
+}
+
+// Without /proc it cannot be given a name: then a copy gets it.
+bool PartFile::link_to(const std::filesystem::path& name) {
+  const std::string self = fmt::format("/proc/self/fd/{}", descriptor_);
+  if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
+  if (errno == EEXIST) return false;
+  const Descriptor nameless(std::exchange(descriptor_, -1));
+  open_spare();
+  std::string part(std::size_t{1} << 20, '\0');
+  for (off_t at = 0;;) {
+    const ssize_t n = ::pread(nameless.number(), part.data(), part.size(), at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail_to_write();
+    if (n == 0) return false;
+    write({part.data(), static_cast<std::size_t>(n)});
+    at += n;
   }
-  // Not every file system has files without names, and without /proc they cannot be given one.
-  Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.number() < 0) fail("write", path, errno);
-  check(write_all(file.number(), bytes) && file.close() &&
-        ::rename(part.c_str(), path.c_str()) == 0);
+}
+
+// At once if it is new, by way of a temporary name if it replaces a file.
+void PartFile::give_name() {
+  if (temporary_.empty() && link_to(path_)) return;
+  if (temporary_.empty() && link_to(spare_)) temporary_ = spare_;
+  if (::close(std::exchange(descriptor_, -1)) != 0 ||  // some disks tell only here
+      ::rename(temporary_.c_str(), path_.c_str()) != 0)
+    fail_to_write();
+  temporary_.clear();
+}
+
+std::uint64_t PartFile::bytes() const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail("read", path_, errno);
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  PartFile file(path);
+  file.write(bytes);
+  file.give_name();
 }
 
 void make_durable(const std::filesystem::path& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -15,6 +16,33 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
 // The bytes of standard input, to its end. Throws IoError if it cannot be read or has more than
 // `most_bytes`, and Stopped if that is wished while it waits.
 std::string read_stdin(std::size_t most_bytes);
+// A file that gets its name when it is whole: until then what stood at `path` stands, and when this
+// goes, nothing is left. A symbolic link at `path` is replaced, not followed.
+class PartFile {
+ public:
+  // Throws IoError naming path and reason, as the calls below do.
+  explicit PartFile(std::filesystem::path path);
+  ~PartFile();
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  void write(std::string_view bytes);
+  void give_name();
+
+  // For another process that is to write it: the open file, and the temporary name that it may have
+  // beside; empty if it has none and vanishes with this process.
+  int descriptor() const { return descriptor_; }
+  const std::filesystem::path& temporary() const { return temporary_; }
+  std::uint64_t bytes() const;  // in it by now
+
+ private:
+  void open_spare();
+  bool link_to(const std::filesystem::path& name);
+  [[noreturn]] void fail_to_write() const;
+
+  std::filesystem::path path_, temporary_, spare_;
+  int descriptor_ = -1;
+};
 
 // Writes under a temporary name in the same folder, then renames, so that `path` is either the old
 // file or the whole new one. A symbolic link at `path` is replaced, not followed. Throws IoError

@@ -131,7 +131,7 @@ TEST(InBetweens, ThatCannotBeAreRefusedBeforeAnyWork) {
   refused("--tween -3", "--tween");
   refused("--fps 1000", "--fps");
   refused("--fps nan", "--fps");
-  refused("--tween 3 --fps 20", "excludes");
+  refused("--tween 3 --fps 20", "give one of them");
   const Outcome o = shell("lantern render " + kGhosts + " -o - --frames 1 --tween 3");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("in-betweens"), std::string::npos) << o.err;

@@ -1,0 +1,53 @@
+// A program that is run beside this one, and fed through its standard input.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace lantern {
+
+// It has a process group of its own, so that Ctrl-C at the terminal reaches only this program, and
+// ends with it whatever happens. Its standard output leads nowhere. The calls may come from one
+// thread at a time.
+class Child {
+ public:
+  // An open file that is handed on has this number there.
+  static constexpr int kHandedOn = 3;
+
+  // Starts `words`, of which the first is the program's file; no shell reads them. Throws IoError.
+  explicit Child(const std::vector<std::string>& words,
+                 std::optional<int> handed_on = std::nullopt);
+  // Without finish(): end().
+  ~Child();
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  // Gives it all of the bytes to read. False if it reads no more: it has ended, or closed its
+  // input. Throws Stopped when that is asked for, also while it does not read.
+  bool write(std::string_view bytes);
+
+  // Ends its input, waits for its end and gives its exit code, 128 + number for a signal, as
+  // often as it is called. Throws Stopped.
+  int finish();
+
+  // Ends it, and whatever it has started, at once. Not beside finish(), but beside write(), which
+  // then gives false.
+  void end() noexcept;
+
+  // The end of what it said on standard error, so far.
+  const std::string& said() const { return said_; }
+
+ private:
+  void listen();
+
+  pid_t process_ = -1;  // none once it was waited for
+  int input_ = -1, words_ = -1;
+  int status_ = 0;  // once it was
+  std::string said_;
+};
+
+}  // namespace lantern
