@@ -21,6 +21,7 @@
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
+#include "publish/lesson_index.hpp"
 
 namespace lantern::app {
 namespace {
@@ -121,6 +122,18 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
   say(fmt::format("{}: {} frames in {}", scenario.name, made.frames, where));
 }
 
+// Of the lesson pages that stand in one folder, a file a scenario, a page that lists them.
+void list_lessons(const Destination& to) {
+  const auto folder = to.file({"a"}).parent_path();
+  if (to.kind() != OutputKind::page || !to.is_by("scenario") ||
+      folder != to.file({"b"}).parent_path())
+    return;
+  const auto index = folder / "index.html";
+  const bool written = publish::write_lesson_index(folder.empty() ? "." : folder);
+  say(written ? fmt::format("all lessons there are listed in {}", index.string())
+              : fmt::format("{} is not of this kind and was left alone", index.string()));
+}
+
 // Draws one scenario; the exit code that it deserves.
 int render_one(const RenderJob& job, const Destination& to, const Scenario& scenario, Work& work,
                JsonWriter& json) {
@@ -177,6 +190,7 @@ int render_command(const RenderOptions& options) {
       return kInterrupted;
     }
   }
+  list_lessons(to);
   json.line().end_array().line().key("work");
   write(json, work);
   json.line().end_object();
