@@ -38,6 +38,13 @@ class Page {
     this.pointing?.light(null);
     if (!$("facts-panel").hidden) this.fillFacts();
     this.speaker?.show(index, this.following);
+    if (!this.playing) this.prepareNext();
+  }
+
+  // What comes next is made while nobody waits for it.
+  prepareNext() {
+    cancelWhenIdle(this.preparing);
+    this.preparing = whenIdle(() => this.picture.prepare(this.following));
   }
 
   tell() {
@@ -194,7 +201,7 @@ class Page {
   fillThings() {
     const buttons = this.pointing.sides.flatMap((side) => [
       ...[...side.nodes.keys()].map((way) => entity(side.side, "node", way)),
-      ...[...side.names.keys()].map((id) => entity(side.side, "body", id)),
+      ...side.names.map((name) => entity(side.side, "body", name)),
     ]).slice(0, MOST_ROWS).map((one) =>
       element(document, "button", { "data-entity": one, text: this.pointing.words(one) }));
     const first = $("things").firstElementChild;
@@ -222,6 +229,8 @@ class Page {
   }
 }
 
+const whenIdle = window.requestIdleCallback ?? ((act) => setTimeout(act, 50));
+const cancelWhenIdle = window.cancelIdleCallback ?? clearTimeout;
 const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 const KEYS = {

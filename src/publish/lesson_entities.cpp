@@ -1,7 +1,5 @@
 // What the keys of shapes (draw/keys.hpp) stand for.
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -40,13 +38,13 @@ class Entities {
     if (panel == "ledger" && kind == "body") add_ids(parts[2]);
     if (panel == "world") add_of_world(parts);
     if (panel == "tree" && is_among(kind, {"node", "edge", "name", "side"})) add("node", parts[2]);
-    if (panel == "tree" && kind == "body") add_named(parts[2]);
-    if (panel == "tree" && kind == "texture") add_texture(parts[2]);
-    if (panel == "tree" && is_among(kind, {"body", "texture"}) && parts.size() > 3)
-      add("node", parts[3]);
+    if (panel == "tree" && is_among(kind, {"body", "texture"})) {
+      add("body", parts[2]);
+      if (parts.size() > 3) add("node", parts[3]);
+    }
     if (panel == "memory" && kind == "leaf") add("node", parts[2]);
     if (panel == "atlas" && is_among(kind, {"cell", "lit", "name"})) add("node", parts[2]);
-    if (panel == "atlas" && is_among(kind, {"texture", "plate"})) add_texture(parts[2]);
+    if (panel == "atlas" && is_among(kind, {"texture", "plate"})) add("body", parts[2]);
     return std::move(found_);
   }
 
@@ -55,47 +53,37 @@ class Entities {
     const std::string_view kind = parts[1];
     if (is_among(kind, {"body", "box", "broad box", "name", "outside", "velocity", "shadow", "drop",
                         "over"}))
-      add_named(parts[2]);
+      add("body", parts[2]);
     if (is_among(kind, {"cell", "border", "lit", "plane", "plane name", "ground", "cell name"}))
       add("node", parts[2]);
     if (parts.size() < 4) return;
-    if (is_among(kind, {"pair", "joint"})) {
-      const auto a = id_of(parts[2]), b = id_of(parts[3]);
-      if (a && b) add_pair(*a, *b);
-    }
+    if (is_among(kind, {"pair", "joint"})) add_pair(parts[2], parts[3]);
     if (kind == "contact") add_ids(fmt::format("{}-{}", parts[2], parts[3]));
   }
 
   void add(std::string_view kind, std::string_view whose) {
     found_.push_back(fmt::format("{}{}/{}", prefix_, kind, whose));
   }
-  void add_pair(BodyId a, BodyId b) {
-    add("pair", fmt::format("{}-{}", std::min(a, b), std::max(a, b)));
-  }
-  void add_named(std::string_view name) {
-    if (const auto id = id_of(name)) add("body", fmt::format("{}", *id));
-  }
-  void add_texture(std::string_view name) {
-    for (const FrameTexture& t : side_.textures)
-      if (t.name == name || fmt::format("#{}", t.id) == name) add("body", fmt::format("{}", t.id));
+  void add_pair(std::string_view a, std::string_view b) {
+    add("pair", fmt::format("{}|{}", std::min(a, b), std::max(a, b)));
   }
   // "7" is a body, "3-7" a pair.
   void add_ids(std::string_view ids) {
-    const auto number = [](std::string_view text) {
+    const auto is_number = [](std::string_view text) {
       return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
     };
     const std::size_t dash = ids.find('-');
-    if (number(ids)) add("body", ids);
-    if (dash == ids.npos || !number(ids.substr(0, dash)) || !number(ids.substr(dash + 1))) return;
-    add("pair", ids);
+    if (is_number(ids)) add("body", name_of(ids));
+    if (dash == ids.npos) return;
+    const std::string_view a = ids.substr(0, dash), b = ids.substr(dash + 1);
+    if (is_number(a) && is_number(b)) add_pair(name_of(a), name_of(b));
   }
 
-  // Of a body that the frame shows, by its name or, of those without, as "#7".
-  std::optional<BodyId> id_of(std::string_view name) const {
+  // As its keys have it: by its number where it has no name.
+  std::string name_of(std::string_view id) const {
     for (const FrameBody& body : side_.bodies)
-      if (body.name.empty() ? name == fmt::format("#{}", body.id) : body.name == name)
-        return body.id;
-    return std::nullopt;
+      if (!body.name.empty() && fmt::format("{}", body.id) == id) return body.name;
+    return fmt::format("#{}", id);
   }
 
   std::string prefix_;

@@ -37,10 +37,11 @@ class FactsWriter {
   std::string written() const {
     const auto pair = [](const Pair& p) { return fmt::format("[{},{}]", p.a, p.b); };
     return fmt::format(
-        "{{\"name\":{},\"title\":{},\"counts\":{},\"measures\":{},\"bodies\":{},\"nodes\":{},"
+        "{{\"name\":{},\"title\":{},\"counts\":{},\"measures\":{},\"textures\":{},\"bodies\":{},"
+        "\"nodes\":{},"
         "\"pairs\":{},\"contacts\":{}}}",
         json_string(frame_.side), json_string(frame_.side_title), list_of(frame_.counts, count),
-        list_of(frame_.measures, measure),
+        list_of(frame_.measures, measure), list_of(frame_.textures, texture),
         list_of(frame_.bodies, [&](const FrameBody& b) { return body(b); }), nodes(),
         list_of(frame_.pairs,
                 [](const FramePair& p) {
@@ -55,6 +56,10 @@ class FactsWriter {
   }
   static std::string measure(const std::pair<std::string, double>& m) {
     return fmt::format("[{},{}]", json_string(m.first), number(m.second));
+  }
+
+  static std::string texture(const FrameTexture& t) {
+    return fmt::format("[{},{}]", t.id, json_string(t.name));
   }
 
   std::string body(const FrameBody& b) const {

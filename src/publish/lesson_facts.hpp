@@ -11,6 +11,7 @@ namespace lantern::publish {
 // A list of objects, one for the frame or one for each of its sides:
 //   name, title    of the side; empty without sides
 //   counts         [["pairs", 3], ...], and measures likewise
+//   textures       [id, "name"]
 //   bodies         [id, "name", [x, y], speed, "still" | "asleep" | "moving"]
 //   nodes          ["root.0", "label", depth, leaf, [body ids], outline, pool slot]: the outline on
 //                  the page, [x, y, ...] in page units, of a flat world; the slot or -1

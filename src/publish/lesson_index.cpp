@@ -98,12 +98,12 @@ std::string needs_of(const Listed& lesson, const std::map<std::string, const Lis
 
 std::string entry_of(const Listed& lesson, const std::map<std::string, const Listed*>& by_name) {
   const LessonCard& card = lesson.card;
-  const std::string number = card.lecture ? fmt::format(" value=\"{}\"", *card.lecture) : "";
+  const std::string number = card.lecture ? fmt::format("<b>{}</b> ", *card.lecture) : "";
   return fmt::format(
-      "<li{}>\n<a class=\"picture\" href=\"{}\" tabindex=\"-1\" aria-hidden=\"true\">"
-      "<img src=\"{}\" alt=\"\" loading=\"lazy\"></a>\n<h2>{}</h2>\n<p class=\"idea\">{}</p>\n{}"
+      "<li>\n<a class=\"picture\" href=\"{}\" tabindex=\"-1\" aria-hidden=\"true\">"
+      "<img src=\"{}\" alt=\"\" loading=\"lazy\"></a>\n<h2>{}{}</h2>\n<p class=\"idea\">{}</p>\n{}"
       "<p class=\"length\">{} step{}</p>\n</li>\n",
-      number, url_of(lesson.file), lesson.picture, link_to(lesson.file, card.title),
+      url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
       html_text(card.idea), needs_of(lesson, by_name), card.steps, card.steps == 1 ? "" : "s");
 }
 

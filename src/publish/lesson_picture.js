@@ -59,6 +59,7 @@ class Picture {
     this.over = svg.appendChild(this.make("g"));
     this.over.setAttribute("class", "over");
     this.standing = new Map(); // by row: elements that stand as it says
+    this.ready = new Map(); // and one that was made beforehand
     this.moving = null;
   }
 
@@ -122,10 +123,22 @@ class Picture {
     this.moving = null;
   }
 
-  // An element for a row, from among those that stand if there is one.
+  // Makes what a frame will need, so that the step there costs less.
+  prepare(index) {
+    const ready = new Map();
+    for (const row of this.lesson.lists[index])
+      if (!this.standing.has(row) && !ready.has(row)) ready.set(row, this.ready.get(row) ?? this.made(row));
+    this.ready = ready;
+  }
+
+  // An element for a row, from among those that stand or are ready if there is one.
   take(row) {
-    const free = this.standing.get(row)?.pop();
-    if (free) return free;
+    const free = this.standing.get(row)?.pop() ?? this.ready.get(row);
+    this.ready.delete(row);
+    return free ?? this.made(row);
+  }
+
+  made(row) {
     const { kind, key, style, text, at } = this.lesson.shape(row);
     const element = this.make(TAG[kind]);
     Object.assign(element, { kind, thing: key, row });

@@ -1,5 +1,5 @@
 // Pointing at one thing lights up all that belongs to it, in every panel. What belongs together is
-// told by the keys of shapes (entities such as "node/root.0", "body/7", "pair/3-7") and by the
+// told by the keys of shapes (entities such as "node/root.0", "body/ann", "pair/ann|bob") and by the
 // frame's facts: which bodies are in which node, which bodies are a pair.
 
 const kindOf = (entity) => entity.split("/").at(-2);
@@ -7,14 +7,17 @@ const nameOf = (entity) => entity.split("/").at(-1);
 const sideOf = (entity) => entity.split("/").slice(0, -2).join("/");
 const entity = (side, kind, name) => `${side ? `${side}/` : ""}${kind}/${name}`;
 
-// One side's facts by name.
+const pairOf = (a, b) => (a < b ? `${a}|${b}` : `${b}|${a}`);
+
+// One side's facts by name: a body that leaves and comes back gets another id.
 class Relations {
   constructor(facts) {
     this.side = facts.name;
-    this.names = new Map(facts.bodies.map(([id, name]) => [id, name || `#${id}`]));
-    this.pairs = facts.pairs.map(([a, b]) => [a, b]);
+    const names = new Map([...facts.bodies, ...facts.textures].map(([id, name]) => [id, name || `#${id}`]));
+    this.names = [...names.values()];
+    this.pairs = facts.pairs.map(([a, b]) => [names.get(a), names.get(b)]);
     this.nodes = new Map(facts.nodes.map(([way, label, depth, leaf, bodies, outline, slot]) =>
-      [way, { way, label, depth, leaf, bodies: new Set(bodies), outline, slot }]));
+      [way, { way, label, depth, leaf, bodies: new Set(bodies.map((id) => names.get(id))), outline, slot }]));
     for (const node of this.nodes.values()) this.fillAbove(node);
   }
 
@@ -24,13 +27,13 @@ class Relations {
     for (let way = node.way; way.includes("."); ) {
       way = way.slice(0, way.lastIndexOf("."));
       const above = this.nodes.get(way);
-      if (above) for (const id of node.bodies) above.bodies.add(id);
+      if (above) for (const name of node.bodies) above.bodies.add(name);
     }
   }
 
-  leavesWith(...ids) {
+  leavesWith(...names) {
     return [...this.nodes.values()].filter(
-      (node) => node.leaf && ids.every((id) => node.bodies.has(id)));
+      (node) => node.leaf && names.every((name) => node.bodies.has(name)));
   }
 
   nodeInSlot(slot) {
@@ -43,10 +46,6 @@ class Relations {
     for (const node of this.nodes.values())
       if ((!found || node.depth >= found.depth) && holds(node.outline, x, y)) found = node;
     return found;
-  }
-
-  bodies(ids) {
-    return [...ids].map((id) => this.names.get(id) ?? `#${id}`).join(", ");
   }
 }
 
@@ -104,9 +103,9 @@ class Pointing {
 
   addNode(found, side, node) {
     if (!node) return;
-    for (const id of node.bodies) found.add(entity(side.side, "body", id));
+    for (const name of node.bodies) found.add(entity(side.side, "body", name));
     for (const [a, b] of side.pairs)
-      if (this.share(side, node, a, b)) found.add(entity(side.side, "pair", `${a}-${b}`));
+      if (this.share(side, node, a, b)) found.add(entity(side.side, "pair", pairOf(a, b)));
     this.addPlace(found, side, node);
   }
 
@@ -123,25 +122,25 @@ class Pointing {
 
   // A body or a pair of them, with the leaves that hold them and the pairs that they are in.
   addBodies(found, side, kind, name) {
-    const ids = name.split("-").map(Number);
-    for (const id of ids) found.add(entity(side.side, "body", id));
-    for (const leaf of side.leavesWith(...ids)) this.addPlace(found, side, leaf);
+    const names = name.split("|");
+    for (const one of names) found.add(entity(side.side, "body", one));
+    for (const leaf of side.leavesWith(...names)) this.addPlace(found, side, leaf);
+    if (kind === "pair") return found.add(entity(side.side, "pair", name));
     for (const [a, b] of side.pairs)
-      if (kind === "pair" ? ids.includes(a) && ids.includes(b) : a === ids[0] || b === ids[0])
-        found.add(entity(side.side, "pair", `${a}-${b}`));
+      if (a === name || b === name) found.add(entity(side.side, "pair", pairOf(a, b)));
   }
 
   words(one) {
     const side = this.side(one);
-    const ids = nameOf(one).split("-").map(Number);
-    if (kindOf(one) === "pair") return `pair ${side.bodies(ids)}`;
+    const name = nameOf(one);
+    if (kindOf(one) === "pair") return `pair ${name.split("|").join(", ")}`;
     if (kindOf(one) === "body") {
-      const leaves = side.leavesWith(...ids).map((leaf) => leaf.label).join(", ");
-      return side.bodies(ids) + (leaves ? `, in ${leaves}` : "");
+      const leaves = side.leavesWith(name).map((leaf) => leaf.label).join(", ");
+      return name + (leaves ? `, in ${leaves}` : "");
     }
-    const node = side.nodes.get(nameOf(one));
+    const node = side.nodes.get(name);
     if (!node) return "";
-    const held = node.bodies.size ? `holds ${side.bodies(node.bodies)}` : "is empty";
+    const held = node.bodies.size ? `holds ${[...node.bodies].join(", ")}` : "is empty";
     return `${node.leaf ? "leaf" : "node"} ${node.label} ${held}`;
   }
 

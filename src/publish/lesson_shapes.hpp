@@ -47,8 +47,9 @@ class LessonShapes {
 };
 
 // What the things of a key are, so that a page can tell what belongs together: "node/root.0.3",
-// "body/7", "pair/3-7" (by ids, the smaller first), "slot/4" of the pool; behind the side's prefix,
-// if there is one. Empty for what is nothing of these.
+// "body/ann" (and what a texture is), "pair/ann|bob" (in order of their names), "slot/4" of the
+// pool; behind the side's prefix, if there is one. A body without a name is "#7", by its id. Empty
+// for what is nothing of these.
 std::vector<std::string> entities_of(const std::string& key, const Frame& frame);
 
 }  // namespace lantern::publish

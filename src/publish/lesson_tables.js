@@ -31,9 +31,9 @@ function factTables(facts) {
   const relations = new Relations(facts);
   const numbers = [...facts.counts, ...facts.measures].map(([name, n]) => ({ texts: [name.replaceAll("_", " "), n] }));
   const bodies = facts.bodies.slice(0, MOST_ROWS).map(([id, name, at, speed, state]) =>
-    ({ texts: [name || `#${id}`, at.join(", "), speed, state], of: entity(side, "body", id) }));
+    ({ texts: [name || `#${id}`, at.join(", "), speed, state], of: entity(side, "body", name || `#${id}`) }));
   const nodes = facts.nodes.slice(0, MOST_ROWS).map(([way, label, depth, leaf]) =>
-    ({ texts: [label, depth, leaf ? "leaf" : "", relations.bodies(relations.nodes.get(way).bodies)],
+    ({ texts: [label, depth, leaf ? "leaf" : "", [...relations.nodes.get(way).bodies].join(", ")],
        of: entity(side, "node", way) }));
   const title = facts.title || side;
   const parts = title ? [element(document, "h2", { text: title })] : [];

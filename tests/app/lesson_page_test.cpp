@@ -32,6 +32,7 @@ radius = 0.5
 position = [3, 6]
 [[step]]
 do = "insert"
+bodies = ["ann"]
 [[step]]
 do = "run"
 seconds = {}
@@ -47,17 +48,17 @@ every = 1
 TEST_F(LessonPage, IsTheSameAtEachRunAndListsItselfBesideOthers) {
   for (const char* folder : {"one", "two"}) {
     const Outcome o = render(fmt::format("{} {} -o '{}/{{scenario}}.html'", kGhosts,
-                                         scenario("n_squared"), file(folder)));
+                                         scenario("children_on_demand"), file(folder)));
     ASSERT_EQ(o.code, 0) << o.err;
   }
-  for (const char* name : {"ghost_quadtree.html", "n_squared.html", "index.html"})
+  for (const char* name : {"ghost_quadtree.html", "children_on_demand.html", "index.html"})
     EXPECT_EQ(read_text(folder_ / "one" / name), read_text(folder_ / "two" / name)) << name;
   const std::string index = read_text(folder_ / "one/index.html");
-  const std::size_t first = index.find("href=\"n_squared.html\""),
-                    then = index.find("href=\"ghost_quadtree.html\"");
+  const std::size_t first = index.find("href=\"ghost_quadtree.html\""),
+                    then = index.find("href=\"children_on_demand.html\"");
   ASSERT_NE(then, index.npos);
   EXPECT_LT(first, then) << "in the order of the lecture";
-  EXPECT_NE(index.find("after <a href=\"n_squared.html\">"), index.npos);
+  EXPECT_NE(index.find("after <a href=\"ghost_quadtree.html\">"), index.npos);
   EXPECT_LT(fs::file_size(folder_ / "one/ghost_quadtree.html"), 200'000u);
 }
 
@@ -93,6 +94,24 @@ TEST_F(LessonPage, OfTooManyFramesIsRefusedBeforeTheRun) {
   const std::string few =
       fmt::format("{} --frames 7-9 -o {}", flight("long.toml", 0.02), file("a.html"));
   EXPECT_EQ(render(few).code, 0);
+}
+
+// The seal at the end of a file tells of which text it was made.
+TEST_F(LessonPage, NotesAreOnNoFrame) {
+  const std::string text = read_text(kGhosts);
+  const std::size_t step = text.find("[[step]]\n") + 9;
+  ASSERT_NE(step, 8u);
+  write_text(folder_ / "plain.toml", "name = \"a\"\n" + text);
+  write_text(folder_ / "noted.toml",
+             "name = \"a\"\n" + text.substr(0, step) + "notes = \"Wait.\"\n" + text.substr(step));
+  std::string pictures[2];
+  for (const bool noted : {false, true}) {
+    const Outcome o =
+        render(file(noted ? "noted.toml" : "plain.toml") + " --frames 0 --format svg -o -");
+    ASSERT_EQ(o.code, 0) << o.err;
+    pictures[noted] = o.out.substr(0, o.out.rfind("<!--"));
+  }
+  EXPECT_EQ(pictures[0], pictures[1]);
 }
 
 TEST_F(LessonPage, KeepsTheOldOneWhenItCannotBeWritten) {

@@ -24,6 +24,7 @@ const painted = () => new Promise((resolve) => requestAnimationFrame(() => {
   const every = Math.max(1, Math.floor(page.lesson.last / 60));
   for (let i = 0; i <= page.lesson.last; i += every) {
     await painted();
+    await new Promise((resolve) => requestIdleCallback(resolve)); // while the lecturer speaks
     const from = performance.now();
     page.go(i);
     document.body.getBoundingClientRect();
