@@ -193,7 +193,7 @@ class Page {
     if (this.playing || !this.pointing) return;
     const matrix = $("picture").getScreenCTM().inverse();
     const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
-    this.pointing.light(this.pointing.at(event.target, x, y));
+    this.pointing.light(this.pointing.at(event.target.parentNode === this.picture.layer ? event.target : null, x, y));
   }
 
   // Buttons for all that can be pointed at, for those who have no pointer. Made when they are asked

@@ -1,6 +1,7 @@
 // Frames as SVG: one element a shape. An element stays as long as its shape does, so that a step
 // changes only what changes.
 
+const MANY = 1500; // shapes that make a step slow
 const SVG = "http://www.w3.org/2000/svg";
 const TAG = ["rect", "line", "polygon", "path"];
 const role = (number) => (number === 0 ? "none" : `var(--role-${number})`);
@@ -69,9 +70,9 @@ class Picture {
 
   show(index) {
     this.settle();
-    this.arrange(this.lesson.lists[index].map((row) => this.take(row)));
+    if (this.spare?.index === index) this.showSpare();
+    else this.arrange(this.lesson.lists[index].map((row) => this.take(row)));
     this.index = index;
-    this.moving = null;
   }
 
   // The picture at `t`, 0 ... 1, of the way from the frame before to a frame.
@@ -125,10 +126,32 @@ class Picture {
 
   // Makes what a frame will need, so that the step there costs less.
   prepare(index) {
+    if (this.spare?.index === index) return;
+    this.spare?.layer.remove();
+    this.spare = null;
+    const fresh = this.lesson.lists[index].filter((row) => !this.standing.has(row));
+    if (fresh.length > MANY) return this.prepareLayer(index);
     const ready = new Map();
     for (const row of this.lesson.lists[index])
       if (!this.standing.has(row) && !ready.has(row)) ready.set(row, this.ready.get(row) ?? this.made(row));
     this.ready = ready;
+  }
+
+  // Of very many shapes a whole layer, out of sight: then even their style and place are settled.
+  prepareLayer(index) {
+    const layer = this.make("g");
+    layer.setAttribute("class", "spare");
+    layer.append(...this.lesson.lists[index].map((row) => this.made(row)));
+    this.svg.insertBefore(layer, this.layer);
+    this.spare = { index, layer };
+  }
+
+  showSpare() {
+    this.layer.remove();
+    this.layer = this.spare.layer;
+    this.layer.removeAttribute("class");
+    this.spare = null;
+    this.keep([...this.layer.children]);
   }
 
   // An element for a row, from among those that stand or are ready if there is one.
@@ -169,6 +192,10 @@ class Picture {
       cursor.remove();
       cursor = next;
     }
+    this.keep(elements);
+  }
+
+  keep(elements) {
     this.standing = new Map();
     for (const element of elements) {
       const same = this.standing.get(element.row);
