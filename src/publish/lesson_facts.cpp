@@ -64,7 +64,7 @@ class FactsWriter {
 
   std::string body(const FrameBody& b) const {
     const std::string z = frame_.dimension == 3 ? "," + number(b.position.z) : "";
-    const char* state = b.is_static ? "still" : b.asleep ? "asleep" : "moving";
+    const char* state = b.is_static ? "static" : b.asleep ? "asleep" : "";
     return fmt::format("[{},{},[{},{}{}],{},\"{}\"]", b.id, json_string(b.name),
                        number(b.position.x), number(b.position.y), z,
                        number(glm::length(b.velocity)), state);

@@ -12,7 +12,7 @@ namespace lantern::publish {
 //   name, title    of the side; empty without sides
 //   counts         [["pairs", 3], ...], and measures likewise
 //   textures       [id, "name"]
-//   bodies         [id, "name", [x, y], speed, "still" | "asleep" | "moving"]
+//   bodies         [id, "name", [x, y], speed, "static" | "asleep" | ""]
 //   nodes          ["root.0", "label", depth, leaf, [body ids], outline, pool slot]: the outline on
 //                  the page, [x, y, ...] in page units, of a flat world; the slot or -1
 //   pairs          [a, b, their boxes overlap]

@@ -119,6 +119,9 @@ def check_pointing(page):
            ["tree/body/cyd/root.3", "world/body/cyd"])
     expect("so does its leaf", "tree/node/root.3" in keys and "tree/node/root.2" not in keys)
     expect("its cell has an outline", page.run("return document.querySelectorAll('#picture .over polygon').length") >= 2)
+    page.run("window.lantern.pointing.light('node/root.0')")
+    expect("a node lights up what it holds", [key for key in page.run(LIT) if "world/body" in key],
+           ["world/body/ann", "world/body/bob"])
     page.move_to(2, SIZE[1] - 2)
     expect("and goes dark again", page.run(LIT), [])
     page.run("document.querySelector('#things button').focus()")

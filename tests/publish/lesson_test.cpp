@@ -233,7 +233,7 @@ TEST(LessonFacts, SayWhereACellLiesOnThePage) {
   const json facts = json::parse(facts_for_page(frame_of(0), list));
   ASSERT_EQ(facts.size(), 1u);
   EXPECT_EQ(facts[0]["counts"].dump(), R"([["pairs",3]])");
-  EXPECT_EQ(facts[0]["bodies"].dump(), R"([[7,"ann",[1.5,2],0,"moving"]])");
+  EXPECT_EQ(facts[0]["bodies"].dump(), R"([[7,"ann",[1.5,2],0,""]])");
   EXPECT_EQ(facts[0]["nodes"].dump(),
             R"([["root","root",0,1,[7],[100,500,900,500,900,100,100,100],-1]])");
 }
