@@ -1,8 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include "app/file_sink.hpp"
+#include "app/forecast.hpp"
+#include "app/in_betweens.hpp"
+#include "app/selection.hpp"
 #include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/grouped.hpp"
+#include "base/memory.hpp"
+#include "draw/page.hpp"
+#include "publish/lesson.hpp"
+#include "render/renderer.hpp"
 
 namespace lantern::app {
+namespace {
 
-std::unique_ptr<FileSink> make_page_sink(const Sequence&) { throw UsageError("not yet"); }
+// A page is opened as a whole: what a browser unpacks at once, and steps through, has an end.
+constexpr std::uint64_t kMostPageFrames = 20'000;
+constexpr std::uint64_t kMostPageBytes = std::uint64_t{192} << 20;  // before they are compressed
+// From so many frames on the size of all is estimated.
+constexpr std::uint64_t kSample = 24;
+
+constexpr const char* kFewer =
+    "choose fewer with --frames or --at, or give the steps that run fewer frames with 'every'";
+
+// What of the page's height its title, caption and buttons take.
+constexpr double kWords = 0.21;
+
+// The page shows title, caption and the numbers beside it as text of its own, and the picture
+// between them.
+RenderOptions of_picture(RenderOptions options) {
+  const auto [width, height] = parse_size(options.size, Renderer::kMostPixels);
+  options.size = fmt::format("{}x{}", width,
+                             std::max(16, static_cast<int>(std::lround((1 - kWords) * height))));
+  options.no_title = options.no_caption = options.no_counters = true;
+  return options;
+}
+
+class PageSink : public FileSink {
+ public:
+  explicit PageSink(const Sequence& s)
+      : options_(of_picture(s.job.options)),
+        counters_(!s.job.options.no_counters),
+        job_(options_),
+        scenario_(s.scenario),
+        selection_(s.selection),
+        work_(s.work),
+        file_(s.to.file({s.scenario.name})),
+        expected_(s.selection.most() ? s.selection.most() : extent_of(s.scenario, s.pace).frames),
+        lesson_({s.scenario.name, s.scenario.title, s.scenario.idea, s.scenario.lecture,
+                 s.scenario.needs, s.scenario.steps.size()},
+                options_.theme) {
+    if (s.to.is_by("step") || s.to.is_by("frame"))
+      throw UsageError(
+          "a lesson page holds all steps: of placeholders only {scenario} may stand "
+          "in its name");
+    if (job_.in_betweens.wanted())
+      throw UsageError(
+          "a lesson page makes in-betweens itself, while it plays: leave out --tween "
+          "and --fps");
+    if (options_.transparent)
+      throw UsageError("a lesson page has a ground of its own: leave out --transparent");
+    if (s.selection.takes_all()) require_few(expected_.value_or(0));
+  }
+
+  Made made() const override { return {lesson_.frames(), {file_}}; }
+
+ protected:
+  void draw(const Frame& frame, const Staging& staging) override {
+    if (!selection_.takes(frame)) return;
+    require_few(lesson_.frames() + 1);
+    lesson_.add(frame, job_.page_of(frame, staging, work_), words_of(frame));
+    last_.time = frame.time;
+    require_room();
+  }
+
+  void close(const DirectorReport&) override {
+    selection_.require_some();
+    make_folder(file_.has_parent_path() ? file_.parent_path() : ".");
+    write_file(file_, lesson_.html());
+  }
+
+ private:
+  publish::FrameWords words_of(const Frame& frame) const {
+    const Motion motion = InBetweens::motion(last_, frame);
+    return {scenario_.steps.at(frame.step).speaker_notes,
+            counters_ ? counter_texts(frame) : std::vector<std::string>(), motion,
+            motion == Motion::steady ? frame.time - last_.time : InBetweens::kChange};
+  }
+
+  void require_few(std::uint64_t frames) const {
+    if (frames <= kMostPageFrames) return;
+    throw UsageError(
+        fmt::format("{}: up to {} frames; a lesson page holds at most {}: {}", scenario_.name,
+                    lantern::grouped(static_cast<std::int64_t>(frames), " "),
+                    lantern::grouped(static_cast<std::int64_t>(kMostPageFrames), " "), kFewer));
+  }
+
+  // Of those to come each is taken for as large as those so far.
+  void require_room() const {
+    const std::uint64_t frames = lesson_.frames();
+    if (frames < kSample) return;
+    const std::uint64_t all = selection_.takes_all() ? expected_.value_or(0) : 0;
+    const double bytes = static_cast<double>(lesson_.bytes()) / static_cast<double>(frames) *
+                         static_cast<double>(std::max(all, frames));
+    if (bytes <= static_cast<double>(kMostPageBytes)) return;
+    throw UsageError(fmt::format(
+        "{}: a page of {} frames would hold about {}, before it is compressed; at most {} can be "
+        "stepped through: {}",
+        scenario_.name, lantern::grouped(static_cast<std::int64_t>(std::max(all, frames)), " "),
+        memory_text(static_cast<std::uint64_t>(bytes)), memory_text(kMostPageBytes), kFewer));
+  }
+
+  RenderOptions options_;
+  bool counters_;
+  RenderJob job_;
+  const Scenario& scenario_;
+  Selection& selection_;
+  Work& work_;
+  std::filesystem::path file_;
+  std::optional<std::uint64_t> expected_;  // frames, at most
+  publish::Lesson lesson_;
+  Frame last_;  // of the one before only the time
+};
+
+}  // namespace
+
+std::unique_ptr<FileSink> make_page_sink(const Sequence& sequence) {
+  return std::make_unique<PageSink>(sequence);
+}
 
 }  // namespace lantern::app

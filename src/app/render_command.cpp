@@ -25,6 +25,7 @@
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
+#include "publish/lesson_index.hpp"
 
 namespace lantern::app {
 namespace {
@@ -135,6 +136,18 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
   say(fmt::format("{}: {} in {}{}", scenario.name, counted(made.frames, "frame"), where, length));
 }
 
+// Of the lesson pages that stand in one folder, a file a scenario, a page that lists them.
+void list_lessons(const Destination& to) {
+  const auto folder = to.file({"a"}).parent_path();
+  if (to.kind() != OutputKind::page || !to.is_by("scenario") ||
+      folder != to.file({"b"}).parent_path())
+    return;
+  const auto index = folder / "index.html";
+  const bool written = publish::write_lesson_index(folder.empty() ? "." : folder);
+  say(written ? fmt::format("all lessons there are listed in {}", index.string())
+              : fmt::format("{} is not of this kind and was left alone", index.string()));
+}
+
 // Draws scenario `index`, or the shard's part of it; the exit code that it deserves.
 int render_one(const RenderJob& job, const Destination& to, const Scenario& scenario, Work& work,
                JsonWriter& json, RenderShard& shard, std::size_t index) {
@@ -224,6 +237,7 @@ int render_command(const RenderOptions& asked) {
     }
   }
   if (whole) shard.finish();
+  list_lessons(to);
   json.line().end_array().line().key("work");
   write(json, work);
   json.line().end_object();

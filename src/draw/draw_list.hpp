@@ -103,6 +103,15 @@ struct Tint {
   Role line = Role::none;  // beside its stroke's role, or a text's halo
 };
 
+// Where a flat world lies on the page, for whoever must find in it what is not painted: its point p
+// is at origin + (p.x, -p.y) * scale.
+struct WorldMap {
+  std::string prefix;  // of its keys
+  Box<2> picture;      // the part of the page that the world takes
+  Vec<2> origin{0.0};
+  double scale = 1;
+};
+
 struct DrawList {
   Vec<2> page{1600.0, 900.0};
   std::vector<DrawShape> shapes;
@@ -110,6 +119,7 @@ struct DrawList {
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn
+  std::vector<WorldMap> maps;  // of the flat worlds on the page
   MarkSet marks;               // that are among the shapes, for a legend
   // Counts and measures that the page depicts, so that whoever reads one in the caption finds it.
   std::set<std::string, std::less<>> referents;

@@ -277,6 +277,13 @@ std::vector<std::string> caption_lines(const std::string& caption, double width,
 
 }  // namespace
 
+std::vector<std::string> counter_texts(const Frame& frame) {
+  std::vector<std::string> texts;
+  for (const Counter& counter : counters_of(frame))
+    texts.push_back(fmt::format("{} {}", counter.number, counter.noun));
+  return texts;
+}
+
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels) {
   const bool wide = list.page.x >= kWidePage;
   if (!frame.display.caption && !frame.display.counters) return list.page.y - 26;

@@ -172,6 +172,11 @@ DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& pa
   const auto enlarge = [&](double& measure) { measure *= k; };
   for (DrawShape& shape : list.shapes)
     std::visit([&](auto& s) { for_each_measure(s, enlarge); }, shape);
+  for (WorldMap& map : list.maps) {
+    map.picture = {map.picture.lo * k, map.picture.hi * k};
+    map.origin *= k;
+    map.scale *= k;
+  }
   for (LabelBox& label : list.labels)
     for (Box<2>* box : {&label.box, &label.panel}) *box = {box->lo * k, box->hi * k};
   return list;

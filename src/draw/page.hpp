@@ -1,6 +1,9 @@
 // From a frame to shapes on a page.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/staging.hpp"
@@ -19,6 +22,9 @@ DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& pa
 
 // The same of a frame that stands alone.
 DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work);
+
+// The numbers beside the caption, as "3 pairs to test", the main one first; at most three.
+std::vector<std::string> counter_texts(const Frame& frame);
 
 // Does the world panel show any body that is no ground? What another body hides counts as shown,
 // and so does what only a panel twice as wide as high would show: the page's size is not known.

@@ -1,6 +1,7 @@
 #include "draw/tween.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/stop.hpp"
@@ -10,128 +11,103 @@
 namespace lantern::draw {
 namespace {
 
-// When each part of a change begins and ends. They overlap, so that nothing waits.
-struct Span {
-  double from, to;
-  double at(double t) const { return std::clamp((t - from) / (to - from), 0.0, 1.0); }
+struct BeatSpans {
+  BeatSpan eased, steady;
 };
 
-// How far each part of a change is.
-struct Phases {
-  Phases(double t, Motion motion) {
-    const bool stage = motion == Motion::eased;
-    const auto part = [&](const Span& staged, const Span& other) {
-      return stage ? eased(staged.at(t)) : other.at(t);
-    };
-    out = part({0, 0.35}, {0, 0.5});
-    move = part({0.1, 0.75}, {0, 1});
-    in = part({0.65, 1}, {0.5, 1});
-    over = part({0.2, 0.5}, {0.2, 0.5});
-    under = part({0.4, 0.7}, {0.5, 0.8});
-    grow = part({0.2, 0.85}, {0, 1});
-    dawn = part({0.2, 0.45}, {0, 0.4});
-    fold = part({0, 0.65}, {0, 1});
-    dusk = part({0.4, 0.65}, {0.6, 1});
-  }
-  double out, move, in;  // what goes, moves, comes
-  double over, under;    // the new over the old, which goes under it, so that nothing shows through
-  double grow, dawn;     // what comes out of something: its way, and how soon it is seen
-  double fold, dusk;     // what goes back into something
-};
+// In the order of the beats.
+constexpr std::array<BeatSpans, static_cast<std::size_t>(Beat::count_beats)> kSpans{{
+    {{0, 0}, {0, 0, false}},          // always
+    {{0, 0.35}, {0, 0.5, false}},     // out
+    {{0.1, 0.75}, {0, 1, false}},     // move
+    {{0.65, 1}, {0.5, 1, false}},     // in
+    {{0.2, 0.5}, {0.2, 0.5, false}},  // over
+    {{0.4, 0.7}, {0.5, 0.8, false}},  // under
+    {{0.2, 0.85}, {0, 1, false}},     // grow
+    {{0.2, 0.45}, {0, 0.4, false}},   // dawn
+    {{0, 0.65}, {0, 1, false}},       // fold
+    {{0.4, 0.65}, {0.6, 1, false}},   // dusk
+}};
 
-class Tween {
+class Passages {
  public:
-  Tween(const DrawList& a, const DrawList& b, double t, Motion motion)
-      : a_(a), b_(b), phases_(t, motion), plan_(plan_tween(a, b)) {}
+  Passages(const DrawList& a, const DrawList& b) : a_(a), b_(b), plan_(plan_tween(a, b)) {}
 
   // What goes is painted before what lay on it; what is handed on passes over all else.
-  DrawList made() {
-    out_.page = b_.page;
+  std::vector<Passage> made() {
     std::size_t next = 0;  // of a, that is not yet painted if it goes
     for (std::size_t i = 0; i < b_.shapes.size(); ++i) {
-      stop_if_asked();
       if (plan_.of_b[i].kind == Fate::meets)
-        for (; next < plan_.of_b[i].mate; ++next) paint_old(next);
-      paint_new(i);
+        for (; next < plan_.of_b[i].mate; ++next) add_old(next);
+      add_new(i);
     }
-    for (; next < a_.shapes.size(); ++next) paint_old(next);
+    for (; next < a_.shapes.size(); ++next) add_old(next);
     for (std::size_t i = 0; i < a_.shapes.size(); ++i)
-      if (plan_.of_a[i].kind == Fate::handed)
-        add_blend(a_.shapes[i], b_.shapes[plan_.of_a[i].mate], phases_.fold);
+      if (plan_.of_a[i].kind == Fate::handed) add({i, plan_.of_a[i].mate, Beat::fold});
     for (std::size_t i = 0; i < b_.shapes.size(); ++i)
-      if (plan_.of_b[i].kind == Fate::handed)
-        add_blend(a_.shapes[plan_.of_b[i].mate], b_.shapes[i], phases_.grow);
+      if (plan_.of_b[i].kind == Fate::handed) add({plan_.of_b[i].mate, i, Beat::grow});
     return std::move(out_);
   }
 
  private:
-  void add(DrawShape shape, double opacity, Tint tint = {}) {
-    tint.opacity = std::clamp(opacity, 0.0, 1.0);
-    if (!(tint.opacity > 0)) return;
-    out_.shapes.push_back(std::move(shape));
-    out_.tints.push_back(tint);
-  }
+  void add(const Passage& passage) { out_.push_back(passage); }
 
-  void add_blend(const DrawShape& a, const DrawShape& b, double share) {
-    if (a == b) return add(b, 1);
-    auto [shape, tint] = blend(a, b, share);
-    add(std::move(shape), 1, tint);
-  }
-
-  void paint_new(std::size_t i) {
+  void add_new(std::size_t i) {
     const Fate& fate = plan_.of_b[i];
-    const DrawShape& shape = b_.shapes[i];
-    const Phases& p = phases_;
-    const auto on_the_way = [&](double share) {
-      return put(shape, fate.own, mix(fate.other, fate.own, share));
-    };
+    const Beat seen = is_text(b_.shapes[i]) ? Beat::in : Beat::over;
     switch (fate.kind) {
       case Fate::handed:  // painted last
       case Fate::hidden:
         return;
       case Fate::stands:
-        return add(shape, 1);
+        return add({{}, i});
       case Fate::fades:
-        return add(shape, p.in);
+        return add({{}, i, Beat::always, Beat::in});
       case Fate::follows:
-        return add(on_the_way(p.move), is_text(shape) ? p.in : p.over);
+        return add({{}, i, Beat::move, seen, false, fate.own, fate.other, fate.own});
       case Fate::emerges:
-        return add(on_the_way(p.grow), p.dawn);
+        return add({{}, i, Beat::grow, Beat::dawn, false, fate.own, fate.other, fate.own});
       case Fate::meets:
-        return add_blend(a_.shapes[fate.mate], shape, p.move);
+        return add({fate.mate, i, Beat::move});
     }
   }
 
-  void paint_old(std::size_t i) {
+  void add_old(std::size_t i) {
     const Fate& fate = plan_.of_a[i];
-    const DrawShape& shape = a_.shapes[i];
-    const Phases& p = phases_;
-    const auto on_the_way = [&](double share) {
-      return put(shape, fate.own, mix(fate.own, fate.other, share));
-    };
+    const Beat seen = is_text(a_.shapes[i]) ? Beat::out : Beat::under;
     switch (fate.kind) {
       case Fate::meets:   // painted with its mate
       case Fate::handed:  // painted last
       case Fate::hidden:
         return;
       case Fate::stands:
-        return add(shape, 1);
+        return add({i, {}});
       case Fate::fades:
-        return add(shape, 1 - p.out);
+        return add({i, {}, Beat::always, Beat::out, true});
       case Fate::follows:
-        return add(on_the_way(p.move), 1 - (is_text(shape) ? p.out : p.under));
+        return add({i, {}, Beat::move, seen, true, fate.own, fate.own, fate.other});
       case Fate::emerges:
-        return add(on_the_way(p.fold), 1 - p.dusk);
+        return add({i, {}, Beat::fold, Beat::dusk, true, fate.own, fate.own, fate.other});
     }
   }
 
   static bool is_text(const DrawShape& shape) { return std::holds_alternative<TextShape>(shape); }
 
   const DrawList &a_, &b_;
-  Phases phases_;
   TweenPlan plan_;
-  DrawList out_;
+  std::vector<Passage> out_;
 };
+
+// The shape of a passage when it is so far on its way, and how it is painted but for its opacity.
+std::pair<DrawShape, Tint> on_the_way(const Passage& p, const DrawList& a, const DrawList& b,
+                                      double share) {
+  if (p.a && p.b) {
+    const DrawShape &from = a.shapes[*p.a], &to = b.shapes[*p.b];
+    return from == to ? std::pair(to, Tint{}) : blend(from, to, share);
+  }
+  const DrawShape& shape = p.a ? a.shapes[*p.a] : b.shapes[*p.b];
+  return {put(shape, p.own, mix(p.start, p.end, share)), {}};
+}
 
 }  // namespace
 
@@ -141,10 +117,38 @@ double eased(double t) {
   return t * t * t * (t * (6 * t - 15) + 10);
 }
 
+BeatSpan span_of(Beat beat, Motion motion) {
+  const BeatSpans& spans = kSpans[static_cast<std::size_t>(beat)];
+  return motion == Motion::eased ? spans.eased : spans.steady;
+}
+
+double progress(Beat beat, double t, Motion motion) {
+  if (beat == Beat::always) return 1;
+  const BeatSpan span = span_of(beat, motion);
+  const double part = std::clamp((t - span.from) / (span.to - span.from), 0.0, 1.0);
+  return span.is_eased ? eased(part) : part;
+}
+
+std::vector<Passage> passages(const DrawList& a, const DrawList& b) {
+  return Passages(a, b).made();
+}
+
 DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion) {
   if (t <= 0) return a;
   if (t >= 1) return b;
-  return Tween(a, b, t, motion).made();
+  DrawList list;
+  list.page = b.page;
+  for (const Passage& passage : passages(a, b)) {
+    stop_if_asked();
+    const double seen = progress(passage.fade, t, motion);
+    const double opacity = passage.leaves ? 1 - seen : seen;
+    if (!(opacity > 0)) continue;
+    auto [shape, tint] = on_the_way(passage, a, b, progress(passage.move, t, motion));
+    tint.opacity = std::clamp(opacity, 0.0, 1.0);
+    list.shapes.push_back(std::move(shape));
+    list.tints.push_back(tint);
+  }
+  return list;
 }
 
 }  // namespace lantern::draw

@@ -1,6 +1,9 @@
 // In-betweens: pictures on the way from one frame's picture to the next one's.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "draw/draw_list.hpp"
 
 namespace lantern::draw {
@@ -13,12 +16,52 @@ enum class Motion {
 // Smoothly from 0 to 1: from rest, to rest. What lies beyond is the nearer end.
 double eased(double t);
 
-// The picture at `t`, from 0, which is `a` itself, to 1, which is `b` itself. What has the same key
-// in both (DrawList::Scope) goes from its place, size and colours to the new ones. What is new
-// comes out of its `from` as `a` shows it, or where it stands; what is gone goes back the same way.
-// Eased, what goes fades first, then what moves moves, then what comes appears. A text glides or is
-// faded over; it never says what neither picture says. What is keyed "page/..." is the page's own
-// words, which are those of `b` throughout. No labels: what moves may pass over what stands.
+// The parts of a change, each with a time of its own. They overlap, so that nothing waits.
+enum class Beat {
+  always,      // done from the first moment on
+  out,         // what goes
+  move,        // what moves
+  in,          // what comes
+  over,        // the new over the old,
+  under,       // which goes under it, so that nothing shows through
+  grow,        // what comes out of something: its way,
+  dawn,        // and how soon it is seen
+  fold,        // what goes back into something: its way,
+  dusk,        // and how long it is seen
+  count_beats  // how many there are
+};
+
+// When a part begins and ends, of the whole change 0 ... 1; between them it is eased, or goes at
+// one speed.
+struct BeatSpan {
+  double from = 0, to = 1;
+  bool is_eased = true;
+};
+BeatSpan span_of(Beat beat, Motion motion);
+
+// How far a part of a change is at `t`: 0 ... 1.
+double progress(Beat beat, double t, Motion motion);
+
+// What is painted of one shape, or of two that are the same thing, in a change from picture `a` to
+// picture `b`: all that a renderer of its own must know to show it.
+struct Passage {
+  std::optional<std::size_t> a, b;  // its shape in either picture; of both, it goes from a's to b's
+  Beat move = Beat::always;         // how far on its way it is
+  Beat fade = Beat::always;         // how much of it is seen,
+  bool leaves = false;              // or no longer
+  // A shape of one picture alone: put from its thing's box `own` upon one between these.
+  Box<2> own = {}, start = {}, end = {};
+};
+
+// In the order of painting. What has the same key in both (DrawList::Scope) goes from its place,
+// size and colours to the new ones. What is new comes out of its `from` as `a` shows it, or where
+// it stands; what is gone goes back the same way. What goes fades first, then what moves moves,
+// then what comes appears. A text glides or is faded over; it never says what neither picture says.
+// What is keyed "page/..." is the page's own words, which are those of `b` throughout.
+std::vector<Passage> passages(const DrawList& a, const DrawList& b);
+
+// The picture at `t`, from 0, which is `a` itself, to 1, which is `b` itself. No labels: what moves
+// may pass over what stands.
 DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion = Motion::eased);
 
 }  // namespace lantern::draw

@@ -326,6 +326,7 @@ void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel,
                 Labels& labels) {
   if (frame.dimension == 3) return draw_world3d(frame, staging, panel, list, labels);
   const View2D map(flat(frame.bounds), panel, frame.view);
+  list.maps.push_back({list.prefix, map.picture(), map.to_page(Vec<2>(0.0)), map.scale()});
   if (!frame.view) return draw_world2d(frame, staging, map, list, labels);
   // Of a part all is drawn as ever and then cut. The corner with the whole is kept free of names.
   const Box<2> corner = place_of_locator(frame, map);

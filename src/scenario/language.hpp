@@ -30,6 +30,7 @@ inline constexpr std::size_t kMostWalls = 2'000;             // of a level
 inline constexpr std::size_t kMostPrototypes = 1'000;
 inline constexpr double kMostInOrder = 9'999;     // scenarios of a lecture
 inline constexpr std::size_t kMostCaption = 180;  // letters
+inline constexpr std::size_t kMostNotesText = 2000;
 inline constexpr std::size_t kMostSides = 4;
 inline constexpr std::size_t kMostHeadline = 3;  // counts and measures
 inline constexpr std::size_t kMostRulers = 8;    // of a step

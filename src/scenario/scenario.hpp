@@ -58,6 +58,7 @@ struct Step {
   std::string name;                 // for --at; may be empty
   std::string part;                 // from here on shown behind the title; may be empty
   std::string caption;              // with {count} and {count:noun}; may be empty
+  std::string speaker_notes;        // for whoever speaks, never drawn; may be empty
   std::optional<std::string> plot;  // adds a point to the chart, or a bar of this label
   std::optional<Pace> pace;         // of this step alone
   std::vector<std::string> events;  // in event pace, only these give frames; empty for all

@@ -1,0 +1,141 @@
+#include "publish/lesson.hpp"
+
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/check.hpp"
+#include "base/json_writer.hpp"
+#include "draw/theme.hpp"
+#include "embedded/lesson_files.hpp"
+#include "publish/lesson_facts.hpp"
+#include "publish/packed.hpp"
+#include "render/check_list.hpp"
+#include "render/svg.hpp"
+
+namespace lantern::publish {
+namespace {
+
+constexpr int kStillWidth = 1600;  // of the picture for those without scripts
+
+// The roles' colours as CSS variables.
+std::string colours(const Theme& theme) {
+  std::string text;
+  for (std::size_t i = 0; i < theme.colors.size(); ++i) {
+    const Color& c = theme.colors[i];
+    text += fmt::format("--role-{}:#{:02x}{:02x}{:02x};", i, c.r, c.g, c.b);
+  }
+  return text;
+}
+
+// When each beat of a change begins and ends, eased and steady: [[[from, to, eased], ...], ...].
+std::string beats() {
+  std::string text;
+  for (const Motion motion : {Motion::eased, Motion::steady}) {
+    text += text.empty() ? "[" : ",[";
+    for (int i = 0; i < static_cast<int>(Beat::count_beats); ++i) {
+      const BeatSpan span = span_of(static_cast<Beat>(i), motion);
+      text +=
+          fmt::format("{}[{},{},{}]", i > 0 ? "," : "", span.from, span.to, span.is_eased ? 1 : 0);
+    }
+    text += "]";
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+std::string lesson_colours() {
+  const std::string light = colours(*theme_named("light")), dark = colours(*theme_named("dark")),
+                    print = colours(*theme_named("print"));
+  std::string css = fmt::format(":root{{{}}}\n", light);
+  css +=
+      fmt::format("@media (prefers-color-scheme: dark){{:root:not([data-theme]){{{}}}}}\n", dark);
+  css += fmt::format(":root[data-theme=dark]{{{}}}\n:root[data-theme=print]{{{}}}\n", dark, print);
+  css += fmt::format("@media print{{:root,:root[data-theme]{{{}}}}}\n", print);
+  // Names for what the page itself is made of.
+  for (const auto& [name, role] :
+       {std::pair{"paper", Role::paper}, std::pair{"panel", Role::panel},
+        std::pair{"ink", Role::ink}, std::pair{"quiet", Role::quiet_ink},
+        std::pair{"rule", Role::rule}, std::pair{"lit", Role::lit},
+        std::pair{"lit-ink", Role::lit_ink}, std::pair{"lit-fill", Role::lit_fill}})
+    css += fmt::format(":root{{--{}:var(--role-{})}}\n", name, static_cast<int>(role));
+  return css;
+}
+
+std::string to_json(const LessonCard& card) {
+  JsonWriter json;
+  json.begin_object().members("format", "lantern.lesson/1", "scenario", card.scenario, "title",
+                              card.title, "idea", card.idea);
+  json.key("lecture");
+  card.lecture ? json.value(*card.lecture) : json.null();
+  json.key("needs").begin_array();
+  for (const std::string& name : card.needs) json.value(name);
+  json.end_array().members("steps", card.steps, "frames", card.frames);
+  return json.end_object().text();
+}
+
+std::optional<LessonCard> lesson_card(std::string_view json) try {
+  const auto value = nlohmann::json::parse(json);
+  if (value.at("format") != "lantern.lesson/1") return std::nullopt;
+  LessonCard card{value.at("scenario"), value.at("title"), value.at("idea"),  std::nullopt,
+                  value.at("needs"),    value.at("steps"), value.at("frames")};
+  if (!value.at("lecture").is_null()) card.lecture = value.at("lecture").get<std::uint32_t>();
+  return card;
+} catch (const nlohmann::json::exception&) {
+  return std::nullopt;
+}
+
+void Lesson::add(const Frame& frame, const DrawList& list, const FrameWords& words) {
+  check_draw_list(list);
+  if (frames_.count() == 0) first_ = list;
+  frames_.add(frame, list, words);
+  facts_ += (facts_.empty() ? "" : ",\n") + facts_for_page(frame, list);
+  const std::string caption = whole_caption(frame);
+  if (caption.empty() || caption == last_caption_) return;
+  captions_ += fmt::format("<li value=\"{}\">{}</li>\n", frame.step + 1, html_text(caption));
+  last_caption_ = caption;
+}
+
+std::string Lesson::frames_json() const {
+  return fmt::format(
+      "{{\"format\": \"lantern.lesson/1\",\n\"page\": [{},{}],\n\"beats\": {},\n{}}}\n",
+      hundredths(first_.page.x), hundredths(first_.page.y), beats(), frames_.json());
+}
+
+std::string Lesson::html() const {
+  LANTERN_CHECK(frames_.count(), >, 0u);
+  return filled(page::lesson_html, [&](std::string_view name) { return part(name); });
+}
+
+std::string Lesson::part(std::string_view name) const {
+  if (name == "theme" && theme_ == "light") return "";
+  if (name == "theme") return fmt::format(" data-theme=\"{}\"", theme_);
+  if (name == "title") return html_text(card_.title);
+  if (name == "idea") return html_text(card_.idea);
+  if (name == "card") {
+    LessonCard card = card_;
+    card.frames = frames_.count();
+    return script_text(to_json(card));
+  }
+  if (name == "colours") return lesson_colours();
+  if (name == "style") return std::string(page::lesson_css);
+  if (name == "captions") return captions_;
+  if (name == "still") {
+    const int height = std::max(1, static_cast<int>(kStillWidth * first_.page.y / first_.page.x));
+    return base64(to_svg(first_, *theme_named("light"), false, kStillWidth, height));
+  }
+  if (name == "frames") return base64(deflated(frames_json()));
+  if (name == "facts") return base64(deflated("[" + facts_ + "]\n"));
+  LANTERN_CHECK(name, ==, std::string_view("script"));
+  std::string script;
+  for (const std::string_view file :
+       {page::lesson_data_js, page::lesson_picture_js, page::lesson_pointing_js,
+        page::lesson_tables_js, page::lesson_js})
+    script += file;
+  return script;
+}
+
+}  // namespace lantern::publish

@@ -1,0 +1,60 @@
+// A lesson page: one HTML file that a lecturer steps through, with nothing beside it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "draw/draw_list.hpp"
+#include "publish/lesson_frames.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern::publish {
+
+// What an index of lessons tells of one.
+struct LessonCard {
+  std::string scenario, title, idea;
+  std::optional<std::uint32_t> lecture;  // its place in the order of teaching
+  std::vector<std::string> needs;        // scenarios to be seen before
+  std::uint64_t steps = 0, frames = 0;
+};
+// As one line of JSON; back from it, nothing if it is not that.
+std::string to_json(const LessonCard& card);
+std::optional<LessonCard> lesson_card(std::string_view json);
+
+// The roles' colours, and those of the page itself, as CSS variables: light, unless the reader's
+// system prefers dark or the root's data-theme says otherwise; grey on paper.
+std::string lesson_colours();
+
+class Lesson {
+ public:
+  // `theme`: "light" follows what the reader's system prefers; "dark" and "print" are what the page
+  // opens in. The card's number of frames is counted here.
+  Lesson(LessonCard card, std::string theme) : card_(std::move(card)), theme_(std::move(theme)) {}
+
+  // In order. The list must be one that a renderer takes (check_draw_list), or Refused is thrown.
+  void add(const Frame& frame, const DrawList& list, const FrameWords& words);
+
+  // What the frames so far take before they are compressed.
+  std::size_t bytes() const { return frames_.bytes() + facts_.size(); }
+  std::size_t frames() const { return frames_.count(); }
+
+  // The page. At least one frame must have been added.
+  std::string html() const;
+
+ private:
+  std::string part(std::string_view name) const;  // of the page's text
+  std::string frames_json() const;
+
+  LessonCard card_;
+  std::string theme_;
+  LessonFrames frames_;
+  std::string facts_;
+  DrawList first_;
+  std::string captions_;      // <li> ...
+  std::string last_caption_;  // of those
+};
+
+}  // namespace lantern::publish

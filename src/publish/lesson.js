@@ -1,0 +1,330 @@
+// The page itself: which frame is shown, and what keys, clicks, touches and other pages do.
+
+const $ = (id) => document.getElementById(id);
+
+class Page {
+  constructor(lesson) {
+    this.lesson = lesson;
+    this.picture = new Picture(lesson, $("picture"));
+    this.index = 0;
+    this.byEvent = lesson.stepStops.length === 1;
+    this.withMotion = false;
+    this.playing = 0; // the animation frame that is asked for, while something plays
+    this.embedded = new URLSearchParams(location.search).has("embed");
+    document.body.classList.toggle("embedded", this.embedded);
+  }
+
+  get stops() {
+    return this.byEvent ? this.lesson.frames.map((_, i) => i) : this.lesson.stepStops;
+  }
+  get following() {
+    return this.stops.find((stop) => stop > this.index) ?? this.index;
+  }
+  get preceding() {
+    return this.stops.findLast((stop) => stop < this.index) ?? this.index;
+  }
+
+  // --- showing a frame
+
+  go(index) {
+    this.pause();
+    this.show(Math.min(Math.max(0, index), this.lesson.last));
+  }
+
+  show(index) {
+    this.index = index;
+    this.picture.show(index);
+    this.tell();
+    this.pointing?.light(null);
+    if (!$("facts-panel").hidden) this.fillFacts();
+    this.speaker?.show(index, this.following);
+    if (!this.playing) this.prepareNext();
+  }
+
+  // What comes next is made while nobody waits for it.
+  prepareNext() {
+    cancelWhenIdle(this.preparing);
+    this.preparing = whenIdle(() => this.picture.prepare(this.following));
+  }
+
+  tell() {
+    const { step, caption, part, counters = [] } = this.lesson.frames[this.index];
+    const steps = this.lesson.frames[this.lesson.last].step + 1;
+    if ($("caption").textContent !== caption) $("caption").textContent = caption;
+    $("counters").replaceChildren(...counters.map((text) => element(document, "span", { text })));
+    $("part").textContent = part ?? "";
+    $("place").textContent = `step ${step + 1} of ${steps}`;
+    $("slider").max = this.stops.length - 1;
+    $("slider").value = this.stops.findLastIndex((stop) => stop <= this.index);
+    $("slider").setAttribute("aria-valuetext", `step ${step + 1}: ${caption}`);
+    $("number").textContent = `${this.index} / ${this.lesson.last}`;
+    $("back").disabled = this.index === 0;
+    $("next").disabled = this.index === this.lesson.last;
+    history.replaceState(null, "", `#${this.index}`);
+    this.post({ frame: this.index, frames: this.lesson.frames.length, step, steps });
+  }
+
+  // --- stepping
+
+  next() {
+    if (this.playing) return this.pause();
+    if (this.index === this.lesson.last) return this.leave("next");
+    if (this.withMotion && !calm()) return this.play(this.following);
+    this.go(this.following);
+  }
+
+  back() {
+    if (this.index === 0) return this.leave("prev");
+    this.go(this.preceding);
+  }
+
+  setPace(byEvent) {
+    this.byEvent = byEvent;
+    $("pace").setAttribute("aria-pressed", byEvent);
+    this.tell();
+  }
+
+  setMotion(on) {
+    this.withMotion = on;
+    $("motion").setAttribute("aria-pressed", on);
+  }
+
+  // --- playing
+
+  // With in-betweens, to a frame; what was said is left to be read before it goes on.
+  play(until = this.lesson.last) {
+    if (this.index >= until) return;
+    this.pointing?.light(null);
+    $("play").setAttribute("aria-pressed", "true");
+    let from = performance.now();
+    const tick = (now) => {
+      this.playing = requestAnimationFrame(tick);
+      const speed = Number($("speed").value);
+      const { seconds } = this.lesson.frames[this.index + 1];
+      const t = ((now - from) / 1000) * speed / seconds;
+      if (t < 0) return;
+      if (t < 1) return calm() ? undefined : this.picture.showBetween(this.index + 1, t);
+      this.show(this.index + 1);
+      from = Math.max(now - 1000 * seconds / speed, from + 1000 * seconds / speed) + 1000 * this.hold() / speed;
+      if (this.index >= until) this.pause();
+    };
+    this.playing = requestAnimationFrame(tick);
+  }
+
+  // Seconds that a caption is left to be read when it comes.
+  hold() {
+    const { caption } = this.lesson.frames[this.index];
+    const following = this.lesson.frames[this.index + 1];
+    if (!following || following.caption === caption) return 0;
+    return Math.min(7, 1 + 0.05 * caption.length);
+  }
+
+  pause() {
+    if (!this.playing) return;
+    cancelAnimationFrame(this.playing);
+    this.playing = 0;
+    $("play").setAttribute("aria-pressed", "false");
+    this.picture.show(this.index);
+  }
+
+  togglePlay() {
+    if (this.playing) return this.pause();
+    if (this.index === this.lesson.last) this.show(0);
+    this.play();
+  }
+
+  // --- what stands beside
+
+  toggleFacts() {
+    const panel = $("facts-panel");
+    panel.hidden = !panel.hidden;
+    for (const name of ["aria-pressed", "aria-expanded"]) $("facts").setAttribute(name, !panel.hidden);
+    if (!panel.hidden) this.fillFacts();
+  }
+
+  fillFacts() {
+    $("facts-panel").replaceChildren(...this.facts[this.index].flatMap(factTables));
+  }
+
+  openOverview() {
+    const dialog = $("overview-dialog");
+    fillOverview(dialog, this.lesson, this.lesson.stepStops, this.lesson.stepStops.find((stop) => stop >= this.index),
+      (index) => { dialog.close(); this.go(index); });
+  }
+
+  openSpeaker() {
+    if (!this.speaker?.isOpen) this.speaker = new SpeakerView(this.lesson, (event) => onKey(this, event));
+    this.speaker.show(this.index, this.following);
+  }
+
+  changeTheme() {
+    const root = document.documentElement;
+    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+    const themes = ["light", "dark", "print"];
+    const now = themes.indexOf(root.dataset.theme ?? (dark ? "dark" : "light"));
+    root.dataset.theme = themes[(now + 1) % themes.length];
+    this.nameTheme();
+  }
+
+  nameTheme() {
+    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+    const theme = document.documentElement.dataset.theme ?? (dark ? "dark" : "light");
+    $("theme").textContent = theme === "print" ? "grey" : theme;
+  }
+
+  toggleFull() {
+    document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen();
+  }
+
+  // --- pointing
+
+  // The frame's facts are there.
+  know(facts) {
+    this.facts = facts;
+    this.pointing = new Pointing(this.lesson, this.picture, facts, (words) => {
+      $("said").textContent = words;
+      $("told").textContent = words;
+      $("told").hidden = !words;
+    });
+    $("facts").disabled = false;
+  }
+
+  pointAt(event) {
+    if (this.playing || !this.pointing) return;
+    const matrix = $("picture").getScreenCTM().inverse();
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
+    this.pointing.light(this.pointing.at(event.target.parentNode === this.picture.layer ? event.target : null, x, y));
+  }
+
+  // Buttons for all that can be pointed at, for those who have no pointer. Made when they are asked
+  // for: a frame may have thousands.
+  fillThings() {
+    const buttons = this.pointing.sides.flatMap((side) => [
+      ...[...side.nodes.keys()].map((way) => entity(side.side, "node", way)),
+      ...side.names.map((name) => entity(side.side, "body", name)),
+    ]).slice(0, MOST_ROWS).map((one) =>
+      element(document, "button", { "data-entity": one, text: this.pointing.words(one) }));
+    const first = $("things").firstElementChild;
+    while (first.nextElementSibling) first.nextElementSibling.remove(); // it keeps the focus
+    $("things").append(...buttons);
+  }
+
+  // --- other pages
+
+  post(message) {
+    if (window.parent !== window) window.parent.postMessage({ lantern: "frame", ...message }, "*");
+  }
+
+  // At either end a reveal.js deck goes on with its own slides.
+  leave(method) {
+    if (window.parent !== window) window.parent.postMessage(JSON.stringify({ method }), "*");
+  }
+
+  receive(data) {
+    if (data === "slide:start") return window.focus(); // of reveal.js: our slide is shown
+    const what = data?.lantern;
+    if (what === "next" || what === "back") this[what]();
+    if (what === "play") this.togglePlay();
+    if (what === "go" && Number.isInteger(data.frame)) this.go(data.frame);
+  }
+}
+
+const whenIdle = window.requestIdleCallback ?? ((act) => setTimeout(act, 50));
+const cancelWhenIdle = window.cancelIdleCallback ?? clearTimeout;
+const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+const KEYS = {
+  ArrowRight: (page) => page.next(), ArrowDown: (page) => page.next(),
+  PageDown: (page) => page.next(), " ": (page) => page.next(),
+  ArrowLeft: (page) => page.back(), ArrowUp: (page) => page.back(),
+  PageUp: (page) => page.back(), Backspace: (page) => page.back(),
+  Home: (page) => page.go(0), End: (page) => page.go(page.lesson.last),
+  e: (page) => page.setPace(!page.byEvent), m: (page) => page.setMotion(!page.withMotion),
+  p: (page) => page.togglePlay(), i: (page) => page.toggleFacts(),
+  o: (page) => page.openOverview(), s: (page) => page.openSpeaker(),
+  d: (page) => page.changeTheme(), f: (page) => page.toggleFull(),
+  "?": () => $("help-dialog").showModal(),
+  Escape: (page) => { page.pause(); page.pointing?.light(null); },
+};
+
+function onKey(page, event) {
+  if (event.ctrlKey || event.altKey || event.metaKey || document.querySelector("dialog[open]")) return;
+  const { tagName } = event.target;
+  if (tagName === "SELECT" || (tagName === "INPUT" && event.key.startsWith("Arrow")) || (tagName === "BUTTON" && event.key === " ")) return;
+  const act = KEYS[event.key] ?? KEYS[event.key.toLowerCase()];
+  if (!act) return;
+  event.preventDefault();
+  act(page);
+}
+
+function listenToButtons(page) {
+  const acts = {
+    back: () => page.back(), next: () => page.next(), play: () => page.togglePlay(),
+    pace: () => page.setPace(!page.byEvent), motion: () => page.setMotion(!page.withMotion),
+    facts: () => page.toggleFacts(), overview: () => page.openOverview(), speaker: () => page.openSpeaker(),
+    theme: () => page.changeTheme(), full: () => page.toggleFull(), help: () => $("help-dialog").showModal(),
+  };
+  for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
+  $("slider").addEventListener("input", () => page.go(page.stops[$("slider").value]));
+  for (const dialog of document.querySelectorAll("dialog"))
+    dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
+}
+
+function listenToPointer(page) {
+  const stage = $("stage");
+  let touch = null;
+  stage.addEventListener("pointermove", (event) => event.pointerType === "mouse" && page.pointAt(event));
+  stage.addEventListener("pointerleave", () => page.pointing?.light(null));
+  stage.addEventListener("pointerdown", (event) => (touch = event.pointerType === "touch" ? event : null));
+  stage.addEventListener("click", (event) => {
+    if (event.pointerType !== "touch") return event.shiftKey ? page.back() : page.next();
+    const way = touch ? event.clientX - touch.clientX : 0;
+    const at = (event.clientX - stage.offsetLeft) / stage.offsetWidth;
+    if (Math.abs(way) < 30 && at > 0.2 && at < 0.8) return page.pointAt(event);
+    return way > 30 || at <= 0.2 ? page.back() : page.next();
+  });
+}
+
+// What stands for a thing outside the picture is pointed at by pointer or focus.
+function listenToThings(page) {
+  const light = (event) => {
+    const one = event.target.closest("[data-entity]")?.dataset.entity;
+    if (one && page.pointing && !page.playing) page.pointing.light(one);
+  };
+  const dark = () => page.pointing?.light(null);
+  for (const list of [$("facts-panel"), $("things")]) {
+    list.addEventListener("pointerover", light);
+    list.addEventListener("pointerleave", dark);
+    list.addEventListener("focusin", light);
+    list.addEventListener("focusout", dark);
+  }
+  $("things").firstElementChild.addEventListener("focus", () => page.pointing && page.fillThings());
+}
+
+const indexFromHash = () => Number.parseInt(location.hash.slice(1), 10) || 0;
+
+async function open() {
+  const lesson = new Lesson(await unpacked("frames-packed"));
+  document.head.append(element(document, "style", { text: styleSheet(lesson) }));
+  const page = new Page(lesson);
+  listenToButtons(page);
+  listenToPointer(page);
+  listenToThings(page);
+  document.addEventListener("keydown", (event) => onKey(page, event));
+  window.addEventListener("hashchange", () => page.go(indexFromHash()));
+  window.addEventListener("message", (event) => page.receive(event.data));
+  window.addEventListener("beforeprint", () => fillHandout($("handout"), lesson, document.title));
+  window.addEventListener("afterprint", () => $("handout").replaceChildren());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => page.nameTheme());
+  page.nameTheme();
+  page.setPace(page.byEvent);
+  page.go(indexFromHash());
+  document.documentElement.dataset.ready = Math.round(performance.now());
+  window.lantern = page; // for those who look into it, and for tests
+  page.know(await unpacked("facts-packed"));
+}
+
+open().catch((error) => {
+  document.documentElement.classList.remove("live"); // the page as it is without scripts
+  throw error;
+});
