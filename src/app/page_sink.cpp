@@ -12,6 +12,7 @@
 #include "app/file_sink.hpp"
 #include "app/forecast.hpp"
 #include "app/in_betweens.hpp"
+#include "app/reload.hpp"
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
@@ -19,7 +20,6 @@
 #include "base/memory.hpp"
 #include "draw/page.hpp"
 #include "publish/lesson.hpp"
-#include "render/renderer.hpp"
 
 namespace lantern::app {
 namespace {
@@ -38,10 +38,11 @@ constexpr double kWords = 0.21;
 
 // The page shows title, caption and the numbers beside it as text of its own, and the picture
 // between them.
-RenderOptions of_picture(RenderOptions options) {
-  const auto [width, height] = parse_size(options.size, Renderer::kMostPixels);
-  options.size = fmt::format("{}x{}", width,
-                             std::max(16, static_cast<int>(std::lround((1 - kWords) * height))));
+RenderOptions of_picture(const RenderJob& job) {
+  RenderOptions options = job.options;
+  const double height = (1 - kWords) * job.picture.height;
+  options.size =
+      fmt::format("{}x{}", job.picture.width, std::max(16, static_cast<int>(std::lround(height))));
   options.no_title = options.no_caption = options.no_counters = true;
   return options;
 }
@@ -49,7 +50,7 @@ RenderOptions of_picture(RenderOptions options) {
 class PageSink : public FileSink {
  public:
   explicit PageSink(const Sequence& s)
-      : options_(of_picture(s.job.options)),
+      : options_(of_picture(s.job)),
         counters_(!s.job.options.no_counters),
         job_(options_),
         scenario_(s.scenario),
@@ -87,7 +88,10 @@ class PageSink : public FileSink {
   void close(const DirectorReport&) override {
     selection_.require_some();
     make_folder(file_.has_parent_path() ? file_.parent_path() : ".");
-    write_file(file_, lesson_.html());
+    std::string html = lesson_.html();
+    if (options_.reloading) html.insert(html.rfind("</body>"), reload_script(file_));
+    write_file(file_, html);
+    if (options_.reloading) tell_version(file_, html);
   }
 
  private:

@@ -6,7 +6,9 @@ namespace lantern {
 
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : printable(text)) {
+  const std::string plain = printable_lines(text);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const char c = plain[i];
     if (c == '&')
       out += "&amp;";
     else if (c == '<')
@@ -15,6 +17,8 @@ std::string escaped(std::string_view text) {
       out += "&gt;";
     else if (c == '"')
       out += "&quot;";
+    else if (plain.compare(i, 2, "\xef\xbf") == 0 && (plain[i + 2] & 0xfe) == 0xbe)
+      out += "\\uff", out += plain[i += 2] == '\xbe' ? "fe" : "ff";  // no characters of XML
     else
       out += c;
   }

@@ -6,8 +6,8 @@
 
 namespace lantern {
 
-// For what stands between tags or in an attribute's quotes: what would begin a tag, an entity or
-// end the quotes is written as an entity, and what a terminal would obey as in printable().
+// For what stands between tags or in an attribute's double quotes: & < > " as entities, and every
+// character that XML forbids or a reader would obey as an escape (printable.hpp); line breaks stay.
 std::string escaped(std::string_view text);
 
 }  // namespace lantern

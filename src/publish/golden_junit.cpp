@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.hpp"
 #include "publish/golden_report.hpp"
-#include "publish/markup.hpp"
 
 namespace lantern::publish {
 namespace {
@@ -29,7 +29,7 @@ class JunitWriter {
       cases_of(s);
       all +=
           fmt::format("  <testsuite name=\"{}\" file=\"{}\" {} skipped=\"0\">\n{}  </testsuite>\n",
-                      marked_up(s.scenario), marked_up(s.file), attributes(counts_), text_);
+                      escaped(s.scenario), escaped(s.file), attributes(counts_), text_);
       sum.tests += counts_.tests;
       sum.failures += counts_.failures;
       sum.errors += counts_.errors;
@@ -80,13 +80,13 @@ class JunitWriter {
   void put(const GoldenSuite& s, const std::string& name, std::string_view what,
            const std::string& message, const std::string& rest) {
     ++counts_.tests;
-    text_ += fmt::format("    <testcase name=\"{}\" classname=\"golden.{}\"", marked_up(name),
-                         marked_up(s.scenario));
+    text_ += fmt::format("    <testcase name=\"{}\" classname=\"golden.{}\"", escaped(name),
+                         escaped(s.scenario));
     text_ += what.empty() ? "/>\n"
                           : fmt::format(
                                 ">\n      <{0} type=\"golden\" message=\"{1}\">{2}</{0}>\n"
                                 "    </testcase>\n",
-                                what, marked_up(message), marked_up(rest));
+                                what, escaped(message), escaped(rest));
   }
 
   std::string text_;

@@ -6,8 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "base/markup.hpp"
 #include "publish/golden_report.hpp"
-#include "publish/markup.hpp"
+#include "publish/packed.hpp"
 
 namespace lantern::publish {
 namespace {
@@ -44,7 +45,7 @@ class GoldenPage {
                       : fmt::format("{} as expected", counted_frames(frames)),
         kGoldenStyle);
     put("<p class=\"quiet\">Compared with their golden frames; found by {}.</p>\n",
-        marked_up(made_by_));
+        escaped(made_by_));
     put_first();
     for (std::size_t i = 0; i < suites_.size(); ++i)
       if (!suites_[i].good()) put_suite(i);
@@ -67,10 +68,10 @@ class GoldenPage {
     for (std::size_t i = 0; i < suites_.size(); ++i) {
       const GoldenSuite& s = suites_[i];
       if (s.good()) continue;
-      put("<li><a href=\"#s{}\">{}</a>", i, marked_up(s.scenario));
+      put("<li><a href=\"#s{}\">{}</a>", i, escaped(s.scenario));
       if (const GoldenCase* first = s.first())
         put(" differs first in <a href=\"#s{}f{}\">{}</a>: {}", i, first->frame,
-            marked_up(name_of(*first)), marked_up(first->findings.front()));
+            escaped(name_of(*first)), escaped(first->findings.front()));
       put("</li>\n");
     }
     put("</ul>\n");
@@ -79,9 +80,9 @@ class GoldenPage {
   void put_suite(std::size_t place) {
     const GoldenSuite& s = suites_[place];
     put("<section aria-labelledby=\"s{0}\">\n<h2 id=\"s{0}\">{1}</h2>\n", place,
-        marked_up(s.scenario));
-    if (!s.error.empty()) put("<pre class=\"bad\">{}</pre>\n", marked_up(s.error));
-    for (const std::string& text : s.findings) put("<p class=\"bad\">{}</p>\n", marked_up(text));
+        escaped(s.scenario));
+    if (!s.error.empty()) put("<pre class=\"bad\">{}</pre>\n", escaped(s.error));
+    for (const std::string& text : s.findings) put("<p class=\"bad\">{}</p>\n", escaped(text));
     const std::size_t differing = s.differing();
     if (!s.cases.empty()) put("<p>{}.</p>\n", differing_of(differing, s.cases.size()));
     std::size_t shown = 0;
@@ -97,7 +98,7 @@ class GoldenPage {
     if (unmet.empty()) return;
     put("<details><summary>{} not met</summary>\n",
         unmet.size() == 1 ? "An expectation is" : fmt::format("{} expectations are", unmet.size()));
-    for (const std::string& text : unmet) put("<pre>{}</pre>\n", marked_up(text));
+    for (const std::string& text : unmet) put("<pre>{}</pre>\n", escaped(text));
     put("</details>\n");
   }
 
@@ -105,8 +106,8 @@ class GoldenPage {
     std::string name = name_of(c);
     name[0] = static_cast<char>(std::toupper(name[0]));
     put("<article aria-labelledby=\"s{0}f{1}\">\n<h3 id=\"s{0}f{1}\">{2}</h3>\n<ul>\n", place,
-        c.frame, marked_up(name));
-    for (const std::string& text : c.findings) put("<li>{}</li>\n", marked_up(text));
+        c.frame, escaped(name));
+    for (const std::string& text : c.findings) put("<li>{}</li>\n", escaped(text));
     put("</ul>\n");
     if (!c.picture_differs) {
       put("<p class=\"quiet\">Its picture is as expected.</p>\n");
@@ -126,7 +127,7 @@ class GoldenPage {
   void put_picture(const std::string& png, std::string_view title, const std::string& name) {
     if (png.empty()) return;
     put("<figure><img src=\"{}\" alt=\"{}: {}\"><figcaption>{}</figcaption></figure>\n",
-        png_uri(png), marked_up(name), title, title);
+        "data:image/png;base64," + base64(png), escaped(name), title, title);
   }
 
   void put_facts(const FactsComparison& facts) {
@@ -135,8 +136,8 @@ class GoldenPage {
         "<th scope=\"col\">fact</th><th scope=\"col\">expected</th><th scope=\"col\">found</th>"
         "</tr></thead>\n<tbody>\n");
     for (const FactsDifference& d : facts.differences)
-      put("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n", marked_up(d.path),
-          marked_up(d.expected), marked_up(d.actual));
+      put("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n", escaped(d.path),
+          escaped(d.expected), escaped(d.actual));
     put("</tbody>\n</table></div>\n");
     if (facts.total > facts.differences.size())
       put("<p>{} more facts differ.</p>\n", facts.total - facts.differences.size());
@@ -146,7 +147,7 @@ class GoldenPage {
     std::string names;
     for (const GoldenSuite& s : suites_)
       if (s.good())
-        names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", marked_up(s.scenario),
+        names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", escaped(s.scenario),
                              counted_frames(s.cases.size()));
     if (!names.empty()) put("<h2>As expected</h2>\n<p>{}</p>\n", names);
   }

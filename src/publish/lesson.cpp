@@ -8,6 +8,7 @@
 
 #include "base/check.hpp"
 #include "base/json_writer.hpp"
+#include "base/markup.hpp"
 #include "draw/theme.hpp"
 #include "embedded/lesson_files.hpp"
 #include "publish/lesson_facts.hpp"
@@ -95,7 +96,7 @@ void Lesson::add(const Frame& frame, const DrawList& list, const FrameWords& wor
   facts_ += (facts_.empty() ? "" : ",\n") + facts_for_page(frame, list);
   const std::string caption = whole_caption(frame);
   if (caption.empty() || caption == last_caption_) return;
-  captions_ += fmt::format("<li value=\"{}\">{}</li>\n", frame.step + 1, html_text(caption));
+  captions_ += fmt::format("<li value=\"{}\">{}</li>\n", frame.step + 1, escaped(caption));
   last_caption_ = caption;
 }
 
@@ -113,8 +114,8 @@ std::string Lesson::html() const {
 std::string Lesson::part(std::string_view name) const {
   if (name == "theme" && theme_ == "light") return "";
   if (name == "theme") return fmt::format(" data-theme=\"{}\"", theme_);
-  if (name == "title") return html_text(card_.title);
-  if (name == "idea") return html_text(card_.idea);
+  if (name == "title") return escaped(card_.title);
+  if (name == "idea") return escaped(card_.idea);
   if (name == "card") {
     LessonCard card = card_;
     card.frames = frames_.count();

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/markup.hpp"
 #include "embedded/lesson_files.hpp"
 #include "publish/lesson.hpp"
 #include "publish/packed.hpp"
@@ -81,7 +82,7 @@ std::string url_of(std::string_view file) {
 }
 
 std::string link_to(const std::string& file, std::string_view words) {
-  return fmt::format("<a href=\"{}\">{}</a>", url_of(file), html_text(words));
+  return fmt::format("<a href=\"{}\">{}</a>", url_of(file), escaped(words));
 }
 
 // The lessons to be seen before, linked where they stand in the folder.
@@ -90,7 +91,7 @@ std::string needs_of(const Listed& lesson, const std::map<std::string, const Lis
   for (const std::string& name : lesson.card.needs) {
     const auto found = by_name.find(name);
     text += text.empty() ? "<p class=\"needs\">after " : ", ";
-    text += found == by_name.end() ? html_text(name)
+    text += found == by_name.end() ? escaped(name)
                                    : link_to(found->second->file, found->second->card.title);
   }
   return text.empty() ? "" : text + "</p>\n";
@@ -104,7 +105,7 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
       "<img src=\"{}\" alt=\"\" loading=\"lazy\"></a>\n<h2>{}{}</h2>\n<p class=\"idea\">{}</p>\n{}"
       "<p class=\"length\">{} step{}</p>\n</li>\n",
       url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
-      html_text(card.idea), needs_of(lesson, by_name), card.steps, card.steps == 1 ? "" : "s");
+      escaped(card.idea), needs_of(lesson, by_name), card.steps, card.steps == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -36,32 +36,6 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-std::string html_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string script_text(std::string_view json) {
   std::string result;
   for (const char c : json) c == '<' ? result += "\\u003c" : result += c;

@@ -12,9 +12,6 @@ std::string deflated(std::string_view bytes);
 // RFC 4648, section 4.
 std::string base64(std::string_view bytes);
 
-// As text between two tags or within quotes: &, <, >, " and ' are written as references.
-std::string html_text(std::string_view text);
-
 // JSON as it may stand in a <script>: no letter of it can end the element or begin a comment.
 std::string script_text(std::string_view json);
 

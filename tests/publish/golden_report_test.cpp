@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "publish/markup.hpp"
 
 namespace lantern::publish {
 namespace {
@@ -61,16 +60,6 @@ TEST(GoldenReport, WhatConcernsAllFramesOrTheRunIsACaseOfItsOwn) {
   EXPECT_NE(xml.find("tests=\"2\" failures=\"1\" errors=\"1\""), xml.npos) << xml;
   EXPECT_NE(xml.find("message=\"first line\">first line\nsecond</error>"), xml.npos) << xml;
   EXPECT_FALSE(suite.good());
-}
-
-// Of RFC 4648, 10.
-TEST(Markup, PicturesAreBase64) {
-  const std::string head = "data:image/png;base64,";
-  EXPECT_EQ(png_uri(""), head);
-  EXPECT_EQ(png_uri("f"), head + "Zg==");
-  EXPECT_EQ(png_uri("fo"), head + "Zm8=");
-  EXPECT_EQ(png_uri("foobar"), head + "Zm9vYmFy");
-  EXPECT_EQ(png_uri("\xff\xfe\xfd"), head + "//79");
 }
 
 }  // namespace
