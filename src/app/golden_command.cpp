@@ -71,7 +71,7 @@ class GoldenRun {
     tell_end(report);
     if (!report.empty()) json_.line().member("report", report);
     json_.line().key("work");
-    write(json_, work_);
+    app::write(json_, work_);
     json_.line().end_object();
     if (options_.json) answer(json_.text());
     return code_;

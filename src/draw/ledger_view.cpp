@@ -41,13 +41,13 @@ std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
   const bool compared =
       frame.count("contacts").has_value() && frame.phase != scenario::StepPhase::broad;
   const bool one = n == 1;
-  const char* const overlap = one ? "box pair overlaps" : "boxes overlap";
+  const char* const overlap = one ? "box overlap" : "box overlaps";
   const char* const candidate = one ? "candidate" : "candidates";
   const char* const words[] = {"static, never tested",
                                looked ? "ruled out" : "not looked at",
                                compared ? overlap : candidate,
-                               one ? "box pair apart" : "boxes apart",
-                               one ? "shape pair apart" : "shapes apart",
+                               "apart by box",
+                               "apart by shape",
                                one ? "contact" : "contacts"};
   return fmt::format("{} {}", number_text(static_cast<double>(n)),
                      words[static_cast<std::size_t>(state)]);

@@ -276,8 +276,8 @@ std::string to_csv(std::span<const StructureTime> rows) {
 
 std::string to_json(std::span<const StructureTime> rows, std::uint64_t seed) {
   JsonWriter json;
-  json.begin_object().members("format", "lantern.structure.bench/1", "seed", seed, "capacity",
-                              kBenchCapacity, "max_depth", kBenchDepth);
+  json.begin_object().line().members("format", "lantern.structure.bench/1", "seed", seed,
+                                     "capacity", kBenchCapacity, "max_depth", kBenchDepth);
   json.line().key("rows").begin_array();
   for (const StructureTime& row : rows) {
     json.line().begin_object().members("scene", row.scene, "bodies", row.bodies, "structure",

@@ -46,7 +46,7 @@ TEST(BadInput, FilesThatAreNoScenario) {
 TEST(BadInput, FilesThatCannotBeRead) {
   EXPECT_EQ(shell("lantern check no/such/file.toml").code, 1);
   EXPECT_EQ(shell("lantern render no/such/file.toml").code, 1);
-  EXPECT_EQ(shell("lantern check /").code, 1);
+  EXPECT_EQ(shell("lantern check /").code, 2) << "a folder without scenarios";
   EXPECT_EQ(shell("lantern check /dev/zero").code, 1) << "a device never ends";
   EXPECT_EQ(shell("lantern explain no/such/file.toml").code, 1);
 }

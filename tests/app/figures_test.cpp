@@ -26,7 +26,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-std::size_t files_in(const fs::path& folder) {
+std::size_t number_of_files(const fs::path& folder) {
   return static_cast<std::size_t>(
       std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
@@ -36,7 +36,7 @@ void expect_refused(const std::string& words, const std::string& says) {
   const Outcome o = shell("cd " + out.string() + "; lantern render " + kGhosts + " " + words);
   EXPECT_EQ(o.code, 2) << words << o.err;
   EXPECT_NE(o.err.find(says), std::string::npos) << words << ": " << o.err;
-  EXPECT_EQ(files_in(out), 0u) << words;
+  EXPECT_EQ(number_of_files(out), 0u) << words;
 }
 
 // --- documents ---
@@ -51,7 +51,7 @@ TEST(Document, HasAPageAFrameAndTheWordsOfEach) {
   EXPECT_EQ(said["scenarios"][0]["frames"], 8);
   EXPECT_EQ(said["scenarios"][0]["files"], json::array({file.string()}));
   EXPECT_EQ(said["work"]["graphics_contexts"], 0) << "no OpenGL is needed";
-  EXPECT_EQ(files_in(out / "new"), 1u);
+  EXPECT_EQ(number_of_files(out / "new"), 1u);
   const std::string pdf = read_text(file);
   EXPECT_EQ(count(pdf, "/MediaBox [ 0 0 720 405 ]"), 8u) << "10 inches wide";
   EXPECT_EQ(count(pdf, "/Creator (Lantern "), 1u);
@@ -79,7 +79,7 @@ TEST(Document, APlaceholderMakesAFileAFrame) {
   const fs::path out = fresh_folder("documents");
   const Outcome o = render("--frames 2-3 -o " + (out / "{scenario}_{frame}.pdf").string());
   ASSERT_EQ(o.code, 0) << o.err;
-  EXPECT_EQ(files_in(out), 2u);
+  EXPECT_EQ(number_of_files(out), 2u);
   for (const char* number : {"0002", "0003"})
     EXPECT_EQ(
         count(read_text(out / ("ghost_quadtree_" + std::string(number) + ".pdf")), "/MediaBox"), 1u)
@@ -120,7 +120,7 @@ TEST(Document, AMissingLibraryIsToldBeforeTheRunAndTheOlderFileStays) {
             << o.err;
       }
     EXPECT_EQ(read_text(out / "old.pdf"), "old");
-    EXPECT_EQ(files_in(out), 2u);
+    EXPECT_EQ(number_of_files(out), 2u);
   }
 }
 
@@ -133,7 +133,7 @@ TEST(Document, AFailingWriteIsToldAndTheOlderFileStays) {
     EXPECT_NE(o.err.find("cannot write '" + (out / "fig.pdf").string()), std::string::npos)
         << o.err;
     EXPECT_EQ(read_text(out / "fig.pdf"), "old");
-    EXPECT_EQ(files_in(out), 1u) << "something half written is left";
+    EXPECT_EQ(number_of_files(out), 1u) << "something half written is left";
   }
   EXPECT_EQ(render("-o " + (out / "fig.pdf" / "a.pdf").string()).code, 1);
 }
@@ -163,7 +163,7 @@ TEST(Sheet, OfPngIsAPageAFile) {
   ASSERT_EQ(render(small + "-o " + (out / "p_{frame}.png").string()).code, 0);
   EXPECT_TRUE(fs::exists(out / "p_0000.png"));
   EXPECT_TRUE(fs::exists(out / "p_0004.png")) << "named after its first frame";
-  EXPECT_EQ(files_in(out), 3u);
+  EXPECT_EQ(number_of_files(out), 3u);
 }
 
 TEST(Sheet, IsRefusedWhereItCannotBe) {

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const std::string kSmall = " --size 160x90 ";
+const std::string kThumbnail = " --size 160x90 ";
 
 std::string lesson(const std::string& title, const std::string& more = "") {
   return "title = \"" + title + "\"\n" + more + "[[step]]\ndo = \"show\"\n";
@@ -30,12 +30,12 @@ TEST(StandardInput, IsAScenarioLikeAnyOther) {
   EXPECT_EQ(check.code, 0) << check.err;
   EXPECT_EQ(check.err.rfind("<stdin>: good; 8 frames", 0), 0u) << check.err;
   const Outcome render =
-      shell("cat " + kGhosts + " | lantern render -" + kSmall + "-o " + out.string());
+      shell("cat " + kGhosts + " | lantern render -" + kThumbnail + "-o " + out.string());
   EXPECT_EQ(render.code, 0) << render.err;
   EXPECT_TRUE(fs::exists(out / "stdin" / "stdin_0007.png"));
   EXPECT_EQ(shell("cat " + kGhosts + " | lantern explain --json -").code, 0);
   const Outcome picture =
-      shell("cat " + kGhosts + " | lantern render - -o - --at three" + kSmall + "--format svg");
+      shell("cat " + kGhosts + " | lantern render - -o - --at three" + kThumbnail + "--format svg");
   EXPECT_EQ(picture.code, 0) << picture.err;
   EXPECT_NE(picture.out.find("<svg"), std::string::npos);
 }
@@ -76,9 +76,9 @@ fs::path lessons(const std::string& name) {
 TEST(Folders, StandForTheirScenariosInTheOrderOfTheLecture) {
   const fs::path folder = lessons("folders");
   for (const char* command : {"check", "list", "render"}) {
-    const Outcome o =
-        shell(std::string("lantern ") + command + " --json " + folder.string() +
-              (command == std::string("render") ? kSmall + "-o " + (folder / "out").string() : ""));
+    const Outcome o = shell(
+        std::string("lantern ") + command + " --json " + folder.string() +
+        (command == std::string("render") ? kThumbnail + "-o " + (folder / "out").string() : ""));
     EXPECT_EQ(o.code, 0) << command << o.err;
     const json answer = json::parse(o.out);
     std::string order;
@@ -112,7 +112,7 @@ TEST(Folders, TheOnesThatComeWithLanternAreFoundFromAnywhere) {
 
 TEST(Quiet, LeavesErrorsAndWarningsOnly) {
   const fs::path out = fresh_folder("quiet");
-  const std::string render = "render " + kGhosts + kSmall + "--frames 0 -o " + out.string();
+  const std::string render = "render " + kGhosts + kThumbnail + "--frames 0 -o " + out.string();
   for (const std::string& words :
        {"--quiet " + render, render + " --quiet", "--quiet check " + kGhosts,
         "check --quiet " + kGhosts, std::string("compare --quiet a.png a.png")}) {
@@ -192,12 +192,12 @@ TEST(Words, OneIsOne) {
   EXPECT_EQ(shell("lantern check " + file).err, file + ": good; 1 frame, 0 expectations hold\n");
   EXPECT_NE(shell("lantern explain " + file).out.find(": 1 frame in"), std::string::npos);
   const Outcome render =
-      shell("lantern render " + file + kSmall + "-o " + (folder / "out").string());
+      shell("lantern render " + file + kThumbnail + "-o " + (folder / "out").string());
   EXPECT_NE(render.err.find("one: 1 frame in "), std::string::npos) << render.err;
 }
 
 TEST(Words, WhatIsToStandardOutputSaysWhichFramesWereChosen) {
-  const Outcome o = shell("lantern render " + kGhosts + kSmall + "--frames 2-5 -o -");
+  const Outcome o = shell("lantern render " + kGhosts + kThumbnail + "--frames 2-5 -o -");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("4 are chosen, from 2 to 5; --frames 5"), std::string::npos) << o.err;
 }

@@ -36,7 +36,7 @@ TEST(Warnings, AreSaidWithPlaceAndKey) {
   EXPECT_NE(o.err.find("away.toml:5:1: warning: frame 0 (0 s) shows no body"), std::string::npos)
       << o.err;
   EXPECT_NE(o.err.find("camera_target = [1, 1, 1] would look at it"), std::string::npos) << o.err;
-  EXPECT_NE(o.err.find("good; 1 frames, 0 expectations hold; 1 warning\n"), std::string::npos);
+  EXPECT_NE(o.err.find("good; 1 frame, 0 expectations hold; 1 warning\n"), std::string::npos);
   EXPECT_EQ(shell("lantern check " + file_of("at", looking_at_it())).err.find(": warning: "),
             std::string::npos);
 }

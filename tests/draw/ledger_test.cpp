@@ -46,16 +46,14 @@ TEST(Ledger, KeySumsToAllPairs) {
   int sum = 0;
   for (const LabelBox& label : list.labels)
     for (const char* words : {"static, never tested", "ruled out", "not looked at", "candidate",
-                              "boxes overlap", "box pair overlaps", "boxes apart", "box pair apart",
-                              "shapes apart", "shape pair apart", "contact"})
+                              "box overlap", "apart by box", "apart by shape", "contact"})
       if (label.text.find(words) != std::string::npos) sum += std::stoi(label.text);
   EXPECT_EQ(sum, 10);
 }
 
 TEST(Ledger, SaysNothingOfStatesThatDoNotOccur) {
   const DrawList list = samples::page_of(ledger("ledger_broad"));
-  for (const char* words :
-       {"boxes apart", "box pair apart", "shapes apart", "shape pair apart", "contact"})
+  for (const char* words : {"apart by box", "apart by shape", "contact"})
     EXPECT_FALSE(says_part(list, words)) << words << ", in the broad phase";
 }
 

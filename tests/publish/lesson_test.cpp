@@ -246,7 +246,7 @@ TEST(Lesson, KeepsWhatAUserWroteOutOfItsMarkup) {
   lesson.add(frame, picture(200, true), {nasty, {nasty}});
   const std::string page = lesson.html();
   EXPECT_EQ(page.find("<b onload"), page.npos);
-  EXPECT_NE(page.find("<title>&lt;/script&gt;&lt;b onload=&quot;x(&#39;y&#39;)&quot;&gt;&amp;amp; "
+  EXPECT_NE(page.find("<title>&lt;/script&gt;&lt;b onload=&quot;x('y')&quot;&gt;&amp;amp; "
                       "日本 {{script}}</title>"),
             page.npos);
   std::size_t ends = 0;
