@@ -160,7 +160,10 @@ void add_structure_check(CLI::App& structure, Run& run) {
       ->check(CLI::Range(1, 10'000'000))
       ->type_name("N")
       ->capture_default_str();
-  c->add_option("--seed", o.seed, "of the random worlds")->type_name("S")->capture_default_str();
+  c->add_option("--seed", o.seed, "of the random worlds")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+      ->type_name("S")
+      ->capture_default_str();
   c->add_option("-o,--output", o.output, "folder for NAME_fails.toml")
       ->check(kNotEmpty)
       ->type_name("DIR")
@@ -177,7 +180,10 @@ void add_structure_bench(CLI::App& structure, Run& run) {
       ->allow_extra_args(false)
       ->check(CLI::Range(2, 1'000'000))
       ->type_name("N");
-  c->add_option("--seed", o.seed, "of the random worlds")->type_name("S")->capture_default_str();
+  c->add_option("--seed", o.seed, "of the random worlds")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+      ->type_name("S")
+      ->capture_default_str();
   c->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -152,6 +152,14 @@ std::vector<Result> compare_two_files(const CompareOptions& o) {
 int compare_command(const CompareOptions& options) {
   if (!std::isfinite(options.fraction)) throw UsageError("--fraction must be a number from 0 to 1");
   std::error_code error;
+  for (const std::string& input : {options.expected, options.actual}) {
+    if (!fs::exists(input, error)) throw IoError(fmt::format("there is no '{}'", input));
+    if (!options.output.empty() && fs::equivalent(input, options.output, error))
+      throw UsageError(
+          fmt::format("-o {}: that is what is compared; name another place for the "
+                      "difference",
+                      options.output));
+  }
   const bool folders = fs::is_directory(options.expected, error);
   if (folders != fs::is_directory(options.actual, error))
     throw UsageError("compare two files, or two folders");
@@ -163,8 +171,10 @@ int compare_command(const CompareOptions& options) {
   for (const Result& r : results) {
     json.line().begin_object().member("name", r.name).member("equal", r.equal);
     json.member("finding", r.finding).end_object();
-    if (!options.json && (!r.equal || !folders))
-      say(fmt::format("{}: {}; {}", r.name, r.equal ? "equal" : "different", r.finding));
+    if (!r.equal)
+      complain(fmt::format("{}: different; {}", r.name, r.finding));
+    else if (!options.json && !folders)
+      say(fmt::format("{}: equal; {}", r.name, r.finding));
   }
   json.line().end_array().line().end_object();
   if (options.json) answer(json.text());

@@ -85,6 +85,8 @@ std::string progress_text(const RunExtent& extent, const RunState& state) {
     text += fmt::format(", {} of {}", grouped_plainly(state.world_steps),
                         counted_plainly(extent.world_steps, "world step"));
   if (state.files > 0) text += fmt::format(", {} on the disk", memory_text(state.bytes));
+  if (extent.frames && state.frames >= *extent.frames && state.drawn > 0)
+    return text + ", " + counted_plainly(state.drawn, "picture") + " drawn";
   return text + left_text(time_left(extent, state));
 }
 

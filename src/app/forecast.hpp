@@ -26,6 +26,7 @@ struct RunState {
   double seconds = 0;        // since it began
   std::uint64_t frames = 0;  // that it has given
   std::uint64_t in_betweens = 0;
+  std::uint64_t drawn = 0;  // pictures
   std::uint64_t world_steps = 0;
   double step_seconds = 0;  // since the first world step began, or, before the first is done,
                             // since anything was finished
@@ -47,7 +48,8 @@ std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state
 // memory (budget 12 GB)"
 std::string forecast_text(const RunExtent& extent, const RunState& state);
 
-// "7 of 70 frames, 49 in-betweens, 212 of 4000 world steps, about 12 s left"
+// "7 of 70 frames, 49 in-betweens, 212 of 4000 world steps, about 12 s left"; when the run is over
+// and its pictures are being drawn, "70 of 70 frames, 212 pictures drawn"
 std::string progress_text(const RunExtent& extent, const RunState& state);
 
 std::string duration_text(double seconds);  // "3 h"

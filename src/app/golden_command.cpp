@@ -81,8 +81,14 @@ class GoldenRun {
   void make_ready() const {
     if (!std::isfinite(options_.fraction))
       throw UsageError("--fraction must be a number from 0 to 1");
+    if (!options_.junit.empty() && options_.junit == options_.report)
+      throw UsageError("--junit and --report name the same file");
     for (const fs::path& file : {fs::path(options_.junit), report_file()}) {
       std::error_code error;
+      if (file == "-") throw UsageError("--junit and --report write files, not standard output");
+      for (const std::string& input : options_.files)
+        if (fs::equivalent(file, input, error))
+          throw UsageError(fmt::format("'{}' is the scenario; name another file", file.string()));
       if (fs::is_directory(file, error))
         throw UsageError(fmt::format("'{}' is a folder; give a file's name", file.string()));
     }
@@ -229,7 +235,7 @@ class GoldenRun {
         line += (&text == &first->findings.front() ? "" : "; ") + text;
     }
     for (const std::string& text : suite.findings) line += (line.empty() ? "" : "; ") + text;
-    if (!line.empty()) say(fmt::format("{}: {}", suite.scenario, line));
+    if (!line.empty()) complain(fmt::format("{}: {}", suite.scenario, line));
   }
 
   void tell_of(const GoldenCase& c) {

@@ -1,7 +1,7 @@
 #include "app/golden_sink.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,6 +51,17 @@ std::string GoldenSink::file(std::uint32_t frame, std::string_view ending) const
   return frame_file(goldens_.scenario.name, frame, ending);
 }
 
+std::map<std::string, std::uint32_t> GoldenSink::frame_files() const {
+  std::map<std::string, std::uint32_t> files;
+  std::error_code error;
+  for (fs::directory_iterator it(goldens_.folder, error), end; !error && it != end;
+       it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (const auto index = frame_of(name, goldens_.scenario.name)) files.emplace(name, *index);
+  }
+  return files;
+}
+
 std::optional<std::string> GoldenSink::read(const std::string& file) const {
   constexpr std::size_t kMostBytes = std::size_t{1} << 30;
   const fs::path path = goldens_.folder / file;
@@ -92,27 +103,25 @@ void GoldenComparison::compare_facts_of(GoldenCase& one, const std::string& fact
   }
 }
 
-// The golden picture is decoded only if the pixels are not those that the list tells of.
+// The list and the golden picture must tell of the same pixels: people look at the picture.
 void GoldenComparison::compare_picture_of(GoldenCase& one, const GoldenList::Entry& golden,
                                           const Image& image) {
   const std::string name = file(one.frame, "png");
-  if (pixel_hash(image) == golden.pixels) {
-    std::error_code error;
-    if (!fs::exists(goldens_.folder / name, error)) one.findings.push_back(name + " is missing");
-    return;
-  }
+  const bool same = pixel_hash(image) == golden.pixels;
   const auto bytes = read(name);
   const auto expected = bytes ? decode_png(*bytes) : std::nullopt;
   if (!expected) {
-    one.findings.push_back(
-        fmt::format("its pixels differ, and {} is {}", name, bytes ? "damaged" : "missing"));
-    return show(one, nullptr, image);
+    one.findings.push_back(fmt::format("{}{} is {}", same ? "" : "its pixels differ, and ", name,
+                                       bytes ? "damaged" : "missing"));
+    if (!same) show(one, nullptr, image);
+    return;
   }
   if (pixel_hash(*expected) != golden.pixels) {
     one.findings.push_back(
         fmt::format("{} is not the picture that {} tells of", name, kGoldenList));
     return show(one, &*expected, image);
   }
+  if (same) return;
   const Comparison compared = compare(*expected, image, allowance_.tolerance);
   if (passes(compared, *expected, allowance_)) return;
   one.findings.push_back(finding(compared));
@@ -138,6 +147,11 @@ void GoldenComparison::close(const DirectorReport&) {
       one.event = golden.event;
       one.findings.emplace_back("is expected, but the run has no such frame");
     }
+  if (!goldens_.selection.takes_all()) return;
+  for (const auto& [name, index] : frame_files())
+    if (const auto bytes = read(name);
+        !goldens_.list.frames.contains(index) && bytes && is_as_made(name, *bytes))
+      suite_.findings.push_back(fmt::format("{} is of no golden frame; --update removes it", name));
 }
 
 void GoldenUpdate::take(const Frame& frame, const Image& image, const std::string& facts) {
@@ -181,14 +195,9 @@ void GoldenUpdate::close(const DirectorReport&) {
 
 // Of whatever run, finished or not.
 void GoldenUpdate::remove_gone() {
-  std::set<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator it(goldens_.folder, error), end; !error && it != end;
-       it.increment(error))
-    names.insert(it->path().filename().string());
-  for (const std::string& name : names) {
-    const auto index = frame_of(name, goldens_.scenario.name);
-    if (!index || *index < count_) continue;
+  for (const auto& [name, index] : frame_files()) {
+    if (index < count_) continue;
+    std::error_code error;
     const auto bytes = read(name);
     if (!bytes || !is_as_made(name, *bytes)) {
       strange_.push_back(name);

@@ -51,6 +51,8 @@ class GoldenSink : public StagedSink {
   // Throws BackendError, and UsageError for a picture that is too large.
   void draw(const Frame& frame, const Staging& staging) final;
   std::string file(std::uint32_t frame, std::string_view ending) const;
+  // The pictures and facts of frames that stand in the folder, by name, with their frame's index.
+  std::map<std::string, std::uint32_t> frame_files() const;
   // Nothing if it is not there. Throws IoError if it cannot be read.
   std::optional<std::string> read(const std::string& file) const;
 

@@ -73,7 +73,10 @@ std::string usage_hint(const CLI::App& app, int argc, char** argv) {
 // A wish for JSON holds even if the other words make no sense.
 void owe_answer_if_wanted(const CLI::App& app, int argc, char** argv) {
   const auto end = std::find(argv, argv + argc, std::string_view("--"));
-  if (std::find(argv, end, std::string_view("--json")) == end) return;
+  const auto wants_json = [](std::string_view word) {
+    return word == "--json" || word == "--json=true" || word == "--json=1";
+  };
+  if (std::none_of(argv, end, wants_json)) return;
   std::string unknown;
   const std::string names = names_of(commands_of(app, argc, argv, unknown), ".");
   owe_answer(names.empty() || !unknown.empty() ? "error" : names);

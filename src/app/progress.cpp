@@ -39,6 +39,7 @@ Progress::Progress(std::string name, const RunExtent& extent, const Work& work,
       files_before_(work.frames_written),
       bytes_before_(work.bytes_written),
       between_before_(work.in_betweens),
+      drawn_before_(work.frames_drawn),
       budget_(memory_budget) {
   start();
 }
@@ -111,6 +112,7 @@ void Progress::look(RunState& state) {
   state.files = work_->frames_written - files_before_;
   state.bytes = work_->bytes_written - bytes_before_;
   state.in_betweens = work_->in_betweens - between_before_;
+  state.drawn = work_->frames_drawn - drawn_before_;
   state.memory = memory_in_use();
   state.budget = budget_;
   if (state.world_steps == 0 && state.frames != last_frames_) {

@@ -48,6 +48,7 @@ class Progress {
   std::uint64_t files_before_ = 0;
   std::uint64_t bytes_before_ = 0;
   std::uint64_t between_before_ = 0;
+  std::uint64_t drawn_before_ = 0;
   std::optional<std::size_t> budget_;
   std::uint64_t total_ = 0;
   std::string unit_;

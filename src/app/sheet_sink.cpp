@@ -144,8 +144,10 @@ class SheetSink : public FileSink {
     std::string caption;
     if (display.caption)
       caption = frame.part.empty() ? frame.caption : frame.part + ": " + frame.caption;
+    if (const auto counters = counter_texts(frame); display.counters && !counters.empty())
+      caption += fmt::format("{}({})", caption.empty() ? "" : " ", fmt::join(counters, ", "));
     return {draw_frame(bare, staging, layout_.picture(), sequence_.work),
-            fmt::format("{}", frame.index), std::move(caption)};
+            fmt::format("{}", frame.index + 1), std::move(caption)};
   }
   void add_page() {
     const std::string number = fmt::format("page {} of {}", ++page_, pages_);

@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/structure_names.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/suggest.hpp"
@@ -149,8 +150,8 @@ int structure_check_command(const StructureCheckOptions& options) {
       tell_fault(trial, file);
       code = kFailed;
     } else if (!options.json) {
-      say(fmt::format("{}: good; the pairs of {} worlds are those of brute force", to_string(kind),
-                      trial.worlds));
+      say(fmt::format("{}: good; in {} the pairs are those of brute force", to_string(kind),
+                      counted(trial.worlds, "world")));
     }
   }
   json.line().end_array().end_object();

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "base/stop.hpp"
 #include "draw/tween_plan.hpp"
@@ -17,21 +21,24 @@ struct BeatSpans {
 
 // In the order of the beats.
 constexpr std::array<BeatSpans, static_cast<std::size_t>(Beat::count_beats)> kSpans{{
-    {{0, 0}, {0, 0, false}},          // always
-    {{0, 0.35}, {0, 0.5, false}},     // out
-    {{0.1, 0.75}, {0, 1, false}},     // move
-    {{0.65, 1}, {0.5, 1, false}},     // in
-    {{0.2, 0.5}, {0.2, 0.5, false}},  // over
-    {{0.4, 0.7}, {0.5, 0.8, false}},  // under
-    {{0.2, 0.85}, {0, 1, false}},     // grow
-    {{0.2, 0.45}, {0, 0.4, false}},   // dawn
-    {{0, 0.65}, {0, 1, false}},       // fold
-    {{0.4, 0.65}, {0.6, 1, false}},   // dusk
+    {{0, 0}, {0, 0, false}},                     // always
+    {{0, 0.35}, {0, 0.5, false}},                // out
+    {{0.1, 0.75}, {0, 1, false}},                // move
+    {{0.65, 1}, {0.5, 1, false}},                // in
+    {{0.2, 0.5}, {0.2, 0.5, false}},             // over
+    {{0.4, 0.7}, {0.5, 0.8, false}},             // under
+    {{0.2, 0.85}, {0, 1, false}},                // grow
+    {{0.2, 0.45}, {0, 0.4, false}},              // dawn
+    {{0, 0.65}, {0, 1, false}},                  // fold
+    {{0.4, 0.65}, {0.6, 1, false}},              // dusk
+    {{0.5, 0.501, false}, {0.5, 0.501, false}},  // swap
 }};
 
 class Passages {
  public:
-  Passages(const DrawList& a, const DrawList& b) : a_(a), b_(b), plan_(plan_tween(a, b)) {}
+  Passages(const DrawList& a, const DrawList& b) : a_(a), b_(b), plan_(plan_tween(a, b)) {
+    swap_texts();
+  }
 
   // What goes is painted before what lay on it; what is handed on passes over all else.
   std::vector<Passage> made() {
@@ -50,11 +57,39 @@ class Passages {
   }
 
  private:
+  // The text of this shape if it comes or goes where it stands, or with its thing.
+  static const TextShape* text_alone(const DrawList& list, const std::vector<Fate>& fates,
+                                     std::size_t i) {
+    const bool alone = fates[i].kind == Fate::fades || fates[i].kind == Fate::follows;
+    return alone ? std::get_if<TextShape>(&list.shapes[i]) : nullptr;
+  }
+
+  // A text in the place of another one of its style: one of the two is always seen.
+  void swap_texts() {
+    std::vector<std::size_t> coming;
+    for (std::size_t i = 0; i < b_.shapes.size(); ++i)
+      if (text_alone(b_, plan_.of_b, i)) coming.push_back(i);
+    for (std::size_t i = 0; i < a_.shapes.size(); ++i) {
+      const TextShape* old = text_alone(a_, plan_.of_a, i);
+      if (!old) continue;
+      const auto next = std::find_if(coming.begin(), coming.end(), [&](std::size_t k) {
+        const auto& text = std::get<TextShape>(b_.shapes[k]);
+        return text.size == old->size && text.weight == old->weight && text.align == old->align &&
+               std::abs(text.at.y - old->at.y) < 1 && std::abs(text.at.x - old->at.x) < old->size;
+      });
+      if (next == coming.end()) continue;
+      swapped_a_.insert(i);
+      swapped_b_.insert(*next);
+      coming.erase(next);
+    }
+  }
+
   void add(const Passage& passage) { out_.push_back(passage); }
 
   void add_new(std::size_t i) {
     const Fate& fate = plan_.of_b[i];
-    const Beat seen = is_text(b_.shapes[i]) ? Beat::in : Beat::over;
+    const bool swaps = swapped_b_.contains(i);
+    const Beat seen = swaps ? Beat::swap : is_text(b_.shapes[i]) ? Beat::in : Beat::over;
     switch (fate.kind) {
       case Fate::handed:  // painted last
       case Fate::hidden:
@@ -62,7 +97,7 @@ class Passages {
       case Fate::stands:
         return add({{}, i});
       case Fate::fades:
-        return add({{}, i, Beat::always, Beat::in});
+        return add({{}, i, Beat::always, swaps ? Beat::swap : Beat::in});
       case Fate::follows:
         return add({{}, i, Beat::move, seen, false, fate.own, fate.other, fate.own});
       case Fate::emerges:
@@ -74,7 +109,8 @@ class Passages {
 
   void add_old(std::size_t i) {
     const Fate& fate = plan_.of_a[i];
-    const Beat seen = is_text(a_.shapes[i]) ? Beat::out : Beat::under;
+    const bool swaps = swapped_a_.contains(i);
+    const Beat seen = swaps ? Beat::swap : is_text(a_.shapes[i]) ? Beat::out : Beat::under;
     switch (fate.kind) {
       case Fate::meets:   // painted with its mate
       case Fate::handed:  // painted last
@@ -83,7 +119,7 @@ class Passages {
       case Fate::stands:
         return add({i, {}});
       case Fate::fades:
-        return add({i, {}, Beat::always, Beat::out, true});
+        return add({i, {}, Beat::always, swaps ? Beat::swap : Beat::out, true});
       case Fate::follows:
         return add({i, {}, Beat::move, seen, true, fate.own, fate.own, fate.other});
       case Fate::emerges:
@@ -95,6 +131,7 @@ class Passages {
 
   const DrawList &a_, &b_;
   TweenPlan plan_;
+  std::set<std::size_t> swapped_a_, swapped_b_;
   std::vector<Passage> out_;
 };
 

@@ -140,7 +140,9 @@ void Film::State::fail() {
   const int code = child.finish();
   const std::string words = last_words(child.said(), film_target(file), path.string());
   throw IoError(fmt::format("cannot make '{}': ffmpeg {} {}{}{}", printable(path.string()),
-                            code > 128 ? "was ended by signal" : "failed with exit code",
+                            code > 128  ? "was ended by signal"
+                            : code == 0 ? "wrote no whole film, and ended with exit code"
+                                        : "failed with exit code",
                             code > 128 ? code - 128 : code, words.empty() ? "" : ": ", words));
 }
 

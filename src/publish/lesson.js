@@ -1,4 +1,11 @@
 // The page itself: which frame is shown, and what keys, clicks, touches and other pages do.
+//
+// In a deck: <iframe src="lesson.html?embed">. The page then leaves out its title and controls. It
+// takes the keys of a reveal.js or Quarto deck while its slide is shown, and gives them back at
+// its ends: it posts {"method": "next"} or {"method": "prev"} as JSON, which reveal.js obeys.
+// Any other page may post to it {lantern: "next"}, {lantern: "back"}, {lantern: "play"} or
+// {lantern: "go", frame: 7}, and is told {lantern: "frame", frame, frames, step, steps} of every
+// frame that is shown. Frames are numbered from 0, as in file names and behind the address's #.
 
 const $ = (id) => document.getElementById(id);
 
@@ -6,6 +13,7 @@ class Page {
   constructor(lesson) {
     this.lesson = lesson;
     this.picture = new Picture(lesson, $("picture"));
+    this.words = new Words(lesson);
     this.index = 0;
     this.byEvent = lesson.stepStops.length === 1;
     this.withMotion = false;
@@ -48,20 +56,23 @@ class Page {
   }
 
   tell() {
-    const { step, caption, part, counters = [] } = this.lesson.frames[this.index];
-    const steps = this.lesson.frames[this.lesson.last].step + 1;
-    if ($("caption").textContent !== caption) $("caption").textContent = caption;
-    $("counters").replaceChildren(...counters.map((text) => element(document, "span", { text })));
-    $("part").textContent = part ?? "";
-    $("place").textContent = `step ${step + 1} of ${steps}`;
-    $("slider").max = this.stops.length - 1;
-    $("slider").value = this.stops.findLastIndex((stop) => stop <= this.index);
-    $("slider").setAttribute("aria-valuetext", `step ${step + 1}: ${caption}`);
-    $("number").textContent = `${this.index} / ${this.lesson.last}`;
+    const { step, caption } = this.lesson.frames[this.index];
+    this.words.show(this.index);
+    this.tellStop(step, caption);
     $("back").disabled = this.index === 0;
     $("next").disabled = this.index === this.lesson.last;
     history.replaceState(null, "", `#${this.index}`);
-    this.post({ frame: this.index, frames: this.lesson.frames.length, step, steps });
+    this.post({ frame: this.index, frames: this.lesson.frames.length, step, steps: this.lesson.steps });
+  }
+
+  // Slider and number count stops, from 1 on for people. A step stops at its last frame.
+  tellStop(step, caption) {
+    const stop = this.stops.findIndex((stop) => stop >= this.index);
+    $("slider").max = this.stops.length - 1;
+    $("slider").value = stop;
+    $("slider").setAttribute("aria-label", this.byEvent ? "Frame" : "Step");
+    $("slider").setAttribute("aria-valuetext", `${stop + 1} of ${this.stops.length}, step ${step + 1}: ${caption}`);
+    $("number").textContent = `${stop + 1} / ${this.stops.length}`;
   }
 
   // --- stepping
@@ -140,6 +151,15 @@ class Page {
     panel.hidden = !panel.hidden;
     for (const name of ["aria-pressed", "aria-expanded"]) $("facts").setAttribute(name, !panel.hidden);
     if (!panel.hidden) this.fillFacts();
+    else if (panel.contains(document.activeElement)) $("facts").focus();
+    this.words.fit();
+  }
+
+  // What is open, or plays, or is lit.
+  closeAll() {
+    this.pause();
+    this.pointing?.light(null);
+    if (!$("facts-panel").hidden) this.toggleFacts();
   }
 
   fillFacts() {
@@ -155,21 +175,6 @@ class Page {
   openSpeaker() {
     if (!this.speaker?.isOpen) this.speaker = new SpeakerView(this.lesson, (event) => onKey(this, event));
     this.speaker.show(this.index, this.following);
-  }
-
-  changeTheme() {
-    const root = document.documentElement;
-    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-    const themes = ["light", "dark", "print"];
-    const now = themes.indexOf(root.dataset.theme ?? (dark ? "dark" : "light"));
-    root.dataset.theme = themes[(now + 1) % themes.length];
-    this.nameTheme();
-  }
-
-  nameTheme() {
-    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-    const theme = document.documentElement.dataset.theme ?? (dark ? "dark" : "light");
-    $("theme").textContent = theme === "print" ? "grey" : theme;
   }
 
   toggleFull() {
@@ -199,10 +204,7 @@ class Page {
   // Buttons for all that can be pointed at, for those who have no pointer. Made when they are asked
   // for: a frame may have thousands.
   fillThings() {
-    const buttons = this.pointing.sides.flatMap((side) => [
-      ...[...side.nodes.keys()].map((way) => entity(side.side, "node", way)),
-      ...side.names.map((name) => entity(side.side, "body", name)),
-    ]).slice(0, MOST_ROWS).map((one) =>
+    const buttons = this.pointing.entities.slice(0, MOST_ROWS).map((one) =>
       element(document, "button", { "data-entity": one, text: this.pointing.words(one) }));
     const first = $("things").firstElementChild;
     while (first.nextElementSibling) first.nextElementSibling.remove(); // it keeps the focus
@@ -242,15 +244,15 @@ const KEYS = {
   e: (page) => page.setPace(!page.byEvent), m: (page) => page.setMotion(!page.withMotion),
   p: (page) => page.togglePlay(), i: (page) => page.toggleFacts(),
   o: (page) => page.openOverview(), s: (page) => page.openSpeaker(),
-  d: (page) => page.changeTheme(), f: (page) => page.toggleFull(),
+  d: changeTheme, f: (page) => page.toggleFull(),
   "?": () => $("help-dialog").showModal(),
-  Escape: (page) => { page.pause(); page.pointing?.light(null); },
+  Escape: (page) => page.closeAll(),
 };
 
 function onKey(page, event) {
   if (event.ctrlKey || event.altKey || event.metaKey || document.querySelector("dialog[open]")) return;
   const { tagName } = event.target;
-  if (tagName === "SELECT" || (tagName === "INPUT" && event.key.startsWith("Arrow")) || (tagName === "BUTTON" && event.key === " ")) return;
+  if ((tagName === "SELECT" && event.key !== "Escape") || (tagName === "INPUT" && event.key.startsWith("Arrow")) || (tagName === "BUTTON" && event.key === " ")) return;
   const act = KEYS[event.key] ?? KEYS[event.key.toLowerCase()];
   if (!act) return;
   event.preventDefault();
@@ -262,7 +264,7 @@ function listenToButtons(page) {
     back: () => page.back(), next: () => page.next(), play: () => page.togglePlay(),
     pace: () => page.setPace(!page.byEvent), motion: () => page.setMotion(!page.withMotion),
     facts: () => page.toggleFacts(), overview: () => page.openOverview(), speaker: () => page.openSpeaker(),
-    theme: () => page.changeTheme(), full: () => page.toggleFull(), help: () => $("help-dialog").showModal(),
+    theme: changeTheme, full: () => page.toggleFull(), help: () => $("help-dialog").showModal(),
   };
   for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
   $("slider").addEventListener("input", () => page.go(page.stops[$("slider").value]));
@@ -315,10 +317,12 @@ async function open() {
   window.addEventListener("message", (event) => page.receive(event.data));
   window.addEventListener("beforeprint", () => fillHandout($("handout"), lesson, document.title));
   window.addEventListener("afterprint", () => $("handout").replaceChildren());
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => page.nameTheme());
-  page.nameTheme();
-  page.setPace(page.byEvent);
-  page.go(indexFromHash());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", nameTheme);
+  nameTheme();
+  window.addEventListener("resize", () => page.words.fit());
+  $("pace").setAttribute("aria-pressed", page.byEvent);
+  page.go(indexFromHash()); // before anything writes a number there
+  page.words.fit();
   document.documentElement.dataset.ready = Math.round(performance.now());
   window.lantern = page; // for those who look into it, and for tests
   page.know(await unpacked("facts-packed"));

@@ -26,6 +26,10 @@ class Lesson {
     return this.frames.length - 1;
   }
 
+  get steps() {
+    return this.frames[this.last].step + 1;
+  }
+
   // A row as { kind, key, style, text, at }: `at` are its measures in page units, of a rectangle
   // x, y, width, height, radius; of a line and a polygon points; of a text x, y, size.
   shape(row) {

@@ -4,6 +4,7 @@
 const MANY = 1500; // shapes that make a step slow
 const SVG = "http://www.w3.org/2000/svg";
 const TAG = ["rect", "line", "polygon", "path"];
+const RECT_AT = ["x", "y", "width", "height", "rx"]; // in the order of a rectangle's measures
 const role = (number) => (number === 0 ? "none" : `var(--role-${number})`);
 
 // The classes that paint: colours by role, so that a theme changes them all at once.
@@ -37,7 +38,7 @@ const thousandths = (n) => Math.round(n * 1000) / 1000;
 function place(element, kind, at) {
   const set = (name, value) => element.setAttribute(name, thousandths(value));
   if (kind === KIND.rect) {
-    ["x", "y", "width", "height", "rx"].forEach((name, i) => set(name, Math.max(at[i], i < 2 ? at[i] : 0)));
+    RECT_AT.forEach((name, i) => set(name, Math.max(at[i], i < 2 ? at[i] : 0)));
   } else if (kind === KIND.line) {
     ["x1", "y1", "x2", "y2"].forEach((name, i) => set(name, at[i]));
   } else if (kind === KIND.polygon) {

@@ -174,19 +174,26 @@ class Pointing {
     for (const element of this.picture.layer.querySelectorAll(".lit")) {
       const [key, ...entities] = this.lesson.keys[element.thing];
       if (!/(tree\/node|memory\/leaf|pool|ledger)\//.test(key) || element.tagName !== "rect") continue;
-      if (entities.every((e) => kindOf(e) !== "body") && !boxes.has(key)) boxes.set(key, element.getBBox());
+      if (entities.every((e) => kindOf(e) !== "body") && !boxes.has(key)) boxes.set(key, element);
     }
-    for (const { x, y, width, height } of boxes.values())
-      this.addOver([x, y, x + width, y, x + width, y + height, x, y + height]);
+    for (const box of boxes.values()) this.addOver("rect", RECT_AT, (name) => box.getAttribute(name));
     for (const one of related) {
       const node = kindOf(one) === "node" && this.side(one).nodes.get(nameOf(one));
-      if (node && node.outline.length) this.addOver(node.outline);
+      if (node && node.outline.length) this.addOver("polygon", ["points"], () => node.outline.join(" "));
     }
   }
 
-  addOver(points) {
-    const polygon = this.picture.make("polygon");
-    polygon.setAttribute("points", points.join(" "));
-    this.picture.over.append(polygon);
+  addOver(tag, names, value) {
+    const made = this.picture.make(tag);
+    for (const name of names) made.setAttribute(name, value(name));
+    this.picture.over.append(made);
+  }
+
+  // All that can be pointed at in this frame.
+  get entities() {
+    return this.sides.flatMap((side) => [
+      ...[...side.nodes.keys()].map((way) => entity(side.side, "node", way)),
+      ...side.names.map((name) => entity(side.side, "body", name)),
+    ]);
   }
 }

@@ -1,5 +1,5 @@
-// What stands beside the picture when it is asked for: facts, all steps, the handout, the speaker's
-// view.
+// What stands beside the picture: the words, and when they are asked for facts, all steps, the
+// handout, the speaker's view.
 
 // An element of a document with a class, a text or children.
 function element(doc, tag, { text, children = [], ...attributes } = {}) {
@@ -8,6 +8,88 @@ function element(doc, tag, { text, children = [], ...attributes } = {}) {
   if (text !== undefined) made.textContent = text;
   made.append(...children);
   return made;
+}
+
+const counterList = (doc, counters = []) => counters.map((text) => element(doc, "span", { text }));
+
+// The words above and below the picture.
+class Words {
+  static MOST_PASSES = 5;
+
+  constructor(lesson) {
+    this.lesson = lesson;
+    document.getElementById("words").append(...this.spares());
+  }
+
+  // Unseen words of all frames, in the place of those that are seen: the room for words is that of
+  // the longest at any size of the window, and the picture keeps its own from step to step. Words
+  // that differ in their digits alone need the same room.
+  spares() {
+    const distinct = new Map();
+    for (const { caption, counters = [], ending } of this.lesson.frames) {
+      const words = JSON.stringify([caption, counters, ending]).replace(/\d/g, "0");
+      distinct.set(words, JSON.parse(words));
+    }
+    return [...distinct.values()].map(([caption, counters, ending]) =>
+      element(document, "div", {
+        class: `words spare${ending ? " ending" : ""}`, "aria-hidden": "true",
+        children: [
+          element(document, "p", { class: "caption", text: caption }),
+          element(document, "p", { class: "counters", children: counterList(document, counters) }),
+        ],
+      }));
+  }
+
+  show(index) {
+    const { step, caption, part, counters, ending } = this.lesson.frames[index];
+    const [told, numbers] = ["caption", "counters"].map((id) => document.getElementById(id));
+    if (told.textContent !== caption) told.textContent = caption;
+    numbers.replaceChildren(...counterList(document, counters));
+    told.parentNode.classList.toggle("ending", Boolean(ending));
+    document.getElementById("part").textContent = part ?? "";
+    document.getElementById("place").textContent = `step ${step + 1} of ${this.lesson.steps}`;
+  }
+
+  // Words begin and end where the picture's panels do. Narrower words may be higher, and then the
+  // picture is smaller: done again until nothing moves.
+  fit() {
+    const [width, height] = this.lesson.size;
+    const app = document.getElementById("app");
+    app.style.setProperty("--ratio", width / height);
+    const margin = width < 1000 ? 40 : 60; // of draw/page.cpp
+    let edge = Math.round((margin * document.getElementById("stage").clientWidth) / width);
+    for (let pass = 0; pass < Words.MOST_PASSES; pass++) {
+      app.style.setProperty("--edge", `${edge}px`);
+      const { clientWidth, clientHeight } = document.getElementById("stage");
+      const scale = Math.min(clientWidth / width, clientHeight / height);
+      const found = Math.round((clientWidth - scale * width) / 2 + margin * scale);
+      if (found <= edge) return;
+      edge = found;
+    }
+  }
+}
+
+const THEMES = { light: "light", dark: "dark", print: "grey" };
+
+function themeNow() {
+  const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+  return document.documentElement.dataset.theme ?? (dark ? "dark" : "light");
+}
+
+function followingTheme() {
+  const names = Object.keys(THEMES);
+  return names[(names.indexOf(themeNow()) + 1) % names.length];
+}
+
+function changeTheme() {
+  document.documentElement.dataset.theme = followingTheme();
+  nameTheme();
+}
+
+function nameTheme() {
+  const title = `Colours: ${THEMES[themeNow()]}. Change to ${THEMES[followingTheme()]} (D)`;
+  const button = document.getElementById("theme");
+  for (const name of ["title", "aria-label"]) button.setAttribute(name, title);
 }
 
 function table(title, heads, rows) {
@@ -49,6 +131,17 @@ function still(lesson, doc, index) {
   return svg;
 }
 
+// How many columns make pictures of a shape as large as they can be in a room; where not all of
+// them find room there, as many as leave a caption legible.
+function columnsFor(count, ratio, { width, height }) {
+  const [words, gap, least] = [64, 13, 240]; // px: a caption's lines, between pictures, a picture
+  for (let columns = 1; ; columns++) {
+    const wide = (width - gap) / columns - gap;
+    const high = Math.ceil(count / columns) * (wide / ratio + words + gap);
+    if (high <= height || wide < least) return columns;
+  }
+}
+
 // Every stop as a small picture; chosen(index) when one is.
 function fillOverview(dialog, lesson, stops, current, chosen) {
   const drawn = new IntersectionObserver((entries) => {
@@ -57,13 +150,12 @@ function fillOverview(dialog, lesson, stops, current, chosen) {
       target.prepend(still(lesson, document, Number(target.dataset.index)));
     }
   }, { rootMargin: "200px" });
+  const columns = columnsFor(stops.length, lesson.size[0] / lesson.size[1],
+    { width: 0.97 * innerWidth, height: 0.95 * innerHeight });
+  dialog.style.setProperty("--columns", columns);
+  dialog.style.setProperty("--ratio", lesson.size[0] / lesson.size[1]);
   dialog.replaceChildren(...stops.map((index) => {
-    const { step, caption } = lesson.frames[index];
-    const button = element(document, "button", {
-      "data-index": index,
-      ...(index === current ? { "aria-current": "step", autofocus: "" } : {}),
-      children: [element(document, "b", { text: step + 1 }), element(document, "span", { text: caption })],
-    });
+    const button = stopButton(lesson, index, index === current);
     button.addEventListener("click", () => chosen(index));
     drawn.observe(button);
     return button;
@@ -71,30 +163,57 @@ function fillOverview(dialog, lesson, stops, current, chosen) {
   dialog.showModal();
 }
 
-// For printing: each step a figure with its caption.
-function fillHandout(section, lesson, title) {
-  section.replaceChildren(element(document, "h1", { text: title }), ...lesson.stepStops.map((index) => {
-    const { step, caption } = lesson.frames[index];
-    const words = [element(document, "b", { text: `${step + 1} ` }), caption];
-    return element(document, "figure", {
-      children: [still(lesson, document, index), element(document, "figcaption", { children: words })],
-    });
-  }));
+function stopButton(lesson, index, isCurrent) {
+  const { step, caption } = lesson.frames[index];
+  return element(document, "button", {
+    "data-index": index,
+    ...(isCurrent ? { "aria-current": "step", autofocus: "" } : {}),
+    children: [
+      element(document, "p", {
+        children: [element(document, "b", { text: step + 1 }), element(document, "span", { text: caption })],
+      }),
+    ],
+  });
 }
 
-// A window of its own: this frame, its notes, what comes next, and a clock.
+// For printing: each step a figure with its caption and counters. Wide pictures leave less of the
+// paper empty three to an upright page, others two by two on a page lying down.
+const WIDE = 2;
+
+function fillHandout(section, lesson, title) {
+  const ratio = lesson.size[0] / lesson.size[1];
+  const page = `@page{size:${ratio > WIDE ? "portrait" : "landscape"}}`;
+  section.style.setProperty("--ratio", ratio);
+  section.replaceChildren(element(document, "style", { text: page }), element(document, "h1", { text: title }),
+    ...lesson.stepStops.map((index) => figureOf(lesson, index)));
+}
+
+function figureOf(lesson, index) {
+  const { step, caption, counters, ending } = lesson.frames[index];
+  const words = element(document, "p", { children: [element(document, "b", { text: `${step + 1} ` }), caption] });
+  const numbers = element(document, "p", { class: "counters", children: counterList(document, counters) });
+  return element(document, "figure", {
+    ...(ending ? { class: "ending" } : {}),
+    children: [still(lesson, document, index), element(document, "figcaption", { children: [words, numbers] })],
+  });
+}
+
+const SPEAKER_PARTS = ["place", "clock", "now", "caption", "counters", "head", "next", "notes"];
+
+// A window of its own: this frame with its words, what comes next, notes, and a clock.
 class SpeakerView {
   constructor(lesson, onKey) {
-    this.window = window.open("", "lantern-speaker", "width=1100,height=700");
+    this.window = window.open("", "lantern-speaker", "width=1280,height=760");
     if (!this.window) return;
     this.lesson = lesson;
     this.began = Date.now();
     const doc = this.window.document;
-    doc.title = `Speaker: ${document.title}`;
     doc.documentElement.className = "live";
+    doc.documentElement.dataset.theme = themeNow();
     doc.head.replaceChildren(...[...document.querySelectorAll("style")].map((style) => doc.importNode(style, true)));
+    doc.title = `Speaker’s view: ${document.title}`; // it stands in the head
     doc.body.className = "speaker";
-    this.parts = Object.fromEntries(["now", "next", "notes", "caption", "clock"].map((id) => [id, element(doc, "div", { id })]));
+    this.parts = Object.fromEntries(SPEAKER_PARTS.map((id) => [id, element(doc, "div", { id })]));
     doc.body.replaceChildren(...Object.values(this.parts));
     [this.now, this.next] = ["now", "next"].map((id) => {
       const svg = doc.createElementNS(SVG, "svg");
@@ -112,18 +231,25 @@ class SpeakerView {
   tick() {
     if (!this.isOpen) return clearInterval(this.timer);
     const seconds = Math.floor((Date.now() - this.began) / 1000);
+    const now = new Date();
     const two = (n) => String(n).padStart(2, "0");
-    this.parts.clock.textContent = `${new Date().toLocaleTimeString()}  ·  ${two(Math.floor(seconds / 60))}:${two(seconds % 60)}`;
+    this.parts.clock.textContent = `${two(now.getHours())}:${two(now.getMinutes())}  ·  ` +
+      `${two(Math.floor(seconds / 60))}:${two(seconds % 60)} elapsed`;
   }
 
   show(index, next) {
     if (!this.isOpen) return;
-    const { notes, caption } = this.lesson.frames[index];
+    const { step, notes, caption, counters } = this.lesson.frames[index];
+    const isLast = next === index;
     this.now.show(index);
-    this.parts.next.hidden = next === index;
-    if (next !== index) this.next.show(next);
-    this.parts.notes.textContent = notes ?? "";
-    this.parts.caption.textContent = caption;
+    this.parts.next.hidden = isLast;
+    if (!isLast) this.next.show(next);
+    const { parts } = this;
+    parts.place.textContent = `Step ${step + 1} of ${this.lesson.steps}`;
+    parts.head.textContent = isLast ? "The end" : `Next: ${this.lesson.frames[next].caption}`;
+    parts.notes.textContent = notes ?? "";
+    parts.caption.textContent = caption;
+    parts.counters.replaceChildren(...counterList(this.window.document, counters));
     this.tick();
   }
 }

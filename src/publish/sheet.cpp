@@ -22,7 +22,7 @@ constexpr double kMostType = 3.3, kLeastType = 2.2;         // 9.4 and 6.2 point
 constexpr double kTypeOfWidth = 0.038;                      // of a picture
 constexpr double kLineHeight = 1.32, kAboveCaption = 1.45;  // ems
 constexpr double kLeastWidth = 10, kLeastHeight = 10;       // of picture and caption
-constexpr double kUsualCaption = 150;                       // letters that have room
+constexpr double kUsualCaption = 190;                       // letters that have room
 constexpr double kMostWords = 0.55;                         // of the height of picture and caption
 constexpr double kLetter = 0.52;                            // ems, on average
 constexpr double kWidest = 16.0 / 9, kSquarest = 1.6;       // aspects of a picture

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "base/stop.hpp"
 #include "base/utf8.hpp"
@@ -24,6 +26,23 @@ void turn_hinting_off(const Cairo& cairo, void* context) {
   cairo.font_options_set_hint_metrics(options, kNoHintedMetrics);
   cairo.set_font_options(context, options);
   cairo.font_options_destroy(options);
+}
+
+// How many shapes from this one on are the digits of one number, the last digit first, each in a
+// cell of its own.
+std::size_t digits_from(const DrawList& list, std::size_t first) {
+  const TextShape* before = nullptr;
+  std::size_t i = first;
+  for (; i < list.shapes.size(); ++i) {
+    const auto* s = std::get_if<TextShape>(&list.shapes[i]);
+    if (!s || s->text.size() != 1 || s->text[0] < '0' || s->text[0] > '9') break;
+    const bool goes_on =
+        !before || (s->at.y == before->at.y && s->size == before->size && s->role == before->role &&
+                    s->at.x < before->at.x && before->at.x - s->at.x < s->size);
+    if (!goes_on) break;
+    before = s;
+  }
+  return i - first;
 }
 
 }  // namespace
@@ -48,6 +67,15 @@ void CairoPainter::draw(const DrawList& list, const Theme& theme, bool paper,
   for (std::size_t i = 0; i < list.shapes.size(); ++i) {
     stop_if_asked();
     tint_ = list.tints.empty() ? nullptr : &list.tints[i];
+    const std::size_t digits = for_ == For::vectors ? digits_from(list, i) : 0;
+    if (digits > 1) {
+      std::vector<const TextShape*> number;
+      for (std::size_t k = digits; k-- > 0;)
+        number.push_back(&std::get<TextShape>(list.shapes[i + k]));
+      add_letters(number);
+      i += digits - 1;
+      continue;
+    }
     std::visit([&](const auto& s) { add(s); }, list.shapes[i]);
   }
 }
@@ -138,9 +166,8 @@ void CairoPainter::add(const PolygonShape& shape) {
 
 void CairoPainter::add(const TextShape& shape) {
   if (shape.size <= 0 || shape.text.empty()) return;
-  const double width = text_width(shape.text, shape.size, shape.weight);
-  Vec<2> at = canvas_.pixel({shape.at.x - shape.align * width, shape.at.y});
-  if (for_ == For::vectors) return add_letters(shape, at);
+  if (for_ == For::vectors) return add_letters({&shape});
+  Vec<2> at = beginning_of(shape);
   at.y = rounded(at.y);
   add_outlines(shape, at);
   stroke_halo(tinted(*theme_, shape.halo, tint_, &Tint::line));
@@ -160,18 +187,30 @@ void CairoPainter::stroke_halo(const Paint& halo) {
   cairo_.stroke_preserve(context_);
 }
 
-// Letters with what they mean, so that they can be searched and copied; their halo is outlines.
-void CairoPainter::add_letters(const TextShape& shape, const Vec<2>& at) {
+Vec<2> CairoPainter::beginning_of(const TextShape& shape) const {
+  const double width = text_width(shape.text, shape.size, shape.weight);
+  return canvas_.pixel({shape.at.x - shape.align * width, shape.at.y});
+}
+
+// Letters with what they mean, so that they can be searched and copied; their halo is outlines. All
+// parts have one style. Several are one word, whatever stands between them.
+void CairoPainter::add_letters(const std::vector<const TextShape*>& parts) {
+  const TextShape& shape = *parts.front();
   const double em = shape.size * canvas_.scale;
   std::string text;
   std::vector<CairoGlyph> glyphs;
   std::vector<CairoCluster> clusters;
-  for (const PlacedGlyph& placed : shape_text(shape.text, em, shape.weight)) {
-    const std::size_t before = text.size();
-    append_utf8(text, placed.letter);
-    glyphs.push_back({static_cast<unsigned long>(placed.glyph), at.x + placed.x, at.y});
-    clusters.push_back({static_cast<int>(text.size() - before), 1});
+  for (const TextShape* part : parts) {
+    const Vec<2> at = beginning_of(*part);
+    for (const PlacedGlyph& placed : shape_text(part->text, em, shape.weight)) {
+      const std::size_t before = text.size();
+      append_utf8(text, placed.letter);
+      glyphs.push_back({static_cast<unsigned long>(placed.glyph), at.x + placed.x, at.y});
+      clusters.push_back({static_cast<int>(text.size() - before), 1});
+    }
   }
+  if (parts.size() > 1)
+    clusters = {{static_cast<int>(text.size()), static_cast<int>(glyphs.size())}};
   const int count = static_cast<int>(glyphs.size());
   cairo_.set_font_face(context_, cairo_face(shape.weight));
   cairo_.set_font_size(context_, em);
@@ -184,7 +223,7 @@ void CairoPainter::add_letters(const TextShape& shape, const Vec<2>& at) {
   if (ink[3] == 0) return;
   set_color(ink);
   cairo_.show_text_glyphs(context_, text.c_str(), static_cast<int>(text.size()), glyphs.data(),
-                          count, clusters.data(), count, 0);
+                          count, clusters.data(), static_cast<int>(clusters.size()), 0);
 }
 
 // Adds the letters' outlines to the current path.

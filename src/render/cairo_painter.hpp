@@ -38,7 +38,8 @@ class CairoPainter {
   void fill_and_stroke(Role fill, const Stroke& stroke, double line_width);
   void set_color(const Paint& paint);
   void add_outlines(const TextShape& shape, const Vec<2>& at);
-  void add_letters(const TextShape& shape, const Vec<2>& at);
+  void add_letters(const std::vector<const TextShape*>& parts);
+  Vec<2> beginning_of(const TextShape& shape) const;
   void stroke_halo(const Paint& halo);
 
   // An outline's commands, parsed once a glyph: a letter and up to three points each.

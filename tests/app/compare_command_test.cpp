@@ -66,6 +66,12 @@ TEST_F(CompareCommand, FiguresAreTextAndTheirSealIsNoPartOfThem) {
   EXPECT_NE(o.err.find("different; line "), std::string::npos) << o.err;
 }
 
+TEST_F(CompareCommand, WritesOverNothingThatItCompares) {
+  const std::string before = read_text(in_a("png"));
+  EXPECT_EQ(compare(in_a("png") + " " + in_b("png") + " -o " + in_a("png")).code, 2);
+  EXPECT_EQ(read_text(in_a("png")), before);
+}
+
 TEST_F(CompareCommand, FactsWithoutTheirSealAreTheSameFacts) {
   change(in_b("json"), "made_from", "made_by");
   EXPECT_EQ(compare(in_a("json") + " " + in_b("json")).code, 1);

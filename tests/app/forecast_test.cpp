@@ -75,6 +75,9 @@ TEST(Forecast, ProgressCounts) {
   state.bytes = 70'000;
   EXPECT_EQ(progress_text({70, 0}, state), "7 of 70 frames, 68 KB on the disk, about 90 s left");
   EXPECT_EQ(progress_text({std::nullopt, 0}, after(10, 7, 0, 10)), "7 frames");
+  RunState drawing = after(10, 70, 0, 10);
+  drawing.drawn = 212;
+  EXPECT_EQ(progress_text({70, 0}, drawing), "70 of 70 frames, 212 pictures drawn");
 }
 
 TEST(Forecast, UnitsFitTheSize) {

@@ -253,6 +253,29 @@ TEST_F(GoldenCommand, APictureThatTheListDoesNotTellOfFails) {
   EXPECT_EQ(golden("").code, 0);
 }
 
+// People look at the picture: it must be the one that was compared.
+TEST_F(GoldenCommand, AnotherPictureInItsPlaceFailsThoughTheFrameIsRight) {
+  const std::string right = read_text(of_scene("scene_0001.png"));
+  write_text(of_scene("scene_0001.png"), read_text(of_scene("scene_0000.png")));
+  EXPECT_TRUE(says(golden(""), "scene_0001.png is not the picture that golden.txt tells of"));
+  write_text(of_scene("scene_0001.png"), right.substr(0, 100));
+  EXPECT_TRUE(says(golden(""), "scene_0001.png is damaged"));
+  write_text(of_scene("scene_0001.png"), right);
+  EXPECT_EQ(golden("").code, 0);
+  write_text(of_scene("scene_0007.png"), right);
+  const Outcome o = golden("");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_TRUE(says(o, "scene_0007.png is of no golden frame; --update removes it"));
+}
+
+TEST_F(GoldenCommand, WritesOverNoScenario) {
+  const std::string text = read_text(folder_ / "scene.toml");
+  for (const char* words : {"--report scene.toml", "--junit scene.toml", "--junit -",
+                            "--junit both.xml --report both.xml"})
+    EXPECT_EQ(golden(words).code, 2) << words;
+  EXPECT_EQ(read_text(folder_ / "scene.toml"), text);
+}
+
 TEST_F(GoldenCommand, ADamagedListIsMadeAnewAndAForeignOneStays) {
   const std::string list = read_text(list_file());
   write_text(list_file(), "lantern.golden_frames/1\n<<<<<<< mine\n");

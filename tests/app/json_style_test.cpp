@@ -192,8 +192,8 @@ TEST(JsonStyle, WarningsAreToldAndStrictMakesThemErrors) {
   const json told = answer_to("check --json " + file, 0);
   EXPECT_EQ(told["diagnostics"].size(), 2u) << told;
   for (const json& d : told["diagnostics"]) EXPECT_EQ(d["severity"], "warning");
-  for (const json& d : answer_to("check --json --strict " + file, 3)["diagnostics"])
-    EXPECT_EQ(d["severity"], "error");
+  const json strict = answer_to("check --json --strict " + file, 3);
+  for (const json& d : strict["diagnostics"]) EXPECT_EQ(d["severity"], "error");
 }
 
 TEST(JsonStyle, ThePagesAgree) {

@@ -29,7 +29,7 @@ json frame_of(const fs::path& folder, const std::string& name, int index) {
 TEST(OwnStructureProgram, TheRightTreePassesTheCheck) {
   const Outcome check = my_tree("structure check mine --worlds 150");
   EXPECT_EQ(check.code, 0) << check.err;
-  EXPECT_NE(check.err.find("mine: good; the pairs of 150 worlds are those of brute force"),
+  EXPECT_NE(check.err.find("mine: good; in 150 worlds the pairs are those of brute force"),
             std::string::npos)
       << check.err;
 }

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/program.hpp"
+#include "draw/labels.hpp"
 #include "fresh_folder.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
@@ -81,6 +82,18 @@ TEST(Pdf, WordsAreFound) {
 }
 
 // The page, drawn by poppler, beside Lantern's own picture. Edges differ by their antialiasing.
+// Each digit of a counter has a cell of its own on the page.
+TEST(Pdf, NumbersAreFound) {
+  if (!find_program("pdftotext")) GTEST_SKIP() << "no poppler-utils";
+  DrawList list;
+  Labels(list).add_number(21144, {800, 400}, {30, Weight::regular, Role::ink},
+                          {{0, 0}, {900, 500}});
+  PdfDocument pdf({"", "", ""});
+  pdf.add_page(list, kLight, true, {720, 405}, "1");
+  const std::string read = read_by("pdftotext", pdf.finish(), "-");
+  EXPECT_NE(read.find("21144"), read.npos) << read;
+}
+
 TEST(Pdf, LooksAsThePictureDoes) {
   if (!find_program("pdftoppm")) GTEST_SKIP() << "no poppler-utils";
   constexpr int kWidth = 640, kHeight = 360;
