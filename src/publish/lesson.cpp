@@ -19,7 +19,8 @@
 namespace lantern::publish {
 namespace {
 
-constexpr int kStillWidth = 1600;  // of the picture for those without scripts
+constexpr int kStillWidth = 1600;            // of the picture for those without scripts
+constexpr std::size_t kMostCover = 300'000;  // bytes of a picture for the index
 
 // The roles' colours as CSS variables.
 std::string colours(const Theme& theme) {
@@ -92,6 +93,7 @@ std::optional<LessonCard> lesson_card(std::string_view json) try {
 void Lesson::add(const Frame& frame, const DrawList& list, const FrameWords& words) {
   check_draw_list(list);
   if (frames_.count() == 0) first_ = list;
+  last_ = list;
   frames_.add(frame, list, words);
   facts_ += (facts_.empty() ? "" : ",\n") + facts_for_page(frame, list);
   const std::string caption = whole_caption(frame);
@@ -104,6 +106,11 @@ std::string Lesson::frames_json() const {
   return fmt::format(
       "{{\"format\": \"lantern.lesson/1\",\n\"page\": [{},{}],\n\"beats\": {},\n{}}}\n",
       hundredths(first_.page.x), hundredths(first_.page.y), beats(), frames_.json());
+}
+
+std::string Lesson::picture_of(const DrawList& list) const {
+  const int height = std::max(1, static_cast<int>(kStillWidth * list.page.y / list.page.x));
+  return to_svg(list, *theme_named("light"), false, kStillWidth, height);
 }
 
 std::string Lesson::html() const {
@@ -124,9 +131,10 @@ std::string Lesson::part(std::string_view name) const {
   if (name == "colours") return lesson_colours();
   if (name == "style") return std::string(page::lesson_css);
   if (name == "captions") return captions_;
-  if (name == "still") {
-    const int height = std::max(1, static_cast<int>(kStillWidth * first_.page.y / first_.page.x));
-    return base64(to_svg(first_, *theme_named("light"), false, kStillWidth, height));
+  if (name == "still") return base64(picture_of(first_));
+  if (name == "cover") {
+    const std::string end = picture_of(last_);
+    return base64(end.size() <= kMostCover ? end : picture_of(first_));
   }
   if (name == "frames") return base64(deflated(frames_json()));
   if (name == "facts") return base64(deflated("[" + facts_ + "]\n"));

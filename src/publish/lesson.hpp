@@ -47,12 +47,13 @@ class Lesson {
  private:
   std::string part(std::string_view name) const;  // of the page's text
   std::string frames_json() const;
+  std::string picture_of(const DrawList& list) const;  // an SVG
 
   LessonCard card_;
   std::string theme_;
   LessonFrames frames_;
   std::string facts_;
-  DrawList first_;
+  DrawList first_, last_;
   std::string captions_;      // <li> ...
   std::string last_caption_;  // of those
 };

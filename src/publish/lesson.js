@@ -116,18 +116,10 @@ class Page {
       if (t < 0) return;
       if (t < 1) return calm() ? undefined : this.picture.showBetween(this.index + 1, t);
       this.show(this.index + 1);
-      from = Math.max(now - 1000 * seconds / speed, from + 1000 * seconds / speed) + 1000 * this.hold() / speed;
+      from = Math.max(now - 1000 * seconds / speed, from + 1000 * seconds / speed) + 1000 * this.lesson.secondsToRead(this.index) / speed;
       if (this.index >= until) this.pause();
     };
     this.playing = requestAnimationFrame(tick);
-  }
-
-  // Seconds that a caption is left to be read when it comes.
-  hold() {
-    const { caption } = this.lesson.frames[this.index];
-    const following = this.lesson.frames[this.index + 1];
-    if (!following || following.caption === caption) return 0;
-    return Math.min(7, 1 + 0.05 * caption.length);
   }
 
   pause() {

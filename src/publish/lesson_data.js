@@ -16,6 +16,7 @@ class Lesson {
   constructor(data) {
     Object.assign(this, data);
     this.size = data.page.map((length) => length * HUNDREDTH);
+    this.ratio = this.size[0] / this.size[1];
     this.shapes = []; // of rows, made when first asked for
     this.lists = listsOf(data.frames);
     this.stepStops = data.frames.flatMap((frame, i) =>
@@ -28,6 +29,13 @@ class Lesson {
 
   get steps() {
     return this.frames[this.last].step + 1;
+  }
+
+  // How long a caption is left to be read when it comes.
+  secondsToRead(index) {
+    const { caption } = this.frames[index];
+    if (index === this.last || this.frames[index + 1].caption === caption) return 0;
+    return Math.min(7, 1 + 0.05 * caption.length);
   }
 
   // A row as { kind, key, style, text, at }: `at` are its measures in page units, of a rectangle

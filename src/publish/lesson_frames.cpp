@@ -43,6 +43,7 @@ void LessonFrames::add(const Frame& frame, const DrawList& list, const FrameWord
   json.begin_object().members("step", frame.step, "event", frame.event, "time", frame.time,
                               "caption", whole_caption(frame));
   if (!frame.part.empty()) json.member("part", frame.part);
+  if (frame.ending) json.member("ending", true);
   if (!words.notes.empty()) json.member("notes", words.notes);
   if (!words.counters.empty()) {
     json.key("counters").begin_array();

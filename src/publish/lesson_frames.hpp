@@ -25,7 +25,7 @@ struct FrameWords {
 std::string whole_caption(const Frame& frame);
 
 // A frame is an object:
-//   step, event, time, caption, part, notes, counters   what they are; of the
+//   step, event, time, caption, part, ending, notes, counters   what they are; of the
 //            last three only what there is
 //   rows     in the order of painting, as pairs (from, count): of the frame before, from its
 //            `from`-th row on; for -1 rows that come for the first time; for -2 the row `count`

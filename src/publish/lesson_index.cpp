@@ -46,7 +46,7 @@ std::optional<Listed> listed(const fs::path& file) {
   const std::string page = read_file(file, kMostPage);
   const auto json =
       between_marks(page, "<script type=\"application/json\" id=\"card\">", "</script>");
-  const auto picture = between_marks(page, "<img id=\"still\" src=\"", "\"");
+  const auto picture = between_marks(page, "<template id=\"cover\"><img src=\"", "\"");
   if (!json || !picture) return std::nullopt;
   auto card = lesson_card(*json);
   if (!card) return std::nullopt;

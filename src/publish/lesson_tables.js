@@ -15,10 +15,12 @@ const counterList = (doc, counters = []) => counters.map((text) => element(doc, 
 // The words above and below the picture.
 class Words {
   static MOST_PASSES = 5;
+  static MOST_EDGE = 0.14; // of the width: words as narrow as a small picture would make it smaller
 
   constructor(lesson) {
     this.lesson = lesson;
     document.getElementById("words").append(...this.spares());
+    document.documentElement.style.setProperty("--ratio", lesson.ratio);
   }
 
   // Unseen words of all frames, in the place of those that are seen: the room for words is that of
@@ -55,14 +57,13 @@ class Words {
   fit() {
     const [width, height] = this.lesson.size;
     const app = document.getElementById("app");
-    app.style.setProperty("--ratio", width / height);
     const margin = width < 1000 ? 40 : 60; // of draw/page.cpp
     let edge = Math.round((margin * document.getElementById("stage").clientWidth) / width);
     for (let pass = 0; pass < Words.MOST_PASSES; pass++) {
       app.style.setProperty("--edge", `${edge}px`);
       const { clientWidth, clientHeight } = document.getElementById("stage");
       const scale = Math.min(clientWidth / width, clientHeight / height);
-      const found = Math.round((clientWidth - scale * width) / 2 + margin * scale);
+      const found = Math.round(Math.min((clientWidth - scale * width) / 2 + margin * scale, Words.MOST_EDGE * clientWidth));
       if (found <= edge) return;
       edge = found;
     }
@@ -131,15 +132,16 @@ function still(lesson, doc, index) {
   return svg;
 }
 
-// How many columns make pictures of a shape as large as they can be in a room; where not all of
-// them find room there, as many as leave a caption legible.
+// The columns that make pictures of a shape as large as they can be in a room, and their width;
+// where not all find room, the least width at which a caption can be read.
 function columnsFor(count, ratio, { width, height }) {
-  const [words, gap, least] = [64, 13, 240]; // px: a caption's lines, between pictures, a picture
-  for (let columns = 1; ; columns++) {
-    const wide = (width - gap) / columns - gap;
-    const high = Math.ceil(count / columns) * (wide / ratio + words + gap);
-    if (high <= height || wide < least) return columns;
-  }
+  const [words, gap, least] = [54, 13, 240]; // px: a caption's lines, between pictures, a picture
+  const widthOf = (columns) => {
+    const rows = Math.ceil(count / columns);
+    return Math.min((width - gap) / columns - gap, ((height - gap) / rows - gap - words) * ratio);
+  };
+  const best = Math.max(...Array.from({ length: count }, (_, i) => widthOf(i + 1)));
+  return `repeat(auto-fit, ${Math.floor(Math.max(best, Math.min(least, width - 4 * gap)))}px)`;
 }
 
 // Every stop as a small picture; chosen(index) when one is.
@@ -150,10 +152,8 @@ function fillOverview(dialog, lesson, stops, current, chosen) {
       target.prepend(still(lesson, document, Number(target.dataset.index)));
     }
   }, { rootMargin: "200px" });
-  const columns = columnsFor(stops.length, lesson.size[0] / lesson.size[1],
-    { width: 0.97 * innerWidth, height: 0.95 * innerHeight });
-  dialog.style.setProperty("--columns", columns);
-  dialog.style.setProperty("--ratio", lesson.size[0] / lesson.size[1]);
+  const room = { width: 0.97 * innerWidth - 16, height: 0.97 * innerHeight }; // beside a scroll bar
+  dialog.style.setProperty("--columns", columnsFor(stops.length, lesson.ratio, room));
   dialog.replaceChildren(...stops.map((index) => {
     const button = stopButton(lesson, index, index === current);
     button.addEventListener("click", () => chosen(index));
@@ -178,19 +178,19 @@ function stopButton(lesson, index, isCurrent) {
 
 // For printing: each step a figure with its caption and counters. Wide pictures leave less of the
 // paper empty three to an upright page, others two by two on a page lying down.
-const WIDE = 2;
+const WIDE = 2.2; // so many times their height, of which both are as good
 
 function fillHandout(section, lesson, title) {
-  const ratio = lesson.size[0] / lesson.size[1];
-  const page = `@page{size:${ratio > WIDE ? "portrait" : "landscape"}}`;
-  section.style.setProperty("--ratio", ratio);
+  const isWide = lesson.ratio > WIDE;
+  const page = `@page{size:A4 ${isWide ? "portrait" : "landscape"}}`;
+  section.className = isWide ? "upright" : "lying";
   section.replaceChildren(element(document, "style", { text: page }), element(document, "h1", { text: title }),
     ...lesson.stepStops.map((index) => figureOf(lesson, index)));
 }
 
 function figureOf(lesson, index) {
   const { step, caption, counters, ending } = lesson.frames[index];
-  const words = element(document, "p", { children: [element(document, "b", { text: `${step + 1} ` }), caption] });
+  const words = element(document, "p", { children: [element(document, "b", { text: step + 1 }), caption] });
   const numbers = element(document, "p", { class: "counters", children: counterList(document, counters) });
   return element(document, "figure", {
     ...(ending ? { class: "ending" } : {}),
@@ -198,7 +198,8 @@ function figureOf(lesson, index) {
   });
 }
 
-const SPEAKER_PARTS = ["place", "clock", "now", "caption", "counters", "head", "next", "notes"];
+const SPEAKER_PARTS = ["place", "clock", "now", "caption", "counters", "side"];
+const SPEAKER_SIDE = ["head", "coming", "next", "notes"];
 
 // A window of its own: this frame with its words, what comes next, notes, and a clock.
 class SpeakerView {
@@ -213,8 +214,9 @@ class SpeakerView {
     doc.head.replaceChildren(...[...document.querySelectorAll("style")].map((style) => doc.importNode(style, true)));
     doc.title = `Speaker’s view: ${document.title}`; // it stands in the head
     doc.body.className = "speaker";
-    this.parts = Object.fromEntries(SPEAKER_PARTS.map((id) => [id, element(doc, "div", { id })]));
-    doc.body.replaceChildren(...Object.values(this.parts));
+    this.parts = Object.fromEntries([...SPEAKER_PARTS, ...SPEAKER_SIDE].map((id) => [id, element(doc, "div", { id })]));
+    doc.body.replaceChildren(...SPEAKER_PARTS.map((id) => this.parts[id]));
+    this.parts.side.append(...SPEAKER_SIDE.map((id) => this.parts[id]));
     [this.now, this.next] = ["now", "next"].map((id) => {
       const svg = doc.createElementNS(SVG, "svg");
       this.parts[id].append(svg);
@@ -246,7 +248,8 @@ class SpeakerView {
     if (!isLast) this.next.show(next);
     const { parts } = this;
     parts.place.textContent = `Step ${step + 1} of ${this.lesson.steps}`;
-    parts.head.textContent = isLast ? "The end" : `Next: ${this.lesson.frames[next].caption}`;
+    parts.head.textContent = isLast ? "The end" : "Next";
+    parts.coming.textContent = isLast ? "" : this.lesson.frames[next].caption;
     parts.notes.textContent = notes ?? "";
     parts.caption.textContent = caption;
     parts.counters.replaceChildren(...counterList(this.window.document, counters));

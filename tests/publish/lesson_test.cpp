@@ -238,6 +238,16 @@ TEST(LessonFacts, SayWhereACellLiesOnThePage) {
             R"([["root","root",0,1,[7],[100,500,900,500,900,100,100,100],-1]])");
 }
 
+TEST(LessonFrames, TellWhichFrameIsTheEnding) {
+  LessonFrames frames;
+  Frame frame = frame_of(0);
+  frames.add(frame, picture(200, true), {});
+  EXPECT_EQ(frames.json().find("\"ending\""), std::string::npos);
+  frame.ending = true;
+  frames.add(frame, picture(200, true), {});
+  EXPECT_NE(frames.json().find("\"ending\": true"), std::string::npos) << frames.json();
+}
+
 TEST(Lesson, KeepsWhatAUserWroteOutOfItsMarkup) {
   const std::string nasty = "</script><b onload=\"x('y')\">&amp; 日本 {{script}}";
   Lesson lesson({"a", nasty, nasty, 3, {"b"}, 1}, "light");
