@@ -86,7 +86,8 @@ void owe_answer_if_wanted(const CLI::App& app, int argc, char** argv) {
 std::string out_of_memory = "lantern: error: out of memory\n";
 
 // What a run throws is told, and becomes its exit code.
-int run_and_report(const Run& run) noexcept {
+template <class Callable>  // no std::function, which may need memory before anybody listens
+int run_and_report(const Callable& run) noexcept {
   try {
     return run();
   } catch (const UsageError& e) {
@@ -145,8 +146,8 @@ int run_program(int argc, char** argv, std::vector<OwnKind> own) {
   hold_standard_streams();
   keep_freed_memory();
   catch_interrupts();
-  remember_command_line(argc, argv);
   const int code = run_and_report([&] {
+    remember_command_line(argc, argv);
     try {
       know_own_structures(std::move(own));
     } catch (const Refused& refused) {
