@@ -6,6 +6,7 @@
 #include "app/film_clock.hpp"
 #include "app/frame_walk.hpp"
 #include "app/in_betweens.hpp"
+#include "app/named_files.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -121,10 +122,6 @@ class FilmSink : public FileSink {
     made_.files.push_back(file_);
     made_.seconds = made_.seconds.value_or(0) + static_cast<double>(length) / settings_.rate;
     made_.rate = settings_.rate;
-  }
-
-  static fs::path folder_of(const fs::path& file) {
-    return file.has_parent_path() ? file.parent_path() : ".";
   }
 
   Renderer& renderer() {

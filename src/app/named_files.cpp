@@ -8,13 +8,10 @@
 #include "base/file.hpp"
 
 namespace lantern::app {
-namespace {
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
-
-}  // namespace
 
 void refuse_in_betweens(const Sequence& sequence) {
   if (sequence.job.in_betweens.wanted())

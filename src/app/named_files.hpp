@@ -13,6 +13,9 @@ namespace lantern::app {
 // Throws UsageError if in-betweens are asked for: what is printed does not move.
 void refuse_in_betweens(const Sequence& sequence);
 
+// Where this file will stand; "." if its name says no folder.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 class NamedFiles {
  public:
   explicit NamedFiles(Work& work) : work_(work) {}

@@ -12,6 +12,7 @@
 #include "app/file_sink.hpp"
 #include "app/forecast.hpp"
 #include "app/in_betweens.hpp"
+#include "app/named_files.hpp"
 #include "app/reload.hpp"
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
@@ -87,7 +88,7 @@ class PageSink : public FileSink {
 
   void close(const DirectorReport&) override {
     selection_.require_some();
-    make_folder(file_.has_parent_path() ? file_.parent_path() : ".");
+    make_folder(folder_of(file_));
     std::string html = lesson_.html();
     if (options_.reloading) html.insert(html.rfind("</body>"), reload_script(file_));
     write_file(file_, html);

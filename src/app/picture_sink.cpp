@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/file_sink.hpp"
+#include "app/named_files.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -68,10 +69,6 @@ class PictureSink : public FileSink {
     write_file(file, bytes);
     ++work_.frames_written;
     work_.bytes_written += bytes.size();
-  }
-
-  static fs::path folder_of(const fs::path& file) {
-    return file.has_parent_path() ? file.parent_path() : ".";
   }
 
   Pipeline& pipeline() {
