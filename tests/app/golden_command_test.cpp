@@ -6,6 +6,7 @@
 
 #include "app/process.hpp"
 #include "render/png.hpp"
+#include "rooms.hpp"
 
 namespace lantern::app {
 namespace {

@@ -20,6 +20,7 @@
 #include "render/compare.hpp"
 #include "render/png.hpp"
 #include "render/seal.hpp"
+#include "rooms.hpp"
 
 namespace lantern::app {
 namespace {
