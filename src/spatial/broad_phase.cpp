@@ -19,7 +19,8 @@ template <int D>
 BroadPhase<D>::BroadPhase(const Config& config)
     : config_(config),
       static_{made(config.max_depth, 0), &BroadPhaseCounters::static_builds, config.max_depth},
-      dynamic_{made(config.max_depth, 0), &BroadPhaseCounters::dynamic_builds, config.max_depth} {}
+      dynamic_{made(config.max_depth, 0), &BroadPhaseCounters::dynamic_builds, config.max_depth},
+      fresh_{BruteForce<D>(), nullptr, 0} {}
 
 template <int D>
 auto BroadPhase<D>::made(std::uint32_t depth, std::uint64_t room) const -> Structure {
@@ -49,7 +50,7 @@ template <int D>
 void BroadPhase<D>::update(std::span<const Proxy<D>> proxies) {
   take(proxies);
   all_or_nothing([&] {
-    renew();
+    if (!static_.stands) build(static_);
     if (!found_all_) find_pairs();
   });
 }
@@ -58,43 +59,96 @@ template <int D>
 void BroadPhase<D>::build(std::span<const Proxy<D>> proxies) {
   take(proxies);
   all_or_nothing([&] {
-    renew();
-    if (!dynamic_.stands) build(dynamic_);
+    for (Store* store : stores())
+      if (!store->stands) build(*store);
   });
 }
 
-// Checked, sorted and dealt out to the stores.
+// From now on the stores hold these bodies; structures whose bodies are where they were stand.
 template <int D>
 void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
+  bool same_bodies = true;
+  const std::span<const Proxy<D>> by_id = checked(proxies, same_bodies);
+  same_bodies ? move(by_id) : replace(by_id);
+}
+
+// In order of ids; are they those that the stores hold, each in its own?
+template <int D>
+auto BroadPhase<D>::checked(std::span<const Proxy<D>> proxies, bool& same_bodies)
+    -> std::span<const Proxy<D>> {
+  bool ascending = true;
+  std::array<std::size_t, 2> places{};
+  for (std::size_t i = 0; i < proxies.size(); ++i) {
+    const Proxy<D>& proxy = proxies[i];
+    require_valid(Item<D>{proxy.id, proxy.box});
+    ascending = ascending && (i == 0 || proxies[i - 1].id < proxy.id);
+    const bool of_static = is_of_static(proxy);
+    const std::vector<BodyId>& names = (of_static ? static_ : dynamic_).names;
+    const std::size_t place = places[of_static]++;
+    same_bodies = same_bodies && place < names.size() && names[place] == proxy.id;
+  }
+  same_bodies = same_bodies && ascending && places[0] == dynamic_.names.size() &&
+                places[1] == static_.names.size();
+  if (ascending) return proxies;
   const auto by_id = [](const Proxy<D>& a, const Proxy<D>& b) { return a.id < b.id; };
-  for (const Proxy<D>& proxy : proxies) require_valid(Item<D>{proxy.id, proxy.box});
   sorted_.assign(proxies.begin(), proxies.end());
-  if (!std::is_sorted(sorted_.begin(), sorted_.end(), by_id))
-    std::sort(sorted_.begin(), sorted_.end(), by_id);
+  std::sort(sorted_.begin(), sorted_.end(), by_id);
   for (std::size_t i = 1; i < sorted_.size(); ++i)
     if (sorted_[i - 1].id == sorted_[i].id)
       throw Refused(fmt::format("body {}: it is there twice", sorted_[i].id));
-  for (Store* store : stores()) {
-    store->fresh.clear();
-    store->ranks.clear();
+  return sorted_;
+}
+
+template <int D>
+void BroadPhase<D>::move(std::span<const Proxy<D>> proxies) {
+  std::array<std::size_t, 2> places{};
+  std::array<bool, 2> moved{};
+  for (const Proxy<D>& proxy : proxies) {
+    const bool of_static = is_of_static(proxy);
+    Store& store = of_static ? static_ : dynamic_;
+    const std::size_t place = places[of_static]++;
+    Box<D>& box = store.items[place].box;
+    const State state{proxy.is_static, proxy.awake};
+    if (!(box == proxy.box)) {
+      box = proxy.box;
+      moved[of_static] = true;
+    }
+    found_all_ = found_all_ && store.states[place] == state;
+    store.states[place] = state;
   }
-  for (std::uint32_t rank = 0; rank < sorted_.size(); ++rank) {
-    Store& store = store_for(sorted_[rank]);
-    store.fresh.push_back(sorted_[rank]);
-    store.ranks.push_back(rank);
+  for (const bool of_static : {false, true}) {
+    Store& store = of_static ? static_ : dynamic_;
+    if (!moved[of_static]) continue;
+    store.only_moved = store.stands;
+    store.stands = found_all_ = false;
   }
 }
 
-// From now on the stores hold the bodies that were taken; the structure of static ones stands.
 template <int D>
-void BroadPhase<D>::renew() {
-  const auto same_box = [](const auto& x, const auto& y) { return x.id == y.id && x.box == y.box; };
+void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
+  all_names_.clear();
+  for (const Proxy<D>& proxy : proxies) all_names_.push_back(proxy.id);
   for (Store* store : stores()) {
-    found_all_ = found_all_ && store->fresh == store->bodies;
-    store->stands = store->stands && std::ranges::equal(store->fresh, store->bodies, same_box);
-    store->bodies.swap(store->fresh);
+    fresh_.items.clear();
+    fresh_.names.clear();
+    fresh_.states.clear();
+    store->ranks.clear();
+    for (std::uint32_t rank = 0; rank < proxies.size(); ++rank) {
+      const Proxy<D>& proxy = proxies[rank];
+      if (&store_for(proxy) != store) continue;
+      fresh_.items.push_back({static_cast<BodyId>(fresh_.items.size()), proxy.box});
+      fresh_.names.push_back(proxy.id);
+      fresh_.states.push_back({proxy.is_static, proxy.awake});
+      store->ranks.push_back(rank);
+    }
+    const bool same = fresh_.items == store->items && fresh_.names == store->names;
+    found_all_ = found_all_ && same && fresh_.states == store->states;
+    store->only_moved = false;
+    store->stands = store->stands && same;
+    store->items.swap(fresh_.items);
+    store->names.swap(fresh_.names);
+    store->states.swap(fresh_.states);
   }
-  if (!static_.stands) build(static_);
 }
 
 // A structure that was not finished must not be taken for that of its bodies.
@@ -103,10 +157,11 @@ void BroadPhase<D>::forget() {
   pairs_.clear();
   found_all_ = false;
   for (Store* store : stores()) {
-    store->bodies.clear();
+    store->items.clear();
+    store->names.clear();
+    store->states.clear();
     store->ranks.clear();
     empty(*store);
-    store->stands = true;
   }
 }
 
@@ -114,25 +169,20 @@ void BroadPhase<D>::forget() {
 
 template <int D>
 void BroadPhase<D>::build(Store& store) {
-  store.names.clear();
-  items_.clear();
-  for (const Proxy<D>& body : store.bodies) {
-    items_.push_back({static_cast<BodyId>(items_.size()), body.box});
-    store.names.push_back(body.id);
-  }
+  if (mended(store)) return;
   const auto make_anew = [&] {
     const auto count = [](const auto& structure) { return structure.counters().allocations; };
     past_allocations_ += std::visit(count, store.structure);
     store.structure = made(store.depth, store.room);
   };
-  if (config_.in_proportion && store.bodies.size() > store.room) {
-    store.room = std::bit_ceil(store.bodies.size());
+  if (config_.in_proportion && store.items.size() > store.room) {
+    store.room = std::bit_ceil(store.items.size());
     store.depth = config_.max_depth;
     make_anew();
   }
   for (;;) {
     try {
-      with_names(store, [&] { build_structure<D>(store.structure, items_); });
+      with_names(store, [&] { build_structure<D>(store.structure, store.items); });
       break;
     } catch (const Refused&) {
       if (!config_.in_proportion || store.depth == 0) throw;
@@ -144,14 +194,31 @@ void BroadPhase<D>::build(Store& store) {
   ++(counters_.*store.builds);
 }
 
+// A structure that can go on from where its bodies were is not built anew.
+template <int D>
+bool BroadPhase<D>::mended(Store& store) {
+  if (!store.only_moved) return false;
+  return std::visit(
+      [&](auto& structure) {
+        if constexpr (requires { structure.update(std::span<const Item<D>>()); }) {
+          structure.update(std::span<const Item<D>>(store.items));
+          store.stands = true;
+          return true;
+        } else {
+          return false;
+        }
+      },
+      store.structure);
+}
+
 template <int D>
 void BroadPhase<D>::insert(const Proxy<D>& proxy, const Watch& watch) {
   require_valid(Item<D>{proxy.id, proxy.box});
   Store& store = store_for(proxy);
   for (const Store* other : stores())
-    if (!other->bodies.empty() && other->bodies.back().id >= proxy.id)
+    if (!other->names.empty() && other->names.back() >= proxy.id)
       throw Refused(fmt::format("body {}: ids must come in ascending order", proxy.id));
-  const auto number = static_cast<BodyId>(store.bodies.size());
+  const auto number = static_cast<BodyId>(store.items.size());
   const auto told = [&](Event event) {
     event.body = store.names[event.body];
     if (watch) watch(event);
@@ -159,14 +226,18 @@ void BroadPhase<D>::insert(const Proxy<D>& proxy, const Watch& watch) {
   found_all_ = false;
   all_or_nothing([&] {
     if (!store.stands) build(store);
-    store.bodies.push_back(proxy);
+    store.items.push_back({number, proxy.box});
     store.names.push_back(proxy.id);
+    store.states.push_back({proxy.is_static, proxy.awake});
+    store.ranks.push_back(static_cast<std::uint32_t>(all_names_.size()));
+    all_names_.push_back(proxy.id);
     std::visit(
         [&](auto& structure) {
           if constexpr (requires { structure.insert(Item<D>{}, told); }) {
             counters_.*store.builds += number == 0;
             with_names(store, [&] { structure.insert(Item<D>{number, proxy.box}, told); });
           } else {
+            store.only_moved = false;
             build(store);
           }
         },
@@ -189,8 +260,8 @@ void BroadPhase<D>::with_names(const Store& store, F&& f) {
 
 template <int D>
 void BroadPhase<D>::empty(Store& store) {
-  store.names.clear();
-  store.stands = store.bodies.empty();
+  store.stands = store.items.empty();
+  store.only_moved = false;
   std::visit([](auto& structure) { structure.clear(); }, store.structure);
 }
 
@@ -199,6 +270,7 @@ void BroadPhase<D>::empty(Store& store) {
 template <int D>
 auto BroadPhase<D>::store_of(BodyId id, std::size_t& place) const -> const Store* {
   for (const Store* store : stores()) {
+    if (!store->stands) continue;
     const auto found = std::lower_bound(store->names.begin(), store->names.end(), id);
     if (found == store->names.end() || *found != id) continue;
     place = static_cast<std::size_t>(found - store->names.begin());
@@ -211,7 +283,7 @@ template <int D>
 std::optional<Box<D>> BroadPhase<D>::box_of(BodyId id) const {
   std::size_t place = 0;
   const Store* store = store_of(id, place);
-  return store ? std::optional(store->bodies[place].box) : std::nullopt;
+  return store ? std::optional(store->items[place].box) : std::nullopt;
 }
 
 template <int D>
@@ -258,10 +330,10 @@ std::uint64_t BroadPhase<D>::structure_allocations() const {
 template <int D>
 std::size_t BroadPhase<D>::own_places() const {
   const auto places = [](const auto&... lists) { return (lists.capacity() + ...); };
-  std::size_t all = places(pairs_, sorted_, items_, ids_, found_, first_, partners_);
-  for (const Store* store : stores())
-    all += places(store->bodies, store->fresh, store->ranks, store->names);
-  return all + awake_.places();
+  const auto of_store = [&](const Store& s) { return places(s.items, s.names, s.states, s.ranks); };
+  return places(pairs_, sorted_, all_names_, ids_, bodies_) + of_store(static_) +
+         of_store(dynamic_) + of_store(fresh_) + awake_.places() + leaf_.places() +
+         found_.places() + order_.places();
 }
 
 template class BroadPhase<2>;

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "spatial/awake.hpp"
+#include "spatial/box_table.hpp"
+#include "spatial/pair_order.hpp"
 #include "spatial/structure_kinds.hpp"
 
 namespace lantern::spatial {
@@ -166,46 +168,53 @@ class BroadPhase {
   }
 
  private:
-  // A structure and its bodies, by id. The structure knows them by their places in this list.
+  // What is known of a body beside its box.
+  struct State {
+    bool is_static = false;
+    bool awake = true;
+    bool operator==(const State&) const = default;
+    bool stirs() const { return awake && !is_static; }
+  };
+  // A structure and its bodies, by id. The structure knows them by their places in these lists.
   struct Store {
     Structure structure;
     std::uint64_t BroadPhaseCounters::*builds;
-    std::uint32_t depth;  // of a tree; at most as configured
-    std::vector<Proxy<D>> bodies = {};
-    std::vector<Proxy<D>> fresh = {};       // those of the update that is being made
+    std::uint32_t depth;              // of a tree; at most as configured
+    std::vector<Item<D>> items = {};  // their ids are their places
+    std::vector<BodyId> names = {};
+    std::vector<State> states = {};
     std::vector<std::uint32_t> ranks = {};  // of each body among all, by id
-    std::vector<BodyId> names = {};         // of the bodies that the structure holds
     std::uint64_t room = 0;                 // how many bodies its limits were made for
     bool stands = true;                     // the structure holds these bodies, ready to be asked
-  };
-  struct RankPair {
-    std::uint32_t a = 0, b = 0;
+    bool only_moved = false;                // it holds them where they were; else it holds none
   };
 
   template <class F>
   static decltype(auto) with(const Store& store, F& f) {
+    const std::span<const BodyId> names = store.stands ? store.names : std::span<const BodyId>();
     return std::visit(
         [&](const auto& structure) -> decltype(auto) {
-          return f(WithIds<D, std::remove_cvref_t<decltype(structure)>>(structure, store.names));
+          return f(WithIds<D, std::remove_cvref_t<decltype(structure)>>(structure, names));
         },
         store.structure);
   }
 
-  static bool stirs(const Proxy<D>& proxy) { return proxy.awake && !proxy.is_static; }
   std::array<Store*, 2> stores() { return {&static_, &dynamic_}; }
   std::array<const Store*, 2> stores() const { return {&static_, &dynamic_}; }
-  Store& store_for(const Proxy<D>& proxy) {
-    return config_.split_static && proxy.is_static ? static_ : dynamic_;
-  }
+  bool is_of_static(const Proxy<D>& proxy) const { return config_.split_static && proxy.is_static; }
+  Store& store_for(const Proxy<D>& proxy) { return is_of_static(proxy) ? static_ : dynamic_; }
   const Store* store_of(BodyId id, std::size_t& place) const;
 
   Structure made(std::uint32_t depth, std::uint64_t room) const;
   template <class F>
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
-  void renew();
+  std::span<const Proxy<D>> checked(std::span<const Proxy<D>> proxies, bool& same_bodies);
+  void move(std::span<const Proxy<D>> proxies);
+  void replace(std::span<const Proxy<D>> proxies);
   void forget();
   void build(Store& store);
+  bool mended(Store& store);
   template <class F>
   static void with_names(const Store& store, F&& f);
   void empty(Store& store);
@@ -213,15 +222,16 @@ class BroadPhase {
   void pair_dynamic();
   void pair_static();
   template <class Tree>
+  void pair_itself(Tree& tree);
+  template <class Tree>
+  void ask(const Tree& tree, std::uint32_t place);
+  template <class Tree>
   void pair_leaves(const Tree& tree);
   void pair_bodies(std::span<const BodyId> bodies);
-  void add_pair(std::uint32_t rank_a, std::uint32_t rank_b) {
-    if (found_.size() == found_.capacity() || found_.size() == config_.most_pairs)
-      require_room(sorted_[rank_a].id);
-    found_.push_back(rank_a < rank_b ? RankPair{rank_a, rank_b} : RankPair{rank_b, rank_a});
-  }
-  void require_room(BodyId body) const;
-  void sort_pairs();
+  void drop_still_pairs();
+  void name_by_rank();
+  void require_room(BodyId number, std::size_t pairs) const;
+  [[noreturn]] void refuse_more(BodyId number) const;
   std::uint64_t structure_allocations() const;
   std::size_t own_places() const;
 
@@ -234,12 +244,17 @@ class BroadPhase {
   std::uint64_t past_allocations_ = 0;  // of structures that were made anew
 
   // Scratch of an update, kept for its memory.
-  std::vector<Proxy<D>> sorted_;  // all, by id
-  std::vector<Item<D>> items_;
+  std::vector<Proxy<D>> sorted_;   // all, by id, if they came otherwise
+  std::vector<BodyId> all_names_;  // by rank, if there are static bodies
+  Store fresh_;                    // lists of a store whose bodies are others now
   std::vector<BodyId> ids_;
+  std::vector<BodyId> bodies_;
   AwakeNodes awake_;
-  std::vector<RankPair> found_;                  // in any order, perhaps repeated
-  std::vector<std::uint32_t> first_, partners_;  // found_, sorted by the lower rank
+  std::size_t stirring_ = 0;  // how many dynamic bodies
+  BoxTable<D> leaf_;
+  FoundPairs found_;  // by their places, later by their ranks
+  std::span<const BodyId> found_names_;
+  PairOrder order_;
 };
 
 extern template class BroadPhase<2>;

@@ -1,6 +1,6 @@
 // Which pairs of boxes a broad phase meets in its structures.
 #include <algorithm>
-#include <numeric>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "spatial/broad_phase.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -28,13 +29,19 @@ void BroadPhase<D>::find_pairs() {
   counters_.pair_tests = counters_.nodes_visited = 0;
   counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   pairs_.clear();
-  if (std::any_of(dynamic_.bodies.begin(), dynamic_.bodies.end(), stirs)) {
+  stirring_ = static_cast<std::size_t>(
+      std::count_if(dynamic_.states.begin(), dynamic_.states.end(), std::mem_fn(&State::stirs)));
+  if (stirring_ > 0) {
     if (!dynamic_.stands) build(dynamic_);
     for (Store* store : stores()) sort(store->structure);
     found_.clear();
+    found_names_ = dynamic_.names;
+    found_.ask_before_growing(
+        [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
     pair_dynamic();
     pair_static();
-    sort_pairs();
+    if (found_.size() > config_.most_pairs) refuse_more(found_.first()[config_.most_pairs]);
+    order_.order(found_, found_names_, pairs_);
   } else if (!dynamic_.stands) {
     empty(dynamic_);
   }
@@ -45,25 +52,50 @@ template <int D>
 void BroadPhase<D>::pair_dynamic() {
   std::visit(
       [&](auto& structure) {
-        using S = std::remove_cvref_t<decltype(structure)>;
-        if constexpr (std::is_same_v<S, SortAndSweep<D>>) {
-          counters_.nodes_visited = 1;
-          counters_.pair_tests += structure.sweep(
-              [&](BodyId i) { return stirs(dynamic_.bodies[i]); },
-              [&](BodyId i, BodyId j) { add_pair(dynamic_.ranks[i], dynamic_.ranks[j]); });
-        } else {
+        if constexpr (requires { structure.pair(std::span<const Item<D>>(), found_); })
+          pair_itself(structure);
+        else
           pair_leaves(structure);
-        }
         counters_.nodes_reused = structure.counters().nodes_reused;
       },
       dynamic_.structure);
+}
+
+// A structure in which bodies need not share a leaf to meet. Where most of them sleep, each of the
+// others asks alone.
+template <int D>
+template <class Tree>
+void BroadPhase<D>::pair_itself(Tree& tree) {
+  counters_.nodes_visited = tree.counters().nodes;
+  constexpr std::size_t kFew = 8;
+  if (stirring_ == dynamic_.items.size() || kFew * stirring_ > dynamic_.items.size()) {
+    counters_.pair_tests += tree.pair(std::span<const Item<D>>(dynamic_.items), found_);
+    drop_still_pairs();
+  } else {
+    for (std::uint32_t i = 0; i < dynamic_.items.size(); ++i)
+      if (dynamic_.states[i].stirs()) ask(tree, i);
+  }
+}
+
+template <int D>
+template <class Tree>
+void BroadPhase<D>::ask(const Tree& tree, std::uint32_t place) {
+  stop_if_asked();
+  const Box<D>& box = dynamic_.items[place].box;
+  ids_.clear();
+  tree.near(box, ids_);
+  for (const BodyId other : ids_) {
+    if (other == place || (other < place && dynamic_.states[other].stirs())) continue;
+    ++counters_.pair_tests;
+    if (overlap(box, dynamic_.items[other].box)) found_.add(place, other);
+  }
 }
 
 template <int D>
 template <class Tree>
 void BroadPhase<D>::pair_leaves(const Tree& tree) {
   awake_.find(
-      tree, [&](BodyId i) { return stirs(dynamic_.bodies[i]); }, ids_);
+      tree, [&](BodyId i) { return dynamic_.states[i].stirs(); }, ids_);
   tree.visit(
       [&](const NodeView<D>& node) {
         if (!awake_[node.handle]) {
@@ -77,75 +109,93 @@ void BroadPhase<D>::pair_leaves(const Tree& tree) {
       ids_);
 }
 
-// Each awake body of the leaf with those that sleep, and with the awake ones behind it in the list.
+// Each that stirs with all behind it; those that do not stand last.
 template <int D>
 void BroadPhase<D>::pair_bodies(std::span<const BodyId> bodies) {
-  for (const BodyId i : bodies) {
-    stop_if_asked();
-    const Proxy<D>& a = dynamic_.bodies[i];
-    if (!stirs(a)) continue;
-    for (const BodyId j : bodies) {
-      const Proxy<D>& b = dynamic_.bodies[j];
-      if (j <= i && (j == i || stirs(b))) continue;
-      ++counters_.pair_tests;
-      if (overlap(a.box, b.box)) add_pair(dynamic_.ranks[i], dynamic_.ranks[j]);
-    }
+  std::size_t stirring = bodies.size();
+  if (stirring_ < dynamic_.items.size()) {
+    const auto stirs = [&](BodyId i) { return dynamic_.states[i].stirs(); };
+    bodies_.assign(bodies.begin(), bodies.end());
+    stirring -= std::ranges::partition(bodies_, stirs).size();
+    bodies = bodies_;
   }
+  counters_.pair_tests += all_pairs(bodies.size()) - all_pairs(bodies.size() - stirring);
+  constexpr std::size_t kFew = 8;  // up to here it costs more to arrange them than to compare them
+  if (bodies.size() <= kFew) {
+    for (std::size_t i = 0; i < stirring; ++i)
+      for (std::size_t j = i + 1; j < bodies.size(); ++j)
+        if (overlap(dynamic_.items[bodies[i]].box, dynamic_.items[bodies[j]].box))
+          found_.add(bodies[i], bodies[j]);
+    return;
+  }
+  leaf_.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    leaf_.set(i, bodies[i], dynamic_.items[bodies[i]].box);
+  RunScanner<D> runs(leaf_, leaf_, dynamic_.items, found_);
+  const auto end = static_cast<std::uint32_t>(bodies.size());
+  for (std::uint32_t i = 0; i < stirring; ++i) runs.add(i, i + 1, end);
+  runs.finish();
+}
+
+template <int D>
+void BroadPhase<D>::drop_still_pairs() {
+  if (stirring_ == dynamic_.items.size()) return;
+  const std::span<BodyId> first = found_.first(), second = found_.second();
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (!dynamic_.states[first[i]].stirs() && !dynamic_.states[second[i]].stirs()) continue;
+    first[size] = first[i];
+    second[size++] = second[i];
+  }
+  found_.resize(size);
 }
 
 // Each awake body asks the static structure.
 template <int D>
 void BroadPhase<D>::pair_static() {
-  if (static_.bodies.empty()) return;
+  if (static_.items.empty()) return;
+  name_by_rank();
   std::visit(
       [&](const auto& structure) {
-        for (std::size_t i = 0; i < dynamic_.bodies.size(); ++i) {
+        for (std::size_t i = 0; i < dynamic_.items.size(); ++i) {
           stop_if_asked();
-          const Proxy<D>& body = dynamic_.bodies[i];
-          if (!stirs(body)) continue;
+          if (!dynamic_.states[i].stirs()) continue;
+          const Box<D>& box = dynamic_.items[i].box;
           ids_.clear();
-          structure.near(body.box, ids_);
+          structure.near(box, ids_);
           counters_.pair_tests += ids_.size();
           for (const BodyId j : ids_)
-            if (overlap(body.box, static_.bodies[j].box))
-              add_pair(dynamic_.ranks[i], static_.ranks[j]);
+            if (overlap(box, static_.items[j].box)) found_.add(dynamic_.ranks[i], static_.ranks[j]);
         }
       },
       static_.structure);
 }
 
-// Before the list of pairs grows, or passes its limit: twice as many places, each copied once, and
-// what `sort_pairs` will need.
+// What was found among dynamic bodies is named by their ranks among all from now on.
 template <int D>
-void BroadPhase<D>::require_room(BodyId body) const {
-  const std::uint64_t pairs = 2 * std::max<std::uint64_t>(found_.size(), 512);
-  require_memory(
-      pairs * (3 * sizeof(RankPair) / 2 + sizeof(std::uint32_t) + sizeof(Pair)),
-      fmt::format("body {}: with it {} or more pairs of boxes that overlap", body, found_.size()),
-      "take fewer bodies, or part them");
-  if (found_.size() == config_.most_pairs)
-    throw Refused(
-        fmt::format("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
-                    body, config_.most_pairs));
+void BroadPhase<D>::name_by_rank() {
+  for (BodyId& place : found_.first()) place = dynamic_.ranks[place];
+  for (BodyId& place : found_.second()) place = dynamic_.ranks[place];
+  found_names_ = all_names_;
 }
 
-// Counted into one row for each lower rank; rows are short, and in them copies stand side by side.
+// Before the lists of pairs grow, or pass their limit: places in them, and what it takes to put
+// them in order.
 template <int D>
-void BroadPhase<D>::sort_pairs() {
-  first_.assign(sorted_.size() + 1, 0);
-  for (const RankPair& pair : found_) ++first_[pair.a];
-  std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0u);
-  partners_.resize(found_.size());
-  for (const RankPair& pair : found_) partners_[first_[pair.a]++] = pair.b;
-  std::uint32_t begin = 0;  // first_[a] is the end of its row now
-  for (std::uint32_t a = 0; a < sorted_.size(); begin = first_[a++]) {
-    stop_if_asked();
-    const auto from = partners_.begin() + begin, to = partners_.begin() + first_[a];
-    std::sort(from, to);
-    std::for_each(from, std::unique(from, to), [&](std::uint32_t b) {
-      pairs_.push_back({sorted_[a].id, sorted_[b].id});
-    });
-  }
+void BroadPhase<D>::require_room(BodyId number, std::size_t pairs) const {
+  const BodyId body = found_names_[number];
+  require_memory(
+      pairs * (3 * sizeof(BodyId) + sizeof(Pair)),
+      fmt::format("body {}: with it {} or more pairs of boxes that overlap", body, found_.size()),
+      "take fewer bodies, or part them");
+  if (found_.size() > config_.most_pairs) refuse_more(number);
+}
+
+template <int D>
+void BroadPhase<D>::refuse_more(BodyId number) const {
+  throw Refused(
+      fmt::format("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
+                  found_names_[number], config_.most_pairs));
 }
 
 template void BroadPhase<2>::find_pairs();

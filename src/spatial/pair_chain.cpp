@@ -8,22 +8,24 @@
 namespace lantern::spatial {
 namespace {
 
-// f(place, place) for each pair met in the leaves of which at least one stirs.
-template <int D, class Tree, class F>
-void each_met(const Tree& tree, const std::vector<bool>& stirring, F&& f) {
-  tree.visit([&](const NodeView<D>& node) {
-    for (std::size_t i = 0; i < node.bodies.size(); ++i) {
-      stop_if_asked();
-      for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
-        if (stirring[node.bodies[i]] || stirring[node.bodies[j]]) f(node.bodies[i], node.bodies[j]);
-    }
-    return true;
-  });
-}
-template <int D, class F>
-void each_met(SortAndSweep<D> sweep, const std::vector<bool>& stirring, F&& f) {
-  sweep.compare([&](BodyId i) { return stirring[i]; },
-                [&](const Item<D>& a, const Item<D>& b) { f(a.id, b.id); });
+// f(place, place) for each pair that is met and of which at least one stirs. A structure that
+// compares its bodies itself does so in a copy, in the order of its own that it makes for it.
+template <int D, class Structure, class F>
+void each_met(const Structure& structure, const std::vector<bool>& stirring, F&& f) {
+  const auto awake = [&](BodyId i) -> bool { return stirring[i]; };
+  const auto told = [&](const Item<D>& a, const Item<D>& b) { f(a.id, b.id); };
+  if constexpr (requires(Structure s) { s.compare(awake, told); }) {
+    Structure(structure).compare(awake, told);
+  } else {
+    structure.visit([&](const NodeView<D>& node) {
+      for (std::size_t i = 0; i < node.bodies.size(); ++i) {
+        stop_if_asked();
+        for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
+          if (awake(node.bodies[i]) || awake(node.bodies[j])) f(node.bodies[i], node.bodies[j]);
+      }
+      return true;
+    });
+  }
 }
 
 }  // namespace
@@ -32,25 +34,32 @@ template <int D>
 PairChain BroadPhase<D>::pair_chain(const std::function<bool(BodyId)>& awake,
                                     std::uint64_t most) const {
   std::vector<bool> stirring;
-  for (const Proxy<D>& body : dynamic_.bodies)
-    stirring.push_back(!body.is_static && awake(body.id));
-  std::vector<std::pair<const Proxy<D>*, const Proxy<D>*>> met;
+  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+    stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
+  struct Body {
+    BodyId id;
+    const Box<D>* box;
+  };
+  const auto body = [](const Store& store, BodyId place) {
+    return Body{store.names[place], &store.items[place].box};
+  };
+  std::vector<std::pair<Body, Body>> met;
   PairChain chain;
-  const auto meet = [&](const Proxy<D>& a, const Proxy<D>& b) {
+  const auto meet = [&](const Body& a, const Body& b) {
     require_within(++chain.met, most);
-    met.push_back(a.id < b.id ? std::pair(&a, &b) : std::pair(&b, &a));
+    met.push_back(a.id < b.id ? std::pair(a, b) : std::pair(b, a));
   };
   std::visit(
       [&](const auto& tree) {
         each_met<D>(tree, stirring,
-                    [&](BodyId i, BodyId j) { meet(dynamic_.bodies[i], dynamic_.bodies[j]); });
+                    [&](BodyId i, BodyId j) { meet(body(dynamic_, i), body(dynamic_, j)); });
       },
       dynamic_.structure);
   const auto ask = [&](const auto& of_static) {
-    for (std::size_t i = 0; i < stirring.size() && !static_.bodies.empty(); ++i) {
+    for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
       std::vector<BodyId> near;
-      if (stirring[i]) of_static.near(dynamic_.bodies[i].box, near);
-      for (const BodyId j : near) meet(dynamic_.bodies[i], static_.bodies[j]);
+      if (stirring[i]) of_static.near(dynamic_.items[i].box, near);
+      for (const BodyId j : near) meet(body(dynamic_, i), body(static_, j));
     }
   };
   std::visit(
@@ -64,14 +73,16 @@ PairChain BroadPhase<D>::pair_chain(const std::function<bool(BodyId)>& awake,
         }
       },
       static_.structure);
-  std::sort(met.begin(), met.end(), [](const auto& x, const auto& y) {
+  const auto ids = [](const auto& both) { return Pair{both.first.id, both.second.id}; };
+  std::sort(met.begin(), met.end(), [&](const auto& x, const auto& y) {
     stop_if_asked();
-    return Pair{x.first->id, x.second->id} < Pair{y.first->id, y.second->id};
+    return ids(x) < ids(y);
   });
-  met.erase(std::unique(met.begin(), met.end()), met.end());
-  for (const auto& [a, b] : met) {
-    chain.pairs.push_back({a->id, b->id});
-    if (overlap(a->box, b->box)) chain.overlapping.push_back({a->id, b->id});
+  const auto same = [&](const auto& x, const auto& y) { return ids(x) == ids(y); };
+  met.erase(std::unique(met.begin(), met.end(), same), met.end());
+  for (const auto& both : met) {
+    chain.pairs.push_back(ids(both));
+    if (overlap(*both.first.box, *both.second.box)) chain.overlapping.push_back(ids(both));
   }
   return chain;
 }

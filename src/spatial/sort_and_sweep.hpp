@@ -21,6 +21,7 @@
 
 #include "base/stop.hpp"
 #include "geometry/shape.hpp"
+#include "spatial/box_table.hpp"
 #include "spatial/tour.hpp"
 
 namespace lantern::spatial {
@@ -30,7 +31,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::fitted;
   static constexpr StructureTraits kTraits{
-      .words = "sort and sweep", .is_tree = false, .splits = false};
+      .words = "sort and sweep", .is_tree = false, .meets_in_leaves = false, .splits = false};
 
   static SortAndSweep made(const StructureConfig<D>&) { return {}; }
 
@@ -50,6 +51,16 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
     box_ = {};
     pair_tests_ = 0;
     sorted_ = false;
+  }
+
+  // These items, instead of what was there. Their boxes must be valid.
+  void build(std::span<const Item<D>> items) {
+    clear();
+    allocations_ += items.size() > items_.capacity();
+    items_.assign(items.begin(), items.end());
+    if (!items.empty()) box_ = items.front().box;
+    for (const Item<D>& item : items) box_ = united(box_, item.box);
+    sort();
   }
 
   // Chooses the axis and sorts. Needed before `sweep`, and for `near` to be fast.
@@ -107,17 +118,28 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
     return tests;
   }
 
-  // f(id, id) for those whose boxes overlap; returns how many pairs were compared.
-  template <class Awake, class F>
-  std::uint64_t sweep(Awake&& awake, F&& f) {
-    return compare(awake, [&](const Item<D>& a, const Item<D>& b) {
-      if (overlap(a.box, b.box)) f(a.id, b.id);
-    });
+  // See structure.hpp. Sorts first.
+  std::uint64_t pair(std::span<const Item<D>> exact, FoundPairs& found) {
+    sort();
+    const std::size_t before = table_.places();
+    table_.resize(order_.size());
+    for (std::size_t at = 0; at < order_.size(); ++at)
+      table_.set(at, items_[order_[at]].id, items_[order_[at]].box);
+    allocations_ += table_.places() != before;
+    RunScanner<D> runs(table_, table_, exact, found);
+    for (std::uint32_t at = 0; at < order_.size(); ++at) runs.add(at, at + 1, end_of(at));
+    runs.finish();
+    pair_tests_ += runs.compared();
+    return runs.compared();
   }
 
+  // f(id, id) for those whose boxes overlap.
   template <class F>
   void sweep(F&& f) {
-    sweep([](BodyId) { return true; }, f);
+    compare([](BodyId) { return true; },
+            [&](const Item<D>& a, const Item<D>& b) {
+              if (overlap(a.box, b.box)) f(a.id, b.id);
+            });
   }
 
   // One leaf; its box is the smallest one that holds all bodies.
@@ -179,6 +201,15 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
     return widest;
   }
 
+  // The first place in the order, behind this one, that begins after it has ended.
+  std::uint32_t end_of(std::uint32_t at) const {
+    const double end = items_[order_[at]].box.hi[axis_];
+    const auto last =
+        std::partition_point(order_.begin() + at + 1, order_.end(),
+                             [&](std::uint32_t i) { return items_[i].box.lo[axis_] <= end; });
+    return static_cast<std::uint32_t>(last - order_.begin());
+  }
+
   // False when it gave up after a few moves an item; the order holds each item once in any case.
   template <class Before>
   bool insertion_sort(const Before& before) {
@@ -197,6 +228,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   std::vector<Item<D>> items_;
   std::vector<std::uint32_t> order_;     // places in items_, by the lower end on the axis
   std::vector<double> ends_;             // the farthest upper end so far, in that order
+  BoxTable<D> table_;                    // in that order
   std::vector<std::uint32_t> watchful_;  // places in order_ of those awake, while sweeping
   Box<D> box_;
   int axis_ = 0;

@@ -15,6 +15,13 @@
 //   kTraits                  what kind of structure it is, see StructureTraits
 //   made(config)             an empty one; throws Refused for settings that it does not allow
 //   counters()               exact counts of the work done and the tree that stands
+// and, if it finds pairs otherwise than leaf by leaf,
+//   pair(exact, found)       adds all pairs of its bodies that overlap, each once, in any order, as
+//                            RunScanner does; returns how many pairs of boxes it compared
+//   compare(awake, f)        the same comparisons made visible: f(item, item) for each, of which at
+//                            least one is awake(id); returns how many
+// and, if it can go on from where its bodies were,
+//   update(items)            the same bodies, in the same order, in other places
 //
 // structure_kinds.hpp lists them all; own_structure.hpp brings one of your own.
 //
@@ -113,12 +120,17 @@ struct StructureConfig {
   bool no_progress_stop = true;
   std::vector<BspPlane<D>> planes = {};                 // of a BSP
   std::uint64_t most_entries = std::uint64_t{1} << 22;  // of a tree: entries, and nodes
+  double cell = 0;           // of a grid: side of its smallest cells; 0: what suits its bodies
+  std::uint32_t levels = 1;  // of a grid: sizes of cells
+  bool open = false;         // of a grid: its cells are hashed, and have no rim
+  double margin = 0;         // of an aabb_tree: how far boxes are enlarged on every side
 };
 
 // What tells kinds of structures apart for whoever shows or describes them.
 struct StructureTraits {
   std::string_view words;       // "sort and sweep": as one would write it
   bool is_tree = true;          // else one list of all bodies
+  bool meets_in_leaves = true;  // two bodies meet where they share a leaf; else by `compare`
   bool splits = true;           // leaves above capacity, down to the depth limit
   bool is_fitted = false;       // to its bodies: built of all of them at once, stale when they move
   bool shares_array = false;    // all leaves' contents lie in one array

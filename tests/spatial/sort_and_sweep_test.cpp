@@ -85,13 +85,13 @@ TEST(SortAndSweep, ComparesOnlyWhatOverlapsOnTheAxisAndWhereOneIsAwake) {
   sweep.insert({2, {{7, 0}, {10, 1}}});
   sweep.insert({3, {{14, 0}, {17, 1}}});
   std::vector<Pair> pairs;
-  const auto keep = [&](BodyId a, BodyId b) { pairs.push_back({a, b}); };
-  EXPECT_EQ(sweep.sweep([](BodyId) { return true; }, keep), 3u);
+  const auto keep = [&](const Item<2>& a, const Item<2>& b) { pairs.push_back({a.id, b.id}); };
+  EXPECT_EQ(sweep.compare([](BodyId) { return true; }, keep), 3u);
   EXPECT_EQ(pairs, (std::vector<Pair>{{0, 1}, {0, 2}, {1, 2}}));
   pairs.clear();
-  EXPECT_EQ(sweep.sweep([](BodyId id) { return id == 1; }, keep), 2u);
+  EXPECT_EQ(sweep.compare([](BodyId id) { return id == 1; }, keep), 2u);
   EXPECT_EQ(pairs, (std::vector<Pair>{{0, 1}, {1, 2}}));
-  EXPECT_EQ(sweep.sweep([](BodyId) { return false; }, keep), 0u);
+  EXPECT_EQ(sweep.compare([](BodyId) { return false; }, keep), 0u);
 }
 
 TEST(SortAndSweep, TellsEachBodyThatItStores) {

@@ -1,0 +1,165 @@
+// Boxes for the first look: `float`, rounded outward, each bound of all of them in an array of its
+// own, so that one instruction compares a box with 4 to 16 others. What `float` cannot decide the
+// boxes in `double` decide, so that what is found is exact.
+//
+//   lo.x | 0.1 | 0.3 | 0.7 | ...     a run: the box at one place, compared with those at the places
+//   hi.x | 0.4 | 0.5 | 0.9 | ...     from, from + 1, ..., to - 1
+//   lo.y | ...
+//
+// A structure arranges its bodies so that what a body may meet stands side by side, and hands over
+// runs. The width of the vectors is that of the processor on which it runs (Highway chooses); what
+// is found, and in which order, does not depend on it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "spatial/structure.hpp"
+
+namespace lantern::spatial {
+
+template <int D>
+class BoxTable {
+ public:
+  // Places beyond the last, which may be read and are never found.
+  static constexpr std::size_t kPadding = 64;
+
+  // What the places hold afterwards is not said.
+  void resize(std::size_t size);
+  std::size_t size() const { return size_; }
+
+  // The box rounded outward.
+  void set(std::size_t place, BodyId id, const Box<D>& box) {
+    for (int i = 0; i < D; ++i) {
+      lo_[i][place] = rounded_down(box.lo[i]);
+      hi_[i][place] = rounded_up(box.hi[i]);
+    }
+    ids_[place] = id;
+  }
+
+  BodyId id(std::size_t place) const { return ids_[place]; }
+  const float* lo(int axis) const { return lo_[axis].data(); }
+  const float* hi(int axis) const { return hi_[axis].data(); }
+  const BodyId* ids() const { return ids_.data(); }
+  // Places for which there is memory.
+  std::size_t places() const { return ids_.capacity(); }
+
+  // The greatest float that is not above x, and the least that is not below it.
+  static float rounded_down(double x);
+  static float rounded_up(double x);
+
+ private:
+  std::size_t size_ = 0;
+  std::array<std::vector<float>, D> lo_, hi_;
+  std::vector<BodyId> ids_;
+};
+
+// Pairs of bodies by their ids, in two lists side by side.
+class FoundPairs {
+ public:
+  // Asked before the lists grow to so many pairs, with a body of the last one: throws if they must
+  // not. By default they may.
+  using MayGrow = std::function<void(BodyId body, std::size_t pairs)>;
+
+  void clear() { size_ = 0; }
+  std::size_t size() const { return size_; }
+  std::size_t places() const { return first_.capacity() + second_.capacity(); }
+  std::span<const BodyId> first() const { return {first_.data(), size_}; }
+  std::span<const BodyId> second() const { return {second_.data(), size_}; }
+  std::span<BodyId> first() { return {first_.data(), size_}; }
+  std::span<BodyId> second() { return {second_.data(), size_}; }
+
+  void add(BodyId a, BodyId b) {
+    if (size_ == first_.size()) reserve(size_ + 1, a);
+    first_[size_] = a;
+    second_[size_++] = b;
+  }
+  // Makes room for so many pairs in all.
+  void reserve(std::size_t pairs, BodyId body);
+  // Of the reserved ones, so many are there now.
+  void resize(std::size_t size) { size_ = size; }
+  std::size_t reserved() const { return first_.size(); }
+  void ask_before_growing(MayGrow may_grow) { may_grow_ = std::move(may_grow); }
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<BodyId> first_, second_;
+  MayGrow may_grow_;
+};
+
+struct ScanRun {
+  std::uint32_t query = 0;  // place in the table of those that ask
+  std::uint32_t from = 0;   // places in the other table
+  std::uint32_t to = 0;
+};
+
+// Adds (id of the query, id of the place) for each place of each run whose box overlaps the
+// query's, in the order of runs and places. `exact[id]` is the body with that id, in both tables.
+template <int D>
+void scan(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
+          std::span<const ScanRun> runs, FoundPairs& found);
+
+// Collects runs of one table against itself or another, and scans them some thousands at a time.
+template <int D>
+class RunScanner {
+ public:
+  RunScanner(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
+             FoundPairs& found)
+      : queries_(queries), table_(table), exact_(exact), found_(found) {}
+
+  void add(std::uint32_t query, std::uint32_t from, std::uint32_t to) {
+    if (from >= to) return;
+    compared_ += to - from;
+    runs_[count_++] = {query, from, to};
+    if (count_ == runs_.size()) finish();
+  }
+  // To be called after the last run.
+  void finish() {
+    scan<D>(queries_, table_, exact_, std::span(runs_).first(count_), found_);
+    count_ = 0;
+  }
+  // Boxes with boxes, so far.
+  std::uint64_t compared() const { return compared_; }
+
+ private:
+  const BoxTable<D>& queries_;
+  const BoxTable<D>& table_;
+  std::span<const Item<D>> exact_;
+  FoundPairs& found_;
+  std::array<ScanRun, 1024> runs_;
+  std::size_t count_ = 0;
+  std::uint64_t compared_ = 0;
+};
+
+// --- how a float is rounded ---
+
+namespace detail {
+
+// So many floats further: the order of floats is that of their bits, of negative ones turned.
+inline float stepped(float x, int by) {
+  const auto turned = [](std::int32_t bits) {
+    return bits < 0 ? static_cast<std::int32_t>(0x8000'0000u - static_cast<std::uint32_t>(bits))
+                    : bits;
+  };
+  return std::bit_cast<float>(turned(turned(std::bit_cast<std::int32_t>(x)) + by));
+}
+
+}  // namespace detail
+
+template <int D>
+float BoxTable<D>::rounded_down(double x) {
+  const auto nearest = static_cast<float>(x);
+  return detail::stepped(nearest, nearest > x ? -1 : 0);
+}
+
+template <int D>
+float BoxTable<D>::rounded_up(double x) {
+  const auto nearest = static_cast<float>(x);
+  return detail::stepped(nearest, nearest < x ? 1 : 0);
+}
+
+}  // namespace lantern::spatial

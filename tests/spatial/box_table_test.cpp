@@ -1,0 +1,157 @@
+#include "spatial/box_table.hpp"
+
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "spatial/pair_order.hpp"
+
+namespace lantern::spatial {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+
+// What runs of all with all find, by hand.
+template <int D>
+std::vector<Pair> by_force(const std::vector<Item<D>>& items) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t j = i + 1; j < items.size(); ++j)
+      if (overlap(items[i].box, items[j].box))
+        pairs.push_back({static_cast<BodyId>(i), static_cast<BodyId>(j)});
+  return pairs;
+}
+
+template <int D>
+std::vector<Pair> scanned(const std::vector<Item<D>>& items) {
+  BoxTable<D> table;
+  table.resize(items.size());
+  for (const Item<D>& item : items) table.set(item.id, item.id, item.box);
+  FoundPairs found;
+  RunScanner<D> runs(table, table, items, found);
+  const auto size = static_cast<std::uint32_t>(items.size());
+  for (std::uint32_t i = 0; i < size; ++i) runs.add(i, i + 1, size);
+  runs.finish();
+  EXPECT_EQ(runs.compared(), items.size() * (items.size() - 1) / 2);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    pairs.push_back({found.first()[i], found.second()[i]});
+  return pairs;
+}
+
+template <int D>
+void scans_as_by_force(const std::function<double(std::mt19937_64&)>& corner,
+                       const std::function<double(std::mt19937_64&)>& extent) {
+  std::mt19937_64 random(7);
+  for (const BodyId size : {2u, 3u, 15u, 16u, 17u, 70u, 400u}) {
+    std::vector<Item<D>> items(size);
+    for (BodyId i = 0; i < size; ++i) {
+      items[i].id = i;
+      for (int axis = 0; axis < D; ++axis) {
+        items[i].box.lo[axis] = corner(random);
+        items[i].box.hi[axis] = items[i].box.lo[axis] + extent(random);
+      }
+    }
+    EXPECT_EQ(scanned<D>(items), by_force<D>(items)) << size << " boxes";
+  }
+}
+
+TEST(BoxTable, RoundsOutwardToTheNearestFloatOfAnyNumber) {
+  std::mt19937_64 random(1);
+  std::vector<double> numbers = {0.0,
+                                 -0.0,
+                                 1.0,
+                                 -1.0,
+                                 0.1,
+                                 -0.1,
+                                 1e300,
+                                 -1e300,
+                                 1e-300,
+                                 -1e-300,
+                                 Limits::max(),
+                                 Limits::lowest(),
+                                 Limits::denorm_min(),
+                                 16777217.0};
+  std::uniform_real_distribution<double> exponent(-60, 60), part(-1, 1);
+  for (int i = 0; i < 10'000; ++i)
+    numbers.push_back(part(random) * std::pow(2.0, exponent(random)));
+  for (const double x : numbers) {
+    const float down = BoxTable<2>::rounded_down(x), up = BoxTable<2>::rounded_up(x);
+    EXPECT_LE(down, x);
+    EXPECT_GE(up, x);
+    if (static_cast<float>(x) == x)
+      EXPECT_TRUE(down == x && up == x) << x;
+    else
+      EXPECT_EQ(std::nextafter(down, std::numeric_limits<float>::infinity()), up) << x;
+  }
+}
+
+TEST(BoxTable, FindsWhatComparisonsInDoubleFind) {
+  const auto uniform = [](double from, double to) {
+    return [=](std::mt19937_64& random) {
+      return std::uniform_real_distribution<double>(from, to)(random);
+    };
+  };
+  scans_as_by_force<2>(uniform(0, 40), uniform(0.5, 3));
+  scans_as_by_force<3>(uniform(0, 10), uniform(0.5, 3));
+  scans_as_by_force<3>(uniform(0, 1), uniform(1, 2));  // all with all
+}
+
+TEST(BoxTable, DecidesInDoubleWhatFloatCannot) {
+  // Boxes of whole numbers touch; those far from the origin differ by less than a float can say.
+  const auto whole = [](std::mt19937_64& random) {
+    return static_cast<double>(std::uniform_int_distribution<int>(0, 12)(random));
+  };
+  const auto one = [](std::mt19937_64&) { return 1.0; };
+  scans_as_by_force<2>(whole, one);
+  scans_as_by_force<3>(whole, one);
+  const auto far = [&](std::mt19937_64& random) { return 1e9 + whole(random); };
+  scans_as_by_force<2>(far, one);
+  const auto beyond_float = [&](std::mt19937_64& random) { return 1e300 * (1 + whole(random)); };
+  scans_as_by_force<2>(beyond_float, [](std::mt19937_64&) { return 1e300; });
+  const auto tiny = [&](std::mt19937_64& random) { return 1e-310 * whole(random); };
+  scans_as_by_force<2>(tiny, [](std::mt19937_64&) { return 1e-310; });
+}
+
+TEST(BoxTable, AsksBeforeItsListsGrow) {
+  std::vector<Item<2>> items(100);
+  for (BodyId i = 0; i < items.size(); ++i) items[i] = {i, {{0, 0}, {1, 1}}};
+  BoxTable<2> table;
+  table.resize(items.size());
+  for (const Item<2>& item : items) table.set(item.id, item.id, item.box);
+  FoundPairs found;
+  found.ask_before_growing([](BodyId, std::size_t pairs) {
+    if (pairs > 2000) throw std::length_error("too many");
+  });
+  RunScanner<2> runs(table, table, items, found);
+  for (std::uint32_t i = 0; i < 100; ++i) runs.add(i, i + 1, 100);
+  EXPECT_THROW(runs.finish(), std::length_error);
+  EXPECT_LE(found.size(), 2000u);
+}
+
+TEST(PairOrder, PutsPairsInOrderAndEachOnce) {
+  std::mt19937_64 random(3);
+  for (const auto& [numbers, count] :
+       {std::pair(2u, 5u), std::pair(50u, 4000u), std::pair(3000u, 1000u), std::pair(900u, 90'000u),
+        std::pair(100'000u, 5000u)}) {
+    std::uniform_int_distribution<BodyId> any(0, numbers - 1);
+    std::vector<Pair> pairs, expected;
+    while (pairs.size() < count) {
+      const BodyId a = any(random), b = pairs.size() % 3 == 0 ? 0 : any(random);
+      if (a == b) continue;
+      pairs.push_back({a, b});
+      expected.push_back({std::min(a, b), std::max(a, b)});
+    }
+    std::sort(expected.begin(), expected.end());
+    expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+    order_pairs(pairs, numbers);
+    EXPECT_EQ(pairs, expected);
+    order_pairs(pairs, numbers);  // they are in order already
+    EXPECT_EQ(pairs, expected);
+  }
+}
+
+}  // namespace
+}  // namespace lantern::spatial
