@@ -182,7 +182,7 @@ void BroadPhase<D>::build(Store& store) {
   }
   for (;;) {
     try {
-      with_names(store, [&] { build_structure<D>(store.structure, store.items); });
+      with_names(store, [&] { build_structure<D>(store.structure, store.items, config_.build); });
       break;
     } catch (const Refused&) {
       if (!config_.in_proportion || store.depth == 0) throw;

@@ -22,6 +22,7 @@ template <int D>
 struct BroadPhaseConfig : StructureConfig<D> {
   StructureKind kind = D == 3 ? StructureKind::octree : StructureKind::quadtree;
   bool split_static = true;  // static bodies in a structure of their own
+  Build build = Build::one_by_one;
   // Whether a tree that would grow out of proportion (more than 64 entries a body: many bodies
   // larger than most cells) is built with half of its depth instead, again and again until it does
   // not. Else the depth is as configured, and a tree of more than `most_entries` is refused.

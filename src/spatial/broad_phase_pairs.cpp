@@ -198,7 +198,17 @@ void BroadPhase<D>::refuse_more(BodyId number) const {
                   found_names_[number], config_.most_pairs));
 }
 
-template void BroadPhase<2>::find_pairs();
-template void BroadPhase<3>::find_pairs();
+#define LANTERN_PAIRING(D)                                              \
+  template void BroadPhase<D>::find_pairs();                            \
+  template void BroadPhase<D>::pair_dynamic();                          \
+  template void BroadPhase<D>::pair_static();                           \
+  template void BroadPhase<D>::pair_bodies(std::span<const BodyId>);    \
+  template void BroadPhase<D>::drop_still_pairs();                      \
+  template void BroadPhase<D>::name_by_rank();                          \
+  template void BroadPhase<D>::require_room(BodyId, std::size_t) const; \
+  template void BroadPhase<D>::refuse_more(BodyId) const;
+LANTERN_PAIRING(2)
+LANTERN_PAIRING(3)
+#undef LANTERN_PAIRING
 
 }  // namespace lantern::spatial

@@ -2,6 +2,7 @@
 // is enough where the world is flat. Bodies above each other share a leaf.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "spatial/orthtree.hpp"
@@ -29,6 +30,15 @@ class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
   void insert(const Item<3>& item, Observer&& observer = {}) {
     require_valid(item);
     tree_.insert({item.id, flat(item.box)}, observer);
+  }
+
+  void build(std::span<const Item<3>> items) {
+    flat_items_.clear();
+    for (const Item<3>& item : items) {
+      require_valid(item);
+      flat_items_.push_back({item.id, flat(item.box)});
+    }
+    tree_.build(flat_items_);
   }
 
   void clear() { tree_.clear(); }
@@ -62,6 +72,7 @@ class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
   }
 
   Quadtree tree_;
+  std::vector<Item<2>> flat_items_;  // while building
   Box<3> bounds_;
 };
 

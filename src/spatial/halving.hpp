@@ -17,6 +17,7 @@ template <int D>
 struct Halving {
   static_assert(D == 2 || D == 3);
   static constexpr std::uint32_t kChildren = 1u << D;
+  static constexpr std::uint32_t kEach = (1u << kChildren) - 1;  // one bit for each child
 
   // Does the child lie on the high side of the axis? Its number counts x first, and y from the top.
   static constexpr bool is_high(std::uint32_t slot, int axis) {
@@ -59,8 +60,6 @@ struct Halving {
   }
 
  private:
-  static constexpr std::uint32_t kEach = (1u << kChildren) - 1;
-
   // One bit for each child on that side of the axis.
   static constexpr std::uint32_t side(int axis, bool high) {
     std::uint32_t children = 0;

@@ -57,6 +57,15 @@ class LeafArray {
     values_[run.first + run.count++] = value;
   }
 
+  // A new run of these values. Throws as `append` does.
+  Run stored(std::span<const std::uint32_t> values) {
+    if (values.empty()) return {};
+    const auto count = static_cast<std::uint32_t>(values.size());
+    const Run run{take(room_for(count)), count};
+    std::ranges::copy(values, values_.begin() + run.first);
+    return run;
+  }
+
   // The run's block may be given to another leaf from now on.
   void release(Run run) {
     if (run.count > 0) give_back(run.first, room_for(run.count));

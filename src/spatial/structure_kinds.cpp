@@ -101,14 +101,19 @@ AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& con
 }
 
 template <int D>
-void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items) {
+void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items, Build way) {
   std::visit(
       [&](auto& s) {
-        if constexpr (requires { s.build(items); }) {
-          s.build(items);
-        } else {
-          s.clear();
-          for (const Item<D>& item : items) s.insert(item);
+        constexpr bool at_once = requires { s.build(items); };
+        constexpr bool one_by_one = requires { s.insert(Item<D>()); };
+        if constexpr (at_once) {
+          if (!one_by_one || way == Build::at_once) s.build(items);
+        }
+        if constexpr (one_by_one) {
+          if (!at_once || way == Build::one_by_one) {
+            s.clear();
+            for (const Item<D>& item : items) s.insert(item);
+          }
         }
         if constexpr (requires { s.sort(); }) s.sort();
         if constexpr (requires { s.look(); }) s.look();
@@ -118,7 +123,7 @@ void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items)
 
 template AnyStructure<2> make_structure(StructureKind, const StructureConfig<2>&);
 template AnyStructure<3> make_structure(StructureKind, const StructureConfig<3>&);
-template void build_structure(AnyStructure<2>&, std::span<const Item<2>>);
-template void build_structure(AnyStructure<3>&, std::span<const Item<3>>);
+template void build_structure(AnyStructure<2>&, std::span<const Item<2>>, Build);
+template void build_structure(AnyStructure<3>&, std::span<const Item<3>>, Build);
 
 }  // namespace lantern::spatial

@@ -99,8 +99,14 @@ StructureTraits traits_of(StructureKind kind);
 template <int D>
 AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& config);
 
-// The tree of these items, instead of what was there; memory is used again.
+// The tree of these items, instead of what was there; memory is used again. A structure that can do
+// only one of these does it that way. Ids ascend.
+enum class Build {
+  one_by_one,  // as the lecture inserts them
+  at_once,     // the same tree, sooner; its nodes may be numbered otherwise
+};
 template <int D>
-void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items);
+void build_structure(AnyStructure<D>& structure, std::span<const Item<D>> items,
+                     Build way = Build::one_by_one);
 
 }  // namespace lantern::spatial

@@ -43,6 +43,24 @@ bool build(Orthtree<D>& tree, const std::vector<Item<D>>& items) {
   return true;
 }
 
+// All at once gives the tree that insertions give, counts the same, and keeps the same budget.
+template <int D>
+void expect_same_at_once(const typename Orthtree<D>::Config& config, const Orthtree<D>& taught,
+                         bool refused, const std::vector<Item<D>>& items) {
+  Orthtree<D> tree(config);
+  if (refused) {
+    EXPECT_THROW(tree.build(items), Refused);
+    return;
+  }
+  for (int again = 0; again < 2; ++again) {
+    tree.build(items);
+    EXPECT_EQ(picture_of<D>(tree), picture_of<D>(taught)) << "built at once it is another tree";
+  }
+  const Counters a = tree.counters(), b = taught.counters();
+  EXPECT_EQ(std::tuple(a.nodes, a.leaves, a.depth, a.entries, a.box_tests, a.splits),
+            std::tuple(b.nodes, b.leaves, b.depth, b.entries, b.box_tests, b.splits));
+}
+
 template <int D>
 void expect_defined_tree(Sort sort, std::uint64_t seed) {
   SCOPED_TRACE(fmt::format("{}D, sort {}, seed {}", D, static_cast<int>(sort), seed));
@@ -53,6 +71,7 @@ void expect_defined_tree(Sort sort, std::uint64_t seed) {
   const ReferenceTree<D> reference(config, items);
   Orthtree<D> tree(config);
   ASSERT_EQ(build(tree, items), !reference.too_large()) << "the budget is not kept exactly";
+  expect_same_at_once<D>(config, tree, reference.too_large(), items);
   if (reference.too_large()) return;
   const Picture<D> picture = picture_of<D>(tree);
   ASSERT_EQ(picture, reference.picture()) << "the tree is not the one defined";

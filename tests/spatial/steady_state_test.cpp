@@ -35,9 +35,11 @@ namespace {
 
 TEST(SteadyState, AnUpdateAsksForNoMemory) {
   Random random(9);
-  for (const StructureKind kind : kStructureKinds) {
+  for (std::size_t run = 0; run < 2 * kStructureKinds.size(); ++run) {
+    const StructureKind kind = kStructureKinds[run / 2];
     BroadPhaseConfig<3> config;
     config.kind = kind;
+    config.build = run % 2 == 0 ? Build::one_by_one : Build::at_once;
     config.bounds = testing::bounds_of<3>(testing::Sort::uniform);
     config.planes = testing::random_planes<3>(testing::Sort::uniform, 9, random);
     BroadPhase<3> phase(config);
