@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -58,16 +59,23 @@ class BoxTable {
   std::vector<BodyId> ids_;
 };
 
+// The box at the place `query` of one table against those at the places from, ..., to - 1 of
+// another.
+struct ScanRun {
+  std::uint32_t query = 0;
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+};
+
 // Pairs of bodies by their ids, in two lists side by side.
 class FoundPairs {
  public:
   // Asked before the lists grow to so many pairs, with a body of the last one: throws if they must
-  // not. By default they may.
+  // not. By default they may. With several threads it is asked on any of them.
   using MayGrow = std::function<void(BodyId body, std::size_t pairs)>;
 
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
-  std::size_t places() const { return first_.capacity() + second_.capacity(); }
   std::span<const BodyId> first() const { return {first_.data(), size_}; }
   std::span<const BodyId> second() const { return {second_.data(), size_}; }
   std::span<BodyId> first() { return {first_.data(), size_}; }
@@ -85,16 +93,28 @@ class FoundPairs {
   std::size_t reserved() const { return first_.size(); }
   void ask_before_growing(MayGrow may_grow) { may_grow_ = std::move(may_grow); }
 
+  // How many threads may scan for these pairs; what is found, and its order, does not depend on it.
+  void set_threads(unsigned threads) { parts_.resize(threads < 2 ? 0 : threads - 1); }
+  unsigned threads() const { return static_cast<unsigned>(parts_.size()) + 1; }
+
+  // Places for which there is memory.
+  std::size_t places() const;
+
  private:
+  template <int D>
+  friend void scan(const BoxTable<D>& queries, const BoxTable<D>& table,
+                   std::span<const Item<D>> exact, std::span<const ScanRun> runs,
+                   FoundPairs& found);
+  template <int D>
+  friend class RunScanner;
+
+  void append(const FoundPairs& other);
+
   std::size_t size_ = 0;
   std::vector<BodyId> first_, second_;
   MayGrow may_grow_;
-};
-
-struct ScanRun {
-  std::uint32_t query = 0;  // place in the table of those that ask
-  std::uint32_t from = 0;   // places in the other table
-  std::uint32_t to = 0;
+  std::vector<FoundPairs> parts_;  // of the other threads, while they scan
+  std::vector<ScanRun> runs_;      // that wait to be scanned
 };
 
 // Adds (id of the query, id of the place) for each place of each run whose box overlaps the
@@ -109,17 +129,20 @@ class RunScanner {
  public:
   RunScanner(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
              FoundPairs& found)
-      : queries_(queries), table_(table), exact_(exact), found_(found) {}
+      : queries_(queries), table_(table), exact_(exact), found_(found) {
+    // For one thread as many as stay in its nearest cache, for several enough to share out.
+    found_.runs_.resize(found_.threads() == 1 ? 1024 : 32'768);
+  }
 
   void add(std::uint32_t query, std::uint32_t from, std::uint32_t to) {
     if (from >= to) return;
     compared_ += to - from;
-    runs_[count_++] = {query, from, to};
-    if (count_ == runs_.size()) finish();
+    found_.runs_[count_++] = {query, from, to};
+    if (count_ == found_.runs_.size()) finish();
   }
   // To be called after the last run.
   void finish() {
-    scan<D>(queries_, table_, exact_, std::span(runs_).first(count_), found_);
+    scan<D>(queries_, table_, exact_, std::span(found_.runs_).first(count_), found_);
     count_ = 0;
   }
   // Boxes with boxes, so far.
@@ -130,7 +153,6 @@ class RunScanner {
   const BoxTable<D>& table_;
   std::span<const Item<D>> exact_;
   FoundPairs& found_;
-  std::array<ScanRun, 1024> runs_;
   std::size_t count_ = 0;
   std::uint64_t compared_ = 0;
 };

@@ -35,6 +35,7 @@ void BroadPhase<D>::find_pairs() {
     if (!dynamic_.stands) build(dynamic_);
     for (Store* store : stores()) sort(store->structure);
     found_.clear();
+    found_.set_threads(config_.threads);
     found_names_ = dynamic_.names;
     found_.ask_before_growing(
         [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });

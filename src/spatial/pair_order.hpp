@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,21 +15,32 @@ namespace lantern::spatial {
 
 class PairOrder {
  public:
-  // The pairs, each once, with `names[number]` for each number; instead of what `ordered` held. The
-  // names ascend. `found` may name a pair in both ways, and more than once; it is used as scratch.
+  // The pairs, each once, with `names[number]` for each number, instead of what `ordered` held. The
+  // names ascend. `found` may name a pair in both ways, and more than once; it is used as scratch,
+  // and by as many threads as may scan for it.
   void order(FoundPairs& found, std::span<const BodyId> names, std::vector<Pair>& ordered);
 
   // Places for which there is memory.
-  std::size_t places() const { return begin_.capacity() + partners_.capacity() + bits_.capacity(); }
+  std::size_t places() const;
 
  private:
-  void count_rows(FoundPairs& found, std::size_t numbers);
-  std::span<std::uint32_t> in_order(std::span<std::uint32_t> row);
-  std::span<std::uint32_t> by_bits(std::span<std::uint32_t> row);
+  // What one thread works on: some of the pairs that were found, later some of the rows.
+  struct Part {
+    std::vector<std::uint32_t> begin;  // of each row in partners_: where its own pairs go
+    std::vector<std::uint64_t> bits;   // all zero between rows
+    std::uint32_t first_row = 0, end_row = 0;
+    std::size_t ordered = 0;  // how many pairs of its rows there are, each once
+  };
 
-  std::vector<std::uint32_t> begin_;     // of each row in partners_
-  std::vector<std::uint32_t> partners_;  // the higher numbers
-  std::vector<std::uint64_t> bits_;      // all zero between rows
+  void fill_rows(FoundPairs& found);
+  void share_rows(std::size_t pairs);
+  void order_rows(Part& part, std::span<const BodyId> names, Pair* ordered);
+  static std::span<std::uint32_t> in_order(std::span<std::uint32_t> row, Part& part);
+  static std::span<std::uint32_t> by_bits(std::span<std::uint32_t> row, Part& part);
+
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> end_;       // of each row
+  std::vector<std::uint32_t> partners_;  // the higher numbers, row by row
 };
 
 // The same of pairs of numbers below `numbers`, for who has no need to keep the memory.

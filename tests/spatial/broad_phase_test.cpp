@@ -425,6 +425,26 @@ TEST(BroadPhase, AFlatQuadtreeLooksAtXAndZOnly) {
   EXPECT_TRUE(phase.pairs().empty()) << "they share a leaf, but do not overlap";
 }
 
+TEST(BroadPhase, AnyNumberOfThreadsFindsTheSamePairs) {
+  Random random(8);
+  std::vector<Proxy<2>> proxies;  // so crowded that it is worth a thread
+  for (BodyId id = 0; id < 2000; ++id)
+    proxies.push_back({3 * id, Box<2>::around(random_point<2>(random, 20, 44), Vec<2>(4.0))});
+  const std::vector<Pair> truth = true_pairs(proxies);
+  EXPECT_GT(truth.size(), 300'000u);
+  for (const StructureKind kind : {StructureKind::sort_and_sweep, StructureKind::quadtree})
+    for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+      BroadPhaseConfig<2> config;
+      config.kind = kind;
+      config.threads = threads;
+      BroadPhase<2> phase(config);
+      phase.update(proxies);
+      EXPECT_EQ(phase.pairs() == truth, true) << to_string(kind) << ", threads " << threads;
+      config.most_pairs = 290'000;
+      EXPECT_THROW(BroadPhase<2>(config).update(proxies), Refused) << "on whichever thread it was";
+    }
+}
+
 TEST(BroadPhase, AHundredThousandAtOnePointAreNoHangWhileTheySleep) {
   for (const StructureKind kind : kinds<3>()) {
     BroadPhaseConfig<3> config;
