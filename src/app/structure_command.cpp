@@ -29,9 +29,11 @@ std::string scenario_of(const Trial& trial) {
   const TrialWorld& w = trial.smallest;
   std::string text = fmt::format(
       "# {}\ntitle = \"Where {} goes wrong\"\n\n[world]\nmin = {}\nmax = {}\n\n[structure]\n"
-      "kind = \"{}\"\ncapacity = {}\nmax_depth = {}\n",
+      "kind = \"{}\"\n",
       trial.fault, to_string(trial.kind), point(w.bounds.lo), point(w.bounds.hi),
-      to_string(trial.kind), w.capacity, w.max_depth);
+      to_string(trial.kind));
+  if (traits_of(trial.kind).splits)
+    text += fmt::format("capacity = {}\nmax_depth = {}\n", w.capacity, w.max_depth);
   std::string names;
   for (std::size_t i = 0; i < w.bodies.size(); ++i) {
     const std::string name = fmt::format("b{}", i + 1);

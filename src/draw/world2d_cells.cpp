@@ -23,7 +23,8 @@ double line_width(std::uint32_t depth) {
 
 // How many children cover their parent without a gap; the fitted boxes of a kD-tree never do.
 std::size_t children_that_cover(StructureKind kind) {
-  if (kind == StructureKind::kd_tree) return ~std::size_t{0};
+  // Nor do a grid's levels and buckets.
+  if (kind == StructureKind::kd_tree || kind == StructureKind::grid) return ~std::size_t{0};
   return kind == StructureKind::bsp ? 2 : 4;
 }
 
@@ -31,6 +32,11 @@ struct Painted {
   std::size_t node;
   Mark tone;
 };
+
+// A level or bucket of a grid is nowhere: its cells are.
+bool is_no_cell(const Frame& frame, const FrameNode& node) {
+  return frame.structure == StructureKind::grid && node.depth > 0 && !node.leaf;
+}
 
 // Which nodes are painted, and how, in order of painting. A node whose children cover it with one
 // tone is painted as a whole; a lit inner node is painted when the step is about it alone, with
@@ -129,7 +135,8 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   std::vector<Painted> painted = painted_of(frame);
   std::erase_if(painted, [&](const Painted& p) {
     // The whole world in one tone would tell nothing: it has its outline.
-    return p.node == 0 || !is_drawn(map.to_page(frame.nodes[p.node].box));
+    return p.node == 0 || is_no_cell(frame, frame.nodes[p.node]) ||
+           !is_drawn(map.to_page(frame.nodes[p.node].box));
   });
   if (painted.size() > kMostFills) return;  // some alone would say what is not so
   for (const auto& [i, tone] : painted) {
@@ -196,7 +203,8 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
     // The root is the world, but for one that is fitted.
-    if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static != of_static)
+    if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static != of_static ||
+        is_no_cell(frame, node))
       continue;
     const Box<2> cell = map.to_page(node.box);
     if (is_drawn(cell))
@@ -219,7 +227,8 @@ void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
   const auto key = [&](std::uint32_t node) { return node_key("world/lit", frame.nodes, node); };
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
-    if (node.mark != Mark::lit || !is_drawn(map.to_page(node.box))) continue;
+    if (node.mark != Mark::lit || !is_drawn(map.to_page(node.box)) || is_no_cell(frame, node))
+      continue;
     if (node.region.empty()) {
       borders.add(map.to_page(node.box), std::min(node.depth, 6u), i);
     } else if (outlined++ < kMostFills) {
@@ -286,8 +295,9 @@ void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place,
   for (const FrameNode& node : frame.nodes) {
     const Box<2> cell = map.to_page(node.box);
     const Vec<2> room = place.size() - cell.size();
-    if (node.depth == 0 || !node.region.empty() || !overlap(cell, place) ||
-        std::min(cell.size().x, cell.size().y) < kLeastOver || room.x <= 0 || room.y <= 0)
+    if (node.depth == 0 || !node.region.empty() || is_no_cell(frame, node) ||
+        !overlap(cell, place) || std::min(cell.size().x, cell.size().y) < kLeastOver ||
+        room.x <= 0 || room.y <= 0)
       continue;
     borders.add_inside(place, cell, node.depth);
   }

@@ -250,7 +250,8 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
   std::vector<const FrameNode*> filled;
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
-    const bool shown = node.leaf || (node.mark == Mark::lit && !lit_inside[i]);
+    const bool shown = node.leaf || (node.mark == Mark::lit && !lit_inside[i] &&
+                                     frame.structure != StructureKind::grid);
     if (shown && node.mark != Mark::quiet && is_valid(node.box)) filled.push_back(&node);
   }
   if (filled.size() > kMostFills3d) return;
@@ -272,7 +273,10 @@ bool add_cells(const Frame& frame, Marks3D& marks) {
   const bool flat = traits_of(frame.structure).ignores_height;
   const bool shown = frame.display.cells && !frame.nodes.empty();
   for (std::uint32_t i = 0; shown && i < frame.nodes.size(); ++i)
-    edges.add(frame.nodes[i], flat, i);
+    // A level or bucket of a grid is nowhere: its cells are.
+    if (const FrameNode& node = frame.nodes[i];
+        frame.structure != StructureKind::grid || node.depth == 0 || node.leaf)
+      edges.add(node, flat, i);
   if (!shown) {
     FrameNode whole;
     whole.box = frame.bounds;

@@ -38,8 +38,8 @@ class PairSet {
 // Bodies that share a leaf, each pair once.
 template <int D>
 std::uint64_t count_candidates(const BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes) {
-  // The sweep compares each pair once, and knows no leaves.
-  if (broad_phase.config().kind == StructureKind::sort_and_sweep)
+  // A structure that does not pair leaf by leaf compares each pair once.
+  if (!traits_of(broad_phase.config().kind).meets_in_leaves)
     return broad_phase.counters().pair_tests;
   PairSet met(boxes.size());
   broad_phase.visit_dynamic([&](const NodeView<D>& node) {
@@ -113,8 +113,8 @@ void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
   const Counters tree =
       broad_phase.with_dynamic([](const auto& structure) { return structure.counters(); });
   c.entries += tree.entries;
-  // What the sweep calls its tests are those of pairs, which are counted above.
-  if (cost.kind != StructureKind::sort_and_sweep) c.box_tests += tree.box_tests;
+  // What such a structure calls its tests are those of pairs, which are counted above.
+  if (traits_of(cost.kind).meets_in_leaves) c.box_tests += tree.box_tests;
   c.nodes += tree.nodes;
   cost.depth = std::max(cost.depth, tree.depth);
 }
@@ -159,7 +159,7 @@ std::vector<BroadPhaseCost> planned(const BoxScene& scene, const BroadPhaseCostC
           row.updates = boxes.frames.size();
         },
         scene.boxes);
-    if (kind == StructureKind::brute_force || kind == StructureKind::sort_and_sweep) {
+    if (kind == StructureKind::brute_force || !traits_of(kind).meets_in_leaves) {
       rows.push_back(row);
       continue;
     }

@@ -55,7 +55,10 @@ class OurContestant : public Contestant {
   void find(Finds& finds) override {
     std::visit(
         [&](auto& structure) {
-          if constexpr (requires { structure.sweep([](BodyId, BodyId) {}); }) {
+          if constexpr (requires {
+                          structure.compare([](BodyId) { return true; },
+                                            [](const Item<2>&, const Item<2>&) {});
+                        }) {
             finds.tests += structure.compare(
                 [](BodyId) { return true; },
                 [&](const Item<2>& a, const Item<2>& b) { finds.add(a.id, b.id); });

@@ -1,6 +1,7 @@
 // A scenario file from its bytes to plain values.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -153,6 +154,36 @@ void check_settings(const TableReader& file, Draft& draft) {
                            "only trees that split have; leave it out, or take kind = \"quadtree\"");
 }
 
+// Settings of grids are refused where none ever stands, and cells of which there are too many.
+void check_grid(const TableReader& file, Draft& draft) {
+  constexpr double kMostCells = 2e6;
+  const ScenarioSpec& s = draft.scenario;
+  const bool grid = s.structure.kind == StructureKind::grid;
+  if (!s.side.empty() || s.structure.kind == StructureKind::none) return;
+  const bool later = std::ranges::any_of(s.steps, [](const Step& step) {
+    const auto* rebuild = std::get_if<Rebuild>(&step.verb);
+    return rebuild && rebuild->structure.kind == StructureKind::grid;
+  });
+  double cells = s.structure.cell > 0 && grid && !s.structure.open ? 1 : 0;
+  for (int i = 0; i < draft.dimension; ++i)
+    cells *= std::ceil(s.world.bounds.size()[i] / std::max(s.structure.cell, 1e-300));
+  for (const TomlValue* value : file.tables("structure"))
+    for (const char* setting : {"cell", "levels", "open"}) {
+      const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting);
+      if (entry && !grid && !later)
+        draft.problems.add(entry->where,
+                           fmt::format("a structure of kind '{}' has no '{}'",
+                                       to_string(s.structure.kind), setting),
+                           "only kind = \"grid\" has");
+      else if (entry && std::string_view(setting) == "cell" && cells > kMostCells)
+        draft.problems.add(entry->where,
+                           fmt::format("the world has {:.3g} cells of this size, a grid may have "
+                                       "2000000",
+                                       cells),
+                           "take larger ones, or open = true");
+    }
+}
+
 void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   const TableReader file(table, kTop, language_table(""), draft.problems, 0);
   if (has_strange_table(table)) return;
@@ -169,6 +200,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   read_script(file, draft);
   check_panels(file, draft);
   check_settings(file, draft);
+  check_grid(file, draft);
 }
 
 // What a reading of the file begins with.

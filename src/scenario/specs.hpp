@@ -83,6 +83,9 @@ struct StructureSpec {
   Children children = Children::lazy;
   bool no_progress_stop = false;
   bool split_static = false;      // one structure for what never moves, one for what does
+  double cell = 0;                // of a grid: side of the smallest cells; 0: what suits its bodies
+  std::uint32_t levels = 1;       // of a grid
+  bool open = false;              // of a grid
   std::vector<PlaneSpec> planes;  // bsp only; a plane's parent stands before it
   SourcePosition where;
 };

@@ -31,11 +31,26 @@ std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
 }
 
 // Of a child of the node `parent`: "1.3", or in a BSP "front.back"; children of the root have no
-// prefix.
-std::string child_label(StructureKind kind, const std::string& parent, std::uint32_t slot) {
+// prefix. Of a grid's node that is no cell: a level, "L1", or a bucket, "B17".
+std::string child_label(const StructureSpec& spec, const std::string& parent, std::uint32_t slot,
+                        bool leaf) {
   std::string way = fmt::format("{}", slot + 1);
-  if (kind == StructureKind::bsp) way = slot == 0 ? "back" : "front";
+  if (spec.kind == StructureKind::bsp) way = slot == 0 ? "back" : "front";
+  if (spec.kind == StructureKind::grid) {
+    const bool level = spec.levels > 1 && parent == "root";
+    if (leaf && slot == kGridLarge)
+      way = "large";
+    else if (!leaf)
+      way = fmt::format("{}{}", level ? 'L' : 'B', slot + 1);
+  }
   return parent == "root" ? way : parent + "." + way;
+}
+
+// "spatial hash, cells of 4, 3 levels"
+std::string grid_text(const StructureSpec& s) {
+  return fmt::format("{}cells {}{}", s.open ? "spatial hash, " : "",
+                     s.cell == 0 ? "that suit the bodies" : fmt::format("of {:g}", s.cell),
+                     s.levels == 1 ? "" : fmt::format(", {} levels", s.levels));
 }
 
 // "capacity 2, depth limit 4, all children made"
@@ -48,6 +63,7 @@ std::string settings_text(const StructureSpec& s, int sweep_axis) {
   if (s.kind == StructureKind::bsp)
     return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
                        split);
+  if (s.kind == StructureKind::grid) return grid_text(s) + split;
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
   if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
@@ -145,7 +161,7 @@ class NodePicture {
     node.bodies.assign(view.bodies.begin(), view.bodies.end());
     node.label = "root";
     const FrameNode* parent = node.parent == kNone ? nullptr : &frame_.nodes[node.parent];
-    if (parent) node.label = child_label(spec_.kind, parent->label, view.slot);
+    if (parent) node.label = child_label(spec_, parent->label, view.slot, view.leaf);
     if (view.plane) node.plane = solid(*view.plane);
     if (spec_.kind == StructureKind::bsp) place_in_bsp(node, parent);
     // What is no tree has no cells: its one node is the whole world.
@@ -229,6 +245,9 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
   config.eager_children = spec.children == Children::eager;
   config.no_progress_stop = spec.no_progress_stop;
   config.planes = planes_of<D>(spec);
+  config.cell = spec.cell;
+  config.levels = spec.levels;
+  config.open = spec.open;
   config.split_static = spec.split_static;
   config.in_proportion = false;
   config.most_entries = kMostEntries;
@@ -243,8 +262,9 @@ std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, 
     labels.clear();
     if (found.empty())
       tree.visit([&](const NodeView<D>& node) {
-        labels.push_back(
-            node.parent == kNone ? "root" : child_label(spec.kind, labels[node.parent], node.slot));
+        labels.push_back(node.parent == kNone
+                             ? "root"
+                             : child_label(spec, labels[node.parent], node.slot, node.leaf));
         if (node.handle == handle && found.empty()) found = labels.back();
         return found.empty();
       });

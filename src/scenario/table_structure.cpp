@@ -91,7 +91,8 @@ TableDoc structure_table() {
           "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a `quadtree` "
           "cuts a 3D world along x and z, an `octree` along all three; `lecture_quadtree` is the "
           "lecture's own code, which makes all children at a split and has no stop but the depth "
-          "limit. A program may be given structures of a user's own, by their names "
+          "limit; a `grid` has equal cells. A program may be given structures of a user's own, by "
+          "their names "
           "(`src/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
           must(), advising("for a structure of your own see src/spatial/own_structure.hpp")),
       key(&S::capacity, "capacity", "A leaf that holds more splits, if depth is left.",
@@ -106,6 +107,17 @@ TableDoc structure_table() {
           "A leaf whose bodies all share one point does not split: that would separate none."),
       key(&S::split_static, "split_static",
           "One structure for what never moves, built once, and one for what does."),
+      key(&S::cell, "cell",
+          "Side of a grid's cells, of several levels the smallest. A closed grid may have 2000000 "
+          "of them. `0`: about twice as large as most bodies are, anew whenever it is built.",
+          range(0, kFar), in("units")),
+      key(&S::levels, "levels",
+          "Of a grid: how many sizes of cells, each twice as large as the one before. A body is on "
+          "the finest level whose cells are as large as it is.",
+          range(1, 16)),
+      key(&S::open, "open",
+          "A grid without a rim, for a world without end: its cells are hashed into buckets. Else "
+          "bodies outside of the world are in the cells at its rim."),
       key(KeyType::tables, "planes", "A BSP's dividing lines or planes.", at_most(255),
           holds("structure.planes")),
   };

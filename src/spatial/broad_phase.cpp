@@ -171,7 +171,7 @@ template <int D>
 void BroadPhase<D>::build(Store& store) {
   if (mended(store)) return;
   const auto make_anew = [&] {
-    const auto count = [](const auto& structure) { return structure.counters().allocations; };
+    const auto count = [](const auto& structure) { return work_of(structure).allocations; };
     past_allocations_ += std::visit(count, store.structure);
     store.structure = made(store.depth, store.room);
   };
@@ -323,7 +323,7 @@ bool BroadPhase<D>::is_stale(const Item<D>& item) const {
 
 template <int D>
 std::uint64_t BroadPhase<D>::structure_allocations() const {
-  const auto count = [](const auto& structure) { return structure.counters().allocations; };
+  const auto count = [](const auto& structure) { return work_of(structure).allocations; };
   return std::visit(count, static_.structure) + std::visit(count, dynamic_.structure);
 }
 

@@ -56,6 +56,15 @@ struct BroadPhaseCounters {
   std::uint64_t nodes_reused = 0;          // of the dynamic structure
 };
 
+// What the structure counts, without making what only a look at it needs.
+template <class Structure>
+Counters work_of(const Structure& structure) {
+  if constexpr (requires { structure.work(); })
+    return structure.work();
+  else
+    return structure.counters();
+}
+
 // A structure whose bodies are numbered from 0 in the order of their ids, seen with the ids.
 template <int D, class Structure>
 class WithIds : public Visitable<WithIds<D, Structure>, D> {

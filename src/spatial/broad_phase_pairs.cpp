@@ -57,7 +57,7 @@ void BroadPhase<D>::pair_dynamic() {
           pair_itself(structure);
         else
           pair_leaves(structure);
-        counters_.nodes_reused = structure.counters().nodes_reused;
+        counters_.nodes_reused = work_of(structure).nodes_reused;
       },
       dynamic_.structure);
 }
@@ -67,7 +67,7 @@ void BroadPhase<D>::pair_dynamic() {
 template <int D>
 template <class Tree>
 void BroadPhase<D>::pair_itself(Tree& tree) {
-  counters_.nodes_visited = tree.counters().nodes;
+  counters_.nodes_visited = work_of(tree).nodes;
   constexpr std::size_t kFew = 8;
   if (stirring_ == dynamic_.items.size() || kFew * stirring_ > dynamic_.items.size()) {
     counters_.pair_tests += tree.pair(std::span<const Item<D>>(dynamic_.items), found_);

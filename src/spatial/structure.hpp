@@ -20,6 +20,8 @@
 //                            RunScanner does; returns how many pairs of boxes it compared
 //   compare(awake, f)        the same comparisons made visible: f(item, item) for each, of which at
 //                            least one is awake(id); returns how many
+// and, if what it shows is made only for who looks,
+//   work()                   counters() of what is there already
 // and, if it can go on from where its bodies were,
 //   update(items)            the same bodies, in the same order, in other places
 //

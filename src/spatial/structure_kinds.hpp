@@ -14,6 +14,7 @@
 #include "spatial/brute_force.hpp"
 #include "spatial/bsp.hpp"
 #include "spatial/flat_quadtree.hpp"
+#include "spatial/grid.hpp"
 #include "spatial/kd_tree.hpp"
 #include "spatial/lecture_quadtree.hpp"
 #include "spatial/orthtree.hpp"
@@ -36,14 +37,15 @@ template <int D>
 using OctreeIn = std::conditional_t<D == 3, Octree, NoOctree>;
 
 // Name, as users write it, and class template.
-#define LANTERN_STRUCTURES(KIND)     \
-  KIND(brute_force, BruteForce)      \
-  KIND(sort_and_sweep, SortAndSweep) \
-  KIND(quadtree, QuadtreeIn)         \
-  KIND(octree, OctreeIn)             \
-  KIND(bsp, Bsp)                     \
-  KIND(kd_tree, KdTree)              \
-  KIND(lecture_quadtree, LectureQuadtree)
+#define LANTERN_STRUCTURES(KIND)          \
+  KIND(brute_force, BruteForce)           \
+  KIND(sort_and_sweep, SortAndSweep)      \
+  KIND(quadtree, QuadtreeIn)              \
+  KIND(octree, OctreeIn)                  \
+  KIND(bsp, Bsp)                          \
+  KIND(kd_tree, KdTree)                   \
+  KIND(lecture_quadtree, LectureQuadtree) \
+  KIND(grid, Grid)
 
 enum class StructureKind {
   none,  // nobody asks for one

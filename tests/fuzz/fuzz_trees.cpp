@@ -199,6 +199,9 @@ void fuzz_broad_phase(ByteStream& bytes) {
   config.eager_children = bytes.next() % 2 != 0;
   config.no_progress_stop = bytes.next() % 2 != 0;
   config.split_static = bytes.next() % 4 != 0;
+  config.levels = 1 + config.max_depth % 3;
+  config.open = config.capacity % 2 == 0;
+  config.cell = config.max_depth;
   Plane<D> plane;
   plane.normal[0] = plane.normal[1] = 1;
   plane.offset = bytes.number();

@@ -61,6 +61,8 @@ TEST(Engine, AnotherStructureChangesNoBitOfTheMotion) {
               std::string(solid ? "[8, 0, 0], normal = [1, 0, 0] }]"
                                 : "[8, 0], normal = [1, 0] }]"),
           "kind = \"kd_tree\"\ncapacity = 2",
+          "kind = \"grid\"\ncell = 2",
+          "kind = \"grid\"\nopen = true\nlevels = 3",
           "kind = \"none\""};
       const std::string scene = heap(solid, contacts);
       const auto plain = motions(changing(scene, std::vector<std::string>(rebuilds.size())));

@@ -336,6 +336,19 @@ TEST(Mistakes, OfSettingsThatAStructureHasNot) {
   expect_mistakes(scene + "@capacity = 2\n@max_depth = 3\n" + show,
                   {"'sort_and_sweep' has no 'capacity'", "has no 'max_depth'"});
   good(scene + "capacity = 2\n" + show + "[[step]]\ndo = \"rebuild\"\nkind = \"quadtree\"\n");
+  expect_mistakes(scene + "@cell = 2\n@levels = 3\n@open = true\n" + show,
+                  {"'sort_and_sweep' has no 'cell'", "no 'levels'", "no 'open'"});
+  good(scene + "cell = 2\n" + show + "[[step]]\ndo = \"rebuild\"\nkind = \"grid\"\n");
+}
+
+TEST(Mistakes, OfAGridOfTooManyCells) {
+  const std::string scene =
+      "title = \"x\"\n[world]\nsize = [9, 9]\n[[body]]\nname = \"red\"\nradius = 1\n"
+      "position = [1, 1]\n[[step]]\ndo = \"show\"\n[structure]\nkind = \"grid\"\n";
+  expect_mistakes(scene + "@cell = 0.001\n", {"8.1e+07 cells"});
+  expect_mistakes(scene + "@capacity = 2\n", {"'grid' has no 'capacity'"});
+  good(scene + "cell = 0.001\nopen = true\n");
+  good(scene + "cell = 0.01\nlevels = 3\n");
 }
 
 TEST(Mistakes, OfPanelsThatCannotBe) {

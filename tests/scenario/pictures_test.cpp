@@ -57,7 +57,7 @@ TEST(Pictures, LeavesShareAnArrayButNoSlot) {
 }
 
 TEST(Pictures, WhatNeverMovesIsBuiltOnce) {
-  for (const std::string kind : {"brute_force", "quadtree", "sort_and_sweep"}) {
+  for (const std::string kind : {"brute_force", "quadtree", "sort_and_sweep", "grid"}) {
     const auto frames = crowd("split_static = true\nkind = \"" + kind + "\"\n",
                               {kInsertCrowd, "do = \"run\"\nseconds = 1"});
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -86,7 +86,7 @@ TEST(Pictures, TwoStructuresMissNoPairThatOneFinds) {
   };
   const auto one = crowd("kind = \"brute_force\"\n", script);
   std::size_t met = 0;
-  for (const std::string kind : {"quadtree", "kd_tree", "sort_and_sweep"}) {
+  for (const std::string kind : {"quadtree", "kd_tree", "sort_and_sweep", "grid"}) {
     const auto two = crowd("split_static = true\nkind = \"" + kind + "\"\n", script);
     ASSERT_EQ(two.size(), one.size());
     for (std::size_t i = 0; i < one.size(); ++i) {

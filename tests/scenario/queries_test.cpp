@@ -13,10 +13,16 @@ namespace lantern::scenario {
 namespace {
 
 const std::vector<std::string> kFlatKinds = {
-    "brute_force", "sort_and_sweep", "quadtree", "kd_tree",
+    "brute_force",
+    "sort_and_sweep",
+    "quadtree",
+    "kd_tree",
+    "grid",
+    "grid\"\nopen = true\n#",
     "bsp\"\nplanes = [{ point = [16, 0], normal = [1, 0] }]\n#"};
-const std::vector<std::string> kSolidKinds = {"brute_force", "sort_and_sweep", "quadtree", "octree",
-                                              "kd_tree"};
+const std::vector<std::string> kSolidKinds = {"brute_force", "sort_and_sweep",
+                                              "quadtree",    "octree",
+                                              "kd_tree",     "grid\"\ncell = 4\nlevels = 2\n#"};
 
 std::string structure(const std::string& kind, bool split) {
   return "[structure]\nkind = \"" + kind + "\"\n" + (split ? "split_static = true\n" : "");

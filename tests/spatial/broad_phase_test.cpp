@@ -67,6 +67,9 @@ BroadPhaseConfig<D> config_of(StructureKind kind, Sort sort, Random& random) {
   config.no_progress_stop = random.bits() % 2 == 0;
   config.split_static = random.whole(0, 3) != 0;
   config.planes = testing::random_planes<D>(sort, 9, random);
+  config.cell = random.bits() % 2 == 0 ? 0 : random.between(0.5, 20);
+  config.levels = static_cast<std::uint32_t>(random.whole(1, 4));
+  config.open = random.bits() % 2 == 0;
   return config;
 }
 
@@ -75,7 +78,7 @@ BroadPhaseConfig<D> config_of(StructureKind kind, Sort sort, Random& random) {
 // with each other and with those that sleep.
 template <int D>
 void expect_counted(const BroadPhase<D>& phase, const std::vector<Proxy<D>>& proxies) {
-  const bool sweeps = phase.config().kind == StructureKind::sort_and_sweep;
+  const bool sweeps = !traits_of(phase.config().kind).meets_in_leaves;
   std::set<BodyId> stirs;
   bool has_static = false;
   for (const Proxy<D>& p : proxies) {

@@ -6,6 +6,7 @@
 #include "geometry/random_vec.hpp"
 #include "geometry/shape.hpp"
 #include "spatial/broad_phase.hpp"
+#include "spatial/grid.hpp"
 #include "spatial/overlap_query.hpp"
 #include "spatial/planes.hpp"
 #include "spatial/raycast.hpp"
@@ -42,6 +43,11 @@ class Scene {
     Bsp<D> bsp(testing::random_planes<D>(sort_, 12, random_), config.bounds);
     BruteForce<D> brute;
     SortAndSweep<D> sweep;
+    Grid<D> grid({.bounds = config.bounds,
+                  .cell = random_.bits() % 2 == 0 ? 0 : random_.between(2, 20),
+                  .levels = static_cast<std::uint32_t>(random_.whole(1, 3)),
+                  .open = random_.bits() % 2 == 0});
+    grid.build(items_);
     KdTree<D> kd({config.capacity, config.max_depth});
     kd.build(items_);
     for (const Item<D>& item : items_) {
@@ -55,6 +61,7 @@ class Scene {
     f(brute, "brute force");
     f(sweep, "sort and sweep");
     f(kd, "kd-tree");
+    f(grid, "grid");
     if constexpr (D == 3) {
       FlatQuadtree flat({.bounds = config.bounds,
                          .capacity = config.capacity,
@@ -266,6 +273,23 @@ void expect_order_of_ray(const Structure& structure, const Vec<D>& toward, const
       }
 }
 
+// Of two cells the first one met is not behind the other on all axes.
+template <int D>
+void expect_order_of_grid(const Grid<D>& grid, const Vec<D>& toward) {
+  std::vector<Vec<D>> met;
+  grid.visit_toward(toward, [&](const NodeView<D>& node) {
+    for (const Vec<D>& before : met) {
+      bool all_behind = node.leaf;
+      for (int axis = 0; axis < D; ++axis)
+        all_behind = all_behind && (node.box.center()[axis] - before[axis]) * toward[axis] <= 0;
+      EXPECT_FALSE(all_behind);
+    }
+    if (node.leaf) met.push_back(node.box.center());
+    return true;
+  });
+  EXPECT_GT(met.size(), 20u);
+}
+
 template <int D>
 void siblings_are_in_order(std::uint64_t seed) {
   Scene<D> scene(Sort::uniform, 60, seed);
@@ -280,6 +304,9 @@ void siblings_are_in_order(std::uint64_t seed) {
   for (const Item<D>& item : scene.items()) orthtree.insert(item);
   expect_order_of_ray<D>(orthtree, toward, "orthtree");
   expect_order_of_ray<D>(kd, toward, "kd-tree");
+  Grid<D> grid({.bounds = bounds, .cell = 8});
+  grid.build(scene.items());
+  expect_order_of_grid<D>(grid, toward);
   expect_order_of_ray<D>(bsp, toward, "bsp");
   if constexpr (D == 3) {
     FlatQuadtree flat({.bounds = bounds, .capacity = 2, .max_depth = 6, .no_progress_stop = false});
