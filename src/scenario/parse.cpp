@@ -13,6 +13,7 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "scenario/draft.hpp"
+#include "scenario/structure_auto.hpp"
 #include "scenario/table_side.hpp"
 #include "spatial/structure_kinds.hpp"
 
@@ -198,6 +199,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   read_problem(file, draft);
   read_atlas(file, draft);
   read_script(file, draft);
+  if (draft.has_world) choose_structures(draft);
   check_panels(file, draft);
   check_settings(file, draft);
   check_grid(file, draft);

@@ -87,6 +87,7 @@ struct StructureSpec {
   std::uint32_t levels = 1;       // of a grid
   bool open = false;              // of a grid
   std::vector<PlaneSpec> planes;  // bsp only; a plane's parent stands before it
+  std::string why;                // the kind, if it was left to the bodies
   SourcePosition where;
 };
 

@@ -91,7 +91,8 @@ TableDoc structure_table() {
           "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a `quadtree` "
           "cuts a 3D world along x and z, an `octree` along all three; `lecture_quadtree` is the "
           "lecture's own code, which makes all children at a split and has no stop but the depth "
-          "limit; a `grid` has equal cells. A program may be given structures of a user's own, by "
+          "limit; a `grid` has equal cells; `auto` takes what suits the bodies as the file places "
+          "them, and `explain` says why. A program may be given structures of a user's own, by "
           "their names "
           "(`src/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
           must(), advising("for a structure of your own see src/spatial/own_structure.hpp")),

@@ -134,8 +134,11 @@ void Tally::list_structures(const WorldWork& world, Stages& all) const {
     builds.push_back(amount(n, fmt::format("{} build", to_string(kind))));
   if (builds_of_several_ > 0) builds.push_back(amount(builds_of_several_, "build"));
   if (builds.empty()) builds.push_back(amount(work_.structure_builds, "build"));
+  const std::string& why = scenario_.structure.why;
   all.push_back({"structure", std::move(builds),
-                 work_.structures_created == 0 ? "the scenario names none" : ""});
+                 work_.structures_created == 0 ? "the scenario names none"
+                 : why.empty()                 ? ""
+                                               : fmt::format("chosen for its bodies: {}", why)});
   all.push_back({"static structure",
                  {amount(work_.static_builds, "build")},
                  work_.static_builds == 0 ? "nothing is stored apart" : ""});

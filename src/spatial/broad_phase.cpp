@@ -18,16 +18,25 @@ std::uint64_t most_entries(std::uint64_t room) { return 4096 + 64 * room; }
 template <int D>
 BroadPhase<D>::BroadPhase(const Config& config)
     : config_(config),
-      static_{made(config.max_depth, 0), &BroadPhaseCounters::static_builds, config.max_depth},
-      dynamic_{made(config.max_depth, 0), &BroadPhaseCounters::dynamic_builds, config.max_depth},
-      fresh_{BruteForce<D>(), nullptr, 0} {}
+      static_(made(&BroadPhaseCounters::static_builds)),
+      dynamic_(made(&BroadPhaseCounters::dynamic_builds)),
+      fresh_(made(nullptr)) {}
 
 template <int D>
-auto BroadPhase<D>::made(std::uint32_t depth, std::uint64_t room) const -> Structure {
-  StructureConfig<D> structure = config_;
-  structure.max_depth = depth;
-  if (config_.in_proportion) structure.most_entries = most_entries(room);
-  return make_structure<D>(config_.kind, structure);
+auto BroadPhase<D>::made(std::uint64_t BroadPhaseCounters::*builds) -> Store {
+  Store store{BruteForce<D>(), builds, config_.kind, config_};
+  if (builds != nullptr && config_.kind != StructureKind::automatic) make_anew(store);
+  return store;
+}
+
+// An empty structure as the store's settings ask for, in place of what was there.
+template <int D>
+void BroadPhase<D>::make_anew(Store& store) {
+  StructureConfig<D> settings = store.settings;
+  if (config_.in_proportion) settings.most_entries = most_entries(store.room);
+  const auto count = [](const auto& structure) { return work_of(structure).allocations; };
+  past_allocations_ += std::visit(count, store.structure);
+  store.structure = make_structure<D>(store.kind, settings);
 }
 
 // --- an update ---
@@ -169,29 +178,47 @@ void BroadPhase<D>::forget() {
 
 template <int D>
 void BroadPhase<D>::build(Store& store) {
+  if (config_.kind == StructureKind::automatic && !suits(store)) choose(store);
   if (mended(store)) return;
-  const auto make_anew = [&] {
-    const auto count = [](const auto& structure) { return work_of(structure).allocations; };
-    past_allocations_ += std::visit(count, store.structure);
-    store.structure = made(store.depth, store.room);
-  };
   if (config_.in_proportion && store.items.size() > store.room) {
     store.room = std::bit_ceil(store.items.size());
-    store.depth = config_.max_depth;
-    make_anew();
+    store.settings.max_depth = config_.max_depth;
+    make_anew(store);
   }
   for (;;) {
     try {
       with_names(store, [&] { build_structure<D>(store.structure, store.items, config_.build); });
       break;
     } catch (const Refused&) {
-      if (!config_.in_proportion || store.depth == 0) throw;
+      if (!config_.in_proportion || store.settings.max_depth == 0) throw;
     }
-    store.depth /= 2;
-    make_anew();
+    store.settings.max_depth /= 2;
+    make_anew(store);
   }
   store.stands = true;
   ++(counters_.*store.builds);
+}
+
+// What was chosen is chosen again when the bodies have become twice as many or half as many, or
+// each of them is compared with twice as many others.
+template <int D>
+bool BroadPhase<D>::suits(const Store& store) const {
+  constexpr double kFew = 16;  // comparisons of a body that are of no concern
+  const std::size_t bodies = store.items.size();
+  return store.kind != StructureKind::automatic && bodies <= 2 * store.chosen_for &&
+         2 * bodies >= store.chosen_for && store.tests <= 2 * store.chosen_tests + kFew;
+}
+
+template <int D>
+void BroadPhase<D>::choose(Store& store) {
+  StructureChoice<D> choice = choose_structure<D>(store.items, config_);
+  store.chosen_for = store.items.size();
+  store.tests = store.chosen_tests = 0;
+  store.why = std::move(choice.why);
+  store.only_moved = false;
+  store.kind = choice.kind;
+  store.settings = std::move(choice.config);
+  make_anew(store);
 }
 
 // A structure that can go on from where its bodies were is not built anew.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -14,7 +15,7 @@
 #include "spatial/awake.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/pair_order.hpp"
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure_choice.hpp"
 
 namespace lantern::spatial {
 
@@ -135,6 +136,11 @@ class BroadPhase {
   // look at the structures, but not change them. Throws as `update` does.
   void insert(const Proxy<D>& proxy, const Watch& watch);
 
+  // Of the dynamic structure: as configured or, of `automatic`, what it is now, and why.
+  StructureKind kind() const { return dynamic_.kind; }
+  const StructureConfig<D>& settings() const { return dynamic_.settings; }
+  const std::string& why() const { return dynamic_.why; }
+
   // What an update would find in the structures as they stand, bodies with `awake(id)` moving. At
   // most `most` pairs of each kind: throws Refused beyond.
   PairChain pair_chain(const std::function<bool(BodyId)>& awake, std::uint64_t most) const;
@@ -192,7 +198,12 @@ class BroadPhase {
   struct Store {
     Structure structure;
     std::uint64_t BroadPhaseCounters::*builds;
-    std::uint32_t depth;              // of a tree; at most as configured
+    StructureKind kind;
+    StructureConfig<D> settings;      // the depth at most as configured
+    std::string why = {};             // it was chosen
+    std::size_t chosen_for = 0;       // so many bodies, and
+    double chosen_tests = 0;          // so many comparisons a body in the first update after
+    double tests = 0;                 // comparisons a body in the last update
     std::vector<Item<D>> items = {};  // their ids are their places
     std::vector<BodyId> names = {};
     std::vector<State> states = {};
@@ -218,7 +229,10 @@ class BroadPhase {
   Store& store_for(const Proxy<D>& proxy) { return is_of_static(proxy) ? static_ : dynamic_; }
   const Store* store_of(BodyId id, std::size_t& place) const;
 
-  Structure made(std::uint32_t depth, std::uint64_t room) const;
+  Store made(std::uint64_t BroadPhaseCounters::*builds);
+  void make_anew(Store& store);
+  bool suits(const Store& store) const;
+  void choose(Store& store);
   template <class F>
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
@@ -249,12 +263,12 @@ class BroadPhase {
   std::size_t own_places() const;
 
   Config config_;
-  Store static_, dynamic_;
-  std::vector<Pair> pairs_;
-  bool found_all_ = false;  // pairs_ are those of the bodies as they are
   BroadPhaseCounters counters_;
   std::uint64_t own_allocations_ = 0;
   std::uint64_t past_allocations_ = 0;  // of structures that were made anew
+  Store static_, dynamic_;
+  std::vector<Pair> pairs_;
+  bool found_all_ = false;  // pairs_ are those of the bodies as they are
 
   // Scratch of an update, kept for its memory.
   std::vector<Proxy<D>> sorted_;   // all, by id, if they came otherwise

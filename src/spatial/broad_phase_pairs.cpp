@@ -40,6 +40,8 @@ void BroadPhase<D>::find_pairs() {
     found_.ask_before_growing(
         [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
     pair_dynamic();
+    dynamic_.tests = static_cast<double>(counters_.pair_tests) / static_cast<double>(stirring_);
+    if (dynamic_.chosen_tests == 0) dynamic_.chosen_tests = dynamic_.tests;
     pair_static();
     if (found_.size() > config_.most_pairs) refuse_more(found_.first()[config_.most_pairs]);
     order_.order(found_, found_names_, pairs_);

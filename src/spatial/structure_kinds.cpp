@@ -16,6 +16,9 @@ struct KindRow {
 };
 constexpr KindRow kKinds[] = {
     {StructureKind::none, "none", {.words = "none", .is_tree = false, .splits = false}},
+    {StructureKind::automatic,
+     "auto",
+     {.words = "whichever suits", .is_tree = false, .splits = false}},
 #define LANTERN_KIND(name, Type) {StructureKind::name, #name, Type<3>::kTraits},
     LANTERN_STRUCTURES(LANTERN_KIND)
 #undef LANTERN_KIND
@@ -88,6 +91,7 @@ template <int D>
 AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& config) {
   switch (kind) {
     case StructureKind::none:
+    case StructureKind::automatic:
       throw Refused("there is no structure to make");
 #define LANTERN_KIND(name, Type) \
   case StructureKind::name:      \

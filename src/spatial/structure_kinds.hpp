@@ -48,7 +48,8 @@ using OctreeIn = std::conditional_t<D == 3, Octree, NoOctree>;
   KIND(grid, Grid)
 
 enum class StructureKind {
-  none,  // nobody asks for one
+  none,       // nobody asks for one
+  automatic,  // "auto": whichever suits the bodies, see structure_choice.hpp
 #define LANTERN_KIND(name, Type) name,
   // The last is the first that this program was given; the others are the numbers behind.
   LANTERN_STRUCTURES(LANTERN_KIND) own
@@ -90,14 +91,14 @@ std::vector<StructureKind> known_structures();
 // Null for one of ours.
 const OwnKind* own_structure(StructureKind kind);
 
-// "none", "brute_force", "sort_and_sweep", ...: as the enumerators are written.
+// "none", "auto", "brute_force", "sort_and_sweep", ...
 std::string_view to_string(StructureKind kind);
 std::optional<StructureKind> structure_named(std::string_view name);
 
 StructureTraits traits_of(StructureKind kind);
 
 // An empty structure. Throws Refused for settings that it does not allow, for an octree in two
-// dimensions, and for `none`.
+// dimensions, and for `none` and `automatic`.
 template <int D>
 AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& config);
 

@@ -1,0 +1,88 @@
+#include "spatial/structure_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace lantern::spatial {
+namespace {
+
+// Up to here all pairs are compared, sixteen at a time, before bodies are sorted into cells.
+constexpr std::size_t kFewBodies = 100;
+// From this share of overlapping pairs on there is too little to part.
+constexpr double kCrowded = 0.25;
+
+// Of a sample of pairs: which share overlaps.
+template <int D>
+double share_of_overlaps(std::span<const Item<D>> items) {
+  constexpr std::size_t kSamples = 2000;
+  std::size_t tested = 0, overlaps = 0;
+  std::uint64_t random = 1;  // Knuth's MMIX generator: any spread of numbers will do
+  const auto any = [&] {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::size_t>(random >> 33) % items.size();
+  };
+  while (tested < kSamples) {
+    const std::size_t a = any(), b = any();
+    if (a == b) continue;
+    ++tested;
+    overlaps += overlap(items[a].box, items[b].box);
+  }
+  return static_cast<double>(overlaps) / static_cast<double>(tested);
+}
+
+// The longest side of each body, in order.
+template <int D>
+std::vector<double> sizes_of(std::span<const Item<D>> items) {
+  std::vector<double> sizes;
+  for (const Item<D>& item : items) {
+    const Vec<D> size = item.box.size();
+    double longest = size[0];
+    for (int i = 1; i < D; ++i) longest = std::max(longest, size[i]);
+    sizes.push_back(longest);
+  }
+  std::ranges::sort(sizes);
+  return sizes;
+}
+
+template <int D>
+Box<D> around_all(std::span<const Item<D>> items) {
+  Box<D> box = items.front().box;
+  for (const Item<D>& item : items) box = united(box, item.box);
+  return box;
+}
+
+}  // namespace
+
+template <int D>
+StructureChoice<D> choose_structure(std::span<const Item<D>> items,
+                                    const StructureConfig<D>& config) {
+  StructureChoice<D> choice;
+  choice.config = config;
+  if (items.size() < kFewBodies) {
+    choice.why =
+        fmt::format("{} bodies are so few that all pairs are compared at once", items.size());
+    return choice;
+  }
+  if (const double share = share_of_overlaps(items); share > kCrowded) {
+    choice.why =
+        fmt::format("{:.0f}% of sampled pairs overlap: there is little to part", 100 * share);
+    return choice;
+  }
+  const std::vector<double> sizes = sizes_of(items);
+  const double median = sizes[sizes.size() / 2], largest = sizes.back();
+  choice.kind = StructureKind::grid;
+  choice.config.bounds = around_all(items);
+  choice.config.cell = 0;
+  choice.config.levels = 1;
+  choice.why = fmt::format("{} bodies, the largest {:.3g} times as large as the median",
+                           items.size(), median > 0 ? largest / median : 1.0);
+  return choice;
+}
+
+template StructureChoice<2> choose_structure(std::span<const Item<2>>, const StructureConfig<2>&);
+template StructureChoice<3> choose_structure(std::span<const Item<3>>, const StructureConfig<3>&);
+
+}  // namespace lantern::spatial
