@@ -27,6 +27,11 @@ struct Work {
   std::atomic<std::uint64_t> frames_encoded{0};
   std::atomic<std::uint64_t> in_betweens{0};  // drawn or not: of two frames, by draw/tween.hpp
 
+  // Of all that, what was really done: not listed, since it depends on which frame came before.
+  std::atomic<std::uint64_t> pixels_drawn{0};
+  std::atomic<std::uint64_t> bands_packed{0};  // of rows of a picture
+  std::atomic<std::uint64_t> bands_kept{0};    // as they were packed for the picture before
+
   // How much of it stands on the disk, for whoever tells of a long run; not listed, since it
   // depends on what was there before.
   std::atomic<std::uint64_t> frames_written{0};

@@ -1,10 +1,12 @@
 #include "render/encode_pool.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
@@ -16,25 +18,31 @@ namespace {
 // Pictures under way take at most this much memory, unless two are already more.
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
-// Files that wait: many only while equal pictures follow each other.
-constexpr std::size_t kMostJobs = 64;
-
 }  // namespace
 
+// A band of rows, shared by the pictures in which it is the same.
+struct EncodePool::Piece {
+  Band band;
+  bool is_opaque = true;
+  std::once_flag once;
+  PackedBand packed;  // once encoded
+};
+
 struct EncodePool::Picture {
-  Image image;
-  std::unique_ptr<std::once_flag> encoded = std::make_unique<std::once_flag>();
+  int channels = 3;
+  std::vector<std::shared_ptr<Piece>> pieces;  // from the uppermost down
+  std::once_flag once;
   PngBody body;  // once encoded
 };
 
 EncodePool::EncodePool(Config config, Work& work) : config_(std::move(config)), work_(work) {
   const auto threads = static_cast<std::size_t>(std::max(1, config_.threads));
-  // One being drawn, the last one to compare with, one or two for each thread.
+  // One being drawn, the last one, of whose bands the next may consist, one or two for each thread.
   const std::size_t bytes = std::size_t{4} * config_.width * config_.height;
   const std::uint64_t most = std::min<std::uint64_t>(kMostBytes, memory_budget() / 4);
-  most_pictures_ = std::clamp<std::size_t>(most / bytes, 2, 2 + 2 * threads);
-  // The driver's own, and for each thread that has one to encode the filtered and the packed bytes.
-  require_memory(bytes * (1 + most_pictures_ + 2 * std::min(threads, most_pictures_ - 1)),
+  most_jobs_ = std::clamp<std::size_t>(most / bytes, 3, 2 + 2 * threads) - 2;
+  // The driver's own, and for each thread that has one to encode the rows and the packed bytes.
+  require_memory(bytes * (3 + most_jobs_ + 2 * std::min(threads, most_jobs_)),
                  fmt::format("pictures of {} x {} pixels under way", config_.width, config_.height),
                  "draw smaller ones (--size)");
   for (std::size_t i = 0; i < threads; ++i) try {
@@ -54,41 +62,73 @@ EncodePool::~EncodePool() {
   threads_.clear();  // stops and joins them
 }
 
-// A job lets go of its picture while it holds the mutex, so that a use count of one, seen here,
-// means that nobody reads the picture any more.
-std::shared_ptr<EncodePool::Picture> EncodePool::free_picture() {
+void EncodePool::wait_for_room() {
   std::unique_lock lock(mutex_);
-  while (true) {
-    rethrow_locked();
-    if (jobs_.size() < kMostJobs) {
-      for (const std::shared_ptr<Picture>& picture : pictures_)
-        if (picture.use_count() == 1) return picture;
-      if (pictures_.size() < most_pictures_)
-        return pictures_.emplace_back(std::make_shared<Picture>());
-    }
-    job_done_.wait(lock);
+  job_done_.wait(lock, [this] {
+    return error_ || jobs_.size() + static_cast<std::size_t>(busy_) < most_jobs_;
+  });
+  rethrow_locked();
+}
+
+Band EncodePool::free_band() {
+  const std::lock_guard lock(mutex_);
+  if (free_bands_.empty()) return {};
+  Band band = std::move(free_bands_.back());
+  free_bands_.pop_back();
+  return band;
+}
+
+// Of the last picture's pieces those that are the same, and new ones.
+std::shared_ptr<EncodePool::Picture> EncodePool::picture_of(const Image& image,
+                                                            const std::vector<bool>& changed) {
+  auto picture = std::make_shared<Picture>();
+  const auto count = static_cast<std::size_t>((image.height + kBandRows - 1) / kBandRows);
+  picture->pieces.resize(count);
+  const auto renew = [&](std::size_t i) {
+    auto piece = std::make_shared<Piece>();
+    piece->band = free_band();
+    take_band(image, static_cast<int>(i) * kBandRows, piece->band);
+    piece->is_opaque = piece->band.is_opaque;
+    picture->pieces[i] = std::move(piece);
+  };
+  const auto differs = [&](std::size_t i) {  // the row above counts, too
+    const auto first = changed.begin() + static_cast<std::ptrdiff_t>(i * kBandRows);
+    const auto last = first + std::min<std::ptrdiff_t>(kBandRows, changed.end() - first);
+    return std::find(i > 0 ? first - 1 : first, last, true) != last;
+  };
+  for (std::size_t i = 0; i < count; ++i)
+    if (!last_ || differs(i))
+      renew(i);
+    else
+      picture->pieces[i] = last_->pieces[i];
+  const bool is_opaque =
+      std::ranges::all_of(picture->pieces, [](const auto& piece) { return piece->is_opaque; });
+  picture->channels = is_opaque ? 3 : 4;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; last_ && i < count; ++i) {
+    if (picture->pieces[i] != last_->pieces[i]) continue;
+    // What was packed without alpha is of no use beside what has some.
+    if (picture->channels != last_->channels)
+      renew(i);
+    else
+      ++kept;
   }
+  if (last_ && kept == count) return last_;
+  ++work_.frames_encoded;
+  work_.bands_packed += count - kept;
+  work_.bands_kept += kept;
+  return picture;
 }
 
-Image& EncodePool::blank() {
-  blank_.reset();
-  blank_ = free_picture();
-  return blank_->image;
-}
-
-void EncodePool::submit(std::vector<PngText> texts, std::filesystem::path path,
+void EncodePool::submit(const Image& image, const std::vector<bool>& changed,
+                        std::vector<PngText> texts, std::filesystem::path path,
                         std::optional<MadeFrom> from) {
-  std::shared_ptr<Picture> picture = std::move(blank_);
-  if (last_ && picture->image == last_->image) {
-    picture = last_;
-  } else {
-    picture->encoded = std::make_unique<std::once_flag>();
-    ++work_.frames_encoded;
-  }
+  LANTERN_CHECK(changed.size(), ==, static_cast<std::size_t>(image.height));
+  wait_for_room();
+  last_ = picture_of(image, changed);
   const std::lock_guard lock(mutex_);
   rethrow_locked();
-  last_ = picture;
-  jobs_.push_back({std::move(picture), std::move(texts), std::move(path), std::move(from)});
+  jobs_.push_back({last_, std::move(texts), std::move(path), std::move(from)});
   job_ready_.notify_one();
 }
 
@@ -122,9 +162,29 @@ void EncodePool::encode_jobs(const std::stop_token& stop) {
   }
 }
 
+std::string EncodePool::stream_of(Picture& picture) {
+  if (config_.effort == PngEffort::small) {
+    std::vector<const Band*> bands;
+    for (const auto& piece : picture.pieces) bands.push_back(&piece->band);
+    return small_stream(bands, picture.channels);
+  }
+  BandStream stream;
+  for (const auto& piece : picture.pieces) {
+    std::call_once(piece->once, [&] {
+      piece->packed = pack(piece->band, picture.channels);
+      const std::lock_guard lock(mutex_);
+      free_bands_.push_back(std::move(piece->band));
+    });
+    stream.add(piece->packed);
+  }
+  return stream.finish();
+}
+
 void EncodePool::encode(const Job& job) {
   Picture& picture = *job.picture;
-  std::call_once(*picture.encoded, [&] { picture.body = compress(picture.image, config_.effort); });
+  std::call_once(picture.once, [&] {
+    picture.body = png_body(config_.width, config_.height, picture.channels, stream_of(picture));
+  });
   std::string png = assemble(picture.body, job.texts, config_.pixels_per_metre);
   if (job.from) png = sealed(FileKind::png, std::move(png), *job.from);
   write_file(job.path, png);

@@ -1,5 +1,5 @@
-// From images to PNG files: threads encode and write while the caller makes the next image. Knows
-// no graphics library.
+// From images to PNG files: threads encode and write while the caller makes the next image. Bands
+// of rows that are as in the image before are not encoded again. Knows no graphics library.
 #pragma once
 
 #include <condition_variable>
@@ -43,19 +43,18 @@ class EncodePool {
   // Without finish(): gives up what is not yet begun, and waits for the rest.
   ~EncodePool();
 
-  // An image to be drawn upon, of whatever it was before. Waits while too many are under way. An
-  // error of an earlier file is thrown here, by submit() or by finish(), as it was; after it
-  // nothing more is written.
-  Image& blank();
-
-  // What blank() gave last becomes a file, later. It is sealed if it says what it was made `from`.
-  void submit(std::vector<PngText> texts, std::filesystem::path path,
-              std::optional<MadeFrom> from = std::nullopt);
+  // `image` becomes a file, later; the caller may go on drawing upon it. `changed` tells of each
+  // row whether it may differ from the image submitted before; of the first all may. The file is
+  // sealed if it says what it was made `from`. Waits while too many are under way. An error of an
+  // earlier file is thrown here or by finish(), as it was; after it nothing more is written.
+  void submit(const Image& image, const std::vector<bool>& changed, std::vector<PngText> texts,
+              std::filesystem::path path, std::optional<MadeFrom> from = std::nullopt);
 
   // Waits until every file is in place.
   void finish();
 
  private:
+  struct Piece;
   struct Picture;
   struct Job {
     std::shared_ptr<Picture> picture;
@@ -64,7 +63,10 @@ class EncodePool {
     std::optional<MadeFrom> from;
   };
 
-  std::shared_ptr<Picture> free_picture();
+  void wait_for_room();
+  std::shared_ptr<Picture> picture_of(const Image& image, const std::vector<bool>& changed);
+  Band free_band();
+  std::string stream_of(Picture& picture);
   void encode_jobs(const std::stop_token& stop);
   void encode(const Job& job);
   void rethrow_locked() {
@@ -73,18 +75,17 @@ class EncodePool {
 
   Config config_;
   Work& work_;
-  std::shared_ptr<Picture> blank_;  // given to be drawn upon
-  std::shared_ptr<Picture> last_;   // submitted last
+  std::shared_ptr<Picture> last_;  // submitted last
 
   std::mutex mutex_;
   std::mutex written_mutex_;  // held while `written` is called
   std::condition_variable_any job_ready_;
-  std::condition_variable job_done_;  // a job ended: a picture may be free, or all may be done
+  std::condition_variable job_done_;
   std::deque<Job> jobs_;
   int busy_ = 0;  // jobs taken from the queue and not yet ended
   std::exception_ptr error_;
-  std::size_t most_pictures_ = 0;
-  std::vector<std::shared_ptr<Picture>> pictures_;  // one that only this list holds is free
+  std::size_t most_jobs_ = 0;     // waiting and busy
+  std::vector<Band> free_bands_;  // kept for their memory
   std::vector<std::jthread> threads_;
 };
 

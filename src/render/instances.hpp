@@ -15,8 +15,14 @@ namespace lantern::render {
 struct PixelRect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
+  bool operator==(const PixelRect&) const = default;
   std::int64_t area() const { return empty() ? 0 : std::int64_t(x1 - x0) * (y1 - y0); }
 };
+
+// The pixels of both; empty if there are none.
+inline PixelRect common(const PixelRect& a, const PixelRect& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 
 // Laid out as the vertex shader reads it: shape.vert tells what each value means.
 struct Instance {
@@ -33,9 +39,19 @@ struct Instance {
 enum class Program { solid, mask, box };
 inline constexpr std::size_t kPrograms = 3;
 
+// An instance and where it goes.
+struct Quad {
+  Program program = Program::solid;
+  Instance instance;
+  PixelRect bounds;     // holds every pixel that it may touch, all within the image
+  bool turned = false;  // else its quad is its bounds
+};
+
 struct Batch {
   Program program = Program::solid;
   std::vector<Instance> instances;
+  std::int64_t pixels = 0;  // that they touch, together
+  bool erases = false;      // lets nothing through of what is below, though it is no colour
 };
 
 // Collects instances in painting order. To change the program costs the GPU's driver far more than
@@ -65,12 +81,18 @@ class BatchList {
       }
       batches_[used_].program = program;
       batches_[used_].instances.clear();
+      batches_[used_].pixels = 0;
+      batches_[used_].erases = false;
       touched_[used_] = {};
       ++used_;
     }
     batches_[home].instances.push_back(instance);
+    batches_[home].pixels += bounds.area();
     for (std::size_t y = 0; y < cells.size(); ++y) touched_[home][y] |= cells[y];
   }
+
+  // The first batch takes away what is there, instead of painting upon it.
+  void first_erases() { batches_[0].erases = true; }
 
   const std::vector<Batch>& batches() const { return batches_; }
   std::size_t size() const { return used_; }  // batches in use; the rest is kept for its memory

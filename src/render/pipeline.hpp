@@ -15,8 +15,8 @@
 
 namespace lantern::render {
 
-// The files are the same for every number of threads. A picture equal to the one before it is
-// encoded once; each file still has its own texts.
+// The files are the same for every number of threads. What is as in the picture before is neither
+// drawn nor encoded again; each file still has its own texts.
 class Pipeline {
  public:
   struct Config : EncodePool::Config {
@@ -39,9 +39,10 @@ class Pipeline {
   // The file is sealed if it says what it was made `from`.
   void submit(const DrawList& list, std::vector<PngText> texts, std::filesystem::path path,
               std::optional<MadeFrom> from = std::nullopt) {
-    renderer_.draw(list, config_.theme, config_.transparent, pool_.blank());
+    const Drawn drawn = renderer_.draw(list, config_.theme, config_.transparent);
     ++work_.frames_drawn;
-    pool_.submit(std::move(texts), std::move(path), std::move(from));
+    work_.pixels_drawn += static_cast<std::uint64_t>(drawn.pixels);
+    pool_.submit(drawn.image, drawn.changed, std::move(texts), std::move(path), std::move(from));
   }
 
   // Waits until every file is in place.

@@ -1,12 +1,14 @@
-// PNG files: written with run_deflate or libdeflate, read through stb_image.
+// PNG files: written with band_deflate or libdeflate, read through stb_image.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "render/band_deflate.hpp"
 #include "render/image.hpp"
 
 namespace lantern::render {
@@ -34,6 +36,17 @@ struct PngBody {
 };
 
 PngBody compress(const Image& image, PngEffort effort);
+
+// The rows of an image from `row` on, at most kBandRows, and the one above them. `to` is
+// overwritten, its memory reused.
+void take_band(const Image& image, int row, Band& to);
+
+// A picture of these bands, from the uppermost down, as libdeflate packs it; `channels` is 3
+// (without alpha) or 4.
+std::string small_stream(std::span<const Band* const> bands, int channels);
+
+// Around a zlib stream of `height` rows, each with the byte 0 before its pixels.
+PngBody png_body(int width, int height, int channels, const std::string& stream);
 
 // A chunk of one text.
 std::string png_text(const PngText& text);

@@ -1,15 +1,22 @@
 #include "render/renderer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/check.hpp"
 #include "base/error.hpp"
+#include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "embedded/shaders.hpp"
+#include "render/damage.hpp"
 #include "render/gl.hpp"
 #include "render/headroom.hpp"
 #include "render/shape_builder.hpp"
@@ -31,7 +38,7 @@ void unpremultiply(std::vector<std::uint8_t>& rgba) {
 
 struct Renderer::State {
   State(std::unique_ptr<Context> c, int w, int h)
-      : context(std::move(c)), gl(*context), width(w), height(h), builder(w, h) {
+      : context(std::move(c)), gl(*context), width(w), height(h), builder(w, h), damage(w, h) {
     require_room_for_pixels(static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h));
     make_framebuffer();
     make_instances();
@@ -129,10 +136,16 @@ struct Renderer::State {
     return linked;
   }
 
-  // The box shader can draw everything. Others draw their share of it in half the time, but to
-  // compile them takes as long as some ten frames: the first frame does without.
-  void use(Program which) {
-    if (first_frame) which = Program::box;
+  // The box shader can draw everything but paper that lets through what is below. Others draw their
+  // share of it in half the time, but to compile them takes as long as some ten frames.
+  void use(const Batch& batch) {
+    Program which = batch.program;
+    GLuint& special = programs[static_cast<std::size_t>(which)];
+    std::int64_t& painted = substituted[static_cast<std::size_t>(which)];
+    if (special == 0 && which != Program::box && !batch.erases && painted < kWorthCompiling) {
+      painted += batch.pixels;
+      which = Program::box;
+    }
     constexpr std::array<const std::string_view*, kPrograms> sources{
         &shader::solid_frag, &shader::mask_frag, &shader::box_frag};
     GLuint& made = programs[static_cast<std::size_t>(which)];
@@ -181,37 +194,50 @@ struct Renderer::State {
       gl.VertexAttribPointer(5, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
                              at(offsetof(Instance, stroke)));
       stop_if_asked();
-      use(batch.program);
+      use(batch);
       gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.instances.size()));
       first += batch.instances.size();
     }
-    first_frame = false;
   }
+
+  std::uint64_t ground(const Color& paper, bool transparent) const;
+  void draw_all(const Color& paper, bool transparent);
+  void draw_parts(const std::vector<PixelRect>& parts, const Color& paper, bool transparent);
+  void read(const PixelRect& part, bool transparent);
 
   // The context goes last: everything in it dies with it.
   std::unique_ptr<Context> context;
   Gl gl;
   int width, height;
   ShapeBuilder builder;
+  Damage damage;
+  BatchList batches;
+  Image picture;              // drawn last, as an Image holds it
+  std::vector<bool> changed;  // its rows: since the one before
+  std::int64_t drawn = 0;     // of its pixels
 
  private:
   GLuint vertex_shader = 0;
-  std::array<GLuint, kPrograms> programs{};  // 0 until needed: compiling takes longer than drawing
+  // 0 until needed: compiling takes longer than drawing. Until then the box shader paints their
+  // pixels, so many by now.
+  std::array<GLuint, kPrograms> programs{};
+  std::array<std::int64_t, kPrograms> substituted{};
+  static constexpr std::int64_t kWorthCompiling = 16'000'000;
   GLuint instances = 0;
   std::vector<Instance> gathered;
-  GLuint masks = 0;            // a buffer that shaders read as an array of texels
-  std::size_t masks_room = 0;  // bytes
-  std::size_t masks_sent = 0;  // bytes that the GPU already has
+  std::vector<std::uint8_t> rows;  // read last
+  GLuint masks = 0;                // a buffer that shaders read as an array of texels
+  std::size_t masks_room = 0;      // bytes
+  std::size_t masks_sent = 0;      // bytes that the GPU already has
   std::uint64_t masks_generation = 0;
-  bool first_frame = true;
 };
 
 Renderer::Renderer(std::unique_ptr<Context> context, int width, int height) {
   if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels)
     throw Refused(fmt::format("an image of {} x {} pixels: each side must be 1 ... {}", width,
                               height, kMostPixels));
-  // What the driver draws to, and what it is read into.
-  require_memory(std::uint64_t{8} * width * height,
+  // What the driver draws to, what it is read into, and the picture.
+  require_memory(std::uint64_t{12} * width * height,
                  fmt::format("the pixels of a picture of {} x {}", width, height),
                  "make it smaller (--size, or the atlas's size)");
   state_ = std::make_unique<State>(std::move(context), width, height);
@@ -219,26 +245,88 @@ Renderer::Renderer(std::unique_ptr<Context> context, int width, int height) {
 
 Renderer::~Renderer() = default;
 
-void Renderer::draw(const DrawList& list, const Theme& theme, bool transparent, Image& image) {
+// What the pixels depend on beside the quads.
+std::uint64_t Renderer::State::ground(const Color& paper, bool transparent) const {
+  const Hash hash = Hash().add(std::uint64_t{paper.r} << 16 | paper.g << 8 | paper.b);
+  return Hash(hash).add(std::uint64_t{transparent}).add(builder.masks().generation()).value();
+}
+
+// All of the picture, upon cleared paper.
+void Renderer::State::draw_all(const Color& paper, bool transparent) {
+  if (transparent)
+    gl.ClearColor(0, 0, 0, 0);
+  else
+    gl.ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1);
+  gl.Clear(GL_COLOR_BUFFER_BIT);
+  batches.start(width, height);
+  for (const Quad& quad : builder.quads()) batches.add(quad.program, quad.instance, quad.bounds);
+  draw_batches(batches);
+}
+
+// Parts of it, upon paper that covers what was there.
+void Renderer::State::draw_parts(const std::vector<PixelRect>& parts, const Color& paper,
+                                 bool transparent) {
+  constexpr float kEverywhere = 1e6f;
+  Quad sheet;
+  sheet.instance.box = {kEverywhere, kEverywhere, 0, 0};
+  if (!transparent) sheet.instance.fill = {paper.r, paper.g, paper.b, 255};
+  sheet.bounds = {0, 0, width, height};
+  batches.start(width, height);
+  for (const PixelRect& part : parts) add_clipped(sheet, part, batches);
+  if (transparent) batches.first_erases();
+  for (const Quad& quad : builder.quads())
+    for (const PixelRect& part : parts) add_clipped(quad, part, batches);
+  draw_batches(batches);
+}
+
+// Reads a part of what was drawn; rows in which it differs from `picture` are marked.
+void Renderer::State::read(const PixelRect& part, bool transparent) {
+  const std::size_t bytes = std::size_t{4} * (part.x1 - part.x0);
+  rows.resize(bytes * (part.y1 - part.y0));
+  gl.ReadPixels(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0, GL_RGBA, GL_UNSIGNED_BYTE,
+                rows.data());
+  if (transparent) unpremultiply(rows);
+  const std::uint8_t* from = rows.data();
+  for (int y = part.y0; y < part.y1; ++y, from += bytes) {
+    std::uint8_t* to = &picture.rgba[4 * (static_cast<std::size_t>(y) * width + part.x0)];
+    if (std::memcmp(to, from, bytes) == 0) continue;
+    std::memcpy(to, from, bytes);
+    changed[static_cast<std::size_t>(y)] = true;
+  }
+}
+
+Drawn Renderer::draw(const DrawList& list, const Theme& theme, bool transparent) {
   stop_if_asked();
   State& s = *state_;
+  const Color& paper = theme[Role::paper];
   s.builder.build(list, theme);
   s.upload(s.builder.masks());
-  const Color& c = theme[Role::paper];
-  if (transparent)
-    s.gl.ClearColor(0, 0, 0, 0);
-  else
-    s.gl.ClearColor(c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, 1);
-  s.gl.Clear(GL_COLOR_BUFFER_BIT);
-  s.draw_batches(s.builder.batches());
+  const std::vector<PixelRect>& parts =
+      s.damage.find(s.builder.quads(), s.ground(paper, transparent));
+  const bool is_first = s.picture.rgba.empty();
+  s.picture.width = s.width;
+  s.picture.height = s.height;
+  s.picture.rgba.resize(std::size_t{4} * s.width * s.height);
+  s.changed.assign(static_cast<std::size_t>(s.height), is_first);
+  s.drawn = 0;
+  for (const PixelRect& part : parts) s.drawn += part.area();
+  try {
+    if (s.damage.is_all())
+      s.draw_all(paper, transparent);
+    else if (!parts.empty())
+      s.draw_parts(parts, paper, transparent);
+    for (const PixelRect& part : parts) s.read(part, transparent);
+    if (const GLenum error = s.gl.GetError(); error != GL_NO_ERROR)
+      throw BackendError(fmt::format("OpenGL reports error {:#x}", error));
+  } catch (...) {
+    s.damage.forget();
+    throw;
+  }
+  return {s.picture, s.changed, s.drawn};
+}
 
-  image.width = s.width;
-  image.height = s.height;
-  image.rgba.resize(std::size_t{4} * s.width * s.height);
-  s.gl.ReadPixels(0, 0, s.width, s.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  if (const GLenum error = s.gl.GetError(); error != GL_NO_ERROR)
-    throw BackendError(fmt::format("OpenGL reports error {:#x}", error));
-  if (transparent) unpremultiply(image.rgba);
+void Renderer::draw(const DrawList& list, const Theme& theme, bool transparent, Image& image) {
+  image = draw(list, theme, transparent).image;
 }
 
 }  // namespace lantern::render

@@ -1,7 +1,9 @@
 // Draws a DrawList with OpenGL 3.3 core into a framebuffer object of its own.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
@@ -9,6 +11,13 @@
 #include "render/image.hpp"
 
 namespace lantern::render {
+
+// A picture that was drawn, until the next one is.
+struct Drawn {
+  const Image& image;
+  const std::vector<bool>& changed;  // of each row: does it differ from the picture before?
+  std::int64_t pixels = 0;           // that were drawn anew
+};
 
 class Renderer {
  public:
@@ -20,7 +29,9 @@ class Renderer {
   ~Renderer();
 
   // The page fills the image. `transparent` leaves out the paper: alpha is 0 where nothing is
-  // drawn. `image` is overwritten, its memory reused.
+  // drawn. Only what differs from the picture before is painted and read, which changes no pixel.
+  Drawn draw(const DrawList& list, const Theme& theme, bool transparent);
+  // The same into an image of the caller's, which is overwritten, its memory reused.
   void draw(const DrawList& list, const Theme& theme, bool transparent, Image& image);
 
  private:

@@ -1,4 +1,4 @@
-// From a DrawList to batches of quads in pixels. Knows pixels, but no GL: all of it can be tested
+// From a DrawList to quads in pixels. Knows pixels, but no GL: all of it can be tested
 // without a context.
 #pragma once
 
@@ -29,7 +29,7 @@ class ShapeBuilder {
     check_draw_list(list);
     canvas_ = Canvas(list.page, width_, height_);
     theme_ = &theme;
-    batches_.start(width_, height_);
+    quads_.clear();
     if (masks_.start_frame()) {
       text_.forget();
       polygons_.forget();
@@ -40,7 +40,7 @@ class ShapeBuilder {
     }
   }
 
-  const BatchList& batches() const { return batches_; }
+  const std::vector<Quad>& quads() const { return quads_; }  // in painting order
   const MaskStore& masks() const { return masks_; }
 
  private:
@@ -176,13 +176,13 @@ class ShapeBuilder {
     instance.quad = floats(corner.x, corner.y, 2 * reach.x, 2 * reach.y);
     instance.frame = floats(box.center.x, box.center.y, box.axis.x, box.axis.y);
     instance.box = floats(box.half.x, box.half.y, box.radius, box.half_line);
-    batches_.add(Program::box, instance, bounds);
+    quads_.push_back({Program::box, instance, bounds, true});
   }
 
   void add_quad(Program program, Instance instance, const PixelRect& rect) {
     if (rect.empty()) return;
     instance.quad = floats(rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0);
-    batches_.add(program, instance, rect);
+    quads_.push_back({program, instance, rect});
   }
 
   void add_line(const Vec<2>& from, const Vec<2>& to, double width, bool round, const Paint& line) {
@@ -279,7 +279,7 @@ class ShapeBuilder {
   Canvas canvas_;
   const Theme* theme_ = nullptr;
   const Tint* tint_ = nullptr;  // of the shape that is being added; none: as it says itself
-  BatchList batches_;
+  std::vector<Quad> quads_;
   MaskStore masks_;
   TextMasks text_{masks_};
   PolygonMasks polygons_{masks_};

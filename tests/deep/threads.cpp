@@ -1,5 +1,6 @@
 // The threads that encode, fed with images by hand, so that the thread sanitizer sees them without
 // a graphics driver: see threads.sh.
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
@@ -34,7 +35,31 @@ void paint(Image& image, int number, int side) {
     byte = static_cast<std::uint8_t>(random.bits() % 4 == 0 ? random.bits() : 255);
 }
 
+// The rows in which an image differs from the one before.
+std::vector<bool> changed(const Image& image, const Image& before) {
+  std::vector<bool> rows(static_cast<std::size_t>(image.height), true);
+  const auto bytes = std::ptrdiff_t{4} * image.width;
+  for (std::size_t y = 0; y < rows.size() && image.rgba.size() == before.rgba.size(); ++y) {
+    const auto first = static_cast<std::ptrdiff_t>(y) * bytes;
+    rows[y] = !std::equal(image.rgba.begin() + first, image.rgba.begin() + first + bytes,
+                          before.rgba.begin() + first);
+  }
+  return rows;
+}
+
+// Each image is painted over the one before, while that may still wait to be encoded.
+struct Painter {
+  Image image;
+  void submit(EncodePool& pool, int number, int side, const fs::path& path);
+};
+
 std::vector<PngText> texts(int number) { return {{"Frame", std::to_string(number)}}; }
+
+void Painter::submit(EncodePool& pool, int number, int side, const fs::path& path) {
+  const Image before = image;
+  paint(image, number, side);
+  pool.submit(image, changed(image, before), texts(number), path);
+}
 
 EncodePool::Config config(int threads, int side) {
   EncodePool::Config c;
@@ -51,9 +76,9 @@ void writes_what_one_thread_writes(const fs::path& folder, int threads) {
   EncodePool::Config c = config(threads, kSide);
   c.written = [&](const fs::path& path) { told.push_back(path); };
   EncodePool pool(c, work);
+  Painter painter;
   for (int i = 0; i < kFrames; ++i) {
-    paint(pool.blank(), i, kSide);
-    pool.submit(texts(i), folder / std::to_string(i));
+    painter.submit(pool, i, kSide, folder / std::to_string(i));
   }
   pool.finish();
   expect(told.size() == kFrames, "each file is told once");
@@ -70,11 +95,11 @@ void writes_what_one_thread_writes(const fs::path& folder, int threads) {
 void an_error_ends_it(const fs::path& folder, int threads) {
   Work work;
   EncodePool pool(config(threads, 16), work);
+  Painter painter;
   bool thrown = false;
   try {
     for (int i = 0; i < 200; ++i) {
-      paint(pool.blank(), i, 16);
-      pool.submit(texts(i), i < 20 ? folder / std::to_string(i) : folder / "none" / "x");
+      painter.submit(pool, i, 16, i < 20 ? folder / std::to_string(i) : folder / "none" / "x");
     }
     pool.finish();
   } catch (const IoError&) {
@@ -89,9 +114,9 @@ void may_be_given_up(const fs::path& folder, int threads) {
   std::jthread signal([] { ask_to_stop(); });
   try {
     EncodePool pool(config(threads, 64), work);
+    Painter painter;
     for (int i = 0; i < 30; ++i) {
-      paint(pool.blank(), i, 64);
-      pool.submit(texts(i), folder / std::to_string(i));
+      painter.submit(pool, i, 64, folder / std::to_string(i));
     }
   } catch (const Stopped&) {
     // where it was heard

@@ -71,6 +71,29 @@ TEST(Pipeline, FilesAreThoseOfOneThread) {
   }
 }
 
+TEST(Pipeline, WhatDoesNotChangeIsNeitherDrawnNorEncoded) {
+  const fs::path folder = fresh_folder("pipeline");
+  Work work;
+  Pipeline pipeline(Context::create(Backend::automatic), config(2), work);
+  for (int i = 0; i < 5; ++i) pipeline.submit(sample_scene(), texts(i), file(folder, i));
+  pipeline.finish();
+  EXPECT_EQ(work.frames_drawn, 5u);
+  EXPECT_EQ(work.frames_encoded, 1u);
+  EXPECT_EQ(work.frames_written, 5u);
+  EXPECT_EQ(work.pixels_drawn, 320u * 180u) << "once";
+  EXPECT_EQ(work.bands_packed, 6u) << "of 32 rows";
+  EXPECT_EQ(work.bands_kept, 0u) << "a picture that is the same has no bands of its own";
+
+  DrawList list = sample_scene();
+  list.shapes.emplace_back(rect(0, 0, 20, 20, Role::warning));
+  pipeline.submit(list, texts(5), file(folder, 5));
+  pipeline.finish();
+  EXPECT_EQ(work.frames_encoded, 2u);
+  EXPECT_EQ(work.bands_packed, 7u) << "what changed is in the first one";
+  EXPECT_EQ(work.bands_kept, 5u);
+  EXPECT_LE(work.pixels_drawn, 320u * 180u + 64u * 32u);
+}
+
 TEST(Pipeline, TellsOfEachFileOnceAndOneAtATime) {
   const fs::path folder = fresh_folder("pipeline");
   Pipeline::Config c = config(4);

@@ -8,7 +8,8 @@
 #include <libdeflate.h>
 
 #include "base/random.hpp"
-#include "render/run_deflate.hpp"
+#include "render/band_deflate.hpp"
+#include "render/huffman.hpp"
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
 
@@ -195,28 +196,64 @@ TEST(Png, SignedDamageDoesNotCrash) {
   }
 }
 
-TEST(RunDeflate, IsTheFilteredPixelsForAnotherInflate) {
-  const Image image = made_image(333, 77, Look::drawing, true, 4);
-  const std::string stream = *run_deflate(image, 3);
-  std::string expected;
-  for (int y = 0; y < image.height; ++y) {
-    expected += '\2';
-    for (int x = 0; x < image.width; ++x)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t i = 4 * (static_cast<std::size_t>(y) * image.width + x) + c;
-        const int above = y == 0 ? 0 : image.rgba[i - 4 * image.width];
-        expected += static_cast<char>(image.rgba[i] - above);
-      }
+// The bytes of a PNG's rows, each with the filter "None" before it.
+std::string rows_of(const Image& image, std::size_t channels) {
+  std::string rows;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    if (i / 4 % static_cast<std::size_t>(image.width) == 0) rows += '\0';
+    rows.append(reinterpret_cast<const char*>(&image.rgba[i]), channels);
   }
-  std::string actual(expected.size(), '\0');
-  libdeflate_decompressor* d = libdeflate_alloc_decompressor();
-  std::size_t size = 0;
-  EXPECT_EQ(libdeflate_zlib_decompress(d, stream.data(), stream.size(), actual.data(),
-                                       actual.size(), &size),
-            LIBDEFLATE_SUCCESS);  // which says that Adler-32 is right, too
-  libdeflate_free_decompressor(d);
-  EXPECT_EQ(size, expected.size());
-  EXPECT_TRUE(actual == expected);
+  return rows;
+}
+
+TEST(BandDeflate, IsTheRowsForAnotherInflate) {
+  // Wide rows lie further apart than deflate looks back.
+  for (const auto& [width, height] : {std::pair(333, 77), std::pair(8192, 40)})
+    for (const Look look : {Look::drawing, Look::gradient})
+      for (const int channels : {3, 4}) {
+        const Image image = made_image(width, height, look, channels == 3, 4);
+        BandStream joined;
+        Band band;
+        for (int row = 0; row < height; row += kBandRows) {
+          take_band(image, row, band);
+          joined.add(pack(band, channels));
+        }
+        const std::string stream = joined.finish();
+        const std::string expected = rows_of(image, static_cast<std::size_t>(channels));
+        std::string actual(expected.size(), '\0');
+        libdeflate_decompressor* d = libdeflate_alloc_decompressor();
+        std::size_t size = 0;
+        EXPECT_EQ(libdeflate_zlib_decompress(d, stream.data(), stream.size(), actual.data(),
+                                             actual.size(), &size),
+                  LIBDEFLATE_SUCCESS);  // which says that Adler-32 is right, too
+        libdeflate_free_decompressor(d);
+        EXPECT_EQ(size, expected.size());
+        EXPECT_TRUE(actual == expected) << width << " x " << height;
+      }
+}
+
+TEST(BandDeflate, ABandDependsOnItsRowsAndTheOneAbove) {
+  const Image image = made_image(200, 96, Look::drawing, true, 5);
+  const auto packed = [](const Image& of) {
+    Band band;
+    take_band(of, kBandRows, band);
+    return pack(band, 3).blocks;
+  };
+  const std::string expected = packed(image);
+  for (const int row : {0, 30, 31, 32, 63, 64, 95}) {
+    Image other = image;
+    other.rgba[4 * (static_cast<std::size_t>(row) * 200 + 100)] ^= 255;
+    EXPECT_EQ(packed(other) == expected, row < 31 || row > 63) << row;
+  }
+}
+
+TEST(BandDeflate, ChecksumsAreJoined) {
+  const std::string bytes = rows_of(made_image(50, 40, Look::noise, true, 6), 3);
+  for (const std::size_t first : {std::size_t{0}, std::size_t{1}, bytes.size() / 2, bytes.size()})
+    EXPECT_EQ(joined_adler(libdeflate_adler32(1, bytes.data(), first),
+                           libdeflate_adler32(1, bytes.data() + first, bytes.size() - first),
+                           bytes.size() - first),
+              libdeflate_adler32(1, bytes.data(), bytes.size()));
 }
 
 TEST(Huffman, LengthsAreLimitedAndFillTheCode) {
