@@ -20,8 +20,8 @@ namespace lantern::render {
 struct Band {
   int width = 0;
   int rows = 0;  // that are packed
-  bool has_above =
-      false;  // before them there is the row above, for the picture's first there is none
+  // The row above stands before them; of a picture's first band there is none.
+  bool has_above = false;
   bool is_opaque = true;  // all of the rows packed
   std::vector<std::uint32_t> pixels;
 };

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio
 
 // Each bit of both changes about half of the bits given.
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
+std::uint64_t stirred(std::uint64_t hash, std::uint64_t value) {
   hash = (hash ^ value) * kOdd;
   return hash ^ hash >> 29;
 }
@@ -21,8 +21,8 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
 std::uint64_t hash_of(const Quad& quad) {
   const auto words = std::bit_cast<std::array<std::uint64_t, sizeof(Instance) / 8>>(quad.instance);
   auto hash = static_cast<std::uint64_t>(quad.program) + 1;
-  for (const std::uint64_t word : words) hash = mixed(hash, word);
-  return mixed(hash, quad.turned);
+  for (const std::uint64_t word : words) hash = stirred(hash, word);
+  return stirred(hash, quad.turned);
 }
 
 // May a turned quad touch pixels of `cell`? By the axes along it and across it.
@@ -67,7 +67,7 @@ void Damage::mark(const Quad& quad) {
                            (y + 1) * kTileHeight};
       if (quad.turned && !meets(quad.instance, tile)) continue;
       std::uint64_t& known = tiles_[static_cast<std::size_t>(y) * columns_ + x];
-      known = mixed(known, hash);
+      known = stirred(known, hash);
     }
 }
 
@@ -118,6 +118,12 @@ const std::vector<PixelRect>& Damage::find(std::span<const Quad> quads, std::uin
   if (static_cast<double>(pixels) >= kNearlyAll * width_ * height_)
     found_.assign(1, {0, 0, width_, height_});
   return found_;
+}
+
+std::optional<std::size_t> covering(std::span<const Quad> quads, const PixelRect& rect) {
+  for (std::size_t i = quads.size(); i-- > 0;)
+    if (quads[i].program == Program::solid && common(quads[i].bounds, rect) == rect) return i;
+  return std::nullopt;
 }
 
 void add_clipped(const Quad& quad, const PixelRect& rect, BatchList& to) {

@@ -2,7 +2,9 @@
 // follow each other most is the same, and a quad costs what its pixels cost.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -43,5 +45,8 @@ class Damage {
 // Adds what of a quad lies in `rect`. A turned one is cut into level pieces: what these hold beside
 // it has no coverage.
 void add_clipped(const Quad& quad, const PixelRect& rect, BatchList& to);
+
+// The last quad that covers all of `rect`, so that nothing painted before it is seen there.
+std::optional<std::size_t> covering(std::span<const Quad> quads, const PixelRect& rect);
 
 }  // namespace lantern::render

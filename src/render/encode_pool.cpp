@@ -115,6 +115,7 @@ std::shared_ptr<EncodePool::Picture> EncodePool::picture_of(const Image& image,
   }
   if (last_ && kept == count) return last_;
   ++work_.frames_encoded;
+  if (config_.effort == PngEffort::small) kept = 0;  // all of it is packed in one
   work_.bands_packed += count - kept;
   work_.bands_kept += kept;
   return picture;

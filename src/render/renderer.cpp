@@ -1,10 +1,9 @@
 #include "render/renderer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstring>
-#include <string_view>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,10 +14,10 @@
 #include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/stop.hpp"
-#include "embedded/shaders.hpp"
 #include "render/damage.hpp"
 #include "render/gl.hpp"
 #include "render/headroom.hpp"
+#include "render/programs.hpp"
 #include "render/shape_builder.hpp"
 
 namespace lantern::render {
@@ -104,59 +103,6 @@ struct Renderer::State {
     masks_sent = 0;
   }
 
-  GLuint compile(GLenum kind, std::string_view source) {
-    const GLuint shader = gl.CreateShader(kind);
-    const GLchar* code = source.data();
-    const auto length = static_cast<GLint>(source.size());
-    gl.ShaderSource(shader, 1, &code, &length);
-    gl.CompileShader(shader);
-    return shader;
-  }
-
-  GLuint link(std::string_view fragment_source) {
-    if (vertex_shader == 0) vertex_shader = compile(GL_VERTEX_SHADER, shader::shape_vert);
-    const GLuint fragment_shader = compile(GL_FRAGMENT_SHADER, fragment_source);
-    const GLuint linked = gl.CreateProgram();
-    gl.AttachShader(linked, vertex_shader);
-    gl.AttachShader(linked, fragment_shader);
-    gl.LinkProgram(linked);
-    gl.DeleteShader(fragment_shader);
-    GLint good = 0;
-    gl.GetProgramiv(linked, GL_LINK_STATUS, &good);
-    if (!good) {
-      std::array<GLchar, 2000> log{};
-      gl.GetProgramInfoLog(linked, static_cast<GLsizei>(log.size()), nullptr, log.data());
-      throw BackendError(
-          fmt::format("the backend {} refuses a shader: {}", context->backend(), log.data()));
-    }
-    gl.UseProgram(linked);
-    gl.Uniform2f(gl.GetUniformLocation(linked, "to_clip"), 2.0f / static_cast<float>(width),
-                 2.0f / static_cast<float>(height));
-    gl.Uniform1i(gl.GetUniformLocation(linked, "masks"), 0);
-    return linked;
-  }
-
-  // The box shader can draw everything but paper that lets through what is below. Others draw their
-  // share of it in half the time, but to compile them takes as long as some ten frames.
-  void use(const Batch& batch) {
-    Program which = batch.program;
-    GLuint& special = programs[static_cast<std::size_t>(which)];
-    std::int64_t& painted = substituted[static_cast<std::size_t>(which)];
-    if (special == 0 && which != Program::box && !batch.erases && painted < kWorthCompiling) {
-      painted += batch.pixels;
-      which = Program::box;
-    }
-    constexpr std::array<const std::string_view*, kPrograms> sources{
-        &shader::solid_frag, &shader::mask_frag, &shader::box_frag};
-    GLuint& made = programs[static_cast<std::size_t>(which)];
-    if (made == 0) made = link(*sources[static_cast<std::size_t>(which)]);
-    gl.UseProgram(made);
-    if (which == Program::solid)
-      gl.Disable(GL_BLEND);
-    else
-      gl.Enable(GL_BLEND);
-  }
-
   void upload(const MaskStore& store) {
     const std::vector<std::uint8_t>& bytes = store.bytes();
     if (bytes.size() > masks_room) grow_masks(bytes.size());
@@ -194,7 +140,7 @@ struct Renderer::State {
       gl.VertexAttribPointer(5, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride,
                              at(offsetof(Instance, stroke)));
       stop_if_asked();
-      use(batch);
+      programs.use(batch);
       gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.instances.size()));
       first += batch.instances.size();
     }
@@ -217,12 +163,7 @@ struct Renderer::State {
   std::int64_t drawn = 0;     // of its pixels
 
  private:
-  GLuint vertex_shader = 0;
-  // 0 until needed: compiling takes longer than drawing. Until then the box shader paints their
-  // pixels, so many by now.
-  std::array<GLuint, kPrograms> programs{};
-  std::array<std::int64_t, kPrograms> substituted{};
-  static constexpr std::int64_t kWorthCompiling = 16'000'000;
+  Programs programs{gl, *context, width, height};
   GLuint instances = 0;
   std::vector<Instance> gathered;
   std::vector<std::uint8_t> rows;  // read last
@@ -271,11 +212,17 @@ void Renderer::State::draw_parts(const std::vector<PixelRect>& parts, const Colo
   sheet.instance.box = {kEverywhere, kEverywhere, 0, 0};
   if (!transparent) sheet.instance.fill = {paper.r, paper.g, paper.b, 255};
   sheet.bounds = {0, 0, width, height};
+  const std::vector<Quad>& quads = builder.quads();
   batches.start(width, height);
-  for (const PixelRect& part : parts) add_clipped(sheet, part, batches);
-  if (transparent) batches.first_erases();
-  for (const Quad& quad : builder.quads())
-    for (const PixelRect& part : parts) add_clipped(quad, part, batches);
+  std::vector<std::size_t> firsts;  // of each part, to be painted
+  for (const PixelRect& part : parts) {
+    const std::optional<std::size_t> cover = covering(quads, part);
+    if (!cover) add_clipped(sheet, part, batches);
+    firsts.push_back(cover.value_or(0));
+  }
+  if (transparent && batches.size() > 0) batches.first_erases();
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t i = firsts[p]; i < quads.size(); ++i) add_clipped(quads[i], parts[p], batches);
   draw_batches(batches);
 }
 
