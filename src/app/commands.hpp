@@ -161,8 +161,10 @@ struct MeasureOptions {
 int measure_command(const MeasureOptions& options);
 
 struct BenchOptions {
-  std::string scenario;  // file; empty for ghost_quadtree of those that come with Lantern
+  std::vector<std::string> scenarios;  // files; empty for some of those that come with Lantern
   int rounds = 5;
+  int frames = 40;     // of a sequence, at most
+  std::string output;  // folder; empty for none
   bool json = false;
 };
 int bench_frames_command(const BenchOptions& options);

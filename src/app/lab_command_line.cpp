@@ -82,10 +82,19 @@ void add_bench(CLI::App& app, Run& run) {
   c->require_subcommand(1);
   const auto [frames, o] = command(
       *c, run, "frames", "Frames per second written to disk, beside cairo", bench_frames_command);
-  frames->add_option("FILE", o.scenario, "scenario file; the default is Lantern's ghost_quadtree");
+  frames->add_option("FILE", o.scenarios,
+                     "scenario files; the default is six of Lantern's in which much moves");
   frames->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  frames->add_option("--frames", o.frames, "of a sequence, at most; those that differ count")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  frames
+      ->add_option("-o,--output", o.output,
+                   "folder for bench_frames.html, bench_frames.csv and bench_frames.json")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
   add_memory(*frames);
   add_json(*frames, o.json);
   add_bench_step(*c, run);

@@ -1,32 +1,53 @@
 // How fast draw lists become files, beside cairo with its own PNG writer in the same run.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <span>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
+#include "measure/row.hpp"
 #include "render/context.hpp"
 
 namespace lantern::report {
 
+// The frames of a scenario, one after another.
+struct FrameSequence {
+  std::string name;
+  std::vector<DrawList> lists;
+};
+
 struct FrameBenchConfig {
   int width = 1920, height = 1080;
-  int frames = 60;  // files a writer makes in a round; the lists are taken in turn
-  int rounds = 5;   // writers take turns; the median counts
-  int threads = 2;  // that encode, beside the one that draws
+  std::size_t most_frames = 40;  // of a sequence; those that differ from the one before
+  int rounds = 5;                // writers take turns
+  int threads = 2;               // that encode, beside the one that draws
   Backend backend = Backend::automatic;
   Theme theme;
 };
 
-struct FrameWriter {
-  std::string name;
-  double frames_per_second = 0;  // from draw list to file, median of the rounds
-  double against_cairo = 0;      // its rate over that of cairo on one thread; 0 without cairo
+// One writer at one sequence. Medians and quartiles of the rounds; what is counted is the same in
+// all of them.
+struct FrameRow {
+  std::string sequence, writer;
+  std::size_t frames = 0;        // each differs from the one before
+  double frames_per_second = 0;  // from draw list to file
+  double lower_quartile = 0, upper_quartile = 0;
+  std::optional<double> against_cairo;  // times as fast as cairo on one thread in the same round
   double bytes_per_file = 0;
-  double pictures_encoded = 1;  // share of the frames that were not equal to the one before
+  // Of ours alone.
+  std::optional<std::uint64_t> pixels_drawn, bands_packed, bands_kept;
+};
+
+// Over all sequences, each counting as much.
+struct FrameMean {
+  std::string writer;
+  std::optional<double> against_cairo;
+  double bytes_per_file = 0;
 };
 
 // From the start of a new process: medians, in seconds.
@@ -38,19 +59,33 @@ struct StartTimes {
 
 struct FrameBenchResult {
   FrameBenchConfig config;
-  std::string cairo;  // version, or why there is none
-  std::vector<FrameWriter> writers;
+  Circumstances circumstances;
+  std::string command;         // that asked for it
+  std::string cairo;           // version; empty without it,
+  std::string missing;         // and then why
+  std::vector<FrameRow> rows;  // of sequences that were measured in all rounds
   std::vector<StartTimes> starts;
 };
 
-// Writes into `folder`, which must be there, and removes its files again. At least two lists, each
-// different from the next, or equal pictures will be encoded but once. Forks to measure starts: to
-// be called before other threads or a graphics library are there. Without cairo its rows are
-// missing. Throws Refused (no lists, no rounds), BackendError, IoError.
-FrameBenchResult bench_frames(std::span<const DrawList> lists, const std::filesystem::path& folder,
-                              const FrameBenchConfig& config);
+// Fills `result`, whose config, circumstances and command are set. Writes into `folder`, which must
+// be there, and removes its files again. `begun` is called before each sequence, with its number.
+// Forks to measure starts: to be called before other threads or a graphics library are there.
+// Without cairo its rows are missing. Throws Refused (no sequences, one in which nothing changes,
+// no rounds), BackendError, IoError, and Stopped, with the sequences that were done in the result.
+void bench_frames(FrameBenchResult& result, std::vector<FrameSequence> sequences,
+                  const std::filesystem::path& folder,
+                  const std::function<void(std::size_t)>& begun);
+
+// `config.rounds` new processes for each of the two times. Writes one file into `folder` and
+// removes it. Throws BackendError if a process fails.
+StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
+                         const FrameBenchConfig& config, bool shaders_known);
+
+std::vector<FrameMean> means_of(const FrameBenchResult& result);
 
 std::string to_table(const FrameBenchResult& result);
-std::string to_json(const FrameBenchResult& result);  // lantern.bench.frames/1
+std::string to_csv(const FrameBenchResult& result);   // a line a writer and sequence
+std::string to_json(const FrameBenchResult& result);  // lantern.bench.frames/2
+std::string to_html(const FrameBenchResult& result);
 
 }  // namespace lantern::report

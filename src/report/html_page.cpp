@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "base/markup.hpp"
-#include "draw/theme.hpp"
 #include "report/claims.hpp"
 #include "report/drift_plots.hpp"
 #include "report/html_plot.hpp"
@@ -21,24 +20,6 @@
 
 namespace lantern::report {
 namespace {
-
-std::string theme_text(std::string_view name) {
-  const Theme theme = *theme_named(name);
-  std::string text;
-  const auto add = [&](std::string_view variable, Role role) {
-    const Color& c = theme[role];
-    text += fmt::format("--{}:#{:02x}{:02x}{:02x};", variable, c.r, c.g, c.b);
-  };
-  add("paper", Role::paper);
-  add("panel", Role::panel);
-  add("ink", Role::ink);
-  add("quiet", Role::quiet_ink);
-  add("rule", Role::rule);
-  add("line", Role::body_line);
-  add("warning", Role::warning);
-  for (int i = 1; i <= 8; ++i) add(fmt::format("b{}", i), body_role(i));
-  return text;
-}
 
 // Runs that both made: how many, and how many of them ended in the same state, bit for bit.
 std::pair<std::size_t, std::size_t> same_runs(const Measurement& a, const Measurement& b) {
@@ -85,12 +66,7 @@ class HtmlPage {
   }
 
   std::string text() {
-    put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-        "<meta name=\"viewport\" content=\"width=device-width\"><title>Error against cost</title>"
-        "\n<style>:root{{color-scheme:light dark;{}}}@media(prefers-color-scheme:dark)"
-        "{{:root{{{}}}}}@media print{{:root{{{}}}}}{}{}</style></head>\n<body>\n{}",
-        theme_text("light"), theme_text("dark"), theme_text("print"), kPageStyle, hiding_rules(),
-        svg_marks());
+    put("{}", html_begin("Error against cost", hiding_rules()));
     put("<div class=\"page\">\n");
     add_choices();
     put("<main>\n");

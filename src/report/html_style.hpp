@@ -1,6 +1,7 @@
-// Style and script of the web page. Colours are added from the themes.
+// Style and script of web pages, and how they begin. Colours are added from the themes.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace lantern::report {
@@ -37,6 +38,9 @@ thead th{border-bottom:1px solid var(--ink);font-weight:600}tbody tr{border-bott
 @media(max-width:60rem){.page{grid-template-columns:minmax(0,1fr);padding:1rem}.side{position:static;max-height:none}}
 @media print{.side,summary,button{display:none}.page{display:block;padding:0}section{break-inside:avoid-page}body{font-size:10pt}}
 )css";
+
+// From the document's type to the marks of its plots. `rules` are added to the style.
+std::string html_begin(std::string_view title, std::string_view rules);
 
 // Buttons that choose for all boxes at once; made here, since without a script they would be dead.
 inline constexpr std::string_view kPageScript = R"js(
