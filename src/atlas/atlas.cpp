@@ -44,14 +44,19 @@ void Atlas::add_leaf(const Rect& rect, std::uint32_t parent) {
 }
 
 std::uint32_t Atlas::cut(std::uint32_t leaf, int width, int height) {
+  const Rect& rect = nodes_[leaf].rect;
+  const bool vertically = rect.width - width > rect.height - height;
+  return cut_at(leaf, vertically, vertically ? width : height);
+}
+
+std::uint32_t Atlas::cut_at(std::uint32_t leaf, bool vertically, int pixels) {
   const auto [x, y, wide, high] = nodes_[leaf].rect;
-  const bool vertically = wide - width > high - height;
   const auto first = static_cast<std::uint32_t>(nodes_.size());
   nodes_[leaf].first_child = first;
   nodes_[leaf].cut_vertically = vertically;
-  add_leaf(vertically ? Rect{x, y, width, high} : Rect{x, y, wide, height}, leaf);
-  add_leaf(vertically ? Rect{x + width, y, wide - width, high}
-                      : Rect{x, y + height, wide, high - height},
+  add_leaf(vertically ? Rect{x, y, pixels, high} : Rect{x, y, wide, pixels}, leaf);
+  add_leaf(vertically ? Rect{x + pixels, y, wide - pixels, high}
+                      : Rect{x, y + pixels, wide, high - pixels},
            leaf);
   return first;
 }
@@ -60,7 +65,11 @@ void Atlas::take(std::uint32_t leaf, TextureId id) {
   nodes_[leaf].texture = id;
   nodes_[leaf].free_width = nodes_[leaf].free_height = 0;
   used_area_ += std::int64_t{nodes_[leaf].rect.width} * nodes_[leaf].rect.height;
-  for (std::uint32_t node = nodes_[leaf].parent; node != kNoNode; node = nodes_[node].parent) {
+  gather_free(nodes_[leaf].parent);
+}
+
+void Atlas::gather_free(std::uint32_t node) {
+  for (; node != kNoNode; node = nodes_[node].parent) {
     Node& n = nodes_[node];
     const Node& a = nodes_[n.first_child];
     const Node& b = nodes_[n.first_child + 1];
@@ -70,6 +79,25 @@ void Atlas::take(std::uint32_t leaf, TextureId id) {
     n.free_width = free_width;
     n.free_height = free_height;
   }
+}
+
+std::vector<std::uint32_t> Atlas::free_leaves() const {
+  std::vector<std::uint32_t> leaves;
+  for (std::uint32_t node = 0; node != kNoNode;) {
+    const Node& n = nodes_[node];
+    if (n.is_leaf() && !n.texture) leaves.push_back(node);
+    node = n.is_leaf() ? after_branch(node) : n.first_child;
+  }
+  return leaves;
+}
+
+Packing Atlas::plan(std::span<const std::uint32_t> leaves, std::span<const Size> sizes, bool turn,
+                    std::size_t trials) const {
+  std::vector<Rect> rects;
+  for (const std::uint32_t leaf : leaves) rects.push_back(nodes_[leaf].rect);
+  Packing packing = Packer(sizes, turn).pack_most(rects, trials);
+  leaf_tests_ += packing.leaf_tests;
+  return packing;
 }
 
 }  // namespace lantern::atlas

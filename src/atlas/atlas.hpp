@@ -13,29 +13,28 @@
 // Each node knows the greatest width and the greatest height among the free leaves below it, so
 // that whole branches without room are passed by. The leaf found is the same.
 //
+// So the lecture has it. Where all textures are known before, `insert_all` has the leaves choose
+// among them instead (packer.hpp): the tree is one of the same cuts, fuller, and sooner there.
+//
 // The lightmap packer of Jim Scott, "Packing Lightmaps" (2001), is the same idea.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "atlas/packer.hpp"
+#include "atlas/rect.hpp"
 #include "base/stop.hpp"
 
 namespace lantern::atlas {
 
 using TextureId = std::uint32_t;
-
-// In pixels; the origin is the upper left corner, y points down, as in an image file.
-struct Rect {
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
-  bool operator==(const Rect&) const = default;
-};
 
 struct AtlasNodeView {
   std::uint32_t handle = 0;           // stable as long as the atlas lives
@@ -59,7 +58,7 @@ struct AtlasEvent {
   };
   Kind kind{};
   std::uint32_t node = 0;  // handle; of `refuse` the root's
-  TextureId texture = 0;
+  TextureId texture = 0;   // of insert_all's cuts, the one that is stored next
 };
 
 // The default observer: its calls compile to nothing.
@@ -92,6 +91,17 @@ class Atlas {
     observer(AtlasEvent{AtlasEvent::Kind::store, leaf, id});
     return nodes_[leaf].rect;
   }
+
+  // All of these textures, or as many pixels of them as can be, where the free leaves choose among
+  // them: by the first `trials` of the packer's trials. Gives where each lies, nothing for one that
+  // is refused. Tells the observer of cuts, of what is stored and, at last, of what is refused, as
+  // `insert` does.
+  // Throws Refused for bad sizes, the atlas staying as it was; after Stopped it may be half packed.
+  template <class Observer = NoAtlasObserver>
+  std::vector<std::optional<Place>> insert_all(std::span<const TextureId> ids,
+                                               std::span<const Size> sizes, bool turn = false,
+                                               std::size_t trials = SIZE_MAX,
+                                               Observer&& observer = {});
 
   // Is there a free leaf of at least this size?
   bool has_room(int width, int height) const {
@@ -128,6 +138,12 @@ class Atlas {
   bool is_second(std::uint32_t node) const;              // of its parent's two
   std::uint32_t after_branch(std::uint32_t node) const;  // in order of descent; kNoNode at the end
   std::uint32_t cut(std::uint32_t leaf, int width, int height);  // gives the half that fits
+  // The first half is so many pixels wide, or high; its handle is given, the other's is the next.
+  std::uint32_t cut_at(std::uint32_t leaf, bool vertically, int pixels);
+  Packing plan(std::span<const std::uint32_t> leaves, std::span<const Size> sizes, bool turn,
+               std::size_t trials) const;
+  std::vector<std::uint32_t> free_leaves() const;  // in order of descent
+  void gather_free(std::uint32_t node);            // of it and all above
   void add_leaf(const Rect& rect, std::uint32_t parent);
   void take(std::uint32_t leaf, TextureId id);
 
@@ -173,6 +189,48 @@ class Atlas {
   std::int64_t used_area_ = 0;
   mutable std::uint64_t leaf_tests_ = 0;
 };
+
+template <class Observer>
+std::vector<std::optional<Place>> Atlas::insert_all(std::span<const TextureId> ids,
+                                                    std::span<const Size> sizes, bool turn,
+                                                    std::size_t trials, Observer&& observer) {
+  using Kind = PackStep::Kind;
+  std::vector<std::uint32_t> open = free_leaves();  // the next one last
+  const Packing packing = plan(open, sizes, turn, trials);
+  std::reverse(open.begin(), open.end());
+  std::vector<std::optional<Place>> places(sizes.size());
+  auto stored = packing.steps.begin();  // next
+  for (auto step = packing.steps.begin(); step != packing.steps.end(); ++step) {
+    stop_if_asked();
+    const std::uint32_t leaf = open.back();
+    open.pop_back();
+    for (stored = std::max(stored, step); stored != packing.steps.end(); ++stored)
+      if (stored->kind == Kind::store) break;
+    if (step->kind == Kind::store) {
+      take(leaf, ids[step->value]);
+      places[step->value] = Place{nodes_[leaf].rect, step->turned};
+      observer(AtlasEvent{AtlasEvent::Kind::store, leaf, ids[step->value]});
+    } else if (step->kind == Kind::leave) {
+      gather_free(nodes_[leaf].parent);
+    } else {
+      observer(AtlasEvent{AtlasEvent::Kind::cut, leaf, ids[stored->value]});
+      const std::uint32_t half =
+          cut_at(leaf, step->kind == Kind::cut_beside, static_cast<int>(step->value));
+      open.push_back(half + 1);
+      open.push_back(half);
+    }
+  }
+  // A trial holds all of them in one way: what it left may have room if held in the other.
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (places[i]) continue;
+    const auto [width, height] = sizes[i];
+    const bool turned = turn && !has_room(width, height) && has_room(height, width);
+    const auto rect =
+        turned ? insert(ids[i], height, width, observer) : insert(ids[i], width, height, observer);
+    if (rect) places[i] = Place{*rect, turned};
+  }
+  return places;
+}
 
 // Without recursion: many narrow textures make a tree as deep as the atlas is wide.
 template <class F>

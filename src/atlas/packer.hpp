@@ -1,0 +1,109 @@
+// Packs many textures at once: the kD-tree of atlas.hpp, where leaves choose textures.
+//
+// By the taught rule a texture comes, and takes the first leaf that it fits. Here all textures are
+// there, and each free leaf, in order of descent, asks for the texture that leaves least of it:
+//
+//   +--------------+    The tallest that fits, of these the widest. Above the leaf stay rows of one
+//   | 9 | 9 |  9   |    height, which a class of equally high textures fills without any waste. Of
+//   +--------------+    the last two of a row, those are taken that fill it best.
+//   | 8 | 8 | 5|5|5|    Where a class is used up in the midst of a row (8), the rest is cut across
+//   |   |   |------|    into two rows whose heights add up to it (5 + 3), if there are textures for
+//   |   |   | 3| 3 |    both. What nobody fits is left.
+//   +--------------+
+//
+// The same is tried by columns instead of rows, with other choices of the two rows, and with all
+// textures lying or standing if they may be turned: a fixed list of trials, of which the first that
+// packs all is taken, or else the one that packs the largest area. A trial is given up as soon as
+// more is wasted than there is to spare, so that one which will fail costs little. Nothing is asked
+// of a clock: equal input gives an equal atlas.
+//
+// Rows of one height come from the shelf algorithms (Coffman, Garey, Johnson, Tarjan, "Performance
+// bounds for level-oriented two-dimensional packing algorithms", 1980), their exact filling from
+// two-stage cutting (Gilmore, Gomory, "Multistage cutting stock problems", 1965).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "atlas/rect.hpp"
+
+namespace lantern::atlas {
+
+struct Size {
+  int width = 0;
+  int height = 0;
+  bool operator==(const Size&) const = default;
+};
+
+// What is done next with the leaf at hand, the first of those not done with. A cut goes on with its
+// first half, and its second comes next.
+struct PackStep {
+  enum class Kind : std::uint8_t {
+    cut_beside,  // its first half, on the left, is `value` pixels wide
+    cut_below,   // its first half, above, is `value` pixels high
+    store,       // it has exactly the size of texture `value`
+    leave,       // no texture fits
+  };
+  Kind kind{};
+  bool turned = false;  // of `store`: width and height are exchanged
+  std::uint32_t value = 0;
+};
+
+struct Packing {
+  bool complete = false;         // all textures have a place
+  std::int64_t packed_area = 0;  // pixels
+  std::vector<PackStep> steps;
+  std::size_t trials = 0;        // made, those given up included
+  std::uint64_t leaf_tests = 0;  // leaves that asked for a texture, in all trials
+};
+
+// Where a texture lies.
+struct Place {
+  Rect rect;  // as it lies: of a turned one, with width and height exchanged
+  bool turned = false;
+};
+
+class Stock;  // of what is not packed yet
+struct Arrangement;
+
+// All trials that there are, without and with turning.
+std::size_t trial_count(bool turn);
+
+class Packer {
+ public:
+  // Textures are named by their index. Throws Refused for a width or height that is not from 1 to
+  // 65536. With `turn`, they may be turned by 90 degrees.
+  explicit Packer(std::span<const Size> textures, bool turn = false);
+  ~Packer();
+  Packer(Packer&&) noexcept;
+  Packer& operator=(Packer&&) noexcept;
+
+  // All of them into free leaves, which must lie apart and are filled in their order; by the first
+  // `trials` of all trials, at least one. If it is not complete, it has no steps.
+  Packing pack(std::span<const Rect> leaves, std::size_t trials = SIZE_MAX);
+  // As many pixels of them as any of these trials packs.
+  Packing pack_most(std::span<const Rect> leaves, std::size_t trials = SIZE_MAX);
+
+  std::int64_t area() const { return area_; }  // of all textures, pixels
+
+ private:
+  Stock& stock(Arrangement arrangement);
+  bool try_one(std::size_t number, std::span<const Rect> leaves, std::int64_t spare, Packing& best);
+
+  std::vector<Size> textures_;
+  bool turn_;
+  std::int64_t area_ = 0;
+  bool are_high_ = false;                           // rather than wide
+  std::array<std::unique_ptr<Stock>, 6> stocks_{};  // made when first asked for
+};
+
+// Where each of `count` textures lies; nothing for one without place. `leaves` as given to pack.
+std::vector<std::optional<Place>> places_of(const Packing& packing, std::span<const Rect> leaves,
+                                            std::size_t count);
+
+}  // namespace lantern::atlas
