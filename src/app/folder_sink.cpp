@@ -34,6 +34,7 @@ std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList
     if (!t.packed) continue;
     json.line().begin_object().members("name", t.name, "x", t.x, "y", t.y, "width", t.width,
                                        "height", t.height);
+    if (t.turned) json.member("turned", true);
     json.end_object();
   }
   json.line().end_array().line().key("refused").begin_array();

@@ -59,6 +59,7 @@ struct AtlasEvent {
   Kind kind{};
   std::uint32_t node = 0;  // handle; of `refuse` the root's
   TextureId texture = 0;   // of insert_all's cuts, the one that is stored next
+  bool turned = false;     // width and height are exchanged; by insert_all
 };
 
 // The default observer: its calls compile to nothing.
@@ -98,10 +99,11 @@ class Atlas {
   // `insert` does.
   // Throws Refused for bad sizes, the atlas staying as it was; after Stopped it may be half packed.
   template <class Observer = NoAtlasObserver>
-  std::vector<std::optional<Place>> insert_all(std::span<const TextureId> ids,
-                                               std::span<const Size> sizes, bool turn = false,
-                                               std::size_t trials = SIZE_MAX,
-                                               Observer&& observer = {});
+  std::vector<std::optional<TexturePlace>> insert_all(std::span<const TextureId> ids,
+                                                      std::span<const TextureSize> sizes,
+                                                      bool turn = false,
+                                                      std::size_t trials = SIZE_MAX,
+                                                      Observer&& observer = {});
 
   // Is there a free leaf of at least this size?
   bool has_room(int width, int height) const {
@@ -119,6 +121,7 @@ class Atlas {
   std::int64_t free_area() const { return std::int64_t{width()} * height() - used_area_; }
   // Leaves looked at by insert and has_room; not those in branches passed by.
   std::uint64_t leaf_tests() const { return leaf_tests_; }
+  std::uint64_t bytes() const { return nodes_.capacity() * sizeof(Node); }
 
  private:
   static constexpr std::uint32_t kNoNode = 0xffffffff;
@@ -140,7 +143,7 @@ class Atlas {
   std::uint32_t cut(std::uint32_t leaf, int width, int height);  // gives the half that fits
   // The first half is so many pixels wide, or high; its handle is given, the other's is the next.
   std::uint32_t cut_at(std::uint32_t leaf, bool vertically, int pixels);
-  Packing plan(std::span<const std::uint32_t> leaves, std::span<const Size> sizes, bool turn,
+  Packing plan(std::span<const std::uint32_t> leaves, std::span<const TextureSize> sizes, bool turn,
                std::size_t trials) const;
   std::vector<std::uint32_t> free_leaves() const;  // in order of descent
   void gather_free(std::uint32_t node);            // of it and all above
@@ -191,14 +194,15 @@ class Atlas {
 };
 
 template <class Observer>
-std::vector<std::optional<Place>> Atlas::insert_all(std::span<const TextureId> ids,
-                                                    std::span<const Size> sizes, bool turn,
-                                                    std::size_t trials, Observer&& observer) {
+std::vector<std::optional<TexturePlace>> Atlas::insert_all(std::span<const TextureId> ids,
+                                                           std::span<const TextureSize> sizes,
+                                                           bool turn, std::size_t trials,
+                                                           Observer&& observer) {
   using Kind = PackStep::Kind;
   std::vector<std::uint32_t> open = free_leaves();  // the next one last
   const Packing packing = plan(open, sizes, turn, trials);
   std::reverse(open.begin(), open.end());
-  std::vector<std::optional<Place>> places(sizes.size());
+  std::vector<std::optional<TexturePlace>> places(sizes.size());
   auto stored = packing.steps.begin();  // next
   for (auto step = packing.steps.begin(); step != packing.steps.end(); ++step) {
     stop_if_asked();
@@ -208,12 +212,12 @@ std::vector<std::optional<Place>> Atlas::insert_all(std::span<const TextureId> i
       if (stored->kind == Kind::store) break;
     if (step->kind == Kind::store) {
       take(leaf, ids[step->value]);
-      places[step->value] = Place{nodes_[leaf].rect, step->turned};
-      observer(AtlasEvent{AtlasEvent::Kind::store, leaf, ids[step->value]});
+      places[step->value] = TexturePlace{nodes_[leaf].rect, step->turned};
+      observer(AtlasEvent{AtlasEvent::Kind::store, leaf, ids[step->value], step->turned});
     } else if (step->kind == Kind::leave) {
       gather_free(nodes_[leaf].parent);
     } else {
-      observer(AtlasEvent{AtlasEvent::Kind::cut, leaf, ids[stored->value]});
+      observer(AtlasEvent{AtlasEvent::Kind::cut, leaf, ids[stored->value], stored->turned});
       const std::uint32_t half =
           cut_at(leaf, step->kind == Kind::cut_beside, static_cast<int>(step->value));
       open.push_back(half + 1);
@@ -227,7 +231,7 @@ std::vector<std::optional<Place>> Atlas::insert_all(std::span<const TextureId> i
     const bool turned = turn && !has_room(width, height) && has_room(height, width);
     const auto rect =
         turned ? insert(ids[i], height, width, observer) : insert(ids[i], width, height, observer);
-    if (rect) places[i] = Place{*rect, turned};
+    if (rect) places[i] = TexturePlace{*rect, turned};
   }
   return places;
 }

@@ -41,14 +41,14 @@ constexpr std::array<Trial, 6> kThinTrials{{{Split::none, false},
                                             {Split::uneven, false},
                                             {Split::even, true},
                                             {Split::uneven, true}}};
-using Hold = Arrangement::Hold;
+using Hold = Holding::Hold;
 // Lying ones first: most of them have a height in common.
 constexpr std::array<Hold, 3> kTurnedHolds{Hold::lying, Hold::as_given, Hold::standing};
 
 // One trial: fills leaves with rows.
 class Filling {
  public:
-  Filling(Stock& stock, std::span<const Size> textures, bool columns, Split split)
+  Filling(Stock& stock, std::span<const TextureSize> textures, bool columns, Split split)
       : stock_(stock), textures_(textures), columns_(columns), split_(split) {}
 
   // False if more than `spare` pixels are wasted; the filling is then unfinished.
@@ -135,7 +135,7 @@ class Filling {
 
   void take(std::uint32_t found) {
     const std::uint32_t texture = stock_.take(found);
-    const Size size = textures_[texture];
+    const TextureSize size = textures_[texture];
     steps.push_back({PackStep::Kind::store, stock_.turns(size), texture});
     packed_area += std::int64_t{size.width} * size.height;
   }
@@ -181,7 +181,7 @@ class Filling {
   }
 
   Stock& stock_;
-  std::span<const Size> textures_;
+  std::span<const TextureSize> textures_;
   bool columns_;
   Split split_;
   std::int64_t spare_ = 0;
@@ -192,7 +192,7 @@ class Filling {
 
 std::size_t trial_count(bool turn) { return kTrials.size() * (turn ? kTurnedHolds.size() : 1); }
 
-Packer::Packer(std::span<const Size> textures, bool turn)
+Packer::Packer(std::span<const TextureSize> textures, bool turn)
     : textures_(textures.begin(), textures.end()), turn_(turn) {
   std::int64_t higher = 0;  // than wide, all together
   for (std::size_t i = 0; i < textures.size(); ++i) {
@@ -210,10 +210,17 @@ Packer::~Packer() = default;
 Packer::Packer(Packer&&) noexcept = default;
 Packer& Packer::operator=(Packer&&) noexcept = default;
 
-Stock& Packer::stock(Arrangement arrangement) {
-  auto& stock = stocks_[2 * static_cast<std::size_t>(arrangement.hold) + arrangement.columns];
-  if (!stock) stock = std::make_unique<Stock>(textures_, arrangement);
+Stock& Packer::stock(Holding holding) {
+  auto& stock = stocks_[2 * static_cast<std::size_t>(holding.hold) + holding.columns];
+  if (!stock) stock = std::make_unique<Stock>(textures_, holding);
   return *stock;
+}
+
+std::uint64_t Packer::bytes() const {
+  std::uint64_t sum = textures_.capacity() * sizeof(TextureSize);
+  for (const auto& stock : stocks_)
+    if (stock) sum += stock->bytes();
+  return sum;
 }
 
 bool Packer::try_one(std::size_t number, std::span<const Rect> leaves, std::int64_t spare,
@@ -222,10 +229,10 @@ bool Packer::try_one(std::size_t number, std::span<const Rect> leaves, std::int6
   const bool columns = hold == Hold::standing || (hold == Hold::as_given && are_high_);
   const bool thin = kThin * stock({hold, columns}).classes().size() > textures_.size();
   const Trial& trial = (thin ? kThinTrials : kTrials)[number % kTrials.size()];
-  const Arrangement arrangement{hold, columns != trial.across};
-  Stock& textures = stock(arrangement);
+  const Holding holding{hold, columns != trial.across};
+  Stock& textures = stock(holding);
   textures.refill();
-  Filling filling(textures, textures_, arrangement.columns, trial.split);
+  Filling filling(textures, textures_, holding.columns, trial.split);
   const bool ended = filling.fill(leaves, spare);
   ++best.trials;
   best.leaf_tests += filling.leaf_tests;
@@ -256,9 +263,10 @@ Packing Packer::pack_most(std::span<const Rect> leaves, std::size_t trials) {
   return best;
 }
 
-std::vector<std::optional<Place>> places_of(const Packing& packing, std::span<const Rect> leaves,
-                                            std::size_t count) {
-  std::vector<std::optional<Place>> places(count);
+std::vector<std::optional<TexturePlace>> places_of(const Packing& packing,
+                                                   std::span<const Rect> leaves,
+                                                   std::size_t count) {
+  std::vector<std::optional<TexturePlace>> places(count);
   std::vector<Rect> open(leaves.rbegin(), leaves.rend());
   for (const PackStep& step : packing.steps) {
     Rect& leaf = open.back();
@@ -277,7 +285,7 @@ std::vector<std::optional<Place>> places_of(const Packing& packing, std::span<co
         break;
       }
       case PackStep::Kind::store:
-        places[step.value] = Place{leaf, step.turned};
+        places[step.value] = TexturePlace{leaf, step.turned};
         open.pop_back();
         break;
       case PackStep::Kind::leave:

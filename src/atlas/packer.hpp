@@ -34,10 +34,10 @@
 
 namespace lantern::atlas {
 
-struct Size {
+struct TextureSize {
   int width = 0;
   int height = 0;
-  bool operator==(const Size&) const = default;
+  bool operator==(const TextureSize&) const = default;
 };
 
 // What is done next with the leaf at hand, the first of those not done with. A cut goes on with its
@@ -63,13 +63,13 @@ struct Packing {
 };
 
 // Where a texture lies.
-struct Place {
+struct TexturePlace {
   Rect rect;  // as it lies: of a turned one, with width and height exchanged
   bool turned = false;
 };
 
 class Stock;  // of what is not packed yet
-struct Arrangement;
+struct Holding;
 
 // All trials that there are, without and with turning.
 std::size_t trial_count(bool turn);
@@ -78,7 +78,7 @@ class Packer {
  public:
   // Textures are named by their index. Throws Refused for a width or height that is not from 1 to
   // 65536. With `turn`, they may be turned by 90 degrees.
-  explicit Packer(std::span<const Size> textures, bool turn = false);
+  explicit Packer(std::span<const TextureSize> textures, bool turn = false);
   ~Packer();
   Packer(Packer&&) noexcept;
   Packer& operator=(Packer&&) noexcept;
@@ -90,12 +90,13 @@ class Packer {
   Packing pack_most(std::span<const Rect> leaves, std::size_t trials = SIZE_MAX);
 
   std::int64_t area() const { return area_; }  // of all textures, pixels
+  std::uint64_t bytes() const;                 // that it holds
 
  private:
-  Stock& stock(Arrangement arrangement);
+  Stock& stock(Holding holding);
   bool try_one(std::size_t number, std::span<const Rect> leaves, std::int64_t spare, Packing& best);
 
-  std::vector<Size> textures_;
+  std::vector<TextureSize> textures_;
   bool turn_;
   std::int64_t area_ = 0;
   bool are_high_ = false;                           // rather than wide
@@ -103,7 +104,7 @@ class Packer {
 };
 
 // Where each of `count` textures lies; nothing for one without place. `leaves` as given to pack.
-std::vector<std::optional<Place>> places_of(const Packing& packing, std::span<const Rect> leaves,
-                                            std::size_t count);
+std::vector<std::optional<TexturePlace>> places_of(const Packing& packing,
+                                                   std::span<const Rect> leaves, std::size_t count);
 
 }  // namespace lantern::atlas

@@ -25,26 +25,26 @@ void sort_by_byte(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& 
 
 }  // namespace
 
-bool Stock::turns(Size size) const {
-  return arrangement_.hold == Arrangement::Hold::lying      ? size.width < size.height
-         : arrangement_.hold == Arrangement::Hold::standing ? size.width > size.height
-                                                            : false;
+bool Stock::turns(TextureSize size) const {
+  return holding_.hold == Holding::Hold::lying      ? size.width < size.height
+         : holding_.hold == Holding::Hold::standing ? size.width > size.height
+                                                    : false;
 }
 
-Stock::Stock(std::span<const Size> textures, Arrangement arrangement) : arrangement_(arrangement) {
+Stock::Stock(std::span<const TextureSize> textures, Holding holding) : holding_(holding) {
   sort(textures);
   gather();
   refill();
 }
 
 // Keys of height, width and index; only bytes that differ are sorted by.
-void Stock::sort(std::span<const Size> textures) {
+void Stock::sort(std::span<const TextureSize> textures) {
   std::vector<std::uint64_t> keys(textures.size()), other(textures.size());
   std::uint64_t any = 0;
   for (std::size_t i = 0; i < textures.size(); ++i) {
-    const bool swapped = turns(textures[i]) != arrangement_.columns;
+    const bool swapped = turns(textures[i]) != holding_.columns;
     const auto [width, height] =
-        swapped ? Size{textures[i].height, textures[i].width} : textures[i];
+        swapped ? TextureSize{textures[i].height, textures[i].width} : textures[i];
     // Up to 65536 each: less by one, they have sixteen bits.
     keys[i] = static_cast<std::uint64_t>(height - 1) << 48 |
               static_cast<std::uint64_t>(width - 1) << 32 | i;

@@ -12,7 +12,7 @@ namespace lantern::atlas {
 
 // How the textures are held: as they are, all lying, all standing. By columns, with x and y
 // exchanged: whoever fills rows then fills columns.
-struct Arrangement {
+struct Holding {
   enum class Hold : std::uint8_t { as_given, lying, standing };
   Hold hold = Hold::as_given;
   bool columns = false;
@@ -38,10 +38,16 @@ class Stock {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   // At least one texture; widths and heights from 1 to 65536.
-  Stock(std::span<const Size> textures, Arrangement arrangement);
+  Stock(std::span<const TextureSize> textures, Holding holding);
 
   void refill();
   std::size_t left() const { return left_; }
+  std::uint64_t bytes() const {
+    return kinds_.capacity() * sizeof(Kind) + classes_.capacity() * sizeof(HeightClass) +
+           class_at_.capacity() * sizeof class_at_[0] + order_.capacity() * sizeof order_[0] +
+           widths_.capacity() * sizeof widths_[0] + narrowest_.capacity() * sizeof narrowest_[0] +
+           counts_.capacity() * sizeof counts_[0];
+  }
 
   // The tallest kind that is left and fits, of these the widest; kNone if there is none.
   std::uint32_t tallest(int width, int height) const;
@@ -50,7 +56,7 @@ class Stock {
   std::uint32_t best_of_two(std::uint32_t widest, int width) const;
   // Gives the texture taken.
   std::uint32_t take(std::uint32_t kind);
-  bool turns(Size size) const;  // is a texture of this size held turned?
+  bool turns(TextureSize size) const;  // is a texture of this size held turned?
 
   const Kind& operator[](std::uint32_t kind) const { return kinds_[kind]; }
   int lowest() const { return classes_[lowest_class_].height; }  // that is left
@@ -63,10 +69,10 @@ class Stock {
   }
 
  private:
-  void sort(std::span<const Size> textures);
+  void sort(std::span<const TextureSize> textures);
   void gather();
 
-  Arrangement arrangement_;
+  Holding holding_;
   std::vector<Kind> kinds_;
   std::vector<HeightClass> classes_;
   std::vector<std::uint32_t> class_at_;  // by height

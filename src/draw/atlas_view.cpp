@@ -106,7 +106,7 @@ class AtlasView {
   void draw_textured(const FrameTexture& texture, const Box<2>& box) {
     const double scale = std::clamp(std::min(box.size().x, box.size().y) / 70, 0.6, 1.6);
     const DrawList::Scope scope(list_, texture_key("atlas/texture", texture));
-    draw_pattern(texture.id, texture.color, box, scale, parts_, list_);
+    draw_pattern(texture.id, texture.color, box, scale, parts_, list_, texture.turned);
     if (parts_ > 0) list_.rect(box, Role::none, {Role::body_line, 1.6});
   }
 
@@ -251,7 +251,7 @@ DrawList draw_atlas_image(const Frame& frame) {
   for (const FrameTexture& t : frame.textures)
     if (t.packed)
       draw_pattern(t.id, t.color, {{t.x, t.y}, {double(t.x) + t.width, double(t.y) + t.height}}, 1,
-                   kMostPatternParts, list);
+                   kMostPatternParts, list, t.turned);
   return list;
 }
 

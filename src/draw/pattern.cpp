@@ -91,7 +91,7 @@ class Swatch {
 }  // namespace
 
 void draw_pattern(std::uint32_t id, int color, const Box<2>& rect, double scale, int most_parts,
-                  DrawList& list) {
+                  DrawList& list, bool turned) {
   list.rect(rect, body_role(color));
   if (most_parts < 1) return;
   Swatch swatch(rect, body_mark_role(color), 6.5 * scale, std::min(most_parts, kMostPatternParts),
@@ -99,13 +99,13 @@ void draw_pattern(std::uint32_t id, int color, const Box<2>& rect, double scale,
   using Part = Swatch::Part;
   // Shifted once a round, so that equal colours eight textures apart get different patterns.
   const auto pattern = (id + id / kPatterns) % kPatterns;
-  if (pattern == 0) swatch.diagonals(1);
+  if (pattern == 0) swatch.diagonals(turned ? -1 : 1);
   if (pattern == 1) swatch.grid(Part::disc, 0.28, false);
-  if (pattern == 2) swatch.bars(0);
+  if (pattern == 2) swatch.bars(turned ? 1 : 0);
   if (pattern == 3) swatch.grid(Part::square, 0.5, true);
-  if (pattern == 4) swatch.bars(1);
+  if (pattern == 4) swatch.bars(turned ? 0 : 1);
   if (pattern == 5) swatch.grid(Part::diamond, 0.36, false);
-  if (pattern == 6) swatch.diagonals(-1);
+  if (pattern == 6) swatch.diagonals(turned ? 1 : -1);
   if (pattern == 7) swatch.frames();
 }
 

@@ -10,10 +10,11 @@ namespace lantern::draw {
 inline constexpr int kPatterns = 8;
 inline constexpr int kMostPatternParts = 27;  // of one rectangle, on its ground
 
-// Fills `rect` with the pattern of texture `id` in body colour `color`. Nothing leaves the
+// Fills `rect` with the pattern of texture `id` in body colour `color`, turned by 90 degrees if it
+// is. Nothing leaves the
 // rectangle. `scale` is the size of the pattern's parts, 1 being some 12 units; parts are made
 // larger where there would be more than `most_parts` of them, 0 to kMostPatternParts.
 void draw_pattern(std::uint32_t id, int color, const Box<2>& rect, double scale, int most_parts,
-                  DrawList& list);
+                  DrawList& list, bool turned = false);
 
 }  // namespace lantern::draw

@@ -178,7 +178,7 @@ class TreeView {
     if (is_atlas()) {
       const FrameTexture& texture = *std::ranges::find(frame_.textures, id, &FrameTexture::id);
       const DrawList::Scope scope = carried(texture_key("tree/texture", texture), branch);
-      draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_);
+      draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_, texture.turned);
       return list_.rect(place, Role::none, {Role::body_line, 1.2});
     }
     const auto found = bodies_.find(id);

@@ -1,13 +1,14 @@
 #include "scenario/atlas_stage.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace lantern::scenario {
 
 AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
-    : atlas_(scenario.atlas->width, scenario.atlas->height) {
+    : spec_(*scenario.atlas), atlas_(scenario.atlas->width, scenario.atlas->height) {
   ++work.atlases_created;
   for (std::size_t i = 0; i < scenario.textures.size(); ++i) {
     const TextureSpec& t = scenario.textures[i];
@@ -21,12 +22,37 @@ AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
   }
 }
 
-std::optional<Rect> AtlasStage::pack(std::size_t index, const Watch& watch) {
+void AtlasStage::hold(std::size_t index, bool turned) {
   FrameTexture& texture = textures_[index];
+  if (texture.turned == turned) return;
+  std::swap(texture.width, texture.height);
+  texture.turned = turned;
+}
+
+bool AtlasStage::pack(std::size_t index, const Watch& watch) {
+  FrameTexture& texture = textures_[index];
+  const bool fits_turned = spec_.turn && !atlas_.has_room(texture.width, texture.height) &&
+                           atlas_.has_room(texture.height, texture.width);
+  hold(index, fits_turned);
   const auto rect = watch ? atlas_.insert(texture.id, texture.width, texture.height, watch)
                           : atlas_.insert(texture.id, texture.width, texture.height);
   texture.refused = !rect;
-  return rect;
+  return rect.has_value();
+}
+
+void AtlasStage::pack_all(const std::vector<std::size_t>& textures, const Watch& watch) {
+  std::vector<TextureId> ids;
+  std::vector<TextureSize> sizes;
+  for (const std::size_t index : textures) {
+    ids.push_back(textures_[index].id);
+    sizes.push_back({textures_[index].width, textures_[index].height});
+  }
+  const auto told = [&](const AtlasEvent& event) {
+    hold(event.texture, event.turned);
+    if (event.kind == AtlasEvent::Kind::refuse) textures_[event.texture].refused = true;
+    if (watch) watch(event);
+  };
+  atlas_.insert_all(ids, sizes, spec_.turn, static_cast<std::size_t>(spec_.trials), told);
 }
 
 std::vector<std::uint32_t> AtlasStage::free_leaves() const {

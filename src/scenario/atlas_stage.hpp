@@ -21,7 +21,11 @@ class AtlasStage {
   // The scenario must have an atlas.
   AtlasStage(const Scenario& scenario, Work& work);
 
-  std::optional<Rect> pack(std::size_t texture, const Watch& watch);
+  // By the rule of first fit; is it packed?
+  bool pack(std::size_t texture, const Watch& watch);
+  // All of them, chosen by the leaves.
+  void pack_all(const std::vector<std::size_t>& textures, const Watch& watch);
+  const FrameTexture& texture(std::size_t index) const { return textures_[index]; }
   std::vector<std::uint32_t> free_leaves() const;  // handles
   // Labels the largest free leaf that was not there `before`.
   void name_free_leaf(const std::string& name, const std::vector<std::uint32_t>& before);
@@ -33,6 +37,9 @@ class AtlasStage {
  private:
   FrameNode frame_node(const AtlasNodeView& view, std::vector<FrameTexture>& textures) const;
 
+  void hold(std::size_t texture, bool turned);
+
+  AtlasSpec spec_;
   Atlas atlas_;
   std::vector<FrameTexture> textures_;                         // where they lie, the atlas knows
   std::unordered_map<std::uint32_t, std::string> free_names_;  // of leaves, by handle

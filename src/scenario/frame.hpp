@@ -89,7 +89,8 @@ struct FrameTexture {
   int height = 0;
   bool packed = false;
   bool refused = false;
-  int x = 0;  // of a packed one, upper left corner
+  bool turned = false;  // by 90 degrees: width and height are exchanged
+  int x = 0;            // of a packed one, upper left corner
   int y = 0;
 };
 
@@ -208,7 +209,7 @@ struct FrameChart {
   // from the first frame on.
   std::optional<std::pair<double, double>> range;
   std::optional<std::pair<double, double>> x_range;  // the same along x, but over time
-  std::string x_unit;  // "J"; empty for what is counted
+  std::string x_unit;                                // "J"; empty for what is counted
   std::string y_unit;
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;

@@ -246,9 +246,17 @@ struct TextureSpec {
   SourcePosition where;
 };
 
+inline constexpr int kMostTrials = 18;  // all that the packer has, with turning
+
+// How textures find leaves of an atlas (atlas/atlas.hpp, atlas/packer.hpp).
+enum class AtlasRule { first_fit, best_texture };
+
 struct AtlasSpec {
   int width = 0;
   int height = 0;
+  AtlasRule rule = AtlasRule::first_fit;
+  bool turn = false;
+  int trials = kMostTrials;
   SourcePosition where;
 };
 
@@ -267,6 +275,7 @@ inline EnumNames names(StructureKind) {
   for (const OwnKind& own : own_structures()) all.push_back(own.name);
   return all;
 }
+inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
   return {"world", "tree", "atlas", "chart", "memory", "ledger", "pool", "bytes", "sparkline"};

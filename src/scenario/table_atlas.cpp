@@ -95,12 +95,24 @@ void read_texture_pattern(const TomlValue& value, Draft& draft) {
 
 TableDoc atlas_table() {
   using namespace keys;
+  using A = AtlasSpec;
   TableDoc table = {
       "atlas", "[atlas]",
       "One large image that textures are packed into, by a kD-tree. Its origin is the upper "
       "left corner."};
   table.keys = {key(KeyType::size, "size", "Its width and height; it is also written as an image.",
-                    must(), range(1, kMostAtlas), in("px"))};
+                    must(), range(1, kMostAtlas), in("px")),
+                key(&A::rule, "rule",
+                    "`first_fit`: each texture takes the first leaf that it fits, in order of "
+                    "descent. `best_texture`: the free leaves choose, of all textures that a "
+                    "`pack` brings, the one that leaves least of them."),
+                key(&A::turn, "turn",
+                    "May textures be turned by 90°? By `first_fit` they are if they fit nowhere "
+                    "as they are."),
+                key(&A::trials, "trials",
+                    "Of `best_texture`: packings that are tried at most; there are 6, with `turn` "
+                    "18. The first that packs all is taken, or the one that packs most.",
+                    range(1, kMostTrials))};
   return table;
 }
 
@@ -146,8 +158,11 @@ void read_atlas(const TableReader& file, Draft& draft) {
   for (const TomlValue* value : file.tables("atlas")) {
     const TableReader table = open(*value, language_table("atlas"), draft);
     const auto size = table.get<Vec<2>>("size").value_or(Vec<2>(1.0));
-    draft.scenario.atlas =
-        AtlasSpec{static_cast<int>(size.x), static_cast<int>(size.y), draft.position(value->where)};
+    AtlasSpec& atlas = *draft.scenario.atlas;
+    table.fill(atlas);
+    atlas.width = static_cast<int>(size.x);
+    atlas.height = static_cast<int>(size.y);
+    atlas.where = draft.position(value->where);
     if (file.has("world"))
       draft.problems.add(value->where, "a scenario has either a [world] or an [atlas], not both",
                          "write two scenarios");

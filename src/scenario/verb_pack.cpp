@@ -9,7 +9,7 @@
 namespace lantern::scenario {
 namespace {
 
-void witness(const AtlasEvent& event, const TextureSpec& texture, ScriptRun& run) {
+void witness(const AtlasEvent& event, ScriptRun& run) {
   FrameMaker& frames = run.frames;
   if (frames.stopped()) return;
   using Kind = AtlasEvent::Kind;
@@ -19,9 +19,43 @@ void witness(const AtlasEvent& event, const TextureSpec& texture, ScriptRun& run
   if (!frames.by_event() || !frames.wanted(event_name(event.kind))) return;
   Touched now = frames.touched;
   now.lit = {event.node};
+  const FrameTexture& texture = run.stage.atlas->texture(event.texture);
   frames.emit(now, event_name(event.kind),
-              event_text(event, run.stage.atlas->label_of(event.node), texture.name, texture.width,
+              event_text(event, run.stage.atlas->label_of(event.node),
+                         texture.turned ? texture.name + ", turned" : texture.name, texture.width,
                          texture.height));
+}
+
+std::string refusal_text(const TextureSpec& texture) {
+  return fmt::format("No leaf has room for {} ({} × {}): it is refused, the rest is kept.",
+                     texture.name, texture.width, texture.height);
+}
+
+// Leaves choose among all textures of the step: these enter in the order in which they are chosen.
+void pack_chosen(const Pack& step, ScriptRun& run) {
+  FrameMaker& frames = run.frames;
+  AtlasStage& atlas = *run.stage.atlas;
+  const bool names = !step.free_name.empty();
+  const std::vector<std::uint32_t> before =
+      names ? atlas.free_leaves() : std::vector<std::uint32_t>();
+  std::size_t done = 0;
+  const bool watched = step.each || frames.by_event();
+  const auto watch = [&](const AtlasEvent& event) {
+    const TextureSpec& texture = run.scenario.textures[event.texture];
+    const bool refused = event.kind == AtlasEvent::Kind::refuse;
+    frames.texture = texture.name;
+    if (refused) frames.note_refused(texture.name);
+    if (watched) witness(event, run);
+    if (!refused && event.kind != AtlasEvent::Kind::store) return;
+    const bool last = ++done == step.textures.size();
+    if (last && names) atlas.name_free_leaf(step.free_name, before);
+    if ((!last && !step.each) || frames.stopped()) return;
+    if (!step.each) frames.touched = {};
+    frames.settle("pack", last, refused ? refusal_text(texture) : "");
+    frames.touched = {};
+  };
+  frames.touched = {};
+  atlas.pack_all(step.textures, watch);
 }
 
 }  // namespace
@@ -53,6 +87,7 @@ void Pack::read(const TableReader& table, ScriptReading& script) {
 }
 
 void Pack::act(ScriptRun& run) const {
+  if (run.scenario.atlas->rule == AtlasRule::best_texture) return pack_chosen(*this, run);
   AtlasStage& atlas = *run.stage.atlas;
   FrameMaker& frames = run.frames;
   for (std::size_t i = 0; i < textures.size() && !frames.stopped(); ++i) {
@@ -65,18 +100,13 @@ void Pack::act(ScriptRun& run) const {
         names ? atlas.free_leaves() : std::vector<std::uint32_t>();
     // Who packs many for one frame looks at none of them.
     AtlasStage::Watch watch;
-    if (each || frames.by_event())
-      watch = [&](const AtlasEvent& event) { witness(event, texture, run); };
-    const bool packed = atlas.pack(textures[i], watch).has_value();
+    if (each || frames.by_event()) watch = [&](const AtlasEvent& event) { witness(event, run); };
+    const bool packed = atlas.pack(textures[i], watch);
     if (!packed) frames.note_refused(texture.name);
     if (names) atlas.name_free_leaf(free_name, before);
     if (!last && !each) continue;
     if (!each) frames.touched = {};
-    frames.settle(
-        "pack", last,
-        packed ? ""
-               : fmt::format("No leaf has room for {} ({} × {}): it is refused, the rest is kept.",
-                             texture.name, texture.width, texture.height));
+    frames.settle("pack", last, packed ? "" : refusal_text(texture));
   }
 }
 

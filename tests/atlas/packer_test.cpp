@@ -16,10 +16,11 @@
 namespace lantern::atlas {
 namespace {
 
-std::vector<Size> random_sizes(std::size_t count, Size least, Size most, std::uint64_t seed) {
+std::vector<TextureSize> random_sizes(std::size_t count, TextureSize least, TextureSize most,
+                                      std::uint64_t seed) {
   Random random(seed);
-  std::vector<Size> sizes(count);
-  for (Size& size : sizes) {
+  std::vector<TextureSize> sizes(count);
+  for (TextureSize& size : sizes) {
     size.width = static_cast<int>(random.whole(least.width, most.width));
     size.height = static_cast<int>(random.whole(least.height, most.height));
   }
@@ -27,13 +28,15 @@ std::vector<Size> random_sizes(std::size_t count, Size least, Size most, std::ui
 }
 
 // What must hold of any packing: sizes right, all inside one of the leaves, none over another.
-void expect_sound(const std::vector<std::optional<Place>>& places, const std::vector<Size>& sizes,
-                  const std::vector<Rect>& leaves, bool turn) {
+void expect_sound(const std::vector<std::optional<TexturePlace>>& places,
+                  const std::vector<TextureSize>& sizes, const std::vector<Rect>& leaves,
+                  bool turn) {
   ASSERT_EQ(places.size(), sizes.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!places[i]) continue;
     const Rect& r = places[i]->rect;
-    const Size held = places[i]->turned ? Size{r.height, r.width} : Size{r.width, r.height};
+    const TextureSize held =
+        places[i]->turned ? TextureSize{r.height, r.width} : TextureSize{r.width, r.height};
     EXPECT_EQ(held, sizes[i]);
     EXPECT_TRUE(turn || !places[i]->turned) << "turned although it may not be";
     EXPECT_TRUE(std::ranges::any_of(leaves,
@@ -61,9 +64,9 @@ bool equal(const Packing& a, const Packing& b) {
          });
 }
 
-std::int64_t area_of(const std::vector<Size>& sizes) {
+std::int64_t area_of(const std::vector<TextureSize>& sizes) {
   std::int64_t sum = 0;
-  for (const Size& size : sizes) sum += std::int64_t{size.width} * size.height;
+  for (const TextureSize& size : sizes) sum += std::int64_t{size.width} * size.height;
   return sum;
 }
 
@@ -125,17 +128,17 @@ TEST(Packer, WhatIsRefusedFitsNowhere) {
   }
 }
 
-std::vector<Size> named_set(const std::string& name, std::size_t count) {
+std::vector<TextureSize> named_set(const std::string& name, std::size_t count) {
   if (name == "square") return random_sizes(count, {1, 1}, {64, 64}, 1);
   if (name == "tall") return random_sizes(count, {2, 10}, {9, 209}, 1);
   if (name == "glyphs") return random_sizes(count, {6, 12}, {19, 21}, 1);
-  std::vector<Size> sizes = random_sizes(count, {0, 0}, {6, 6}, 1);  // powers of two
-  for (Size& size : sizes) size = {1 << size.width, 1 << size.height};
+  std::vector<TextureSize> sizes = random_sizes(count, {0, 0}, {6, 6}, 1);  // powers of two
+  for (TextureSize& size : sizes) size = {1 << size.width, 1 << size.height};
   return sizes;
 }
 
 // The first side, from that of the area, by steps of 0.2 %, that all fit into.
-int smallest_side(const std::vector<Size>& sizes, bool turn, std::uint64_t& leaf_tests) {
+int smallest_side(const std::vector<TextureSize>& sizes, bool turn, std::uint64_t& leaf_tests) {
   Packer packer(sizes, turn);
   int side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(packer.area()))));
   for (;; side = std::max(side + 1, static_cast<int>(std::ceil(side * 1.002)))) {
@@ -186,7 +189,7 @@ TEST(Packer, FewerTrialsAreTheFirstOfAll) {
 }
 
 TEST(Packer, EqualTexturesOfTheLeavesSizeFillIt) {
-  const std::vector<Size> sizes(12, {10, 20});
+  const std::vector<TextureSize> sizes(12, {10, 20});
   const std::vector<Rect> leaf{{0, 0, 40, 60}};
   Packer packer(sizes);
   const Packing packing = packer.pack(leaf);
@@ -200,7 +203,7 @@ TEST(Packer, EqualTexturesOfTheLeavesSizeFillIt) {
 }
 
 TEST(Packer, OnlyTurnedOnesFit) {
-  const std::vector<Size> sizes{{30, 10}, {10, 30}};
+  const std::vector<TextureSize> sizes{{30, 10}, {10, 30}};
   const std::vector<Rect> leaf{{3, 4, 20, 30}};
   EXPECT_FALSE(Packer(sizes).pack(leaf).complete);
   const Packing packing = Packer(sizes, true).pack(leaf);
@@ -213,10 +216,10 @@ TEST(Packer, NothingAndBadSizes) {
   const Packing nothing = Packer({}).pack_most(leaf);
   EXPECT_TRUE(nothing.complete);
   EXPECT_TRUE(nothing.steps.empty());
-  EXPECT_FALSE(Packer(std::vector<Size>{{1, 1}}).pack_most({}).complete);
-  for (const Size& size : {Size{0, 1}, {1, 0}, {-1, 1}, {65537, 1}, {1, 65537}})
-    EXPECT_THROW(Packer(std::vector<Size>{{1, 1}, size}), Refused);
-  const std::vector<Size> largest{{65536, 65536}};
+  EXPECT_FALSE(Packer(std::vector<TextureSize>{{1, 1}}).pack_most({}).complete);
+  for (const TextureSize& size : {TextureSize{0, 1}, {1, 0}, {-1, 1}, {65537, 1}, {1, 65537}})
+    EXPECT_THROW(Packer(std::vector<TextureSize>{{1, 1}, size}), Refused);
+  const std::vector<TextureSize> largest{{65536, 65536}};
   const std::vector<Rect> room{{0, 0, 65536, 65536}};
   EXPECT_TRUE(Packer(largest).pack(room).complete);
 }
