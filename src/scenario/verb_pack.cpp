@@ -51,7 +51,7 @@ void pack_chosen(const Pack& step, ScriptRun& run) {
     if (last && names) atlas.name_free_leaf(step.free_name, before);
     if ((!last && !step.each) || frames.stopped()) return;
     if (!step.each) frames.touched = {};
-    frames.settle("pack", last, refused ? refusal_text(texture) : "");
+    frames.settle("pack", last, refused && step.each ? refusal_text(texture) : "");
     frames.touched = {};
   };
   frames.touched = {};
