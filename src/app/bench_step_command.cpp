@@ -48,11 +48,24 @@ StepBenchConfig config_of(const BenchStepOptions& options) {
   return config;
 }
 
+// As it would be typed.
+std::string command_text(const BenchStepOptions& options) {
+  std::string text = "lantern bench step";
+  for (const std::string& name : options.piles) text += " --pile " + name;
+  if (options.seconds) text += fmt::format(" --seconds {:g}", *options.seconds);
+  if (options.longest) text += fmt::format(" --longest {:g}", *options.longest);
+  for (const std::string& name : options.only) text += " --only " + name;
+  if (options.full) text += " --full";
+  if (!options.peers) text += " --no-peers";
+  return text + " --broad-phase " + options.broad_phase;
+}
+
 }  // namespace
 
 int bench_step_command(const BenchStepOptions& options) {
   StepBenchResult result;
   result.config = config_of(options);
+  result.command = command_text(options);
   result.circumstances = here(kVersion, kSourceHash);
   ReportFolder folder(options.output, "bench_step");
   const std::size_t piles = result.config.piles.size();
@@ -72,6 +85,7 @@ int bench_step_command(const BenchStepOptions& options) {
     throw UsageError(refused.what());
   }
   for (const std::string& missing : result.missing) say(missing);
+  folder.write("bench_step.html", to_html(result));
   folder.write("bench_step.csv", to_csv(result));
   folder.write("bench_step.json", to_json(result));
   options.json ? answer(to_json(result)) : print(to_table(result));

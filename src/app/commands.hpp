@@ -182,6 +182,20 @@ struct BenchStepOptions {
 };
 int bench_step_command(const BenchStepOptions& options);
 
+struct BenchAtlasOptions {
+  std::vector<std::string> sets;      // names; empty for all
+  std::vector<std::uint64_t> counts;  // textures; empty for the usual numbers
+  std::string sizes;                  // a file of one's own textures instead of sets
+  std::string atlas;                  // "1024x1024"; empty for the smallest square
+  std::vector<std::string> only;      // contestants; empty for all
+  int rounds = 15;
+  std::uint64_t seed = 1;
+  std::string output;  // folder; empty for none
+  bool peers = true;
+  bool json = false;
+};
+int bench_atlas_command(const BenchAtlasOptions& options);
+
 struct StressOptions {
   std::vector<std::string> cases;  // names; empty for all that are not slow
   std::string output;              // folder; empty for none

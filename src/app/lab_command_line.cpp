@@ -68,11 +68,47 @@ void add_bench_step(CLI::App& bench, Run& run) {
   c->add_option("--broad-phase", o.broad_phase, "ours: sort_and_sweep, quadtree, octree, ...")
       ->type_name("KIND")
       ->capture_default_str();
-  c->add_option("-o,--output", o.output, "folder for bench_step.csv and bench_step.json")
+  c->add_option("-o,--output", o.output,
+                "folder for bench_step.html, bench_step.csv and bench_step.json")
       ->check(kNotEmpty)
       ->type_name("DIR");
   c->add_flag("--full", o.full, "500, 2,000 and 5,000 boxes and balls in 2D and 3D: hours");
   c->add_flag("!--no-peers", o.peers, "without other engines");
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void add_bench_atlas(CLI::App& bench, Run& run) {
+  const auto [c, o] =
+      command(bench, run, "atlas", "How full texture atlases become, and how soon, beside stb",
+              bench_atlas_command);
+  CLI::Option* set = c->add_option("--set", o.sets, "only these: square, powers, tall, glyphs")
+                         ->allow_extra_args(false)
+                         ->type_name("NAME");
+  CLI::Option* count =
+      c->add_option("--count", o.counts, "textures of each set; the default is 500 and 5000")
+          ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}))
+          ->allow_extra_args(false)
+          ->type_name("N");
+  c->add_option("--sizes", o.sizes, "textures of your own instead: CSV, a line WIDTH,HEIGHT each")
+      ->check(kNotEmpty)
+      ->excludes(set)
+      ->excludes(count)
+      ->type_name("FILE");
+  c->add_option("--size", o.atlas, "into an atlas of this size; the default is the smallest square")
+      ->type_name("WxH");
+  c->add_option("--only", o.only, "only these: first_fit, best_texture, stb_rect_pack, ...")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  c->add_option("--rounds", o.rounds, "turns of each contestant; medians count")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  c->add_option("--seed", o.seed, "of the sets")->type_name("N")->capture_default_str();
+  c->add_option("-o,--output", o.output,
+                "folder for bench_atlas.html, bench_atlas.csv and bench_atlas.json")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  c->add_flag("!--no-peers", o.peers, "without other packers");
   add_memory(*c);
   add_json(*c, o.json);
 }
@@ -97,6 +133,7 @@ void add_bench(CLI::App& app, Run& run) {
       ->type_name("DIR");
   add_memory(*frames);
   add_json(*frames, o.json);
+  add_bench_atlas(*c, run);
   add_bench_step(*c, run);
 }
 

@@ -22,6 +22,7 @@ int measure_command(const MeasureOptions&) { return refused("measure"); }
 int stress_command(const StressOptions&) { return refused("stress"); }
 int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
 int structure_bench_command(const StructureBenchOptions&) { return refused("structure bench"); }
+int bench_atlas_command(const BenchAtlasOptions&) { return refused("bench atlas"); }
 int bench_step_command(const BenchStepOptions&) { return refused("bench step"); }
 
 int merge_measurements(const ShardSet&, const MergeOptions&, JsonWriter&) {

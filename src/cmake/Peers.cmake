@@ -3,10 +3,10 @@
 option(LANTERN_PEERS "Build the engines that Lantern is measured beside, where installed" ON)
 add_custom_target(lantern_peers)
 
-# lantern_peer(NAME VERSION FOUND INCLUDES ... LIBRARIES ... DEFINITIONS ...): the module of
-# src/peers/NAME_peer.cpp. The engines are not built for the sanitizers, so neither are the modules.
+# lantern_peer(NAME VERSION FOUND INCLUDES ... LIBRARIES ... DEFINITIONS ... OPTIONS ...): the module
+# of src/peers/NAME_peer.cpp. The engines are not built for the sanitizers, so neither are the modules.
 function(lantern_peer name version)
-  cmake_parse_arguments(PEER "" "" "FOUND;INCLUDES;LIBRARIES;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(PEER "" "" "FOUND;INCLUDES;LIBRARIES;DEFINITIONS;OPTIONS" ${ARGN})
   set(file ${PROJECT_BINARY_DIR}/peers/lantern_peer_${name}.so)
   if(NOT LANTERN_PEERS OR LANTERN_SANITIZE OR NOT PEER_FOUND)
     file(REMOVE ${file})  # of an earlier build
@@ -19,7 +19,8 @@ function(lantern_peer name version)
   target_include_directories(lantern_peer_${name} SYSTEM PRIVATE ${PEER_INCLUDES})
   target_compile_definitions(lantern_peer_${name} PRIVATE ${PEER_DEFINITIONS}
     LANTERN_PEER_VERSION="${version}")
-  target_link_libraries(lantern_peer_${name} PRIVATE glm::glm ${PEER_LIBRARIES})
+  target_compile_options(lantern_peer_${name} PRIVATE ${PEER_OPTIONS})
+  target_link_libraries(lantern_peer_${name} PRIVATE fmt::fmt glm::glm ${PEER_LIBRARIES})
   add_dependencies(lantern_peers lantern_peer_${name})
 endfunction()
 
@@ -38,3 +39,12 @@ if(LANTERN_MUJOCO AND LANTERN_MUJOCO_DIR)
 endif()
 lantern_peer(mujoco "${mujoco_version} (double)" FOUND ${mujoco_FOUND}
   LIBRARIES ${LANTERN_MUJOCO})
+
+# A packer of textures, one header: optimized in any build, as ours is in a release.
+if(EXISTS ${LANTERN_STB_DIR}/stb_rect_pack.h)
+  file(STRINGS ${LANTERN_STB_DIR}/stb_rect_pack.h stb_version REGEX "^// stb_rect_pack.h - v")
+  string(REGEX REPLACE ".*v([0-9.]+).*" "\\1" stb_version "${stb_version}")
+  set(stb_FOUND TRUE)
+endif()
+lantern_peer(atlas_stb "${stb_version}" FOUND ${stb_FOUND} INCLUDES ${LANTERN_STB_DIR}
+  OPTIONS -O3 -DNDEBUG)

@@ -48,6 +48,7 @@ struct StepRow {
 
 struct StepBenchResult {
   Circumstances circumstances;
+  std::string command;  // that made it
   StepBenchConfig config;
   std::vector<std::string> missing;  // peers that are not there: a line each
   std::vector<StepRow> rows;         // in order of piles and solvers

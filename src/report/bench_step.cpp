@@ -150,6 +150,7 @@ std::string to_json(const StepBenchResult& result) {
   json.begin_object().line().member("format", "lantern.bench.step/1");
   json.line().member("seconds", result.config.seconds).member("longest", result.config.longest);
   json.line().member("structure", to_string(result.config.structure));
+  json.line().member("command", result.command);
   json.line().member("version", c.version).member("sources", c.sources);
   json.line().member("compiler", c.compiler).member("flags", c.flags);
   json.line().member("processor", c.processor);

@@ -138,6 +138,7 @@ TEST(JsonStyle, SoDoesTheLab) {
   EXPECT_GT(answer_to("measure --list --json", 0)["problems"].size(), 20u);
   EXPECT_GT(answer_to("stress --list --json", 0)["cases"].size(), 60u);
   answer_to("stress --json overflow", 0);
+  answer_to("bench atlas --json --set glyphs --count 20 --rounds 1 --no-peers", 0);
   answer_to("bench step --json --pile balls2d:2 --seconds 1 --only soft:1 --no-peers", 0);
   answer_to("measure oscillator --json --quick --no-peers --method velocity_verlet --step 0.1" + to,
             0);

@@ -151,6 +151,38 @@ TEST(MeasureCommand, AnEngineIsNoMethodAndThisIsSaid) {
       << "the reason is missing: " << o.err;
 }
 
+TEST(BenchAtlas, WritesATableAndFilesOfItsOwnSetsAndAUsersTextures) {
+  const fs::path out = fresh_folder("bench_atlas");
+  const std::string to = " --rounds 1 -o " + out.string();
+  const Outcome o = shell("lantern bench atlas --set tall --count 30 --no-peers" + to);
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* words : {"tall, 30 textures", "first_fit", "best_texture:turn", "leaf tests"})
+    EXPECT_NE(o.out.find(words), std::string::npos) << words << "\n" << o.out;
+  const json written = json::parse(read_text(out / "bench_atlas.json"));
+  EXPECT_EQ(written["format"], "lantern.bench.atlas/1");
+  ASSERT_EQ(written["rows"].size(), 3u);
+  EXPECT_EQ(written["rows"][1]["packed"], 30);
+  EXPECT_EQ(written["rows"][1]["seconds"]["repeats"], 1);
+  EXPECT_EQ(lines_of(read_text(out / "bench_atlas.csv")).size(), 4u);
+  const std::string page = read_text(out / "bench_atlas.html");
+  for (const char* words : {"lantern bench atlas --set tall --count 30 --no-peers --rounds 1",
+                            "Packing into it", "<svg", "best_texture:turn", "</html>"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+
+  write_text(out / "mine.csv", "width,height\n30,10\n10,30\n");
+  const std::string own = "lantern bench atlas --rounds 1 --no-peers --sizes " + out.string();
+  const Outcome mine = shell(own + "/mine.csv --size 20x30 --json");
+  ASSERT_EQ(mine.code, 0) << mine.err;
+  EXPECT_EQ(json::parse(mine.out)["rows"][2]["turned"], 1);
+  write_text(out / "wrong.csv", "30,10\n10,3O\n");
+  const Outcome wrong = shell(own + "/wrong.csv");
+  EXPECT_EQ(wrong.code, 3);
+  EXPECT_NE(wrong.err.find("wrong.csv:2:4: error:"), std::string::npos) << wrong.err;
+  EXPECT_EQ(shell(own + "/none.csv").code, 1);
+  for (const char* words : {"--set tal", "--only nobody", "--size 20", "--count 0"})
+    EXPECT_EQ(shell(std::string("lantern bench atlas --no-peers ") + words).code, 2) << words;
+}
+
 TEST(BenchStep, WritesATableAndFiles) {
   const fs::path out = fresh_folder("bench_step");
   const Outcome o = shell(
@@ -165,6 +197,10 @@ TEST(BenchStep, WritesATableAndFiles) {
   ASSERT_EQ(written["rows"].size(), 2u);
   EXPECT_EQ(written["rows"][0]["work"]["steps"], 60);
   EXPECT_EQ(lines_of(read_text(out / "bench_step.csv")).size(), 3u);
+  const std::string page = read_text(out / "bench_step.html");
+  for (const char* words : {"lantern bench step --pile balls2d:3 --pile boxes2d:2 --seconds 1",
+                            "boxes2d:2", "<svg", "soft:2", "</html>"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(shell("lantern bench step --pile balls2d:0").code, 2);
   EXPECT_EQ(shell("lantern bench step --pile balls2d:3 --only nobody").code, 2);
   EXPECT_EQ(shell("lantern bench step --pile balls2d:3 --broad-phase octree").code, 2);
