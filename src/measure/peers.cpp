@@ -1,20 +1,17 @@
 #include "measure/peers.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "base/library.hpp"
 #include "geometry/flat.hpp"
 #include "measure/peer.hpp"
+#include "measure/peer_modules.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern::measure {
 namespace {
-
-namespace fs = std::filesystem;
 
 // As World::add derives it.
 template <int D>
@@ -117,50 +114,19 @@ class PeerSolver : public Solver {
   Peer peer_;
 };
 
-struct Module {
-  const char* name;     // of the engine
-  const char* file;     // of the module
-  const char* package;  // that it is built from
-};
-constexpr Module kModules[] = {
+constexpr PeerModule kModules[] = {
     {"Bullet", "lantern_peer_bullet.so", "libbullet-dev"},
     {"Box2D", "lantern_peer_box2d.so", "libbox2d-dev"},
     {"ODE", "lantern_peer_ode.so", "libode-dev"},
     {"MuJoCo", "lantern_peer_mujoco.so", "libmujoco-dev"},
 };
 
-// Where the module is; empty if it was not built.
-fs::path place_of(const Module& module) {
-  std::error_code error;
-  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {here / "peers", here.parent_path() / "peers"})
-    if (fs::is_regular_file(folder / module.file, error)) return folder / module.file;
-  return {};
-}
-
 }  // namespace
 
 std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing) {
   std::vector<std::unique_ptr<Solver>> solvers;
-  for (const Module& module : kModules) {
-    const fs::path path = place_of(module);
-    if (path.empty()) {
-      missing.push_back(
-          fmt::format("{}: not built in; apt-get install {} and build again: an installed Lantern "
-                      "has no engines beside it",
-                      module.name, module.package));
-      continue;
-    }
-    const Library library({path.c_str()});
-    PeersOfModule add = nullptr;
-    if (!library.find(add, "lantern_peers")) {
-      missing.push_back(fmt::format("{}: cannot be loaded: {}", module.name, library.problem()));
-      continue;
-    }
-    std::vector<Peer> found;
-    add(found);
-    for (Peer& peer : found) solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
-  }
+  for (Peer& peer : peers_of<Peer>(kModules, "lantern_peers", missing))
+    solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
   return solvers;
 }
 
