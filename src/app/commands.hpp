@@ -196,6 +196,22 @@ struct BenchAtlasOptions {
 };
 int bench_atlas_command(const BenchAtlasOptions& options);
 
+struct BenchPairsOptions {
+  std::vector<std::string> workloads;  // names; empty for all
+  std::vector<std::uint64_t> bodies;   // empty for those of each workload
+  std::vector<std::string> only;       // contestants; empty for all
+  std::string boxes;                   // a file of one's own, instead of workloads
+  std::uint64_t seed = 1;
+  int rounds = 9;
+  std::optional<double> seconds;  // of each contestant's rounds
+  std::optional<double> longest;  // seconds of a step
+  std::string output;             // folder; empty for none
+  bool full = false;
+  bool peers = true;
+  bool json = false;
+};
+int bench_pairs_command(const BenchPairsOptions& options);
+
 struct StressOptions {
   std::vector<std::string> cases;  // names; empty for all that are not slow
   std::string output;              // folder; empty for none

@@ -16,7 +16,7 @@
 namespace lantern::app {
 namespace {
 
-// The other physics engines that runs can be measured beside.
+// What Lantern can be measured beside: other physics engines, other libraries of boxes.
 struct PeerReport {
   std::vector<std::string> found;  // "Box2D 2.4.1 (single)"
   std::vector<std::string> missing;
@@ -29,8 +29,27 @@ PeerReport examine_peers() {
   return report;
 }
 
+PeerReport examine_box_peers() {
+  PeerReport report;
+  report.found = box_peer_names(report.missing);
+  return report;
+}
+
+std::string peers_text(const PeerReport& peers) {
+  std::string text;
+  for (const std::string& peer : peers.found) text += fmt::format("         {}\n", peer);
+  for (const std::string& peer : peers.missing) text += fmt::format("         {}\n", peer);
+  return text;
+}
+
+void write_list(const char* name, const std::vector<std::string>& words, JsonWriter& json) {
+  json.line().key(name).begin_array();
+  for (const std::string& one : words) json.value(one);
+  json.end_array();
+}
+
 std::string as_text(const std::vector<BackendReport>& reports, const std::string& ffmpeg,
-                    const PeerReport& peers) {
+                    const PeerReport& peers, const PeerReport& box_peers) {
   std::string text = fmt::format("Lantern {} ({})\n", kVersion, kSourceHash);
   for (const BackendReport& r : reports) {
     text += fmt::format("{:<8} {}\n", r.name, r.works ? "works" : "does not work");
@@ -38,9 +57,8 @@ std::string as_text(const std::vector<BackendReport>& reports, const std::string
   }
   text += fmt::format("{:<8} {}\n", "ffmpeg",
                       ffmpeg.empty() ? "not found; only needed to make films (ffmpeg)" : ffmpeg);
-  text += "peers    other engines, only needed to measure beside them\n";
-  for (const std::string& peer : peers.found) text += fmt::format("         {}\n", peer);
-  for (const std::string& peer : peers.missing) text += fmt::format("         {}\n", peer);
+  text += "peers    other engines, only needed to measure beside them\n" + peers_text(peers);
+  text += "boxes    other libraries of boxes, only needed by bench pairs\n" + peers_text(box_peers);
   return text;
 }
 
@@ -50,7 +68,7 @@ int doctor_command(const DoctorOptions& options) {
   const std::vector<BackendReport> reports = examine_backends();
   const auto found = find_program("ffmpeg");
   const std::string ffmpeg = found ? found->string() : "";
-  const PeerReport peers = examine_peers();
+  const PeerReport peers = examine_peers(), box_peers = examine_box_peers();
   bool any = false;
   JsonWriter json = answer_of("doctor");
   json.line().member("version", kVersion).line().key("backends").begin_array();
@@ -60,12 +78,13 @@ int doctor_command(const DoctorOptions& options) {
     json.member("library", r.library).member("renderer", r.renderer);
     json.member("problem", r.problem).end_object();
   }
-  json.line().end_array().line().member("ffmpeg", ffmpeg).line().key("peers").begin_array();
-  for (const std::string& peer : peers.found) json.value(peer);
-  json.end_array().line().key("missing_peers").begin_array();
-  for (const std::string& peer : peers.missing) json.value(peer);
-  json.end_array().line().end_object();
-  options.json ? answer(json.text()) : print(as_text(reports, printable(ffmpeg), peers));
+  json.line().end_array().line().member("ffmpeg", ffmpeg);
+  write_list("peers", peers.found, json);
+  write_list("missing_peers", peers.missing, json);
+  write_list("box_peers", box_peers.found, json);
+  write_list("missing_box_peers", box_peers.missing, json);
+  json.line().end_object();
+  options.json ? answer(json.text()) : print(as_text(reports, printable(ffmpeg), peers, box_peers));
   return any ? kGood : kNoBackend;
 }
 

@@ -78,6 +78,56 @@ void add_bench_step(CLI::App& bench, Run& run) {
   add_json(*c, o.json);
 }
 
+void add_bench_pairs(CLI::App& bench, Run& run) {
+  const auto [c, o] = command(
+      bench, run, "pairs",
+      "All pairs of moving boxes, and what rays, boxes and balls meet, beside other libraries",
+      bench_pairs_command);
+  CLI::Option* workload =
+      c->add_option(
+           "--workload", o.workloads,
+           "only these: uniform, clustered, mixed, thin, coincident, brownian, free_fall, gravity, "
+           "town, or what is asked: rays, first_hits, boxes, balls; uniform_2d is only "
+           "one of two dimensions")
+          ->allow_extra_args(false)
+          ->type_name("NAME");
+  c->add_option("--bodies", o.bodies, "how many boxes; the default is each workload's own numbers")
+      ->check(CLI::Range(std::uint64_t{2}, std::uint64_t{20000000}))
+      ->allow_extra_args(false)
+      ->type_name("N");
+  c->add_option("--boxes", o.boxes,
+                "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named "
+                "columns), or .aabbs of Broadmark")
+      ->check(kNotEmpty)
+      ->excludes(workload)
+      ->type_name("FILE");
+  c->add_option("--only", o.only, "only these: quadtree, sort_and_sweep, CGAL, ...")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  c->add_option("--rounds", o.rounds, "turns of each contestant; medians count")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  c->add_option("--seconds", o.seconds,
+                "that a contestant is timed at a world, but three rounds at least; the default is "
+                "0.1, with --full 4")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  c->add_option("--longest", o.longest,
+                "leave out who needs more seconds a step than this; the default is 0.4, with "
+                "--full 10")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+  c->add_option("--seed", o.seed, "of the boxes")->type_name("N")->capture_default_str();
+  c->add_option("-o,--output", o.output,
+                "folder for bench_pairs.html, bench_pairs.csv and bench_pairs.json")
+      ->check(kNotEmpty)
+      ->type_name("DIR");
+  c->add_flag("--full", o.full, "up to a million boxes: the better part of an hour");
+  c->add_flag("!--no-peers", o.peers, "without other libraries");
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
 void add_bench_atlas(CLI::App& bench, Run& run) {
   const auto [c, o] =
       command(bench, run, "atlas", "How full texture atlases become, and how soon, beside stb",
@@ -133,6 +183,7 @@ void add_bench(CLI::App& app, Run& run) {
       ->type_name("DIR");
   add_memory(*frames);
   add_json(*frames, o.json);
+  add_bench_pairs(*c, run);
   add_bench_atlas(*c, run);
   add_bench_step(*c, run);
 }

@@ -23,6 +23,7 @@ int stress_command(const StressOptions&) { return refused("stress"); }
 int bench_frames_command(const BenchOptions&) { return refused("bench frames"); }
 int structure_bench_command(const StructureBenchOptions&) { return refused("structure bench"); }
 int bench_atlas_command(const BenchAtlasOptions&) { return refused("bench atlas"); }
+int bench_pairs_command(const BenchPairsOptions&) { return refused("bench pairs"); }
 int bench_step_command(const BenchStepOptions&) { return refused("bench step"); }
 
 int merge_measurements(const ShardSet&, const MergeOptions&, JsonWriter&) {
@@ -36,6 +37,11 @@ namespace lantern::measure {
 
 // As doctor asks for them.
 std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing) {
+  missing.emplace_back(app::kNoLab);
+  return {};
+}
+
+std::vector<std::string> box_peer_names(std::vector<std::string>& missing) {
   missing.emplace_back(app::kNoLab);
   return {};
 }

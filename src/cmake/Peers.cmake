@@ -48,3 +48,27 @@ if(EXISTS ${LANTERN_STB_DIR}/stb_rect_pack.h)
 endif()
 lantern_peer(atlas_stb "${stb_version}" FOUND ${stb_FOUND} INCLUDES ${LANTERN_STB_DIR}
   OPTIONS -O3 -DNDEBUG)
+# Libraries of boxes. Two of them are headers alone, so what makes them quick is set here: optimized
+# as far as it goes, without their own checks, in any build. Their modules count their own calls of
+# operator new.
+set(quick -O3 -DNDEBUG)
+set(own_new -Wl,-Bsymbolic)
+lantern_peer(boxes_bullet "${bullet_single_VERSION} (single)" FOUND ${bullet_single_FOUND}
+  INCLUDES ${bullet_single_INCLUDE_DIRS} LIBRARIES ${bullet_single_LINK_LIBRARIES}
+  OPTIONS ${quick})
+lantern_peer(boxes_box2d "${box2d_VERSION} (single)" FOUND ${box2d_FOUND}
+  LIBRARIES ${box2d_LINK_LIBRARIES} OPTIONS ${quick})
+if(LANTERN_BOOST_DIR)
+  file(STRINGS ${LANTERN_BOOST_DIR}/boost/version.hpp boost_version REGEX "BOOST_LIB_VERSION \"")
+  string(REGEX REPLACE ".*\"([0-9]+)_([0-9]+).*" "\\1.\\2" boost_version "${boost_version}")
+  set(boost_headers_FOUND TRUE)
+endif()
+lantern_peer(boxes_boost "${boost_version} (double)" FOUND ${boost_headers_FOUND}
+  INCLUDES ${LANTERN_BOOST_DIR} LIBRARIES ${own_new} OPTIONS ${quick})
+if(LANTERN_CGAL_DIR AND LANTERN_BOOST_DIR)
+  file(STRINGS ${LANTERN_CGAL_DIR}/CGAL/version.h cgal_version REGEX "CGAL_VERSION [0-9]")
+  string(REGEX REPLACE ".* ([0-9.]+)$" "\\1" cgal_version "${cgal_version}")
+  set(cgal_headers_FOUND TRUE)
+endif()
+lantern_peer(boxes_cgal "${cgal_version} (double)" FOUND ${cgal_headers_FOUND}
+  INCLUDES ${LANTERN_CGAL_DIR} LIBRARIES ${own_new} OPTIONS ${quick} -DCGAL_NDEBUG)

@@ -15,4 +15,8 @@ namespace lantern::measure {
 // install libbox2d-dev and build again: ...". A module once loaded stays.
 std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing);
 
+// The libraries of boxes that `bench pairs` measures beside: "CGAL 5.5.1 (double)". Lines are added
+// to `missing` as above.
+std::vector<std::string> box_peer_names(std::vector<std::string>& missing);
+
 }  // namespace lantern::measure

@@ -140,6 +140,7 @@ TEST(JsonStyle, SoDoesTheLab) {
   answer_to("stress --json overflow", 0);
   answer_to("bench atlas --json --set glyphs --count 20 --rounds 1 --no-peers", 0);
   answer_to("bench step --json --pile balls2d:2 --seconds 1 --only soft:1 --no-peers", 0);
+  answer_to("bench pairs --json --workload uniform_2d --bodies 50 --only quadtree --no-peers", 0);
   answer_to("measure oscillator --json --quick --no-peers --method velocity_verlet --step 0.1" + to,
             0);
   answer_to("measure --json --from" + to.substr(3) + to + "/page", 0);
@@ -208,7 +209,7 @@ TEST(JsonStyle, ThePagesAgree) {
     for (const auto& [member, rule] : kinds.at(name)["properties"].items())
       EXPECT_NE(page.find('`' + member), std::string::npos) << name << ": " << member;
   }
-  EXPECT_EQ(named, 21u);
+  EXPECT_EQ(named, 22u);
   EXPECT_EQ(shell("lantern schema --of output").out,
             read_text(repository("scenarios/output.schema.json")));
 }
