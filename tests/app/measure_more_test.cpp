@@ -206,5 +206,55 @@ TEST(BenchStep, WritesATableAndFiles) {
   EXPECT_EQ(shell("lantern bench step --pile balls2d:3 --broad-phase octree").code, 2);
 }
 
+TEST(BenchPairs, WritesATableAndFiles) {
+  const fs::path out = fresh_folder("bench_pairs");
+  const std::string small = "lantern bench pairs --rounds 2 --bodies 100 ";
+  const Outcome o = shell(small +
+                          "--workload uniform_2d --workload boxes_3d --only octree "
+                          "--only sort_and_sweep --no-peers -o " +
+                          out.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* words : {"uniform_2d with 100 boxes", "sort_and_sweep", "boxes_3d", "octree"})
+    EXPECT_NE(o.out.find(words), std::string::npos) << words << "\n" << o.out;
+  EXPECT_EQ(json::parse(read_text(out / "bench_pairs.json"))["rows"].size(), 3u);
+  EXPECT_EQ(lines_of(read_text(out / "bench_pairs.csv")).size(), 4u);
+  EXPECT_NE(read_text(out / "bench_pairs.html").find("sort_and_sweep"), std::string::npos);
+  const Outcome unknown = shell(small + "--workload unifrm_2d");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("did you mean 'uniform_2d'?"), std::string::npos) << unknown.err;
+  EXPECT_EQ(shell(small + "--only nobody").code, 2);
+  EXPECT_EQ(shell(small + "--workload uniform --boxes x.csv").code, 2);
+}
+
+TEST(BenchPairs, ReadsBoxesOfOnesOwn) {
+  const fs::path out = fresh_folder("bench_boxes");
+  write_text(out / "mine.csv", "0,0,2,2\n1,1,3,3\n5,5,6,6\n");
+  const std::string mine = "lantern bench pairs --no-peers --rounds 2 --boxes ";
+  const Outcome o = shell(mine + (out / "mine.csv").string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("mine with 3 boxes: 1 pairs, checked by brute force"), std::string::npos)
+      << o.out;
+  write_text(out / "bad.csv", "0,0,2,2\n1,1,3,x\n");
+  const Outcome bad = shell(mine + (out / "bad.csv").string());
+  EXPECT_EQ(bad.code, 3);
+  EXPECT_NE(bad.err.find("bad.csv:2:7: error: 'x' is no finite number"), std::string::npos)
+      << bad.err;
+}
+
+// A program without its modules beside it, as it is installed.
+TEST(BenchPairs, NamesThePackagesOfWhatIsMissing) {
+  const fs::path out = fresh_folder("bench_missing");
+  fs::create_hard_link(LANTERN_BINARY, out / "lantern");
+  const std::string alone = (out / "lantern").string() +
+                            " bench pairs --workload uniform_2d --rounds 2 --bodies 50 --only ";
+  const Outcome o = shell(alone + "quadtree");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("missing: not built in; apt-get install libcgal-dev"), std::string::npos)
+      << o.out;
+  const Outcome asked = shell(alone + "CGAL");
+  EXPECT_EQ(asked.code, 2);
+  EXPECT_NE(asked.err.find("libcgal-dev"), std::string::npos) << asked.err;
+}
+
 }  // namespace
 }  // namespace lantern::app

@@ -90,6 +90,10 @@ TEST(OwnStructureProgram, BenchTimesItBesideOurs) {
   }
   EXPECT_EQ(rows[1].at("structure"), "mine");
   EXPECT_EQ(my_tree("structure bench wrong --bodies 200 --rounds 1").code, 1);
+  const Outcome pairs =
+      my_tree("bench pairs --workload uniform_2d --bodies 200 --rounds 1 --only wrong --no-peers");
+  EXPECT_EQ(pairs.code, 1);
+  EXPECT_NE(pairs.out.find("wrong: "), std::string::npos) << pairs.out;
 }
 
 TEST(OwnStructureProgram, ItIsOneOfTheKindsThere) {

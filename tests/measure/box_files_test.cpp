@@ -1,0 +1,124 @@
+// Boxes of a user's own, and what is wrong in their files.
+#include "measure/box_files.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "fresh_folder.hpp"
+
+namespace lantern::measure {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path written(const std::string& name, const std::string& bytes) {
+  static const fs::path folder = fresh_folder("box_files");
+  std::ofstream(folder / name, std::ios::binary) << bytes;
+  return folder / name;
+}
+
+// The first mistake told of the file.
+Diagnostic mistake(const std::string& name, const std::string& bytes) {
+  try {
+    read_boxes(written(name, bytes), 1);
+  } catch (const ScenarioError& error) {
+    return error.diagnostics().at(0);
+  }
+  ADD_FAILURE() << "nothing is wrong with: " << bytes;
+  return {};
+}
+
+TEST(BoxFiles, CsvHasCornersOrNamedColumns) {
+  const BoxScene flat = read_boxes(written("flat.csv", "0,0,1,2\r\n# two\n\n 3 , 4,5,6"), 1);
+  ASSERT_EQ(flat.dimension(), 2);
+  EXPECT_EQ(flat.name, "flat");
+  const auto& frames = std::get<BoxUpdates<2>>(flat.boxes).frames;
+  ASSERT_EQ(frames[0].size(), 2u);
+  EXPECT_EQ(frames[0][1].box, (Box<2>{{3, 4}, {5, 6}}));
+  ASSERT_GT(frames.size(), 1u);
+  EXPECT_NE(frames[1], frames[0]);
+  const BoxScene solid = read_boxes(
+      written("solid.csv", "static,x,y,z,half_x,half_y,half_z\n1,1,1,1,1,1,1\n0,4,4,4,1,2,3\n"), 1);
+  const auto& space = std::get<BoxUpdates<3>>(solid.boxes).frames;
+  EXPECT_EQ(space[0][1].box, (Box<3>{{3, 2, 1}, {5, 6, 7}}));
+  EXPECT_TRUE(space[0][0].is_static);
+  EXPECT_EQ(space[1][0], space[0][0]);
+}
+
+TEST(BoxFiles, CsvMistakesHaveTheirPlace) {
+  const struct {
+    const char *text, *message;
+    int line, column;
+  } kMistakes[] = {
+      {"0,0,1,1\n0,0,1\n", "3 values, where 4 are expected", 2, 5},
+      {"0,0,1,1\n0,0,one,1\n", "'one' is no finite number", 2, 5},
+      {"0,0,1,1\n0,0,1e400,1\n", "'1e400' is no finite number", 2, 5},
+      {"0,0,nan,1\n", "'nan' is no finite number", 1, 5},
+      {"2,0,1,1\n", "the box ends before it begins", 1, 5},
+      {"x,y,half_x,half_y\n0,0,-1,1\n", "a half size is negative", 2, 5},
+      {"x,y,half_x,hlf_y\n", "unknown column 'hlf_y'", 1, 12},
+      {"x,y,x,half_y\n", "column 'x' is there twice", 1, 5},
+      {"lo_x,lo_y,hi_x\n", "column 'hi_y' is missing", 1, 1},
+      {"lo_x,lo_y,hi_x,hi_y,half_x\n", "column 'x' is missing", 1, 1},
+      {"static,lo_x,lo_y,hi_x,hi_y\n2,0,0,1,1\n", "static is 0 or 1", 2, 1},
+  };
+  for (const auto& one : kMistakes) {
+    const Diagnostic told = mistake("bad.csv", one.text);
+    EXPECT_EQ(told.message, one.message) << one.text;
+    EXPECT_EQ(told.where.line, one.line) << one.text;
+    EXPECT_EQ(told.where.column, one.column) << one.text;
+    EXPECT_FALSE(told.source_line.empty());
+  }
+  EXPECT_EQ(mistake("bad.csv", "x,y,half_x,hlf_y\n").suggestion, "did you mean 'half_y'?");
+  EXPECT_THROW(read_boxes(written("empty.csv", ""), 1), Refused);
+  EXPECT_THROW(read_boxes(written("one.csv", "0,0,1,1"), 1), Refused);
+  EXPECT_THROW(read_boxes("no/such.csv", 1), IoError);
+}
+
+std::string broadmark(std::int32_t objects, std::int32_t told, int frames) {
+  std::string bytes(256, '\0');
+  const std::int32_t counts[] = {objects, told, 0, 0};
+  bytes.append(reinterpret_cast<const char*>(counts), sizeof counts);
+  const auto box = [&](float lo, float hi) {
+    const float corners[] = {lo, lo, lo, 0, hi, hi, hi, 0};
+    bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
+  };
+  box(-10, 10);
+  for (int frame = 0; frame < frames; ++frame)
+    for (int i = 0; i < objects; ++i)
+      box(static_cast<float>(frame + i), static_cast<float>(frame + i + 2));
+  return bytes;
+}
+
+TEST(BoxFiles, BroadmarksFramesAreRead) {
+  const BoxScene scene = read_boxes(written("fall.aabbs", broadmark(3, 4, 5)), 1);
+  const auto& frames = std::get<BoxUpdates<3>>(scene.boxes).frames;
+  ASSERT_EQ(frames.size(), 5u);
+  ASSERT_EQ(frames[4].size(), 3u);
+  EXPECT_EQ(frames[4][2].box, (Box<3>{Vec<3>(6.0), Vec<3>(8.0)}));
+}
+
+TEST(BoxFiles, BroadmarksMistakesAreTold) {
+  const std::string good = broadmark(3, 4, 5);
+  EXPECT_NE(mistake("short.aabbs", good.substr(0, 300)).message.find("too short"),
+            std::string::npos);
+  EXPECT_NE(mistake("cut.aabbs", good.substr(0, good.size() - 8)).message.find("96 bytes a frame"),
+            std::string::npos);
+  EXPECT_NE(mistake("none.aabbs", broadmark(3, 4, 0)).message.find("a frame"), std::string::npos);
+  EXPECT_NE(mistake("text.aabbs", std::string(500, 'x')).message.find("no counts"),
+            std::string::npos);
+  EXPECT_NE(mistake("negative.aabbs", broadmark(-1, 4, 1)).message.find("no counts"),
+            std::string::npos);
+  std::string inverted = good;
+  const float far = 1e9f;
+  std::memcpy(inverted.data() + 304 + 32, &far, sizeof far);
+  EXPECT_NE(mistake("inverted.aabbs", inverted).message.find("object 1 of frame 0"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace lantern::measure
