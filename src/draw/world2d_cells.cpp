@@ -194,11 +194,34 @@ void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
   }
 }
 
+// Of a grid of several levels the coarser cells have the stronger lines.
+class GridDepths {
+ public:
+  explicit GridDepths(const Frame& frame) : frame_(frame) {
+    for (const FrameNode& node : frame.nodes)
+      if (is_level(node)) coarsest_ = std::max(coarsest_, node.slot);
+  }
+  std::uint32_t operator[](const FrameNode& node) const {
+    if (frame_.structure != StructureKind::grid || node.depth < 2) return node.depth;
+    const FrameNode* above = &node;
+    while (above->depth > 1) above = &frame_.nodes[above->parent];
+    return is_level(*above) ? 1 + coarsest_ - above->slot : 1;
+  }
+
+ private:
+  static bool is_level(const FrameNode& node) {
+    return node.depth == 1 && node.label.starts_with('L');
+  }
+  const Frame& frame_;
+  std::uint32_t coarsest_ = 0;
+};
+
 // The borders of the cells of what moves, or, in long dashes over them, of what never does, so that
 // both can be told apart in one picture.
 bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
   const bool fitted = frame.structure == StructureKind::kd_tree && !of_static;
   bool complete = true;
+  const GridDepths depths(frame);
   Borders borders;
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
@@ -208,7 +231,7 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
       continue;
     const Box<2> cell = map.to_page(node.box);
     if (is_drawn(cell))
-      borders.add(cell, node.depth, i);
+      borders.add(cell, depths[node], i);
     else
       complete &= of_static;
   }

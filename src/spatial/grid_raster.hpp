@@ -32,7 +32,8 @@ class GridRaster {
       : bounds_(bounds), side_(side), inverse_(1 / side), open_(open) {
     for (int i = 0; i < D; ++i) {
       first_[i] = open ? -kFar : 0;
-      const double cells = std::ceil((bounds.hi[i] - bounds.lo[i]) * inverse_);
+      // A cell that only rounding makes would be too thin to see.
+      const double cells = std::ceil((bounds.hi[i] - bounds.lo[i]) * inverse_ * (1 - 1e-12));
       last_[i] = open ? kFar : std::clamp(cells - 1, 0.0, kFar);
     }
   }
