@@ -15,6 +15,7 @@
 #include "spatial/awake.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/pair_order.hpp"
+#include "spatial/query.hpp"
 #include "spatial/structure_choice.hpp"
 
 namespace lantern::spatial {
@@ -71,6 +72,7 @@ template <int D, class Structure>
 class WithIds : public Visitable<WithIds<D, Structure>, D> {
  public:
   static constexpr Zones kZones = Structure::kZones;
+  static constexpr bool kHoldsOnce = spatial::kHoldsOnce<Structure>;
 
   WithIds(const Structure& structure, std::span<const BodyId> names)
       : structure_(structure), names_(names) {}
@@ -84,6 +86,18 @@ class WithIds : public Visitable<WithIds<D, Structure>, D> {
       view.bodies = tour.ids;
       return f(std::as_const(view));
     });
+  }
+
+  // The fast ways of queries, where the structure has them.
+  template <class F>
+  auto each_near(const Box<D>& box, F&& f) const requires HasFastWays<Structure, D> {
+    return structure_.each_near(box,
+                                [&](BodyId number, bool is_sure) { f(names_[number], is_sure); });
+  }
+  template <class Limit, class F>
+  auto each_along(const Ray<D>& ray, Limit&& limit,
+                  F&& f) const requires HasFastWays<Structure, D> {
+    return structure_.each_along(ray, limit, [&](BodyId number) { f(names_[number]); });
   }
 
   Counters counters() const { return structure_.counters(); }

@@ -101,15 +101,32 @@ struct VolumeProbe {
   }
 };
 
-// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum. `box_of(id)` is the box
-// with which the body was inserted. Throws Refused for a box that is not valid, a centre that is
-// not finite and a radius that is negative or not finite.
+// A box in which the volume lies.
+template <int D>
+Box<D> box_around(const Box<D>& box) {
+  return box;
+}
+template <int D>
+Box<D> box_around(const Ball<D>& ball) {
+  Box<D> box;
+  for (int i = 0; i < D; ++i) {
+    const double center = ball.center[i];
+    const double reach = ball.radius + 1e-15 * (std::abs(center) + ball.radius);
+    box.lo[i] = center - reach;
+    box.hi[i] = center + reach;
+  }
+  return box;
+}
+
+// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum, into `found`, whose memory
+// is used again. `box_of(id)` is the box with which the body was inserted. Throws Refused for a box
+// that is not valid, a centre that is not finite and a radius that is negative or not finite.
 template <int D, template <int> class Volume, class Structure, class BoxOf,
           class Observer = NoQueryObserver>
-Found overlap_query(const Structure& structure, const Volume<D>& volume, BoxOf&& box_of,
-                    Observer&& told = {}) {
+void overlap_query_into(Found& found, const Structure& structure, const Volume<D>& volume,
+                        BoxOf&& box_of, Observer&& told = {}) {
   require_valid(volume);
-  Found found;
+  found.ids.clear();
   const auto test = [&](BodyId id) {
     if (!overlap(volume, box_of(id))) return false;
     found.ids.push_back(id);
@@ -117,8 +134,30 @@ Found overlap_query(const Structure& structure, const Volume<D>& volume, BoxOf&&
   };
   const auto enter = [](const auto&) { return true; };
   const VolumeProbe<D, Volume<D>> probe{volume};
-  found.counts = walk<D>(structure, probe, Vec<D>(0.0), enter, test, told);
+  if constexpr (HasFastWays<Structure, D> && !kIsWatched<Observer> &&
+                requires { box_around(volume); }) {
+    std::uint64_t tested = 0;
+    const auto walked = structure.each_near(box_around(volume), [&](BodyId id, bool is_sure) {
+      ++tested;
+      if (std::is_same_v<Volume<D>, Box<D>> && is_sure)
+        found.ids.push_back(id);
+      else
+        test(id);
+    });
+    found.counts = {walked.visited, walked.skipped, tested};
+  } else {
+    found.counts = walk<D>(structure, probe, Vec<D>(0.0), enter, test, told);
+  }
   std::sort(found.ids.begin(), found.ids.end());
+}
+
+// The same.
+template <int D, template <int> class Volume, class Structure, class BoxOf,
+          class Observer = NoQueryObserver>
+Found overlap_query(const Structure& structure, const Volume<D>& volume, BoxOf&& box_of,
+                    Observer&& told = {}) {
+  Found found;
+  overlap_query_into(found, structure, volume, box_of, told);
   return found;
 }
 

@@ -93,6 +93,34 @@ std::optional<RayHit> hit_of(const Ray<D>& ray, BodyId id, BoxOf& box_of, Hit& h
   return at > ray.length ? std::nullopt : std::optional(RayHit{id, at});
 }
 
+// Hits come about in order from what goes front to back: then they are put in order by moving each
+// a little; else, after too many moves, by sorting them.
+inline void sort_nearly_sorted(std::vector<RayHit>& hits) {
+  std::size_t moves = 16 * hits.size();
+  for (std::size_t i = 1; i < hits.size(); ++i) {
+    const RayHit hit = hits[i];
+    std::size_t hole = i;
+    for (; hole > 0 && moves > 0 && RayHit::before(hit, hits[hole - 1]); --hole, --moves)
+      hits[hole] = hits[hole - 1];
+    hits[hole] = hit;
+    if (moves == 0) return std::sort(hits.begin(), hits.end(), RayHit::before);
+  }
+}
+
+// The bodies that the ray may meet are asked, `test(id)`; what it enters beyond `limit()` may be
+// left out. Nobody watches.
+template <int D, class Structure, class Limit, class Test>
+QueryCounts ask_along(const Structure& structure, const Ray<D>& ray, Limit&& limit, Test&& test) {
+  QueryCounts counts;
+  const auto walked = structure.each_along(ray, limit, [&](BodyId id) {
+    ++counts.objects_tested;
+    test(id);
+  });
+  counts.nodes_visited = walked.visited;
+  counts.nodes_skipped = walked.skipped;
+  return counts;
+}
+
 }  // namespace detail
 
 // The nearest hit. `box_of(id)` is the box with which the body was inserted; `hit(id)`, if given,
@@ -112,25 +140,43 @@ NearestHit raycast_nearest(const Structure& structure, const Ray<D>& ray, BoxOf&
     if (found && (!nearest.hit || RayHit::before(*found, *nearest.hit))) nearest.hit = found;
     return found.has_value();
   };
-  nearest.counts = walk<D>(structure, RayProbe<D>{ray}, ray.direction, enter, test, told);
+  if constexpr (HasFastWays<Structure, D> && !kIsWatched<Observer>) {
+    const auto limit = [&] { return nearest.hit ? nearest.hit->distance : ray.length; };
+    nearest.counts = detail::ask_along(structure, ray, limit, test);
+  } else {
+    nearest.counts = walk<D>(structure, RayProbe<D>{ray}, ray.direction, enter, test, told);
+  }
   return nearest;
 }
 
-// All hits; else as above.
+// All hits, into `all`, whose memory is used again; else as above.
 template <int D, class Structure, class BoxOf, class Hit = BoxIsShape,
           class Observer = NoQueryObserver>
-AllHits raycast_all(const Structure& structure, const Ray<D>& ray, BoxOf&& box_of, Hit&& hit = {},
-                    Observer&& told = {}) {
+void raycast_all_into(AllHits& all, const Structure& structure, const Ray<D>& ray, BoxOf&& box_of,
+                      Hit&& hit = {}, Observer&& told = {}) {
   require_valid(ray);
-  AllHits all;
+  all.hits.clear();
   const auto enter = [](const RaySpan&) { return true; };
   const auto test = [&](BodyId id) {
     const auto found = detail::hit_of(ray, id, box_of, hit);
     if (found) all.hits.push_back(*found);
     return found.has_value();
   };
-  all.counts = walk<D>(structure, RayProbe<D>{ray}, ray.direction, enter, test, told);
-  std::sort(all.hits.begin(), all.hits.end(), RayHit::before);
+  if constexpr (HasFastWays<Structure, D> && !kIsWatched<Observer>)
+    all.counts = detail::ask_along(
+        structure, ray, [&] { return ray.length; }, test);
+  else
+    all.counts = walk<D>(structure, RayProbe<D>{ray}, ray.direction, enter, test, told);
+  detail::sort_nearly_sorted(all.hits);
+}
+
+// The same.
+template <int D, class Structure, class BoxOf, class Hit = BoxIsShape,
+          class Observer = NoQueryObserver>
+AllHits raycast_all(const Structure& structure, const Ray<D>& ray, BoxOf&& box_of, Hit&& hit = {},
+                    Observer&& told = {}) {
+  AllHits all;
+  raycast_all_into(all, structure, ray, box_of, hit, told);
   return all;
 }
 

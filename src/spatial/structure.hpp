@@ -133,6 +133,7 @@ struct StructureTraits {
   std::string_view words;       // "sort and sweep": as one would write it
   bool is_tree = true;          // else one list of all bodies
   bool meets_in_leaves = true;  // two bodies meet where they share a leaf; else by `compare`
+  bool holds_once = false;      // each body lies in one leaf, which holds no other
   bool splits = true;           // leaves above capacity, down to the depth limit
   bool is_fitted = false;       // to its bodies: built of all of them at once, stale when they move
   bool shares_array = false;    // all leaves' contents lie in one array
@@ -154,6 +155,7 @@ struct Event {
     depth_limit,  // the leaf holds `count`, more than `limit`, but lies at the depth limit, or is
                   // so small that no number lies between its bounds
     no_progress,  // the leaf holds `count`, more than `limit`, but a split would part no pair
+    rotate,       // a child of the node and the node's sibling have changed places
   };
   Kind kind{};
   NodeHandle node = 0;

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "spatial/aabb_tree.hpp"
 #include "spatial/brute_force.hpp"
 #include "spatial/bsp.hpp"
 #include "spatial/flat_quadtree.hpp"
@@ -45,7 +46,8 @@ using OctreeIn = std::conditional_t<D == 3, Octree, NoOctree>;
   KIND(bsp, Bsp)                          \
   KIND(kd_tree, KdTree)                   \
   KIND(lecture_quadtree, LectureQuadtree) \
-  KIND(grid, Grid)
+  KIND(grid, Grid)                        \
+  KIND(aabb_tree, AabbTree)
 
 enum class StructureKind {
   none,       // nobody asks for one

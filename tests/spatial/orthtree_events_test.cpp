@@ -60,6 +60,9 @@ class Witness {
       case Kind::test:
       case Kind::miss:
         break;
+      case Kind::rotate:
+        ADD_FAILURE() << "an orthtree turns nothing";
+        break;
     }
   }
 

@@ -49,12 +49,15 @@ class Scene {
                   .open = random_.bits() % 2 == 0});
     grid.build(items_);
     KdTree<D> kd({config.capacity, config.max_depth});
+    AabbTree<D> built(random_.between(0, 1)), inserted;
+    built.build(items_);
     kd.build(items_);
     for (const Item<D>& item : items_) {
       orthtree.insert(item);
       bsp.insert(item);
       brute.insert(item);
       sweep.insert(item);
+      inserted.insert(item);
     }
     f(orthtree, "orthtree");
     f(bsp, "bsp");
@@ -62,6 +65,8 @@ class Scene {
     f(sweep, "sort and sweep");
     f(kd, "kd-tree");
     f(grid, "grid");
+    f(built, "AABB tree");
+    f(inserted, "AABB tree, one by one");
     if constexpr (D == 3) {
       FlatQuadtree flat({.bounds = config.bounds,
                          .capacity = config.capacity,

@@ -1,0 +1,358 @@
+#include "spatial/aabb_tree.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "spatial/broad_phase.hpp"
+#include "spatial/overlap_query.hpp"
+#include "spatial/raycast.hpp"
+#include "spatial/worlds.hpp"
+
+namespace lantern::spatial {
+namespace {
+
+using testing::kSorts;
+using testing::Sort;
+
+// Numbered from 0, as `update` wants them.
+template <int D>
+std::vector<Item<D>> numbered_world(Sort sort, std::size_t bodies, Random& random) {
+  std::vector<Item<D>> items;
+  for (std::size_t i = 0; i < bodies; ++i)
+    items.push_back({static_cast<BodyId>(i), testing::random_box<D>(sort, random)});
+  return items;
+}
+
+template <int D>
+bool holds(const Box<D>& outer, const Box<D>& inner) {
+  return united(outer, inner) == outer;
+}
+
+// Each body in one leaf whose box holds it, each inner node the smallest box around two children,
+// handles without gaps.
+template <int D>
+void expect_sound(const AabbTree<D>& tree, const std::vector<Item<D>>& items) {
+  struct Seen {
+    Box<D> box, around;
+    bool leaf = true;
+    int children = 0;
+  };
+  std::vector<Seen> nodes;
+  std::set<BodyId> bodies;
+  std::set<NodeHandle> handles;
+  std::uint64_t deepest = 0;
+  tree.visit([&](const NodeView<D>& view) {
+    handles.insert(view.handle);
+    deepest = std::max<std::uint64_t>(deepest, view.depth);
+    nodes.push_back({view.box, view.box, view.leaf});
+    EXPECT_EQ(view.bodies.size(), view.leaf && !items.empty() ? 1u : 0u);
+    for (const BodyId id : view.bodies) {
+      EXPECT_TRUE(bodies.insert(id).second) << id << " lies in two leaves";
+      EXPECT_TRUE(holds(view.box, testing::box_of(items, id)));
+    }
+    if (view.parent == kNone) return true;
+    Seen& parent = nodes[view.parent];
+    parent.around = parent.children++ == 0 ? view.box : united(parent.around, view.box);
+    return true;
+  });
+  for (const Seen& node : nodes) {
+    EXPECT_EQ(node.children, node.leaf ? 0 : 2);
+    EXPECT_EQ(node.around, node.box) << "not the smallest box around its children";
+  }
+  EXPECT_EQ(bodies.size(), items.size());
+  const Counters c = tree.counters();
+  EXPECT_EQ(c.nodes, nodes.size());
+  EXPECT_EQ(c.nodes, std::max<std::size_t>(2 * items.size(), 2) - 1);
+  EXPECT_EQ(handles.size(), nodes.size());
+  EXPECT_EQ(*handles.rbegin(), nodes.size() - 1) << "handles have gaps";
+  EXPECT_EQ(c.entries, items.size());
+  EXPECT_EQ(c.depth, deepest);
+  EXPECT_LE(c.depth, AabbTree<D>::kHighest);
+}
+
+template <int D>
+std::vector<Pair> paired(AabbTree<D>& tree, const std::vector<Item<D>>& exact) {
+  FoundPairs found;
+  tree.pair(exact, found);
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    pairs.push_back({std::min(found.first()[i], found.second()[i]),
+                     std::max(found.first()[i], found.second()[i])});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+// Pairs, boxes, balls and rays, as if each body had been asked.
+template <int D>
+void expect_finds_all(AabbTree<D>& tree, const std::vector<Item<D>>& items, Sort sort,
+                      Random& random) {
+  EXPECT_EQ(paired(tree, items), testing::true_overlaps(items));
+  std::set<Pair> compared;
+  const std::uint64_t count =
+      tree.compare([](BodyId) { return true; },
+                   [&](const Item<D>& a, const Item<D>& b) {
+                     compared.insert({std::min(a.id, b.id), std::max(a.id, b.id)});
+                   });
+  EXPECT_EQ(compared.size(), count) << "a pair was compared twice";
+  for (const Pair& pair : testing::true_overlaps(items)) EXPECT_TRUE(compared.contains(pair));
+  BruteForce<D> force;
+  for (const Item<D>& item : items) force.insert(item);
+  const auto box_of = [&](BodyId id) { return items[id].box; };
+  const auto point = [&] {
+    return testing::bounds_of<D>(sort).lo + random_point<D>(random, -20, 84);
+  };
+  for (int i = 0; i < 4; ++i) {
+    const Box<D> box = testing::random_box<D>(sort, random);
+    EXPECT_EQ(overlap_query<D>(tree, box, box_of).ids, overlap_query<D>(force, box, box_of).ids);
+    const Ball<D> ball{point(), random.between(0, 20)};
+    EXPECT_EQ(overlap_query<D>(tree, ball, box_of).ids, overlap_query<D>(force, ball, box_of).ids);
+    Ray<D> ray{point(), random_point<D>(random, -1, 1), random.between(0, 90)};
+    if (i % 3 == 0) ray.direction[0] = 0;
+    if (i % 4 == 1) ray.length = std::numeric_limits<double>::infinity();
+    if (i % 4 == 3) ray.direction[1] = 1e-310;
+    if (i == 2) ray.direction = point() - ray.origin;
+    if (ray.direction == Vec<D>(0.0)) ray.direction[D - 1] = 1;
+    EXPECT_EQ(raycast_all<D>(tree, ray, box_of).hits, raycast_all<D>(force, ray, box_of).hits);
+    EXPECT_EQ(raycast_nearest<D>(tree, ray, box_of).hit,
+              raycast_nearest<D>(force, ray, box_of).hit);
+  }
+}
+
+template <int D>
+void built_inserted_and_updated_trees_find_the_same() {
+  for (const Sort sort : kSorts)
+    for (const double margin : {0.0, 0.3, 1e4})
+      for (const std::size_t bodies : {0, 1, 2, 9, 40}) {
+        SCOPED_TRACE(::testing::Message() << D << "D, sort " << static_cast<int>(sort)
+                                          << ", margin " << margin << ", " << bodies << " bodies");
+        Random random(bodies + static_cast<std::uint64_t>(sort));
+        auto items = numbered_world<D>(sort, bodies, random);
+        AabbTree<D> built(margin), inserted(margin);
+        built.build(items);
+        for (const Item<D>& item : items) inserted.insert(item);
+        for (int step = 0; step < 3; ++step) {
+          for (AabbTree<D>* tree : {&built, &inserted}) {
+            expect_sound(*tree, items);
+            expect_finds_all(*tree, items, sort, random);
+          }
+          for (Item<D>& item : items)
+            if (step == 1 || random.whole(0, 80) == 0)
+              item.box = testing::random_box<D>(sort, random);
+          built.update(items);
+          inserted.update(items);
+        }
+      }
+}
+
+TEST(AabbTree, BuiltInsertedAndUpdatedTreesFindTheSameIn2d) {
+  built_inserted_and_updated_trees_find_the_same<2>();
+}
+TEST(AabbTree, BuiltInsertedAndUpdatedTreesFindTheSameIn3d) {
+  built_inserted_and_updated_trees_find_the_same<3>();
+}
+
+// One in a hundred leaves its enlarged box at each step: it is taken out and put back.
+TEST(AabbTree, FollowsAFewThatLeaveTheirBoxes) {
+  Random random(4);
+  auto items = numbered_world<2>(Sort::uniform, 150, random);
+  AabbTree<2> tree(0.5);
+  tree.build(items);
+  for (int step = 0; step < 10; ++step) {
+    for (Item<2>& item : items) {
+      const double far = random.whole(0, 99) == 0 ? 20 : 0.01;
+      const Vec<2> by = random_point<2>(random, -far, far);
+      item.box = {item.box.lo + by, item.box.hi + by};
+    }
+    tree.update(items);
+    expect_sound(tree, items);
+    EXPECT_EQ(paired(tree, items), testing::true_overlaps(items)) << "step " << step;
+  }
+}
+
+TEST(AabbTree, AMoveWithinTheEnlargedBoxChangesNothing) {
+  Random random(5);
+  auto items = numbered_world<2>(Sort::uniform, 50, random);
+  AabbTree<2> tree(1);
+  tree.build(items);
+  const auto boxes = [&] {
+    std::vector<Box<2>> all;
+    tree.visit([&](const NodeView<2>& view) { return all.push_back(view.box), true; });
+    return all;
+  };
+  const auto before = boxes();
+  for (Item<2>& item : items) item.box = {item.box.lo + 0.9, item.box.hi + 0.9};
+  tree.update(items);
+  EXPECT_EQ(boxes(), before);
+  EXPECT_EQ(paired(tree, items), testing::true_overlaps(items));
+  for (Item<2>& item : items) item.box = {item.box.lo + 0.9, item.box.hi + 0.9};
+  tree.update(items);
+  EXPECT_NE(boxes(), before);
+}
+
+TEST(AabbTree, DoesNotDependOnTheOrderInWhichItIsBuilt) {
+  Random random(6);
+  for (const Sort sort : kSorts) {
+    auto items = testing::random_world<3>(sort, 90, random);
+    AabbTree<3> tree, other;
+    tree.build(items);
+    testing::shuffle(items, random);
+    other.build(items);
+    const auto seen = [](const AabbTree<3>& t) {
+      std::vector<std::pair<Box<3>, BodyId>> all;
+      t.visit([&](const NodeView<3>& v) {
+        all.emplace_back(v.box, v.bodies.empty() ? kNone : v.bodies[0]);
+        return true;
+      });
+      return all;
+    };
+    EXPECT_EQ(seen(tree), seen(other)) << "sort " << static_cast<int>(sort);
+  }
+}
+
+// Boxes within boxes, each pair of which grows least as a chain; and all the same.
+TEST(AabbTree, StaysLow) {
+  std::vector<Item<2>> nested, same;
+  for (BodyId i = 0; i < 700; ++i) {
+    nested.push_back({i, Box<2>::around(Vec<2>(0.0), Vec<2>(1.0 + i))});
+    same.push_back({i, Box<2>::around(Vec<2>(5.0), Vec<2>(1.0))});
+  }
+  for (const auto* items : {&nested, &same}) {
+    AabbTree<2> built, inserted;
+    built.build(*items);
+    for (const Item<2>& item : *items) inserted.insert(item);
+    EXPECT_LE(built.counters().depth, 18u);
+    expect_sound(inserted, *items);
+    EXPECT_LE(inserted.counters().depth, items == &same ? 24u : AabbTree<2>::kHighest);
+  }
+}
+
+// Beyond float, and so far apart that the distance is: no number of the rule of cuts is lost.
+TEST(AabbTree, HoldsWhatFloatCannot) {
+  std::vector<Item<2>> items;
+  for (BodyId i = 0; i < 40; ++i) {
+    const double at = (i % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, 30.0 + 6.0 * i);
+    items.push_back({i, {Vec<2>(at), Vec<2>(at)}});
+    if (i % 4 == 3) items.back().box = {Vec<2>(-1e300), Vec<2>(1e300)};
+  }
+  AabbTree<2> tree, inserted;
+  tree.build(items);
+  for (const Item<2>& item : items) inserted.insert(item);
+  for (AabbTree<2>* each : {&tree, &inserted})
+    EXPECT_EQ(paired(*each, items), testing::true_overlaps(items));
+}
+
+// Two far apart, then one beside each: each comes to its neighbour, not to the root.
+TEST(AabbTree, ABodyComesToTheNeighbourWithWhichBoxesGrowLeast) {
+  AabbTree<2> tree;
+  std::vector<Event::Kind> told;
+  const auto watch = [&](const Event& event) { told.push_back(event.kind); };
+  const auto unit_at = [](double x) { return Box<2>::around({x, 0}, Vec<2>(0.5)); };
+  tree.insert({0, unit_at(0)}, watch);
+  EXPECT_EQ(told, std::vector{Event::Kind::store});
+  told.clear();
+  tree.insert({1, unit_at(100)}, watch);
+  EXPECT_EQ(told, (std::vector{Event::Kind::test, Event::Kind::split, Event::Kind::store}));
+  tree.insert({2, unit_at(99)});
+  tree.insert({3, unit_at(1)});
+  std::map<BodyId, std::uint32_t> parent;
+  tree.visit([&](const NodeView<2>& view) {
+    for (const BodyId id : view.bodies) parent[id] = view.parent;
+    return true;
+  });
+  EXPECT_EQ(parent[0], parent[3]);
+  EXPECT_EQ(parent[1], parent[2]);
+  EXPECT_NE(parent[0], parent[1]);
+}
+
+TEST(AabbTree, RotationsMakeItBetter) {
+  Random random(8);
+  AabbTree<2> tree;
+  std::uint64_t rotations = 0;
+  double area = 0, least = 0;
+  const auto watch = [&](const Event& event) {
+    double now = 0;
+    tree.visit([&](const NodeView<2>& view) {
+      now += view.leaf ? 0 : view.box.size().x + view.box.size().y;
+      return true;
+    });
+    if (event.kind == Event::Kind::rotate) {
+      ++rotations;
+      EXPECT_LT(now, area) << "a rotation must shrink a box";
+    }
+    area = now;
+    least = std::max(least, now);
+  };
+  for (const Item<2>& item : testing::random_world<2>(Sort::uniform, 60, random))
+    tree.insert(item, watch);
+  EXPECT_GT(rotations, 5u);
+}
+
+TEST(AabbTree, RefusesWhatItCannotHold) {
+  EXPECT_THROW(AabbTree<2>(-1.0), Refused);
+  EXPECT_THROW(AabbTree<2>(std::numeric_limits<double>::quiet_NaN()), Refused);
+  EXPECT_THROW(AabbTree<3>(std::numeric_limits<double>::infinity()), Refused);
+  AabbTree<2> tree;
+  const std::vector<Item<2>> good = {{0, {{0, 0}, {1, 1}}}, {1, {{2, 0}, {3, 1}}}};
+  tree.build(good);
+  std::vector<Item<2>> bad = good;
+  bad[1].box.hi.x = 1;
+  EXPECT_THROW(tree.build(bad), Refused);
+  EXPECT_THROW(tree.update(bad), Refused);
+  EXPECT_THROW(tree.insert(bad[1]), Refused);
+  expect_sound(tree, good);
+}
+
+TEST(AabbTree, WhatIsUpdatedWithOtherBodiesIsBuiltAnew) {
+  Random random(9);
+  AabbTree<2> tree;
+  tree.build(numbered_world<2>(Sort::uniform, 20, random));
+  const auto more = numbered_world<2>(Sort::uniform, 25, random);
+  tree.update(more);
+  expect_sound(tree, more);
+  const auto strangers = testing::random_world<2>(Sort::uniform, 25, random);
+  tree.update(strangers);
+  expect_sound(tree, strangers);
+  tree.update({});
+  expect_sound(tree, {});
+}
+
+TEST(AabbTree, NodesAreSmall) {
+  EXPECT_EQ(sizeof(AabbNode<2>), 24u);
+  EXPECT_EQ(sizeof(AabbNode<3>), 32u);
+}
+
+// Found through the broad phase, by names, with and without an observer.
+TEST(AabbTree, WhoWatchesFindsTheSame) {
+  Random random(10);
+  BroadPhaseConfig<3> config;
+  config.kind = StructureKind::aabb_tree;
+  config.split_static = false;
+  config.margin = 0.2;
+  BroadPhase<3> phase(config);
+  std::vector<Proxy<3>> proxies;
+  for (BodyId id = 0; id < 80; ++id)
+    proxies.push_back({7 * id + 3, testing::random_box<3>(Sort::uniform, random)});
+  phase.update(proxies);
+  const auto box_of = [&](BodyId id) { return proxies[id / 7].box; };
+  phase.with_dynamic([&](const auto& tree) {
+    for (int i = 0; i < 20; ++i) {
+      const Ray<3> ray{random_point<3>(random, 0, 64), random_point<3>(random, -1, 1)};
+      std::uint64_t tests = 0;
+      const auto watch = [&](const QueryEvent& e) { tests += e.kind == QueryEvent::Kind::test; };
+      const AllHits watched = raycast_all<3>(tree, ray, box_of, BoxIsShape{}, watch);
+      const AllHits all = raycast_all<3>(tree, ray, box_of);
+      EXPECT_EQ(all.hits, watched.hits);
+      EXPECT_EQ(watched.counts.objects_tested, tests);
+      EXPECT_GE(all.counts.objects_tested, all.hits.size());
+      const Box<3> box = testing::random_box<3>(Sort::uniform, random);
+      EXPECT_EQ(overlap_query<3>(tree, box, box_of).ids,
+                overlap_query<3>(tree, box, box_of, [](const QueryEvent&) {}).ids);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace lantern::spatial
