@@ -21,10 +21,15 @@ double line_width(std::uint32_t depth) {
   return depth < 6 ? kWidths[depth] : 1.0;
 }
 
-// How many children cover their parent without a gap; the fitted boxes of a kD-tree never do.
+// Nodes' boxes are fitted to bodies, the root's, too.
+bool is_fitted(StructureKind kind) {
+  return kind == StructureKind::kd_tree || kind == StructureKind::aabb_tree;
+}
+
+// How many children cover their parent without a gap; fitted boxes never do.
 std::size_t children_that_cover(StructureKind kind) {
   // Nor do a grid's levels and buckets.
-  if (kind == StructureKind::kd_tree || kind == StructureKind::grid) return ~std::size_t{0};
+  if (is_fitted(kind) || kind == StructureKind::grid) return ~std::size_t{0};
   return kind == StructureKind::bsp ? 2 : 4;
 }
 
@@ -219,7 +224,7 @@ class GridDepths {
 // The borders of the cells of what moves, or, in long dashes over them, of what never does, so that
 // both can be told apart in one picture.
 bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
-  const bool fitted = frame.structure == StructureKind::kd_tree && !of_static;
+  const bool fitted = is_fitted(frame.structure) && !of_static;
   bool complete = true;
   const GridDepths depths(frame);
   Borders borders;

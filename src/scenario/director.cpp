@@ -44,10 +44,12 @@ void ScriptRun::witness(const Event& event) {
   Touched now = frames.touched;
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
   const StructureTraits traits = traits_of(structure.kind);
-  const std::string text = traits.is_tree
-                               ? event_text(event, engine().label_of(event.node),
-                                            name_of(event.body), structure.max_depth)
-                               : list_event_text(event, traits.words, name_of(event.body));
+  const std::string body = name_of(event.body);
+  const auto node = [&] { return engine().label_of(event.node); };
+  const std::string text = !traits.is_tree ? list_event_text(event, traits.words, body)
+                           : traits.holds_once
+                               ? fitting_event_text(event, node(), body)
+                               : event_text(event, node(), body, structure.max_depth);
   frames.emit(now, event_name(event.kind), text, event.body);
 }
 

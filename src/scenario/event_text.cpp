@@ -18,8 +18,9 @@ std::string capitalised(std::string text) {
 }  // namespace
 
 std::string_view event_name(Event::Kind kind) {
-  static constexpr std::string_view kNames[] = {"test",  "miss",      "make_child",  "store",
-                                                "split", "hand_down", "depth_limit", "no_progress"};
+  static constexpr std::string_view kNames[] = {"test",        "miss",        "make_child",
+                                                "store",       "split",       "hand_down",
+                                                "depth_limit", "no_progress", "rotate"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -60,8 +61,33 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
           "{} holds {}, its limit is {}. But all share one point, so a split would separate no "
           "pair.",
           name, e.count, e.limit);
+    case Event::Kind::rotate:
+      return fitting_event_text(e, node, body);
   }
   return {};
+}
+
+std::string fitting_event_text(const Event& e, const std::string& node, const std::string& body) {
+  const std::string place = place_of(node);
+  const std::string name = capitalised(place);
+  switch (e.kind) {
+    case Event::Kind::test:
+      return fmt::format("{} comes to {}: with it the boxes on the way down grow least.",
+                         capitalised(body), place);
+    case Event::Kind::miss:
+      return fmt::format("{} would grow more by {}: it is left out.", name, body);
+    case Event::Kind::store:
+      return fmt::format("{} is the leaf of {}.", name, body);
+    case Event::Kind::split:
+      return fmt::format("A new node takes the place of {}: it holds what was there, and {}.",
+                         place, body);
+    case Event::Kind::rotate:
+      return fmt::format(
+          "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
+          place, place);
+    default:
+      return event_text(e, node, body, 0);
+  }
 }
 
 std::string list_event_text(const Event& e, std::string_view structure, const std::string& body) {

@@ -20,6 +20,10 @@ std::string event_text(const Event& event, const std::string& node, const std::s
 std::string event_text(const AtlasEvent& event, const std::string& node, const std::string& texture,
                        int width, int height);
 
+// The same of a tree that has a leaf for each body, and fits its boxes to them.
+std::string fitting_event_text(const Event& event, const std::string& node,
+                               const std::string& body);
+
 // The same of a structure that is no tree, but one list of all bodies.
 std::string list_event_text(const Event& event, std::string_view structure,
                             const std::string& body);

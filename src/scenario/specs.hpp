@@ -86,6 +86,7 @@ struct StructureSpec {
   double cell = 0;                // of a grid: side of the smallest cells; 0: what suits its bodies
   std::uint32_t levels = 1;       // of a grid
   bool open = false;              // of a grid
+  double margin = 0;              // aabb_tree only
   std::vector<PlaneSpec> planes;  // bsp only; a plane's parent stands before it
   std::string why;                // the kind, if it was left to the bodies
   SourcePosition where;

@@ -64,6 +64,11 @@ std::string settings_text(const StructureSpec& s, int sweep_axis) {
     return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
                        split);
   if (s.kind == StructureKind::grid) return grid_text(s) + split;
+  if (s.kind == StructureKind::aabb_tree)
+    return fmt::format("a leaf for each body, {}{}",
+                       s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin)
+                                    : "boxes not enlarged",
+                       split);
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
   if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
@@ -244,6 +249,7 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
   config.max_depth = spec.max_depth;
   config.eager_children = spec.children == Children::eager;
   config.no_progress_stop = spec.no_progress_stop;
+  config.margin = spec.margin;
   config.planes = planes_of<D>(spec);
   config.cell = spec.cell;
   config.levels = spec.levels;

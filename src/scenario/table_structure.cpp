@@ -67,6 +67,10 @@ void check_kind(const TableReader& table, const StructureSpec& s, const Draft& d
     table.bad_key("planes",
                   fmt::format("a structure of kind '{}' has no planes", to_string(s.kind)),
                   "only kind = \"bsp\" has");
+  if (table.has("margin") && s.margin > 0 && s.kind != StructureKind::aabb_tree)
+    table.bad_key("margin",
+                  fmt::format("a structure of kind '{}' has no margin", to_string(s.kind)),
+                  "only kind = \"aabb_tree\" has");
   if (!table.has("planes") && s.kind == StructureKind::bsp && s.planes.empty())
     table.bad_value("kind", "a bsp needs the lines that divide it",
                     draft.dimension == 3
@@ -91,9 +95,10 @@ TableDoc structure_table() {
           "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a `quadtree` "
           "cuts a 3D world along x and z, an `octree` along all three; `lecture_quadtree` is the "
           "lecture's own code, which makes all children at a split and has no stop but the depth "
-          "limit; a `grid` has equal cells; `auto` takes what suits the bodies as the file places "
-          "them, and `explain` says why. A program may be given structures of a user's own, by "
-          "their names "
+          "limit; a `grid` has equal cells; an `aabb_tree` has a leaf for each body and the smallest "
+          "box around what lies below each node, and goes on from where its bodies were; `auto` "
+          "takes what suits the bodies as the file places them, and `explain` says why. A program "
+          "may be given structures of a user's own, by their names "
           "(`src/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
           must(), advising("for a structure of your own see src/spatial/own_structure.hpp")),
       key(&S::capacity, "capacity", "A leaf that holds more splits, if depth is left.",
@@ -119,6 +124,10 @@ TableDoc structure_table() {
       key(&S::open, "open",
           "A grid without a rim, for a world without end: its cells are hashed into buckets. Else "
           "bodies outside of the world are in the cells at its rim."),
+      key(&S::margin, "margin",
+          "Of an `aabb_tree`: its leaves' boxes are larger than their bodies' by this on every "
+          "side. A body that moves within its enlarged box changes nothing in the tree.",
+          range(0, kFar)),
       key(KeyType::tables, "planes", "A BSP's dividing lines or planes.", at_most(255),
           holds("structure.planes")),
   };

@@ -9,7 +9,7 @@ TableDoc Insert::table() {
   return {.doc = "Bodies enter the world and the structure, one after another.",
           .keys = {bodies_key(), pace_key(),
                    events_key({"test", "miss", "make_child", "store", "split", "hand_down",
-                               "depth_limit", "no_progress"})},
+                               "depth_limit", "no_progress", "rotate"})},
           .example = R"([[step]]
 do = "insert"
 bodies = ["blue"]

@@ -49,7 +49,7 @@ class Rules {
 
 bool is_midst_of_insertion(const Frame& frame) {
   static const std::set<std::string> kEvents = {"split",      "store",       "test",       "miss",
-                                                "make_child", "depth_limit", "no_progress"};
+                                                "make_child", "depth_limit", "no_progress", "rotate"};
   return frame.event == "hand_down" || kEvents.contains(frame.event);
 }
 

@@ -645,6 +645,7 @@ std::vector<KeyCase> key_cases() {
       {"structure", "cell", {"0", "0.5", "1e9"}, bad_number("-1", "1.1e9")},
       {"structure", "levels", {"1", "16"}, bad_whole("0", "17", "1 to 16")},
       {"structure", "open", {"true", "false"}, bad_truth()},
+      {"structure", "margin", {"0"}, bad_number("-1", "1.1e9")},
       {"structure", "planes", {}, planes},
       {"structure.planes", "name", {"\"\"", "\"net\""}, bad_text("0 to 24", 24)},
       {"structure.planes", "point", points, bad_point()},

@@ -335,6 +335,7 @@ TEST(Mistakes, OfSettingsThatAStructureHasNot) {
   const std::string show = "[[step]]\ndo = \"show\"\n";
   expect_mistakes(scene + "@capacity = 2\n@max_depth = 3\n" + show,
                   {"'sort_and_sweep' has no 'capacity'", "has no 'max_depth'"});
+  expect_mistakes(scene + "@margin = 0.5\n" + show, {"has no margin"});
   good(scene + "capacity = 2\n" + show + "[[step]]\ndo = \"rebuild\"\nkind = \"quadtree\"\n");
   expect_mistakes(scene + "@cell = 2\n@levels = 3\n@open = true\n" + show,
                   {"'sort_and_sweep' has no 'cell'", "no 'levels'", "no 'open'"});

@@ -98,7 +98,8 @@ class Chain {
   bool reaches(const Box<3>& box, const FrameNode& leaf) const {
     const FrameNode* root = &leaf;
     while (root->parent != kNone) root = &frame_.nodes[root->parent];
-    if (frame_.structure == StructureKind::kd_tree) return overlap(box, leaf.box);
+    if (frame_.structure == StructureKind::kd_tree || frame_.structure == StructureKind::aabb_tree)
+      return overlap(box, leaf.box);
     return overlap(box, endless_at_rim(leaf.box, root->box));
   }
 
