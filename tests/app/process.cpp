@@ -34,10 +34,11 @@ Outcome shell(const std::string& command) {
   if (::mkdtemp(base) == nullptr) return {};
   const fs::path folder = base;
   // Under the address sanitizer: Mesa keeps some memory until the process ends, which is no leak of
-  // ours; the other rooms' tests look for leaks.
-  const std::string script = "export ASAN_OPTIONS=detect_leaks=0\nlantern() { " LANTERN_BINARY
-                             " \"$@\"; }\n" +
-                             command + "\n";
+  // ours; the other rooms' tests look for leaks. The rest as in tests/CMakeLists.txt.
+  const std::string script =
+      "export ASAN_OPTIONS=detect_leaks=0:malloc_context_size=5:"
+      "quarantine_size_mb=32\nlantern() { " LANTERN_BINARY " \"$@\"; }\n" +
+      command + "\n";
   write_text(folder / "script", script);
   const std::string line = "sh " + (folder / "script").string() + " >" + (folder / "out").string() +
                            " 2>" + (folder / "err").string() + " </dev/null";
