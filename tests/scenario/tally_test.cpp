@@ -230,7 +230,12 @@ void expect_sum_of_sides(const DryRun& run) {
 }
 
 TEST(Tally, IsWhatTheCountersSayOfEveryScenarioAndProblem) {
-  const std::vector<std::string> files = all_files();
+  std::vector<std::string> files = all_files();
+#ifdef __SANITIZE_ADDRESS__
+  // More of the same, and half of the time of all.
+  for (const char* more : {"pyramid_stiff", "pile_solid", "chain_extreme"})
+    EXPECT_EQ(std::erase(files, std::string("problems/") + more), 1u) << more;
+#endif
   EXPECT_GT(files.size(), 80u);
   for (const std::string& file : files) {
     SCOPED_TRACE(file);
