@@ -55,7 +55,7 @@ using Way = std::pair<const char*, std::map<std::string, std::string>>;
 class SameBytes : public testing::TestWithParam<Way> {};
 
 TEST_P(SameBytes, AsInThisProcess) {
-  const std::string expected = pictures(Backend::osmesa);
+  static const std::string expected = pictures(Backend::osmesa);
   const std::string actual = pictures_in_new_process(GetParam().first, GetParam().second);
   ASSERT_EQ(actual.size(), expected.size());
   std::size_t differing = 0;
@@ -63,8 +63,10 @@ TEST_P(SameBytes, AsInThisProcess) {
   EXPECT_EQ(differing, 0u) << "channels differ: golden images would hold on one machine only";
 }
 
+// The rest is Mesa's own work, which the sanitizers do not watch: the release build draws so.
 const Way kWays[] = {
     {"egl", {}},
+#ifndef __SANITIZE_ADDRESS__
     {"osmesa", {{"LP_NUM_THREADS", "0"}}},
     {"osmesa", {{"LP_NUM_THREADS", "1"}}},
     {"osmesa", {{"LP_NUM_THREADS", "2"}}},
@@ -74,6 +76,7 @@ const Way kWays[] = {
     {"osmesa", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx2"}}},
     {"egl", {{"GALLIUM_OVERRIDE_CPU_CAPS", "sse2"}}},
     {"osmesa", {{"LP_NATIVE_VECTOR_WIDTH", "128"}}},
+#endif
 };
 
 std::string way_name(const testing::TestParamInfo<Way>& info) {
