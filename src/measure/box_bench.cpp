@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "measure/box_stage_bench.hpp"
+#include "measure/box_truth.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -17,15 +18,14 @@ class Bench {
  public:
   Bench(BoxBenchResult& result, const BoxBenchWatch& watch)
       : result_(result), config_(result.config), watch_(watch) {
+    if (config_.own)
+      own_ = BoxStage{config_.own->name, BoxTask::pairs, *config_.own, Questions<2>{}};
     gather();
     require_room();
   }
 
   void run() {
-    if (config_.own) {
-      BoxStage stage{config_.own->name, BoxTask::pairs, *config_.own, Questions<2>{}};
-      return run(stage, nullptr);
-    }
+    if (own_) return run(*own_, nullptr);
     for (const BoxWorkload* workload : config_.workloads)
       for (const std::uint64_t bodies : bodies_of(*workload))
         run(stage_of(*workload, bodies, config_.seed), workload);
@@ -87,39 +87,46 @@ class Bench {
   }
 
   void require_room() const {
-    if (config_.own) return;
+    if (own_) {
+      const std::size_t part = own_->bodies() / 2000 + 1;
+      const auto sampled = BoxTruth(thinned(*own_, part), 0).judge({}).missed;
+      const auto share = static_cast<double>(part);
+      return require_room(own_->workload, own_->bodies(),
+                          static_cast<double>(sampled) * share * share);
+    }
     for (const BoxWorkload* workload : config_.workloads)
-      for (const std::uint64_t bodies : bodies_of(*workload)) {
-        const double pairs = bodies < 8 ? 0 : pairs_of(*workload, bodies);
-        const std::string what =
-            fmt::format("{} with {} bodies and about {:.2g} pairs", workload->name, bodies, pairs);
-        const double most = static_cast<double>(BroadPhaseConfig<2>().most_pairs);
-        if (pairs > most)
-          throw Refused(
-              fmt::format("{}: the limit is {:.2g} pairs; take fewer bodies", what, most));
-        const double n = static_cast<double>(bodies), runs = static_cast<double>(all_.size() + 1);
-        const double bytes =
-            64 * n * static_cast<double>(frames_for(bodies)) + runs * (500 * n + 40 * pairs);
-        require_memory(static_cast<std::uint64_t>(bytes), what,
-                       "take fewer bodies, or some of the contestants with --only");
-      }
+      for (const std::uint64_t bodies : bodies_of(*workload))
+        require_room(workload->name, bodies, bodies < 8 ? 0 : pairs_of(*workload, bodies));
+  }
+
+  void require_room(std::string_view name, std::uint64_t bodies, double pairs) const {
+    const std::string what =
+        fmt::format("{} with {} bodies and about {:.2g} pairs", name, bodies, pairs);
+    const auto most = static_cast<double>(BroadPhaseConfig<2>().most_pairs);
+    if (pairs > most)
+      throw Refused(fmt::format("{}: the limit is {:.2g} pairs; take fewer bodies", what, most));
+    const auto n = static_cast<double>(bodies), runs = static_cast<double>(all_.size() + 1);
+    const double bytes =
+        64 * n * static_cast<double>(frames_for(bodies)) + runs * (500 * n + 40 * pairs);
+    require_memory(static_cast<std::uint64_t>(bytes), what,
+                   "take fewer bodies, or some of the contestants with --only");
   }
 
   // Felt for on worlds an eighth and a 64th as large: the seconds that a step would take.
   std::optional<std::string> too_slow(const BoxContestant& who, const BoxStage& stage,
                                       std::vector<BoxStage>& smaller,
                                       const BoxWorkload* workload) const {
-    if (stage.bodies() <= 8000 || workload == nullptr) return std::nullopt;
+    if (stage.bodies() <= 8000) return std::nullopt;
     if (smaller.empty())
       for (const std::size_t part : {64, 8})
-        smaller.push_back(stage_of(*workload, stage.bodies() / part, config_.seed));
+        smaller.push_back(workload ? stage_of(*workload, stage.bodies() / part, config_.seed)
+                                   : thinned(stage, part));
     double last = 0, growth = 8;
     for (const BoxStage& one : smaller) {
       const double now = tried(who, one, who.likely(one));
       if (last > 0) growth = std::clamp(now / last, 8.0, 80.0);
       last = now;
-      const double expected =
-          now * std::pow(&one == &smaller.back() ? growth : 8.0, &one == &smaller.back() ? 1 : 2);
+      const double expected = now * (&one == &smaller.back() ? growth : 64);
       if (expected > config_.longest)
         return fmt::format("a step would take about {:.2g} s", expected);
     }
@@ -157,6 +164,7 @@ class Bench {
   BoxBenchResult& result_;
   const BoxBenchConfig& config_;
   const BoxBenchWatch& watch_;
+  std::optional<BoxStage> own_;  // of a user's own boxes
   std::vector<std::unique_ptr<BoxContestant>> all_;
   StageBench::Known known_;
   std::size_t stage_number_ = 0;

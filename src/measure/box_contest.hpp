@@ -34,6 +34,8 @@ struct BoxStage {
   std::size_t frames() const;
 };
 BoxStage stage_of(const BoxWorkload& workload, std::size_t bodies, std::uint64_t seed);
+// The first frame of a stage of pairs, with only each `part`-th of its boxes.
+BoxStage thinned(const BoxStage& stage, std::size_t part);
 
 // How many questions one step asks.
 inline constexpr std::size_t kQuestions = 400;

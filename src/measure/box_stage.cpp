@@ -20,6 +20,16 @@ Questions<D> random_questions(const Box<D>& bounds, std::uint64_t seed) {
   return all;
 }
 
+template <int D>
+BoxUpdates<D> each(const BoxUpdates<D>& all, std::size_t part) {
+  BoxUpdates<D> few{all.bounds, {{}}};
+  for (std::size_t i = 0; i < all.frames[0].size(); i += part) {
+    few.frames[0].push_back(all.frames[0][i]);
+    few.frames[0].back().id = static_cast<BodyId>(i / part);
+  }
+  return few;
+}
+
 }  // namespace
 
 std::size_t BoxStage::bodies() const {
@@ -39,6 +49,12 @@ BoxStage stage_of(const BoxWorkload& workload, std::size_t bodies, std::uint64_t
   else
     stage.questions = random_questions(std::get<BoxUpdates<3>>(stage.scene.boxes).bounds, seed);
   return stage;
+}
+
+BoxStage thinned(const BoxStage& stage, std::size_t part) {
+  BoxStage few{stage.workload, stage.task, {stage.scene.name, stage.scene.words, {}}, {}};
+  std::visit([&](const auto& all) { few.scene.boxes = each(all, part); }, stage.scene.boxes);
+  return few;
 }
 
 }  // namespace lantern::measure
