@@ -21,7 +21,7 @@ FrameRow row(const char* sequence, const char* writer, double rate, double again
   return r;
 }
 
-FrameBenchResult sample() {
+FrameBenchResult some_frames() {
   FrameBenchResult result;
   result.command = "lantern bench frames <a> b";
   result.cairo = "1.16.0";
@@ -35,7 +35,7 @@ FrameBenchResult sample() {
 }
 
 TEST(BenchFrames, MeansCountEachSequenceAsMuch) {
-  const std::vector<FrameMean> means = means_of(sample());
+  const std::vector<FrameMean> means = means_of(some_frames());
   ASSERT_EQ(means.size(), 2u);
   EXPECT_EQ(means[0].writer, "lantern, fast");
   EXPECT_EQ(means[0].against_cairo, 30);
@@ -44,7 +44,7 @@ TEST(BenchFrames, MeansCountEachSequenceAsMuch) {
 }
 
 TEST(BenchFrames, TextsTellWhatWasCounted) {
-  const FrameBenchResult result = sample();
+  const FrameBenchResult result = some_frames();
   const std::string table = to_table(result), csv = to_csv(result), page = to_html(result);
   EXPECT_NE(table.find("10%"), table.npos) << "one picture's pixels of ten pictures'" << table;
   EXPECT_NE(table.find("75%"), table.npos) << "three bands of four were packed" << table;

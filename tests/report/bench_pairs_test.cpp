@@ -22,7 +22,7 @@ BoxBenchRow row(const char* who, const char* version, std::uint64_t bodies, doub
   return row;
 }
 
-BoxBenchResult sample() {
+BoxBenchResult some_pairs() {
   BoxBenchResult result;
   result.command = "lantern bench pairs --workload <uniform>";
   result.circumstances.processor = "AMD";
@@ -46,14 +46,14 @@ BoxBenchResult sample() {
 }
 
 TEST(BenchPairsReport, TheQuickestWithRightPairsIsTheMeasure) {
-  const BoxBenchResult result = sample();
+  const BoxBenchResult result = some_pairs();
   ASSERT_NE(fastest_peer(result.rows, result.rows[0]), nullptr);
   EXPECT_EQ(fastest_peer(result.rows, result.rows[0])->contestant, "CGAL");
   EXPECT_FALSE(result.rows[3].is_good());
 }
 
 TEST(BenchPairsReport, TheTableTellsAll) {
-  const std::string text = to_table(sample());
+  const std::string text = to_table(some_pairs());
   for (const char* words :
        {"uniform_2d with 1000 boxes: 500 pairs, checked by brute force", "quadtree", "CGAL",
         "wrong: 4 missed, 0 invented", "missing: apt-get install libbullet-dev"})
@@ -64,7 +64,7 @@ TEST(BenchPairsReport, TheTableTellsAll) {
 }
 
 TEST(BenchPairsReport, JsonAndCsvHaveTheSameRows) {
-  const BoxBenchResult result = sample();
+  const BoxBenchResult result = some_pairs();
   const auto json = nlohmann::json::parse(to_json(result));
   EXPECT_EQ(json["format"], "lantern.bench.pairs/1");
   ASSERT_EQ(json["rows"].size(), result.rows.size());
@@ -77,13 +77,13 @@ TEST(BenchPairsReport, JsonAndCsvHaveTheSameRows) {
 }
 
 TEST(BenchPairsReport, ThePageStandsAlone) {
-  const std::string page = to_html(sample());
+  const std::string page = to_html(some_pairs());
   for (const char* words :
        {"<!DOCTYPE html>", "--workload &lt;uniform&gt;", "in its best way", "Time a box and step",
         "class=\"plot\"", "wrong</span>", "missing: apt-get", "</html>"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(page.find("http"), std::string::npos) << "something is loaded from elsewhere";
-  EXPECT_NE(to_html({}).find("</html>"), std::string::npos);
+  EXPECT_NE(to_html(BoxBenchResult{}).find("</html>"), std::string::npos);
 }
 
 }  // namespace

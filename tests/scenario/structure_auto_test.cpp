@@ -18,12 +18,12 @@ Scenario with_auto(int bodies) {
 
 TEST(StructureAuto, IsAKindThatSuitsTheBodies) {
   const Scenario few = with_auto(3);
-  EXPECT_EQ(few->structure.kind, StructureKind::brute_force);
-  EXPECT_NE(few->structure.why.find("3 bodies"), std::string::npos) << few->structure.why;
+  EXPECT_EQ(few.structure.kind, StructureKind::brute_force);
+  EXPECT_NE(few.structure.why.find("3 bodies"), std::string::npos) << few.structure.why;
   EXPECT_EQ(frames_of(few).back().structure, StructureKind::brute_force);
   const Scenario many = with_auto(300);
-  EXPECT_EQ(many->structure.kind, StructureKind::grid);
-  EXPECT_NE(many->structure.why.find("300 bodies"), std::string::npos) << many->structure.why;
+  EXPECT_EQ(many.structure.kind, StructureKind::grid);
+  EXPECT_NE(many.structure.why.find("300 bodies"), std::string::npos) << many.structure.why;
 }
 
 }  // namespace
