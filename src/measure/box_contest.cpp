@@ -1,12 +1,17 @@
 #include "measure/box_contest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "measure/peer_modules.hpp"
 #include "measure/peers.hpp"
+#include "spatial/overlap_query.hpp"
+#include "spatial/pair_order.hpp"
 #include "spatial/raycast.hpp"
 
 namespace lantern::measure {
@@ -82,10 +87,10 @@ class OwnOracle : public Oracle<D> {
     broad_phase_.build(boxes);
   }
   void along(const Ray<D>& ray, std::vector<BodyId>& ids) override {
-    const AllHits all = broad_phase_.with_dynamic([&](const auto& structure) {
-      return raycast_all<D>(structure, ray, [&](BodyId id) { return boxes_[id].box; });
+    broad_phase_.with_dynamic([&](const auto& structure) {
+      raycast_all_into<D>(hits_, structure, ray, [&](BodyId id) { return boxes_[id].box; });
     });
-    for (const RayHit& hit : all.hits) ids.push_back(hit.id);
+    for (const RayHit& hit : hits_.hits) ids.push_back(hit.id);
   }
   bool first(const Ray<D>& ray, std::vector<BodyId>& ids) override {
     const NearestHit nearest = broad_phase_.with_dynamic([&](const auto& structure) {
@@ -100,14 +105,16 @@ class OwnOracle : public Oracle<D> {
  private:
   template <class Volume>
   void inside(const Volume& volume, std::vector<BodyId>& ids) {
-    const Found found = broad_phase_.with_dynamic([&](const auto& structure) {
-      return overlap_query<D>(structure, volume, [&](BodyId id) { return boxes_[id].box; });
+    broad_phase_.with_dynamic([&](const auto& structure) {
+      overlap_query_into<D>(found_, structure, volume, [&](BodyId id) { return boxes_[id].box; });
     });
-    ids.insert(ids.end(), found.ids.begin(), found.ids.end());
+    ids.insert(ids.end(), found_.ids.begin(), found_.ids.end());
   }
 
   BroadPhase<D> broad_phase_;
   Boxes<D> boxes_;
+  AllHits hits_;
+  Found found_;
 };
 
 // One that is asked, whoever it is. It is built before the first step.
@@ -168,6 +175,7 @@ class OwnContestantOf : public BoxContestant {
   bool can(const BoxStage& stage) const override { return is_possible(kind_, stage.dimension()); }
 
   // Leaves of 16 that are about as large as their bodies' shares of the world.
+  // Of a grid 2^first levels; of an aabb_tree one of the margins.
   BoxSetting likely(const BoxStage& stage) const override {
     if (!traits_.splits) return {};
     const double children = name() == "kd_tree" ? 2 : std::pow(2.0, stage.dimension());
@@ -176,10 +184,16 @@ class OwnContestantOf : public BoxContestant {
                           kDeepest)};
   }
   bool has(const BoxSetting& s) const override {
+    if (kind_ == StructureKind::grid) return s.first >= 0 && s.first <= 3 && s.second == 0;
+    if (kind_ == StructureKind::aabb_tree)
+      return s.first >= 0 && s.first < static_cast<int>(kMargins.size()) && s.second == 0;
     if (!traits_.splits) return s == BoxSetting{};
     return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kDeepest;
   }
   std::string words(const BoxSetting& s) const override {
+    if (kind_ == StructureKind::grid) return counted(1 << s.first, "level");
+    if (kind_ == StructureKind::aabb_tree)
+      return fmt::format("margin {:g}", kMargins[static_cast<std::size_t>(s.first)]);
     return traits_.splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
   }
   std::unique_ptr<BoxRun> start(const BoxStage& stage, const BoxSetting& setting) const override {
@@ -189,12 +203,17 @@ class OwnContestantOf : public BoxContestant {
 
  private:
   static constexpr int kDeepest = 16;
+  static constexpr std::array kMargins = {0.0, 0.05, 0.1, 0.2, 0.4};
 
   template <int D>
   std::unique_ptr<BoxRun> start_in(const BoxStage& stage, const BoxSetting& setting) const {
     BroadPhaseConfig<D> config;
     config.kind = kind_;
+    config.build = Build::at_once;
     config.bounds = updates_in<D>(stage).bounds;
+    if (kind_ == StructureKind::grid) config.levels = 1u << setting.first;
+    if (kind_ == StructureKind::aabb_tree)
+      config.margin = kMargins[static_cast<std::size_t>(setting.first)];
     if (traits_.splits) {
       config.capacity = 1u << setting.first;
       config.max_depth = static_cast<std::uint32_t>(setting.second);
@@ -275,20 +294,18 @@ std::vector<std::string> box_peer_names(std::vector<std::string>& missing) {
   return names;
 }
 
-// Counted into one row for each lower id; rows are short.
 void into_order(std::vector<Pair>& pairs, std::uint32_t bodies) {
-  thread_local std::vector<std::uint32_t> ends;
-  thread_local std::vector<BodyId> partners;
-  ends.assign(bodies + 1, 0);
-  partners.resize(pairs.size());
-  for (const Pair& pair : pairs) ++ends[pair.a + 1];
-  for (std::uint32_t i = 0; i < bodies; ++i) ends[i + 1] += ends[i];
-  for (const Pair& pair : pairs) partners[ends[pair.a]++] = pair.b;
-  std::size_t at = 0;
-  for (std::uint32_t a = 0; a < bodies; ++a) {
-    std::sort(partners.begin() + static_cast<std::ptrdiff_t>(at), partners.begin() + ends[a]);
-    for (; at < ends[a]; ++at) pairs[at] = {a, partners[at]};
+  thread_local FoundPairs found;
+  thread_local PairOrder order;
+  thread_local std::vector<BodyId> names;
+  if (names.size() != bodies) {
+    names.resize(bodies);
+    std::iota(names.begin(), names.end(), BodyId{0});
   }
+  found.clear();
+  found.reserve(pairs.size(), 0);
+  for (const Pair& pair : pairs) found.add(pair.a, pair.b);
+  order.order(found, names, pairs);
 }
 
 }  // namespace lantern::measure

@@ -19,7 +19,7 @@
 namespace lantern::measure {
 namespace {
 
-constexpr double kTurnSeconds = 0.002;  // what a turn should last at least
+constexpr double kLeastTurn = 0.002;  // what a turn should last at least
 constexpr int kMostSteps = 64;          // of a turn
 constexpr int kLeastRounds = 3;
 constexpr double kLongStep = 0.1;  // seconds: one is enough to be warm
@@ -177,7 +177,7 @@ double StageBench::step(Entry& e) {
 }
 
 void StageBench::take_turn(Entry& e) {
-  const int steps = std::clamp(static_cast<int>(kTurnSeconds / std::max(e.step_seconds, 1e-7)) + 1,
+  const int steps = std::clamp(static_cast<int>(kLeastTurn / std::max(e.step_seconds, 1e-7)) + 1,
                                1, kMostSteps);
   const auto calls = e.run->allocations();
   const Stopwatch clock;

@@ -13,11 +13,12 @@ template <int D>
 void BoxTable<D>::resize(std::size_t size) {
   size_ = size;
   if (size + kPadding <= ids_.size()) return;
+  const std::size_t places = size + size / 4 + kPadding;  // the next time it may be a little larger
   for (int i = 0; i < D; ++i) {
-    lo_[i].resize(size + kPadding);
-    hi_[i].resize(size + kPadding);
+    lo_[i].resize(places);
+    hi_[i].resize(places);
   }
-  ids_.resize(size + kPadding);
+  ids_.resize(places);
 }
 
 void FoundPairs::reserve(std::size_t pairs, BodyId body) {

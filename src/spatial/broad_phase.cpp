@@ -69,7 +69,7 @@ void BroadPhase<D>::build(std::span<const Proxy<D>> proxies) {
   take(proxies);
   all_or_nothing([&] {
     for (Store* store : stores())
-      if (!store->stands) build(*store);
+      if (!store->stands) build(*store, Use::questions);
   });
 }
 
@@ -177,8 +177,8 @@ void BroadPhase<D>::forget() {
 // --- building ---
 
 template <int D>
-void BroadPhase<D>::build(Store& store) {
-  if (config_.kind == StructureKind::automatic && !suits(store)) choose(store);
+void BroadPhase<D>::build(Store& store, Use use) {
+  if (config_.kind == StructureKind::automatic && !suits(store, use)) choose(store, use);
   if (mended(store)) return;
   if (config_.in_proportion && store.items.size() > store.room) {
     store.room = std::bit_ceil(store.items.size());
@@ -202,16 +202,18 @@ void BroadPhase<D>::build(Store& store) {
 // What was chosen is chosen again when the bodies have become twice as many or half as many, or
 // each of them is compared with twice as many others.
 template <int D>
-bool BroadPhase<D>::suits(const Store& store) const {
+bool BroadPhase<D>::suits(const Store& store, Use use) const {
   constexpr double kFew = 16;  // comparisons of a body that are of no concern
   const std::size_t bodies = store.items.size();
-  return store.kind != StructureKind::automatic && bodies <= 2 * store.chosen_for &&
-         2 * bodies >= store.chosen_for && store.tests <= 2 * store.chosen_tests + kFew;
+  return store.kind != StructureKind::automatic && store.chosen_use == use &&
+         bodies <= 2 * store.chosen_for && 2 * bodies >= store.chosen_for &&
+         store.tests <= 2 * store.chosen_tests + kFew;
 }
 
 template <int D>
-void BroadPhase<D>::choose(Store& store) {
-  StructureChoice<D> choice = choose_structure<D>(store.items, config_);
+void BroadPhase<D>::choose(Store& store, Use use) {
+  StructureChoice<D> choice = choose_structure<D>(store.items, config_, use);
+  store.chosen_use = use;
   store.chosen_for = store.items.size();
   store.tests = store.chosen_tests = 0;
   store.why = std::move(choice.why);

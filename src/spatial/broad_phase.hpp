@@ -141,7 +141,8 @@ class BroadPhase {
   // no structures then, and the next update begins as the first.
   void update(std::span<const Proxy<D>> proxies);
 
-  // The structures of these bodies, awake or not; no pairs are looked for. Throws as `update` does.
+  // The structures of these bodies, awake or not; no pairs are looked for: `automatic` takes one
+  // that is quickly asked. Throws as `update` does.
   // An update of the same bodies then builds nothing.
   void build(std::span<const Proxy<D>> proxies);
 
@@ -213,8 +214,9 @@ class BroadPhase {
     Structure structure;
     std::uint64_t BroadPhaseCounters::*builds;
     StructureKind kind;
-    StructureConfig<D> settings;      // the depth at most as configured
-    std::string why = {};             // it was chosen
+    StructureConfig<D> settings;  // the depth at most as configured
+    std::string why = {};         // it was chosen
+    Use chosen_use = Use::pairs;
     std::size_t chosen_for = 0;       // so many bodies, and
     double chosen_tests = 0;          // so many comparisons a body in the first update after
     double tests = 0;                 // comparisons a body in the last update
@@ -245,8 +247,8 @@ class BroadPhase {
 
   Store made(std::uint64_t BroadPhaseCounters::*builds);
   void make_anew(Store& store);
-  bool suits(const Store& store) const;
-  void choose(Store& store);
+  bool suits(const Store& store, Use use) const;
+  void choose(Store& store, Use use);
   template <class F>
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
@@ -254,7 +256,7 @@ class BroadPhase {
   void move(std::span<const Proxy<D>> proxies);
   void replace(std::span<const Proxy<D>> proxies);
   void forget();
-  void build(Store& store);
+  void build(Store& store, Use use = Use::pairs);
   bool mended(Store& store);
   template <class F>
   static void with_names(const Store& store, F&& f);

@@ -30,6 +30,7 @@ std::pair<std::size_t, std::size_t> share(std::size_t size, std::size_t part, st
 
 void PairOrder::order(FoundPairs& found, std::span<const BodyId> names,
                       std::vector<Pair>& ordered) {
+  ordered.reserve(found.reserved());  // as found grows: seldom
   ordered.resize(found.size());
   if (is_in_order(found)) {
     for (std::size_t i = 0; i < found.size(); ++i)

@@ -9,15 +9,18 @@
 namespace lantern::spatial {
 namespace {
 
-// Up to here all pairs are compared, sixteen at a time, before bodies are sorted into cells.
-constexpr std::size_t kFewBodies = 100;
-// From this share of overlapping pairs on there is too little to part.
-constexpr double kCrowded = 0.25;
+// What finding all pairs of a body costs, in ns, as measured: to compare it with another one,
+// sixteen at a time; to part it from the others in cells; and how much more a pair costs there,
+// since pairs of all with all come in order.
+template <int D>
+constexpr double kCompare = D == 2 ? 0.35 : 0.5;
+constexpr double kPart = 60, kPutInOrder = 4.5;
 
 // Of a sample of pairs: which share overlaps.
 template <int D>
 double share_of_overlaps(std::span<const Item<D>> items) {
   constexpr std::size_t kSamples = 2000;
+  if (items.size() < 2) return 0;
   std::size_t tested = 0, overlaps = 0;
   std::uint64_t random = 1;  // Knuth's MMIX generator: any spread of numbers will do
   const auto any = [&] {
@@ -58,17 +61,21 @@ Box<D> around_all(std::span<const Item<D>> items) {
 
 template <int D>
 StructureChoice<D> choose_structure(std::span<const Item<D>> items,
-                                    const StructureConfig<D>& config) {
+                                    const StructureConfig<D>& config, Use use) {
   StructureChoice<D> choice;
   choice.config = config;
-  if (items.size() < kFewBodies) {
-    choice.why =
-        fmt::format("{} bodies are so few that all pairs are compared at once", items.size());
+  if (use == Use::questions) {
+    choice.kind = StructureKind::aabb_tree;
+    choice.why = fmt::format("{} bodies are asked, not paired", items.size());
     return choice;
   }
-  if (const double share = share_of_overlaps(items); share > kCrowded) {
-    choice.why =
-        fmt::format("{:.0f}% of sampled pairs overlap: there is little to part", 100 * share);
+  const double share = share_of_overlaps(items);
+  const double others = static_cast<double>(items.size()) / 2;
+  if (others * kCompare<D> < kPart + others * share * kPutInOrder) {
+    choice.why = fmt::format(
+        "{} bodies, and {:.0f}% of sampled pairs overlap: to compare all with "
+        "all costs less than to part them",
+        items.size(), 100 * share);
     return choice;
   }
   const std::vector<double> sizes = sizes_of(items);
@@ -82,7 +89,9 @@ StructureChoice<D> choose_structure(std::span<const Item<D>> items,
   return choice;
 }
 
-template StructureChoice<2> choose_structure(std::span<const Item<2>>, const StructureConfig<2>&);
-template StructureChoice<3> choose_structure(std::span<const Item<3>>, const StructureConfig<3>&);
+template StructureChoice<2> choose_structure(std::span<const Item<2>>, const StructureConfig<2>&,
+                                             Use);
+template StructureChoice<3> choose_structure(std::span<const Item<3>>, const StructureConfig<3>&,
+                                             Use);
 
 }  // namespace lantern::spatial

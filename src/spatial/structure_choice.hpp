@@ -18,15 +18,20 @@ struct StructureChoice {
   std::string why;
 };
 
-// The kind and the settings that are likely to find the pairs of these bodies soonest. Depends on
-// the boxes alone; looks at each body once, and at a sample of some thousand pairs.
+enum class Use {
+  pairs,      // all pairs of bodies whose boxes overlap
+  questions,  // what a ray, a box, a ball meets
+};
+
+// The kind and the settings that are likely to serve these bodies soonest. Depends on the boxes
+// alone; looks at each body once, and at a sample of some thousand pairs.
 template <int D>
 StructureChoice<D> choose_structure(std::span<const Item<D>> items,
-                                    const StructureConfig<D>& config);
+                                    const StructureConfig<D>& config, Use use = Use::pairs);
 
 extern template StructureChoice<2> choose_structure(std::span<const Item<2>>,
-                                                    const StructureConfig<2>&);
+                                                    const StructureConfig<2>&, Use);
 extern template StructureChoice<3> choose_structure(std::span<const Item<3>>,
-                                                    const StructureConfig<3>&);
+                                                    const StructureConfig<3>&, Use);
 
 }  // namespace lantern::spatial

@@ -746,6 +746,7 @@ std::vector<KeyCase> key_cases() {
       {"run", "seconds", {}, {{"@0.01", "not a whole number"}, {"@2000", "120000 frames"}}},
       {"rebuild", "kind", {"\"bsp\""}, bad_choice("bspp", "bsp")},
       {"rebuild", "capacity", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
+      {"rebuild", "margin", {"0"}, bad_number("-1", "1.1e9")},
       {"rebuild", "cell", {"0", "0.5", "1e9"}, bad_number("-1", "1.1e9")},
       {"rebuild", "levels", {"1", "16"}, bad_whole("0", "17", "1 to 16")},
       {"rebuild", "open", {"true", "false"}, bad_truth()},

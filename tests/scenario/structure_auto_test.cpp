@@ -21,9 +21,9 @@ TEST(StructureAuto, IsAKindThatSuitsTheBodies) {
   EXPECT_EQ(few.structure.kind, StructureKind::brute_force);
   EXPECT_NE(few.structure.why.find("3 bodies"), std::string::npos) << few.structure.why;
   EXPECT_EQ(frames_of(few).back().structure, StructureKind::brute_force);
-  const Scenario many = with_auto(300);
+  const Scenario many = with_auto(600);
   EXPECT_EQ(many.structure.kind, StructureKind::grid);
-  EXPECT_NE(many.structure.why.find("300 bodies"), std::string::npos) << many.structure.why;
+  EXPECT_NE(many.structure.why.find("600 bodies"), std::string::npos) << many.structure.why;
 }
 
 }  // namespace

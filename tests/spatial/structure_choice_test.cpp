@@ -22,7 +22,7 @@ TEST(StructureChoice, ComparesAllOfAFewAndOfACrowdAndPartsTheRest) {
   const StructureConfig<2> config;
   EXPECT_EQ(choose_structure<2>({}, config).kind, StructureKind::brute_force);
   EXPECT_EQ(choose_structure<2>(spread<2>(1, 9, random), config).kind, StructureKind::brute_force);
-  EXPECT_EQ(choose_structure<2>(spread<2>(50, 9, random), config).kind, StructureKind::brute_force);
+  EXPECT_EQ(choose_structure<2>(spread<2>(200, 19, random), config).kind, StructureKind::brute_force);
   const auto crowd = choose_structure<2>(spread<2>(3000, 0.5, random), config);
   EXPECT_EQ(crowd.kind, StructureKind::brute_force);
   EXPECT_NE(crowd.why.find("100% of sampled pairs"), std::string::npos) << crowd.why;
