@@ -59,6 +59,7 @@ struct Item {
 // Throws Refused, naming the body, unless its box is finite and nowhere inverted.
 template <int D>
 void require_valid(const Item<D>& item) {
+  if (is_valid(item.box)) return;
   for (int i = 0; i < D; ++i) {
     const double lo = item.box.lo[i];
     const double hi = item.box.hi[i];

@@ -7,7 +7,7 @@
 namespace lantern::scenario {
 namespace {
 
-constexpr const char* kBodies =
+constexpr const char* kDotPillAndBar =
     "[[body]]\nname = \"dot\"\nradius = 0.5\nposition = [1, 1]\n"
     "[[body]]\nname = \"pill\"\nhalf_size = [1, 0.5]\nposition = [4, 6]\n"
     "[[body]]\nname = \"bar\"\nhalf_size = [3.5, 0.5]\nposition = [11, 2]\n"
@@ -15,7 +15,8 @@ constexpr const char* kBodies =
 
 std::vector<Frame> on_grid(const std::string& keys, Pace pace = Pace::step) {
   return frames_of(
-      good(world_text("size = [16, 8]", "[structure]\nkind = \"grid\"\n" + keys + kBodies)), pace);
+      good(world_text("size = [16, 8]", "[structure]\nkind = \"grid\"\n" + keys + kDotPillAndBar)),
+      pace);
 }
 
 TEST(GridPictures, ShowEachCellWithAllThatReachIt) {
@@ -60,8 +61,8 @@ TEST(GridPictures, AFloorWithoutEndIsInEveryCellOrInOneLeafOfItsOwn) {
       "[[body]]\nname = \"floor\"\nground = [0, 1]\nposition = [0, 1]\n"
       "static = true\n[[step]]\ndo = \"insert\"\nbodies = [\"floor\"]\n";
   const auto with_floor = [&](const std::string& keys) {
-    return frames_of(good(world_text("size = [16, 8]",
-                                     "[structure]\nkind = \"grid\"\n" + keys + kBodies + floor)))
+    return frames_of(good(world_text("size = [16, 8]", "[structure]\nkind = \"grid\"\n" + keys +
+                                                           kDotPillAndBar + floor)))
         .back();
   };
   EXPECT_EQ(bodies_in(with_floor("cell = 4\n"), "8"), (Names{"bar", "floor"}));
