@@ -140,7 +140,7 @@ TEST(Completions, OfBashOfferWhatMayStandThere) {
   write_text(folder / "lantern.bash", shell("lantern completions bash").out);
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"com", "compare,completions"},
-      {"bench ''", "atlas,frames,step"},
+      {"bench ''", "atlas,frames,pairs,step"},
       {"bench step --no", "--no-peers"},
       {"render --theme ''", "dark,light,print"},
       {"render --theme = da", "dark"},

@@ -42,7 +42,7 @@ bool is_left_out(const std::string& line) {
       std::getenv("LANTERN_ALL") == nullptr)
     return true;
   const bool is_long = line == "./run demo" || line.find("lantern measure") != std::string::npos ||
-                       line.find("lantern bench step") != std::string::npos ||
+                       line.find("lantern bench") != std::string::npos ||
                        line.find("lantern stress") != std::string::npos ||
                        line.find("install") != std::string::npos ||
                        line.find("build/example") != std::string::npos;
