@@ -81,6 +81,14 @@ Box<2> seen_of(const Box<2>& cell, const View2D& map) {
           glm::clamp(cell.hi, map.picture().lo, map.picture().hi)};
 }
 
+// On the page. A structure without a rim may have cells beyond the world: of them, what is in it.
+Box<2> cell_of(const Frame& frame, const FrameNode& node, const View2D& map) {
+  const bool has_rim =
+      frame.structure != StructureKind::aabb_tree && frame.structure != StructureKind::grid;
+  const Box<2> cell = map.to_page(node.box);
+  return has_rim ? cell : seen_of(cell, map);
+}
+
 bool is_drawn(const Box<2>& cell) { return std::min(cell.size().x, cell.size().y) >= kLeastCell; }
 
 // A quarter without a child: hatched from the lower left to the upper right.
@@ -125,11 +133,11 @@ void fill_skipped(const Frame& frame, const View2D& map, DrawList& list, Grounds
   for (const FrameNode& node : frame.nodes) {
     const bool topmost =
         node.skipped && (node.parent == kNone || !frame.nodes[node.parent].skipped);
-    if (!topmost || !is_drawn(map.to_page(node.box))) continue;
+    if (!topmost || !is_drawn(cell_of(frame, node, map))) continue;
     if (++filled > kMostFills) return;
     grounds.push_back({page_region(node, map), Role::free_space});
     if (node.region.empty())
-      list.crisp_rect(map.to_page(node.box), Role::free_space);
+      list.crisp_rect(cell_of(frame, node, map), Role::free_space);
     else
       list.polygon(grounds.back().region, Role::free_space);
   }
@@ -141,7 +149,7 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   std::erase_if(painted, [&](const Painted& p) {
     // The whole world in one tone would tell nothing: it has its outline.
     return p.node == 0 || is_no_cell(frame, frame.nodes[p.node]) ||
-           !is_drawn(map.to_page(frame.nodes[p.node].box));
+           !is_drawn(cell_of(frame, frame.nodes[p.node], map));
   });
   if (painted.size() > kMostFills) return;  // some alone would say what is not so
   for (const auto& [i, tone] : painted) {
@@ -152,7 +160,7 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
     const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, at),
                                 parent_key("world/cell", frame.nodes, at));
     if (node.region.empty())
-      list.crisp_rect(map.to_page(node.box), role);
+      list.crisp_rect(cell_of(frame, node, map), role);
     else
       list.polygon(grounds.back().region, role);
     list.marks.add(tone == Mark::lit ? MarkKind::lit : MarkKind::passed);
@@ -190,7 +198,7 @@ void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
   constexpr std::size_t kMostShapes = 1500;
   for (const FrameNode& node : frame.nodes) {
     const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
-    if (!frame.sleeps(node) || under_another || !is_drawn(map.to_page(node.box))) continue;
+    if (!frame.sleeps(node) || under_another || !is_drawn(cell_of(frame, node, map))) continue;
     if (list.shapes.size() > kMostShapes) return;
     std::vector<Vec<2>> ground = cut_to(page_region(node, map), map.picture());
     if (ground.empty()) continue;
@@ -234,7 +242,7 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
     if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static != of_static ||
         is_no_cell(frame, node))
       continue;
-    const Box<2> cell = map.to_page(node.box);
+    const Box<2> cell = cell_of(frame, node, map);
     if (is_drawn(cell))
       borders.add(cell, depths[node], i);
     else
@@ -255,10 +263,10 @@ void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
   const auto key = [&](std::uint32_t node) { return node_key("world/lit", frame.nodes, node); };
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
-    if (node.mark != Mark::lit || !is_drawn(map.to_page(node.box)) || is_no_cell(frame, node))
+    if (node.mark != Mark::lit || !is_drawn(cell_of(frame, node, map)) || is_no_cell(frame, node))
       continue;
     if (node.region.empty()) {
-      borders.add(map.to_page(node.box), std::min(node.depth, 6u), i);
+      borders.add(cell_of(frame, node, map), std::min(node.depth, 6u), i);
     } else if (outlined++ < kMostFills) {
       const DrawList::Scope scope(list, key(i));
       list.polygon(inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2});
@@ -321,7 +329,7 @@ void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place,
   constexpr double kLeastOver = 20;  // page units; smaller cells would hide the body in turn
   Borders borders;
   for (const FrameNode& node : frame.nodes) {
-    const Box<2> cell = map.to_page(node.box);
+    const Box<2> cell = cell_of(frame, node, map);
     const Vec<2> room = place.size() - cell.size();
     if (node.depth == 0 || !node.region.empty() || is_no_cell(frame, node) ||
         !overlap(cell, place) || std::min(cell.size().x, cell.size().y) < kLeastOver ||

@@ -12,6 +12,13 @@
 namespace lantern::draw {
 namespace {
 
+// What reaches without end, as a box around the ground does, has no picture.
+bool is_drawable(const Box<3>& box) {
+  constexpr double kFar = 1e12;
+  return is_valid(box) && contains(Box<3>{Vec<3>(-kFar), Vec<3>(kFar)}, box.lo) &&
+         contains(Box<3>{Vec<3>(-kFar), Vec<3>(kFar)}, box.hi);
+}
+
 constexpr std::size_t kMostEdges = 500;
 constexpr std::size_t kMostEdgesInCrowd = 250;  // lines must not hide a crowd of dots
 constexpr std::size_t kMostFills3d = 300;
@@ -90,7 +97,7 @@ class Edges {
   // The twelve edges of a cell. In a column's cell those at the top are left out,
   // unless it is lit.
   void add(const FrameNode& node, bool column, std::uint32_t number = 0) {
-    if (!is_valid(node.box)) return;
+    if (!is_drawable(node.box)) return;
     const Box<3>& box = node.box;
     for (int axis = 0; axis < 3; ++axis)
       for (unsigned corner = 0; corner < 4; ++corner) {
@@ -207,7 +214,7 @@ std::vector<std::vector<Vec<3>>> cuts_of(const Frame& frame) {
   std::vector<std::vector<Vec<3>>> cuts;
   const bool many = std::ranges::count_if(frame.nodes, &FrameNode::split) > kMostCut;
   for (const FrameNode& node : frame.nodes) {
-    if (!node.split || !is_valid(node.box)) continue;
+    if (!node.split || !is_drawable(node.box)) continue;
     if (many && !cuts.empty()) break;
     if (node.plane) {
       cuts.push_back(part_in(node.box, node.plane->normal, node.plane->offset));
@@ -252,7 +259,7 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
     const FrameNode& node = frame.nodes[i];
     const bool shown = node.leaf || (node.mark == Mark::lit && !lit_inside[i] &&
                                      frame.structure != StructureKind::grid);
-    if (shown && node.mark != Mark::quiet && is_valid(node.box)) filled.push_back(&node);
+    if (shown && node.mark != Mark::quiet && is_drawable(node.box)) filled.push_back(&node);
   }
   if (filled.size() > kMostFills3d) return;
   std::ranges::stable_sort(filled, {}, [&](const FrameNode* n) {

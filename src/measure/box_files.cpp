@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
@@ -129,10 +130,11 @@ class CsvReader {
       dimension_ = cells.size() == 4 ? 2 : 3;
     }
     if (cells.size() != columns_.size())
-      fail(cells.back().column,
-           fmt::format("{} values, where {} are expected", cells.size(), columns_.size()),
-           "a box is lo_x,lo_y,hi_x,hi_y or lo_x,lo_y,lo_z,hi_x,hi_y,hi_z, or what the first line "
-           "names");
+      fail(
+          cells.back().column,
+          fmt::format("{}, where {} are expected", counted(cells.size(), "value"), columns_.size()),
+          "a box is lo_x,lo_y,hi_x,hi_y or lo_x,lo_y,lo_z,hi_x,hi_y,hi_z, or what the first line "
+          "names");
     bodies.push_back(body(cells, static_cast<BodyId>(bodies.size())));
   }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/random.hpp"
@@ -81,7 +82,8 @@ class SizesReader {
     if (!cells[0].text.empty() && cells[0].text[0] == '#') return;
     const bool first = !std::exchange(begun_, true);
     if (cells.size() != 2)
-      fail(cells.back().column, fmt::format("{} values, where 2 are expected", cells.size()),
+      fail(cells.back().column,
+           fmt::format("{}, where 2 are expected", counted(cells.size(), "value")),
            "a texture is a line WIDTH,HEIGHT in pixels: 64,32");
     if (first && !cells[0].text.empty() && !is_digit(cells[0].text[0]) && cells[0].text[0] != '-')
       return name_columns(cells);

@@ -16,8 +16,10 @@ constexpr CountDoc kCounts[] = {
     {"depth", tree, "Depth of the deepest node; the root has depth 0."},
     {"entries", structure, "Bodies stored in leaves, each once a leaf."},
     {"most_in_leaf", structure, "Bodies in the fullest leaf."},
-    {"pairs", structure, "Unique candidate pairs: bodies that share a leaf."},
-    {"pair_tests", structure, "Pairs met, leaf by leaf, before duplicates fell out."},
+    {"pairs", structure,
+     "Unique candidate pairs: bodies that share a leaf; of structures that compare boxes without "
+     "leaves (`sort_and_sweep`, `grid`, `aabb_tree`) those that are compared."},
+    {"pair_tests", structure, "Pairs met, leaf by leaf or box by box, before duplicates fell out."},
     {"all_pairs", bodies, "All pairs there are: n(n−1)/2 of n bodies."},
     {"testable_pairs", bodies, "Those of them that brute force would test: not both never move."},
     {"overlaps", structure,

@@ -137,7 +137,7 @@ bool has_strange_table(const TomlTable& table) {
 // Settings of trees are refused where no tree that splits ever stands.
 void check_settings(const TableReader& file, Draft& draft) {
   const auto splits = [](const StructureSpec& s) {
-    return s.kind != StructureKind::none && traits_of(s.kind).splits;
+    return s.kind != StructureKind::none && traits_of(s.kind).splits && s.why.empty();
   };
   const ScenarioSpec& s = draft.scenario;
   if (!s.side.empty()) return;  // its table is one with what all sides share
@@ -149,10 +149,11 @@ void check_settings(const TableReader& file, Draft& draft) {
   for (const TomlValue* value : file.tables("structure"))
     for (const char* setting : {"capacity", "max_depth", "children", "no_progress_stop"})
       if (const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting))
-        draft.problems.add(entry->where,
-                           fmt::format("a structure of kind '{}' has no '{}'",
-                                       to_string(s.structure.kind), setting),
-                           "only trees that split have; leave it out, or take kind = \"quadtree\"");
+        draft.problems.add(
+            entry->where,
+            fmt::format("a structure of kind '{}' has no '{}'",
+                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
+            "only trees that split have; leave it out, or take kind = \"quadtree\"");
 }
 
 // Settings of grids are refused where none ever stands, and cells of which there are too many.
@@ -172,10 +173,11 @@ void check_grid(const TableReader& file, Draft& draft) {
     for (const char* setting : {"cell", "levels", "open"}) {
       const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting);
       if (entry && !grid && !later)
-        draft.problems.add(entry->where,
-                           fmt::format("a structure of kind '{}' has no '{}'",
-                                       to_string(s.structure.kind), setting),
-                           "only kind = \"grid\" has");
+        draft.problems.add(
+            entry->where,
+            fmt::format("a structure of kind '{}' has no '{}'",
+                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
+            "only kind = \"grid\" has");
       else if (entry && std::string_view(setting) == "cell" && cells > kMostCells)
         draft.problems.add(entry->where,
                            fmt::format("the world has {:.3g} cells of this size, a grid may have "

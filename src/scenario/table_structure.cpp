@@ -95,7 +95,8 @@ TableDoc structure_table() {
           "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a `quadtree` "
           "cuts a 3D world along x and z, an `octree` along all three; `lecture_quadtree` is the "
           "lecture's own code, which makes all children at a split and has no stop but the depth "
-          "limit; a `grid` has equal cells; an `aabb_tree` has a leaf for each body and the smallest "
+          "limit; a `grid` has equal cells; an `aabb_tree` has a leaf for each body and the "
+          "smallest "
           "box around what lies below each node, and goes on from where its bodies were; `auto` "
           "takes what suits the bodies as the file places them, and `explain` says why. A program "
           "may be given structures of a user's own, by their names "
@@ -115,7 +116,9 @@ TableDoc structure_table() {
           "One structure for what never moves, built once, and one for what does."),
       key(&S::cell, "cell",
           "Side of a grid's cells, of several levels the smallest. A closed grid may have 2000000 "
-          "of them. `0`: about twice as large as most bodies are, anew whenever it is built.",
+          "of them. `0`: half again as large as nearly all bodies are (19 of 20), but at most "
+          "three "
+          "times the median; anew whenever it is built.",
           range(0, kFar), in("units")),
       key(&S::levels, "levels",
           "Of a grid: how many sizes of cells, each twice as large as the one before. A body is on "

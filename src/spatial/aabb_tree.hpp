@@ -336,12 +336,18 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
                            .slot = slot,
                            .depth = depth,
                            .leaf = node.is_leaf(),
-                           .box = node.box(),
+                           .box = finite(node.box()),
                            .bodies = std::span(&node.link, node.bodies() == 1 ? 1 : 0)};
     if (!f(view) || view.leaf) return;
     const NodeHandle first = second_first(node, tour.toward) ? 1 : 0;
     visit_from(node.link + first, view.id, first, depth + 1, tour, f);
     visit_from(node.link + 1 - first, view.id, 1 - first, depth + 1, tour, f);
+  }
+
+  // What is beyond the range of float ends where double ends.
+  static Box<D> finite(const Box<D>& box) {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    return {glm::max(box.lo, Vec<D>(-kMost)), glm::min(box.hi, Vec<D>(kMost))};
   }
 
   // Whether the middle of the second child lies before that of the first on a ray along d.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "geometry/shape.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -36,11 +39,19 @@ double share_of_overlaps(std::span<const Item<D>> items) {
   return static_cast<double>(overlaps) / static_cast<double>(tested);
 }
 
-// The longest side of each body, in order.
+template <int D>
+bool reaches_without_end(const Box<D>& box) {
+  for (int i = 0; i < D; ++i)
+    if (box.lo[i] <= -kEndless || box.hi[i] >= kEndless) return true;
+  return false;
+}
+
+// The longest side of each body that has one, in order.
 template <int D>
 std::vector<double> sizes_of(std::span<const Item<D>> items) {
   std::vector<double> sizes;
   for (const Item<D>& item : items) {
+    if (reaches_without_end(item.box)) continue;
     const Vec<D> size = item.box.size();
     double longest = size[0];
     for (int i = 1; i < D; ++i) longest = std::max(longest, size[i]);
@@ -52,9 +63,14 @@ std::vector<double> sizes_of(std::span<const Item<D>> items) {
 
 template <int D>
 Box<D> around_all(std::span<const Item<D>> items) {
-  Box<D> box = items.front().box;
-  for (const Item<D>& item : items) box = united(box, item.box);
-  return box;
+  std::optional<Box<D>> all;
+  for (const Item<D>& item : items)
+    if (!reaches_without_end(item.box)) all = all ? united(*all, item.box) : item.box;
+  return all.value_or(Box<D>{Vec<D>(-1.0), Vec<D>(1.0)});
+}
+
+std::string percent(double share) {
+  return share > 0 && share < 0.01 ? "less than 1%" : fmt::format("{:.0f}%", 100 * share);
 }
 
 }  // namespace
@@ -73,13 +89,14 @@ StructureChoice<D> choose_structure(std::span<const Item<D>> items,
   const double others = static_cast<double>(items.size()) / 2;
   if (others * kCompare<D> < kPart + others * share * kPutInOrder) {
     choice.why = fmt::format(
-        "{} bodies, and {:.0f}% of sampled pairs overlap: to compare all with "
-        "all costs less than to part them",
-        items.size(), 100 * share);
+        "{} bodies, of sampled pairs {} overlap: comparing all with all costs less than "
+        "partitioning them",
+        items.size(), percent(share));
     return choice;
   }
   const std::vector<double> sizes = sizes_of(items);
-  const double median = sizes[sizes.size() / 2], largest = sizes.back();
+  const double median = sizes.empty() ? 0 : sizes[sizes.size() / 2];
+  const double largest = sizes.empty() ? 0 : sizes.back();
   choice.kind = StructureKind::grid;
   choice.config.bounds = around_all(items);
   choice.config.cell = 0;

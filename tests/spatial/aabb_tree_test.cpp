@@ -147,6 +147,17 @@ void built_inserted_and_updated_trees_find_the_same() {
       }
 }
 
+TEST(AabbTree, ShowsFiniteBoxesAroundBodiesWithoutEnd) {
+  AabbTree<2> tree;
+  tree.insert({0, {Vec<2>(-1e150), Vec<2>(1e150, 0.0)}});  // the ground
+  tree.insert({1, {{3, 1}, {4, 2}}});
+  tree.visit([&](const NodeView<2>& node) {
+    EXPECT_TRUE(is_valid(node.box)) << "not finite";
+    EXPECT_TRUE(!node.leaf || node.bodies[0] == 1 || node.box.lo.x <= -1e150);
+    return true;
+  });
+}
+
 TEST(AabbTree, BuiltInsertedAndUpdatedTreesFindTheSameIn2d) {
   built_inserted_and_updated_trees_find_the_same<2>();
 }

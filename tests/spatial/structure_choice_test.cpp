@@ -22,10 +22,16 @@ TEST(StructureChoice, ComparesAllOfAFewAndOfACrowdAndPartsTheRest) {
   const StructureConfig<2> config;
   EXPECT_EQ(choose_structure<2>({}, config).kind, StructureKind::brute_force);
   EXPECT_EQ(choose_structure<2>(spread<2>(1, 9, random), config).kind, StructureKind::brute_force);
-  EXPECT_EQ(choose_structure<2>(spread<2>(200, 19, random), config).kind, StructureKind::brute_force);
+  EXPECT_EQ(choose_structure<2>(spread<2>(200, 19, random), config).kind,
+            StructureKind::brute_force);
   const auto crowd = choose_structure<2>(spread<2>(3000, 0.5, random), config);
   EXPECT_EQ(crowd.kind, StructureKind::brute_force);
-  EXPECT_NE(crowd.why.find("100% of sampled pairs"), std::string::npos) << crowd.why;
+  EXPECT_NE(crowd.why.find("sampled pairs 100% overlap"), std::string::npos) << crowd.why;
+  std::vector<Item<2>> on_ground = spread<2>(3000, 100, random);
+  on_ground.push_back({3000, {Vec<2>(-1e150), Vec<2>(1e150, 0.0)}});
+  const auto grounded = choose_structure<2>(on_ground, config);
+  EXPECT_NE(grounded.why.find("largest 1 times"), std::string::npos) << grounded.why;
+  EXPECT_LT(grounded.config.bounds.size().x, 200);
   const auto many = choose_structure<2>(spread<2>(3000, 100, random), config);
   EXPECT_EQ(many.kind, StructureKind::grid);
   EXPECT_NE(many.why.find("3000 bodies"), std::string::npos) << many.why;
