@@ -151,7 +151,7 @@ TEST_F(SizesFile, MistakesHaveTheirPlace) {
   };
   for (const Wrong& wrong : std::vector<Wrong>{
            {"3,4\n5,six\n", 2, 3, "'six' is no whole number", "WIDTH,HEIGHT"},
-           {"3,4\n5\n", 2, 1, "1 values", "WIDTH,HEIGHT"},
+           {"3,4\n5\n", 2, 1, "1 value,", "WIDTH,HEIGHT"},
            {"3,4,5\n", 1, 5, "3 values", "WIDTH,HEIGHT"},
            {"3,4\n0,4\n", 2, 1, "0 pixels", "1 to 65536"},
            {"-3,4\n", 1, 1, "-3 pixels", "1 to 65536"},
