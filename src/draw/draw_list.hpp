@@ -118,22 +118,33 @@ struct DrawList {
   std::vector<Tint> tints;  // one for each shape, or none at all: painted as they say themselves
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes
+  std::size_t open_scopes = 0;
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn
   std::vector<WorldMap> maps;  // of the flat worlds on the page
   MarkSet marks;               // that are among the shapes, for a legend
   // Counts and measures that the page depicts, so that whoever reads one in the caption finds it.
   std::set<std::string, std::less<>> referents;
 
-  // What follows shows this, until the scope ends; then what was shown before goes on.
+  // Leaves room for the runs that open scopes and one more will put back.
+  void begin_run(KeyedRun run) {
+    const std::size_t room = runs.size() + open_scopes + 2;
+    if (room > runs.capacity()) runs.reserve(2 * room);
+    runs.push_back(std::move(run));
+  }
+
+  // What follows shows this, until the scope ends; then what was shown before goes on. An end needs
+  // no memory: each open scope has taken the room for it beforehand.
   class Scope {
    public:
     Scope(DrawList& list, std::string key, std::string from = {}) : list_(list) {
       if (!list.runs.empty()) before_ = {list.runs.back().key, list.runs.back().from, 0};
       for (std::string* name : {&key, &from})
         if (!name->empty()) name->insert(0, list.prefix);
-      list.runs.push_back({std::move(key), std::move(from), list.shapes.size()});
+      list.begin_run({std::move(key), std::move(from), list.shapes.size()});
+      ++list.open_scopes;
     }
     ~Scope() {
+      --list_.open_scopes;
       before_.first = list_.shapes.size();
       list_.runs.push_back(std::move(before_));
     }

@@ -91,7 +91,7 @@ void Marks3D::paint() {
   draw::paint(std::move(pieces), view, list_);
   for (KeyedRun& run : above_.runs) {
     run.first += list_.shapes.size();
-    list_.runs.push_back(std::move(run));
+    list_.begin_run(std::move(run));
   }
   std::ranges::move(above_.shapes, std::back_inserter(list_.shapes));
   over_ = &list_;
