@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -143,15 +142,6 @@ std::size_t PairOrder::places() const {
   std::size_t all = parts_.capacity() + end_.capacity() + partners_.capacity();
   for (const Part& part : parts_) all += part.begin.capacity() + part.bits.capacity();
   return all;
-}
-
-void order_pairs(std::vector<Pair>& pairs, std::uint32_t numbers) {
-  FoundPairs found;
-  found.reserve(pairs.size(), 0);
-  for (const Pair& pair : pairs) found.add(pair.a, pair.b);
-  std::vector<BodyId> names(numbers);
-  std::iota(names.begin(), names.end(), BodyId{0});
-  PairOrder().order(found, names, pairs);
 }
 
 }  // namespace lantern::spatial

@@ -43,7 +43,4 @@ class PairOrder {
   std::vector<std::uint32_t> partners_;  // the higher numbers, row by row
 };
 
-// The same of pairs of numbers below `numbers`, for who has no need to keep the memory.
-void order_pairs(std::vector<Pair>& pairs, std::uint32_t numbers);
-
 }  // namespace lantern::spatial

@@ -50,13 +50,8 @@ bool reaches_without_end(const Box<D>& box) {
 template <int D>
 std::vector<double> sizes_of(std::span<const Item<D>> items) {
   std::vector<double> sizes;
-  for (const Item<D>& item : items) {
-    if (reaches_without_end(item.box)) continue;
-    const Vec<D> size = item.box.size();
-    double longest = size[0];
-    for (int i = 1; i < D; ++i) longest = std::max(longest, size[i]);
-    sizes.push_back(longest);
-  }
+  for (const Item<D>& item : items)
+    if (!reaches_without_end(item.box)) sizes.push_back(extent_of(item.box));
   std::ranges::sort(sizes);
   return sizes;
 }

@@ -131,6 +131,16 @@ TEST(BoxTable, AsksBeforeItsListsGrow) {
   EXPECT_LE(found.size(), 2000u);
 }
 
+// By their numbers, below `numbers`.
+void order_pairs(std::vector<Pair>& pairs, std::uint32_t numbers) {
+  FoundPairs found;
+  found.reserve(pairs.size(), 0);
+  for (const Pair& pair : pairs) found.add(pair.a, pair.b);
+  std::vector<BodyId> names(numbers);
+  std::iota(names.begin(), names.end(), BodyId{0});
+  PairOrder().order(found, names, pairs);
+}
+
 TEST(PairOrder, PutsPairsInOrderAndEachOnce) {
   std::mt19937_64 random(3);
   for (const auto& [numbers, count] :
