@@ -24,6 +24,10 @@ void add_member(JsonWriter& json, const Scenario& s) {
   json.key("needs").begin_array();
   for (const std::string& name : s.needs) json.value(name);
   json.end_array();
+  json.key("questions").begin_array();
+  for (const Step& step : s.steps)
+    if (!step.question.empty()) json.value(step.question);
+  json.end_array();
   json.members("steps", s.steps.size(), "file", s.file);
   json.end_object();
 }

@@ -22,6 +22,9 @@ namespace {
 constexpr int kStillWidth = 1600;            // of the picture for those without scripts
 constexpr std::size_t kMostCover = 300'000;  // bytes of a picture for the index
 
+constexpr std::string_view kQuestionButton =
+    "<button id=\"question\" title=\"Questions for the students (Q)\">question</button>\n";
+
 // The roles' colours as CSS variables.
 std::string colours(const Theme& theme) {
   std::string text;
@@ -76,24 +79,45 @@ std::string to_json(const LessonCard& card) {
   json.key("needs").begin_array();
   for (const std::string& name : card.needs) json.value(name);
   json.end_array().members("steps", card.steps, "frames", card.frames);
+  json.key("questions").begin_array();
+  for (const LessonQuestion& q : card.questions)
+    json.begin_object()
+        .members("asked", q.asked, "answer", q.answer, "frame", q.frame)
+        .end_object();
+  json.end_array();
   return json.end_object().text();
 }
 
 std::optional<LessonCard> lesson_card(std::string_view json) try {
   const auto value = nlohmann::json::parse(json);
   if (value.at("format") != "lantern.lesson/1") return std::nullopt;
-  LessonCard card{value.at("scenario"), value.at("title"), value.at("idea"),  std::nullopt,
-                  value.at("needs"),    value.at("steps"), value.at("frames")};
+  LessonCard card{value.at("scenario"), value.at("title"), value.at("idea"),   std::nullopt,
+                  value.at("needs"),    value.at("steps"), value.at("frames"), {}};
   if (!value.at("lecture").is_null()) card.lecture = value.at("lecture").get<std::uint32_t>();
+  for (const auto& q :
+       value.value("questions", nlohmann::json::array()))  // pages of before have none
+    card.questions.push_back({q.at("asked"), q.at("answer"), q.at("frame")});
   return card;
 } catch (const nlohmann::json::exception&) {
   return std::nullopt;
+}
+
+std::string question_list(const LessonCard& card, std::string_view page) {
+  std::string text;
+  for (const LessonQuestion& q : card.questions)
+    text += fmt::format(
+        "<details>\n<summary>{}</summary>\n<p>{} <a href=\"{}#{}\">Look at it.</a></p>\n"
+        "</details>\n",
+        escaped(q.asked), escaped(q.answer), page, q.frame);
+  return text;
 }
 
 void Lesson::add(const Frame& frame, const DrawList& list, const FrameWords& words) {
   check_draw_list(list);
   if (frames_.count() == 0) first_ = list;
   last_ = list;
+  if (frame.question)
+    card_.questions.push_back({frame.question->asked, frame.question->answer, frames_.count()});
   frames_.add(frame, list, words);
   facts_ += (facts_.empty() ? "" : ",\n") + facts_for_page(frame, list);
   const std::string caption = whole_caption(frame);
@@ -131,6 +155,8 @@ std::string Lesson::part(std::string_view name) const {
   if (name == "colours") return lesson_colours();
   if (name == "style") return std::string(page::lesson_css);
   if (name == "captions") return captions_;
+  if (name == "questions") return question_list(card_, "");
+  if (name == "question-button") return std::string(card_.questions.empty() ? "" : kQuestionButton);
   if (name == "still") return base64(picture_of(first_));
   if (name == "cover") {
     const std::string end = picture_of(last_);

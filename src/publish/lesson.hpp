@@ -13,16 +13,27 @@
 
 namespace lantern::publish {
 
+// Asked of the students after a lesson, and the frame that answers it.
+struct LessonQuestion {
+  std::string asked, answer;
+  std::uint64_t frame = 0;  // of the page's frames, from 0
+};
+
 // What an index of lessons tells of one.
 struct LessonCard {
   std::string scenario, title, idea;
   std::optional<std::uint32_t> lecture;  // its place in the order of teaching
   std::vector<std::string> needs;        // scenarios to be seen before
   std::uint64_t steps = 0, frames = 0;
+  std::vector<LessonQuestion> questions = {};
 };
 // As one line of JSON; back from it, nothing if it is not that.
 std::string to_json(const LessonCard& card);
 std::optional<LessonCard> lesson_card(std::string_view json);
+
+// The card's questions as <details>, each with its answer and a link to the frame of `page`, a URL
+// or nothing for the page itself, that shows it.
+std::string question_list(const LessonCard& card, std::string_view page);
 
 // The roles' colours, and those of the page itself, as CSS variables: light, unless the reader's
 // system prefers dark or the root's data-theme says otherwise; grey on paper.
@@ -31,7 +42,7 @@ std::string lesson_colours();
 class Lesson {
  public:
   // `theme`: "light" follows what the reader's system prefers; "dark" and "print" are what the page
-  // opens in. The card's number of frames is counted here.
+  // opens in. The card's frames are counted here, and its questions gathered from them.
   Lesson(LessonCard card, std::string theme) : card_(std::move(card)), theme_(std::move(theme)) {}
 
   // In order. The list must be one that a renderer takes (check_draw_list), or Refused is thrown.

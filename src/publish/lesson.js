@@ -164,6 +164,10 @@ class Page {
       (index) => { dialog.close(); this.go(index); });
   }
 
+  openQuestions() {
+    if ($("question")) $("question-dialog").showModal();
+  }
+
   openSpeaker() {
     if (!this.speaker?.isOpen) this.speaker = new SpeakerView(this.lesson, (event) => onKey(this, event));
     this.speaker.show(this.index, this.following);
@@ -235,7 +239,7 @@ const KEYS = {
   Home: (page) => page.go(0), End: (page) => page.go(page.lesson.last),
   e: (page) => page.setPace(!page.byEvent), m: (page) => page.setMotion(!page.withMotion),
   p: (page) => page.togglePlay(), i: (page) => page.toggleFacts(),
-  o: (page) => page.openOverview(), s: (page) => page.openSpeaker(),
+  o: (page) => page.openOverview(), q: (page) => page.openQuestions(), s: (page) => page.openSpeaker(),
   d: changeTheme, f: (page) => page.toggleFull(),
   "?": () => $("help-dialog").showModal(),
   Escape: (page) => page.closeAll(),
@@ -259,6 +263,8 @@ function listenToButtons(page) {
     theme: changeTheme, full: () => page.toggleFull(), help: () => $("help-dialog").showModal(),
   };
   for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
+  $("question")?.addEventListener("click", () => page.openQuestions());
+  $("question-dialog").addEventListener("click", (event) => event.target.closest("a") && $("question-dialog").close());
   $("slider").addEventListener("input", () => page.go(page.stops[$("slider").value]));
   for (const dialog of document.querySelectorAll("dialog"))
     dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());

@@ -103,9 +103,10 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
   return fmt::format(
       "<li>\n<a class=\"picture\" href=\"{}\" tabindex=\"-1\" aria-hidden=\"true\">"
       "<img src=\"{}\" alt=\"\" loading=\"lazy\"></a>\n<h2>{}{}</h2>\n<p class=\"idea\">{}</p>\n{}"
-      "<p class=\"length\">{} step{}</p>\n</li>\n",
+      "{}<p class=\"length\">{} step{}</p>\n</li>\n",
       url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
-      escaped(card.idea), needs_of(lesson, by_name), card.steps, card.steps == 1 ? "" : "s");
+      escaped(card.idea), needs_of(lesson, by_name), question_list(card, url_of(lesson.file)),
+      card.steps, card.steps == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -127,6 +127,7 @@ std::string why_not_counted(std::string_view name, const Draft& draft, const Scr
 
 void check_caption(const TableReader& step, Draft& draft, const ScriptState& state) {
   check_quotes(step, "caption", draft, state);
+  check_quotes(step, "answer", draft, state);
 }
 
 void check_quotes(const TableReader& table, std::string_view key, Draft& draft,

@@ -244,6 +244,12 @@ struct FrameNote {
   Vec<3> point{0.0};
 };
 
+// Asked of the students after the sequence, and answered by the frame that has it.
+struct FrameQuestion {
+  std::string asked;
+  std::string answer;  // counts filled in
+};
+
 struct Frame {
   int dimension = 2;
   std::optional<Camera> camera;  // of a solid world
@@ -261,6 +267,7 @@ struct Frame {
   std::vector<std::string> told;      // the counts and measures that the caption quotes, in order
   std::vector<std::string> headline;  // the numbers that the scenario puts in front; may be empty
   bool ending = false;                // the take-away of the sequence
+  std::optional<FrameQuestion> question;  // on no picture
   StructureKind structure = StructureKind::none;
   std::string settings;  // "capacity 2, depth limit 4": what the tree was told
   int sweep_axis = 0;    // along which a sweep sorted; of other structures of no matter

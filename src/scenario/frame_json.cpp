@@ -26,6 +26,7 @@ class FrameWriter {
           "caption", frame_.caption, "seed", frame_.seed);
     if (frame_.ending) lines("ending", true);
     if (!frame_.headline.empty()) lines("headline", frame_.headline);
+    if (whole_way_ && frame_.question) lines("question", *frame_.question);
     if (!frame_.sides.empty()) write_list("sides", frame_.sides);
     write_facts(frame_);
     json_.line().end_object();
@@ -127,6 +128,9 @@ class FrameWriter {
   }
   void write(const Box<2>& box) { object("min", box.lo, "max", box.hi); }
   void write(const Camera& camera) { object("eye", camera.eye, "target", camera.target); }
+  void write(const FrameQuestion& question) {
+    object("asked", question.asked, "answer", question.answer);
+  }
   void write(const FrameNote& note) {
     json_.begin_object();
     members("text", note.text);

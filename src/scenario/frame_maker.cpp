@@ -180,6 +180,8 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
   else
     frame.caption = caption;
   frame.ending = last && step_->ending;
+  if (last && !step_->question.empty() && scenario_.side.empty())
+    frame.question = FrameQuestion{step_->question, fill(step_->answer, frame)};
   verify(step_->always, frame);
   if (last) verify(step_->expect, frame);
   if (last) require_notes(frame);

@@ -87,6 +87,13 @@ TableDoc step_table() {
       key(&Step::speaker_notes, "notes",
           "For whoever speaks: shown in the speaker's view of a lesson page, on no frame.",
           range(0, kMostNotesText)),
+      key(&Step::question, "question",
+          "For the students, once they have seen the sequence. What the step expects proves the "
+          "answer.",
+          range(1, kMostCaption), or_else("asks none")),
+      key(&Step::answer, "answer",
+          "To the `question`: what the step's last frame shows. It may quote counts.",
+          range(1, kMostCaption), or_else("answers none")),
       key(&Step::plot, "plot", "Adds a point to the [chart], or a bar with this label.",
           range(1, 40), or_else("adds none")),
       key(KeyType::texts, "headline", "The scenario's `headline` from here on.",

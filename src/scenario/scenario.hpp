@@ -59,6 +59,8 @@ struct Step {
   std::string part;                 // from here on shown behind the title; may be empty
   std::string caption;              // with {count} and {count:noun}; may be empty
   std::string speaker_notes;        // for whoever speaks, never drawn; may be empty
+  std::string question;             // for the students, after the sequence; or empty
+  std::string answer;               // to it, as this step's last frame shows; it may quote counts
   std::optional<std::string> plot;  // adds a point to the chart, or a bar of this label
   std::optional<Pace> pace;         // of this step alone
   std::vector<std::string> events;  // in event pace, only these give frames; empty for all
@@ -135,8 +137,8 @@ class Scenario : public ScenarioSpec {
 // What standard input is called as a file, in messages and facts.
 inline constexpr std::string_view kStandardInput = "<stdin>";
 
-// Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is standard
-// input; without a name of its own, the scenario from there is called `stdin`.
+// Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is
+// standard input; without a name of its own, the scenario from there is called `stdin`.
 Scenario load_scenario(const std::string& path);
 
 // Of a file of a folder, what must be known before it is read as a scenario.

@@ -140,6 +140,7 @@ class ScriptReader {
     step.headline = read_headline(table, draft_, &state_);
     step.rulers = read_rulers(table, script_);
     note_ending(table, step);
+    check_question(table);
     for (const TomlValue* expect : table.tables("expect"))
       step.expect = read_expectations(*expect, "expect", draft_, state_);
     for (const TomlValue* always : table.tables("always"))
@@ -158,6 +159,22 @@ class ScriptReader {
       told_ending_ = true;
     }
     if (step.ending) ending_ = table.key_place("ending");
+  }
+
+  // A question has an answer, and the answer a proof.
+  void check_question(const TableReader& table) {
+    for (const char* key : {"question", "answer"})
+      if (table.has(key) && !table.is_good(key)) return;  // told already
+    if (table.has("answer") && !table.has("question"))
+      return table.bad_key("answer", "an 'answer' without a 'question'",
+                           "ask, as question = \"Why is nothing tested?\"");
+    if (!table.has("question")) return;
+    if (!table.has("answer"))
+      return table.bad_key("question", "a 'question' without an 'answer'",
+                           "say what the step's last frame shows, as answer = \"…\"");
+    if (!table.has("expect") && !table.has("always"))
+      table.bad_key("question", "the answer to this 'question' is proved by nothing",
+                    "give the step what it must find, as expect = { pairs = 0 }");
   }
 
   // The place of the step's verb in the list. Adds a problem and gives nothing if there is none.

@@ -156,6 +156,8 @@ class SidesRun {
       Frame frame = together(k);
       plot(step, k + 1 == frames, frame);
       frame.caption = caption(step, k, frame);
+      if (k + 1 == frames && !step.question.empty())
+        frame.question = FrameQuestion{step.question, filled(step, step.answer, k, frame)};
       ++report_.frames;
       stopped_ = !sink_(frame);
     }
@@ -192,7 +194,7 @@ class SidesRun {
   // one side does that the others do not is said by that side.
   std::string caption(const Step& step, std::size_t k, Frame& frame) {
     const auto speaks = [](const Frame& side) { return !side.held && !side.caption.empty(); };
-    if (std::ranges::none_of(frame.sides, speaks)) return filled(step, k, frame);
+    if (std::ranges::none_of(frame.sides, speaks)) return filled(step, step.caption, k, frame);
     const std::string words = frame.sides[0].caption;
     for (const Frame& side : frame.sides)
       if (side.caption != words) return "";
@@ -213,7 +215,7 @@ class SidesRun {
     }
   }
 
-  std::string filled(const Step& step, std::size_t k, const Frame& frame) {
+  std::string filled(const Step& step, const std::string& text, std::size_t k, const Frame& frame) {
     std::map<std::string, Quote, std::less<>> known;  // a name is asked for as words, then as count
     const auto quote = [&](std::string_view name) -> const Quote& {
       const auto found = known.find(name);
@@ -221,7 +223,7 @@ class SidesRun {
       return known.emplace(name, quoted(step, name, k, frame)).first->second;
     };
     return fill_caption(
-        step.caption, [&](std::string_view name) { return quote(name).words; },
+        text, [&](std::string_view name) { return quote(name).words; },
         [&](std::string_view name) { return quote(name).count; });
   }
 

@@ -141,6 +141,11 @@ def check_beside(page):
     page.wait_for("document.querySelectorAll('#overview-dialog svg').length === 3")
     page.run("document.querySelectorAll('#overview-dialog button')[2].click()")
     expect("the overview goes to a step", page.run("return window.lantern.index === window.lantern.lesson.last"))
+    page.run("window.lantern.go(0)")
+    page.press("q")
+    page.run("const q = document.querySelector('#question-dialog details'); q.open = true; q.querySelector('a').click()")
+    page.wait_for("window.lantern.index === 1")
+    expect("an answer's link goes to its frame", page.run("return document.querySelector('dialog[open]') === null"))
     page.run("window.lantern.go(0); window.lantern.openSpeaker()")
     expect("notes stand in the speaker's view",
            page.run("return window.lantern.speaker.parts.notes.textContent"), "Ask first: how many pairs?")

@@ -248,6 +248,31 @@ TEST(LessonFrames, TellWhichFrameIsTheEnding) {
   EXPECT_NE(frames.json().find("\"ending\": true"), std::string::npos) << frames.json();
 }
 
+TEST(Lesson, AsksWhatItsFramesAnswer) {
+  Lesson asks({"a", "A", "", 3, {}, 2}, "light"), silent({"a", "A", "", 3, {}, 2}, "light");
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    Frame frame = frame_of(i);
+    silent.add(frame, picture(200, true), {});
+    if (i == 1) frame.question = FrameQuestion{"Is 1 < 2?", "3 pairs & more."};
+    asks.add(frame, picture(200, true), {});
+  }
+  const std::string page = asks.html();
+  EXPECT_NE(page.find("<summary>Is 1 &lt; 2?</summary>\n<p>3 pairs &amp; more. <a href=\"#1\">"),
+            page.npos);
+  EXPECT_NE(page.find("<button id=\"question\""), page.npos);
+  EXPECT_EQ(silent.html().find("<button id=\"question\""), page.npos);
+  const std::size_t from = page.find("id=\"card\">") + 10;
+  const auto card = lesson_card(page.substr(from, page.find("</script>", from) - from));
+  ASSERT_TRUE(card);
+  ASSERT_EQ(card->questions.size(), 1u);
+  EXPECT_EQ(card->questions[0].asked, "Is 1 < 2?");
+  EXPECT_EQ(card->questions[0].frame, 1u);
+  const std::string older = R"({"format": "lantern.lesson/1", "scenario": "a", "title": "A",
+    "idea": "", "lecture": null, "needs": [], "steps": 1, "frames": 1})";
+  ASSERT_TRUE(lesson_card(older)) << "a page of before";
+  EXPECT_TRUE(lesson_card(older)->questions.empty());
+}
+
 TEST(Lesson, KeepsWhatAUserWroteOutOfItsMarkup) {
   const std::string nasty = "</script><b onload=\"x('y')\">&amp; 日本 {{script}}";
   Lesson lesson({"a", nasty, nasty, 3, {"b"}, 1}, "light");

@@ -22,6 +22,8 @@ TEST_P(EverySequenceTold, BeginsCalmlyAndEndsWithWhatItProves) {
   EXPECT_FALSE(last.caption.empty());
   EXPECT_GE(last.headline.size(), 1u) << "the numbers that prove it";
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) EXPECT_FALSE(frames[i].ending);
+  EXPECT_TRUE(std::ranges::any_of(frames, [](const Frame& f) { return f.question.has_value(); }))
+      << "asks nothing of the students";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, EverySequenceTold, testing::ValuesIn(all_scenarios()),
