@@ -123,6 +123,10 @@ void add_list(CLI::App& app, Run& run) {
       app, run, "list", "List the scenarios in a folder in the order of a lecture", list_command);
   c->add_option("DIR", o.folders, "folders or files; the default is scenarios");
   add_json(*c, o.json);
+  c->add_flag("--course", o.course,
+              "run them, and print the course as Markdown: ideas, what comes before, questions "
+              "with their answers")
+      ->excludes("--json");
 }
 
 void add_explain(CLI::App& app, Run& run) {

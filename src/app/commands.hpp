@@ -69,6 +69,7 @@ int check_command(const CheckOptions& options);
 
 struct ListOptions {
   std::vector<std::string> folders;
+  bool course = false;
   bool json = false;
 };
 int list_command(const ListOptions& options);

@@ -2,6 +2,7 @@
 
 #include "app/answer.hpp"
 #include "app/commands.hpp"
+#include "app/course_page.hpp"
 #include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
 #include "app/scenario_folder.hpp"
@@ -42,6 +43,7 @@ int list_command(const ListOptions& options) {
     if (folders.front() != "scenarios") say(fmt::format("from {}", folders.front().string()));
     words.push_back(folders.front().string());
   }
+  if (options.course) return print_course(input_files(words));
   std::vector<std::vector<std::string>> rows;
   JsonWriter json = answer_of("list");
   json.line().key("scenarios").begin_array();

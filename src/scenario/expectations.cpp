@@ -1,6 +1,7 @@
 // Does a frame meet the expectations of its step?
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -141,7 +142,79 @@ Unmet unmet_turn(const Expectation& e, const Frame& frame) {
                      body ? fmt::format("{}", body->angle / kDegree) : "none");
 }
 
+std::string pairs_text(std::string_view key, const Expectation& e) {
+  std::set<NamePair> pairs;
+  for (const auto& [a, b] : e.pairs) pairs.insert(ordered(a, b));
+  return fmt::format("{} = {}", key, listed(pairs));
+}
+
+std::string text_of(const Expectation& e, int dimension) {
+  using enum Expectation::Kind;
+  const auto point = [&](std::string_view key) {
+    return fmt::format("{} of {} = {}", key, e.name, point_text(e.position, dimension));
+  };
+  switch (e.kind) {
+    case at_most:
+      return fmt::format("{} ≤ {:.9g}", e.name, e.number);
+    case at_least:
+      return fmt::format("{} ≥ {:.9g}", e.name, e.number);
+    case leaves:
+      return fmt::format("leaves of {} = {}", e.name, e.number);
+    case Expectation::Kind::pairs:
+      return pairs_text("pairs", e);
+    case contacts:
+      return pairs_text("contacts", e);
+    case hits:
+      return fmt::format("hits = {}", listed(e.names));
+    case asleep:
+      return fmt::format("asleep: {}", listed(e.names));
+    case awake:
+      return fmt::format("awake: {}", listed(e.names));
+    case position:
+      return point("position");
+    case velocity:
+      return point("velocity");
+    case half_size:
+      return point("half size");
+    case turned:
+      return fmt::format("{} turned by {:.9g}°", e.name, e.number / kDegree);
+    case count:
+    case measure:
+      break;
+  }
+  return fmt::format("{} = {:.9g}", e.name, e.number);
+}
+
+std::vector<const Expectation*> all_of(const Step& step) {
+  std::vector<const Expectation*> all;
+  for (const Expectation& e : step.expect) all.push_back(&e);
+  for (const Expectation& e : step.always) all.push_back(&e);
+  return all;
+}
+
 }  // namespace
+
+std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
+  std::vector<std::string> proofs;
+  const int dimension = scenario.world.dimension;
+  if (scenario.sides.empty()) {
+    for (const Expectation* e : all_of(scenario.steps.at(step)))
+      proofs.push_back(text_of(*e, dimension));
+    return proofs;
+  }
+  // What all sides expect stands in one place of the file.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::string, std::size_t>> by_place;
+  for (const auto& side : scenario.sides)
+    for (const Expectation* e : all_of(side->steps.at(step))) {
+      auto& [text, sides] = by_place[{e->where.line, e->where.column}];
+      if (sides++ == 0) text = fmt::format("{}: {}", side->side, text_of(*e, dimension));
+    }
+  for (const auto& [place, proof] : by_place) {
+    const auto& [text, sides] = proof;
+    proofs.push_back(sides == 1 ? text : text.substr(text.find(": ") + 2));
+  }
+  return proofs;
+}
 
 // In the order of Expectation::Kind.
 Unmet unmet(const Expectation& e, const Frame& frame) {

@@ -134,6 +134,10 @@ class Scenario : public ScenarioSpec {
   explicit Scenario(ScenarioSpec spec);
 };
 
+// What step `step` (from 0) expects when it is done, then what always, in the order of the file and
+// in a few signs each: "pairs = 0". What only one side expects begins with its name: "lazy: …".
+std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step);
+
 // What standard input is called as a file, in messages and facts.
 inline constexpr std::string_view kStandardInput = "<stdin>";
 

@@ -103,7 +103,7 @@ TEST(Readme, ThePictureIsLanternsOwn) {
 // A row a scenario, in the order of the lecture.
 TEST(Readme, ListsTheScenariosAsLanternDoes) {
   const std::string page = read_text(repository("README.md"));
-  std::string table = "|---|---|---|---|\n";
+  std::string table = "|---|---|---|---|---|\n";
   std::set<std::string> before;
   const Outcome listed = shell("lantern list --json " + repository("scenarios").string());
   const auto list = nlohmann::json::parse(listed.out);
@@ -113,13 +113,26 @@ TEST(Readme, ListsTheScenariosAsLanternDoes) {
       EXPECT_TRUE(before.contains(need)) << s["name"] << " needs " << need << ", which is later";
       needs += (needs.empty() ? "`" : " · `") + need + "`";
     }
+    std::string asked;
+    for (const std::string question : s["questions"])
+      asked += (asked.empty() ? "" : " ") + question;
+    EXPECT_FALSE(asked.empty()) << s["name"] << " asks nothing of the students";
     ASSERT_TRUE(s["lecture"].is_number()) << s["name"];
     EXPECT_EQ(s["lecture"], before.size() + 1) << s["name"];
     table += "| " + s["lecture"].dump() + " | `" + s["name"].get<std::string>() + "` | " +
-             s["idea"].get<std::string>() + " | " + needs + " |\n";
+             s["idea"].get<std::string>() + " | " + needs + " | " + asked + " |\n";
     before.insert(s["name"]);
   }
   EXPECT_NE(page.find(table), std::string::npos) << "write it anew:\n" << table;
+}
+
+TEST(Readme, TheCourseIsWhatListPrints) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "it runs every scenario: the release build's";
+#endif
+  const Outcome o = shell("lantern list --course " + repository("scenarios").string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.out, read_text(repository("scenarios/COURSE.md"))) << "print it anew: ./run golden";
 }
 
 // What `./run demo` does when all is built, with the first frame of each: that the others are drawn
