@@ -1,6 +1,7 @@
 // The narrow phase: the closed forms of pairs of shapes, and which pair has which, or a search.
 #include <algorithm>
 #include <array>
+#include <span>
 #include <variant>
 
 #include "physics/collide_cores.hpp"
@@ -9,12 +10,18 @@ namespace lantern::physics {
 namespace narrow {
 namespace {
 
+template <int D>
+constexpr auto kBetween = MeasuredAxis<D>::Across::closest_points;
+
 // --- a sphere against a sphere, a box, a capsule ---
 
 // The point of the other core that is closest to the centre.
 template <int D>
-Contact<D> touch_points(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+Contact<D> touch_points(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                        NarrowTrace<D>& trace) {
   const Direction<D> normal = direction_of(b.center - a.center, fallback_normal<D>());
+  trace.lengths += 1;
+  trace.note(normal.unit, normal.length - a.radius - b.radius, kBetween<D>);
   if (normal.length - a.radius - b.radius > margin) return std::nullopt;
   return one_point(a.center, a.radius, b.radius, normal);
 }
@@ -25,7 +32,8 @@ Contact<D> touch_points(const PlacedCore<D>& a, const PlacedCore<D>& b, double m
 //    |   <-x  |      x: the centre
 //    |________|
 template <int D>
-Contact<D> touch_point_and_box(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+Contact<D> touch_point_and_box(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                               NarrowTrace<D>& trace) {
   const Vec<D> center = b.local(a.center);
   const Vec<D> outside = center - glm::clamp(center, -b.half, b.half);
   Direction<D> normal = direction_of(-outside, Vec<D>(0.0));  // from the sphere into the box
@@ -37,15 +45,20 @@ Contact<D> touch_point_and_box(const PlacedCore<D>& a, const PlacedCore<D>& b, d
     normal.length = std::abs(center[axis]) - b.half[axis];
   }
   normal.unit = b.axes * normal.unit;
+  trace.lengths += 1 + D;
+  trace.note(normal.unit, normal.length - a.radius, kBetween<D>);
   if (normal.length - a.radius > margin) return std::nullopt;
   return one_point(a.center, a.radius, 0.0, normal);
 }
 
 // A centre on the capsule's segment leaves it sideways.
 template <int D>
-Contact<D> touch_point_and_segment(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+Contact<D> touch_point_and_segment(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                                   NarrowTrace<D>& trace) {
   const Vec<D> to_segment = closest_point(b.segment(), a.center) - a.center;
   const Direction<D> normal = direction_of(to_segment, b.axes[0]);
+  trace.lengths += 3;  // two of them for the closest point
+  trace.note(normal.unit, normal.length - a.radius - b.radius, kBetween<D>);
   if (normal.length - a.radius - b.radius > margin) return std::nullopt;
   return one_point(a.center, a.radius, b.radius, normal);
 }
@@ -102,12 +115,15 @@ Contact<D> two_points(const PlacedCore<D>& a, const PlacedCore<D>& b, const Dire
 }
 
 template <int D>
-Contact<D> touch_segments(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+Contact<D> touch_segments(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                          NarrowTrace<D>& trace) {
   const PointPair<D> closest = closest_points(a.segment(), b.segment());
   const Direction<D> normal = direction_of(closest.b - closest.a, fallback_normal<D>());
   const double size = a.half.y + b.half.y + glm::length(b.center - a.center);
+  trace.lengths += 15;  // five pairs of points, each with its distance
   // Segments that cross have no direction between them: they part by separating axes.
-  if (normal.length <= kRounding * size) return touch_blocks(a, b, margin);
+  if (normal.length <= kRounding * size) return touch_blocks(a, b, margin, trace);
+  trace.note(normal.unit, normal.length - a.radius - b.radius, kBetween<D>);
   if (normal.length - a.radius - b.radius > margin) return std::nullopt;
   if (const Contact<D> contact = two_points(a, b, normal, margin)) return contact;
   return one_point(closest.a, a.radius, b.radius, normal);
@@ -118,7 +134,8 @@ Contact<D> touch_segments(const PlacedCore<D>& a, const PlacedCore<D>& b, double
 // As many of those that touch as a manifold holds. They stay in the order of their features,
 // whichever of them rounding makes the lowest.
 template <int D>
-Contact<D> touch_wall(const PlacedCore<D>& core, const Wall<D>& wall, double margin) {
+Contact<D> touch_wall(const PlacedCore<D>& core, const Wall<D>& wall, double margin,
+                      NarrowTrace<D>& trace) {
   std::array<ManifoldPoint<D>, 1u << D> room;
   std::size_t count = 0;
   each_corner(core, [&](const Vec<D>& corner, std::uint32_t) {
@@ -131,6 +148,11 @@ Contact<D> touch_wall(const PlacedCore<D>& core, const Wall<D>& wall, double mar
   const auto is_lower = [](const ManifoldPoint<D>& x, const ManifoldPoint<D>& y) {
     return x.separation != y.separation ? x.separation < y.separation : x.feature < y.feature;
   };
+  trace.lengths += count;
+  if (trace.axes) {
+    const double lowest = std::ranges::min(corners, {}, &ManifoldPoint<D>::separation).separation;
+    trace.note(-wall.normal, lowest, kBetween<D>);
+  }
   Manifold<D> manifold;
   manifold.normal = -wall.normal;
   for (const ManifoldPoint<D>& corner : corners) {
@@ -143,31 +165,6 @@ Contact<D> touch_wall(const PlacedCore<D>& core, const Wall<D>& wall, double mar
 }
 
 // --- which form a pair has ---
-
-template <int D>
-using Placing = std::variant<PlacedCore<D>, Wall<D>>;
-
-template <int D>
-Placing<D> placing_of(const Placed<D>& placed, const Vec<D>& center) {
-  using Kind = typename PlacedCore<D>::Kind;
-  const auto core = [&](Kind kind, const Core<D>& of) -> Placing<D> {
-    const bool is_turned = of.turns && kind != Kind::point;
-    const Mat<D> axes = !is_turned    ? Mat<D>(1.0)
-                        : placed.axes ? *placed.axes
-                                      : matrix(placed.orientation);
-    return PlacedCore<D>{kind, center, axes, of.half, of.radius};
-  };
-  return std::visit(EachShape{
-                        [&](const Sphere& s) { return core(Kind::point, core_of<D>(s)); },
-                        [&](const AxisBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
-                        [&](const OrientedBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
-                        [&](const Capsule& s) { return core(Kind::segment, core_of<D>(s)); },
-                        [&](const HalfSpace<D>& s) -> Placing<D> {
-                          return Wall<D>{center, s.normal};
-                        },
-                    },
-                    placed.shape);
-}
 
 template <int D>
 std::array<double, D + 1> sizes_of(const PlacedCore<D>& core) {
@@ -197,31 +194,45 @@ bool is_in_order(const Placing<D>& a, const Placing<D>& b, const Vec<D>& offset)
 }
 
 template <int D>
-Contact<D> touch_cores(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
+Contact<D> touch_cores(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                       NarrowTrace<D>& trace) {
   using Kind = typename PlacedCore<D>::Kind;
   switch (a.kind) {
     case Kind::point:
-      return b.kind == Kind::point ? touch_points(a, b, margin)
-             : b.kind == Kind::box ? touch_point_and_box(a, b, margin)
-                                   : touch_point_and_segment(a, b, margin);
+      return b.kind == Kind::point ? touch_points(a, b, margin, trace)
+             : b.kind == Kind::box ? touch_point_and_box(a, b, margin, trace)
+                                   : touch_point_and_segment(a, b, margin, trace);
     case Kind::box:
-      return touch_blocks(a, b, margin);
+      return touch_blocks(a, b, margin, trace);
     case Kind::segment:
-      return touch_segments(a, b, margin);
+      return touch_segments(a, b, margin, trace);
   }
   return std::nullopt;
 }
 
 template <int D>
-Contact<D> touch_in_order(const Placing<D>& a, const Placing<D>& b, double margin) {
+Contact<D> touch_in_order(const Placing<D>& a, const Placing<D>& b, double margin,
+                          NarrowTrace<D>& trace) {
   const auto* core_a = std::get_if<PlacedCore<D>>(&a);
   if (core_a == nullptr) return std::nullopt;  // two half-spaces
   return std::visit(
       EachShape{
-          [&](const PlacedCore<D>& core_b) { return touch_cores(*core_a, core_b, margin); },
-          [&](const Wall<D>& wall) { return touch_wall(*core_a, wall, margin); },
+          [&](const PlacedCore<D>& core_b) { return touch_cores(*core_a, core_b, margin, trace); },
+          [&](const Wall<D>& wall) { return touch_wall(*core_a, wall, margin, trace); },
       },
       b);
+}
+
+// Of axes that were measured from b to a.
+template <int D>
+void turn_over(std::span<MeasuredAxis<D>> axes) {
+  using Across = typename MeasuredAxis<D>::Across;
+  for (MeasuredAxis<D>& axis : axes) {
+    axis.normal = -axis.normal;
+    const Across was = axis.across;
+    if (was == Across::face_of_a) axis.across = Across::face_of_b;
+    if (was == Across::face_of_b) axis.across = Across::face_of_a;
+  }
 }
 
 }  // namespace
@@ -230,16 +241,19 @@ Contact<D> touch_in_order(const Placing<D>& a, const Placing<D>& b, double margi
 // Positions are subtracted before anything else, so that far from the origin only their own
 // rounding is lost.
 template <int D>
-std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin) {
+std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin,
+                                   NarrowTrace<D>& trace) {
   const Vec<D> offset = b.position - a.position;
   const auto at_origin = narrow::placing_of(a, Vec<D>(0.0));
   const auto at_offset = narrow::placing_of(b, offset);
   const bool in_order = narrow::is_in_order<D>(at_origin, at_offset, offset);
   const Placed<D>& first = in_order ? a : b;
-  auto contact =
-      in_order ? narrow::touch_in_order<D>(at_origin, at_offset, margin)
-               : narrow::touch_in_order<D>(narrow::placing_of(b, Vec<D>(0.0)),
-                                           narrow::placing_of(a, a.position - b.position), margin);
+  const std::size_t told = trace.axes ? trace.axes->size() : 0;
+  auto contact = in_order ? narrow::touch_in_order<D>(at_origin, at_offset, margin, trace)
+                          : narrow::touch_in_order<D>(
+                                narrow::placing_of(b, Vec<D>(0.0)),
+                                narrow::placing_of(a, a.position - b.position), margin, trace);
+  if (!in_order && trace.axes) narrow::turn_over<D>(std::span(*trace.axes).subspan(told));
   if (!contact) return contact;
   if (!in_order) contact->normal = -contact->normal;
   for (int i = 0; i < contact->count; ++i)
@@ -247,7 +261,9 @@ std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, doubl
   return contact;
 }
 
-template std::optional<Manifold<2>> collide(const Placed<2>&, const Placed<2>&, double);
-template std::optional<Manifold<3>> collide(const Placed<3>&, const Placed<3>&, double);
+template std::optional<Manifold<2>> collide(const Placed<2>&, const Placed<2>&, double,
+                                            NarrowTrace<2>&);
+template std::optional<Manifold<3>> collide(const Placed<3>&, const Placed<3>&, double,
+                                            NarrowTrace<3>&);
 
 }  // namespace lantern::physics

@@ -128,10 +128,12 @@ Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const PlacedCore<D>& 
 }  // namespace
 
 template <int D>
-Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin) {
-  const SeparatingAxes<D> axes = separating_axes(a, b);
-  const double radii = a.radius + b.radius, bound = axes.greatest.separation;
-  if (bound - radii > margin) return std::nullopt;
+Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                        NarrowTrace<D>& trace) {
+  const double radii = a.radius + b.radius;
+  const SeparatingAxes<D> axes = separating_axes(a, b, margin, trace);
+  if (axes.parted) return std::nullopt;
+  const double bound = axes.greatest.separation;
 
   double size = glm::length(b.center - a.center);
   for (int i = 0; i < D; ++i) size += a.half[i] + b.half[i];
@@ -142,16 +144,21 @@ Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double m
     if (auto contact = contact_if_exact(axes.greatest, a, b, bound, rounding, margin))
       return contact;
 
-  const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest);
+  const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest, trace);
   Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
   // Where the axis is as good, it is the better direction: it does not come of small differences.
   // Cores that meet have none but it.
-  if (normal.length <= bound + rounding || !apart) normal = {axes.greatest.normal, bound};
+  if (normal.length <= bound + rounding || !apart)
+    normal = {axes.greatest.normal, bound};
+  else
+    trace.note(normal.unit, normal.length - radii, MeasuredAxis<D>::Across::closest_points);
   if (normal.length - radii > margin) return std::nullopt;
   return contact_of_closest(a, b, closest, normal, axes.face, margin);
 }
 
-template Contact<2> touch_blocks(const PlacedCore<2>&, const PlacedCore<2>&, double);
-template Contact<3> touch_blocks(const PlacedCore<3>&, const PlacedCore<3>&, double);
+template Contact<2> touch_blocks(const PlacedCore<2>&, const PlacedCore<2>&, double,
+                                 NarrowTrace<2>&);
+template Contact<3> touch_blocks(const PlacedCore<3>&, const PlacedCore<3>&, double,
+                                 NarrowTrace<3>&);
 
 }  // namespace lantern::physics::narrow

@@ -27,6 +27,7 @@ struct SeparatingAxis {
 
 template <int D>
 struct SeparatingAxes {
+  bool parted = false;         // one axis was enough; the others were not measured
   SeparatingAxis<D> chosen;    // the one to build the contact on
   SeparatingAxis<D> greatest;  // the one of the largest separation
   SeparatingAxis<D> face;      // the best of a face; its normal is 0 if neither block has any
@@ -40,8 +41,12 @@ struct SeparatingAxes {
 // half size: faces of a, faces of b, edges, sides.
 inline constexpr double kAxisBias = 1e-3;
 
+//
+// It ends at the first axis along which the shapes, radii and all, are further apart than `margin`.
+// Boxes that lie the same way have the same axes, which are measured once.
 template <int D>
-SeparatingAxes<D> separating_axes(const PlacedCore<D>& a, const PlacedCore<D>& b);
+SeparatingAxes<D> separating_axes(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                                  NarrowTrace<D>& trace);
 
 // The smallest half size of both that is not 0; 0 if all are.
 template <int D>
@@ -73,6 +78,6 @@ struct ClosestFeatures {
 
 template <int D>
 ClosestFeatures<D> closest_features(const PlacedCore<D>& a, const PlacedCore<D>& b,
-                                    const SeparatingAxis<D>& axis);
+                                    const SeparatingAxis<D>& axis, NarrowTrace<D>& trace);
 
 }  // namespace lantern::physics::narrow

@@ -36,8 +36,14 @@ Vec<D> closest_point(const PlacedCore<D>& block, const Vec<D>& point) {
 template <int D>
 class ClosestSearch {
  public:
-  ClosestSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, const SeparatingAxis<D>& axis)
-      : a_(a), b_(b), axis_(axis), reach_a_(a.reach(axis.normal)), reach_b_(b.reach(axis.normal)) {}
+  ClosestSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, const SeparatingAxis<D>& axis,
+                NarrowTrace<D>& trace)
+      : a_(a),
+        b_(b),
+        axis_(axis),
+        trace_(trace),
+        reach_a_(a.reach(axis.normal)),
+        reach_b_(b.reach(axis.normal)) {}
 
   ClosestFeatures<D> run() {
     each_corner(a_, [&](const Vec<D>& corner, std::uint32_t name) {
@@ -77,6 +83,7 @@ class ClosestSearch {
 
   void consider(const PointPair<D>& points, std::uint32_t feature) {
     const double square = points.square();
+    trace_.lengths += 2 + D;  // how far back, the other one's point, the distance
     if (square >= least_) return;
     least_ = square;
     best_ = {points, feature};
@@ -94,6 +101,7 @@ class ClosestSearch {
   const PlacedCore<D>& a_;
   const PlacedCore<D>& b_;
   const SeparatingAxis<D>& axis_;
+  NarrowTrace<D>& trace_;
   double reach_a_, reach_b_;
   double least_ = std::numeric_limits<double>::infinity();  // the square of the least distance
   double slack_ = std::numeric_limits<double>::infinity();
@@ -104,13 +112,13 @@ class ClosestSearch {
 
 template <int D>
 ClosestFeatures<D> closest_features(const PlacedCore<D>& a, const PlacedCore<D>& b,
-                                    const SeparatingAxis<D>& axis) {
-  return ClosestSearch<D>(a, b, axis).run();
+                                    const SeparatingAxis<D>& axis, NarrowTrace<D>& trace) {
+  return ClosestSearch<D>(a, b, axis, trace).run();
 }
 
 template ClosestFeatures<2> closest_features(const PlacedCore<2>&, const PlacedCore<2>&,
-                                             const SeparatingAxis<2>&);
+                                             const SeparatingAxis<2>&, NarrowTrace<2>&);
 template ClosestFeatures<3> closest_features(const PlacedCore<3>&, const PlacedCore<3>&,
-                                             const SeparatingAxis<3>&);
+                                             const SeparatingAxis<3>&, NarrowTrace<3>&);
 
 }  // namespace lantern::physics::narrow

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <optional>
+#include <variant>
 
 #include "geometry/closest.hpp"
 #include "geometry/shape.hpp"
@@ -43,6 +44,12 @@ struct PlacedCore {
     for (int i = 0; i < D; ++i) sum += half[i] * std::abs(glm::dot(n, axes[i]));
     return sum;
   }
+  // Its point farthest along a vector; of several that are, the one along the axes.
+  Vec<D> support(const Vec<D>& n) const {
+    Vec<D> point = center;
+    for (int i = 0; i < D; ++i) point += axes[i] * (glm::dot(n, axes[i]) < 0 ? -half[i] : half[i]);
+    return point;
+  }
   // Coordinates along the axes from the centre, and back.
   Vec<D> local(const Vec<D>& point) const {
     Vec<D> coordinates;
@@ -61,6 +68,32 @@ struct Wall {
   Vec<D> point{0.0};
   Vec<D> normal{0.0};  // out of the solid
 };
+
+template <int D>
+using Placing = std::variant<PlacedCore<D>, Wall<D>>;
+
+// A shape at `center`, wherever it was placed.
+template <int D>
+Placing<D> placing_of(const Placed<D>& placed, const Vec<D>& center) {
+  using Kind = typename PlacedCore<D>::Kind;
+  const auto core = [&](Kind kind, const Core<D>& of) -> Placing<D> {
+    const bool is_turned = of.turns && kind != Kind::point;
+    const Mat<D> axes = !is_turned    ? Mat<D>(1.0)
+                        : placed.axes ? *placed.axes
+                                      : matrix(placed.orientation);
+    return PlacedCore<D>{kind, center, axes, of.half, of.radius};
+  };
+  return std::visit(EachShape{
+                        [&](const Sphere& s) { return core(Kind::point, core_of<D>(s)); },
+                        [&](const AxisBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
+                        [&](const OrientedBox<D>& s) { return core(Kind::box, core_of<D>(s)); },
+                        [&](const Capsule& s) { return core(Kind::segment, core_of<D>(s)); },
+                        [&](const HalfSpace<D>& s) -> Placing<D> {
+                          return Wall<D>{center, s.normal};
+                        },
+                    },
+                    placed.shape);
+}
 
 // Calls f(corner, name) for each corner of a core; those that coincide, for want of thickness,
 // once.
@@ -94,7 +127,7 @@ using Contact = std::optional<Manifold<D>>;
 
 // By search. It does not look at the order of bodies: `collide` has sorted them.
 template <int D>
-Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b,
-                        double margin);  // any two but points
+Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                        NarrowTrace<D>& trace);  // any two but points
 
 }  // namespace lantern::physics::narrow

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "geometry/shape.hpp"
+#include "physics/narrow_trace.hpp"
 
 namespace lantern::physics {
 
@@ -61,7 +62,16 @@ struct Placed {
 // - `collide(b, a)` is the same contact, bit for bit, but for the sign of the normal. Equal shapes
 //   with a common centre have no order: they get the same fixed normal both ways.
 // - Positions are subtracted first: far from the origin nothing is lost but their own rounding.
+//
+// `trace` is added to. Boxes, and a box and a capsule, are measured along one axis after another,
+// until one of them parts them by more than the margin.
 template <int D>
-std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin);
+std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin,
+                                   NarrowTrace<D>& trace);
+template <int D>
+std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin) {
+  NarrowTrace<D> nobody;
+  return collide(a, b, margin, nobody);
+}
 
 }  // namespace lantern::physics
