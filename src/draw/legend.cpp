@@ -200,7 +200,13 @@ std::string_view words_of(MarkKind kind) {
                                                 "centre",
                                                 "spring",
                                                 "rod",
-                                                "pin"};
+                                                "pin",
+                                                "reach along the axis",
+                                                "gap",
+                                                "overlap on the axis",
+                                                "farthest point",
+                                                "points kept",
+                                                "origin"};
   static_assert(std::size(kWords) == kMarkKinds);
   return kWords[static_cast<std::size_t>(kind)];
 }

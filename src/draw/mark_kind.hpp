@@ -36,7 +36,13 @@ enum class MarkKind : std::uint8_t {
   centre,   // a plus
   spring,
   rod,
-  pin,  // a ring with a dot: two points held together
+  pin,             // a ring with a dot: two points held together
+  shadow,          // a bar beside an axis: how far a body reaches along it
+  shadow_gap,      // between two ticks: the bodies are apart along this axis
+  shadow_overlap,  // a frame: what two shadows share
+  support,         // a disc: the point farthest along a search's direction
+  simplex,         // discs and lines: points of a search that have the nearest place between them
+  origin,          // a ring with a dot, of a Minkowski difference
   count_,
 };
 

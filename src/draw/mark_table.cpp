@@ -5,6 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
+#include "draw/narrow_marks.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -38,7 +39,7 @@ bool draw_finding(MarkKind kind, const Vec<2>& c, const Vec<2>& left, const Vec<
         pen.line(c - arm, c + arm, {Role::frustum, 2.2});
       return true;
     default:
-      return false;
+      return draw_narrow_sample(kind, left, right, pen);
   }
 }
 

@@ -80,6 +80,10 @@ void draw_panel(const Frame& frame, const Staging& staging, Panel panel, const B
       return draw_bytes(frame, box, list, labels);
     case Panel::sparkline:
       return draw_sparkline(frame, box, list, labels);
+    case Panel::difference:
+      return draw_difference(frame, staging, box, list, labels);
+    case Panel::axes:
+      return draw_axes(frame, staging, box, list, labels);
   }
 }
 

@@ -59,6 +59,16 @@ double memory_height(const Frame& frame, double width);
 // order. Of many bodies a density takes the place of the cells.
 void draw_ledger(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 
+// The Minkowski difference of two bodies round its origin, in the world's scale if it has room, and
+// what a search for their distance has found of it.
+void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& panel,
+                     DrawList& list, Labels& labels);
+
+// The axes of frame.separation below each other, on one scale: how far both bodies reach along each
+// of them. As many rows as the sequence ever needs.
+void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+               Labels& labels);
+
 // Strips, which lie under the other panels, as wide as they are together.
 // The pool of a tree's nodes: each slot names the node that owns it, a band marks one that was
 // another's before; slots that are free again are dashed. It wants this height at a width.

@@ -8,6 +8,7 @@
 #include "draw/keys.hpp"
 #include "draw/locator.hpp"
 #include "draw/naming.hpp"
+#include "draw/narrow_marks.hpp"
 #include "draw/notes.hpp"
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
@@ -134,7 +135,8 @@ void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
 
 // The numbers that can be counted on the picture.
 void depict_contacts(DrawList& list) {
-  for (const char* name : {"contacts", "contact_points", "impulses"}) list.referents.emplace(name);
+  for (const char* name : {"contacts", "contact_points", "impulses", "touching"})
+    list.referents.emplace(name);
 }
 void depict_bodies(const Frame& frame, DrawList& list) {
   for (const char* name : {"bodies", "asleep", "awake"}) list.referents.emplace(name);
@@ -281,7 +283,7 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   if (!links.complete)
     left_out.push_back("not all pairs are drawn");
   else if (pairs)
-    list.referents.insert({"pairs", "overlaps"});
+    list.referents.insert({"pairs", "overlaps", "shapes_tested"});
   draw_links(links, false, map, list);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.display.boxes;
   draw_bodies(stands, map, own_boxes, list);
@@ -294,6 +296,8 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   depict_bodies(frame, list);
   draw_broad_boxes(frame, map, list, labels);
   draw_marks(frame, map, left_out, list, labels);
+  mark_separation(frame, map, list, labels);
+  mark_search(frame, map, list, labels);
   note(left_out, map.picture(), labels);
   std::vector<Box<2>> covered;
   for (const Stand& stand : stands) covered.push_back(stand.box);

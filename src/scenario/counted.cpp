@@ -83,6 +83,12 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
       return s.has_physics() ? "" : "this world has no contacts, gravity, springs or joints";
     case CountNeed::query:
       return state.queried ? "" : "no step has sent a ray, culled or queried yet";
+    case CountNeed::shapes:
+      return state.shapes_tested ? "" : "no step has tested shapes yet";
+    case CountNeed::separated:
+      return state.separated ? "" : "no step has separated two bodies yet";
+    case CountNeed::searched:
+      return state.searched ? "" : "no step has asked for a distance by gjk yet";
     case CountNeed::compiled:
     case CountNeed::located:
       if (!s.level) return "the scenario has no [level]";

@@ -6,6 +6,7 @@
 
 #include "base/check.hpp"
 #include "scenario/brains.hpp"
+#include "scenario/narrow_asked.hpp"
 #include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
@@ -116,6 +117,21 @@ class EngineOf : public Engine {
     if (!has_structure()) outdated_ = true;
     bring_up_to_date();
     return asked<D>(question, players_.world());
+  }
+
+  FrameSeparation separate(std::size_t a, std::size_t b) const override {
+    return axes_between(*players_.body(a), *players_.body(b));
+  }
+  FrameSearch search(std::size_t a, std::size_t b) const override {
+    return distance_search(*players_.body(a), *players_.body(b));
+  }
+  ShapeTests test_shapes() override {
+    bring_up_to_date();
+    return tests_of_shapes(players_.world());
+  }
+  std::optional<FrameDifference> difference(BodyId a, BodyId b) const override {
+    const Body<D>*first = players_.world().find(a), *second = players_.world().find(b);
+    return first && second ? difference_of(*first, *second) : std::nullopt;
   }
 
   std::optional<BodyId> id_of(std::size_t body) const override { return players_.id_of(body); }

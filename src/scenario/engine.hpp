@@ -69,6 +69,15 @@ class Engine {
 
   virtual Finding ask(const Question& question) = 0;
 
+  // Two bodies of a flat world that are there, no half-spaces: what the narrow phase's test of them
+  // measures, and how their distance is searched for.
+  virtual FrameSeparation separate(std::size_t a, std::size_t b) const = 0;
+  virtual FrameSearch search(std::size_t a, std::size_t b) const = 0;
+  // The shapes of all pairs that the structure has, which there must be: each tested as it is.
+  virtual ShapeTests test_shapes() = 0;
+  // Their Minkowski difference; nothing unless both are there, and of half-spaces.
+  virtual std::optional<FrameDifference> difference(BodyId a, BodyId b) const = 0;
+
   virtual std::optional<BodyId> id_of(std::size_t body) const = 0;
   virtual bool is_moving(std::size_t body) const = 0;
   virtual bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const = 0;

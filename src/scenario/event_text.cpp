@@ -121,6 +121,46 @@ std::string query_text(std::string_view event, const std::string& node, const st
   return fmt::format("{} is tested: no hit.", capitalised(body));
 }
 
+std::string axis_text(const FrameSeparation& separation, const std::string& a,
+                      const std::string& b) {
+  const FrameAxis& axis = separation.axes.back();
+  const std::string where =
+      axis.across ? fmt::format("across a face of {}", *axis.across == separation.a ? a : b)
+                  : fmt::format("from {} to {}, where they are closest", a, b);
+  const std::string name = fmt::format("Axis {}, {}", separation.axes.size(), where);
+  if (axis.separation > 0)
+    return fmt::format("{}: a gap of {:.4g}. One gap is enough: they are apart.", name,
+                       axis.separation);
+  return fmt::format("{}: the shadows overlap by {:.4g}. This axis does not part them.", name,
+                     -axis.separation);
+}
+
+std::string search_text(const FrameSearch& search, const std::string& a, const std::string& b) {
+  const GjkStep& step = search.steps.back();
+  const std::size_t n = search.steps.size();
+  if (step.ends)
+    return fmt::format(
+        "Search {} finds nothing farther that way: no point is nearer to the origin.", n);
+  if (!search.taken && n == 1)
+    return fmt::format(
+        "Search 1, from {} towards {}: farthest point of {} less farthest of {} the "
+        "other way.",
+        a, b, a, b);
+  if (!search.taken)
+    return fmt::format("Search {}, straight at the origin: point {} is the farthest that way.", n,
+                       n);
+  if (step.simplex.size() == 3)
+    return "The origin lies inside the triangle: the bodies have a point in common.";
+  const double distance = glm::length(step.nearest);
+  if (step.simplex.size() == 1)
+    return fmt::format("It is {:.4g} from the origin. Search again, straight at the origin.",
+                       distance);
+  return fmt::format(
+      "The line of the two points comes nearer: {:.4g}. Again, straight at the "
+      "origin.",
+      distance);
+}
+
 std::string phase_text(std::string_view phase, const Frame& frame) {
   const auto counted = [](std::int64_t n, std::string_view one, std::string_view many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);

@@ -31,6 +31,12 @@ std::string list_event_text(const Event& event, std::string_view structure,
 // Of a walk through a structure: `event` is "visit", "skip", "hit" or "miss".
 std::string query_text(std::string_view event, const std::string& node, const std::string& body);
 
+// Of the newest axis of a separation; `a` and `b` are its bodies' names.
+std::string axis_text(const FrameSeparation& separation, const std::string& a,
+                      const std::string& b);
+// Of the newest search for a support point, before and after it has entered the simplex.
+std::string search_text(const FrameSearch& search, const std::string& a, const std::string& b);
+
 // Of a world step shown phase by phase: "broad_phase", "narrow_phase" or "solve".
 std::string phase_text(std::string_view phase, const Frame& frame);
 

@@ -77,6 +77,17 @@ const Frame* Frame::side_named(std::string_view name) const {
   return found == sides.end() ? nullptr : &*found;
 }
 
+double FrameSeparation::gap() const {
+  if (axes.empty()) return 0;
+  return std::max(0.0, axes[answer.value_or(axes.size() - 1)].separation);
+}
+
+double FrameSeparation::overlap() const {
+  if (axes.empty() || gap() > 0) return 0;
+  if (answer) return -axes[*answer].separation;
+  return -std::ranges::max(axes, {}, &FrameAxis::separation).separation;
+}
+
 std::optional<std::int64_t> Frame::count(std::string_view name) const {
   if (!sides.empty())
     return in_side(*this, name, [](const Frame& f, std::string_view n) { return f.count(n); });

@@ -2,6 +2,7 @@
 // JSON is here; nothing of it is computed by whoever draws.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include "geometry/flat.hpp"
 #include "geometry/polygon.hpp"
+#include "physics/gjk.hpp"
 #include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
 #include "scenario/scenario.hpp"
@@ -173,6 +175,53 @@ struct FrameQuery {
   double radius = 0;  // above 0: a disc or ball about the box's centre
 };
 
+// An axis along which two bodies were measured: how far their shadows on it are apart.
+struct FrameAxis {
+  Vec<2> direction{0.0};         // unit, from the first body to the second
+  double separation = 0;         // of the shadows; below 0 they overlap
+  std::optional<BodyId> across;  // a face of this body; none: between closest points
+  std::vector<Vec<2>> face;      // its ends
+  // The points whose shadows end the bodies' shadows: the first body's least and most along the
+  // axis, then the second's.
+  std::array<Vec<2>, 4> ends{};
+};
+
+// Two bodies measured along one axis after another, until one parts them or there is none left.
+struct FrameSeparation {
+  BodyId a = 0;
+  BodyId b = 0;
+  std::vector<FrameAxis> axes;  // those so far, in their order
+  // Which of them answers: it parts the bodies, or they overlap least along it. None yet: unknown.
+  std::optional<std::size_t> answer;
+
+  double gap() const;      // along the answer, or else the newest axis; 0 if they overlap
+  double overlap() const;  // the least so far; 0 if they are apart
+};
+
+// The shapes of many pairs, each pair tested once.
+struct ShapeTests {
+  std::vector<Pair> tested;  // in order of ids
+  std::uint64_t work = 0;    // lengths measured
+  std::vector<FrameContact> touching;
+};
+
+// GJK: support point by support point to the distance of two bodies.
+struct FrameSearch {
+  BodyId a = 0;
+  BodyId b = 0;
+  std::vector<GjkStep> steps;  // those so far
+  bool taken = true;           // the last one's point has entered the simplex
+  std::optional<GjkAnswer> answer;
+};
+
+// All points of the first body less all points of the second.
+struct FrameDifference {
+  BodyId a = 0;
+  BodyId b = 0;
+  std::vector<Vec<2>> corners;  // convex, counter-clockwise
+  double radius = 0;            // round them, of round shapes
+};
+
 // A piece of a level's wall.
 struct FrameWall {
   Vec<2> from{0.0};
@@ -290,6 +339,9 @@ struct Frame {
   std::vector<FrameView> views;
   std::vector<FrameQuery> queries;
   std::vector<BodyId> hits;  // what the ray, view or query found; of a ray in order along it
+  std::optional<FrameSeparation> separation;
+  std::optional<FrameSearch> search;
+  std::optional<FrameDifference> difference;  // if a panel shows it
   std::vector<FrameWall> walls;
   std::optional<Vec<2>> eye;                  // where a level is looked at from
   std::optional<WorldWork> since_last_frame;  // of its steps, summed up; none if there was none

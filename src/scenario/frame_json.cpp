@@ -57,6 +57,7 @@ class FrameWriter {
     if (!frame.rays.empty()) write_list("rays", frame.rays);
     if (!frame.views.empty()) write_list("views", frame.views);
     if (!frame.queries.empty()) write_list("queries", frame.queries);
+    if (whole_way_) write_narrow(frame);
     if (!frame.walls.empty()) write_list("walls", frame.walls);
     if (!frame.textures.empty()) write_list("textures", frame.textures);
     json_.line().key("counts").begin_object();
@@ -72,6 +73,17 @@ class FrameWriter {
     }
     if (whole_way_ && frame.since_last_frame) lines("since_last_frame", *frame.since_last_frame);
     lines("hash", fmt::format("{:016x}", frame.hash));
+  }
+
+  // How two bodies were measured.
+  void write_narrow(const Frame& frame) {
+    if (frame.separation) {
+      write_list("axes", frame.separation->axes);
+      if (frame.separation->answer) lines("answer", *frame.separation->answer);
+    }
+    if (frame.search) write_list("searches", frame.search->steps);
+    if (frame.difference)
+      lines("difference", frame.difference->corners, "radius", frame.difference->radius);
   }
 
   // Names and values in turn: within a line, each on a line of its own, or as an object.
@@ -240,6 +252,18 @@ class FrameWriter {
   void write(const FrameRay& ray) { object("from", ray.from, "to", ray.to, "hits", ray.hits); }
   void write(const FrameView& view) { object("eye", view.eye, "corners", view.corners); }
   void write(const FrameQuery& query) { object("box", query.box, "radius", query.radius); }
+
+  void write(const FrameAxis& axis) {
+    json_.begin_object();
+    members("direction", axis.direction, "separation", axis.separation);
+    if (axis.across) members("across", *axis.across);
+    json_.end_object();
+  }
+  void write(const SupportPair& p) { object("a", p.a, "b", p.b); }
+  void write(const GjkStep& step) {
+    object("direction", step.direction, "found", step.found, "simplex", step.simplex, "nearest",
+           step.nearest);
+  }
 
   void write(const FrameWall& wall) {
     json_.begin_object();

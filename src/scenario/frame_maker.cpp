@@ -78,6 +78,7 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
   focus.clear();
   texture.clear();
   finding_.reset();
+  narrow.begin_step();
   noted_.clear();
   looks_.begin(step, stage_.time);
   if (!step.headline.empty()) headline_ = step.headline;
@@ -130,6 +131,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   frame.headline = headline_;
   if (stage_.engine) stage_.engine->picture(now, frame);
   if (stage_.engine) tell_faults(frame);
+  if (stage_.engine) narrow.add_to(frame, *stage_.engine);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
     if (!std::isfinite(number)) throw Refused(fmt::format("the measure '{}' overflows", name));

@@ -15,6 +15,7 @@
 #include "scenario/level_stage.hpp"
 #include "scenario/lighting.hpp"
 #include "scenario/looks.hpp"
+#include "scenario/narrow_shown.hpp"
 #include "scenario/plotter.hpp"
 
 namespace lantern::scenario {
@@ -58,6 +59,9 @@ class FrameMaker {
   // What a ray, view or region has found, so far or in all: shown on this step's frames, counted
   // from now on.
   void show_finding(Finding finding);
+
+  // The same of two bodies that are measured, or whose distance is searched for.
+  NarrowShown narrow;
 
   // The state as it is; with no caption, given to nobody.
   Frame picture(const Touched& touched, std::string_view event);

@@ -36,7 +36,9 @@ TableDoc file_table() {
           "What is drawn, from left to right: the `world`, the `tree` (of `sort_and_sweep` its "
           "intervals), the `atlas`, the `chart`; the `ledger`, a triangle with a cell for each "
           "pair "
-          "of bodies and how far it came; and as strips below, the `memory` of the array that all "
+          "of bodies and how far it came; the `difference`, the Minkowski difference of the two "
+          "bodies that a `gjk` is about, or of the first two that are there; the `axes` of a "
+          "`separate`, side by side; and as strips below, the `memory` of the array that all "
           "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
           "the `sparkline`, the first count of the headline, or the pairs, over the time so far.",
           or_else("what the scenario uses")),

@@ -155,13 +155,16 @@ enum class CountNeed {
   inside,  // a structure of ours, which counts what it does
   split,   // one structure for what never moves, one for what does
   asleep_nodes,
-  contacts,  // the world parts bodies that touch
-  joints,    // rods or pins hold its bodies
-  sleep,     // of contacts, may_sleep and split_static one at least: what rests is told apart
-  physics,   // of contacts, gravity, springs and joints one at least: more than free flight
-  query,     // a ray, cull or query was asked
-  compiled,  // the level was
-  located,   // a point of the level was
+  contacts,   // the world parts bodies that touch
+  joints,     // rods or pins hold its bodies
+  sleep,      // of contacts, may_sleep and split_static one at least: what rests is told apart
+  physics,    // of contacts, gravity, springs and joints one at least: more than free flight
+  query,      // a ray, cull or query was asked
+  shapes,     // of all pairs were tested
+  separated,  // two bodies were measured axis by axis
+  searched,   // their distance was searched for
+  compiled,   // the level was
+  located,    // a point of the level was
   atlas,
   room,  // of an atlas: it was asked for room
 };

@@ -90,7 +90,9 @@ void check_panels(const TableReader& file, Draft& draft) {
       {structure, "it needs a [structure], whose pairs it shows"},
       {pool, "it needs a quadtree, an octree or a kd_tree, whose nodes lie in a pool"},
       {array, "it needs a quadtree or an octree, whose nodes have their bytes counted"},
-      {moves, "it needs a [structure] and a step that runs"}};
+      {moves, "it needs a [structure] and a step that runs"},
+      {s.bodies.size() > 1 && draft.dimension == 2, "it needs a flat world and two bodies"},
+      {some_step<Separate>(s, [](const Separate&) { return true; }), "it needs a `separate`"}};
   std::size_t i = 0;
   for (const Named& written : file.names("panels")) {
     const auto panel = static_cast<std::size_t>(s.panels[i++]);

@@ -178,6 +178,10 @@ std::string panel_example(Panel panel) {
       fmt::format("panels = [\"{}\"]\n", names(panel)[static_cast<std::size_t>(panel)]);
   if (panel == Panel::sparkline)
     return only + std::string(kWorldExample) + "\n[[step]]\ndo = \"run\"\nseconds = 4\n";
+  if (panel == Panel::axes)
+    for (const TableDoc& verb : language_verbs())
+      if (verb.name == "separate")
+        return fmt::format("{}{}\n{}", only, kWorldExample, verb.example);
   if (panel == Panel::chart) return only + std::string(kChartExample);
   if (panel != Panel::atlas) return only + std::string(kWorldExample);
   for (const TableDoc& verb : language_verbs())

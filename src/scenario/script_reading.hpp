@@ -16,12 +16,15 @@ struct ScriptState {
   std::vector<bool> packed;        // by index of the texture; refused ones, too
   StructureSpec structure;         // as it stands
   bool asked_for_room = false;
-  bool queried = false;      // by a ray, cull or query
-  bool compiled = false;     // the level
-  bool located = false;      // a point in it
-  bool has_plot = false;     // some step adds to the chart
-  std::uint64_t frames = 0;  // in step pace
-  std::uint64_t ticks = 0;   // world steps at most, and at least
+  bool queried = false;        // by a ray, cull or query
+  bool shapes_tested = false;  // of all pairs
+  bool separated = false;      // two bodies, axis by axis
+  bool searched = false;       // for the distance of two bodies
+  bool compiled = false;       // the level
+  bool located = false;        // a point in it
+  bool has_plot = false;       // some step adds to the chart
+  std::uint64_t frames = 0;    // in step pace
+  std::uint64_t ticks = 0;     // world steps at most, and at least
   std::uint64_t least_ticks = 0;
   std::size_t named = 0;  // bodies and textures, over all steps
 };

@@ -22,7 +22,19 @@
 namespace lantern::scenario {
 
 enum class Children { lazy, eager };  // each made when something enters it, or all at a split
-enum class Panel { world, tree, atlas, chart, memory, ledger, pool, bytes, sparkline };
+enum class Panel {
+  world,
+  tree,
+  atlas,
+  chart,
+  memory,
+  ledger,
+  pool,
+  bytes,
+  sparkline,
+  difference,
+  axes
+};
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box };
 enum class Brain { none, follow, wander };  // who steers a body
@@ -279,7 +291,8 @@ inline EnumNames names(StructureKind) {
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
-  return {"world", "tree", "atlas", "chart", "memory", "ledger", "pool", "bytes", "sparkline"};
+  return {"world", "tree",  "atlas",     "chart",      "memory", "ledger",
+          "pool",  "bytes", "sparkline", "difference", "axes"};
 }
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box"}; }

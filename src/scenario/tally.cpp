@@ -29,7 +29,7 @@ std::uint64_t points_of(const FrameChart& chart) {
 struct Seen {
   std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0,
                 sectors = 0, drawn_walls = 0, nodes = 0, slots = 0, pool = 0, bytes = 0,
-                moments = 0;
+                moments = 0, differences = 0, axes = 0;
   bool pairs = false;  // two bodies or more, of one side
 
   void add(const Frame& frame) {
@@ -46,6 +46,8 @@ struct Seen {
     pool += frame.pool_size;
     bytes += counted(frame, "node_bytes");
     moments += frame.trace.points.size();
+    differences += frame.difference.has_value();
+    axes += frame.separation.has_value();
     pairs |= frame.bodies.size() > 1;
   }
 };
@@ -84,6 +86,8 @@ void Tally::see(const Frame& frame) {
   with_pool_ += seen.pool > 0;
   with_bytes_ += seen.bytes > 0;
   with_trace_ += seen.moments > 0;
+  with_difference_ += seen.differences > 0;
+  with_axes_ += seen.axes > 0;
   count_builds(frame);
 }
 
@@ -223,6 +227,9 @@ void Tally::list_pictures(Stages& all) const {
   all.push_back(panel(Panel::pool, "pool panel", {frames(with_pool_, "a pool of nodes")}));
   all.push_back(panel(Panel::bytes, "bytes panel", {frames(with_bytes_, "bytes of nodes")}));
   all.push_back(panel(Panel::sparkline, "sparkline", {frames(with_trace_, "a line so far")}));
+  all.push_back(panel(Panel::difference, "difference panel",
+                      {frames(with_difference_, "the difference of two bodies")}));
+  all.push_back(panel(Panel::axes, "axes panel", {frames(with_axes_, "axes of two bodies")}));
   all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
   all.push_back({"OpenGL",
                  {amount(work_.graphics_contexts, "context")},

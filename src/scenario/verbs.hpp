@@ -211,6 +211,34 @@ struct Query {
   double radius = 0;  // above 0: a ball about the box's centre
 };
 
+// Which candidate pairs touch? All of them are tested by their shapes.
+struct TestShapes {
+  static constexpr VerbTraits kTraits{.name = "test_shapes", .basis = Basis::bodies};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+};
+
+// Which axis parts two bodies? The narrow phase's own test of them, axis by axis.
+struct Separate {
+  static constexpr VerbTraits kTraits{.name = "separate", .basis = Basis::bodies};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  std::size_t a = 0;
+  std::size_t b = 0;
+};
+
+// How far are two bodies apart? By support points alone, step by step.
+struct SearchDistance {
+  static constexpr VerbTraits kTraits{.name = "gjk", .basis = Basis::bodies};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  std::size_t a = 0;
+  std::size_t b = 0;
+};
+
 // What the structure is asked.
 using Question = std::variant<CastRay, Cull, Query>;
 
@@ -263,8 +291,8 @@ struct AskRoom {
 
 // In the order of the reference page.
 using Verb = std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse,
-                          Run, Wait, Phases, SolveBy, Rebuild, CastRay, Cull, Query, CompileLevel,
-                          Locate, OrderFrom, Pack, AskRoom>;
+                          Run, Wait, Phases, SolveBy, Rebuild, CastRay, Cull, Query, TestShapes,
+                          Separate, SearchDistance, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
 
 inline const VerbTraits& traits_of(const Verb& verb) {
   return std::visit([](const auto& v) -> const VerbTraits& { return v.kTraits; }, verb);

@@ -363,6 +363,10 @@ TEST(Mistakes, OfPanelsThatCannotBe) {
                   {"needs a [structure], whose pairs it shows"});
   expect_mistakes("panels = [@\"sparkline\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
                   {"needs a [structure] and a step that runs"});
+  expect_mistakes("panels = [@\"difference\"]\n" + kAtlasScene + "[[step]]\ndo = \"show\"\n",
+                  {"needs a flat world and two bodies"});
+  expect_mistakes("panels = [@\"axes\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
+                  {"needs a `separate`"});
 }
 
 TEST(Mistakes, OfNamesThatAreTaken) {

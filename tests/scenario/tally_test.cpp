@@ -56,6 +56,8 @@ struct DryRun {
     if (panel == Panel::pool) return frame.pool_size > 0;
     if (panel == Panel::bytes) return frame.count("node_bytes").has_value();
     if (panel == Panel::sparkline) return !frame.trace.points.empty();
+    if (panel == Panel::difference) return frame.difference.has_value();
+    if (panel == Panel::axes) return frame.separation.has_value();
     return !frame.chart.bars.empty() ||
            std::any_of(frame.chart.series.begin(), frame.chart.series.end(),
                        [](const FrameSeries& series) { return !series.points.empty(); });
@@ -205,7 +207,8 @@ void expect_rest(const DryRun& run) {
       {Panel::atlas, "atlas panel"},   {Panel::chart, "chart panel"},
       {Panel::memory, "memory panel"}, {Panel::ledger, "ledger panel"},
       {Panel::pool, "pool panel"},     {Panel::bytes, "bytes panel"},
-      {Panel::sparkline, "sparkline"}};
+      {Panel::sparkline, "sparkline"}, {Panel::difference, "difference panel"},
+      {Panel::axes, "axes panel"}};
   for (const auto& [panel, name] : panels) {
     const bool wanted = std::find(s.panels.begin(), s.panels.end(), panel) != s.panels.end();
     EXPECT_EQ(run.uses(name), wanted) << name << ": each panel that there is shows something";

@@ -1,0 +1,136 @@
+// The axes that two bodies were measured along, below each other and all lying the same way.
+//
+//   1  ======                overlap 1.2
+//          =========
+//   2  =====  =======        gap 0.6
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "draw/body_shapes.hpp"
+#include "draw/font.hpp"
+#include "draw/narrow_marks.hpp"
+#include "draw/number_text.hpp"
+#include "draw/panels.hpp"
+
+namespace lantern::draw {
+namespace {
+
+constexpr double kAxesHeading = 48, kMostAxisRow = 132, kLeastAxisRow = 56;
+constexpr double kAxisNumber = 44;  // width before the shadows
+constexpr double kAxisWords = 170;  // width behind them
+constexpr double kAxisTrack = 11;   // from the middle of a row to that of a shadow
+
+const TextStyle kAxisBold{kLabel, Weight::semibold, Role::ink};
+
+struct Shadows {
+  double a_lo = 0, a_hi = 0, b_lo = 0, b_hi = 0;
+};
+
+Shadows shadows_of(const scenario::FrameAxis& axis) {
+  const auto at = [&](std::size_t i) { return glm::dot(axis.ends[i], axis.direction); };
+  return {at(0), at(1), at(2), at(3)};
+}
+
+class AxesView {
+ public:
+  AxesView(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+           Labels& labels)
+      : frame_(frame), panel_(panel), list_(list), labels_(labels), pen_(list, panel) {
+    double longest = 0;
+    for (const Frame* one : staging.frames()) {
+      if (!one->separation) continue;
+      rows_ = std::max(rows_, one->separation->axes.size());
+      for (const auto& axis : one->separation->axes) {
+        const Shadows s = shadows_of(axis);
+        longest = std::max(longest, std::max(s.a_hi, s.b_hi) - std::min(s.a_lo, s.b_lo));
+      }
+    }
+    const double room = panel.size().x - kAxisNumber - kAxisWords - 20;
+    if (longest > 0) scale_ = room / longest;
+    if (!list.maps.empty()) scale_ = std::min(scale_, list.maps.back().scale);
+    row_ = std::min(kMostAxisRow, (panel.size().y - kAxesHeading) /
+                                      static_cast<double>(std::max<std::size_t>(1, rows_)));
+  }
+
+  void draw() {
+    if (rows_ == 0 || row_ < kLeastAxisRow || !(scale_ > 0)) return;
+    labels_.add(shortened("how far each reaches, axis by axis", panel_.size().x, kAxisBold),
+                {{panel_.lo.x, panel_.lo.y + 24}, 0}, kAxisBold, panel_);
+    const std::size_t known = frame_.separation ? frame_.separation->axes.size() : 0;
+    for (std::size_t i = 0; i < rows_; ++i) {
+      const DrawList::Scope scope(list_, fmt::format("axes/{}", i));
+      if (i < known)
+        draw_row(i);
+      else
+        draw_empty_row(i);
+    }
+  }
+
+ private:
+  double y_of(std::size_t i) const {
+    return panel_.lo.y + kAxesHeading + (static_cast<double>(i) + 0.5) * row_;
+  }
+
+  void draw_empty_row(std::size_t i) {
+    const double y = y_of(i);
+    list_.crisp_line({panel_.lo.x + kAxisNumber, y}, {panel_.hi.x - kAxisWords, y},
+                     {Role::rule, 1.8, 7});
+  }
+
+  const FrameBody* body(BodyId id) const {
+    const auto found = std::ranges::find(frame_.bodies, id, &FrameBody::id);
+    return found == frame_.bodies.end() ? nullptr : &*found;
+  }
+
+  void draw_row(std::size_t i) {
+    const auto& separation = *frame_.separation;
+    const auto& axis = separation.axes[i];
+    const FrameBody *a = body(separation.a), *b = body(separation.b);
+    if (!a || !b) return;
+    const double y = y_of(i);
+    const bool front = i == separation.answer.value_or(separation.axes.size() - 1);
+    if (front)
+      list_.rect({{panel_.lo.x, y - row_ / 2 + 4}, {panel_.hi.x, y + row_ / 2 - 4}}, Role::lit_fill,
+                 separation.answer ? Stroke{Role::lit, 2.6} : Stroke{}, 5);
+    labels_.add(fmt::format("{}", i + 1), centred({panel_.lo.x + 20, y}, kAxisBold), kAxisBold,
+                panel_);
+    const Shadows s = shadows_of(axis);
+    const double from = std::min(s.a_lo, s.b_lo), left = panel_.lo.x + kAxisNumber;
+    const auto x = [&](double at) { return left + (at - from) * scale_; };
+    list_.crisp_line({left - 6, y}, {panel_.hi.x - kAxisWords, y}, {Role::quiet_ink, 1.8});
+    draw_shadow({x(s.a_lo), y - kAxisTrack}, {x(s.a_hi), y - kAxisTrack}, body_role(a->color),
+                pen_);
+    draw_shadow({x(s.b_lo), y + kAxisTrack}, {x(s.b_hi), y + kAxisTrack}, body_role(b->color),
+                pen_);
+    const bool apart = axis.separation > 0;
+    if (apart)
+      draw_gap({x(s.a_hi), y}, {x(s.b_lo), y}, pen_);
+    else
+      draw_shared_shadow({x(s.b_lo), y}, {x(s.a_hi), y}, pen_);
+    const TextStyle style{kLabel, front ? Weight::semibold : Weight::regular, Role::ink};
+    labels_.add(
+        fmt::format("{} {}", apart ? "gap" : "overlap", short_number(std::abs(axis.separation))),
+        centred({panel_.hi.x - 8, y}, style, 1), style, panel_);
+  }
+
+  const Frame& frame_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  Pen pen_;
+  std::size_t rows_ = 0;
+  double scale_ = 0;
+  double row_ = 0;
+};
+
+}  // namespace
+
+void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+               Labels& labels) {
+  if (panel.size().x < 420) return;
+  AxesView(frame, staging, panel, list, labels).draw();
+}
+
+}  // namespace lantern::draw

@@ -1,0 +1,221 @@
+// The Minkowski difference of two bodies: where it holds the origin, they have a point in common.
+//
+//        ______
+//       /      \             as large as in the world, if there is room: arrows of the world
+//      |  A - B |   o 0      and of the difference can be laid on each other
+//       \______/
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "draw/body_shapes.hpp"
+#include "draw/font.hpp"
+#include "draw/narrow_marks.hpp"
+#include "draw/number_text.hpp"
+#include "draw/panels.hpp"
+
+namespace lantern::draw {
+namespace {
+
+constexpr double kHeading = 44;
+constexpr double kRimNumbers = 40;  // height of the numbers below, width of those at the left
+constexpr double kAround = 26;      // the difference
+
+const TextStyle kTick{kLabel, Weight::regular, Role::quiet_ink};
+const TextStyle kOwn{kLabel, Weight::semibold, Role::ink, Role::panel};
+
+// What all frames of the sequence need, the origin with it.
+Box<2> reach_of(const Staging& staging) {
+  Box<2> reach{Vec<2>(0.0), Vec<2>(0.0)};
+  for (const Frame* frame : staging.frames()) {
+    if (!frame->difference) continue;
+    const Vec<2> round(frame->difference->radius);
+    for (const Vec<2>& p : frame->difference->corners)
+      reach = united(reach, Box<2>{p - round, p + round});
+  }
+  return reach;
+}
+
+class DifferenceView {
+ public:
+  DifferenceView(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                 Labels& labels)
+      : frame_(frame),
+        difference_(*frame.difference),
+        panel_(panel),
+        area_({panel.lo + Vec<2>(kRimNumbers, kHeading), panel.hi - Vec<2>(4, kRimNumbers)}),
+        list_(list),
+        labels_(labels),
+        pen_(list, area_) {
+    const Box<2> reach = reach_of(staging);
+    const Vec<2> room = shrunk(area_, kAround).size(), size = reach.size();
+    scale_ = std::min(size.x > 0 ? room.x / size.x : 1e300, size.y > 0 ? room.y / size.y : 1e300);
+    if (!list.maps.empty()) scale_ = std::min(scale_, list.maps.back().scale);
+    if (!(scale_ < 1e300)) scale_ = 1;
+    origin_ = area_.center() - Vec<2>(reach.center().x, -reach.center().y) * scale_;
+  }
+
+  void draw() {
+    draw_heading();
+    draw_axes();
+    draw_shape();
+    if (frame_.search && !frame_.search->steps.empty()) draw_search(*frame_.search);
+    draw_origin(origin_, pen_);
+    list_.marks.add(MarkKind::origin);
+    labels_.block(Box<2>::around(origin_, Vec<2>(11)));
+    labels_.try_add(
+        "origin",
+        {centred(origin_ + Vec<2>(20, 26), kOwn, 0), centred(origin_ - Vec<2>(20, 26), kOwn, 1),
+         centred(origin_ + Vec<2>(20, -26), kOwn, 0), centred(origin_ + Vec<2>(-20, 26), kOwn, 1)},
+        kOwn, panel_);
+    list_.referents.insert({"gjk_steps", "distance"});
+  }
+
+ private:
+  Vec<2> to_page(const Vec<2>& p) const { return origin_ + Vec<2>(p.x, -p.y) * scale_; }
+
+  std::string name_of(BodyId id) const {
+    const auto body = std::ranges::find(frame_.bodies, id, &FrameBody::id);
+    return body == frame_.bodies.end() ? "" : body->name;
+  }
+
+  void draw_heading() {
+    const TextStyle style{kLabel, Weight::semibold, Role::ink};
+    const std::string text = fmt::format("every point of {} less every point of {}",
+                                         name_of(difference_.a), name_of(difference_.b));
+    labels_.add(shortened(text, panel_.size().x, style), {{panel_.lo.x, panel_.lo.y + 22}, 0},
+                style, panel_);
+  }
+
+  // Lines through the origin, and numbers at the rim.
+  void draw_axes() {
+    list_.crisp_rect(area_, Role::panel, {Role::cell_line_1, 1.8});
+    pen_.line({area_.lo.x, origin_.y}, {area_.hi.x, origin_.y}, {Role::cell_line_2, 1.8});
+    pen_.line({origin_.x, area_.lo.y}, {origin_.x, area_.hi.y}, {Role::cell_line_2, 1.8});
+    constexpr double kLeastApart = 64;  // page units between two numbers
+    double step = 1;
+    while (step * scale_ < kLeastApart) step *= 2;
+    const auto each = [&](double from, double to, const auto& f) {
+      for (double at = std::ceil(from / step) * step; at <= to; at += step) f(at);
+    };
+    each((area_.lo.x + 14 - origin_.x) / scale_, (area_.hi.x - 14 - origin_.x) / scale_,
+         [&](double x) {
+           const double page = origin_.x + x * scale_;
+           list_.crisp_line({page, area_.hi.y}, {page, area_.hi.y - 7}, {Role::cell_line_1, 1.8});
+           labels_.try_add(number_text(x, 2), {centred({page, area_.hi.y + 20}, kTick)}, kTick,
+                           panel_);
+         });
+    each((origin_.y - area_.hi.y + 14) / scale_, (origin_.y - area_.lo.y - 14) / scale_,
+         [&](double y) {
+           const double page = origin_.y - y * scale_;
+           list_.crisp_line({area_.lo.x, page}, {area_.lo.x + 7, page}, {Role::cell_line_1, 1.8});
+           labels_.try_add(number_text(y, 2), {centred({area_.lo.x - 8, page}, kTick, 1)}, kTick,
+                           panel_);
+         });
+  }
+
+  void draw_shape() {
+    const DrawList::Scope scope(list_, "difference/shape");
+    Outline core;
+    for (const Vec<2>& p : difference_.corners) core.push_back(to_page(p));
+    if (difference_.radius > 0) {
+      Outline all;
+      for (const Vec<2>& p : core) {
+        const Outline ring = ring_of(p, difference_.radius * scale_, 64);
+        all.insert(all.end(), ring.begin(), ring.end());
+      }
+      pen_.polygon(hull_of(all), Role::passed_fill, {Role::ink, 2.4});
+      pen_.path(core, true, {Role::quiet_ink, 1.8, 6});
+    } else if (core.size() > 2) {
+      pen_.polygon(core, Role::passed_fill, {Role::ink, 2.4});
+    } else {
+      pen_.path(core, false, {Role::ink, 2.4});
+    }
+  }
+
+  void draw_search(const scenario::FrameSearch& search) {
+    const auto& step = search.steps.back();
+    Outline points;
+    for (const auto& p : simplex_of(search)) points.push_back(to_page(p.difference()));
+    {
+      const DrawList::Scope scope(list_, "difference/simplex");
+      draw_simplex(points, pen_);
+      if (!points.empty()) list_.marks.add(MarkKind::simplex);
+    }
+    if (!search.taken && !search.answer) draw_newest(search, step);
+    if (search.taken || search.answer) draw_nearest(search, step.nearest);
+    for (const auto& p : simplex_of(search))
+      number(search_number(search, p.difference()), to_page(p.difference()));
+  }
+
+  // The search goes straight at the origin, and finds the point whose line across is the farthest.
+  void draw_newest(const scenario::FrameSearch& search, const scenario::GjkStep& step) {
+    const DrawList::Scope scope(list_, "difference/search");
+    const Vec<2> found = to_page(step.found.difference());
+    const Vec<2> d{step.direction.x, -step.direction.y}, across{-d.y, d.x};
+    pen_.line(found - across * 2000.0, found + across * 2000.0, {Role::lit, 2.4, 9});
+    const std::size_t n = search.steps.size();
+    const Vec<2> from = n > 1 ? to_page(search.steps[n - 2].nearest) : middle_of(shape());
+    const double to_origin = glm::length(origin_ - from);
+    pen_.arrow(from, from + d * std::max(to_origin - 12, 40.0), {Role::ink, 3}, 15, 1.6);
+    pen_.arrow(origin_, found, {Role::lit, 4}, 16, 1.8);
+    draw_support(found, pen_);
+    list_.marks.add(MarkKind::support);
+    number(search_number(search, step.found.difference()), found);
+  }
+
+  void draw_nearest(const scenario::FrameSearch& search, const Vec<2>& nearest) {
+    if (glm::length(nearest) * scale_ < 1) return;
+    const DrawList::Scope scope(list_, "difference/nearest");
+    const Vec<2> at = to_page(nearest), way = at - origin_;
+    const bool done = search.answer.has_value();
+    draw_ruler(origin_, at, {done ? Role::lit : Role::ink, done ? 4.6 : 3}, pen_);
+    list_.marks.add(MarkKind::ruler);
+    const Vec<2> side = Vec<2>(-way.y, way.x) / glm::length(way), middle = (at + origin_) / 2.0;
+    const std::string text = short_number(glm::length(nearest));
+    labels_.try_add(text,
+                    {centred(middle + side * 36.0, kOwn), centred(middle - side * 36.0, kOwn),
+                     centred(middle + side * 62.0, kOwn), centred(middle - side * 62.0, kOwn)},
+                    kOwn, panel_);
+  }
+
+  Outline shape() const {
+    Outline points;
+    for (const Vec<2>& p : difference_.corners) points.push_back(to_page(p));
+    return points;
+  }
+
+  // Outside of the shape.
+  void number(const std::string& text, const Vec<2>& at) {
+    const Vec<2> out = at - middle_of(shape());
+    const double length = glm::length(out);
+    const Vec<2> away = length > 0 ? out / length : Vec<2>(0, -1), side{-away.y, away.x};
+    labels_.try_add(text,
+                    {centred(at + away * 25.0, kOwn), centred(at + (away + side) * 20.0, kOwn),
+                     centred(at + (away - side) * 20.0, kOwn), centred(at + side * 26.0, kOwn),
+                     centred(at - side * 26.0, kOwn), centred(at - away * 26.0, kOwn)},
+                    kOwn, panel_);
+  }
+
+  const Frame& frame_;
+  const scenario::FrameDifference& difference_;
+  Box<2> panel_, area_;
+  DrawList& list_;
+  Labels& labels_;
+  Pen pen_;
+  double scale_ = 1;
+  Vec<2> origin_{0.0};
+};
+
+}  // namespace
+
+void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& panel,
+                     DrawList& list, Labels& labels) {
+  const Vec<2> size = panel.size();
+  if (!frame.difference || frame.difference->corners.empty() || size.x < 160 || size.y < 160)
+    return;
+  DifferenceView(frame, staging, panel, list, labels).draw();
+}
+
+}  // namespace lantern::draw
