@@ -55,6 +55,7 @@ void AabbTree<D>::take_out_and_put_back(std::span<const Item<D>> items) {
 template <int D>
 bool AabbTree<D>::keep_those_that_suit(NodeHandle at, std::span<const Item<D>> items) {
   Node& node = nodes_[at];
+  ++box_tests_;
   if (node.is_leaf()) {
     const bool stays = suits(node, items[node.link]);
     if (!stays) append(left_, node.link);
@@ -75,6 +76,7 @@ bool AabbTree<D>::keep_those_that_suit(NodeHandle at, std::span<const Item<D>> i
 template <int D>
 double AabbTree<D>::mend_all(NodeHandle at, std::span<const Item<D>> items) {
   Node& node = nodes_[at];
+  ++box_tests_;
   if (node.is_leaf()) {
     const Item<D>& item = items[node.link];
     if (!suits(node, item)) node = Node::leaf(item, margin_);

@@ -101,8 +101,10 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
   }
 
   // Those whose enlarged boxes the box overlaps, each once.
-  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
-    each_near(box, [&](BodyId id, bool) { ids.push_back(id); });
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const {
+    const std::size_t before = ids.size();
+    const WalkCounts walk = each_near(box, [&](BodyId id, bool) { ids.push_back(id); });
+    return walk.visited + walk.skipped + walk.compared - (ids.size() - before);
   }
 
   // See aabb_walk.hpp.
@@ -116,16 +118,18 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
   }
 
   // See structure.hpp. Compared are those bodies whose enlarged boxes overlap: the tree is walked
-  // against itself, and where two nodes do not overlap, nothing below them does.
+  // against itself, and where two nodes do not overlap, nothing below them does. `besides` counts
+  // the nodes compared with nodes on the way.
   template <class Awake, class F>
-  std::uint64_t compare(Awake&& awake, F&& f) const {
-    std::uint64_t compared = 0;
+  std::uint64_t compare(Awake&& awake, F&& f, std::uint64_t* besides = nullptr) const {
+    std::uint64_t compared = 0, nodes = 0;
     const auto meet = [&](const Node& a, const Node& b) {
       if (!awake(a.link) && !awake(b.link)) return;
       ++compared;
       f(Item<D>{a.link, a.box()}, Item<D>{b.link, b.box()});
     };
-    each_pair_within(kRoot, meet);
+    each_pair_within(kRoot, meet, nodes);
+    if (besides) *besides += nodes - compared;
     return compared;
   }
 
@@ -304,23 +308,25 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
 
   // f(leaf, leaf) for those below that overlap, each pair once.
   template <class F>
-  void each_pair_within(NodeHandle at, F& f) const {
+  void each_pair_within(NodeHandle at, F& f, std::uint64_t& tests) const {
     stop_if_asked();
     const Node& node = nodes_[at];
     if (node.is_leaf()) return;
-    each_pair_within(node.link, f);
-    each_pair_within(node.link + 1, f);
-    each_pair_between(node.link, node.link + 1, f);
+    each_pair_within(node.link, f, tests);
+    each_pair_within(node.link + 1, f, tests);
+    each_pair_between(node.link, node.link + 1, f, tests);
   }
   // The one below a, the other below b. The larger is opened.
   template <class F>
-  void each_pair_between(NodeHandle at_a, NodeHandle at_b, F& f) const {
+  void each_pair_between(NodeHandle at_a, NodeHandle at_b, F& f, std::uint64_t& tests) const {
     const Node &a = nodes_[at_a], &b = nodes_[at_b];
+    ++tests;
     if (!a.reaches(b)) return;
     if (a.is_leaf() && b.is_leaf()) return f(a, b);
     const bool opens_a = b.is_leaf() || (!a.is_leaf() && a.area() >= b.area());
     for (const NodeHandle i : {0u, 1u})
-      opens_a ? each_pair_between(a.link + i, at_b, f) : each_pair_between(at_a, b.link + i, f);
+      opens_a ? each_pair_between(a.link + i, at_b, f, tests)
+              : each_pair_between(at_a, b.link + i, f, tests);
   }
 
   // --- looking ---

@@ -19,6 +19,7 @@ namespace lantern::spatial {
 struct WalkCounts {
   std::uint64_t visited = 0;
   std::uint64_t skipped = 0;
+  std::uint64_t compared = 0;  // bodies of the blocks among those visited
 };
 
 // What is walked through. Of nodes with at most `block` bodies these stand in the table, those of
@@ -66,6 +67,7 @@ WalkCounts each_near(const AabbWay<D>& way, const Box<D>& box, F&& f) {
     if (node.is_leaf()) {
       f(node.link, false);
     } else if (node.bodies() <= way.block) {
+      counts.compared += node.bodies();
       const BlockBits bits = reached_in_block(way.table, at.first, asked);
       detail::each_bit(bits.maybe, node.bodies(), [&](std::uint32_t i) {
         f(way.table.id(at.first + i), way.is_tight && (bits.surely >> i & 1) != 0);

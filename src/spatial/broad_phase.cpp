@@ -336,6 +336,12 @@ std::optional<int> BroadPhase<D>::sweep_axis() const {
 }
 
 template <int D>
+std::vector<GridExtent> BroadPhase<D>::grid_extents() const {
+  const auto* grid = std::get_if<Grid<D>>(&dynamic_.structure);
+  return grid ? grid->extents() : std::vector<GridExtent>();
+}
+
+template <int D>
 bool BroadPhase<D>::is_stale(const Item<D>& item) const {
   std::size_t place = 0;
   const Store* store = store_of(item.id, place);

@@ -111,6 +111,7 @@ class WithIds : public Visitable<WithIds<D, Structure>, D> {
 // bodies finds, step by step.
 struct PairChain {
   std::uint64_t met = 0;          // pairs met in leaves, as often as they were met
+  std::uint64_t besides = 0;      // tests that it took to meet them: of nodes, rows, planes
   std::vector<Pair> pairs;        // each once, in order of ids
   std::vector<Pair> overlapping;  // of these, those whose boxes overlap: the narrow phase's work
 };
@@ -175,6 +176,8 @@ class BroadPhase {
 
   // Of the dynamic structure, if it sweeps: the axis along which it sorted last.
   std::optional<int> sweep_axis() const;
+  // If it is a grid: its levels.
+  std::vector<GridExtent> grid_extents() const;
 
   // f(structure) with the real type of structure (see structure.hpp for what it offers: visit,
   // visit_toward, kZones, counters), its bodies named by their ids: for views and queries. The

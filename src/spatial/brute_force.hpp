@@ -38,8 +38,9 @@ class BruteForce : public Visitable<BruteForce<D>, D>, CountsAllocations {
     f(NodeView<D>{.box = box_, .bodies = tour.ascending(ids_)});
   }
 
-  void near(const Box<D>&, std::vector<BodyId>& ids) const {
+  std::uint64_t near(const Box<D>&, std::vector<BodyId>& ids) const {
     ids.insert(ids.end(), ids_.begin(), ids_.end());
+    return 0;
   }
 
   Counters counters() const {

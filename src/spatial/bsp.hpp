@@ -73,7 +73,9 @@ class Bsp : public Visitable<Bsp<D>, D> {
     visit_from(0, kNone, tour, f);
   }
 
-  void near(const Box<D>& box, std::vector<BodyId>& ids) const { collect(0, box, ids); }
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const {
+    return collect(0, box, ids);
+  }
 
   // `box_tests` counts tests against a plane.
   Counters counters() const {
@@ -172,16 +174,19 @@ class Bsp : public Visitable<Bsp<D>, D> {
     visit_from(node.first_child + 1 - first, view.id, tour, f);
   }
 
-  void collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {
+  // How many planes it was tested against.
+  std::uint64_t collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {
     const Node& node = nodes_[handle];
     if (node.is_leaf()) {
       const auto values = contents_.values(node.contents);
       ids.insert(ids.end(), values.begin(), values.end());
-      return;
+      return 0;
     }
     const Reach sides = reach(box, tested_[node.plane]);
-    if (sides.back) collect(node.first_child, box, ids);
-    if (sides.front) collect(node.first_child + 1, box, ids);
+    std::uint64_t tests = 1;
+    if (sides.back) tests += collect(node.first_child, box, ids);
+    if (sides.front) tests += collect(node.first_child + 1, box, ids);
+    return tests;
   }
 
   std::vector<BspPlane<D>> planes_;  // as given, for views

@@ -50,7 +50,9 @@ class FlatQuadtree : public Visitable<FlatQuadtree, 3> {
                [&](const NodeView<2>& view) { return f(risen(view)); });
   }
 
-  void near(const Box<3>& box, std::vector<BodyId>& ids) const { tree_.near(flat(box), ids); }
+  std::uint64_t near(const Box<3>& box, std::vector<BodyId>& ids) const {
+    return tree_.near(flat(box), ids);
+  }
 
   Counters counters() const { return tree_.counters(); }
 

@@ -35,6 +35,11 @@
 
 namespace lantern::spatial {
 
+struct GridExtent {
+  double side = 0;  // of a cell
+  std::uint64_t columns = 0, rows = 0;
+};
+
 template <int D>
 class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
  public:
@@ -84,7 +89,7 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
   void clear() {
     items_.clear();
     cells_.forget();
-    compared_ = 0;
+    placed_ = 0;
     held_ = shown_ = false;
   }
 
@@ -104,6 +109,7 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
     if (held_) return;
     if (cell_ == 0) cut(side_for<D>(items_, room_));
     table_.build(items_, rasters());
+    placed_ += items_.size();
     held_ = true;
   }
 
@@ -115,16 +121,17 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
       runs.add(asks, from, to);
     });
     runs.finish();
-    compared_ += runs.compared();
     return runs.compared();
   }
 
+  // `besides` counts the rows of cells that bodies ask.
   template <class Awake, class F>
-  std::uint64_t compare(Awake&& awake, F&& f) {
+  std::uint64_t compare(Awake&& awake, F&& f, std::uint64_t* besides = nullptr) {
     sort();
-    std::uint64_t tests = 0;
+    std::uint64_t tests = 0, rows = 0;
     table_.each_run(items_, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
       stop_if_asked();
+      ++rows;
       const Item<D>& a = items_[table_.table().id(asks)];
       const bool stirs = awake(a.id);
       for (std::uint32_t place = from; place < to; ++place) {
@@ -134,7 +141,7 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
         f(a, b);
       }
     });
-    compared_ += tests;
+    if (besides) *besides += rows;
     return tests;
   }
 
@@ -145,14 +152,33 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
   }
 
   // Those that the box overlaps, each once.
-  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const {
     sort();
+    std::uint64_t tests = 0;  // of rows, and of bodies in vain
     table_.each_near(box, [&](std::uint32_t from, std::uint32_t to) {
+      ++tests;
       for (std::uint32_t place = from; place < to; ++place) {
         const Item<D>& item = items_[table_.table().id(place)];
-        if (overlap(item.box, box)) ids.push_back(item.id);
+        const bool is_near = overlap(item.box, box);
+        tests += !is_near;
+        if (is_near) ids.push_back(item.id);
       }
     });
+    return tests;
+  }
+
+  // Of each level, the finest first: the array that its cells, or the buckets of an open grid, are
+  // numbered in, as rows of so many; a solid grid's slices follow one another.
+  std::vector<GridExtent> extents() const {
+    sort();
+    std::vector<GridExtent> all;
+    for (std::size_t level = 0; level < levels_; ++level) {
+      const auto count = [&](std::size_t axis) {
+        return open_ ? table_.buckets(level, axis) : rasters_[level].cells(static_cast<int>(axis));
+      };
+      all.push_back({rasters_[level].side(), count(0), count(1) * (D == 3 ? count(D - 1) : 1)});
+    }
+    return all;
   }
 
   // Of the cells, the finest; of none that has no bodies yet, if it is to suit them.
@@ -166,18 +192,18 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
     return {.nodes = 1,
             .leaves = 1,
             .entries = items_.size(),
-            .box_tests = compared_,
+            .box_tests = placed_,
             .allocations = allocations_ + table_.allocations() + cells_.allocations()};
   }
 
-  // Of the cells as they are shown; `box_tests` counts compared pairs.
+  // Of the cells as they are shown; `box_tests` counts bodies put into their cells.
   Counters counters() const {
     show();
     return {.nodes = cells_.nodes(),
             .leaves = cells_.leaves(),
             .depth = cells_.depth(),
             .entries = cells_.entries(),
-            .box_tests = compared_,
+            .box_tests = placed_,
             .allocations = work().allocations};
   }
 
@@ -234,13 +260,13 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
   bool open_;
   std::uint64_t most_entries_;
   std::vector<Item<D>> items_;
-  std::uint64_t compared_ = 0;
 
   // Made of the items when they are asked for.
   mutable std::array<GridRaster<D>, kMostLevels> rasters_;
   mutable GridTable<D> table_;
   mutable GridCells<D> cells_;
   mutable std::vector<double> room_;
+  mutable std::uint64_t placed_ = 0;
   mutable bool held_ = false, shown_ = false;
 };
 

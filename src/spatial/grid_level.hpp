@@ -40,14 +40,15 @@ struct GridLevel {
     return first_slot + static_cast<std::uint32_t>(row * fold[0]);
   }
 
+  std::int64_t buckets(std::size_t axis) const { return std::max(fold[axis], kLeastFold); }
+
   // Which bucket any cell belongs to, from 0; while the level is not folded the cells in use have
   // one each.
   std::uint32_t bucket(const GridCell<D>& cell) const {
     std::int64_t bucket = 0;
     for (std::size_t i = D; i-- > 0;) {
-      const std::int64_t buckets = std::max(fold[i], kLeastFold);
-      const std::int64_t u = (cell[i] - base[i]) % buckets;
-      bucket = bucket * buckets + (u < 0 ? u + buckets : u);
+      const std::int64_t u = (cell[i] - base[i]) % buckets(i);
+      bucket = bucket * buckets(i) + (u < 0 ? u + buckets(i) : u);
     }
     return static_cast<std::uint32_t>(bucket);
   }

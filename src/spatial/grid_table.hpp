@@ -88,6 +88,10 @@ class GridTable : CountsAllocations {
   std::uint32_t bucket(std::size_t level, const GridCell<D>& cell) const {
     return levels_[level].bucket(cell);
   }
+  // Of buckets on an axis of a level.
+  std::uint64_t buckets(std::size_t level, std::size_t axis) const {
+    return static_cast<std::uint64_t>(levels_[level].buckets(axis));
+  }
   const BoxTable<D>& table() const { return table_; }
   std::uint64_t allocations() const { return allocations_; }
 

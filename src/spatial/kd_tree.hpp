@@ -103,7 +103,9 @@ class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
   }
 
   // The leaves whose fitted boxes the box overlaps.
-  void near(const Box<D>& box, std::vector<BodyId>& ids) const { collect(0, box, ids); }
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const {
+    return collect(0, box, ids);
+  }
 
   // `box_tests` counts comparisons of a body with a plane.
   Counters counters() const {
@@ -228,16 +230,16 @@ class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
       visit_from(node.first_child + child, view.id, child, depth + 1, tour, f);
   }
 
-  void collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {
+  // How many nodes it was tested against.
+  std::uint64_t collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {
     const Node& node = nodes_[handle];
-    if (!overlap(box, node.box)) return;
+    if (!overlap(box, node.box)) return 1;
     if (node.is_leaf()) {
       const auto first = stored_.begin() + node.first;
       ids.insert(ids.end(), first, first + node.count);
-      return;
+      return 1;
     }
-    collect(node.first_child, box, ids);
-    collect(node.first_child + 1, box, ids);
+    return 1 + collect(node.first_child, box, ids) + collect(node.first_child + 1, box, ids);
   }
 
   // Both are what lies in the node's cell of the box as it was stored and as it is now.

@@ -61,13 +61,14 @@ class LectureQuadtree : public Visitable<LectureQuadtree<D>, D> {
     visit_from(tree_.GetRoot(), NodeView<D>{.box = config_.bounds}, first, tour, f);
   }
 
-  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const {
     const auto [pos, size] = flat(box);
     tree_.OperateOnContents(
         [&](const Entries& data) {
           for (const auto& entry : data) ids.push_back(entry.object);
         },
         pos, size);
+    return 0;
   }
 
   Counters counters() const {

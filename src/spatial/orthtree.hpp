@@ -123,8 +123,8 @@ class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
     visit_from(Spot{0, 0, config_.bounds}, kNone, 0, way, f);
   }
 
-  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
-    collect(Spot{0, 0, config_.bounds}, box, ids);
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const {
+    return collect(Spot{0, 0, config_.bounds}, box, ids);
   }
 
   Counters counters() const {
@@ -390,14 +390,20 @@ class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
         visit_from(child_spot(at, mid, child_of(at.node, s), s), view.id, s, way, f);
   }
 
-  void collect(const Spot& at, const Box<D>& box, std::vector<BodyId>& ids) const {
-    if (nodes_[at.node].is_leaf()) return add_ids(nodes_[at.node], ids);
+  // How many children it was tested against, as when a body is handed down.
+  std::uint64_t collect(const Spot& at, const Box<D>& box, std::vector<BodyId>& ids) const {
+    if (nodes_[at.node].is_leaf()) {
+      add_ids(nodes_[at.node], ids);
+      return 0;
+    }
+    std::uint64_t tests = kChildren;
     const Vec<D> mid = Halves::middle(at.bounds);
     const std::uint32_t children = Halves::reached(box, mid);
     for (std::uint32_t slot = 0; slot < kChildren; ++slot)
       if (const NodeHandle child = child_of(at.node, slot);
           child != kNone && (children >> slot & 1u) != 0)
-        collect(child_spot(at, mid, child, slot), box, ids);
+        tests += collect(child_spot(at, mid, child, slot), box, ids);
+    return tests;
   }
 
   Config config_;

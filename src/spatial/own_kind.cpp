@@ -91,7 +91,7 @@ void OwnFlat::put(const Item<2>& item) {
   call(rules_.name, [&] { tree_->insert(place, cut); }, "insert of {0}", {item.id});
 }
 
-void OwnFlat::near(const Box<2>& box, std::vector<BodyId>& ids) const {
+std::uint64_t OwnFlat::near(const Box<2>& box, std::vector<BodyId>& ids) const {
   const auto& nodes = view_.nodes();
   const Box<2>& root = nodes[0].box;
   Box<2> cut;
@@ -108,6 +108,7 @@ void OwnFlat::near(const Box<2>& box, std::vector<BodyId>& ids) const {
     for (const BodyId place : view_.bodies(nodes[i])) ids.push_back(ids_[place]);
     ++i;
   }
+  return 0;
 }
 
 // By how soon a ray along the direction comes to their middles.

@@ -47,7 +47,7 @@ class OwnFlat : public Visitable<OwnFlat, 2> {
   void take(Tour<2> tour, F&& f) const {
     visit_from(0, kNone, tour, f);
   }
-  void near(const Box<2>& box, std::vector<BodyId>& ids) const;
+  std::uint64_t near(const Box<2>& box, std::vector<BodyId>& ids) const;
   Counters counters() const { return view_.counters(); }
 
   // What is wrong with the tree as it stands.
@@ -109,7 +109,9 @@ class OwnUpright : public Visitable<OwnUpright, 3> {
     flat_.take(Tour<2>{tour.ids, {tour.toward.x, tour.toward.z}},
                [&](const NodeView<2>& view) { return f(risen(view)); });
   }
-  void near(const Box<3>& box, std::vector<BodyId>& ids) const { flat_.near(flat(box), ids); }
+  std::uint64_t near(const Box<3>& box, std::vector<BodyId>& ids) const {
+    return flat_.near(flat(box), ids);
+  }
   Counters counters() const { return flat_.counters(); }
   std::span<const OwnFault> faults() const { return flat_.faults(); }
 

@@ -10,12 +10,14 @@ namespace {
 
 // f(place, place) for each pair that is met and of which at least one stirs. A structure that
 // compares its bodies itself does so in a copy, in the order of its own that it makes for it.
+// Returns how many tests it took besides.
 template <int D, class Structure, class F>
-void each_met(const Structure& structure, const std::vector<bool>& stirring, F&& f) {
+std::uint64_t each_met(const Structure& structure, const std::vector<bool>& stirring, F&& f) {
+  std::uint64_t besides = 0;
   const auto awake = [&](BodyId i) -> bool { return stirring[i]; };
   const auto told = [&](const Item<D>& a, const Item<D>& b) { f(a.id, b.id); };
-  if constexpr (requires(Structure s) { s.compare(awake, told); }) {
-    Structure(structure).compare(awake, told);
+  if constexpr (requires(Structure s) { s.compare(awake, told, &besides); }) {
+    Structure(structure).compare(awake, told, &besides);
   } else {
     structure.visit([&](const NodeView<D>& node) {
       for (std::size_t i = 0; i < node.bodies.size(); ++i) {
@@ -26,6 +28,7 @@ void each_met(const Structure& structure, const std::vector<bool>& stirring, F&&
       return true;
     });
   }
+  return besides;
 }
 
 }  // namespace
@@ -51,14 +54,15 @@ PairChain BroadPhase<D>::pair_chain(const std::function<bool(BodyId)>& awake,
   };
   std::visit(
       [&](const auto& tree) {
-        each_met<D>(tree, stirring,
-                    [&](BodyId i, BodyId j) { meet(body(dynamic_, i), body(dynamic_, j)); });
+        chain.besides += each_met<D>(tree, stirring, [&](BodyId i, BodyId j) {
+          meet(body(dynamic_, i), body(dynamic_, j));
+        });
       },
       dynamic_.structure);
   const auto ask = [&](const auto& of_static) {
     for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
       std::vector<BodyId> near;
-      if (stirring[i]) of_static.near(dynamic_.items[i].box, near);
+      if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
       for (const BodyId j : near) meet(body(dynamic_, i), body(static_, j));
     }
   };

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -49,7 +50,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   void clear() {
     items_.clear();
     box_ = {};
-    pair_tests_ = 0;
+    sort_tests_ = 0;
     sorted_ = false;
   }
 
@@ -72,6 +73,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
       for (std::uint32_t i = 0; i < items_.size(); ++i) append(order_, i);
     }
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
+      ++sort_tests_;
       const double x = items_[a].box.lo[axis_], y = items_[b].box.lo[axis_];
       return x < y || (x == y && items_[a].id < items_[b].id);
     };
@@ -87,16 +89,20 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   // f(item, item) for each pair that is compared: they overlap on the axis, and at least one is
   // awake; once, in the order of the sweep. Returns how many. Two that sleep are never compared.
   // Sorts first.
+  // `besides` counts the bodies behind the last one that a body is compared with.
   template <class Awake, class F>
-  std::uint64_t compare(Awake&& awake, F&& f) {
+  std::uint64_t compare(Awake&& awake, F&& f, std::uint64_t* besides = nullptr) {
     sort();
     watchful_.clear();
     for (std::uint32_t at = 0; at < order_.size(); ++at)
       if (awake(items_[order_[at]].id)) append(watchful_, at);
-    std::uint64_t tests = 0;
+    std::uint64_t tests = 0, ends = 0;
     const auto meet = [&](const Item<D>& a, std::uint32_t other) {
       const Item<D>& b = items_[order_[other]];
-      if (b.box.lo[axis_] > a.box.hi[axis_]) return false;
+      if (b.box.lo[axis_] > a.box.hi[axis_]) {
+        ++ends;
+        return false;
+      }
       ++tests;
       f(a, b);
       return true;
@@ -114,7 +120,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
         }
       }
     }
-    pair_tests_ += tests;
+    if (besides) *besides += ends;
     return tests;
   }
 
@@ -129,7 +135,6 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
     RunScanner<D> runs(table_, table_, exact, found);
     for (std::uint32_t at = 0; at < order_.size(); ++at) runs.add(at, at + 1, end_of(at));
     runs.finish();
-    pair_tests_ += runs.compared();
     return runs.compared();
   }
 
@@ -152,28 +157,33 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   }
 
   // Those that the box reaches on the axis of the sweep; all, if `sort` was not called.
-  void near(const Box<D>& box, std::vector<BodyId>& ids) const {
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const {
     if (!sorted_) {
       for (const Item<D>& item : items_) ids.push_back(item.id);
-      return;
+      return 0;
     }
     // All that stand before the first end beyond box.lo have ended.
     const auto first = std::lower_bound(ends_.begin(), ends_.end(), box.lo[axis_]);
+    std::uint64_t tests = static_cast<std::uint64_t>(std::bit_width(ends_.size()));  // to find it
     for (auto i = static_cast<std::size_t>(first - ends_.begin()); i < order_.size(); ++i) {
       const Item<D>& item = items_[order_[i]];
-      if (item.box.lo[axis_] > box.hi[axis_]) return;
-      if (item.box.hi[axis_] >= box.lo[axis_]) ids.push_back(item.id);
+      const bool begins_later = item.box.lo[axis_] > box.hi[axis_];
+      const bool has_ended = item.box.hi[axis_] < box.lo[axis_];
+      tests += begins_later || has_ended;
+      if (begins_later) break;
+      if (!has_ended) ids.push_back(item.id);
     }
+    return tests;
   }
 
   int axis() const { return axis_; }
 
-  // `box_tests` counts compared pairs.
+  // `box_tests` counts bodies compared with bodies while sorting.
   Counters counters() const {
     return {.nodes = 1,
             .leaves = 1,
             .entries = items_.size(),
-            .box_tests = pair_tests_,
+            .box_tests = sort_tests_,
             .allocations = allocations_};
   }
 
@@ -233,7 +243,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   Box<D> box_;
   int axis_ = 0;
   bool sorted_ = false;
-  std::uint64_t pair_tests_ = 0;
+  std::uint64_t sort_tests_ = 0;
 };
 
 }  // namespace lantern::spatial

@@ -10,7 +10,8 @@
 //   visit_toward(d, f)       the same, but siblings in the order in which a ray along d meets them;
 //                            of zero length: as visit
 //   near(box, ids)           appends the bodies of all leaves that the box reaches, in any order
-//                            and perhaps repeated
+//                            and perhaps repeated; returns how many tests of nodes, planes, rows
+//                            or other bodies it took to get there, 0 where nobody counts them
 //   kZones                   where a node's bodies may be, see Zones
 //   kTraits                  what kind of structure it is, see StructureTraits
 //   made(config)             an empty one; throws Refused for settings that it does not allow
@@ -19,7 +20,9 @@
 //   pair(exact, found)       adds all pairs of its bodies that overlap, each once, in any order, as
 //                            RunScanner does; returns how many pairs of boxes it compared
 //   compare(awake, f)        the same comparisons made visible: f(item, item) for each, of which at
-//                            least one is awake(id); returns how many
+//                            least one is awake(id); returns how many. A third argument, if not
+//                            null, is increased by the tests that it took besides: of nodes with
+//                            nodes, of rows, or of the body with which a sweep ends
 // and, if what it shows is made only for who looks,
 //   work()                   counters() of what is there already
 // and, if it can go on from where its bodies were,
@@ -173,9 +176,11 @@ struct NoObserver {
 struct Counters {
   std::uint64_t nodes = 0;  // that stand now
   std::uint64_t leaves = 0;
-  std::uint64_t depth = 0;         // of the deepest node
-  std::uint64_t entries = 0;       // bodies stored, each once a leaf
-  std::uint64_t box_tests = 0;     // of a body against a node or plane, since the last clear
+  std::uint64_t depth = 0;    // of the deepest node
+  std::uint64_t entries = 0;  // bodies stored, each once a leaf
+  // Of a body against a node or plane, while sorting against another body, of a grid one a body
+  // for its cell; since the last clear.
+  std::uint64_t box_tests = 0;
   std::uint64_t splits = 0;        // since the last clear
   std::uint64_t allocations = 0;   // calls for memory since the structure was made
   std::uint64_t nodes_reused = 0;  // since the last clear: nodes that took the place of one from

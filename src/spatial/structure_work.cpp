@@ -1,0 +1,50 @@
+#include "spatial/structure_work.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace lantern::spatial {
+namespace {
+
+template <int D>
+std::uint64_t dynamic_tests(const BroadPhase<D>& broad) {
+  return broad.with_dynamic([](const auto& tree) { return tree.counters().box_tests; });
+}
+
+}  // namespace
+
+bool counts_its_work(StructureKind kind) {
+  return std::ranges::count(kStructureKinds, kind) > 0 && kind != StructureKind::lecture_quadtree;
+}
+
+template <int D>
+StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D>> before,
+                             std::span<const Proxy<D>> after, std::uint64_t most) {
+  config.split_static = true;
+  BroadPhase<D> broad(config);
+  StructureWork work;
+  broad.build(before);
+  const std::uint64_t at_first = dynamic_tests(broad);
+  const std::uint64_t builds = broad.counters().dynamic_builds;
+  work.build =
+      at_first + broad.with_static([](const auto& tree) { return tree.counters().box_tests; });
+  broad.build(after);
+  // What is built anew begins to count anew; what is mended, or stands, goes on.
+  const bool anew = broad.counters().dynamic_builds > builds;
+  work.renew = dynamic_tests(broad) - (anew ? 0 : at_first);
+
+  std::unordered_map<BodyId, bool> stirs;
+  for (const Proxy<D>& proxy : after) stirs[proxy.id] = proxy.awake && !proxy.is_static;
+  const PairChain chain = broad.pair_chain([&](BodyId id) { return stirs.at(id); }, most);
+  work.pair = chain.met + chain.besides;
+  work.pairs = chain.pairs.size();
+  work.overlaps = chain.overlapping.size();
+  return work;
+}
+
+template StructureWork structure_work(BroadPhaseConfig<2>, std::span<const Proxy<2>>,
+                                      std::span<const Proxy<2>>, std::uint64_t);
+template StructureWork structure_work(BroadPhaseConfig<3>, std::span<const Proxy<3>>,
+                                      std::span<const Proxy<3>>, std::uint64_t);
+
+}  // namespace lantern::spatial
