@@ -168,7 +168,10 @@ std::vector<Box<2>> world_and_tree(const std::vector<Panel>& panels, const Frame
           split(area, axis, {world_first ? share : 1 - share, world_first ? 1 - share : share},
                 kPanelGap);
       const double world = size_in(frame, cut[world_first ? 0 : 1]);
-      const double tree = tree_size_in(staging, cut[world_first ? 1 : 0]);
+      const Box<2>& other = cut[world_first ? 1 : 0];
+      // A grid's table takes what it gets, whatever the cells of the moment are.
+      const double tree = frame.grid_levels.empty() ? tree_size_in(staging, other)
+                                                    : std::sqrt(other.size().x * other.size().y);
       // Beside each other is what a hall is used to: one above the other must gain something.
       const double gain = world * tree * (axis == 0 ? 1.1 : 1.0);
       if (gain <= most + 1e-9) continue;

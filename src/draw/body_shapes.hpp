@@ -2,6 +2,8 @@
 // characters, made of few shapes and points in any size.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -24,6 +26,14 @@ inline bool is_character(const FrameBody& body) {
 inline Role ground_of(Mark mark) {
   if (mark == Mark::lit) return Role::lit_fill;
   return mark == Mark::passed ? Role::passed_fill : Role::panel;
+}
+
+// The level in a leaf that is shown as a bucket, within its box; nothing where none is shown.
+inline std::optional<Box<2>> level_in(const Frame& frame, const FrameNode& node, Box<2> box) {
+  if (!frame.display.fill || frame.capacity == 0 || !node.leaf || node.bodies.empty()) return {};
+  const double share = static_cast<double>(node.bodies.size()) / frame.capacity;
+  box.lo.y = box.hi.y - std::min(share, 1.0) * box.size().y;
+  return box;
 }
 
 using BodiesById = std::unordered_map<BodyId, const FrameBody*>;

@@ -55,6 +55,10 @@ constexpr struct {
     {"free_leaves", "free leaf", "free leaves"},
     {"leaf_tests", "leaf looked at", "leaves looked at"},
     {"room", "has room", "has room"},
+    {"compared_bodies", "body compared", "bodies compared"},
+    {"compared_pairs", "by brute force", "by brute force"},
+    {"compared_overlaps", "overlap of boxes", "overlaps of boxes"},
+    {"least_work", "comparison a step", "comparisons a step"},
 };
 
 }  // namespace

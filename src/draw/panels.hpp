@@ -26,6 +26,10 @@ inline constexpr double kLeastNode = 34;
 // the sweep. A pair that it compares is linked where the later interval begins; where one body is
 // lit, the sweep stands at its beginning, and the intervals that are open there are marked.
 void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+// The array of a grid's cells, of each level one, or the buckets that a spatial hash puts its cells
+// into: in rows as the grid is wide, each with the bodies that reach it. Where several cells share
+// a bucket, they are parted by lines.
+void draw_grid(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 // The diagram alone, of a frame whose nodes are one tree.
 struct TreeStage;
 void draw_one_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage,
@@ -83,6 +87,11 @@ double bytes_height();
 // known, else powers of two.
 void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 double sparkline_height();
+
+// What each kind of structure does for each world that was compared (frame.comparison), a row a
+// world with a small picture of it, a column a kind; rows to come are named only. Nothing on a
+// panel that is too narrow for it.
+void draw_comparison(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 
 // The caption, and the counters at its right; gives the y of the hairline above them.
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels);

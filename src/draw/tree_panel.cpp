@@ -27,7 +27,8 @@ struct Fact {
 std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box<2>& panel) {
   constexpr double kLeastForSettings = 330;  // height; on a lower one the rows need the room
   std::vector<Fact> facts;
-  if (!frame.side.empty()) return facts;  // its title and its counts say it
+  // Its title and its counts say it; and one list of all bodies is no tree.
+  if (!frame.side.empty() || frame.structure == StructureKind::sort_and_sweep) return facts;
   const std::pair<const char*, const char*> counted[] = {
       {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
   for (const auto& [many, one] : counted)
@@ -180,6 +181,8 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   diagram.hi.y -= height + 4;
   if (frame.structure == StructureKind::sort_and_sweep)
     return draw_sweep(frame, shrunk(diagram, 6), list, labels);
+  if (!frame.grid_levels.empty() && staging.trees().size() < 2)
+    return draw_grid(frame, shrunk(diagram, 6), list, labels);
   if (staging.trees().size() > 1) return draw_forest(frame, staging, diagram, list, labels);
   for (const UnionTree& tree : staging.trees())
     draw_staged_tree(frame, tree, staging, diagram, list, labels);

@@ -115,6 +115,9 @@ class TreeView {
       list_.rect(behind, ground, outline, radius);
     }
     list_.rect(box, ground, outline, radius);
+    if (branch.kind == Branch::Kind::node)
+      if (const auto level = level_in(frame_, node, shrunk(box, 3)))
+        list_.rect(*level, Role::rule, {}, std::min(radius, 4.0));
     if (labels_.has_notes()) tell_places(branch, box);
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "draw/body_shapes.hpp"
 #include "draw/borders.hpp"
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
@@ -229,6 +230,38 @@ class GridDepths {
   std::uint32_t coarsest_ = 0;
 };
 
+// Of a grid, where the cells lie that hold nothing; not of cells so small that lines would fill
+// the picture.
+void rule_grid(const Frame& frame, const View2D& map, DrawList& list) {
+  constexpr double kLeastRuled = 12;
+  if (frame.grid_levels.empty()) return;
+  const double side = frame.grid_levels[0].side;
+  if (side * map.scale() < kLeastRuled) return;
+  const DrawList::Scope scope(list, "world/ruled");
+  const Box<2> picture = map.picture();
+  for (const int axis : {0, 1})
+    for (double at = frame.bounds.lo[axis] + side; at < frame.bounds.hi[axis]; at += side) {
+      Vec<3> on = frame.bounds.lo;
+      on[axis] = at;
+      Vec<2> from = picture.lo, to = picture.hi;
+      from[axis] = to[axis] = map.to_page(on)[axis];
+      if (picture.lo[axis] < from[axis] && from[axis] < picture.hi[axis])
+        list.crisp_line(from, to, {Role::cell_line_3, 1.2, 5});
+    }
+}
+
+// Leaves as buckets.
+void fill_levels(const Frame& frame, const View2D& map, DrawList& list) {
+  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
+    const FrameNode& node = frame.nodes[i];
+    if (node.of_static || !node.region.empty()) continue;
+    if (const auto level = level_in(frame, node, cell_of(frame, node, map))) {
+      const DrawList::Scope scope(list, node_key("world/level", frame.nodes, i));
+      list.crisp_rect(*level, Role::rule);
+    }
+  }
+}
+
 // The borders of the cells of what moves, or, in long dashes over them, of what never does, so that
 // both can be told apart in one picture.
 bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
@@ -245,7 +278,7 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
     const Box<2> cell = cell_of(frame, node, map);
     if (is_drawn(cell))
       borders.add(cell, depths[node], i);
-    else
+    else if (overlap(shrunk(map.picture(), kLeastCell), map.to_page(node.box)))
       complete &= of_static;
   }
   const auto stroke = [&](std::uint32_t depth) {
@@ -312,6 +345,8 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   }
   grounds.insert(grounds.end(), under.begin(), under.end());
   tone_asleep(frame, map, list);
+  fill_levels(frame, map, list);
+  rule_grid(frame, map, list);
   bool complete = draw_borders(frame, map, false, list);
   complete &= draw_borders(frame, map, true, list);
   outline_lit(frame, map, list);

@@ -89,6 +89,8 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
       return state.separated ? "" : "no step has separated two bodies yet";
     case CountNeed::searched:
       return state.searched ? "" : "no step has asked for a distance by gjk yet";
+    case CountNeed::compared:
+      return state.rows_compared > 0 ? "" : "no step has compared structures yet";
     case CountNeed::compiled:
     case CountNeed::located:
       if (!s.level) return "the scenario has no [level]";

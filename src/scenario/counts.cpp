@@ -44,7 +44,9 @@ constexpr CountDoc kCounts[] = {
     {"rotations", physics, "Bodies that were turned, in the last world step."},
     {"asleep", sleep, "Bodies asleep."},
     {"awake", sleep, "Bodies that can move and are not asleep, whether they move now or not."},
-    {"box_tests", inside, "Tests of a body against a node or plane since the tree was built."},
+    {"box_tests", inside,
+     "Tests of a body against a node or plane since the tree was built; of `sort_and_sweep`, "
+     "comparisons while sorting; of a `grid`, bodies put into their cells."},
     {"splits", structure, "Leaves that split since the tree was built."},
     {"static_builds", split, "How often the structure of what never moves was built."},
     {"dynamic_builds", split, "How often the structure of what moves was built."},
@@ -70,6 +72,11 @@ constexpr CountDoc kCounts[] = {
     {"touching", shapes, "Pairs that it found to touch."},
     {"axes_tested", separated, "Axes along which the last `separate` has measured its bodies."},
     {"gjk_steps", searched, "Points of the difference that the last `gjk` has asked for."},
+    {"compared_bodies", compared, "Bodies of the last `compare`."},
+    {"compared_pairs", compared, "Pairs of them that brute force would test."},
+    {"compared_overlaps", compared, "Those whose boxes overlap after its step, by every kind."},
+    {"least_work", compared,
+     "Comparisons of the kind that needed fewest in its step, to make ready and to find pairs."},
     {"walls", compiled, "Walls of the level."},
     {"wall_pieces", compiled, "Walls after lines have cut them."},
     {"sectors", compiled, "Leaves of the level's BSP."},
@@ -182,8 +189,9 @@ std::string_view when_counted(CountNeed need) {
       "once the level is compiled",
       "after a `locate`",
       "with an atlas",
-      "after an `ask_room`"};
-  static_assert(std::size(kWhen) == static_cast<std::size_t>(room) + 1);
+      "after an `ask_room`",
+      "after a `compare`"};
+  static_assert(std::size(kWhen) == static_cast<std::size_t>(compared) + 1);
   return kWhen[static_cast<std::size_t>(need)];
 }
 

@@ -7,6 +7,7 @@
 #include "base/check.hpp"
 #include "scenario/brains.hpp"
 #include "scenario/narrow_asked.hpp"
+#include "scenario/comparison.hpp"
 #include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
@@ -132,6 +133,11 @@ class EngineOf : public Engine {
   std::optional<FrameDifference> difference(BodyId a, BodyId b) const override {
     const Body<D>*first = players_.world().find(a), *second = players_.world().find(b);
     return first && second ? difference_of(*first, *second) : std::nullopt;
+  }
+
+  FrameComparison::Row compare(const std::vector<std::size_t>& bodies,
+                               const std::vector<StructureKind>& kinds) const override {
+    return compare_kinds<D>(scenario_, structure_, bodies, kinds);
   }
 
   std::optional<BodyId> id_of(std::size_t body) const override { return players_.id_of(body); }

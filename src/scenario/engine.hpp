@@ -68,6 +68,9 @@ class Engine {
   virtual void rebuild_as(const StructureSpec& structure) = 0;
 
   virtual Finding ask(const Question& question) = 0;
+  // Of these bodies alone, by each of these kinds with the settings that stand; without a name.
+  virtual FrameComparison::Row compare(const std::vector<std::size_t>& bodies,
+                                       const std::vector<StructureKind>& kinds) const = 0;
 
   // Two bodies of a flat world that are there, no half-spaces: what the narrow phase's test of them
   // measures, and how their distance is searched for.

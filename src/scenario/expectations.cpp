@@ -192,6 +192,34 @@ std::vector<const Expectation*> all_of(const Step& step) {
   return all;
 }
 
+// The kind's cell in the row that was compared last; null if there is none.
+const FrameComparison::Cell* cell_of(const Frame& frame, const std::string& kind) {
+  const auto& rows = frame.comparison.rows;
+  const auto named = structure_named(kind);
+  return rows.empty() || !named ? nullptr : rows.back().cell(*named);
+}
+
+Unmet unmet_work(const Expectation& e, const Frame& frame) {
+  const FrameComparison::Cell* cell = cell_of(frame, e.name);
+  const bool of_build = e.kind == Expectation::Kind::build_work;
+  const char* what = of_build ? "to build" : "in a step";
+  if (!cell) return fmt::format("expected comparisons of a '{}', it was not compared", e.name);
+  const std::uint64_t found = of_build ? cell->work.build : cell->work.step();
+  if (static_cast<double>(found) == e.number) return std::nullopt;
+  return fmt::format("expected {} comparisons {} of a '{}', found {}", e.number, what, e.name,
+                     found);
+}
+
+Unmet unmet_fewest(const Expectation& e, const Frame& frame) {
+  std::set<std::string> found;
+  for (const FrameComparison::Cell& cell : frame.comparison.rows.back().cells)
+    if (cell.work.step() == frame.comparison.rows.back().least())
+      found.insert(std::string(to_string(cell.kind)));
+  if (found == std::set(e.names.begin(), e.names.end())) return std::nullopt;
+  return fmt::format("expected fewest comparisons of {}, found {}", listed(e.names),
+                     fmt::join(found, ", "));
+}
+
 }  // namespace
 
 std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
@@ -219,9 +247,9 @@ std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
 // In the order of Expectation::Kind.
 Unmet unmet(const Expectation& e, const Frame& frame) {
   static constexpr Unmet (*kChecks[])(const Expectation&, const Frame&) = {
-      unmet_number, unmet_number, unmet_number, unmet_leaves, unmet_pairs,
-      unmet_pairs,  unmet_hits,   unmet_sleep,  unmet_sleep,  unmet_vector,
-      unmet_vector, unmet_vector, unmet_turn,   unmet_number};
+      unmet_number, unmet_number, unmet_number, unmet_leaves, unmet_pairs,  unmet_pairs,
+      unmet_hits,   unmet_sleep,  unmet_sleep,  unmet_vector, unmet_vector, unmet_vector,
+      unmet_turn,   unmet_number, unmet_work,   unmet_work,   unmet_fewest};
   return kChecks[static_cast<std::size_t>(e.kind)](e, frame);
 }
 

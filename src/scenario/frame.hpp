@@ -16,6 +16,7 @@
 #include "physics/gjk.hpp"
 #include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
+#include "scenario/frame_comparison.hpp"
 #include "scenario/scenario.hpp"
 #include "spatial/structure.hpp"
 
@@ -318,8 +319,11 @@ struct Frame {
   bool ending = false;                // the take-away of the sequence
   std::optional<FrameQuestion> question;  // on no picture
   StructureKind structure = StructureKind::none;
-  std::string settings;  // "capacity 2, depth limit 4": what the tree was told
-  int sweep_axis = 0;    // along which a sweep sorted; of other structures of no matter
+  std::string settings;                 // "capacity 2, depth limit 4": what the tree was told
+  std::uint32_t capacity = 0;           // of its leaves, if they split
+  std::vector<GridExtent> grid_levels;  // of a grid, the finest first
+  bool hashed = false;                  // its cells share buckets, of which the extents tell
+  int sweep_axis = 0;  // along which a sweep sorted; of other structures of no matter
   std::vector<Panel> panels;
   Box<3> bounds;
   std::uint32_t cast = 0;  // bodies of the scenario, there or not
@@ -346,6 +350,7 @@ struct Frame {
   std::optional<Vec<2>> eye;                  // where a level is looked at from
   std::optional<WorldWork> since_last_frame;  // of its steps, summed up; none if there was none
   FrameChart chart;
+  FrameComparison comparison;  // if the panel shows it
   FrameTrace trace;
   std::uint32_t pool_size = 0;   // nodes that the tree's pool held at most; 0: it has none
   std::uint32_t array_size = 0;  // slots of the array that all leaves share

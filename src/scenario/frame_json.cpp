@@ -60,6 +60,7 @@ class FrameWriter {
     if (whole_way_) write_narrow(frame);
     if (!frame.walls.empty()) write_list("walls", frame.walls);
     if (!frame.textures.empty()) write_list("textures", frame.textures);
+    if (!frame.comparison.rows.empty()) write_list("comparison", frame.comparison.rows);
     json_.line().key("counts").begin_object();
     for (const auto& [name, number] : frame.counts)
       if (whole_way_ || std::ranges::find(kNewCounts, name) == std::end(kNewCounts))
@@ -270,6 +271,15 @@ class FrameWriter {
     members("wall", wall.wall, "from", wall.from, "to", wall.to);
     if (wall.node != kNone) members("node", wall.node);
     json_.end_object();
+  }
+
+  void write(const FrameComparison::Cell& cell) {
+    object("kind", to_string(cell.kind), "build", cell.work.build, "renew", cell.work.renew, "pair",
+           cell.work.pair, "pairs", cell.work.pairs, "overlaps", cell.work.overlaps);
+  }
+  void write(const FrameComparison::Row& row) {
+    object("row", row.name, "answer", row.answer, "bodies", row.bodies, "testable_pairs",
+           row.testable, "kinds", row.cells);
   }
 
   void write(const FrameTexture& t) {

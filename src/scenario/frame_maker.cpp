@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "base/stop.hpp"
 #include "geometry/flat.hpp"
 #include "scenario/caption.hpp"
+#include "scenario/comparison.hpp"
 #include "scenario/frame.hpp"
 #include "scenario/language.hpp"
 #include "scenario/rulers.hpp"
@@ -56,6 +58,7 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       stage_(stage),
       sink_(sink),
       headline_(scenario.headline),
+      comparison_(empty_comparison(scenario)),
       looks_(scenario) {
   if (scenario.chart) plotter_.emplace(scenario);
   if (std::ranges::count(scenario.panels, Panel::sparkline) > 0) {
@@ -105,6 +108,11 @@ void FrameMaker::show_finding(Finding finding) {
   finding_ = std::move(finding);
 }
 
+void FrameMaker::add_row(FrameComparison::Row row, const std::string& answer) {
+  comparison_.rows.push_back(std::move(row));
+  answer_ = answer;
+}
+
 Frame FrameMaker::picture(const Touched& now, std::string_view event) {
   return drawn(now, event, false);
 }
@@ -139,6 +147,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   if (stage_.atlas) stage_.atlas->picture(now, frame);
   frame.hash = state_hash(frame);
   add_finding(frame);
+  add_comparison(frame);
   add_rulers(frame);
   lighting_.light({traits_of(step_->verb), focus, midst}, frame);
   light_room(frame);
@@ -250,6 +259,18 @@ void FrameMaker::add_finding(Frame& frame) const {
   if (finding_->view) frame.views.push_back(*finding_->view);
   if (finding_->region) frame.queries.push_back(*finding_->region);
   if (!finding_->ray) dim(frame);
+}
+
+// Of the world that was compared last.
+void FrameMaker::add_comparison(Frame& frame) {
+  if (comparison_.rows.empty()) return void(frame.comparison = comparison_);
+  FrameComparison::Row& last = comparison_.rows.back();
+  frame.add_count("compared_bodies", last.bodies);
+  frame.add_count("compared_pairs", last.testable);
+  frame.add_count("compared_overlaps", last.cells.front().work.overlaps);
+  frame.add_count("least_work", last.least());
+  if (!answer_.empty()) last.answer = fill(std::exchange(answer_, {}), frame);
+  frame.comparison = comparison_;
 }
 
 // Who is ruled out: not found in the end; before it, tested in vain or only in nodes left out.

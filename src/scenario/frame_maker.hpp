@@ -59,6 +59,8 @@ class FrameMaker {
   // What a ray, view or region has found, so far or in all: shown on this step's frames, counted
   // from now on.
   void show_finding(Finding finding);
+  // One world more in the table of comparisons; what it says is filled in on the next frame.
+  void add_row(FrameComparison::Row row, const std::string& answer);
 
   // The same of two bodies that are measured, or whose distance is searched for.
   NarrowShown narrow;
@@ -82,6 +84,7 @@ class FrameMaker {
  private:
   Frame drawn(const Touched& touched, std::string_view event, bool midst);
   void add_finding(Frame& frame) const;
+  void add_comparison(Frame& frame);
   void trace(Frame& frame);
   void tell_faults(const Frame& frame);
   void tell_splits(Frame& frame);
@@ -118,7 +121,9 @@ class FrameMaker {
   WorldWork last_work_;                                // at the last frame that was given
   std::optional<Finding> finding_;                     // of this step
   std::optional<QueryNumbers> counted_;                // of the last ray, view or region
-  std::set<const Expectation*> reported_;              // an unmet one is reported once
+  FrameComparison comparison_;
+  std::string answer_;                     // of its last row, until it is filled in
+  std::set<const Expectation*> reported_;  // an unmet one is reported once
   // Of the last frame that was given: its structure, time and divided nodes.
   StructureKind last_structure_ = StructureKind::none;
   double last_time_ = 0;

@@ -34,11 +34,15 @@ TableDoc file_table() {
       key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
       key(&S::panels, "panels",
           "What is drawn, from left to right: the `world`, the `tree` (of `sort_and_sweep` its "
-          "intervals), the `atlas`, the `chart`; the `ledger`, a triangle with a cell for each "
+          "intervals, of a `grid` the table of its cells), the `atlas`, the `chart`; the `ledger`, "
+          "a triangle with a cell for each "
           "pair "
           "of bodies and how far it came; the `difference`, the Minkowski difference of the two "
           "bodies that a `gjk` is about, or of the first two that are there; the `axes` of a "
-          "`separate`, side by side; and as strips below, the `memory` of the array that all "
+          "`separate`, side by side; the `comparison`, a table of what each kind of structure does "
+          "for "
+          "each world that a step compares; and as strips below, the `memory` of the array that "
+          "all "
           "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
           "the `sparkline`, the first count of the headline, or the pairs, over the time so far.",
           or_else("what the scenario uses")),

@@ -166,7 +166,8 @@ enum class CountNeed {
   compiled,   // the level was
   located,    // a point of the level was
   atlas,
-  room,  // of an atlas: it was asked for room
+  room,      // of an atlas: it was asked for room
+  compared,  // bodies were
 };
 
 struct CountDoc {

@@ -15,11 +15,12 @@ std::vector<std::uint64_t> places_of(const Frame& frame) {
   places.reserve(frame.nodes.size());
   for (const FrameNode& node : frame.nodes) {
     const std::uint64_t parent = node.parent == kNone ? 0 : places[node.parent];
-    places.push_back(Hash()
-                         .add(parent)
-                         .add(std::uint64_t{node.slot})
-                         .add(std::uint64_t{node.of_static})
-                         .value());
+    Hash hash;
+    hash.add(parent).add(std::uint64_t{node.slot}).add(std::uint64_t{node.of_static});
+    // A grid's cells may have been made larger or smaller.
+    if (!frame.grid_levels.empty() && node.leaf)
+      hash.add(node.box.lo.x).add(node.box.lo.y).add(node.box.hi.x);
+    places.push_back(hash.value());
   }
   return places;
 }

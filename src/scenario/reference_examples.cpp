@@ -182,6 +182,9 @@ std::string panel_example(Panel panel) {
     for (const TableDoc& verb : language_verbs())
       if (verb.name == "separate")
         return fmt::format("{}{}\n{}", only, kWorldExample, verb.example);
+  if (panel == Panel::comparison)
+    for (const TableDoc& verb : language_verbs())
+      if (verb.name == "compare") return fmt::format("{}{}\n{}", only, kWorldExample, verb.example);
   if (panel == Panel::chart) return only + std::string(kChartExample);
   if (panel != Panel::atlas) return only + std::string(kWorldExample);
   for (const TableDoc& verb : language_verbs())

@@ -42,6 +42,9 @@ struct Expectation {
     half_size,
     turned,
     measure,
+    build_work,
+    step_work,
+    fewest,
   };
   Kind kind = Kind::count;
   std::string name;

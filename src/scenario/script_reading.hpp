@@ -22,9 +22,11 @@ struct ScriptState {
   bool searched = false;       // for the distance of two bodies
   bool compiled = false;       // the level
   bool located = false;        // a point in it
-  bool has_plot = false;       // some step adds to the chart
-  std::uint64_t frames = 0;    // in step pace
-  std::uint64_t ticks = 0;     // world steps at most, and at least
+  std::size_t rows_compared = 0;
+  bool has_plot = false;     // some step adds to the chart
+  std::uint64_t frames = 0;  // in step pace
+  std::uint64_t ticks = 0;   // world steps at most, and at least
+
   std::uint64_t least_ticks = 0;
   std::size_t named = 0;  // bodies and textures, over all steps
 };

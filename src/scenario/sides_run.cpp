@@ -47,7 +47,7 @@ Frame without_facts(Frame frame) {
   const auto clear = [](auto&... lists) { (lists.clear(), ...); };
   clear(frame.bodies, frame.nodes, frame.pairs, frame.contacts, frame.links, frame.rays,
         frame.views, frame.queries, frame.hits, frame.walls, frame.textures, frame.counts,
-        frame.measures);
+        frame.measures, frame.grid_levels);
   return frame;
 }
 

@@ -33,7 +33,8 @@ enum class Panel {
   bytes,
   sparkline,
   difference,
-  axes
+  axes,
+  comparison
 };
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box };
@@ -292,7 +293,7 @@ inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
   return {"world", "tree",  "atlas",     "chart",      "memory", "ledger",
-          "pool",  "bytes", "sparkline", "difference", "axes"};
+          "pool",  "bytes", "sparkline", "difference", "axes",   "comparison"};
 }
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box"}; }

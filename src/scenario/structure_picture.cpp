@@ -65,10 +65,9 @@ std::string settings_text(const StructureSpec& s, int sweep_axis) {
                        split);
   if (s.kind == StructureKind::grid) return grid_text(s) + split;
   if (s.kind == StructureKind::aabb_tree)
-    return fmt::format("a leaf for each body, {}{}",
-                       s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin)
-                                    : "boxes not enlarged",
-                       split);
+    return fmt::format(
+        "a leaf for each body, {}{}",
+        s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin) : "boxes not enlarged", split);
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
   if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
@@ -290,6 +289,9 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   const BroadPhase<D>& structure = *world.broad_phase();
   frame.sweep_axis = structure.sweep_axis().value_or(0);
   frame.settings = settings_text(spec, frame.sweep_axis);
+  frame.capacity = traits_of(spec.kind).splits ? spec.capacity : 0;
+  frame.grid_levels = structure.grid_extents();
+  frame.hashed = spec.open;
   const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
   NodePicture<D> picture(spec, touched, frame);
   structure.with_dynamic([&](const auto& tree) {

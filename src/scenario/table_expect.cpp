@@ -36,6 +36,9 @@ class ExpectationReader {
     read_points("velocity", Kind::velocity);
     read_points("half_size", Kind::half_size);
     read_turns();
+    read_work("build_work", Kind::build_work);
+    read_work("step_work", Kind::step_work);
+    read_fewest();
     check_tolerance();
     std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
       return Place{a.where.line, a.where.column} < Place{b.where.line, b.where.column};
@@ -100,6 +103,31 @@ class ExpectationReader {
     if (table_.has("in_leaves")) require("in_leaves", "leaves", table_.key_place("in_leaves"));
     for (const auto& [body, number] : table_.list<std::pair<Named, double>>("in_leaves"))
       add_of_body(Kind::leaves, body).number = number;
+  }
+
+  // A kind of structure, of the last `compare`.
+  void require_kind(const Named& kind) {
+    if (!structure_named(kind.name))
+      draft_.problems.add(kind.where, fmt::format("there is no structure {}", in_quotes(kind.name)),
+                          [name = kind.name] { return nearest(name, names(StructureKind())); });
+  }
+
+  void read_work(std::string_view key, Kind kind) {
+    if (table_.has(key)) require(key, "least_work", table_.key_place(key));
+    for (const auto& [structure, number] : table_.list<std::pair<Named, double>>(key)) {
+      require_kind(structure);
+      add(kind, structure.name, structure.where).number = number;
+    }
+  }
+
+  void read_fewest() {
+    if (!table_.has("fewest")) return;
+    require("fewest", "least_work", table_.key_place("fewest"));
+    Expectation& e = add(Kind::fewest, "", table_.key_place("fewest"));
+    for (const Named& kind : table_.names("fewest")) {
+      require_kind(kind);
+      e.names.push_back(kind.name);
+    }
   }
 
   void read_pairs(std::string_view key, std::string_view count, Kind kind) {
@@ -213,6 +241,15 @@ TableDoc expect_table() {
           key(name_points, "half_size", "Of a body's box in the broad phase.", range(0, kFar)),
           key(name_numbers, "turned", "How far a body of a 2D world is turned, in degrees.",
               range(-1e9, 1e9)),
+          key(name_wholes, "build_work",
+              "Comparisons by which kinds of structures were built in the last `compare`, as "
+              "`{ grid = 80 }`.",
+              range(0, kMostWhole)),
+          key(name_wholes, "step_work",
+              "Comparisons that they made in its step, to be ready and to find pairs.",
+              range(0, kMostWhole)),
+          key(KeyType::names, "fewest",
+              "The kinds that made fewest in its step, these and no others; in any order."),
       }};
   expect.by_side = true;
   for (const CountDoc& measure : known_measures())

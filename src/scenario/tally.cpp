@@ -66,6 +66,7 @@ void Tally::see(const Frame& frame) {
   seconds_ = std::max(seconds_, frame.time);
   raise(points_, points_of(frame.chart));
   with_points_ += points_of(frame.chart) > 0;
+  with_rows_ += !frame.comparison.rows.empty();
   solid_ += frame.dimension == 3;
   Seen seen;
   if (frame.sides.empty()) seen.add(frame);
@@ -230,6 +231,8 @@ void Tally::list_pictures(Stages& all) const {
   all.push_back(panel(Panel::difference, "difference panel",
                       {frames(with_difference_, "the difference of two bodies")}));
   all.push_back(panel(Panel::axes, "axes panel", {frames(with_axes_, "axes of two bodies")}));
+  all.push_back(
+      panel(Panel::comparison, "comparison panel", {frames(with_rows_, "worlds compared")}));
   all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
   all.push_back({"OpenGL",
                  {amount(work_.graphics_contexts, "context")},

@@ -178,6 +178,18 @@ struct Rebuild {
   StructureSpec structure;
 };
 
+// Of bodies alone in a world of their own, in one step.
+struct Compare {
+  static constexpr VerbTraits kTraits{.name = "compare", .basis = Basis::bodies};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  std::vector<std::size_t> bodies;
+  std::string row;
+  std::vector<StructureKind> kinds;
+  std::string answer;  // with {count}; may be empty
+};
+
 // The nearest hit, or all.
 struct CastRay {
   static constexpr VerbTraits kTraits{.name = "ray", .basis = Basis::bodies, .asks = true};
@@ -290,9 +302,10 @@ struct AskRoom {
 };
 
 // In the order of the reference page.
-using Verb = std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse,
-                          Run, Wait, Phases, SolveBy, Rebuild, CastRay, Cull, Query, TestShapes,
-                          Separate, SearchDistance, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
+using Verb =
+    std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse, Run, Wait,
+                 Phases, SolveBy, Rebuild, Compare, CastRay, Cull, Query, TestShapes, Separate,
+                 SearchDistance, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
 
 inline const VerbTraits& traits_of(const Verb& verb) {
   return std::visit([](const auto& v) -> const VerbTraits& { return v.kTraits; }, verb);

@@ -29,6 +29,7 @@ struct Display {
   bool forces = false;  // of scripts and springs, with their sizes
   bool cells = true;    // of the world panel: borders, grounds and names
   bool not_made = true;
+  bool fill = false;
   bool boxes = false;        // the bodies' broad-phase boxes
   bool depths = false;       // beside contacts
   bool coordinates = false;  // of the lit way's borders, at the world's edges

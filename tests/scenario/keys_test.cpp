@@ -104,6 +104,8 @@ std::map<std::string, Surroundings> surroundings() {
          {"bodies", "[\"red\", \"pink\"]"},
          {"at_most", "1"}},
         ""}},
+      {"compare",
+       {scene + step, {{"do", "\"compare\""}, {"bodies", "[\"red\"]"}, {"row", "\"a\""}}, ""}},
       {"phases", {scene + step, {{"do", "\"phases\""}}, ""}},
       {"solve_by", {touching + step, {{"do", "\"solve_by\""}, {"contacts", "\"soft\""}}, ""}},
       {"force",
@@ -149,7 +151,8 @@ std::map<std::string, Surroundings> surroundings() {
       {"expect",
        {kTitle + kRules + kLevel + "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" +
             kRed + kCompile + "[[step]]\ndo = \"locate\"\npoint = [1, 1]\n" +
-            "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\n" + kInsert + "[step.expect]\n",
+            "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\n" + kInsert +
+            "[[step]]\ndo = \"compare\"\nbodies = [\"red\"]\nrow = \"a\"\n" + "[step.expect]\n",
         {},
         ""}},
   };
@@ -428,6 +431,20 @@ void add_verb_cases(std::vector<KeyCase>& cases) {
        {"solve_by", "sub_steps", {"1", "64"}, bad_whole("0", "65", "1 to 64")},
        {"solve_by", "wanted_error", {"0", "0.01"}, bad_number("-0.1", "1.5")},
        {"solve_by", "iterations", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
+       {"compare", "bodies", {"[\"red\"]"}, bad_names("body")},
+       {"compare", "row", {"\"a town\""}, bad_text("1 to 24", 24)},
+       {"compare", "answer", {"\"\"", "\"{least_work:comparison}\""}, bad_text("0 to 56", 56)},
+       {"compare", "answer", {}, {{"\"@{leest_work}\"", "did you mean 'least_work'?"}}},
+       {"compare",
+        "kinds",
+        {"[\"grid\", \"quadtree\"]"},
+        {{"[@\"gird\", \"quadtree\"]", "did you mean 'grid'?"},
+         {"@[\"grid\"]", "one kind alone"},
+         {"@[\"grid\", \"grid\"]", "named twice"},
+         {"@[\"grid\", \"octree\"]", "needs a 3D world"},
+         {"@[\"grid\", \"bsp\"]", "needs the planes"},
+         {"@[\"grid\", \"lecture_quadtree\"]", "is not counted"},
+         {"@[\"grid\", \"auto\"]", "is not counted"}}},
        {"phases", "pace", {"\"step\""}, pace},
        {"phases", "events", {"[\"solve\"]"}, {{"[@\"sovle\"]", "did you mean 'solve'?"}}},
        {"force", "body", {"\"red\""}, body},
@@ -521,6 +538,17 @@ void add_promise_cases(std::vector<KeyCase>& cases) {
        "hits_are",
        {"[]", "[\"red\"]"},
        {{"@1", "must be a list"}, {"[@1]", "a list of texts"}, {"[@\"rd\"]", "'red'"}}});
+  for (const std::string key : {"build_work", "step_work"})
+    cases.push_back({"expect",
+                     key,
+                     {"{ grid = 1 }"},
+                     {{"@1", "a table of names"},
+                      {"{ grid = @-1 }", "allowed is"},
+                      {"{ @gird = 1 }", "did you mean 'grid'?"}}});
+  cases.push_back({"expect",
+                   "fewest",
+                   {"[\"grid\"]"},
+                   {{"@1", "must be a list"}, {"[@\"gird\"]", "did you mean 'grid'?"}}});
   for (const std::string key : {"asleep", "awake"})
     cases.push_back({"expect",
                      key,
@@ -929,6 +957,8 @@ TEST(Keys, MissingOnesAreAskedFor) {
                                                                      {"cull", "eye"},
                                                                      {"cull", "target"},
                                                                      {"query", "radius"},
+                                                                     {"compare", "bodies"},
+                                                                     {"compare", "row"},
                                                                      {"locate", "point"},
                                                                      {"order", "eye"},
                                                                      {"pack", "textures"},
