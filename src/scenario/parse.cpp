@@ -92,9 +92,9 @@ void check_panels(const TableReader& file, Draft& draft) {
       {array, "it needs a quadtree or an octree, whose nodes have their bytes counted"},
       {moves, "it needs a [structure] and a step that runs"},
       {s.bodies.size() > 1 && draft.dimension == 2, "it needs a flat world and two bodies"},
-      {some_step < Separatesome_step<Compare>(
-                       s, [](const SeparateCompare&) { return true; }),
-       "it needs a `separate`step with do = \"compare\""}};
+      {some_step<Separate>(s, [](const Separate&) { return true; }), "it needs a `separate`"},
+      {some_step<Compare>(s, [](const Compare&) { return true; }),
+       "it needs a step with do = \"compare\""}};
   std::size_t i = 0;
   for (const Named& written : file.names("panels")) {
     const auto panel = static_cast<std::size_t>(s.panels[i++]);
