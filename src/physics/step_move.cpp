@@ -282,6 +282,9 @@ template <int D>
 void World<D>::Step::commit() {
   world.bodies_ = std::move(moved);
   world.rested_ = std::move(rested);
+  for (std::size_t i = 0; i < world.bodies_.size(); ++i)
+    world.islands_[i] =
+        world.bodies_[i].kind == BodyKind::dynamic_body ? world.bodies_[root[i]].id : kNoIsland;
   world.joint_memories_ = std::move(joint_memories);
   world.pushes_ = std::move(pushes);
   world.forces_.pushes = std::move(forces.pushes);

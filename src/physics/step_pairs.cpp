@@ -201,8 +201,8 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   const Body<D>& b = moved[found.b];
   if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
   if (world.joined(a.id, b.id)) return std::nullopt;
-  const double way = glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) +
-                     turning_way(b, h);
+  const double way =
+      glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) + turning_way(b, h);
   // An impact with a third body may turn either of them towards the other.
   found.reach = reach[found.a] + reach[found.b];
   ++narrow_pairs;
@@ -281,6 +281,11 @@ void World<D>::Step::make_islands() {
       sets.unite(a, b);
   };
   for (const NearPair& pair : near) unite(pair.a, pair.b);
+  // What sleeps is not looked at: it hangs together as when it fell asleep.
+  for (const Touch& touch : world.touching_) {
+    const std::uint32_t a = place_of(touch.record.a), b = place_of(touch.record.b);
+    if (moved[a].asleep && moved[b].asleep) unite(a, b);
+  }
   for (const auto& entry : world.joints_) unite(place_of(entry.second.a), place_of(entry.second.b));
   for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
   // What attracts hangs together over any distance.

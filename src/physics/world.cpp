@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/not_finite.hpp"
+#include "physics/islands.hpp"
 #include "physics/waking.hpp"
 
 namespace lantern::physics {
@@ -65,6 +66,7 @@ BodyId World<D>::add(Body<D> body) {
   ahead_.reset();
   bodies_.push_back(std::move(body));
   rested_.push_back(0);
+  islands_.push_back(kNoIsland);
   return next_id_++;
 }
 
@@ -81,6 +83,8 @@ void World<D>::remove(BodyId id) {
   const auto index = static_cast<std::ptrdiff_t>(index_of(id));
   bodies_.erase(bodies_.begin() + index);
   rested_.erase(rested_.begin() + index);
+  islands_.erase(islands_.begin() + index);
+  part_islands();
 }
 
 template <int D>
@@ -110,6 +114,7 @@ void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
   check_body(moved);
   wake_from({id});
   forget_contacts_of(id);
+  part_islands();
   moved.asleep = false;
   bodies_[index] = std::move(moved);
 }
@@ -171,6 +176,20 @@ void World<D>::wake_from(const std::vector<BodyId>& ids) {
   std::vector<std::uint32_t> places;
   for (const BodyId id : ids) places.push_back(static_cast<std::uint32_t>(index_of(id)));
   wake_together<D>(bodies_, rested_, std::move(places), links(), Disturbed::all);
+}
+
+// Of each island what still touches or is tied stays together.
+template <int D>
+void World<D>::part_islands() {
+  DisjointSets sets(bodies_.size());
+  for (const Pair& link : links()) {
+    const std::size_t a = index_of(link.a), b = index_of(link.b);
+    if (islands_[a] != kNoIsland && islands_[a] == islands_[b])
+      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (islands_[i] != kNoIsland)
+      islands_[i] = bodies_[sets.root(static_cast<std::uint32_t>(i))].id;
 }
 
 template <int D>

@@ -21,6 +21,8 @@
 
 namespace lantern::physics {
 
+inline constexpr BodyId kNoIsland = ~BodyId{0};
+
 // All functions that take a body, spring or joint throw Refused if it is not there, and for numbers
 // that are not finite; the world is then as it was, and its hash the same. What changes a body
 // wakes it and those that touch it.
@@ -101,6 +103,10 @@ class World {
   const std::vector<Contact<D>>& contacts() const { return contacts_; }
   const std::vector<ContactEvent>& events() const { return events_; }
   const std::vector<Pair>& pairs() const { return pairs_; }
+  // The island of each body, in order of bodies(): the lowest id among those that the step moved
+  // together, or that went on sleeping together. What has left or let go since has parted them.
+  // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
+  const std::vector<BodyId>& islands() const { return islands_; }
   // Null if nobody has needed one.
   const BroadPhase<D>* broad_phase() const { return broad_phase_ ? &*broad_phase_ : nullptr; }
 
@@ -142,14 +148,16 @@ class World {
   bool joined(BodyId a, BodyId b) const;
   std::vector<Pair> links() const;  // of what wakes together
   void wake_from(const std::vector<BodyId>& ids);
+  void part_islands();
   void forget_contacts_of(BodyId id);
   void list_pushes();
   BroadPhase<D>& structure();  // made when it is first needed
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
-  std::vector<double> rested_;  // seconds that each body has been slow
-  Forces<D> forces_;            // its pushes are those of pushes_
+  std::vector<double> rested_;   // seconds that each body has been slow
+  std::vector<BodyId> islands_;  // of each body
+  Forces<D> forces_;             // its pushes are those of pushes_
   std::vector<SpringId> spring_ids_;
   std::vector<TimedPush> pushes_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;

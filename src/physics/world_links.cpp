@@ -72,6 +72,7 @@ void World<D>::remove_spring(SpringId id) {
   wake_from({spring->a, spring->b});
   forces_.springs.erase(spring);
   spring_ids_.erase(spring_ids_.begin() + place);
+  part_islands();
 }
 
 template <int D>
@@ -81,6 +82,7 @@ void World<D>::remove_joint(JointId id) {
   wake_from({entry->second.a, entry->second.b});
   joint_memories_.erase(joint_memories_.begin() + (entry - joints_.begin()));
   joints_.erase(entry);
+  part_islands();
 }
 
 template <int D>

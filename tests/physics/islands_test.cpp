@@ -109,6 +109,52 @@ TEST(Islands, AreAsManyAsThereArePiles) {
   EXPECT_EQ(world.work().islands, 3u) << "the floor must not join them";
 }
 
+using Members = std::vector<BodyId>;
+
+// Two piles on one floor, and a beam across them.
+World<2> bridged() {
+  World<2> world(falling<2>());
+  world.add(floor_at<2>());
+  for (int i = 0; i < 4; ++i) world.add(box_at<2>({i % 2 * 3.0, 0.5 + i / 2}));
+  Body<2> beam = box_at<2>({1.5, 2.1});
+  beam.shape = OrientedBox<2>{{2.2, 0.1}};
+  world.add(beam);
+  return world;
+}
+
+TEST(Islands, AreNamedByTheirLowestBodyAsleepOrAwake) {
+  World<2> world = bridged();
+  const Members unseen(6, kNoIsland), one{kNoIsland, 1, 1, 1, 1, 1}, two{kNoIsland, 1, 2, 1, 2};
+  EXPECT_EQ(world.islands(), unseen) << "no step has looked yet";
+  world.step(kStep);
+  EXPECT_EQ(world.islands(), one);
+  run(world, 2);
+  EXPECT_EQ(world.work().asleep, 5u);
+  EXPECT_EQ(world.islands(), one) << "those that sleep hang together still";
+  world.remove(5);
+  EXPECT_EQ(world.islands(), two) << "what held them together has left";
+  run(world, 2);
+  EXPECT_EQ(world.work().asleep, 4u);
+  EXPECT_EQ(world.islands(), two);
+  world.apply_impulse(4, {0.1, 0}, {3, 1.5});
+  expect_awake(world, {false, true, false, true}, "an island wakes as a whole");
+  world.place(3, {9, 0.5}, {0, 0});
+  EXPECT_EQ(world.islands(), (Members{kNoIsland, 1, 2, 3, 2}));
+}
+
+TEST(Islands, PartWhenAJointOrASpringLetsGo) {
+  World<2> world(falling<2>());
+  for (int i = 0; i < 3; ++i) world.add(ball_at<2>({4.0 * i, 50}));
+  const JointId joint = world.add_joint({JointKind::distance, 0, 1, {}, {}, 4});
+  const SpringId spring = world.add_spring({1, 2, {}, {}, 4, 1});
+  world.step(kStep);
+  EXPECT_EQ(world.islands(), (Members{0, 0, 0}));
+  world.remove_spring(spring);
+  EXPECT_EQ(world.islands(), (Members{0, 0, 2}));
+  world.remove_joint(joint);
+  EXPECT_EQ(world.islands(), (Members{0, 1, 2}));
+}
+
 // A script may put to sleep one body of several that hang together.
 TEST(Islands, WhatHangsOnASleeperSwingsAboutIt) {
   WorldConfig<2> config = falling<2>();
