@@ -27,13 +27,16 @@ double world_aspect(const Frame& frame) {
   return std::clamp(std::max(size.x, size.z) / size.y, kLeast3D, kMost3D);
 }
 
+// The islands stand where their bodies are in the world.
+bool is_like_world(Panel panel) { return panel == Panel::world || panel == Panel::islands; }
+
 // Width that a panel would take at this height if it could choose; 0 takes what is left.
 double wanted_width(const Frame& frame, Panel panel, double height) {
   if (panel == Panel::atlas) return atlas_width(frame, height);
-  return panel == Panel::world ? height * world_aspect(frame) : 0;
+  return is_like_world(panel) ? height * world_aspect(frame) : 0;
 }
 
-bool takes_the_rest(Panel panel) { return panel != Panel::world && panel != Panel::atlas; }
+bool takes_the_rest(Panel panel) { return !is_like_world(panel) && panel != Panel::atlas; }
 
 std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& panels,
                                  const Box<2>& area) {

@@ -19,7 +19,7 @@ inline bool is_half_space(const FrameBody& body) {
 }
 
 inline bool is_character(const FrameBody& body) {
-  return body.look == Look::ghost || body.look == Look::player;
+  return body.look == Look::ghost || body.look == Look::player || body.look == Look::person;
 }
 
 // The ground of a node that the step is about, or has passed.

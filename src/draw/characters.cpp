@@ -91,6 +91,26 @@ void draw_player(const FrameBody& body, const Figure& f, DrawList& list) {
   list.shapes.emplace_back(std::move(shape));
 }
 
+// Head and shoulders.
+void draw_person(const FrameBody& body, const Figure& f, DrawList& list) {
+  constexpr int kShoulders = 15;
+  const double head = 0.46 * f.unit;
+  const Vec<2> face = f.center - Vec<2>(0, f.half.y - head - f.line / 2);
+  const double top = face.y + 0.7 * head, bottom = f.center.y + f.half.y - f.line / 2;
+  const Vec<2> shoulders{0.88 * f.half.x, std::min(0.88 * f.half.x, 0.6 * (bottom - top))};
+  PolygonShape shape{{}, fill_of(body), rim_of(body, f)};
+  for (int i = 0; i < kShoulders; ++i) {
+    const double angle = kPi * (1.0 - i / double(kShoulders - 1));
+    shape.points.push_back(
+        {f.center.x + shoulders.x * std::cos(angle), top + shoulders.y * (1 - std::sin(angle))});
+  }
+  shape.points.push_back({f.center.x + shoulders.x, bottom});
+  shape.points.push_back({f.center.x - shoulders.x, bottom});
+  list.shapes.emplace_back(std::move(shape));
+  draw_emblem(body.color, {f.center.x, (top + 2 * bottom) / 3}, 0.24 * f.unit, list);
+  list.disc(face, head, fill_of(body), rim_of(body, f));
+}
+
 // A rectangle with soft corners.
 void draw_slab(const FrameBody& body, const Figure& f, double radius, DrawList& list) {
   const Stroke outline = rim_of(body, f);
@@ -162,6 +182,7 @@ void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, Draw
     return draw_turned(body, f, std::move(outline), list);
   if (body.look == Look::ghost) return draw_ghost(body, f, list);
   if (body.look == Look::player) return draw_player(body, f, list);
+  if (body.look == Look::person) return draw_person(body, f, list);
   if (body.look == Look::bat) return draw_slab(body, f, 0.45 * f.unit, list);
   if (body.look == Look::box) return draw_slab(body, f, 0.12 * f.unit, list);
   draw_round(body, f, list);

@@ -27,6 +27,7 @@ constexpr struct {
     {"ends", "contact ended", "contacts ended"},
     {"asleep", "asleep", "asleep"},
     {"awake", "awake", "awake"},
+    {"islands_asleep", "island asleep", "islands asleep"},
     {"stale", "out of its cell", "out of their cells"},
     {"static_builds", "static build", "static builds"},
     {"dynamic_builds", "dynamic build", "dynamic builds"},

@@ -86,6 +86,8 @@ void draw_panel(const Frame& frame, const Staging& staging, Panel panel, const B
       return draw_axes(frame, staging, box, list, labels);
     case Panel::comparison:
       return draw_comparison(frame, box, list, labels);
+    case Panel::islands:
+      return draw_islands(frame, staging, box, list, labels);
   }
 }
 

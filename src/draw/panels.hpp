@@ -73,6 +73,12 @@ void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& p
 void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                Labels& labels);
 
+// Islands as a graph beside the world: a node where each body is that can be moved, an edge for
+// what holds two of them together, and one ground, with its number, under all that hang together.
+// What never moves is drawn as it is: a dotted line to where it is touched joins nothing.
+void draw_islands(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                  Labels& labels);
+
 // Strips, which lie under the other panels, as wide as they are together.
 // The pool of a tree's nodes: each slot names the node that owns it, a band marks one that was
 // another's before; slots that are free again are dashed. It wants this height at a width.

@@ -190,7 +190,7 @@ void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes
     }
     const DrawList::Scope scope(list, body_key("world/box", *stand->bodies[0]));
     const Look look = stand->bodies[0]->look;
-    const bool is_its_box = look == Look::bat || look == Look::box;
+    const bool is_its_box = look == Look::bat || look == Look::box || look == Look::person;
     if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !is_its_box &&
                                                !stand->bodies[0]->dimmed)))
       list.rect(page_part(page_box(*stand->bodies[0], map), map), Role::none,

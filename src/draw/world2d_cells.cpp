@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kMostFills = 500;
 constexpr std::size_t kMostPlanes = 400;
-constexpr double kLeastCell = 1.5;  // page units; smaller ones are below what a line can show
+constexpr Role kSea = sector_role(0);  // around land
+constexpr double kLeastCell = 1.5;     // page units; smaller ones are below what a line can show
 
 // By depth, page units.
 double line_width(std::uint32_t depth) {
@@ -327,12 +328,13 @@ void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
 }  // namespace
 
 bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
-  list.crisp_rect(map.picture(), Role::panel);
+  list.crisp_rect(map.picture(), frame.land.empty() ? Role::panel : kSea);
   if (frame.display.cells && frame.display.not_made) hatch_unmade(frame, map, list);
   Grounds under;  // of what the cells' own grounds lie on
   fill_views(frame, map, list, under);
   if (!frame.display.cells) {
     grounds = std::move(under);
+    draw_land(frame, map, list);
     list.crisp_rect(map.picture(), Role::none, {Role::cell_line_0, line_width(0), 0});
     return true;
   }
@@ -344,6 +346,7 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
     grounds.insert(grounds.begin(), sectors.begin(), sectors.end());
   }
   grounds.insert(grounds.end(), under.begin(), under.end());
+  draw_land(frame, map, list);
   tone_asleep(frame, map, list);
   fill_levels(frame, map, list);
   rule_grid(frame, map, list);

@@ -170,4 +170,13 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
   }
 }
 
+void draw_land(const Frame& frame, const View2D& map, DrawList& list) {
+  for (const Polygon& land : frame.land) {
+    std::vector<Vec<2>> coast;
+    for (const Vec<2>& corner : land) coast.push_back(map.to_page(corner));
+    coast = cut_to(std::move(coast), map.picture());
+    if (coast.size() >= 3) list.polygon(std::move(coast), sector_role(1), {Role::cell_line_3, 1.4});
+  }
+}
+
 }  // namespace lantern::draw

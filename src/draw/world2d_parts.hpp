@@ -119,6 +119,9 @@ void name_half_spaces(const Frame& frame, const std::vector<GroundPlace>& places
 // Dashed, with its half sizes where the step is about the body or there are few bodies.
 void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
 
+// The land that the scenario draws its world on, cut to the picture.
+void draw_land(const Frame& frame, const View2D& map, DrawList& list);
+
 // A level's walls, and the place it is looked at from.
 void draw_walls(const Frame& frame, const View2D& map, DrawList& list);
 // A level's sectors: neighbours in different tones, solid ones hatched.

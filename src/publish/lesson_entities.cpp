@@ -42,6 +42,8 @@ class Entities {
       add("body", parts[2]);
       if (parts.size() > 3) add("node", parts[3]);
     }
+    if (panel == "islands" && kind == "node") add("body", parts[2]);
+    if (panel == "islands" && kind == "edge" && parts.size() > 3) add_pair(parts[2], parts[3]);
     if (panel == "memory" && kind == "leaf") add("node", parts[2]);
     if (panel == "atlas" && is_among(kind, {"cell", "lit", "name"})) add("node", parts[2]);
     if (panel == "atlas" && is_among(kind, {"texture", "plate"})) add("body", parts[2]);

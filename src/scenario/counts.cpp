@@ -44,6 +44,11 @@ constexpr CountDoc kCounts[] = {
     {"rotations", physics, "Bodies that were turned, in the last world step."},
     {"asleep", sleep, "Bodies asleep."},
     {"awake", sleep, "Bodies that can move and are not asleep, whether they move now or not."},
+    {"islands", islands,
+     "Islands of the last world step: what contacts, springs and joints hold together; what never "
+     "moves holds nothing together."},
+    {"largest_island", islands, "Bodies of the largest of them."},
+    {"islands_asleep", islands, "Those of them that sleep."},
     {"box_tests", inside,
      "Tests of a body against a node or plane since the tree was built; of `sort_and_sweep`, "
      "comparisons while sorting; of a `grid`, bodies put into their cells."},
@@ -182,6 +187,7 @@ std::string_view when_counted(CountNeed need) {
       "with rods or pins",
       "with `may_sleep`, contacts or `split_static`",
       "with contacts, gravity, springs or joints",
+      "with the panel `islands`",
       "after a ray, cull or query",
       "after a `test_shapes`",
       "after a `separate`",

@@ -8,6 +8,7 @@
 #include "scenario/brains.hpp"
 #include "scenario/narrow_asked.hpp"
 #include "scenario/comparison.hpp"
+#include "scenario/island_picture.hpp"
 #include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
@@ -195,6 +196,8 @@ class EngineOf : public Engine {
   void picture(const Touched& touched, Frame& frame) override {
     if (has_structure()) bring_up_to_date();
     picture_world(players_, frame);
+    if (std::ranges::count(frame.panels, Panel::islands) > 0)
+      picture_islands(players_, island_numbers_, frame);
     if (frame.display.forces) picture_forces(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
     frame.may_sleep = scenario_.world.may_sleep;
@@ -290,6 +293,7 @@ class EngineOf : public Engine {
       frame.add_count("asleep", asleep);
       frame.add_count("awake", awake);
     }
+    if (std::ranges::count(frame.panels, Panel::islands) > 0) count_islands(frame);
     if (!scenario_.has_physics()) return;
     frame.add_count("force_evaluations", last_.force_evaluations);
     frame.add_count("rotations", last_.rotations_integrated);
@@ -304,6 +308,7 @@ class EngineOf : public Engine {
   bool outdated_ = false;      // bodies have moved on since it was built
   Brains<D> brains_;
   std::vector<Emission> emissions_;
+  IslandNumbers island_numbers_;
   WorldWork last_;             // what the last step did
   BroadPhaseCounters builds_;  // of them, what is counted
   std::uint64_t begins_ = 0;

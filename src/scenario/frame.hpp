@@ -152,6 +152,21 @@ struct FrameRuler {
   std::string text;              // what is measured; may be empty
 };
 
+// Bodies that hang together, as the last step of the world found, and so are moved together and
+// sleep and wake together.
+struct FrameIsland {
+  std::uint32_t number = 0;  // from 1; an island keeps it while the body of its lowest id is in it
+  std::vector<BodyId> bodies;  // ascending
+  bool asleep = false;
+};
+
+// What holds two bodies together, or keeps them apart: that they touch, or a spring or joint.
+struct FrameEdge {
+  Pair pair;
+  bool tied = false;  // by a spring or joint
+  bool lit = false;   // new since the frame before
+};
+
 struct FrameRay {
   Vec<3> from{0.0};
   Vec<3> to{0.0};  // where it ends: its length, or the nearest hit
@@ -326,7 +341,8 @@ struct Frame {
   int sweep_axis = 0;  // along which a sweep sorted; of other structures of no matter
   std::vector<Panel> panels;
   Box<3> bounds;
-  std::uint32_t cast = 0;  // bodies of the scenario, there or not
+  std::vector<Polygon> land;  // of a flat world: drawn under all else, and met by nobody
+  std::uint32_t cast = 0;     // bodies of the scenario, there or not
   Display display;
   std::optional<Box<2>> view;    // the part of a flat world that is shown; none: all of it
   std::vector<FrameNote> notes;  // of what is there
@@ -337,7 +353,9 @@ struct Frame {
   std::vector<Pair> tested;      // by the narrow phase in the last step, in order of ids
   std::vector<FrameContact> contacts;
   std::vector<FrameLink> links;
-  std::vector<FrameForce> forces;  // if the scenario shows them
+  std::vector<FrameIsland> islands;  // if they have a panel; in order of their numbers
+  std::vector<FrameEdge> edges;      // the same; in order of ids
+  std::vector<FrameForce> forces;    // if the scenario shows them
   std::vector<FrameRuler> rulers;
   std::vector<FrameRay> rays;
   std::vector<FrameView> views;

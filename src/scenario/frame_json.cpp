@@ -52,6 +52,7 @@ class FrameWriter {
     if (whole_way_ && frame.count("pairs_tested")) lines("tested", frame.tested);
     write_list("contacts", frame.contacts);
     if (!frame.links.empty()) write_list("links", frame.links);
+    if (whole_way_ && !frame.islands.empty()) write_list("islands", frame.islands);
     if (!frame.forces.empty()) write_list("forces", frame.forces);
     if (!frame.rulers.empty()) write_list("rulers", frame.rulers);
     if (!frame.rays.empty()) write_list("rays", frame.rays);
@@ -240,6 +241,9 @@ class FrameWriter {
     object("kind", kKinds[static_cast<int>(link.kind)], "from", link.from, "to", link.to, "strain",
            link.strain);
   }
+  void write(const FrameIsland& island) {
+    object("number", island.number, "bodies", island.bodies, "asleep", island.asleep);
+  }
   void write(const FrameForce& f) {
     object("body", f.body, "at", f.at, "force", f.force, "of_spring", f.of_spring);
   }
@@ -291,8 +295,9 @@ class FrameWriter {
     json_.end_object();
   }
 
-  static constexpr std::string_view kNewCounts[] = {"testable_pairs", "pairs_tested", "impulses",
-                                                    "leaves_asleep", "branches_asleep"};
+  static constexpr std::string_view kNewCounts[] = {"testable_pairs", "pairs_tested",    "impulses",
+                                                    "leaves_asleep",  "branches_asleep", "islands",
+                                                    "largest_island", "islands_asleep"};
 
   static constexpr std::string_view kPhases[] = {"whole", "broad", "boxes", "narrow", "resolve"};
 

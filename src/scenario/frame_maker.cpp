@@ -132,6 +132,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   frame.event = event;
   frame.panels = scenario_.panels;
   frame.cast = static_cast<std::uint32_t>(scenario_.bodies.size());
+  frame.land = scenario_.world.land;
   frame.time = stage_.time;
   frame.dimension = scenario_.world.dimension;
   frame.bounds = scenario_.world.bounds;

@@ -44,7 +44,9 @@ TableDoc file_table() {
           "each world that a step compares; and as strips below, the `memory` of the array that "
           "all "
           "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
-          "the `sparkline`, the first count of the headline, or the pairs, over the time so far.",
+          "the `sparkline`, the first count of the headline, or the pairs, over the time so far. "
+          "The `islands` are a graph: a dot for each body, where it is in the world, and a line "
+          "for each contact, spring and joint; what hangs together lies on one ground.",
           or_else("what the scenario uses")),
       key(KeyType::table, "display", "What frames show.", holds("display")),
       key(KeyType::texts, "headline",

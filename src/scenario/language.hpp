@@ -159,6 +159,7 @@ enum class CountNeed {
   joints,     // rods or pins hold its bodies
   sleep,      // of contacts, may_sleep and split_static one at least: what rests is told apart
   physics,    // of contacts, gravity, springs and joints one at least: more than free flight
+  islands,    // the page shows them
   query,      // a ray, cull or query was asked
   shapes,     // of all pairs were tested
   separated,  // two bodies were measured axis by axis

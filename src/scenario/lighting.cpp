@@ -43,6 +43,7 @@ void put_out(Frame& frame) {
   for (FrameBody& body : frame.bodies) body.lit = false;
   for (FrameNode& node : frame.nodes) node.mark = Mark::quiet;
   for (FramePair& pair : frame.pairs) pair.lit = false;
+  for (FrameEdge& edge : frame.edges) edge.lit = false;
   for (FrameWall& wall : frame.walls) wall.mark = Mark::quiet;
 }
 
@@ -64,6 +65,7 @@ void Lighting::light(const Cause& cause, Frame& frame) const {
     body.lit = (few || (cause.verb.asks && !all)) && cause.focus.contains(body.id);
   light_nodes(cause, few, frame);
   light_pairs(few, frame);
+  light_edges(frame);
 }
 
 void Lighting::light_nodes(const Cause& cause, bool few, Frame& frame) const {
@@ -103,9 +105,17 @@ void Lighting::light_pairs(bool few, Frame& frame) const {
   for (FramePair& p : frame.pairs) p.lit = false;
 }
 
+// Where nothing held together before, all of it is new.
+void Lighting::light_edges(Frame& frame) const {
+  for (FrameEdge& edge : frame.edges)
+    edge.lit = !edges_.empty() && !std::ranges::binary_search(edges_, edge.pair);
+}
+
 void Lighting::remember(const Frame& frame, bool midst) {
   pairs_.clear();
   for (const FramePair& p : frame.pairs) pairs_.push_back(p.pair);
+  edges_.clear();
+  for (const FrameEdge& e : frame.edges) edges_.push_back(e.pair);
   if (midst) return;
   places_ = places_of(frame);
   std::ranges::sort(places_);

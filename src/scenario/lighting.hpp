@@ -30,8 +30,10 @@ class Lighting {
  private:
   void light_nodes(const Cause& cause, bool few, Frame& frame) const;
   void light_pairs(bool few, Frame& frame) const;
+  void light_edges(Frame& frame) const;
 
   std::vector<Pair> pairs_;            // of the last frame, ascending
+  std::vector<Pair> edges_;            // the same
   std::vector<std::uint64_t> places_;  // of nodes, of the last frame that was not in the midst
 };
 

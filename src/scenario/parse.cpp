@@ -94,7 +94,9 @@ void check_panels(const TableReader& file, Draft& draft) {
       {s.bodies.size() > 1 && draft.dimension == 2, "it needs a flat world and two bodies"},
       {some_step<Separate>(s, [](const Separate&) { return true; }), "it needs a `separate`"},
       {some_step<Compare>(s, [](const Compare&) { return true; }),
-       "it needs a step with do = \"compare\""}};
+       "it needs a step with do = \"compare\""},
+      {s.world_steps > 0 && (s.has_contacts() || !s.links.empty()),
+       "it needs a step that runs, and contacts, springs or joints that hold bodies together"}};
   std::size_t i = 0;
   for (const Named& written : file.names("panels")) {
     const auto panel = static_cast<std::size_t>(s.panels[i++]);

@@ -176,7 +176,7 @@ bool is_of_level(std::string_view verb) {
 std::string panel_example(Panel panel) {
   const std::string only =
       fmt::format("panels = [\"{}\"]\n", names(panel)[static_cast<std::size_t>(panel)]);
-  if (panel == Panel::sparkline)
+  if (panel == Panel::sparkline || panel == Panel::islands)
     return only + std::string(kWorldExample) + "\n[[step]]\ndo = \"run\"\nseconds = 4\n";
   if (panel == Panel::axes)
     for (const TableDoc& verb : language_verbs())
@@ -204,11 +204,11 @@ std::string looks_example() {
   std::string text = "title = \"Who a body can look like\"\nworld = { size = [12, 6] }\nbody = [\n";
   int index = 0;
   for (const std::string_view look : names(Look())) {
-    const bool is_box = look == "ghost" || look == "bat" || look == "box";
+    const bool is_box = look == "ghost" || look == "bat" || look == "box" || look == "person";
     text += fmt::format(
         "  {{ name = \"{0}\", look = \"{0}\", {1}, position = [{2}, {3}], color = {4} }},\n", look,
-        is_box ? "half_size = [0.9, 0.9]" : "radius = 0.9", 2 + 4 * (index % 3),
-        index < 3 ? 4.3 : 1.5, 1 + index % 8);
+        is_box ? "half_size = [0.9, 0.9]" : "radius = 0.9", 1.5 + 3 * (index % 4),
+        index < 4 ? 4.3 : 1.5, 1 + index % 8);
     ++index;
   }
   text += "]\n\n[[step]]\ndo = \"insert\"\nbodies = [";

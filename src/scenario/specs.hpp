@@ -34,10 +34,11 @@ enum class Panel {
   sparkline,
   difference,
   axes,
-  comparison
+  comparison,
+  islands
 };
 enum class Pace { step, event };
-enum class Look { ghost, player, ball, bat, disc, box };
+enum class Look { ghost, player, ball, bat, disc, box, person };
 enum class Brain { none, follow, wander };  // who steers a body
 
 // What is legal in a scenario and surely not meant; found while it runs (see warnings.hpp).
@@ -69,7 +70,8 @@ struct WorldSpec {
   Vec<3> camera_eye{0.0};  // of a 3D world
   Vec<3> camera_target{0.0};
   bool has_camera = false;
-  std::vector<Warning> quiet;  // kinds of warning whose cause is meant
+  std::vector<std::vector<Vec<2>>> land;  // polygons of a flat world that are only drawn
+  std::vector<Warning> quiet;             // kinds of warning whose cause is meant
   SourcePosition where;
   std::map<std::string_view, SourcePosition> keys;  // where those stand that the file gives
 
@@ -292,11 +294,11 @@ inline EnumNames names(StructureKind) {
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
-  return {"world", "tree",  "atlas",     "chart",      "memory", "ledger",
-          "pool",  "bytes", "sparkline", "difference", "axes",   "comparison"};
+  return {"world", "tree",      "atlas",      "chart", "memory",     "ledger", "pool",
+          "bytes", "sparkline", "difference", "axes",  "comparison", "islands"};
 }
 inline EnumNames names(Pace) { return {"step", "event"}; }
-inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box"}; }
+inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box", "person"}; }
 inline EnumNames names(Warning) {
   return {"view", "outside", "contacts", "joints", "energy", "through", "crush"};
 }

@@ -56,6 +56,17 @@ void check_camera(const TableReader& world, WorldSpec& w, int dimension) {
   }
 }
 
+void check_land(const TableReader& world, const WorldSpec& w, int dimension) {
+  if (!world.is_good("land")) return;
+  if (dimension == 3)
+    return world.bad_key("land", "a 3D world has no land to draw on",
+                         "for a 2D one, size = [16, 9]");
+  std::size_t corners = 0;
+  for (const auto& polygon : w.land) corners += polygon.size();
+  if (corners > kMostWalls)
+    world.bad_value("land", fmt::format("{} corners in all, the limit is {}", corners, kMostWalls));
+}
+
 }  // namespace
 
 TableDoc world_table() {
@@ -120,6 +131,10 @@ TableDoc world_table() {
           range(-kFar, kFar), or_else("so that all is seen")),
       key(&W::camera_target, "camera_target", "What is in the middle of the picture.",
           range(-kFar, kFar), or_else("so that all is seen")),
+      key(&W::land, "land",
+          "Polygons that are only drawn, under all else in a 2D world, as the land of a map: "
+          "`[[[0, 0], [8, 0], [8, 6]]]`. No body meets them. 2000 corners in all are allowed.",
+          range(-kFar, kFar), or_else("none")),
       key(&W::quiet, "quiet",
           "What is intended and needs no warning: a `view` without any body, a body `outside` "
           "the world, bodies that fall into each other where `contacts` are off, `joints` that "
@@ -147,6 +162,7 @@ void read_world(const TableReader& file, Draft& draft) {
     if (draft.scenario.display.depths && w.contacts == ContactMethod::none)
       world.bad_key("show_depths", kNothingTouches, kGiveContacts);
     check_camera(world, w, draft.dimension);
+    check_land(world, w, draft.dimension);
   }
   read_structures(file, draft);
 }

@@ -29,7 +29,7 @@ std::uint64_t points_of(const FrameChart& chart) {
 struct Seen {
   std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0,
                 sectors = 0, drawn_walls = 0, nodes = 0, slots = 0, pool = 0, bytes = 0,
-                moments = 0, differences = 0, axes = 0;
+                moments = 0, differences = 0, axes = 0, islands = 0;
   bool pairs = false;  // two bodies or more, of one side
 
   void add(const Frame& frame) {
@@ -48,6 +48,7 @@ struct Seen {
     moments += frame.trace.points.size();
     differences += frame.difference.has_value();
     axes += frame.separation.has_value();
+    islands += frame.islands.size();
     pairs |= frame.bodies.size() > 1;
   }
 };
@@ -89,6 +90,7 @@ void Tally::see(const Frame& frame) {
   with_trace_ += seen.moments > 0;
   with_difference_ += seen.differences > 0;
   with_axes_ += seen.axes > 0;
+  with_islands_ += seen.islands > 0;
   count_builds(frame);
 }
 
@@ -233,6 +235,7 @@ void Tally::list_pictures(Stages& all) const {
   all.push_back(panel(Panel::axes, "axes panel", {frames(with_axes_, "axes of two bodies")}));
   all.push_back(
       panel(Panel::comparison, "comparison panel", {frames(with_rows_, "worlds compared")}));
+  all.push_back(panel(Panel::islands, "islands panel", {frames(with_islands_, "islands")}));
   all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
   all.push_back({"OpenGL",
                  {amount(work_.graphics_contexts, "context")},

@@ -437,7 +437,8 @@ static Named make_all() {
   frames.emplace_back("atlas4000", fine_atlas(4000));
   frames.emplace_back("empty", empty());
   frames.emplace_back("unstructured", unstructured());
-  for (const Named& more : {charts(), memories(), ledgers(), strips(), worlds(), sides()})
+  for (const Named& more :
+       {charts(), memories(), ledgers(), islands(), strips(), worlds(), sides()})
     frames.insert(frames.end(), more.begin(), more.end());
   for (auto& [name, frame] : all_solid()) frames.emplace_back("solid_" + name, frame);
   return frames;

@@ -52,6 +52,38 @@ void count_bytes(Frame& frame) {
 
 }  // namespace
 
+Named islands() {
+  Named frames;
+  Frame two = base("Two islands", {{0, 0}, {16, 9}}, {Panel::world, Panel::islands});
+  const auto add = [](Frame& frame, BodyId id, const Vec<2>& at) {
+    frame.bodies.push_back(
+        body(id, fmt::format("b{}", id), Look::box, static_cast<int>(id % 8) + 1, at));
+  };
+  two.bodies.push_back(body(0, "floor", Look::box, 7, {8, 0.5}, AxisBox<2>{{8, 0.5}}));
+  two.bodies.back().is_static = true;
+  for (BodyId id = 1; id < 6; ++id) add(two, id, {3.0 * id, 1.5 + id % 2});
+  two.islands = {{1, {1, 2}, true}, {2, {3, 4}, false}};
+  two.edges = {{{0, 1}, false, false}, {{1, 2}, false, false}, {{3, 4}, true, true}};
+  FrameContact& contact = two.contacts.emplace_back();
+  contact.pair = {0, 1};
+  contact.points = {{{3, 1, 0}, 0, 0}, {{3.4, 1, 0}, 0, 0}};
+  frames.emplace_back("islands2", two);
+  two.panels = {Panel::islands};
+  frames.emplace_back("islands_alone", two);
+  two.dimension = 3;
+  two.bounds.hi.z = 9;
+  frames.emplace_back("islands_solid", two);
+  Frame none = base("No island", {{0, 0}, {16, 9}}, {Panel::islands});
+  frames.emplace_back("islands0", none);
+  Frame many = base("Islands of one", {{0, 0}, {64, 36}}, {Panel::world, Panel::islands});
+  for (BodyId id = 0; id < 600; ++id) {
+    add(many, id, {1.0 + 2 * (id % 31), 1.0 + 1.7 * (id / 31)});
+    many.islands.push_back({id + 1, {id}, id % 3 == 0});
+  }
+  frames.emplace_back("islands600", many);
+  return frames;
+}
+
 Named strips() {
   Named frames;
   Frame all = ghosts(4);

@@ -153,6 +153,10 @@ std::map<std::string, Surroundings> surroundings() {
             kRed + kCompile + "[[step]]\ndo = \"locate\"\npoint = [1, 1]\n" +
             "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\n" + kInsert +
             "[[step]]\ndo = \"compare\"\nbodies = [\"red\"]\nrow = \"a\"\n" + "[step.expect]\n",
+       {kTitle + "panels = [\"islands\"]\n" + kRules + kLevel +
+            "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" + kRed + kCompile +
+            "[[step]]\ndo = \"locate\"\npoint = [1, 1]\n[[step]]\ndo = \"run\"\nseconds = 1\n" +
+            "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\n" + kInsert + "[step.expect]\n",
         {},
         ""}},
   };
@@ -654,6 +658,13 @@ std::vector<KeyCase> key_cases() {
       {"world", "show_depths", {"false"}, bad_truth()},
       {"world", "camera_eye", {}, {{"@1", "two numbers"}}},
       {"world", "camera_target", {}, {{"@1", "two numbers"}}},
+      {"world",
+       "land",
+       {"[[[0, 0], [8, 0], [8, 6]]]", "[[[-9, 0], [8, 0], [8, 6]], [[1, 1], [2, 1], [2, 2]]]"},
+       {{"@1", "a list of polygons"},
+        {"@[]", "must not be empty"},
+        {"[@[[0, 0], [1, 1]]]", "at least 3 corners, not 2"},
+        {"[[[0, 0], [8, 0], [8, @nan]]]", "must be finite"}}},
       {"world",
        "quiet",
        {"[\"energy\"]",

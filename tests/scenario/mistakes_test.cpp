@@ -367,6 +367,10 @@ TEST(Mistakes, OfPanelsThatCannotBe) {
                   {"needs a flat world and two bodies"});
   expect_mistakes("panels = [@\"axes\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
                   {"needs a `separate`"});
+  expect_mistakes("panels = [@\"islands\"]\n" + kScene + "[[step]]\ndo = \"run\"\nseconds = 1\n",
+                  {"contacts, springs or joints that hold"});
+  expect_mistakes(kScene + "[[step]]\ndo = \"show\"\ncaption = \"@{islands}\"\n",
+                  {"there is no panel 'islands'"});
 }
 
 TEST(Mistakes, OfNamesThatAreTaken) {

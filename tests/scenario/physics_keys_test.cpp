@@ -120,6 +120,16 @@ TEST(World, ACameraIsOfASolidOneAndWhole) {
                   {"looks at itself"});
 }
 
+TEST(World, LandIsOfAFlatOneAndOfFewCorners) {
+  const std::string land = "land = [[[0, 0], [8, 0], [8, 6]]]\n";
+  EXPECT_EQ(good(kFlat + land + kShow).world.land.at(0).size(), 3u);
+  expect_mistakes(kDeep + "@" + land + kShow, {"a 3D world has no land"});
+  std::string corners;
+  for (int i = 0; i < 2001; ++i) corners += "[" + std::to_string(i) + ", 0], ";
+  expect_mistakes(kFlat + "land = @[[" + corners + "]]\n" + kShow,
+                  {"2001 corners in all, the limit is 2000"});
+}
+
 // --- bodies ---
 
 TEST(Bodies, HaveOneOfTheShapes) {

@@ -58,6 +58,7 @@ struct DryRun {
     if (panel == Panel::sparkline) return !frame.trace.points.empty();
     if (panel == Panel::difference) return frame.difference.has_value();
     if (panel == Panel::axes) return frame.separation.has_value();
+    if (panel == Panel::islands) return !frame.islands.empty();
     return !frame.chart.bars.empty() ||
            std::any_of(frame.chart.series.begin(), frame.chart.series.end(),
                        [](const FrameSeries& series) { return !series.points.empty(); });
@@ -208,7 +209,7 @@ void expect_rest(const DryRun& run) {
       {Panel::memory, "memory panel"}, {Panel::ledger, "ledger panel"},
       {Panel::pool, "pool panel"},     {Panel::bytes, "bytes panel"},
       {Panel::sparkline, "sparkline"}, {Panel::difference, "difference panel"},
-      {Panel::axes, "axes panel"}};
+      {Panel::axes, "axes panel"},     {Panel::islands, "islands panel"}};
   for (const auto& [panel, name] : panels) {
     const bool wanted = std::find(s.panels.begin(), s.panels.end(), panel) != s.panels.end();
     EXPECT_EQ(run.uses(name), wanted) << name << ": each panel that there is shows something";

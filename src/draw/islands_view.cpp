@@ -1,0 +1,230 @@
+// The graph of islands: a node where each body is, an edge for what holds two of them together, and
+// one ground under all that hang together.
+//
+//     _______ island 1     ___
+//    ( o - o )            | o |  island 2
+//     `--.\o/             |_o_|
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "draw/body_shapes.hpp"
+#include "draw/keys.hpp"
+#include "draw/panels.hpp"
+#include "draw/pen.hpp"
+#include "draw/projection.hpp"
+#include "geometry/flat.hpp"
+
+namespace lantern::draw {
+namespace {
+
+using scenario::FrameEdge;
+using scenario::FrameIsland;
+
+constexpr double kMostNodeRadius = 25;
+constexpr double kLeastNodeRadius = 8;
+constexpr double kShore = 10;   // of an island's ground, around its nodes
+constexpr double kCoast = 1.8;  // the line around it
+constexpr std::size_t kMostNumbered = 12;
+constexpr std::size_t kMostIslandNodes = 400;
+const TextStyle kIslandName{24, Weight::semibold, Role::ink, Role::panel};
+
+// Half of a body's least width.
+double half_width(const FrameBody& body, int dimension) {
+  const auto least = [&](const Vec<3>& half) {
+    return dimension == 2 ? std::min(half.x, half.y) : std::min({half.x, half.y, half.z});
+  };
+  return std::visit(EachShape{[](const Sphere& s) { return s.radius; },
+                              [&](const AxisBox<3>& s) { return least(s.half_size); },
+                              [&](const OrientedBox<3>& s) { return least(s.half_size); },
+                              [](const Capsule& s) { return s.radius; },
+                              [](const HalfSpace<3>&) { return 1e300; }},
+                    body.shape);
+}
+
+std::unique_ptr<Projection> projection_of(const Frame& frame, const Box<2>& panel) {
+  if (frame.dimension == 3) return std::make_unique<View3D>(frame.bounds, frame.camera, panel);
+  return std::make_unique<View2D>(flat(frame.bounds), panel, frame.view);
+}
+
+class IslandGraph {
+ public:
+  IslandGraph(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+              Labels& labels)
+      : frame_(frame),
+        view_(projection_of(frame, panel)),
+        place_(view_->picture()),
+        radius_(radius_for(staging)),
+        list_(list),
+        labels_(labels),
+        bodies_(by_id(frame.bodies)) {
+    for (const FrameBody& body : frame.bodies)
+      if (!is_half_space(body))
+        if (const auto at = view_->seen(body.position)) places_[body.id] = *at;
+  }
+
+  void draw() {
+    list_.crisp_rect(place_, Role::panel);
+    const std::size_t first = list_.shapes.size();
+    draw_grounds();
+    draw_statics();
+    for (const FrameEdge& edge : frame_.edges) draw_edge(edge);
+    std::size_t nodes = 0;
+    for (const FrameBody& body : frame_.bodies)
+      if (!body.is_static && places_.contains(body.id) && ++nodes <= kMostIslandNodes)
+        draw_node(body);
+    keep_within(list_, first, place_);
+    list_.crisp_rect(place_, Role::none, {Role::cell_line_2, 1.8});
+    if (nodes > kMostIslandNodes) labels_.add_note("not all bodies are drawn", place_);
+    name_islands();
+    list_.referents.insert({"islands", "largest_island", "islands_asleep", "asleep", "awake"});
+  }
+
+ private:
+  // As most bodies have room for; the same on all frames of the group, so that none grows when
+  // another one enters.
+  double radius_for(const Staging& staging) const {
+    std::map<BodyId, double> halves;
+    for (const Frame* frame : staging.frames())
+      for (const FrameBody& body : frame->bodies)
+        if (!body.is_static) halves.try_emplace(body.id, half_width(body, frame->dimension));
+    std::vector<double> sorted;
+    for (const auto& entry : halves) sorted.push_back(entry.second);
+    if (sorted.empty()) return kLeastNodeRadius;
+    std::ranges::sort(sorted);
+    const double scale = view_->scale_at(frame_.bounds.center());
+    return std::clamp(0.6 * sorted[sorted.size() / 2] * scale, kLeastNodeRadius, kMostNodeRadius);
+  }
+
+  // Thick strokes along the graph: first the coasts, then the grounds over all but their rims. Each
+  // piece is its body's or its edge's, so that it comes and goes with it.
+  void draw_grounds() {
+    for (const bool coast : {true, false})
+      for (const FrameIsland& island : frame_.islands) draw_ground(island, coast);
+  }
+  void draw_ground(const FrameIsland& island, bool coast) {
+    const char* const kind = coast ? "islands/coast" : "islands/ground";
+    const double reach = radius_ + kShore + (coast ? kCoast : 0);
+    const Role land = island.asleep ? Role::asleep : sector_role(island.number);
+    const Role role = coast ? Role::cell_line_1 : land;
+    for (const BodyId id : island.bodies) {
+      if (!places_.contains(id)) continue;
+      const DrawList::Scope scope(list_, body_key(kind, *bodies_.at(id)));
+      list_.disc(places_.at(id), reach, role);
+    }
+    for (const FrameEdge& edge : frame_.edges) {
+      const auto [a, b] = edge.pair;
+      if (!std::ranges::binary_search(island.bodies, a) ||
+          !std::ranges::binary_search(island.bodies, b) || !places_.contains(a) ||
+          !places_.contains(b))
+        continue;
+      const DrawList::Scope scope(list_, pair_key(kind, *bodies_.at(a), *bodies_.at(b)));
+      list_.line(places_.at(a), places_.at(b), {role, 2 * reach});
+    }
+  }
+
+  // As they are in the world; of a solid world only what touches them is shown.
+  void draw_statics() {
+    const auto* map = dynamic_cast<const View2D*>(view_.get());
+    for (const FrameBody& body : frame_.bodies)
+      if (map && body.is_static) {
+        const DrawList::Scope scope(list_, body_key("islands/static", body));
+        draw_character(body, is_half_space(body) ? place_ : map->to_page(body.box), false, list_);
+      }
+  }
+
+  void draw_edge(const FrameEdge& edge) {
+    const auto a = bodies_.find(edge.pair.a), b = bodies_.find(edge.pair.b);
+    if (a == bodies_.end() || b == bodies_.end()) return;
+    const DrawList::Scope scope(list_, pair_key("islands/edge", *a->second, *b->second));
+    if (a->second->is_static || b->second->is_static)
+      return draw_stub(edge, a->second->is_static ? edge.pair.b : edge.pair.a);
+    const auto from = places_.find(edge.pair.a), to = places_.find(edge.pair.b);
+    if (from == places_.end() || to == places_.end()) return;
+    const Stroke stroke = edge.lit ? Stroke{Role::lit, 6.5} : Stroke{Role::ink, 3.6};
+    list_.line(from->second, to->second, stroke);
+    if (!edge.tied) return;
+    const Vec<2> middle = (from->second + to->second) / 2.0;
+    list_.disc(middle, 6, Role::panel, {stroke.role, 2.4});
+  }
+
+  // From a body to the middle of where it touches what never moves.
+  void draw_stub(const FrameEdge& edge, BodyId id) {
+    const auto from = places_.find(id);
+    const auto contact =
+        std::ranges::find_if(frame_.contacts, [&](const auto& c) { return c.pair == edge.pair; });
+    if (from == places_.end() || contact == frame_.contacts.end() || contact->points.empty())
+      return;
+    Vec<3> middle{0.0};
+    for (const auto& point : contact->points) middle += point.position;
+    const auto to = view_->seen(middle / static_cast<double>(contact->points.size()));
+    if (to) list_.line(from->second, *to, {Role::quiet_ink, 2.4, 4});
+  }
+
+  void draw_node(const FrameBody& body) {
+    const DrawList::Scope scope(list_, body_key("islands/node", body));
+    const Vec<2> at = places_.at(body.id);
+    const Stroke rim = body.lit ? Stroke{Role::lit, 4} : Stroke{Role::body_line, 2.2};
+    list_.disc(at, radius_, body_role(body.color), rim);
+    draw_emblem(body.color, at, 0.42 * radius_, list_);
+  }
+
+  Box<2> box_of_island(const FrameIsland& island) const {
+    Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
+    for (const BodyId id : island.bodies)
+      if (const auto at = places_.find(id); at != places_.end())
+        box = {glm::min(box.lo, at->second), glm::max(box.hi, at->second)};
+    return shrunk(box, -(radius_ + kShore));
+  }
+
+  // The largest, each above its ground or beside it, where no other ground is.
+  void name_islands() {
+    std::vector<const FrameIsland*> order;
+    std::vector<Box<2>> grounds;
+    for (const FrameIsland& island : frame_.islands) order.push_back(&island);
+    for (const auto& [id, at] : places_)
+      if (!bodies_.at(id)->is_static)
+        grounds.push_back(Box<2>::around(at, Vec<2>(radius_ + kShore)));
+    std::ranges::stable_sort(order, std::greater(),
+                             [](const FrameIsland* island) { return island->bodies.size(); });
+    if (order.size() > kMostNumbered) order.resize(kMostNumbered);
+    for (const FrameIsland* island : order) {
+      const std::string text =
+          fmt::format("island {}{}", island->number, island->asleep ? ", asleep" : "");
+      const Box<2> box = box_of_island(*island);
+      if (!(box.size().x > 0)) continue;
+      const DrawList::Scope scope(list_, fmt::format("islands/name/{}", island->number));
+      const double middle = box.center().x;
+      const Anchor anchors[] = {
+          {{middle, box.lo.y - 10}, 0.5},      {{box.lo.x, box.lo.y - 10}, 0},
+          {{box.hi.x, box.lo.y - 10}, 1},      {{box.hi.x + 10, box.lo.y + 26}, 0},
+          {{box.lo.x - 10, box.lo.y + 26}, 1}, {{middle, box.hi.y + 28}, 0.5}};
+      labels_.try_add(text, anchors, kIslandName, shrunk(place_, 4), place_,
+                      [&](const Box<2>& extent) { return !touches(grounds, extent); });
+    }
+  }
+
+  const Frame& frame_;
+  std::unique_ptr<Projection> view_;
+  Box<2> place_;
+  double radius_;
+  DrawList& list_;
+  Labels& labels_;
+  BodiesById bodies_;
+  std::map<BodyId, Vec<2>> places_;  // of nodes, on the page
+};
+
+}  // namespace
+
+void draw_islands(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                  Labels& labels) {
+  IslandGraph(frame, staging, panel, list, labels).draw();
+}
+
+}  // namespace lantern::draw
