@@ -237,8 +237,7 @@ class MemoryView {
   void draw_heading(bool leaves_left_out) {
     std::int64_t used = 0;
     for (const FrameNode& node : frame_.nodes)
-      if (node.leaf && node.first != kNone && !node.of_static)
-        used += static_cast<std::int64_t>(node.bodies.size());
+      if (node.leaf && node.first != kNone && !node.of_static) used += static_cast<std::int64_t>(node.bodies.size());
     const auto slots = std::int64_t{frame_.array_size};
     std::string text = fmt::format("{} slot{}, {} in use", number_text(double(slots)),
                                    slots == 1 ? "" : "s", number_text(double(used)));

@@ -144,8 +144,8 @@ std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step);
 // What standard input is called as a file, in messages and facts.
 inline constexpr std::string_view kStandardInput = "<stdin>";
 
-// Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is
-// standard input; without a name of its own, the scenario from there is called `stdin`.
+// Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is standard
+// input; without a name of its own, the scenario from there is called `stdin`.
 Scenario load_scenario(const std::string& path);
 
 // Of a file of a folder, what must be known before it is read as a scenario.

@@ -1,5 +1,10 @@
 // The graph of islands: what is drawn of it, and that it stands where the world does.
+#include <algorithm>
 #include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
