@@ -72,10 +72,6 @@ void Compare::read(const TableReader& table, ScriptReading& script) {
   for (const StructureKind kind : kinds) {
     const std::string why = why_not_compared(kind, script);
     if (!why.empty()) table.bad_value("kinds", why);
-    if (std::ranges::count(kinds, kind) > 1) {
-      table.bad_value("kinds", fmt::format("'{}' is named twice", to_string(kind)));
-      break;
-    }
   }
   if (table.is_good("kinds") && kinds.size() < 2)
     table.bad_value("kinds", "one kind alone has nothing beside it", "name two or more");

@@ -444,7 +444,7 @@ void add_verb_cases(std::vector<KeyCase>& cases) {
         {"[\"grid\", \"quadtree\"]"},
         {{"[@\"gird\", \"quadtree\"]", "did you mean 'grid'?"},
          {"@[\"grid\"]", "one kind alone"},
-         {"@[\"grid\", \"grid\"]", "named twice"},
+         {"[\"grid\", @\"grid\"]", "stands twice"},
          {"@[\"grid\", \"octree\"]", "needs a 3D world"},
          {"@[\"grid\", \"bsp\"]", "needs the planes"},
          {"@[\"grid\", \"lecture_quadtree\"]", "is not counted"},

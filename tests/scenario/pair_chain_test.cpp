@@ -106,12 +106,29 @@ class Chain {
   Expected summed(const std::map<Pair, std::int64_t>& met) const {
     Expected all;
     if (frame_.structure == StructureKind::sort_and_sweep) return swept(met);
+    if (frame_.structure == StructureKind::grid) return of_grid();
     std::int64_t times = 0;
     for (const auto& [pair, n] : met) {
       times += n;
       add(all, pair);
     }
     all.met = {times};
+    return all;
+  }
+
+  // A grid compares bodies of cells next to each other, each pair once: more than share a cell, but
+  // all that overlap among them.
+  Expected of_grid() const {
+    Expected all;
+    for (const FramePair& p : frame_.pairs) all.pairs.push_back(p.pair);
+    all.met = {std::int64_t(all.pairs.size())};
+    Expected brute;
+    for (std::size_t i = 0; i < frame_.bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < frame_.bodies.size(); ++j)
+        if (const Pair pair{frame_.bodies[i].id, frame_.bodies[j].id};
+            stirs(pair.a) || stirs(pair.b))
+          add(brute, pair);
+    all.overlapping = brute.overlapping;
     return all;
   }
 
