@@ -45,6 +45,8 @@ lantern_embed(lantern_font font font.hpp
   ${LANTERN_FONT_DIR}/Inter-Regular.otf ${LANTERN_FONT_DIR}/Inter-SemiBold.otf)
 file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*)
 lantern_embed(lantern_shaders shader shaders.hpp ${shaders})
+file(GLOB lecture_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/lecture/*.?pp)
+lantern_embed(lantern_lecture_source lecture_source lecture_source.hpp ${lecture_files})
 if(LANTERN_LAB)
   file(GLOB problems CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/scenarios/problems/*.toml
     ${PROJECT_SOURCE_DIR}/scenarios/problems/crowds/*.toml)  # these take minutes to run

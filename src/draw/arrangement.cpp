@@ -61,6 +61,7 @@ std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& p
 double weight_of(Panel panel) {
   if (panel == Panel::tree) return 1.2;
   if (panel == Panel::ledger) return 1.1;
+  if (panel == Panel::code) return 1.3;
   if (panel == Panel::memory) return 0.6;
   if (panel == Panel::pool) return 0.4;
   return panel == Panel::bytes || panel == Panel::sparkline ? 0.28 : 1.0;
@@ -68,7 +69,7 @@ double weight_of(Panel panel) {
 
 bool is_strip(Panel panel) {
   return panel == Panel::memory || panel == Panel::pool || panel == Panel::bytes ||
-         panel == Panel::sparkline;
+         panel == Panel::sparkline || panel == Panel::collisions;
 }
 
 // A tree needs rows, so it gets somewhat more height than the others; strips get little.
@@ -91,6 +92,7 @@ std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area
 double strip_height(const Frame& frame, Panel panel, const Vec<2>& room) {
   if (panel == Panel::sparkline) return sparkline_height();
   if (panel == Panel::bytes) return bytes_height();
+  if (panel == Panel::collisions) return std::min(collisions_height(frame), 0.46 * room.y);
   if (panel == Panel::pool) return std::min(pool_height(frame, room.x), 0.46 * room.y);
   return std::clamp(memory_height(frame, room.x), 0.2 * room.y, 0.46 * room.y);
 }

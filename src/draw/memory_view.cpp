@@ -237,7 +237,8 @@ class MemoryView {
   void draw_heading(bool leaves_left_out) {
     std::int64_t used = 0;
     for (const FrameNode& node : frame_.nodes)
-      if (node.leaf && node.first != kNone && !node.of_static) used += static_cast<std::int64_t>(node.bodies.size());
+      if (node.leaf && node.first != kNone && !node.of_static)
+        used += static_cast<std::int64_t>(node.bodies.size());
     const auto slots = std::int64_t{frame_.array_size};
     std::string text = fmt::format("{} slot{}, {} in use", number_text(double(slots)),
                                    slots == 1 ? "" : "s", number_text(double(used)));
@@ -267,12 +268,15 @@ class MemoryView {
 void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 60 || place.size().y < kMemoryHeading + 12) return;
+  list.referents.insert({"slots", "entries", "allocations"});
+  if (is_in_pieces(frame)) return draw_list_pieces(frame, place, list, labels);
   MemoryView(frame, place, list, labels).draw();
-  list.referents.insert({"slots", "entries"});
 }
 
 double memory_height(const Frame& frame, double width) {
   constexpr double kMostRows = 3;
+  constexpr double kTwoRows = 230;  // of lists
+  if (is_in_pieces(frame)) return kTwoRows;
   const NameWidths widest = name_widths(frame);
   Strip s;
   for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {

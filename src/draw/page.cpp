@@ -88,6 +88,10 @@ void draw_panel(const Frame& frame, const Staging& staging, Panel panel, const B
       return draw_comparison(frame, box, list, labels);
     case Panel::islands:
       return draw_islands(frame, staging, box, list, labels);
+    case Panel::code:
+      return draw_code(frame, box, list, labels);
+    case Panel::collisions:
+      return draw_collisions(frame, box, list, labels);
   }
 }
 

@@ -85,6 +85,14 @@ void draw_islands(const Frame& frame, const Staging& staging, const Box<2>& pane
 void draw_pool(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 double pool_height(const Frame& frame, double width);
 
+// The same two of a tree that asks for each piece of memory by itself: a block for each entry of a
+// leaf's list and one for each four children.
+void draw_list_pieces(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+void draw_node_pieces(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+inline bool is_in_pieces(const Frame& frame) {
+  return frame.structure != StructureKind::none && traits_of(frame.structure).is_plain;
+}
+
 // The bytes of a node whose box is derived and of one that stores it, on one scale.
 void draw_bytes(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 double bytes_height();
@@ -98,6 +106,17 @@ double sparkline_height();
 // world with a small picture of it, a column a kind; rows to come are named only. Nothing on a
 // panel that is too narrow for it.
 void draw_comparison(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+
+// A function of the lecture's source, its lines numbered as in their file; those that the frame is
+// about are lit. Of a function too long for the panel its head is shown and what is around the lit
+// lines. A long line loses the end of its list of arguments, or is broken.
+void draw_code(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+
+// A strip with a row for each pair whose collision is remembered: at each world step as many pips
+// as it has frames left, where it touches, and where its begin and end were told. It wants this
+// height.
+void draw_collisions(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+double collisions_height(const Frame& frame);
 
 // The caption, and the counters at its right; gives the y of the hairline above them.
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels);

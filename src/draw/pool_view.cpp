@@ -39,7 +39,7 @@ PoolGrid pool_grid(std::uint32_t slots, double width, int most_rows) {
       grid.columns = static_cast<std::uint32_t>(std::max(1.0, width / slot));
       grid.rows = (all + grid.columns - 1) / grid.columns;
       const bool last = rows == most_rows && slot == kPoolSlots[std::size(kPoolSlots) - 1];
-      const bool legible = slot >= 34 || rows == most_rows;
+      const bool legible = slot >= 60 || rows == most_rows;
       if (last || (legible && grid.rows <= static_cast<std::uint32_t>(rows))) {
         grid.columns = std::min(grid.columns, all);
         return grid;
@@ -144,10 +144,13 @@ class PoolView {
 void draw_pool(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 60 || place.size().y < kPoolHeading + kPoolSlot) return;
+  list.referents.insert({"nodes_reused", "allocations"});
+  if (is_in_pieces(frame)) return draw_node_pieces(frame, place, list, labels);
   PoolView(frame, place, list, labels).draw();
 }
 
 double pool_height(const Frame& frame, double width) {
+  if (is_in_pieces(frame)) return kPoolHeading + kMostPoolRows * kPoolRow + 2;
   const PoolGrid grid = pool_grid(frame.pool_size, width - 6, kMostPoolRows);
   return kPoolHeading + std::min<double>(grid.rows, kMostPoolRows) * kPoolRow + 2;
 }

@@ -107,6 +107,12 @@ class World {
   // together, or that went on sleeping together. What has left or let go since has parted them.
   // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
   const std::vector<BodyId>& islands() const { return islands_; }
+  // A pair of which is told that it touches: its begin was an event, its end will be one.
+  struct Told {
+    Pair pair;
+    int frames_left = 0;  // steps without touch before its end is told
+  };
+  const std::vector<Told>& told() const { return told_; }  // by pair
   // Null if nobody has needed one.
   const BroadPhase<D>* broad_phase() const { return broad_phase_ ? &*broad_phase_ : nullptr; }
 
@@ -121,11 +127,6 @@ class World {
     Contact<D> record;   // what the step tells
     Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
     double seconds = 0;  // of that sub-step; 0: there was none
-  };
-  // A pair of which is told that it touches.
-  struct Told {
-    Pair pair;
-    int frames_left = 0;  // steps without touch before its end is told
   };
   struct TimedPush {
     Push<D> push;

@@ -6,9 +6,10 @@
 
 #include "base/check.hpp"
 #include "scenario/brains.hpp"
-#include "scenario/narrow_asked.hpp"
+#include "scenario/collision_log.hpp"
 #include "scenario/comparison.hpp"
 #include "scenario/island_picture.hpp"
+#include "scenario/narrow_asked.hpp"
 #include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
 #include "scenario/world_picture.hpp"
@@ -27,6 +28,7 @@ class EngineOf : public Engine {
         brains_(scenario) {
     ++work_.worlds_created;
     count_structures();
+    if (std::ranges::count(scenario.panels, Panel::collisions) > 0) collision_log_.emplace();
   }
 
   void enter(std::size_t body) override {
@@ -93,7 +95,10 @@ class EngineOf : public Engine {
     for (const ContactEvent& event : world().events()) {
       begins_ += event.kind == ContactEvent::Kind::begin;
       ends_ += event.kind == ContactEvent::Kind::end;
+      all_begins_ += event.kind == ContactEvent::Kind::begin;
+      all_touches_ += event.kind != ContactEvent::Kind::end;
     }
+    if (collision_log_) collision_log_->see(world());
   }
 
   void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) override {
@@ -191,6 +196,10 @@ class EngineOf : public Engine {
 
   void show(WorldWatch& watch) const override { watch.see_world(players_); }
 
+  void list_collisions(FrameCollisions& collisions) const override {
+    if (collision_log_) collision_log_->list(collisions);
+  }
+
   void forget_events() override { begins_ = ends_ = 0; }
 
   void picture(const Touched& touched, Frame& frame) override {
@@ -281,6 +290,9 @@ class EngineOf : public Engine {
                                      frame.contacts, &FrameContact::crushes)));
       frame.add_count("begins", begins_);
       frame.add_count("ends", ends_);
+      frame.add_count("collisions_alive", players_.world().told().size());
+      frame.add_count("begins_in_all", all_begins_);
+      frame.add_count("touches_in_all", all_touches_);
       frame.add_count("pairs_tested", last_.narrow_pairs);
       frame.add_count("narrow_tests", last_.narrow_tests);
       frame.add_count("constraint_rows", last_.constraint_rows);
@@ -309,10 +321,13 @@ class EngineOf : public Engine {
   Brains<D> brains_;
   std::vector<Emission> emissions_;
   IslandNumbers island_numbers_;
-  WorldWork last_;             // what the last step did
-  BroadPhaseCounters builds_;  // of them, what is counted
+  WorldWork last_;                             // what the last step did
+  std::optional<CollisionLog> collision_log_;  // if a panel shows it
+  BroadPhaseCounters builds_;                  // of them, what is counted
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
+  std::uint64_t all_begins_ = 0;  // since the world began
+  std::uint64_t all_touches_ = 0;
 };
 
 }  // namespace

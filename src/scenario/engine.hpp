@@ -95,6 +95,9 @@ class Engine {
   virtual const WorldWork& world_work() const = 0;  // of the world since it was made
   virtual std::uint64_t world_hash() const = 0;
   virtual void show(WorldWatch& watch) const = 0;  // the world as it is now
+  // What the world remembered of pairs that touch, step by step. It is written down only if the
+  // scenario has a panel for it.
+  virtual void list_collisions(FrameCollisions& collisions) const = 0;
 
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;

@@ -288,6 +288,41 @@ struct FrameTrace {
   std::optional<double> most;     // of the whole part, once somebody knows it
 };
 
+// A function of the lecture's own source (lecture/source.hpp), and which of its lines the frame is
+// about.
+struct FrameCode {
+  struct Line {
+    std::uint32_t number = 0;  // in its file, from 1
+    std::uint32_t indent = 0;  // levels, from the function's head on
+    std::string text;
+    bool lit = false;
+  };
+  std::string file;      // "quad_tree.hpp"
+  std::string function;  // "QuadTreeNode::Insert"
+  std::vector<Line> lines;
+};
+
+// What the world remembered, step after step, of one pair that touches or has just touched.
+struct FrameCollision {
+  struct Moment {
+    std::uint64_t step = 0;  // of the world, from 1
+    int frames_left = 0;     // after it: steps without touch before the end is told; -1: told in it
+    bool touches = false;    // in it
+    bool begins = false;     // its begin was told in it
+  };
+  Pair pair;
+  std::vector<Moment> moments;  // in order
+};
+
+// All of them since a part of the script began.
+struct FrameCollisions {
+  std::vector<FrameCollision> rows;    // by their first begin
+  int remembered = 0;                  // what framesLeft begins with
+  std::uint64_t first = 0;             // world steps before the part
+  std::uint64_t now = 0;               // world steps so far
+  std::optional<std::uint64_t> steps;  // of the part; none: the script does not say
+};
+
 // Perspective, y up.
 struct Camera {
   Vec<3> eye{0.0};
@@ -370,6 +405,8 @@ struct Frame {
   FrameChart chart;
   FrameComparison comparison;  // if the panel shows it
   FrameTrace trace;
+  std::optional<FrameCode> code;              // if a panel shows it
+  std::optional<FrameCollisions> collisions;  // the same
   std::uint32_t pool_size = 0;   // nodes that the tree's pool held at most; 0: it has none
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
   std::vector<FrameTexture> textures;

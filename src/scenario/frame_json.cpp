@@ -62,6 +62,8 @@ class FrameWriter {
     if (!frame.walls.empty()) write_list("walls", frame.walls);
     if (!frame.textures.empty()) write_list("textures", frame.textures);
     if (!frame.comparison.rows.empty()) write_list("comparison", frame.comparison.rows);
+    if (frame.code) lines("code", *frame.code);
+    if (frame.collisions) write_list("collisions", frame.collisions->rows);
     json_.line().key("counts").begin_object();
     for (const auto& [name, number] : frame.counts)
       if (whole_way_ || std::ranges::find(kNewCounts, name) == std::end(kNewCounts))
@@ -295,9 +297,22 @@ class FrameWriter {
     json_.end_object();
   }
 
-  static constexpr std::string_view kNewCounts[] = {"testable_pairs", "pairs_tested",    "impulses",
-                                                    "leaves_asleep",  "branches_asleep", "islands",
-                                                    "largest_island", "islands_asleep"};
+  // Where it stands, and which lines of it the frame is about.
+  void write(const FrameCode& code) {
+    std::vector<std::uint32_t> lit;
+    for (const FrameCode::Line& line : code.lines)
+      if (line.lit) lit.push_back(line.number);
+    object("file", code.file, "function", code.function, "lit", lit);
+  }
+  void write(const FrameCollision::Moment& m) {
+    object("step", m.step, "frames_left", m.frames_left, "touches", m.touches, "begins", m.begins);
+  }
+  void write(const FrameCollision& c) { object("pair", c.pair, "moments", c.moments); }
+
+  static constexpr std::string_view kNewCounts[] = {
+      "testable_pairs",   "pairs_tested",  "impulses",       "leaves_asleep",
+      "branches_asleep",  "islands",       "largest_island", "islands_asleep",
+      "collisions_alive", "begins_in_all", "touches_in_all"};
 
   static constexpr std::string_view kPhases[] = {"whole", "broad", "boxes", "narrow", "resolve"};
 

@@ -11,6 +11,7 @@
 #include "geometry/flat.hpp"
 #include "scenario/caption.hpp"
 #include "scenario/comparison.hpp"
+#include "scenario/code_text.hpp"
 #include "scenario/frame.hpp"
 #include "scenario/language.hpp"
 #include "scenario/rulers.hpp"
@@ -61,9 +62,16 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       comparison_(empty_comparison(scenario)),
       looks_(scenario) {
   if (scenario.chart) plotter_.emplace(scenario);
-  if (std::ranges::count(scenario.panels, Panel::sparkline) > 0) {
+  if (shows(Panel::sparkline)) {
     trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_), std::nullopt};
   }
+  if (shows(Panel::code))
+    for (const Step& step : scenario.steps)
+      if (step.code && !code_) code_ = code_of(step.code->function);
+}
+
+bool FrameMaker::shows(Panel panel) const {
+  return std::ranges::count(scenario_.panels, panel) > 0;
 }
 
 void FrameMaker::begin(const Step& step, std::uint32_t index) {
@@ -77,6 +85,10 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
     trace_begun_ = stage_.time;
   }
   if (plotter_) plotter_->begin_part(part_, stage_.time);
+  if (index == 0 || new_part) {
+    part_seconds_ = script_seconds(scenario_, &part_);
+    steps_before_part_ = stage_.engine ? stage_.engine->world_work().steps : 0;
+  }
   touched = {};
   focus.clear();
   texture.clear();
@@ -84,6 +96,7 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
   narrow.begin_step();
   noted_.clear();
   looks_.begin(step, stage_.time);
+  begin_code();
   if (!step.headline.empty()) headline_ = step.headline;
   lengths_before_.clear();
   for (const RulerSpec& ruler : step.rulers) {
@@ -155,7 +168,40 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   add_notes(frame);
   if (plotter_) frame.chart = plotter_->chart();
   if (trace_) trace(frame);
+  frame.code = code_;
+  if (shows(Panel::collisions)) add_collisions(frame);
   return frame;
+}
+
+// The function of the step, or of the step before, and the lines that the step names.
+void FrameMaker::begin_code() {
+  if (!code_) return;
+  if (step_->code && code_->function != step_->code->function)
+    code_ = code_of(step_->code->function);
+  light_line(*code_, step_->code ? step_->code->line : "");
+}
+
+// The line in which the lecture's code is, if the step runs that.
+void FrameMaker::light_code(std::string_view event) {
+  const auto place = code_ ? code_place(event) : std::nullopt;
+  if (!place) return;
+  if (code_->function != place->function) code_ = code_of(place->function);
+  light_line(*code_, place->line);
+}
+
+void FrameMaker::show_phase(std::string_view phase, Frame& frame) {
+  if (scenario_.world.contacts == ContactMethod::lecture) light_code(phase);
+  frame.code = code_;
+}
+
+void FrameMaker::add_collisions(Frame& frame) const {
+  FrameCollisions& told = frame.collisions.emplace();
+  stage_.engine->list_collisions(told);
+  told.now = stage_.engine->world_work().steps;
+  told.first = steps_before_part_;
+  if (part_seconds_)
+    told.steps =
+        static_cast<std::uint64_t>(std::llround(*part_seconds_ / scenario_.world.time_step));
 }
 
 // A wrong tree is drawn as it is, and its run fails; each fault is told where it is first seen.
@@ -178,6 +224,7 @@ void FrameMaker::trace(Frame& frame) {
 }
 
 void FrameMaker::settle(std::string_view verb, bool last, const std::string& caption) {
+  begin_code();  // events have shown where they are
   Frame frame = picture(touched, step_->name.empty() ? verb : step_->name);
   if (plotter_ && (plotter_->over_time() || (last && step_->plot))) {
     if (plotter_->over_time())
@@ -202,6 +249,9 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
 
 void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
                       std::optional<BodyId> about) {
+  if (stage_.engine && stage_.engine->structure().kind == StructureKind::lecture_quadtree &&
+      std::holds_alternative<Insert>(step_->verb))
+    light_code(event);
   Frame frame = drawn(now, event, true);
   frame.caption = std::move(caption);
   for (FrameBody& body : frame.bodies) body.lit = body.id == about;

@@ -74,6 +74,8 @@ class FrameMaker {
   void emit(const Touched& touched, std::string_view event, std::string caption,
             std::optional<BodyId> about = {});
   void give(Frame frame, bool midst = false);
+  // The frame is of this phase of a world step: the lecture's code is in that line.
+  void show_phase(std::string_view phase, Frame& frame);
   // What a caption may quote beside counts, of a frame made now.
   std::optional<std::string> text_of(std::string_view name, const Frame& frame) const;
   // The step's promise is broken, whatever the frames say.
@@ -85,7 +87,11 @@ class FrameMaker {
   Frame drawn(const Touched& touched, std::string_view event, bool midst);
   void add_finding(Frame& frame) const;
   void add_comparison(Frame& frame);
+  bool shows(Panel panel) const;
   void trace(Frame& frame);
+  void begin_code();
+  void light_code(std::string_view event);
+  void add_collisions(Frame& frame) const;
   void tell_faults(const Frame& frame);
   void tell_splits(Frame& frame);
   void add_notes(Frame& frame);
@@ -108,8 +114,11 @@ class FrameMaker {
   const Stage& stage_;
   const std::function<bool(const Frame&)>& sink_;
   std::optional<Plotter> plotter_;
-  std::optional<FrameTrace> trace_;  // if a panel shows it
-  double trace_begun_ = 0;           // when its part began
+  std::optional<FrameTrace> trace_;      // if a panel shows it
+  double trace_begun_ = 0;               // when its part began
+  std::optional<FrameCode> code_;        // the same
+  std::optional<double> part_seconds_;   // of the script's part; none: it does not say
+  std::uint64_t steps_before_part_ = 0;  // of the world
   DirectorReport report_;
   const Step* step_ = nullptr;
   std::uint32_t step_index_ = 0;

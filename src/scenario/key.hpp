@@ -208,6 +208,7 @@ TableDoc camera_table();
 TableDoc note_table();
 KeyDoc note_key();  // of a step
 TableDoc ruler_table();
+TableDoc code_table();
 
 // Those of a table for a body or a pattern: `own` and what both have.
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);

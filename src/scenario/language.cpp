@@ -40,11 +40,13 @@ TableDoc file_table() {
           "of bodies and how far it came; the `difference`, the Minkowski difference of the two "
           "bodies that a `gjk` is about, or of the first two that are there; the `axes` of a "
           "`separate`, side by side; the `comparison`, a table of what each kind of structure does "
-          "for "
-          "each world that a step compares; and as strips below, the `memory` of the array that "
-          "all "
-          "leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, and "
-          "the `sparkline`, the first count of the headline, or the pairs, over the time so far. "
+          "for each world that a step compares; and as strips below, the `memory` of the array "
+          "that "
+          "all leaves share, the `pool` of nodes, the `bytes` of a node with and without its box, "
+          "the `sparkline`, the first count of the headline, or the pairs, over the time so far, "
+          "and the `collisions` that a world with `contacts = \"lecture\"` remembers; the `code` "
+          "of the lecture, one function of it. Of a `lecture_quadtree` the `memory` and the `pool` "
+          "show what it allocates piece by piece. "
           "The `islands` are a graph: a dot for each body, where it is in the world, and a line "
           "for each contact, spring and joint; what hangs together lies on one ground.",
           or_else("what the scenario uses")),
@@ -108,6 +110,8 @@ TableDoc step_table() {
           or_else("as before")),
       key(KeyType::tables, "ruler", "Lengths that are measured on the step's frames.",
           at_most(kMostRulers), holds("step.ruler")),
+      key(KeyType::table, "code",
+          "The function of the lecture's source that is shown from here on.", holds("code")),
       key(&Step::ending, "ending",
           "Of the last step: its last frame is what is to be kept in mind, with the headline's "
           "numbers large."),
@@ -196,7 +200,8 @@ std::span<const TableDoc> language_tables() {
       spring_table(),    joint_table(), level_table(),     chart_table(),
       problem_table(),   atlas_table(), texture_table(),   texture_pattern_table(),
       side_table(),      step_table(),  ruler_table(),     expect_table(),
-      display_table(),   view_table(),  camera_table(),    note_table()};
+      display_table(),   view_table(),  camera_table(),    note_table(),
+      code_table()};
   return tables;
 }
 

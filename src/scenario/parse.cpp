@@ -77,8 +77,12 @@ void check_panels(const TableReader& file, Draft& draft) {
   const bool structure =
       some_structure([](const StructureSpec& of) { return of.kind != StructureKind::none; });
   const bool array = some_structure(has(&StructureTraits::shares_array));
-  const bool pool = array || some_structure(has(&StructureTraits::is_fitted));
+  const bool pieces = some_structure(has(&StructureTraits::is_plain));
+  const bool pool = array || pieces || some_structure(has(&StructureTraits::is_fitted));
   const bool moves = s.world_steps > 0 && structure;
+  const bool code =
+      std::ranges::any_of(s.steps, [](const Step& step) { return step.code.has_value(); });
+  const bool remembers = s.world.contacts == ContactMethod::lecture;
   const std::pair<bool, const char*> possible[] = {
       // by Panel
       {draft.has_world, "it needs a [world]"},
@@ -96,7 +100,9 @@ void check_panels(const TableReader& file, Draft& draft) {
       {some_step<Compare>(s, [](const Compare&) { return true; }),
        "it needs a step with do = \"compare\""},
       {s.world_steps > 0 && (s.has_contacts() || !s.links.empty()),
-       "it needs a step that runs, and contacts, springs or joints that hold bodies together"}};
+       "it needs a step that runs, and contacts, springs or joints that hold bodies together"},
+      {code, "it needs a step with 'code'"},
+      {remembers, "it needs [world] contacts = \"lecture\", which remembers them"}};
   std::size_t i = 0;
   for (const Named& written : file.names("panels")) {
     const auto panel = static_cast<std::size_t>(s.panels[i++]);

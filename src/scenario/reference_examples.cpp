@@ -167,6 +167,37 @@ plot = "24"
 caption = "{bodies} bodies: {pairs:pair} share a leaf, of {all_pairs}."
 )";
 
+constexpr std::string_view kCollisionsExample = R"(title = "A ball hops"
+
+[world]
+size = [16, 9]
+gravity = [0, -10]
+contacts = "lecture"
+time_step = 0.05
+
+[[body]]
+name = "ball"
+look = "ball"
+radius = 0.8
+position = [8, 5]
+restitution = 0.3
+
+[[body]]
+name = "bat"
+look = "bat"
+half_size = [4, 0.4]
+position = [8, 2]
+static = true
+
+[[step]]
+do = "insert"
+bodies = ["ball", "bat"]
+
+[[step]]
+do = "run"
+seconds = 2
+)";
+
 bool is_of_atlas(std::string_view verb) { return verb == "pack" || verb == "ask_room"; }
 bool is_of_level(std::string_view verb) {
   return verb == "compile" || verb == "locate" || verb == "order";
@@ -185,6 +216,10 @@ std::string panel_example(Panel panel) {
   if (panel == Panel::comparison)
     for (const TableDoc& verb : language_verbs())
       if (verb.name == "compare") return fmt::format("{}{}\n{}", only, kWorldExample, verb.example);
+  if (panel == Panel::code)
+    return only + std::string(kWorldExample) +
+           "\n[[step]]\ndo = \"show\"\ncode = { function = \"Insert\", line = \"Split();\" }\n";
+  if (panel == Panel::collisions) return only + std::string(kCollisionsExample);
   if (panel == Panel::chart) return only + std::string(kChartExample);
   if (panel != Panel::atlas) return only + std::string(kWorldExample);
   for (const TableDoc& verb : language_verbs())

@@ -76,6 +76,7 @@ struct Step {
   std::vector<NoteSpec> notes;        // on all frames of the step
   std::vector<std::string> headline;  // counts and measures put in front from here on; or empty
   std::vector<RulerSpec> rulers;      // on every frame of the step
+  std::optional<CodeSpec> code;       // from here on; none: as before, with no line lit
   bool ending = false;                // its last frame is the sequence's take-away
   SourcePosition where;
 };

@@ -139,6 +139,7 @@ class ScriptReader {
     read_notes(table, step, draft_, state_);
     step.headline = read_headline(table, draft_, &state_);
     step.rulers = read_rulers(table, script_);
+    read_code(table, step, draft_);
     note_ending(table, step);
     check_question(table);
     for (const TomlValue* expect : table.tables("expect"))

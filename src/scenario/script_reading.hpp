@@ -109,6 +109,9 @@ std::vector<std::string> read_headline(const TableReader& table, Draft& draft,
 // The rulers of a step.
 std::vector<RulerSpec> read_rulers(const TableReader& step, ScriptReading& script);
 
+// The step's `code`. Adds a problem for a function or line that the lecture's source has not.
+void read_code(const TableReader& step, Step& to, Draft& draft);
+
 // Can the chart's counts be counted at this step?
 void check_plot(const TableReader& step, Draft& draft, ScriptState& state);
 

@@ -35,7 +35,9 @@ enum class Panel {
   difference,
   axes,
   comparison,
-  islands
+  islands,
+  code,
+  collisions
 };
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box, person };
@@ -294,8 +296,9 @@ inline EnumNames names(StructureKind) {
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
-  return {"world", "tree",      "atlas",      "chart", "memory",     "ledger", "pool",
-          "bytes", "sparkline", "difference", "axes",  "comparison", "islands"};
+  return {"world",  "tree",       "atlas",   "chart",     "memory",
+          "ledger", "pool",       "bytes",   "sparkline", "difference",
+          "axes",   "comparison", "islands", "code",      "collisions"};
 }
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box", "person"}; }

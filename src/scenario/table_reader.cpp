@@ -54,8 +54,11 @@ void TableReader::check_unknown(const TomlEntry& e) {
                   for (const KeyDoc& k : here.keys) known.push_back(k.key);
                   const std::string one =  // "bodies" of [[body]]
                       key.ends_with("ies") ? key.substr(0, key.size() - 3) + "y" : key;
-                  if (nearest_name(one, known)) return nearest(one, known);
+                  const auto near = nearest_name(one, known);
                   const std::string home = home_of(key, here);
+                  // Few slip at a word's first letter: what has a home elsewhere belongs there.
+                  if (near && (home.empty() || near->front() == one.front()))
+                    return nearest(one, known);
                   return home.empty() ? nearest(key, known) : home;
                 });
 }

@@ -31,6 +31,8 @@ struct Seen {
                 sectors = 0, drawn_walls = 0, nodes = 0, slots = 0, pool = 0, bytes = 0,
                 moments = 0, differences = 0, axes = 0, islands = 0;
   bool pairs = false;  // two bodies or more, of one side
+  bool code = false;
+  bool collisions = false;
 
   void add(const Frame& frame) {
     bodies += frame.bodies.size();
@@ -49,6 +51,8 @@ struct Seen {
     differences += frame.difference.has_value();
     axes += frame.separation.has_value();
     islands += frame.islands.size();
+    code |= frame.code.has_value();
+    collisions |= frame.collisions && !frame.collisions->rows.empty();
     pairs |= frame.bodies.size() > 1;
   }
 };
@@ -91,6 +95,8 @@ void Tally::see(const Frame& frame) {
   with_difference_ += seen.differences > 0;
   with_axes_ += seen.axes > 0;
   with_islands_ += seen.islands > 0;
+  with_code_ += seen.code;
+  with_collisions_ += seen.collisions;
   count_builds(frame);
 }
 
@@ -236,6 +242,8 @@ void Tally::list_pictures(Stages& all) const {
   all.push_back(
       panel(Panel::comparison, "comparison panel", {frames(with_rows_, "worlds compared")}));
   all.push_back(panel(Panel::islands, "islands panel", {frames(with_islands_, "islands")}));
+  all.push_back(panel(Panel::code, "code panel", {frames(with_code_, "lines of code")}));
+  all.push_back(panel(Panel::collisions, "collisions", {frames(with_collisions_, "a collision")}));
   all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
   all.push_back({"OpenGL",
                  {amount(work_.graphics_contexts, "context")},

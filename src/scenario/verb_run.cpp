@@ -218,6 +218,7 @@ void Phases::act(ScriptRun& run) const {
     shown.event = event;
     shown.phase = phase;
     shown.caption = phase_text(event, shown);
+    run.frames.show_phase(event, shown);
     run.frames.give(shown);
   };
   show("broad_phase", StepPhase::broad, before);

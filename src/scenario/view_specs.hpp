@@ -69,6 +69,13 @@ struct NoteSpec {
   SourcePosition where;
 };
 
+// Which function of the lecture's source a step is about, and which of its lines.
+struct CodeSpec {
+  std::string function;
+  std::string line;  // each line with this text in it is lit; empty: none
+  SourcePosition where;
+};
+
 inline std::vector<std::string_view> names(ShownNames) { return {"story", "all", "none"}; }
 
 }  // namespace lantern::scenario

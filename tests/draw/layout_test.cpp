@@ -87,7 +87,8 @@ void expect_few_shapes(const std::string& where, const Frame& frame, const DrawL
     EXPECT_LT(list.shapes.size(), 5000u) << where;
   }
   if (frame.sides.empty() && frame.bodies.size() <= 4 && frame.nodes.size() < 10 &&
-      frame.textures.empty() && frame.chart.series.size() < 4 && frame.trace.points.size() < 100) {
+      frame.textures.empty() && frame.chart.series.size() < 4 && frame.trace.points.size() < 100 &&
+      (!frame.collisions || frame.collisions->now < 100)) {
     EXPECT_LT(list.shapes.size(), 300u) << where << ": a typical frame";
   }
   for (const DrawShape& shape : list.shapes)

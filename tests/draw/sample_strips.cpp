@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "draw/sample_frames.hpp"
+#include "scenario/code_text.hpp"
 
 namespace lantern::draw::samples {
 namespace {
@@ -42,6 +43,36 @@ void put_in_pool(Frame& frame, std::uint32_t slots, std::uint32_t reused) {
     node.reused = node.id < reused;
   }
   frame.add_count("allocations", 14);
+}
+
+// Pairs that touch in every ninth step, once, and in every second.
+Frame collisions(std::uint64_t steps) {
+  Frame frame = ghosts(4);
+  scenario::FrameCollisions& told = frame.collisions.emplace();
+  told.remembered = 5;
+  told.now = steps;
+  if (steps == 30) told.steps = 60;
+  for (const std::uint64_t every : {9u, 100000u, 2u}) {
+    if (steps == 30 && every == 2) break;
+    auto& row = told.rows.emplace_back();
+    row.pair = {0, static_cast<BodyId>(told.rows.size())};
+    for (std::uint64_t step = 1; step <= steps; ++step) {
+      const int left = 4 - static_cast<int>(std::min<std::uint64_t>((step - 1) % every, 6));
+      if (left >= -1) row.moments.push_back({step, left, left == 4, left == 4 && every > 5});
+    }
+  }
+  frame.panels = {Panel::world, Panel::collisions};
+  return frame;
+}
+
+// A function with the line of this number lit, or all of them.
+std::pair<std::string, Frame> code(const std::string& function, std::size_t lit) {
+  Frame frame = ghosts(4);
+  frame.code = scenario::code_of(function);
+  for (std::size_t i = 0; i < frame.code->lines.size(); ++i)
+    frame.code->lines[i].lit = i == lit || lit > frame.code->lines.size();
+  frame.panels = {Panel::world, Panel::tree, Panel::code};
+  return {fmt::format("code_{}{}", function, lit), frame};
 }
 
 void count_bytes(Frame& frame) {
@@ -101,6 +132,23 @@ Named strips() {
   all.trace = {"pair_tests", {}, std::nullopt, std::nullopt};
   for (int i = 0; i < 5000; ++i) all.trace.points.push_back({0.1 * i, 1.0 * (i * 7919 % 10000)});
   frames.emplace_back("strips_long", all);
+  Frame pieces = ghosts(4);
+  pieces.structure = StructureKind::lecture_quadtree;
+  pieces.add_count("allocations", 1234);
+  for (const auto& panels : {std::vector{Panel::world, Panel::tree, Panel::memory},
+                             std::vector{Panel::pool}, std::vector{Panel::world, Panel::pool}}) {
+    pieces.panels = panels;
+    frames.emplace_back(fmt::format("pieces{}", frames.size()), pieces);
+  }
+  Frame crowded = crowd(300, 0.6);
+  crowded.structure = StructureKind::lecture_quadtree;
+  crowded.panels = {Panel::world, Panel::memory, Panel::pool};
+  frames.emplace_back("pieces_many", crowded);
+  for (const std::uint64_t steps : {0u, 1u, 30u, 5000u})
+    frames.emplace_back(fmt::format("collisions{}", steps), collisions(steps));
+  for (const std::string function : {"QuadTreeNode::Insert", "QuadTreeNode::OperateOnContents",
+                                     "PhysicsSystem::ImpulseResolveCollision"})
+    for (const std::size_t lit : {0u, 5u, 1000u}) frames.push_back(code(function, lit));
   Frame many = crowd(900, 0.6);
   put_in_pool(many, 4000, 4000);
   many.panels = {Panel::world, Panel::pool};

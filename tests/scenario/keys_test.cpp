@@ -147,6 +147,10 @@ std::map<std::string, Surroundings> surroundings() {
        {touching + "[[step.note]]\n", {{"text", "\"here\""}, {"body", "\"red\""}}, ""}},
       {"step.ruler",
        {scene + kInsert + kShow + "[[step.ruler]]\n", {{"a", "\"red\""}, {"to", "[2, 2]"}}, ""}},
+      {"code",
+       {kTitle + "panels = [\"code\"]\n" + kWorld + kTree + kRed + kShow + "[step.code]\n",
+        {{"function", "\"Insert\""}},
+        ""}},
       // All that can be counted is counted here.
       {"expect",
        {kTitle + kRules + kLevel + "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" +
@@ -842,6 +846,18 @@ std::vector<KeyCase> key_cases() {
   cases.push_back({"step.ruler", "to", {"[0, 0]"}, bad_point()});
   cases.push_back({"step.ruler", "text", {"\"\"", "\"length\""}, bad_text("0 to 24", 24)});
   cases.push_back({"step.ruler", "change", {"true"}, bad_truth()});
+  cases.push_back({"code",
+                   "function",
+                   {"\"Split\"", "\"PhysicsSystem::BroadPhase\""},
+                   {{"@1", "must be a text"},
+                    {"@\"\"", "letters"},
+                    {"@\"Inser\"", "did you mean 'Insert'?"},
+                    {"@\"QuadTreeNode::Spilt\"", "did you mean 'QuadTreeNode::Split'?"}}});
+  cases.push_back({"code",
+                   "line",
+                   {"\"\"", "\"Split();\""},
+                   {{"@1", "must be a text"},
+                    {"@\"Spilt();\"", "no line of 'QuadTreeNode::Insert' has 'Spilt();'"}}});
   cases.push_back({"world", "show_forces", {"true"}, bad_truth()});
   cases.push_back({"world", "show_coordinates", {"true"}, bad_truth()});
   add_body_cases(cases);
@@ -882,6 +898,7 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "display", {"{}"}, bad_table("[display]")});
     cases.push_back({table, "view", {}, bad_table("[view]")});
     cases.push_back({table, "camera", {}, bad_table("[camera]")});
+    cases.push_back({table, "code", {}, bad_table("[code]")});
     cases.push_back({table, "orbit", {}, bad_number("-1.1e6", "1.1e6")});
     cases.push_back({table, "note", {"[]"}, {{"@1", "a list of tables"}, {"[@1]", "tables"}}});
   }
@@ -974,6 +991,7 @@ TEST(Keys, MissingOnesAreAskedFor) {
                                                                      {"order", "eye"},
                                                                      {"pack", "textures"},
                                                                      {"ask_room", "size"},
+                                                                     {"code", "function"},
                                                                      {"show", "do"},
                                                                      {"world", "size"},
                                                                      {"", "title"}};

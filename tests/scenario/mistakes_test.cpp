@@ -371,6 +371,12 @@ TEST(Mistakes, OfPanelsThatCannotBe) {
                   {"contacts, springs or joints that hold"});
   expect_mistakes(kScene + "[[step]]\ndo = \"show\"\ncaption = \"@{islands}\"\n",
                   {"there is no panel 'islands'"});
+  expect_mistakes("panels = [@\"code\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
+                  {"needs a step with 'code'"});
+  expect_mistakes("panels = [@\"collisions\"]\n" + kScene + "[[step]]\ndo = \"show\"\n",
+                  {"contacts = \"lecture\", which remembers them"});
+  expect_mistakes(kScene + "[[step]]\ndo = \"show\"\ncode = @{ function = \"Insert\" }\n",
+                  {"name it: panels ="});
 }
 
 TEST(Mistakes, OfNamesThatAreTaken) {

@@ -48,6 +48,8 @@ struct DryRun {
   }
 
   static bool shows(Panel panel, const Frame& frame) {
+    if (std::ranges::any_of(frame.sides, [&](const Frame& side) { return shows(panel, side); }))
+      return true;
     if (panel == Panel::world) return !frame.bodies.empty() || !frame.walls.empty();
     if (panel == Panel::tree) return !frame.nodes.empty();
     if (panel == Panel::atlas) return frame.count("textures").value_or(0) > 0;
@@ -59,6 +61,8 @@ struct DryRun {
     if (panel == Panel::difference) return frame.difference.has_value();
     if (panel == Panel::axes) return frame.separation.has_value();
     if (panel == Panel::islands) return !frame.islands.empty();
+    if (panel == Panel::code) return frame.code.has_value();
+    if (panel == Panel::collisions) return frame.collisions && !frame.collisions->rows.empty();
     return !frame.chart.bars.empty() ||
            std::any_of(frame.chart.series.begin(), frame.chart.series.end(),
                        [](const FrameSeries& series) { return !series.points.empty(); });
@@ -209,7 +213,8 @@ void expect_rest(const DryRun& run) {
       {Panel::memory, "memory panel"}, {Panel::ledger, "ledger panel"},
       {Panel::pool, "pool panel"},     {Panel::bytes, "bytes panel"},
       {Panel::sparkline, "sparkline"}, {Panel::difference, "difference panel"},
-      {Panel::axes, "axes panel"},     {Panel::islands, "islands panel"}};
+      {Panel::axes, "axes panel"},     {Panel::islands, "islands panel"},
+      {Panel::code, "code panel"},     {Panel::collisions, "collisions"}};
   for (const auto& [panel, name] : panels) {
     const bool wanted = std::find(s.panels.begin(), s.panels.end(), panel) != s.panels.end();
     EXPECT_EQ(run.uses(name), wanted) << name << ": each panel that there is shows something";

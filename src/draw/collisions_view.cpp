@@ -1,0 +1,196 @@
+// The collisions that are remembered, over time: a row a pair, a column a world step.
+//
+//   @ @  | begin        _             end
+//        | |||||  |||   |||||||   |   |      pips: frames left
+//        |  o           o                    touching
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "draw/body_shapes.hpp"
+#include "draw/number_text.hpp"
+#include "draw/panels.hpp"
+#include "draw/pen.hpp"
+
+namespace lantern::draw {
+namespace {
+
+using scenario::FrameCollision;
+using scenario::FrameCollisions;
+
+constexpr double kCollisionText = 24;
+constexpr double kCollisionHeading = 40;
+constexpr double kPip = 12;                 // from pip to pip
+constexpr double kCallRow = 30;             // height of the line of begins and ends
+constexpr double kTouchRow = 22;            // under the pips
+constexpr double kCollisionPair = 120;      // width of the pair's bodies
+constexpr double kMostColumn = 44;          // width
+constexpr double kLeastColumn = 5;          // of more steps the last ones are drawn
+constexpr std::size_t kMostCollisions = 3;  // rows
+
+const TextStyle kCollisionStyle{kCollisionText, Weight::regular, Role::ink};
+const TextStyle kCollisionStrong{kCollisionText, Weight::semibold, Role::ink};
+
+double row_height(int remembered) { return kCallRow + remembered * kPip + kTouchRow + 8; }
+
+class CollisionsView {
+ public:
+  CollisionsView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
+      : frame_(frame),
+        told_(*frame.collisions),
+        panel_(panel),
+        list_(list),
+        labels_(labels),
+        bodies_(by_id(frame.bodies)) {
+    const std::uint64_t passed = told_.now - told_.first;
+    const std::uint64_t all = std::max<std::uint64_t>({told_.steps.value_or(passed), passed, 12});
+    const double room = panel.size().x - kCollisionPair;
+    column_ = std::clamp(room / static_cast<double>(all), kLeastColumn, kMostColumn);
+    const auto columns = static_cast<std::uint64_t>(room / column_);
+    first_ = passed > columns ? told_.now - columns : told_.first;
+    end_ = panel.lo.x + kCollisionPair + column_ * static_cast<double>(std::min(columns, all));
+  }
+
+  void draw() {
+    draw_heading();
+    double y = panel_.lo.y + kCollisionHeading;
+    std::size_t drawn = 0;
+    for (const FrameCollision& row : told_.rows) {
+      if (row.moments.empty() || row.moments.back().step <= first_) continue;
+      if (drawn++ == kMostCollisions || y + row_height(told_.remembered) > panel_.hi.y + 1) break;
+      draw_row(row, y);
+      y += row_height(told_.remembered);
+    }
+  }
+
+ private:
+  double column_at(std::uint64_t step) const {
+    return panel_.lo.x + kCollisionPair + column_ * static_cast<double>(step - first_ - 1);
+  }
+
+  void draw_row(const FrameCollision& row, double y) {
+    const DrawList::Scope scope(list_, fmt::format("collisions/{}-{}", row.pair.a, row.pair.b));
+    const double base = y + kCallRow + told_.remembered * kPip;  // under the lowest pip
+    draw_pair(row, {panel_.lo.x, base - 0.5 * told_.remembered * kPip});
+    list_.crisp_line({panel_.lo.x + kCollisionPair, base}, {end_, base}, {Role::cell_line_2, 1.6});
+    for (const FrameCollision::Moment& moment : row.moments)
+      if (moment.step > first_ && moment.step <= told_.now) draw_moment(moment, base);
+    for (const FrameCollision::Moment& moment : row.moments)
+      if (moment.step > first_ && (moment.begins || moment.frames_left < 0))
+        draw_call(moment, {y, base});
+  }
+
+  void draw_pair(const FrameCollision& row, const Vec<2>& at) {
+    double x = at.x;
+    for (const BodyId id : {row.pair.a, row.pair.b}) {
+      const auto body = bodies_.find(id);
+      const Box<2> place = Box<2>::around({x + 24, at.y}, Vec<2>(22));
+      if (body != bodies_.end())
+        draw_character(*body->second, icon_box(*body->second, place), false, list_);
+      x += 52;
+    }
+  }
+
+  // As many pips as the pair has frames left, and a dot where it touches.
+  void draw_moment(const FrameCollision::Moment& moment, double base) {
+    const double x = column_at(moment.step), inset = std::min(3.0, 0.12 * column_);
+    const bool now = moment.step == told_.now;
+    const Role role = now ? Role::lit : Role::cell_line_2;
+    const auto pips = [&](int from, int to) {
+      return Box<2>{{x + inset, base - to * kPip}, {x + column_ - inset, base - 3 - from * kPip}};
+    };
+    if (column_ < kPip && moment.frames_left > 0) list_.rect(pips(0, moment.frames_left), role);
+    for (int i = 0; column_ >= kPip && i <= moment.frames_left; ++i) {
+      const bool taken = i == moment.frames_left;  // by this step
+      list_.rect(pips(i, i + 1), taken ? Role::none : role, taken ? Stroke{role, 1.4} : Stroke{},
+                 1.5);
+    }
+    if (moment.touches)
+      list_.disc({x + column_ / 2, base + kTouchRow / 2}, std::min(7.0, 0.42 * column_),
+                 Role::contact);
+  }
+
+  // OnCollisionBegin or OnCollisionEnd was called.
+  void draw_call(const FrameCollision::Moment& moment, const Vec<2>& from_to) {
+    const bool begins = moment.begins;
+    const double x = column_at(moment.step) + (begins ? 0 : column_);
+    list_.crisp_line({x, from_to[0] + 4}, {x, from_to[1]}, {Role::ink, 2.6});
+    const char* const word = begins ? "begin" : "end";
+    const double gap = 7;
+    labels_.try_add(word, {{{x + gap, from_to[0] + 22}, 0}, {{x - gap, from_to[0] + 22}, 1}},
+                    kCollisionStrong, panel_);
+  }
+
+  void draw_heading() {
+    const TextStyle strong{kCollisionText, Weight::semibold, Role::ink};
+    const double y = panel_.lo.y + 0.8 * kCollisionText;
+    double x = panel_.lo.x;
+    const auto write = [&](const std::string& text, const TextStyle& style) {
+      labels_.add(text, {{x, y}, 0}, style, panel_);
+      x += text_width(text, style) + 14;
+    };
+    write("allCollisions", strong);
+    const auto left = frames_left();
+    if (left) write(fmt::format("framesLeft {}", *left), kCollisionStyle);
+    if (!left) write("empty", {kCollisionText, Weight::regular, Role::quiet_ink});
+    draw_key(y);
+  }
+
+  // Of the one pair that is in the list now; nothing if there is none, or several.
+  std::optional<int> frames_left() const {
+    std::optional<int> left;
+    for (const FrameCollision& row : told_.rows)
+      if (!row.moments.empty() && row.moments.back().step == told_.now &&
+          row.moments.back().frames_left >= 0)
+        left = row.moments.back().frames_left;
+    return left;
+  }
+
+  void draw_key(double y) {
+    const TextStyle quiet{kCollisionText, Weight::regular, Role::quiet_ink};
+    const double words = text_width("one frame left", quiet), touch = text_width("touching", quiet);
+    double x = panel_.hi.x - words - touch - 100;
+    if (x < panel_.lo.x + 420) return;
+    list_.disc({x, y - 8}, 7, Role::contact);
+    labels_.add("touching", {{x + 16, y}, 0}, quiet, panel_);
+    x += touch + 44;
+    list_.rect({{x, y - 13}, {x + 26, y - 4}}, Role::cell_line_2, {}, 1.5);
+    labels_.add("one frame left", {{x + 36, y}, 0}, quiet, panel_);
+  }
+
+  const Frame& frame_;
+  const FrameCollisions& told_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  BodiesById bodies_;
+  double column_ = kMostColumn;
+  double end_ = 0;           // of the rows, x
+  std::uint64_t first_ = 0;  // world steps before the first column
+};
+
+}  // namespace
+
+void draw_collisions(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  const Box<2> place = shrunk(panel, 3);
+  if (!frame.collisions || place.size().x < 300 || place.size().y < kCollisionHeading) return;
+  CollisionsView(frame, place, list, labels).draw();
+  list.referents.insert(
+      {"collisions_alive", "begins", "ends", "contacts", "begins_in_all", "touches_in_all"});
+}
+
+double collisions_height(const Frame& frame) {
+  if (!frame.collisions) return kCollisionHeading;
+  const std::size_t rows =
+      std::clamp<std::size_t>(frame.collisions->rows.size(), 1, kMostCollisions);
+  constexpr int kUsual = 5;  // frames, before anything has touched
+  const int remembered = frame.collisions->remembered > 0 ? frame.collisions->remembered : kUsual;
+  return kCollisionHeading + static_cast<double>(rows) * row_height(remembered) + 6;
+}
+
+}  // namespace lantern::draw

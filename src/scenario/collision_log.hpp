@@ -1,0 +1,49 @@
+// What a world remembers of pairs that touch, written down step by step.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "physics/contact_solver.hpp"
+#include "physics/world.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern::scenario {
+
+class CollisionLog {
+ public:
+  // The world has just made a step. Pairs come in the order in which they first touched.
+  template <int D>
+  void see(const World<D>& world) {
+    remembered_ = contact_solver<D>(world.config().contacts).frames_remembered;
+    const std::uint64_t step = world.work().steps;
+    for (const auto& told : world.told()) row_of(told.pair).push_back({step, told.frames_left});
+    for (const ContactEvent& event : world.events()) {
+      std::vector<FrameCollision::Moment>& row = row_of({event.a, event.b});
+      if (event.kind == ContactEvent::Kind::end) {
+        row.push_back({step, -1});
+      } else {
+        row.back().touches = true;
+        row.back().begins = event.kind == ContactEvent::Kind::begin;
+      }
+    }
+  }
+
+  void list(FrameCollisions& collisions) const {
+    collisions.rows = rows_;
+    collisions.remembered = remembered_;
+  }
+
+ private:
+  std::vector<FrameCollision::Moment>& row_of(const Pair& pair) {
+    const auto found = std::ranges::find(rows_, pair, &FrameCollision::pair);
+    if (found != rows_.end()) return found->moments;
+    return rows_.emplace_back(FrameCollision{pair, {}}).moments;
+  }
+
+  std::vector<FrameCollision> rows_;
+  int remembered_ = 0;
+};
+
+}  // namespace lantern::scenario
