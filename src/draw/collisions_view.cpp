@@ -79,7 +79,11 @@ class CollisionsView {
     draw_pair(row, {panel_.lo.x, base - 0.5 * told_.remembered * kPip});
     list_.crisp_line({panel_.lo.x + kCollisionPair, base}, {end_, base}, {Role::cell_line_2, 1.6});
     for (const FrameCollision::Moment& moment : row.moments)
-      if (moment.step > first_ && moment.step <= told_.now) draw_moment(moment, base);
+      if (moment.step > first_ && moment.step <= told_.now) {
+        const DrawList::Scope column(
+            list_, fmt::format("collisions/{}-{}/{}", row.pair.a, row.pair.b, moment.step));
+        draw_moment(moment, base);
+      }
     for (const FrameCollision::Moment& moment : row.moments)
       if (moment.step > first_ && (moment.begins || moment.frames_left < 0))
         draw_call(moment, {y, base});
