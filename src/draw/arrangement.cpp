@@ -164,6 +164,8 @@ double size_in(const Frame& frame, const Box<2>& box) {
 std::vector<Box<2>> world_and_tree(const std::vector<Panel>& panels, const Frame& frame,
                                    const Staging& staging, const Box<2>& area) {
   constexpr double kLeastShare = 0.3, kMostShare = 0.7, kStep = 0.025;
+  // A level is read on its map, whose sectors have numbers and bodies in them.
+  const double weight = frame.walls.empty() ? 1 : 1.5;
   std::vector<Box<2>> best;
   double most = -1;
   const bool world_first = panels[0] == Panel::world;
@@ -178,7 +180,7 @@ std::vector<Box<2>> world_and_tree(const std::vector<Panel>& panels, const Frame
       const double tree = frame.grid_levels.empty() ? tree_size_in(staging, other)
                                                     : std::sqrt(other.size().x * other.size().y);
       // Beside each other is what a hall is used to: one above the other must gain something.
-      const double gain = world * tree * (axis == 0 ? 1.1 : 1.0);
+      const double gain = std::pow(world, weight) * tree * (axis == 0 ? 1.1 : 1.0);
       if (gain <= most + 1e-9) continue;
       most = gain;
       best = std::move(cut);

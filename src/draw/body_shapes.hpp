@@ -19,7 +19,8 @@ inline bool is_half_space(const FrameBody& body) {
 }
 
 inline bool is_character(const FrameBody& body) {
-  return body.look == Look::ghost || body.look == Look::player || body.look == Look::person;
+  return body.look == Look::ghost || body.look == Look::player || body.look == Look::person ||
+         body.look == Look::demon;
 }
 
 // The ground of a node that the step is about, or has passed.

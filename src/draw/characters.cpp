@@ -1,5 +1,6 @@
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
@@ -41,6 +42,8 @@ Role fill_of(const FrameBody& body) {
   return body.is_static && furniture ? Role::static_body : body_role(body.color);
 }
 
+bool is_round(Look look) { return look != Look::box && look != Look::bat && look != Look::item; }
+
 // What the step has ruled out is dotted.
 Stroke rim_of(const FrameBody& body, const Figure& f) {
   if (body.dimmed) return {Role::quiet_ink, std::max(1.0, 0.8 * f.line), 2.4};
@@ -75,6 +78,31 @@ void draw_ghost(const FrameBody& body, const Figure& f, DrawList& list) {
   draw_emblem(body.color, f.at(0, 0.36), 0.17 * f.unit, list);
   draw_eye(f, -0.37, body.asleep, list);
   draw_eye(f, 0.37, body.asleep, list);
+}
+
+// A horned head with angry brows; 12 points.
+void draw_demon(const FrameBody& body, const Figure& f, DrawList& list) {
+  static constexpr double kRight[][2] = {{0.0, -0.76}, {0.42, -0.7}, {0.94, -0.98},
+                                         {0.95, -0.2}, {0.86, 0.42}, {0.45, 0.9}};
+  PolygonShape shape{{}, fill_of(body), rim_of(body, f)};
+  for (const auto& p : kRight) shape.points.push_back(f.at(p[0], p[1]));
+  shape.points.push_back(f.at(0, 0.98));
+  for (std::size_t i = std::size(kRight); i-- > 1;)
+    shape.points.push_back(f.at(-kRight[i][0], kRight[i][1]));
+  list.shapes.emplace_back(std::move(shape));
+  draw_emblem(body.color, f.at(0, 0.5), 0.19 * f.unit, list);
+  for (const double side : {-1.0, 1.0}) {
+    draw_eye(f, side * 0.38, body.asleep, list);
+    if (!body.asleep)
+      list.line(f.at(side * 0.68, -0.6), f.at(side * 0.12, -0.3), {Role::body_line, 1.7 * f.line});
+  }
+}
+
+// A chest with a handle.
+void draw_item(const FrameBody& body, const Figure& f, DrawList& list) {
+  const double radius = 0.14 * f.unit;
+  list.rect({f.at(-0.36, -0.94), f.at(0.36, -0.3)}, Role::none, rim_of(body, f), radius);
+  list.rect({f.at(-0.94, -0.6), f.at(0.94, 0.94)}, fill_of(body), rim_of(body, f), radius);
 }
 
 // A disc with a mouth; 34 points.
@@ -144,7 +172,7 @@ void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, D
   constexpr double kInset = 1.6;  // the hatch ends at the outline
   if (list.shapes.size() > kMostShapes) return;
   std::vector<Vec<2>> outline = turned_outline(body, place);
-  const bool round = body.look != Look::box && body.look != Look::bat;
+  const bool round = is_round(body.look);
   if (outline.empty() && round) outline = ring_of(f.center, f.unit, 24);
   if (outline.empty()) outline = polygon_of(place);
   for (Vec<2>& p : outline)
@@ -171,7 +199,7 @@ void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
 }
 
 void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
-  const bool round = body.look != Look::box && body.look != Look::bat;
+  const bool round = is_round(body.look);
   list.rect(Box<2>::around(f.center, f.half), fill_of(body),
             {body.dimmed ? Role::quiet_ink : Role::body_line, std::min(0.8, 0.25 * f.unit), 0},
             round ? f.unit : 0);
@@ -183,6 +211,8 @@ void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, Draw
   if (body.look == Look::ghost) return draw_ghost(body, f, list);
   if (body.look == Look::player) return draw_player(body, f, list);
   if (body.look == Look::person) return draw_person(body, f, list);
+  if (body.look == Look::demon) return draw_demon(body, f, list);
+  if (body.look == Look::item) return draw_item(body, f, list);
   if (body.look == Look::bat) return draw_slab(body, f, 0.45 * f.unit, list);
   if (body.look == Look::box) return draw_slab(body, f, 0.12 * f.unit, list);
   draw_round(body, f, list);
@@ -225,7 +255,7 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   Figure f{place.center(), place.size() * 0.5};
   f.unit = std::min(f.half.x, f.half.y);
   f.line = pen_width(2 * f.unit);
-  const bool upright = body.look == Look::ghost;
+  const bool upright = body.look == Look::ghost || body.look == Look::demon;
   f.gaze = direction(body, upright ? Vec<2>(0.8, 0.6) : Vec<2>(1.0, 0.0));
   const bool small = 2 * std::max(f.half.x, f.half.y) < kPlainBelow;
   if (small || (plain && turned_outline(body, place).empty())) return draw_plain(body, f, list);
@@ -234,7 +264,7 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   if (body.is_static) hatch_static(body, f, place, list);
   if (body.asleep) draw_sleep(body, f, list);
   if (!is_character(body) && !body.asleep && fill_of(body) != Role::static_body)
-    draw_emblem(body.color, f.center, 0.3 * f.unit, list);
+    draw_emblem(body.color, body.look == Look::item ? f.at(0, 0.17) : f.center, 0.3 * f.unit, list);
 }
 
 }  // namespace lantern::draw

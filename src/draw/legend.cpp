@@ -206,7 +206,9 @@ std::string_view words_of(MarkKind kind) {
                                                 "overlap on the axis",
                                                 "farthest point",
                                                 "points kept",
-                                                "origin"};
+                                                "origin",
+                                                "portal",
+                                                "line of sight"};
   static_assert(std::size(kWords) == kMarkKinds);
   return kWords[static_cast<std::size_t>(kind)];
 }

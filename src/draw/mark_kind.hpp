@@ -43,6 +43,8 @@ enum class MarkKind : std::uint8_t {
   support,         // a disc: the point farthest along a search's direction
   simplex,         // discs and lines: points of a search that have the nearest place between them
   origin,          // a ring with a dot, of a Minkowski difference
+  portal,          // a strong dashed line: an opening between two sectors
+  sight,           // a thin line between two dots: the sectors at its ends see each other
   count_,
 };
 

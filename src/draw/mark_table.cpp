@@ -30,6 +30,12 @@ bool draw_finding(MarkKind kind, const Vec<2>& c, const Vec<2>& left, const Vec<
       list.rect(Box<2>::around(c, {11, 11}), Role::panel, {Role::ray, 2}, 3);
       pen.line(c + Vec<2>(0, -5), c + Vec<2>(0, 5), {Role::ray, 2});
       return true;
+    case MarkKind::portal:
+      draw_portal(left, right, pen);
+      return true;
+    case MarkKind::sight:
+      draw_sight(left, right, pen);
+      return true;
     case MarkKind::pin:
       pen.dot(c, 7.5, Role::panel, {Role::ink, 2.6});
       pen.dot(c, 2, Role::ink);
@@ -114,6 +120,16 @@ void draw_link(const Vec<2>& from, const Vec<2>& to, const LinkLook& look, Pen& 
   pen.line(from, to, stroke_of(look), look.full ? kCasing : 0);
   if (look.full && look.state == scenario::PairState::shapes_apart)
     draw_cross((from + to) / 2.0, Role::rejected_pair, pen);
+}
+
+void draw_portal(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
+  pen.line(from, to, {Role::panel, 7});
+  pen.line(from, to, {Role::frustum, 4.4, 9});
+}
+
+void draw_sight(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
+  pen.line(from, to, {Role::ray, 2.4}, 1.2);
+  for (const Vec<2>& end : {from, to}) pen.dot(end, 5, Role::ray, {Role::panel, 1.6});
 }
 
 void draw_overlap(const Box<2>& common, DrawList& list) {

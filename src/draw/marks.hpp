@@ -86,6 +86,10 @@ void draw_link(const Vec<2>& from, const Vec<2>& to, const LinkLook& look, Pen& 
 // What is ruled out by shapes has a cross in the middle of its link.
 void draw_cross(const Vec<2>& at, Role role, Pen& pen);
 
+// An opening between two sectors of a level, and a line of sight through such.
+void draw_portal(const Vec<2>& from, const Vec<2>& to, Pen& pen);
+void draw_sight(const Vec<2>& from, const Vec<2>& to, Pen& pen);
+
 // Where two boxes share some area of the page.
 void draw_overlap(const Box<2>& common, DrawList& list);
 // A node left out, with all below it; and a plate with the place of a cell on a ray's way, from 1.

@@ -92,6 +92,8 @@ void draw_panel(const Frame& frame, const Staging& staging, Panel panel, const B
       return draw_code(frame, box, list, labels);
     case Panel::collisions:
       return draw_collisions(frame, box, list, labels);
+    case Panel::matrix:
+      return draw_matrix(frame, box, list, labels);
   }
 }
 

@@ -79,6 +79,11 @@ void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, 
 void draw_islands(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                   Labels& labels);
 
+// Who sees whom of a level's sectors: a square for each two of them, their numbers on the edges. A
+// full square is seen, an empty one is not, a dot is not known yet. The row that is asked for is
+// lit.
+void draw_matrix(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+
 // Strips, which lie under the other panels, as wide as they are together.
 // The pool of a tree's nodes: each slot names the node that owns it, a band marks one that was
 // another's before; slots that are free again are dashed. It wants this height at a width.

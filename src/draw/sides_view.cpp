@@ -23,14 +23,15 @@ constexpr double kBetweenNumbers = 34;
 constexpr double kWordsBaseline = 42, kWordsLine = 34;  // of what one side does alone
 constexpr double kTallArea = 0.9;     // aspect below which sides stand one above the other
 constexpr double kChartShare = 0.34;  // of the height, under all sides
+constexpr double kChartUnderFour = 0.44;
 constexpr std::size_t kMostNumbers = 3;
 const TextStyle kNumber{28, Weight::semibold, Role::ink};
 const TextStyle kNoun{24, Weight::regular, Role::quiet_ink};
 
-// Where each side is, in reading order.
-std::vector<Box<2>> places_of(std::size_t sides, const Box<2>& area) {
+// Where each side is, in reading order. Four over a chart stand in one row, or none had height.
+std::vector<Box<2>> places_of(std::size_t sides, bool over_chart, const Box<2>& area) {
   const bool tall = area.size().x < kTallArea * area.size().y;
-  const std::size_t columns = tall ? 1 : sides == 4 ? 2 : sides;
+  const std::size_t columns = tall ? 1 : sides == 4 && !over_chart ? 2 : sides;
   std::vector<Box<2>> places;
   const std::size_t rows = (sides + columns - 1) / columns;
   for (const Box<2>& row : split(area, 1, std::vector(rows, 1.0), 20))
@@ -164,14 +165,16 @@ void draw_numbers(const Frame& frame, const Frame& side, const std::vector<SideN
 void draw_sides(const Frame& frame, const Box<2>& area, const Box<2>& foot, DrawList& list,
                 Labels& labels, const DrawSide& draw) {
   Box<2> above = area;
-  if (std::ranges::count(frame.panels, Panel::chart) > 0) {
+  const bool over_chart = std::ranges::count(frame.panels, Panel::chart) > 0;
+  if (over_chart) {
     const bool alone = frame.panels.size() == 1;
-    const double top = alone ? area.lo.y : area.hi.y - kChartShare * area.size().y;
+    const double share = frame.sides.size() == 4 ? kChartUnderFour : kChartShare;
+    const double top = alone ? area.lo.y : area.hi.y - share * area.size().y;
     draw_chart(frame, {{area.lo.x, top}, area.hi}, list, labels);
     if (alone) return;
     above.hi.y = top - 18;
   }
-  const std::vector<Box<2>> places = places_of(frame.sides.size(), above);
+  const std::vector<Box<2>> places = places_of(frame.sides.size(), over_chart, above);
   const std::vector<SideNumber> numbers = numbers_of(frame);
   for (const SideNumber& number : numbers) list.referents.insert(number.name);
   const bool own_times = std::ranges::any_of(

@@ -12,6 +12,7 @@
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
 #include "draw/tree_layout.hpp"
+#include "draw/world2d_parts.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -132,7 +133,8 @@ class TreeView {
   void draw_walk(const FrameNode& node, const Box<2>& box) {
     if (node.skipped && (node.parent == kNone || !frame_.nodes[node.parent].skipped))
       draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
-    if (node.met != kNone) draw_met(node.met, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
+    const std::uint32_t place = node.met != kNone ? node.met : node.order;
+    if (place != kNone) draw_met(place, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
   }
 
   // For notes.
@@ -312,6 +314,7 @@ class TreeView {
   // Which side of the plane a child is.
   std::string side_of(const Branch& branch) const {
     const bool behind = node_of(branch).slot == 0;
+    if (is_level(frame_)) return "";  // its lines have no names to tell them by
     if (frame_.structure == StructureKind::bsp) return behind ? "behind" : "in front";
     if (node_of(branch).parent == kNone) return "";
     const FrameNode& parent = frame_.nodes[node_of(branch).parent];

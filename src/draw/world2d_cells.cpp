@@ -50,7 +50,8 @@ bool is_no_cell(const Frame& frame, const FrameNode& node) {
 // nothing lit inside.
 std::vector<Painted> painted_of(const Frame& frame) {
   const std::vector<FrameNode>& nodes = frame.nodes;
-  const std::size_t all = children_that_cover(frame.structure);
+  // Of a level's regions only the floor is painted, not the stone between.
+  const std::size_t all = is_level(frame) ? ~std::size_t{0} : children_that_cover(frame.structure);
   std::vector<std::optional<Mark>> tone(nodes.size());        // of the whole node, if it has one
   std::vector<std::optional<Mark>> child_tone(nodes.size());  // of the children seen so far
   std::vector<std::size_t> alike(nodes.size());

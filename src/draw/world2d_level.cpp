@@ -1,11 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/keys.hpp"
 #include "draw/pen.hpp"
+#include "draw/staging.hpp"
 #include "draw/world2d_parts.hpp"
+#include "geometry/segment.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -71,6 +76,106 @@ Vec<2> centroid(const Polygon& polygon) {
   return std::abs(area) > 1e-9 ? polygon[0] + sum / (3 * area) : polygon[0];
 }
 
+// By label: where a sector's number stands, in the world.
+using SectorPlaces = std::map<std::string, Vec<2>, std::less<>>;
+
+const Vec<2> kNumberRoom{25, 20};  // half of what a number and its plate take, with some air
+const Vec<2> kNarrowRoom{15, 14};  // in a sector without that room
+
+// Places in a sector for its number, its middle first, then others the farther from it the later.
+std::vector<Vec<2>> number_places(const Polygon& region, const Vec<2>& room) {
+  constexpr int kSteps = 10;
+  const Vec<2> middle = centroid(region);
+  Box<2> box{region[0], region[0]};
+  for (const Vec<2>& corner : region) box = united(box, Box<2>{corner, corner});
+  std::vector<Vec<2>> places{middle};
+  for (int x = 1; x < kSteps; ++x)
+    for (int y = 1; y < kSteps; ++y)
+      places.push_back(box.lo + box.size() * Vec<2>(x, y) / double(kSteps));
+  std::ranges::stable_sort(places, {}, [&](const Vec<2>& p) { return glm::length(p - middle); });
+  std::erase_if(places, [&](const Vec<2>& p) { return !inside(region, Box<2>::around(p, room)); });
+  if (places.empty() && room != kNarrowRoom) return number_places(region, kNarrowRoom);
+  return places;
+}
+
+// What numbers keep clear of: bodies and, as far as they can, the links of pairs.
+class Obstacles {
+ public:
+  Obstacles(const Frame& frame, const View2D& map) {
+    if (frame.bodies.size() > kCrowd) return;
+    for (const Stand& stand : stands_of(frame, map)) bodies_.push_back(stand.box);
+    if (!frame.display.pairs) return;
+    for_each_pair(frame, by_id(frame.bodies),
+                  [&](const FrameBody& a, const FrameBody& b, const FramePair&) {
+                    links_.push_back({map.to_page(a.position), map.to_page(b.position)});
+                    return true;
+                  });
+  }
+
+  bool no_body_at(const Vec<2>& at) const {
+    return !touches(bodies_, Box<2>::around(at, kNumberRoom));
+  }
+  bool no_link_at(const Vec<2>& at) const {
+    return std::ranges::none_of(links_, [&](const Segment<2>& link) {
+      constexpr double kClear = 17;
+      const Vec<2> way = link.b - link.a;
+      const double size = glm::dot(way, way);
+      const double t = size > 0 ? std::clamp(glm::dot(at - link.a, way) / size, 0.0, 1.0) : 0;
+      return glm::length(at - link.at(t)) < kClear;
+    });
+  }
+
+ private:
+  std::vector<Box<2>> bodies_;
+  std::vector<Segment<2>> links_;
+};
+
+// Where the number of a sector may stand: on how many frames no body is there, and no link.
+struct NumberPlaces {
+  std::vector<Vec<2>> places;  // on the page
+  std::vector<std::pair<int, int>> free;
+  int frames = 0;  // that have the sector
+
+  void add(const Obstacles& obstacles) {
+    free.resize(places.size());
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      free[k].first += obstacles.no_body_at(places[k]);
+      free[k].second += obstacles.no_link_at(places[k]);
+    }
+    ++frames;
+  }
+};
+
+// The same on all frames of the group, so that no number jumps or blinks: where no body ever
+// stands, and the fewest links lie.
+const SectorPlaces& sector_places(const Staging& staging, const Box<2>& panel) {
+  return staging.once<SectorPlaces>("places of sectors", panel, [&] {
+    constexpr std::size_t kMostLookedAt = 60;  // frames of a group, here and there
+    const std::size_t all = staging.frames().size(), looked_at = std::min(all, kMostLookedAt);
+    const View2D map(flat(staging.frames()[0]->bounds), panel);
+    std::map<std::string, NumberPlaces, std::less<>> sectors;
+    for (std::size_t i = 0; i < looked_at; ++i) {
+      const Frame& frame = *staging.frames()[i * all / looked_at];
+      const Obstacles obstacles(frame, map);
+      for (const FrameNode* sector : sectors_of(frame)) {
+        if (sector->label.empty()) continue;
+        NumberPlaces& own = sectors[sector->label];
+        if (own.frames == 0) own.places = number_places(page_region(*sector, map), kNumberRoom);
+        own.add(obstacles);
+      }
+    }
+    SectorPlaces places;
+    for (const auto& [label, own] : sectors) {
+      const auto best = std::ranges::max_element(own.free);
+      if (best == own.free.end() || best->first < own.frames) continue;
+      const Vec<2> from_origin =
+          own.places[static_cast<std::size_t>(best - own.free.begin())] - map.to_page(Vec<2>(0.0));
+      places[label] = Vec<2>(from_origin.x, -from_origin.y) / map.scale();
+    }
+    return places;
+  });
+}
+
 // Short strokes across the wall where it was cut in two.
 void draw_cuts(const Frame& frame, const View2D& map, Pen& pen) {
   const auto drawn = first_of(frame.walls, kMostWalls);
@@ -109,7 +214,8 @@ void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds
   Pen pen(list, map.picture());
   for (std::size_t i = 0; i < sectors.size(); ++i) {
     if (sectors[i]->mark != Mark::quiet) continue;  // painted as lit or passed
-    const Role role = sectors[i]->solid ? Role::free_space : sector_role(tones[i]);
+    const bool left_out = sectors[i]->solid || sectors[i]->unseen;
+    const Role role = left_out ? Role::free_space : sector_role(tones[i]);
     pen.polygon(regions[i], role);
     grounds.push_back({regions[i], role});
   }
@@ -117,20 +223,45 @@ void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds
     if (sectors[i]->solid) pen.hatch(regions[i], 13, 1, {Role::cell_line_3, 1.5}, 60);
 }
 
-void number_sectors(const Frame& frame, const View2D& map, const Grounds& grounds, Labels& labels) {
+void number_sectors(const Frame& frame, const Staging& staging, const View2D& map,
+                    const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
+                    Labels& labels) {
+  if (!is_level(frame)) return;
+  const SectorPlaces& places = sector_places(staging, map.panel());
   for (const FrameNode* sector : sectors_of(frame)) {
-    if (sector->order == kNone) continue;
-    const Polygon region = page_region(*sector, map);
-    const Vec<2> c = centroid(region);
-    TextStyle style{30, Weight::semibold, Role::ink};
-    const std::string number = fmt::format("{}", sector->order + 1);
-    for (const double size : {34.0, 26.0, 20.0}) {
-      style.size = size;
-      const Anchor anchor = centred(c, style);
-      const Box<2> box = shrunk(Labels::extent(number, anchor, style), -2);
-      style.halo = ground_at(grounds, c);
-      if (inside(region, box) && labels.try_add(number, {anchor}, style, map.picture())) break;
-    }
+    const auto found = places.find(sector->label);
+    if (found == places.end()) continue;
+    const Vec<2> at = map.to_page(found->second);
+    if (touches(bodies, Box<2>::around(at, kNarrowRoom))) continue;
+    const auto node = static_cast<std::uint32_t>(sector - frame.nodes.data());
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, node));
+    if (sector->order != kNone && draw_met(sector->order, at, map.picture(), list, labels))
+      continue;
+    TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};
+    if (sector->mark == Mark::lit) style.role = Role::lit_ink;
+    style.halo = ground_at(grounds, at);
+    labels.try_add(sector->label, {centred(at, style)}, style, map.picture());
+  }
+  list.referents.insert({"sectors", "sector"});
+}
+
+void draw_portals(const Frame& frame, const View2D& map, DrawList& list) {
+  Pen pen(list, mark_limit(map));
+  for (const FramePortal& portal : first_of(frame.portals, kMostWalls)) {
+    const auto at = static_cast<std::size_t>(&portal - frame.portals.data());
+    const DrawList::Scope scope(list, fmt::format("world/portal/{}", at));
+    draw_portal(map.to_page(portal.from), map.to_page(portal.to), pen);
+    list.marks.add(MarkKind::portal);
+  }
+  if (!frame.portals.empty()) list.referents.emplace("portals");
+}
+
+void draw_sights(const Frame& frame, const View2D& map, DrawList& list) {
+  Pen pen(list, mark_limit(map));
+  for (const FrameSight& sight : first_of(frame.sights, kMostSectors)) {
+    const DrawList::Scope scope(list, fmt::format("world/sight/{}-{}", sight.a, sight.b));
+    draw_sight(map.to_page(sight.from), map.to_page(sight.to), pen);
+    list.marks.add(MarkKind::sight);
   }
 }
 

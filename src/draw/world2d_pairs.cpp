@@ -138,6 +138,11 @@ int weight_of(const LinkLook& look) {
   return kOrder[static_cast<std::size_t>(look.state)];
 }
 
+// The step is not about these bodies, nor about their pairs.
+bool is_ruled_out(const Stand& stand) {
+  return std::ranges::all_of(stand.bodies, [](const FrameBody* body) { return body->dimmed; });
+}
+
 }  // namespace
 
 PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const View2D& map) {
@@ -167,6 +172,7 @@ PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const V
       found.links.back().look = look;
       found.links.back().key = pair_key("world/pair", *stands[stand].bodies.front(), ground);
     } else {
+      if (is_ruled_out(stands[a->second]) || is_ruled_out(stands[b->second])) continue;
       const auto [at, is_new] =
           seen.try_emplace(std::minmax<std::uint64_t>(a->second, b->second), found.links.size());
       if (is_new) {

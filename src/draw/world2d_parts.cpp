@@ -257,7 +257,8 @@ void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
       std::ranges::any_of(frame.nodes, [](const FrameNode& node) { return !node.of_static; });
   std::vector<const FrameNode*> leaves;
   for (const FrameNode& node : frame.nodes)
-    if (node.leaf && !node.label.empty() && !(node.of_static && dynamic) && shows_id(staging, node))
+    if (node.leaf && !node.label.empty() && !(node.of_static && dynamic) && !is_level(frame) &&
+        shows_id(staging, node))
       leaves.push_back(&node);
   std::ranges::stable_sort(leaves, {}, &FrameNode::depth);
   if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);

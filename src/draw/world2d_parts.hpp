@@ -127,8 +127,14 @@ void draw_walls(const Frame& frame, const View2D& map, DrawList& list);
 // A level's sectors: neighbours in different tones, solid ones hatched.
 bool is_level(const Frame& frame);
 void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds);
-// The places of sectors in the order from the eye.
-void number_sectors(const Frame& frame, const View2D& map, const Grounds& grounds, Labels& labels);
+// The sectors' numbers, or their places in the order from the eye: on all frames of a group at the
+// same places, where on none of them a body stands; none where one of `bodies` does.
+void number_sectors(const Frame& frame, const Staging& staging, const View2D& map,
+                    const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
+                    Labels& labels);
+// Openings between sectors, and lines of sight.
+void draw_portals(const Frame& frame, const View2D& map, DrawList& list);
+void draw_sights(const Frame& frame, const View2D& map, DrawList& list);
 
 // Where marks may be drawn: the bounds and a little beyond.
 inline Box<2> mark_limit(const View2D& map) { return shrunk(map.picture(), -8); }

@@ -162,6 +162,12 @@ void add_contacts(const Frame& frame, const Marks& marks, LeftOut& left_out, Dra
     left_out.push_back("not all contacts are drawn");
 }
 
+// Whose eye it is then.
+bool is_in_a_body(const Frame& frame, const Vec<2>& eye) {
+  return std::ranges::any_of(frame.bodies,
+                             [&](const FrameBody& body) { return contains(flat(body.box), eye); });
+}
+
 // What lies over the bodies.
 void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawList& list,
                 Labels& labels) {
@@ -178,7 +184,7 @@ void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawLi
   mark_forces(frame, marks);
   write_forces(frame, map, labels);
   mark_rulers(frame, marks, labels);
-  if (frame.eye) {
+  if (frame.eye && !is_in_a_body(frame, *frame.eye)) {
     const Vec<2> eye = map.to_page(*frame.eye);
     draw_eye(eye, {1, 0}, Role::ink, shrunk(map.picture(), -20), list);
     labels.block(Box<2>::around(eye, {24, 18}));
@@ -267,7 +273,9 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   LeftOut left_out;
   if (!draw_cells(frame, map, list, grounds))
     left_out.push_back("the smallest cells are not drawn");
+  draw_portals(frame, map, list);
   draw_walls(frame, map, list);
+  draw_sights(frame, map, list);
   if (frame.bodies.size() > kCrowd) {
     const std::size_t marks = draw_crowd(frame, map, list);
     left_out.push_back(fmt::format("{} bodies as {} marks", frame.bodies.size(), marks));
@@ -304,7 +312,7 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   write_depths(frame, map, covered, labels);
   draw_coordinates(frame, map, list, labels);
   mark_walk(frame, map, covered, list, labels);
-  number_sectors(frame, map, grounds, labels);
+  number_sectors(frame, staging, map, covered, grounds, list, labels);
   label_cells(frame, staging, map, covered, grounds, list, labels);
   name_half_spaces(frame, ground, map, grounds, labels);
   name_bodies(frame, stands, covered, name_sides(staging, map.panel()), map, grounds, labels);

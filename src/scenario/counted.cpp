@@ -57,6 +57,17 @@ std::string why_not_in(const StructureSpec& structure, CountNeed need,
   return {};
 }
 
+// Of a level, at this step.
+std::string why_not_in_level(CountNeed need, const ScenarioSpec& scenario,
+                             const ScriptState& state) {
+  if (!scenario.level) return "the scenario has no [level]";
+  if (!state.compiled) return "no step has compiled the level yet";
+  if (need == CountNeed::located && !state.located) return "no step has located a point yet";
+  if (need == CountNeed::sighted && !state.sighted) return "no step has asked who sees whom yet";
+  if (need == CountNeed::eyed && !state.eyed) return "no eye has looked yet";
+  return {};
+}
+
 // Of a world, at this step.
 std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState& state) {
   const ScenarioSpec& s = draft.scenario;
@@ -95,16 +106,16 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
       return state.rows_compared > 0 ? "" : "no step has compared structures yet";
     case CountNeed::compiled:
     case CountNeed::located:
-      if (!s.level) return "the scenario has no [level]";
-      if (need == CountNeed::compiled)
-        return state.compiled ? "" : "no step has compiled the level yet";
-      return state.located ? "" : "no step has located a point yet";
+    case CountNeed::sighted:
+    case CountNeed::eyed:
+      return why_not_in_level(need, s, state);
   }
   return {};
 }
 
 bool is_of_level(CountNeed need) {
-  return need == CountNeed::compiled || need == CountNeed::located;
+  return need == CountNeed::compiled || need == CountNeed::located || need == CountNeed::sighted ||
+         need == CountNeed::eyed;
 }
 
 constexpr std::size_t kMostNoted = 64;  // each costs time on every frame

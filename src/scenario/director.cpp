@@ -80,6 +80,9 @@ void ScriptRun::play(const Step& step, std::uint32_t index) {
   frames.begin(step, index);
   if (watch) watch->begin(step);
   if (stage.engine) engine().forget_events();
+  if (const VerbTraits& verb = traits_of(step.verb);
+      stage.level && (verb.changes_bodies || verb.passes_time))
+    stage.level->put_away_answers();
   try {
     std::visit([&](const auto& verb) { act(verb, *this); }, step.verb);
   } catch (const Refused& refused) {

@@ -211,6 +211,7 @@ class EngineOf : public Engine {
     frame.counts.emplace_back("bodies", frame.bodies.size());
     frame.may_sleep = scenario_.world.may_sleep;
     picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, frame);
+    count_tests(frame);
     work_.pair_searches += has_structure();
     work_.pairs_found += frame.pairs.size();
     count_builds();
@@ -253,6 +254,21 @@ class EngineOf : public Engine {
     work_.structure_builds += now.dynamic_builds - builds_.dynamic_builds;
     work_.static_builds += now.static_builds - builds_.static_builds;
     builds_ = now;
+  }
+
+  // Of the builds since the frame before, the one that this frame shows; while bodies are on their
+  // way into it, it is not done.
+  void count_tests(Frame& frame) {
+    if (!has_structure() || !frame.count("box_tests")) return;
+    const BroadPhaseCounters& now = world().broad_phase()->counters();
+    untold_build_ |=
+        now.dynamic_builds != builds_.dynamic_builds || now.static_builds != builds_.static_builds;
+    if (untold_build_ && !being_stored_) {
+      tests_so_far_ +=
+          static_cast<std::uint64_t>(*frame.count("box_tests") + *frame.count("pair_tests"));
+      untold_build_ = false;
+    }
+    frame.add_count("tests_so_far", tests_so_far_);
   }
 
   // For the next step; what looks ahead must know where bodies are going.
@@ -324,6 +340,8 @@ class EngineOf : public Engine {
   WorldWork last_;                             // what the last step did
   std::optional<CollisionLog> collision_log_;  // if a panel shows it
   BroadPhaseCounters builds_;                  // of them, what is counted
+  std::uint64_t tests_so_far_ = 0;             // to find pairs
+  bool untold_build_ = false;                  // its tests are not among them yet
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
   std::uint64_t all_begins_ = 0;  // since the world began

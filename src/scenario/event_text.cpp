@@ -6,6 +6,7 @@ namespace lantern::scenario {
 namespace {
 
 std::string place_of(const std::string& node) {
+  if (node.empty()) return "an inner node";
   return node == "root" ? "the root" : "node " + node;
 }
 

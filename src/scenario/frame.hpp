@@ -68,6 +68,7 @@ struct FrameNode {
   Polygon region;               // a flat BSP's, cut to the world's bounds; otherwise empty
   bool solid = false;           // a level's sector that lies behind walls
   std::uint32_t order = kNone;  // a level's sector: its place in the order from the eye, from 0
+  bool unseen = false;          // a level's sector that the eye's sector cannot see
   bool leaf = true;
   bool awake = true;
   std::vector<BodyId> bodies;       // a leaf's, ascending; of an atlas, textures
@@ -247,6 +248,22 @@ struct FrameWall {
   Mark mark = Mark::quiet;
 };
 
+// An opening between two of a level's sectors, and a line of sight between two that see each other.
+struct FramePortal {
+  Vec<2> from{0.0};
+  Vec<2> to{0.0};
+  std::uint32_t a = 0;  // the sectors' nodes, of frame.nodes
+  std::uint32_t b = 0;
+};
+using FrameSight = FramePortal;
+
+// Who sees whom of a level's sectors.
+struct FrameMatrix {
+  std::vector<std::string>
+      rows;                   // a letter for each sector: '1' is seen, '0' is not, '.' not known
+  std::uint32_t lit = kNone;  // the row that is asked for, or has just been found
+};
+
 // A line of a chart: what one count was against another, step by step.
 struct FrameSeries {
   std::string name;            // of the count or measure, or of the body it is of
@@ -401,6 +418,9 @@ struct Frame {
   std::optional<FrameDifference> difference;  // if a panel shows it
   std::vector<FrameWall> walls;
   std::optional<Vec<2>> eye;                  // where a level is looked at from
+  std::vector<FramePortal> portals;           // of a level, once a step asked who sees whom
+  std::vector<FrameSight> sights;             // of the sector whose view has just been found
+  FrameMatrix matrix;                         // if a panel shows it
   std::optional<WorldWork> since_last_frame;  // of its steps, summed up; none if there was none
   FrameChart chart;
   FrameComparison comparison;  // if the panel shows it

@@ -60,6 +60,9 @@ class FrameWriter {
     if (!frame.queries.empty()) write_list("queries", frame.queries);
     if (whole_way_) write_narrow(frame);
     if (!frame.walls.empty()) write_list("walls", frame.walls);
+    if (!frame.portals.empty()) write_list("portals", frame.portals);
+    if (!frame.sights.empty()) write_list("sights", frame.sights);
+    if (!frame.matrix.rows.empty()) lines("matrix", frame.matrix.rows);
     if (!frame.textures.empty()) write_list("textures", frame.textures);
     if (!frame.comparison.rows.empty()) write_list("comparison", frame.comparison.rows);
     if (frame.code) lines("code", *frame.code);
@@ -225,6 +228,7 @@ class FrameWriter {
     if (node.of_static) members("of_static", true);
     if (node.solid) members("solid", true);
     if (node.order != kNone) members("order", node.order);
+    if (node.unseen) members("unseen", true);
     if (node.met != kNone) members("met", node.met);
     if (node.skipped) members("skipped", true);
     members("awake", node.awake);
@@ -286,6 +290,10 @@ class FrameWriter {
   void write(const FrameComparison::Row& row) {
     object("row", row.name, "answer", row.answer, "bodies", row.bodies, "testable_pairs",
            row.testable, "kinds", row.cells);
+  }
+
+  void write(const FramePortal& p) {
+    object("from", p.from, "to", p.to, "nodes", std::vector{p.a, p.b});
   }
 
   void write(const FrameTexture& t) {

@@ -157,7 +157,8 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
     if (!std::isfinite(number)) throw Refused(fmt::format("the measure '{}' overflows", name));
-  if (stage_.level) stage_.level->picture(frame);
+  if (stage_.level)
+    stage_.level->picture(stage_.engine && stage_.engine->structure().of_level, frame);
   if (stage_.atlas) stage_.atlas->picture(now, frame);
   frame.hash = state_hash(frame);
   add_finding(frame);

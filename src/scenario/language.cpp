@@ -48,7 +48,8 @@ TableDoc file_table() {
           "of the lecture, one function of it. Of a `lecture_quadtree` the `memory` and the `pool` "
           "show what it allocates piece by piece. "
           "The `islands` are a graph: a dot for each body, where it is in the world, and a line "
-          "for each contact, spring and joint; what hangs together lies on one ground.",
+          "for each contact, spring and joint; what hangs together lies on one ground. The "
+          "`matrix` of a level's sectors has a square for each two: who sees whom.",
           or_else("what the scenario uses")),
       key(KeyType::table, "display", "What frames show.", holds("display")),
       key(KeyType::texts, "headline",

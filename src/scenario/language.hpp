@@ -166,6 +166,8 @@ enum class CountNeed {
   searched,   // their distance was searched for
   compiled,   // the level was
   located,    // a point of the level was
+  sighted,    // which of its sectors see which was found
+  eyed,       // an eye looked, in one of them
   atlas,
   room,      // of an atlas: it was asked for room
   compared,  // bodies were

@@ -20,12 +20,13 @@ LevelStage::LevelStage(const Scenario& scenario)
       bounds_(flat(scenario.world.bounds)),
       walls_(walls_of_loops(spec_.loops)) {}
 
-void LevelStage::compile(const std::function<void(const LevelMoment&)>& watch) {
+void LevelStage::compile(const Watch& watch) {
   LevelConfig config;
   config.balance_weight = spec_.balance;
   config.cut_weight = spec_.cuts;
   if (spec_.first_wall) config.choose = LevelConfig::Choose::first_wall;
-  forget_questions();
+  place_.reset();
+  put_away_answers();
   const auto observer = [&](const LevelBsp& level, const LevelEvent& event) {
     using Kind = LevelEvent::Kind;
     if (event.kind == Kind::candidate || event.kind == Kind::divide) return;
@@ -36,6 +37,8 @@ void LevelStage::compile(const std::function<void(const LevelMoment&)>& watch) {
     watch({kNames[static_cast<int>(event.kind)], told(level, event)});
   };
   level_.reset();
+  visibility_.reset();
+  seen_ = nullptr;
   try {
     LevelBsp made = compile_level(walls_, bounds_, config, observer);
     level_.emplace(std::move(made));
@@ -44,6 +47,7 @@ void LevelStage::compile(const std::function<void(const LevelMoment&)>& watch) {
     throw;
   }
   current_ = &*level_;
+  side_tests_ += level_->counters().side_tests;
   lit_node_ = lit_wall_ = kNone;
 }
 
@@ -77,103 +81,87 @@ const LevelBsp& LevelStage::compiled() const {
   return *level_;
 }
 
-void LevelStage::forget_questions() {
+void LevelStage::put_away_answers() {
+  shown_ = Answer::none;
   order_.clear();
-  place_.reset();
   eye_.reset();
 }
 
 void LevelStage::locate(const Vec<2>& point) {
-  order_.clear();
+  put_away_answers();
   place_ = compiled().locate(point);
   eye_ = point;
+  shown_ = Answer::place;
 }
 
 void LevelStage::order_from(const Vec<2>& eye) {
   locate(eye);  // its sector is the first
+  shown_ = Answer::order;
   compiled().front_to_back(eye, [&](std::uint32_t sector) {
     order_.push_back(sector);
     return true;
   });
 }
 
-void LevelStage::picture_walls(Frame& frame) const {
-  for (std::uint32_t i = 0; i < walls_.size(); ++i)
-    frame.walls.push_back(
-        {walls_[i].line.a, walls_[i].line.b, i, kNone, i == lit_wall_ ? Mark::lit : Mark::quiet});
+void LevelStage::see(const std::optional<Vec<2>>& eye, const Watch& watch) {
+  const LevelBsp& level = compiled();
+  put_away_answers();
+  if (!visibility_) {
+    const auto observer = [&](const LevelVisibility& so_far) {
+      seen_ = &so_far;
+      viewer_ = so_far.done() == 0 ? kNone : so_far.done() - 1;
+      watch({viewer_ == kNone ? "portals" : "row", told(so_far)});
+    };
+    try {
+      visibility_.emplace(find_visibility(level, {}, observer));
+    } catch (...) {
+      seen_ = nullptr;
+      throw;
+    }
+    seen_ = &*visibility_;
+    viewer_ = kNone;
+  }
+  if (!eye) return;
+  locate(*eye);
+  if (!place_)
+    throw Refused(fmt::format("the eye [{}, {}] lies outside of the world", eye->x, eye->y));
+  shown_ = Answer::sights;
 }
 
-void LevelStage::picture_nodes(const LevelBsp& level, Frame& frame) const {
-  const auto first = static_cast<std::uint32_t>(frame.nodes.size());  // after the bodies' tree
-  std::vector<std::uint32_t> node_of(level.nodes().size(), kNone);
-  level.visit([&](const LevelNodeView& view) {
-    node_of[view.handle] = first + view.id;
-    FrameNode node;
-    node.id = first + view.id;
-    node.parent = view.parent == kNone ? kNone : first + view.parent;
-    node.slot = view.slot;
-    node.depth = view.depth;
-    node.leaf = view.leaf;
-    node.region = *view.region;
-    node.box = frame.bounds;
-    if (!node.region.empty()) {
-      Box<2> box{node.region[0], node.region[0]};
-      for (const Vec<2>& corner : node.region) box = united(box, Box<2>{corner, corner});
-      node.box = solid(box);
-    }
-    if (view.plane) node.plane = solid(*view.plane);
-    if (view.sector != kNone) {
-      node.label = fmt::format("{}", view.sector + 1);
-      node.region = level.sectors()[view.sector].floor;
-      const auto at = std::find(order_.begin(), order_.end(), view.sector);
-      if (at != order_.end()) node.order = static_cast<std::uint32_t>(at - order_.begin());
-      if (place_ && place_->sector == view.sector) node.mark = Mark::lit;
-    } else if (view.parent == kNone) {
-      node.label = "root";
-    }
-    if (view.handle == lit_node_) node.mark = Mark::lit;
-    frame.nodes.push_back(std::move(node));
+std::string LevelStage::told(const LevelVisibility& seen) const {
+  if (viewer_ == kNone)
+    return fmt::format("{} between the sectors: what is no wall can be looked through.",
+                       counted(seen.portals().size(), "portal"));
+  std::uint32_t others = 0;
+  for (std::uint32_t s = 0; s < seen.sectors(); ++s)
+    others += s != viewer_ && seen.sees(viewer_, s);
+  return fmt::format(
+      "Sector {} looks through one portal after another, as long as one straight line passes all. "
+      "It sees {} of {}.",
+      viewer_ + 1, others, counted(seen.sectors() - 1, "other"));
+}
+
+StructureSpec LevelStage::structure() const {
+  StructureSpec spec;
+  spec.kind = StructureKind::bsp;
+  spec.of_level = true;
+  std::vector<std::string> ways;  // from the root, by id
+  compiled().visit([&](const LevelNodeView& view) {
+    std::string way;
+    if (view.parent != kNone)
+      way = ways[view.parent] + (ways[view.parent].empty() ? "" : ".") +
+            (view.slot == 1 ? "front" : "back");
+    if (view.plane)
+      spec.planes.push_back({"",
+                             solid(view.plane->normal * view.plane->offset),
+                             solid(view.plane->normal),
+                             way.empty() ? "root" : way,
+                             {}});
+    spec.sectors.push_back(view.sector);
+    ways.push_back(std::move(way));
     return true;
   });
-  // The way down to a place.
-  for (std::size_t i = frame.nodes.size(); place_ && i-- > first + 1;)
-    if (frame.nodes[i].mark != Mark::quiet) frame.nodes[frame.nodes[i].parent].mark = Mark::passed;
-  for (const WallPiece& piece : level.pieces()) {
-    const NodeHandle node = piece.sector != kNone ? level.sectors()[piece.sector].node : piece.node;
-    frame.walls.push_back({piece.line.a, piece.line.b, piece.wall,
-                           node == kNone ? kNone : node_of[node],
-                           piece.wall == lit_wall_ ? Mark::lit : Mark::quiet});
-  }
-}
-
-void LevelStage::picture_counts(const LevelBsp& level, Frame& frame) const {
-  const LevelCounters c = level.counters();
-  if (!frame.count("nodes")) {  // of the bodies' tree, if there is one
-    std::uint64_t leaves = 0;
-    for (const FrameNode& node : frame.nodes) leaves += node.leaf;
-    frame.add_count("nodes", c.nodes);
-    frame.add_count("leaves", leaves);
-    frame.add_count("depth", c.depth);
-  }
-  frame.add_count("walls", c.walls);
-  frame.add_count("wall_pieces", c.pieces);
-  frame.add_count("sectors", c.sectors);
-  frame.add_count("cuts", c.cuts);
-  const LevelNode& root = level.nodes()[0];
-  if (!root.is_leaf()) {
-    frame.add_count("plane_score", static_cast<std::uint64_t>(root.chosen.score));
-    frame.add_count("first_wall_score", static_cast<std::uint64_t>(root.first.score));
-  }
-  if (!place_) return;
-  frame.add_count("sector", place_->sector + 1);
-  frame.add_count("planes_tested", place_->nodes_visited - 1);
-}
-
-void LevelStage::picture(Frame& frame) const {
-  frame.eye = eye_;
-  if (!current_) return picture_walls(frame);
-  picture_nodes(*current_, frame);
-  picture_counts(*current_, frame);
+  return spec;
 }
 
 }  // namespace lantern::scenario

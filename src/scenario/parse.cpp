@@ -75,6 +75,7 @@ void check_panels(const TableReader& file, Draft& draft) {
     };
   };
   const bool structure =
+      (compiles_level(s) && !s.bodies.empty()) ||
       some_structure([](const StructureSpec& of) { return of.kind != StructureKind::none; });
   const bool array = some_structure(has(&StructureTraits::shares_array));
   const bool pieces = some_structure(has(&StructureTraits::is_plain));
@@ -83,6 +84,7 @@ void check_panels(const TableReader& file, Draft& draft) {
   const bool code =
       std::ranges::any_of(s.steps, [](const Step& step) { return step.code.has_value(); });
   const bool remembers = s.world.contacts == ContactMethod::lecture;
+  const bool sees = s.level && some_step<See>(s, [](const See&) { return true; });
   const std::pair<bool, const char*> possible[] = {
       // by Panel
       {draft.has_world, "it needs a [world]"},
@@ -102,7 +104,8 @@ void check_panels(const TableReader& file, Draft& draft) {
       {s.world_steps > 0 && (s.has_contacts() || !s.links.empty()),
        "it needs a step that runs, and contacts, springs or joints that hold bodies together"},
       {code, "it needs a step with 'code'"},
-      {remembers, "it needs [world] contacts = \"lecture\", which remembers them"}};
+      {remembers, "it needs [world] contacts = \"lecture\", which remembers them"},
+      {sees, "it needs a [level] and a step with do = \"see\""}};
   std::size_t i = 0;
   for (const Named& written : file.names("panels")) {
     const auto panel = static_cast<std::size_t>(s.panels[i++]);

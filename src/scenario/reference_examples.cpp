@@ -200,7 +200,7 @@ seconds = 2
 
 bool is_of_atlas(std::string_view verb) { return verb == "pack" || verb == "ask_room"; }
 bool is_of_level(std::string_view verb) {
-  return verb == "compile" || verb == "locate" || verb == "order";
+  return verb == "compile" || verb == "locate" || verb == "order" || verb == "see";
 }
 
 // The panel alone, in a scenario that has it.
@@ -221,6 +221,12 @@ std::string panel_example(Panel panel) {
            "\n[[step]]\ndo = \"show\"\ncode = { function = \"Insert\", line = \"Split();\" }\n";
   if (panel == Panel::collisions) return only + std::string(kCollisionsExample);
   if (panel == Panel::chart) return only + std::string(kChartExample);
+  if (panel == Panel::matrix) {
+    std::string text = only + std::string(kLevelExample);
+    for (const TableDoc& verb : language_verbs())
+      if (verb.name == "see") text += fmt::format("\n{}", verb.example);
+    return text;
+  }
   if (panel != Panel::atlas) return only + std::string(kWorldExample);
   for (const TableDoc& verb : language_verbs())
     if (verb.name == "pack") return fmt::format("{}{}\n{}", only, kAtlasExample, verb.example);
@@ -236,14 +242,15 @@ std::string_view map_example() { return kMapExample; }
 std::string_view chart_example() { return kChartExample; }
 
 std::string looks_example() {
-  std::string text = "title = \"Who a body can look like\"\nworld = { size = [12, 6] }\nbody = [\n";
+  std::string text = "title = \"Who a body can look like\"\nworld = { size = [16, 6] }\nbody = [\n";
   int index = 0;
   for (const std::string_view look : names(Look())) {
-    const bool is_box = look == "ghost" || look == "bat" || look == "box" || look == "person";
+    const bool is_box = look == "ghost" || look == "bat" || look == "box" || look == "person" ||
+                        look == "demon" || look == "item";
     text += fmt::format(
         "  {{ name = \"{0}\", look = \"{0}\", {1}, position = [{2}, {3}], color = {4} }},\n", look,
-        is_box ? "half_size = [0.9, 0.9]" : "radius = 0.9", 1.5 + 3 * (index % 4),
-        index < 4 ? 4.3 : 1.5, 1 + index % 8);
+        is_box ? "half_size = [0.9, 0.9]" : "radius = 0.9", 1.5 + 2.5 * (index % 5),
+        index < 5 ? 4.3 : 1.5, 1 + index % 8);
     ++index;
   }
   text += "]\n\n[[step]]\ndo = \"insert\"\nbodies = [";

@@ -23,6 +23,8 @@ struct ScriptState {
   bool compiled = false;       // the level
   bool located = false;        // a point in it
   std::size_t rows_compared = 0;
+  bool sighted = false;      // its sectors: who sees whom
+  bool eyed = false;         // an eye looked
   bool has_plot = false;     // some step adds to the chart
   std::uint64_t frames = 0;  // in step pace
   std::uint64_t ticks = 0;   // world steps at most, and at least

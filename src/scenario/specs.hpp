@@ -37,10 +37,11 @@ enum class Panel {
   comparison,
   islands,
   code,
-  collisions
+  collisions,
+  matrix
 };
 enum class Pace { step, event };
-enum class Look { ghost, player, ball, bat, disc, box, person };
+enum class Look { ghost, player, ball, bat, disc, box, person, demon, item };
 enum class Brain { none, follow, wander };  // who steers a body
 
 // What is legal in a scenario and surely not meant; found while it runs (see warnings.hpp).
@@ -105,7 +106,9 @@ struct StructureSpec {
   bool open = false;              // of a grid
   double margin = 0;              // aabb_tree only
   std::vector<PlaneSpec> planes;  // bsp only; a plane's parent stands before it
-  std::string why;                // the kind, if it was left to the bodies
+  bool of_level = false;          // bsp only: its planes are the compiled level's
+  std::vector<std::uint32_t> sectors;  // of its nodes, in the order of visiting; kNone: inner ones
+  std::string why;                     // the kind, if it was left to the bodies
   SourcePosition where;
 };
 
@@ -296,12 +299,16 @@ inline EnumNames names(StructureKind) {
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
-  return {"world",  "tree",       "atlas",   "chart",     "memory",
-          "ledger", "pool",       "bytes",   "sparkline", "difference",
-          "axes",   "comparison", "islands", "code",      "collisions"};
+  return {"world",   "tree",  "atlas",      "chart",      "memory", "ledger",
+          "pool",    "bytes", "sparkline",  "difference", "axes",   "comparison",
+          "islands", "code",  "collisions", "matrix"};
 }
 inline EnumNames names(Pace) { return {"step", "event"}; }
-inline EnumNames names(Look) { return {"ghost", "player", "ball", "bat", "disc", "box", "person"}; }
+inline EnumNames names(Look) {
+  return {"ghost", "player", "ball", "bat", "disc", "box", "person"};
+  , "box", "demon", "item"
+};
+}
 inline EnumNames names(Warning) {
   return {"view", "outside", "contacts", "joints", "energy", "through", "crush"};
 }

@@ -46,6 +46,14 @@ std::string child_label(const StructureSpec& spec, const std::string& parent, st
   return parent == "root" ? way : parent + "." + way;
 }
 
+// A node of a compiled level, by its place in the order of visiting: a leaf has its sector's
+// number.
+std::string level_label(const StructureSpec& spec, std::uint32_t id) {
+  const std::uint32_t sector = spec.sectors.at(id);
+  if (sector != kNone) return fmt::format("{}", sector + 1);
+  return id == 0 ? "root" : "";
+}
+
 // "spatial hash, cells of 4, 3 levels"
 std::string grid_text(const StructureSpec& s) {
   return fmt::format("{}cells {}{}", s.open ? "spatial hash, " : "",
@@ -65,10 +73,9 @@ std::string settings_text(const StructureSpec& s, int sweep_axis) {
                        split);
   if (s.kind == StructureKind::grid) return grid_text(s) + split;
   if (s.kind == StructureKind::aabb_tree)
-    return fmt::format("a leaf for each body, {}{}",
-                       s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin)
-                                    : "boxes not enlarged",
-                       split);
+    return fmt::format(
+        "a leaf for each body, {}{}",
+        s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin) : "boxes not enlarged", split);
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
   if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
@@ -166,7 +173,10 @@ class NodePicture {
     node.bodies.assign(view.bodies.begin(), view.bodies.end());
     node.label = "root";
     const FrameNode* parent = node.parent == kNone ? nullptr : &frame_.nodes[node.parent];
-    if (parent) node.label = child_label(spec_, parent->label, view.slot, view.leaf);
+    if (spec_.of_level)
+      node.label = level_label(spec_, view.id);
+    else if (parent)
+      node.label = child_label(spec_, parent->label, view.slot, view.leaf);
     if (view.plane) node.plane = solid(*view.plane);
     if (spec_.kind == StructureKind::bsp) place_in_bsp(node, parent);
     // What is no tree has no cells: its one node is the whole world.
@@ -178,7 +188,7 @@ class NodePicture {
   // A flat BSP's region is cut from its parent's.
   void place_in_bsp(FrameNode& node, const FrameNode* parent) const {
     for (const PlaneSpec& p : spec_.planes)
-      if (node.plane && p.at == node.label) node.plane_name = p.name;
+      if (node.plane && !spec_.of_level && p.at == node.label) node.plane_name = p.name;
     if constexpr (D == 2) {
       node.region = parent ? clipped(parent->region, flat(*parent->plane), node.slot == 1)
                            : polygon_of(flat(frame_.bounds));
@@ -268,7 +278,8 @@ std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, 
     labels.clear();
     if (found.empty())
       tree.visit([&](const NodeView<D>& node) {
-        labels.push_back(node.parent == kNone
+        labels.push_back(spec.of_level ? level_label(spec, node.id)
+                         : node.parent == kNone
                              ? "root"
                              : child_label(spec, labels[node.parent], node.slot, node.leaf));
         if (node.handle == handle && found.empty()) found = labels.back();

@@ -140,7 +140,12 @@ expect = { nodes = 5 }
 }
 
 void Rebuild::read(const TableReader& table, ScriptReading& script) {
-  structure = script.state.structure = read_structure(table, script.state.structure, script.draft);
+  StructureSpec& now = script.state.structure;
+  if (now.of_level && !table.has("kind"))
+    return table.bad_value("do", "the compiled level holds the bodies, and takes no other settings",
+                           "add the kind of another structure, as kind = \"quadtree\"");
+  now.of_level = false;
+  structure = now = read_structure(table, now, script.draft);
 }
 
 void Rebuild::act(ScriptRun& run) const {

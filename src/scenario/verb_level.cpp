@@ -1,4 +1,4 @@
-// `compile`, `locate` and `order`: a level's BSP.
+// `compile`, `locate`, `order` and `see`: a level's BSP, and who sees whom in it.
 #include <fmt/format.h>
 
 #include "scenario/key.hpp"
@@ -24,7 +24,10 @@ KeyDoc point_key(Vec<2> V::*member, std::string_view name, std::string_view mean
 }  // namespace
 
 TableDoc CompileLevel::table() {
-  return {.doc = "The level's walls become a BSP, whose leaves are the sectors.",
+  return {.doc =
+              "The level's walls become a BSP, whose leaves are the sectors. Bodies of a scenario "
+              "without a [structure] lie in it from then on, each in every sector that its box "
+              "reaches.",
           .keys = {pace_key(), events_key({"consider", "choose", "cut", "sector"})},
           .example = R"([[step]]
 do = "compile"
@@ -35,7 +38,14 @@ expect = { walls = 8 }
 )"};
 }
 
-void CompileLevel::read(const TableReader&, ScriptReading& script) { script.state.compiled = true; }
+void CompileLevel::read(const TableReader&, ScriptReading& script) {
+  script.state.compiled = true;
+  script.state.located = script.state.sighted = script.state.eyed = false;
+  StructureSpec& structure = script.state.structure;
+  if (script.draft.bodies.empty() || structure.kind != StructureKind::none) return;
+  structure.kind = StructureKind::bsp;
+  structure.of_level = true;
+}
 
 void CompileLevel::act(ScriptRun& run) const {
   FrameMaker& frames = run.frames;
@@ -43,6 +53,11 @@ void CompileLevel::act(ScriptRun& run) const {
     if (!frames.stopped() && frames.by_event() && frames.wanted(moment.event))
       frames.emit({}, moment.event, moment.text);
   });
+  if (run.stage.engine) {
+    const StructureSpec& structure = run.engine().structure();
+    if (structure.of_level || structure.kind == StructureKind::none)
+      run.engine().rebuild_as(run.stage.level->structure());
+  }
   frames.settle("compile");
 }
 
@@ -77,11 +92,46 @@ eye = [2, 2]
 
 void OrderFrom::read(const TableReader& table, ScriptReading& script) {
   require_compiled(table, "order", script);
+  script.state.located = true;
 }
 
 void OrderFrom::act(ScriptRun& run) const {
   run.stage.level->order_from(eye);
   run.frames.settle("order");
+}
+
+TableDoc See::table() {
+  using namespace keys;
+  return {.doc =
+              "Which sectors of the compiled level see which through the openings between them: "
+              "found once, and then only looked up.",
+          .keys = {pace_key(), events_key({"portals", "row"}),
+                   key(&See::eye, "eye", "Whose sector's view is shown.", range(-kFar, kFar),
+                       written("[x, y]"), or_else("no sector's"))},
+          .example = R"([[step]]
+do = "see"
+eye = [2, 2]
+caption = "{sectors_seen:sector} of {sectors} may be seen from here."
+)"};
+}
+
+void See::read(const TableReader& table, ScriptReading& script) {
+  require_compiled(table, "see", script);
+  script.state.sighted = true;
+  if (!eye) return;
+  script.state.located = script.state.eyed = true;
+  if (const Box<2> world = flat(script.draft.scenario.world.bounds);
+      script.draft.has_world && table.is_good("eye") && !contains(world, *eye))
+    table.bad_value("eye", fmt::format("[{}, {}] lies outside of the world", eye->x, eye->y));
+}
+
+void See::act(ScriptRun& run) const {
+  FrameMaker& frames = run.frames;
+  run.stage.level->see(eye, [&](const LevelMoment& moment) {
+    if (!frames.stopped() && frames.by_event() && frames.wanted(moment.event))
+      frames.emit({}, moment.event, moment.text);
+  });
+  frames.settle("see");
 }
 
 }  // namespace lantern::scenario

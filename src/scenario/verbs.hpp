@@ -280,6 +280,15 @@ struct OrderFrom {
   Vec<2> eye{0.0};
 };
 
+// Which sectors see which, found once; and what an eye may see.
+struct See {
+  static constexpr VerbTraits kTraits{.name = "see", .basis = Basis::level};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  std::optional<Vec<2>> eye;
+};
+
 // Textures, in this order.
 struct Pack {
   static constexpr VerbTraits kTraits{.name = "pack", .basis = Basis::atlas};
@@ -305,7 +314,7 @@ struct AskRoom {
 using Verb =
     std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse, Run, Wait,
                  Phases, SolveBy, Rebuild, Compare, CastRay, Cull, Query, TestShapes, Separate,
-                 SearchDistance, CompileLevel, Locate, OrderFrom, Pack, AskRoom>;
+                 SearchDistance, CompileLevel, Locate, OrderFrom, See, Pack, AskRoom>;
 
 inline const VerbTraits& traits_of(const Verb& verb) {
   return std::visit([](const auto& v) -> const VerbTraits& { return v.kTraits; }, verb);

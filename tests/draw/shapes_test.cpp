@@ -27,7 +27,8 @@ Box<2> painted(const DrawShape& shape) {
 }
 
 TEST(Characters, FillTheirPlaceAndStayInIt) {
-  for (const Look look : {Look::ghost, Look::player, Look::ball, Look::bat, Look::disc, Look::box})
+  for (const Look look : {Look::ghost, Look::player, Look::ball, Look::bat, Look::disc, Look::box,
+                          Look::demon, Look::item})
     for (const double size : {3.0, 18.0, 26.0, 80.0, 400.0})
       for (int color = 1; color <= 8; ++color) {
         FrameBody body;

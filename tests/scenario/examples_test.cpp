@@ -32,7 +32,8 @@ TEST(Examples, OfTheVerbsGoOnFromTheirScenariosAndKeepTheirPromises) {
   std::string world(world_example()), atlas(atlas_example()), level(level_example());
   for (const TableDoc& verb : language_verbs()) {
     const bool on_atlas = verb.name == "pack" || verb.name == "ask_room";
-    const bool on_level = verb.name == "compile" || verb.name == "locate" || verb.name == "order";
+    const bool on_level = verb.name == "compile" || verb.name == "locate" || verb.name == "order" ||
+                          verb.name == "see";
     std::string& text = on_atlas ? atlas : on_level ? level : world;
     text += "\n" + std::string(verb.example);
     SCOPED_TRACE(verb.name);

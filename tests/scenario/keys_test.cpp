@@ -129,6 +129,7 @@ std::map<std::string, Surroundings> surroundings() {
       {"compile", {level + step, {{"do", "\"compile\""}}, ""}},
       {"locate", {level + kCompile + step, {{"do", "\"locate\""}, {"point", "[2, 2]"}}, ""}},
       {"order", {level + kCompile + step, {{"do", "\"order\""}, {"eye", "[2, 2]"}}, ""}},
+      {"see", {level + kCompile + step, {{"do", "\"see\""}, {"eye", "[2, 2]"}}, ""}},
       {"rebuild",
        {scene + step,
         {{"do", "\"rebuild\""},
@@ -160,6 +161,7 @@ std::map<std::string, Surroundings> surroundings() {
        {kTitle + "panels = [\"islands\"]\n" + kRules + kLevel +
             "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" + kRed + kCompile +
             "[[step]]\ndo = \"locate\"\npoint = [1, 1]\n[[step]]\ndo = \"run\"\nseconds = 1\n" +
+            kRed + kCompile + "[[step]]\ndo = \"see\"\neye = [1, 1]\n" +
             "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\n" + kInsert + "[step.expect]\n",
         {},
         ""}},
@@ -480,7 +482,11 @@ void add_verb_cases(std::vector<KeyCase>& cases) {
        {"compile", "pace", {"\"event\""}, pace},
        {"compile", "events", {"[\"cut\"]"}, {{"[@\"cuts\"]", "did you mean 'cut'?"}}},
        {"locate", "point", points, corner},
-       {"order", "eye", points, corner}});
+       {"order", "eye", points, corner},
+       {"see", "pace", {"\"event\""}, pace},
+       {"see", "events", {"[\"row\"]"}, {{"[@\"rows\"]", "did you mean 'row'?"}}},
+       {"see", "eye", {"[2, 2]", "[0, 64]"}, corner},
+       {"see", "eye", {}, {{"@[65, 2]", "outside of the world"}}}});
   for (const std::string verb : {"ray", "cull", "query"}) {
     cases.push_back({verb, "pace", {"\"event\""}, pace});
     cases.push_back({verb, "events", {"[\"skip\"]"}, {{"[@\"skp\"]", "did you mean 'skip'?"}}});
@@ -614,8 +620,8 @@ std::vector<KeyCase> key_cases() {
   file_name.push_back({"@\"Ghost Tree\"", "name = \"ghost_tree\""});
   file_name.erase(file_name.begin() + 2);  // a file's name may begin with a digit
   file_name[4] = {"@\"" + std::string(65, 'a') + "\"", "cannot be"};
-  const std::vector<std::string> looks = {"\"ghost\"", "\"player\"", "\"ball\"",
-                                          "\"bat\"",   "\"disc\"",   "\"box\""};
+  const std::vector<std::string> looks = {"\"ghost\"", "\"player\"", "\"ball\"",  "\"bat\"",
+                                          "\"disc\"",  "\"box\"",    "\"demon\"", "\"item\""};
   const Bad planes = {{"@1", "a list of tables"}, {"[@1]", "a list of tables"}};
   const Bad no_number = {{"@\"1\"", "must be a whole number"}, {"@-1", "allowed is"}};
 

@@ -30,7 +30,7 @@ TEST(Reference, CommittedCopiesAreTheGeneratedOnes) {
 std::string& example_of(std::string_view verb, std::string& world, std::string& atlas,
                         std::string& level) {
   if (verb == "pack" || verb == "ask_room") return atlas;
-  return verb == "compile" || verb == "locate" || verb == "order" ? level : world;
+  return verb == "compile" || verb == "locate" || verb == "order" || verb == "see" ? level : world;
 }
 
 std::vector<std::string> toml_blocks(const std::string& page) {

@@ -1,0 +1,133 @@
+// The visibility matrix: a row for each sector, and in it a square for each sector that it may see.
+//
+//         1  2  3
+//      1  ■  ■  □      ■ seen    □ hidden    · not known yet
+//      2  ■  ■  ■      Sector 1 does not see sector 3, nor 3 sector 1: the matrix is its own mirror
+//      3  □  ■  ■      image.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "draw/font.hpp"
+#include "draw/panels.hpp"
+
+namespace lantern::draw {
+namespace {
+
+constexpr double kMatrixText = 24;
+constexpr double kMatrixHeading = 40, kMatrixEdge = 38;  // heights of the heading and of numbers
+constexpr double kMatrixKey = 40;
+constexpr double kMostMatrixCell = 44, kLeastMatrixCell = 2;
+constexpr double kLeastNumbered = 27;  // a square of this size has room for a number beside it
+const TextStyle kMatrixStyle{kMatrixText, Weight::regular, Role::quiet_ink};
+
+class Matrix {
+ public:
+  Matrix(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
+      : frame_(frame), matrix_(frame.matrix), panel_(panel), list_(list), labels_(labels) {
+    const double n = std::max(1.0, static_cast<double>(matrix_.rows.size()));
+    const Vec<2> room =
+        panel.size() - Vec<2>(kMatrixEdge, kMatrixHeading + kMatrixEdge + kMatrixKey);
+    cell_ = std::floor(std::min({room.x / n, room.y / n, kMostMatrixCell}));
+    const double slack = std::max(0.0, room.x - n * cell_) / 2;
+    corner_ = panel.lo + Vec<2>(kMatrixEdge + slack, kMatrixHeading + kMatrixEdge);
+  }
+
+  void draw() {
+    if (matrix_.rows.empty() || cell_ < kLeastMatrixCell) return;
+    for (std::size_t row = 0; row < matrix_.rows.size(); ++row)
+      for (std::size_t column = 0; column < matrix_.rows.size(); ++column) draw_square(row, column);
+    if (matrix_.lit != kNone) outline_row();
+    for (std::size_t i = 0; i < matrix_.rows.size(); ++i) number(i);
+    draw_heading();
+    draw_key();
+    depict();
+  }
+
+ private:
+  Box<2> square(std::size_t row, std::size_t column) const {
+    const Vec<2> lo =
+        corner_ + Vec<2>(static_cast<double>(column), static_cast<double>(row)) * cell_;
+    return shrunk({lo, lo + cell_}, std::clamp(0.07 * cell_, 0.2, 2.5));
+  }
+
+  void draw_sample(char letter, bool lit, const Box<2>& box) {
+    const double radius = 0.08 * box.size().x;
+    if (letter == '.')
+      return list_.disc(box.center(), std::max(0.6, 0.07 * box.size().x), Role::cell_line_3);
+    if (letter == '1') return list_.rect(box, lit ? Role::lit : Role::cell_line_1, {}, radius);
+    list_.rect(box, Role::free_space, {Role::rule, 1.2}, radius);
+  }
+
+  void draw_square(std::size_t row, std::size_t column) {
+    const DrawList::Scope scope(list_, fmt::format("matrix/{}-{}", row, column));
+    draw_sample(matrix_.rows[row][column], row == matrix_.lit, square(row, column));
+  }
+
+  void outline_row() {
+    const DrawList::Scope scope(list_, "matrix/lit");
+    const std::size_t last = matrix_.rows.size() - 1;
+    const Box<2> row{square(matrix_.lit, 0).lo, square(matrix_.lit, last).hi};
+    list_.rect(shrunk(row, -4), Role::none, {Role::lit, 3.2}, 4);
+  }
+
+  // A sector's number before its row and over its column.
+  void number(std::size_t i) {
+    const bool lit = i == matrix_.lit;
+    if (cell_ < kLeastNumbered && !lit && i % 5 != 4) return;
+    TextStyle style = kMatrixStyle;
+    if (lit) style = {kMatrixText, Weight::semibold, Role::lit_ink};
+    const std::string text = fmt::format("{}", i + 1);
+    const DrawList::Scope scope(list_, fmt::format("matrix/number/{}", i));
+    labels_.try_add(text, {centred({corner_.x - 12, square(i, 0).center().y}, style, 1)}, style,
+                    panel_);
+    const TextStyle over = kMatrixStyle;
+    labels_.try_add(text, {centred({square(0, i).center().x, corner_.y - 20}, over)}, over, panel_);
+  }
+
+  void draw_heading() {
+    const TextStyle style{kMatrixText, Weight::semibold, Role::ink};
+    labels_.add(shortened("Who sees whom?", panel_.size().x, style),
+                {{corner_.x, panel_.lo.y + 26}, 0}, style, panel_);
+  }
+
+  void draw_key() {
+    const double y = corner_.y + static_cast<double>(matrix_.rows.size()) * cell_ + 28;
+    double x = corner_.x;
+    for (const auto& [letter, words] :
+         {std::pair{'1', "sees"}, std::pair{'0', "cannot see"}, std::pair{'.', "not known"}}) {
+      const DrawList::Scope scope(list_, fmt::format("matrix/key/{}", words));
+      const double width = 24 + 10 + text_width(words, kMatrixStyle);
+      if (x + width > panel_.hi.x) return;
+      draw_sample(letter, false, Box<2>::around({x + 12, y}, Vec<2>(11)));
+      labels_.add(words, centred({x + 34, y}, kMatrixStyle, 0), kMatrixStyle, panel_);
+      x += width + 26;
+    }
+  }
+
+  // What can be counted on it.
+  void depict() const {
+    list_.referents.insert({"sectors", "sector_pairs"});
+    if (frame_.count("visible_pairs")) list_.referents.emplace("visible_pairs");
+    if (matrix_.lit != kNone) list_.referents.insert({"sectors_seen", "sector"});
+  }
+
+  const Frame& frame_;
+  const FrameMatrix& matrix_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+  double cell_ = 0;
+  Vec<2> corner_{0.0};  // of the first square
+};
+
+}  // namespace
+
+void draw_matrix(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+  const Box<2> place = shrunk(panel, 3);
+  if (place.size().x < 160 || place.size().y < 160) return;
+  Matrix(frame, place, list, labels).draw();
+}
+
+}  // namespace lantern::draw
