@@ -80,7 +80,7 @@ void draw_ghost(const FrameBody& body, const Figure& f, DrawList& list) {
   draw_eye(f, 0.37, body.asleep, list);
 }
 
-// A horned head with angry brows; 12 points.
+// A horned head with angry brows; 18 points.
 void draw_demon(const FrameBody& body, const Figure& f, DrawList& list) {
   static constexpr double kRight[][2] = {{0.0, -0.76}, {0.42, -0.7}, {0.94, -0.98},
                                          {0.95, -0.2}, {0.86, 0.42}, {0.45, 0.9}};
@@ -91,11 +91,11 @@ void draw_demon(const FrameBody& body, const Figure& f, DrawList& list) {
     shape.points.push_back(f.at(-kRight[i][0], kRight[i][1]));
   list.shapes.emplace_back(std::move(shape));
   draw_emblem(body.color, f.at(0, 0.5), 0.19 * f.unit, list);
-  for (const double side : {-1.0, 1.0}) {
-    draw_eye(f, side * 0.38, body.asleep, list);
-    if (!body.asleep)
-      list.line(f.at(side * 0.68, -0.6), f.at(side * 0.12, -0.3), {Role::body_line, 1.7 * f.line});
-  }
+  for (const double side : {-1.0, 1.0}) draw_eye(f, side * 0.38, body.asleep, list);
+  if (body.asleep) return;
+  list.polygon({f.at(-0.7, -0.64), f.at(0, -0.36), f.at(0.7, -0.64), f.at(0.68, -0.5),
+                f.at(0, -0.2), f.at(-0.68, -0.5)},
+               Role::body_line);
 }
 
 // A chest with a handle.
