@@ -305,9 +305,7 @@ inline EnumNames names(Panel) {
 }
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) {
-  return {"ghost", "player", "ball", "bat", "disc", "box", "person"};
-  , "box", "demon", "item"
-};
+  return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};
 }
 inline EnumNames names(Warning) {
   return {"view", "outside", "contacts", "joints", "energy", "through", "crush"};
