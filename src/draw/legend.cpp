@@ -208,7 +208,10 @@ std::string_view words_of(MarkKind kind) {
                                                 "points kept",
                                                 "origin",
                                                 "portal",
-                                                "line of sight"};
+                                                "line of sight",
+                                                "step before step",
+                                                "next, if it meets nothing",
+                                                "a look within the step"};
   static_assert(std::size(kWords) == kMarkKinds);
   return kWords[static_cast<std::size_t>(kind)];
 }

@@ -45,6 +45,9 @@ enum class MarkKind : std::uint8_t {
   origin,          // a ring with a dot, of a Minkowski difference
   portal,          // a strong dashed line: an opening between two sectors
   sight,           // a thin line between two dots: the sectors at its ends see each other
+  trail,           // outlines on a line: where a body was, step by step
+  ahead,           // a dotted outline: where it would be after the step
+  look,            // an outline with a time: a look for the moment of an impact
   count_,
 };
 

@@ -40,6 +40,16 @@ bool draw_finding(MarkKind kind, const Vec<2>& c, const Vec<2>& left, const Vec<
       pen.dot(c, 7.5, Role::panel, {Role::ink, 2.6});
       pen.dot(c, 2, Role::ink);
       return true;
+    case MarkKind::trail:
+      draw_way({left + Vec<2>(6, 0), right}, pen);
+      pen.dot(left + Vec<2>(6, 0), 9, Role::none, kTrailStroke);
+      return true;
+    case MarkKind::ahead:
+      pen.path(ring_of(c, 10, 24), true, kAheadStroke);
+      return true;
+    case MarkKind::look:
+      pen.dot(c, 10, Role::none, kLookStroke);
+      return true;
     case MarkKind::centre:
       for (const Vec<2>& arm : {Vec<2>(6, 0), Vec<2>(0, 6)})
         pen.line(c - arm, c + arm, {Role::frustum, 2.2});

@@ -109,6 +109,11 @@ inline constexpr Stroke kVelocityStroke{Role::ink, 1.9};
 inline constexpr double kVelocityHead = 10;
 inline constexpr Stroke kForceStroke{Role::warning, 4.6};
 inline constexpr double kForceHead = 18;
+// The way of a body, its outlines where it was, where it would be, and where it is looked at.
+void draw_way(const std::vector<Vec<2>>& points, Pen& pen);
+inline constexpr Stroke kTrailStroke{Role::quiet_ink, 2.2};
+inline constexpr Stroke kAheadStroke{Role::quiet_ink, 2.2, 5};
+inline constexpr Stroke kLookStroke{Role::ray, 2.4};
 // A line between two ticks.
 void draw_ruler(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, Pen& pen);
 

@@ -65,6 +65,11 @@ class SweepView {
       if (order_[i]->lit) at_ = i;
     }
     stands_ = lit == 1;
+    if (const auto at = frame.swept_to ? row_of_.find(*frame.swept_to) : row_of_.end();
+        at != row_of_.end()) {
+      at_ = at->second;
+      stands_ = sweeps_ = true;
+    }
   }
 
   void draw() {
@@ -73,7 +78,10 @@ class SweepView {
     labels_.add(shortened(fmt::format("sorted along {}, then swept", "xyz"[axis_]), panel_.size().x,
                           heading),
                 {{panel_.lo.x, panel_.lo.y + 0.8 * kSweepText}, 0}, heading, panel_);
-    if (stands_) draw_open();
+    if (sweeps_)
+      draw_reach();
+    else if (stands_)
+      draw_open();
     for (std::size_t i = 0; i < order_.size(); ++i) draw_row(i);
     draw_links();
     if (stands_) draw_sweep_line();
@@ -90,6 +98,15 @@ class SweepView {
   double to(std::size_t i) const { return x_of(swept_box(*order_[i]).hi[axis_]); }
   double y_of(std::size_t i) const { return area_.lo.y + (static_cast<double>(i) + 0.5) * row_; }
   double half() const { return std::min(0.26 * row_, 11.0); }
+
+  // From where the sweep stands to where its body ends; the rows of those that begin in between.
+  void draw_reach() {
+    for (std::size_t i = at_; i < order_.size() && from(i) <= to(at_); ++i)
+      list_.rect({{panel_.lo.x, y_of(i) - row_ / 2 + 1}, {area_.hi.x + 8, y_of(i) + row_ / 2 - 1}},
+                 i == at_ ? Role::lit_fill : Role::passed_fill, {}, 4);
+    list_.rect({{from(at_), area_.lo.y - 6}, {to(at_), area_.hi.y + 8}}, Role::lit_fill);
+    list_.crisp_line({to(at_), area_.lo.y - 6}, {to(at_), area_.hi.y + 8}, {Role::lit, 2, 7});
+  }
 
   // The rows of the intervals that are open where the sweep stands.
   void draw_open() {
@@ -168,6 +185,7 @@ class SweepView {
   std::map<BodyId, std::size_t> row_of_;
   std::size_t at_ = 0;   // the row at whose beginning the sweep stands
   bool stands_ = false;  // and whether it stands anywhere
+  bool sweeps_ = false;  // it is under way
 };
 
 }  // namespace

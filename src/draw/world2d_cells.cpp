@@ -84,11 +84,22 @@ Box<2> seen_of(const Box<2>& cell, const View2D& map) {
           glm::clamp(cell.hi, map.picture().lo, map.picture().hi)};
 }
 
+// Boxes in an AABB tree end where those within them do. Those of a small tree's inner nodes are
+// drawn a little larger, the more levels lie below the larger, so that all can be told apart.
+double widening(const Frame& frame, const FrameNode& node) {
+  constexpr std::size_t kSmall = 64;  // nodes
+  constexpr double kLevel = 6;        // page units
+  if (frame.structure != StructureKind::aabb_tree || node.leaf || frame.nodes.size() > kSmall)
+    return 0;
+  const std::uint32_t deepest = std::ranges::max_element(frame.nodes, {}, &FrameNode::depth)->depth;
+  return kLevel * (deepest - node.depth);
+}
+
 // On the page. A structure without a rim may have cells beyond the world: of them, what is in it.
 Box<2> cell_of(const Frame& frame, const FrameNode& node, const View2D& map) {
   const bool has_rim =
       frame.structure != StructureKind::aabb_tree && frame.structure != StructureKind::grid;
-  const Box<2> cell = map.to_page(node.box);
+  const Box<2> cell = shrunk(map.to_page(node.box), -widening(frame, node));
   return has_rim ? cell : seen_of(cell, map);
 }
 
@@ -356,6 +367,10 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
   const DrawList::Scope scope(list, "world/rim");
+  if (frame.structure == StructureKind::aabb_tree) {  // its root is not the world
+    list.crisp_rect(map.picture(), Role::none, {Role::rule, 1.6});
+    return complete;
+  }
   const bool lit =
       !frame.nodes.empty() && !nearly_all_lit(frame) && frame.nodes[0].mark == Mark::lit;
   list.crisp_rect(map.picture(), Role::none,

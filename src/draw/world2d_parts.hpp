@@ -103,6 +103,12 @@ void name_bodies(const Frame& frame, const std::vector<Stand>& stands,
 // Returns how many marks it made.
 std::size_t draw_crowd(const Frame& frame, const View2D& map, DrawList& list);
 
+// Where bodies were at the ends of steps, as outlines on their way, and before a step is taken
+// where they would be after it.
+void draw_trails(const Frame& frame, const View2D& map, DrawList& list);
+// The looks for the moment of an impact, each with its share of the step; the last with its gap.
+void draw_looks(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
+
 // --- ground, levels and boxes ---
 
 // Half-spaces: hatched ground, cut to the bounds, or to a rim under them where none of it lies

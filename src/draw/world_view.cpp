@@ -293,6 +293,7 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   else if (pairs)
     list.referents.insert({"pairs", "overlaps", "shapes_tested"});
   draw_links(links, false, map, list);
+  draw_trails(frame, map, list);
   const bool own_boxes = frame.structure != StructureKind::none && !frame.display.boxes;
   draw_bodies(stands, map, own_boxes, list);
   for (const Stand& stand : stands) {
@@ -306,6 +307,7 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   draw_marks(frame, map, left_out, list, labels);
   mark_separation(frame, map, list, labels);
   mark_search(frame, map, list, labels);
+  draw_looks(frame, map, list, labels);
   note(left_out, map.picture(), labels);
   std::vector<Box<2>> covered;
   for (const Stand& stand : stands) covered.push_back(stand.box);

@@ -200,7 +200,8 @@ struct Impact {
 // The next impact. Pairs that meet too slowly become contacts on the way.
 template <int D>
 std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& config, double within,
-                                     double step, WorldWork& work) {
+                                     double step, WorldWork& work, ImpactLog<D>& log) {
+  std::vector<ImpactLook<D>>* const looks = log.keeps_looks ? &log.looks : nullptr;
   const std::vector<Trajectory<D>> flying = trajectories(island, config, within);
   std::optional<Impact<D>> first;
   for (IslandPair<D>& pair : island.pairs) {
@@ -209,7 +210,8 @@ std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& co
     const Trajectory<D>& b = flying[pair.rows.b];
     pair.slow = slowest_impact(a, b, step);
     if (!pair.located || pair.pressed) continue;
-    const auto met = time_of_impact(a, b, within, pair.slow, pair.reach, work.narrow_tests);
+    const auto met =
+        time_of_impact(a, b, within, pair.slow, pair.reach, work, looks, step - within);
     if (!met) continue;
     if (met->rests) {
       pair.pressed = true;
@@ -220,17 +222,28 @@ std::optional<Impact<D>> next_impact(Island<D>& island, const WorldConfig<D>& co
   return first;
 }
 
+// The bodies of the pair are where they meet, `time` seconds after the step began.
+template <int D>
+ImpactMoment<D> moment_of(const Island<D>& island, const IslandPair<D>& pair, double time) {
+  const auto pose = [&](std::uint32_t place) {
+    const Body<D>& body = island.bodies[place];
+    return Pose<D>{body.id, body.position, body.orientation};
+  };
+  return {time, pose(pair.rows.a), pose(pair.rows.b)};
+}
+
 }  // namespace
 
 template <int D>
 void move_through_impacts(Island<D>& island, const ContactSolver<D>& solver,
-                          const WorldConfig<D>& config, double h, int& budget, WorldWork& work) {
+                          const WorldConfig<D>& config, double h, int& budget, WorldWork& work,
+                          ImpactLog<D>& log) {
   double left = h;
   const bool any_located = std::any_of(island.pairs.begin(), island.pairs.end(),
                                        [](const auto& pair) { return pair.located; });
   while (any_located) {
     find_increments_if_any<D>(config, island.bodies, island.forces, left, island.increments, work);
-    const auto next = next_impact(island, config, left, h, work);
+    const auto next = next_impact(island, config, left, h, work, log);
     if (!next) break;
     if (budget <= 0) {  // the rest of the step is soft for all
       for (IslandPair<D>& pair : island.pairs) pair.pressed = true;
@@ -238,6 +251,7 @@ void move_through_impacts(Island<D>& island, const ContactSolver<D>& solver,
     }
     if (next->time > 0) solver.solve(island, config, next->time, h, work);
     left -= next->time;
+    log.moments.push_back(moment_of(island, *next->pair, h - left));
     const int impacts = resolve_impacts(island, work);
     work.impacts_located += static_cast<std::uint64_t>(impacts);
     budget -= std::max(impacts, 1);
@@ -250,8 +264,8 @@ void move_through_impacts(Island<D>& island, const ContactSolver<D>& solver,
 }
 
 template void move_through_impacts(Island<2>&, const ContactSolver<2>&, const WorldConfig<2>&,
-                                   double, int&, WorldWork&);
+                                   double, int&, WorldWork&, ImpactLog<2>&);
 template void move_through_impacts(Island<3>&, const ContactSolver<3>&, const WorldConfig<3>&,
-                                   double, int&, WorldWork&);
+                                   double, int&, WorldWork&, ImpactLog<3>&);
 
 }  // namespace lantern::physics

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "physics/contact_solver.hpp"
+#include "physics/impact_log.hpp"
 
 namespace lantern::physics {
 
@@ -53,12 +54,14 @@ struct TimeOfImpact {
 // The first moment within `within` seconds at which the two bodies touch and approach; nothing if
 // there is none. By conservative advancement (Mirtich, "Impulse-based Dynamic Simulation", 1996):
 // go on for as long as they surely cannot touch. What approaches more slowly than `slow` is said to
-// rest. Farther apart than `reach` they are not looked at. `narrow_tests` grows by the narrow
-// phase's calls.
+// rest. Farther apart than `reach` they are not looked at. `work` counts each look at the two, by
+// the narrow phase. `looks`, if there is one, is told each, `begun` seconds after its step began.
 template <int D>
 std::optional<TimeOfImpact> time_of_impact(const Trajectory<D>& a, const Trajectory<D>& b,
                                            double within, double slow, double reach,
-                                           std::uint64_t& narrow_tests);
+                                           WorldWork& work,
+                                           std::vector<ImpactLook<D>>* looks = nullptr,
+                                           double begun = 0);
 
 // A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
 // lower and lower comes to rest after finitely many impacts. This is the speed of such a bounce.
@@ -66,9 +69,11 @@ template <int D>
 double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step);
 
 // Moves the island by a step of `h` seconds, from impact to impact and on to the end; in between by
-// the solver. At most `budget` impacts are located; it shrinks by those that were.
+// the solver. At most `budget` impacts are located; it shrinks by those that were. `log` is told of
+// them.
 template <int D>
 void move_through_impacts(Island<D>& island, const ContactSolver<D>& solver,
-                          const WorldConfig<D>& config, double h, int& budget, WorldWork& work);
+                          const WorldConfig<D>& config, double h, int& budget, WorldWork& work,
+                          ImpactLog<D>& log);
 
 }  // namespace lantern::physics

@@ -64,6 +64,7 @@ struct World<D>::Step {
   std::vector<Contact<D>> contacts = {};
   std::vector<ContactEvent> events = {};
   std::vector<Told> told = {};
+  ImpactLog<D> impacts = {{}, {}, world.impacts_.keeps_looks};
 
   // The phases, in their order (world_step.cpp).
   void find_forces();

@@ -55,7 +55,7 @@ void World<D>::Step::solve_and_integrate() {
     if (solver.whole_world)
       solver.solve(island, world.config_, h, h, world.work_);
     else
-      move_through_impacts(island, solver, world.config_, h, budget, world.work_);
+      move_through_impacts(island, solver, world.config_, h, budget, world.work_, impacts);
     bring_back(island, group);
     for (const std::uint32_t i : group.bodies)
       solved[i] = moved[i].kind == BodyKind::dynamic_body && !moved[i].asleep;
@@ -293,6 +293,7 @@ void World<D>::Step::commit() {
   world.events_ = std::move(events);
   world.told_ = std::move(told);
   world.pairs_ = std::move(pairs);
+  world.impacts_ = std::move(impacts);
   world.ahead_.reset();
   world.time_ += h;
   ++world.work_.steps;

@@ -128,11 +128,12 @@ void World<D>::store(BodyId id, double h, const typename BroadPhase<D>::Watch& w
 // How all would fly on, and the structure in which the next step looks for pairs. A step that would
 // be refused is not foreseen: it will say so itself.
 template <int D>
-void World<D>::look_ahead(double h) {
+void World<D>::look_ahead(double h, const typename BroadPhase<D>::Watch& watch) {
   BroadPhase<D>& broad_phase = structure();
   Step step{*this, h, {}};
   step.reach.resize(bodies_.size());
-  if (config_.contacts == ContactMethod::none) return broad_phase.build(step.enlarged_boxes());
+  if (config_.contacts == ContactMethod::none)
+    return broad_phase.build(step.enlarged_boxes(), watch);
   const WorldWork before = work_;
   try {
     step.find_forces();
@@ -143,7 +144,17 @@ void World<D>::look_ahead(double h) {
     step.reach.assign(bodies_.size(), 0);
   }
   work_ = before;
-  broad_phase.build(step.enlarged_boxes());
+  broad_phase.build(step.enlarged_boxes(), watch);
+}
+
+template <int D>
+Body<D> World<D>::flown(BodyId id, double h) const {
+  const std::size_t place = index_of(id);
+  Body<D> body = bodies_[place];
+  const bool known = ahead_ && ahead_->h == h && place < ahead_->increments.size();
+  WorldWork nobody_counts;
+  fly(body, known ? ahead_->increments[place] : Increment<D>(), h, config_.rotation, nobody_counts);
+  return body;
 }
 
 template <int D>
@@ -312,7 +323,8 @@ void World<D>::Step::make_islands() {
   template bool World<D>::Step::wake_what_is_touched();                      \
   template void World<D>::Step::make_islands();                              \
   template IslandPair<D> World<D>::Step::island_pair(const NearPair&) const; \
-  template void World<D>::look_ahead(double);                                \
+  template void World<D>::look_ahead(double, const BroadPhase<D>::Watch&);   \
+  template Body<D> World<D>::flown(BodyId, double) const;                    \
   template void World<D>::store(BodyId, double, const typename BroadPhase<D>::Watch&);
 
 LANTERN_INSTANTIATE(2)

@@ -27,8 +27,8 @@ template <int D>
 class Approach {
  public:
   Approach(const Trajectory<D>& a, const Trajectory<D>& b, double within, double slow, double reach,
-           std::uint64_t& narrow_tests)
-      : a_(a), b_(b), within_(within), reach_(reach), narrow_tests_(narrow_tests) {
+           WorldWork& work, std::vector<ImpactLook<D>>* looks, double begun)
+      : a_(a), b_(b), within_(within), reach_(reach), work_(work), looks_(looks), begun_(begun) {
     fastest_a_ = spin_of(a);
     fastest_b_ = spin_of(b);
     turn_a_ = fastest_a_ * turning_reach<D>(a.body->shape);
@@ -63,6 +63,7 @@ class Approach {
         if (!(seen->bound + root > 0)) return std::nullopt;
         next = t + 2 * seen->gap / (seen->bound + root);
         if (turns_ && next < within_) next = std::max(next, t + sure(t, *seen));
+        tell_free_until(next);
         if (const auto met = bracketed(t, *seen, next)) return met;
       }
       if (!(next < within_)) return std::nullopt;
@@ -141,7 +142,8 @@ class Approach {
 
   std::optional<Gap<D>> gap_at(double t) const {
     const Body<D> a = placed_at(a_, t), b = placed_at(b_, t);
-    ++narrow_tests_;
+    ++work_.narrow_tests;
+    ++work_.impact_looks;
     const auto manifold = collide(placed(a), placed(b), reach_);
     if (!manifold) return std::nullopt;
     Gap<D> seen;
@@ -160,13 +162,32 @@ class Approach {
       first = false;
     }
     seen.normal = manifold->normal;
+    if (looks_ != nullptr) tell_look(t, a, b, *manifold, seen.gap);
     return seen;
+  }
+
+  void tell_look(double t, const Body<D>& a, const Body<D>& b, const Manifold<D>& manifold,
+                 double gap) const {
+    const auto points = manifold.points();
+    const ManifoldPoint<D>& nearest =
+        *std::min_element(points.begin(), points.end(),
+                          [](const auto& p, const auto& q) { return p.separation < q.separation; });
+    const Vec<D> half = manifold.normal * (gap / 2);
+    looks_->push_back({begun_ + t, pose_of(a), pose_of(b), nearest.position - half,
+                       nearest.position + half, gap, begun_ + t});
+  }
+  static Pose<D> pose_of(const Body<D>& body) { return {body.id, body.position, body.orientation}; }
+  // Of the last look.
+  void tell_free_until(double t) const {
+    if (looks_ != nullptr) looks_->back().free_until = begun_ + std::min(t, within_);
   }
 
   const Trajectory<D>& a_;
   const Trajectory<D>& b_;
   double within_, reach_;
-  std::uint64_t& narrow_tests_;
+  WorldWork& work_;
+  std::vector<ImpactLook<D>>* looks_;  // null if nobody watches
+  double begun_;
   double fastest_a_ = 0, fastest_b_ = 0;  // spins
   double turn_a_ = 0, turn_b_ = 0;        // how fast surfaces can move by turning
   double bend_ = 0;                       // the gap's second derivative is at least minus this
@@ -181,8 +202,14 @@ class Approach {
 template <int D>
 std::optional<TimeOfImpact> time_of_impact(const Trajectory<D>& a, const Trajectory<D>& b,
                                            double within, double slow, double reach,
-                                           std::uint64_t& narrow_tests) {
-  return Approach<D>(a, b, within, slow, reach, narrow_tests).find();
+                                           WorldWork& work, std::vector<ImpactLook<D>>* looks,
+                                           double begun) {
+  const std::size_t before = looks == nullptr ? 0 : looks->size();
+  const auto met = Approach<D>(a, b, within, slow, reach, work, looks, begun).find();
+  if (looks != nullptr && met && !met->rests)
+    for (std::size_t i = before; i < looks->size(); ++i)
+      (*looks)[i].meets = (*looks)[i].time == begun + met->seconds;
+  return met;
 }
 
 template <int D>
@@ -195,7 +222,8 @@ double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double ste
 
 #define LANTERN_INSTANTIATE(D)                                                                    \
   template std::optional<TimeOfImpact> time_of_impact(const Trajectory<D>&, const Trajectory<D>&, \
-                                                      double, double, double, std::uint64_t&);    \
+                                                      double, double, double, WorldWork&,         \
+                                                      std::vector<ImpactLook<D>>*, double);       \
   template double slowest_impact(const Trajectory<D>&, const Trajectory<D>&, double);
 
 LANTERN_INSTANTIATE(2)

@@ -15,6 +15,7 @@
 #include "physics/body.hpp"
 #include "physics/contacts.hpp"
 #include "physics/forces.hpp"
+#include "physics/impact_log.hpp"
 #include "physics/integrator.hpp"
 #include "physics/joint_rows.hpp"
 #include "physics/world_config.hpp"
@@ -87,11 +88,15 @@ class World {
   // The structure (broad phase) as it will be used: with contacts that of the next step, if it is
   // one of `h` seconds, in which boxes are enlarged by how far bodies may come in it; without
   // contacts that of the bodies as they are, which no step needs. Built once: the step finds it
-  // standing.
-  void look_ahead(double h);
+  // standing. A structure that goes on from where its bodies were tells `watch`, if there is one.
+  void look_ahead(double h, const typename BroadPhase<D>::Watch& watch = {});
   // Puts this body into the structure, after all others (the lecture's Insert), as it will be used
   // if no force acts. Throws Refused for ids that are not ascending, and as BroadPhase does.
   void store(BodyId id, double h, const typename BroadPhase<D>::Watch& watch);
+
+  // The body as it will be after a step of `h` seconds, if it meets nothing. As the last
+  // `look_ahead` found; without one, no force acts.
+  Body<D> flown(BodyId id, double h) const;
 
   // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when
   // a position or velocity would overflow, for a step that is negative or not finite, and for more
@@ -113,6 +118,10 @@ class World {
     int frames_left = 0;  // steps without touch before its end is told
   };
   const std::vector<Told>& told() const { return told_; }  // by pair
+  // Its impacts that were located; of the looks by which they were, nothing unless they are kept.
+  const ImpactLog<D>& impacts() const { return impacts_; }
+  // From now on the looks of a step are kept, or not. Without, nobody spends time on them.
+  void keep_impact_looks(bool kept) { impacts_.keeps_looks = kept; }
   // Null if nobody has needed one.
   const BroadPhase<D>* broad_phase() const { return broad_phase_ ? &*broad_phase_ : nullptr; }
 
@@ -173,6 +182,7 @@ class World {
   std::vector<ContactEvent> events_;
   std::vector<Told> told_;  // by pair
   std::vector<Pair> pairs_;
+  ImpactLog<D> impacts_;
   std::optional<BroadPhase<D>> broad_phase_;
   std::optional<Ahead> ahead_;  // until anything changes
   WorldWork work_;

@@ -55,6 +55,7 @@ struct WorldWork {
   std::uint64_t direct_rows = 0;
   std::uint64_t direct_solves = 0;  // of all rows at once
   std::uint64_t rotations_integrated = 0;
+  std::uint64_t impact_looks = 0;     // at two bodies, to find the moment at which they meet
   std::uint64_t impacts_located = 0;  // and struck, in the steps as they were made in the end
   std::uint64_t rest_checks = 0;      // bodies looked at whether they may fall asleep
   // Of the last step alone.
@@ -86,6 +87,7 @@ inline constexpr std::array kWorldCounters = {
     WorldCounter{"direct_rows", &WorldWork::direct_rows},
     WorldCounter{"direct_solves", &WorldWork::direct_solves},
     WorldCounter{"rotations_integrated", &WorldWork::rotations_integrated},
+    WorldCounter{"impact_looks", &WorldWork::impact_looks},
     WorldCounter{"impacts_located", &WorldWork::impacts_located},
     WorldCounter{"rest_checks", &WorldWork::rest_checks},
 };

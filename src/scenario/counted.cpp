@@ -45,6 +45,10 @@ std::string why_not_in(const StructureSpec& structure, CountNeed need,
   if (kind == StructureKind::none) return "there is no structure at this step";
   if (need == CountNeed::kd_tree && kind != StructureKind::kd_tree)
     return "there is no kd_tree at this step";
+  if (need == CountNeed::sweep && kind != StructureKind::sort_and_sweep)
+    return "there is no sort_and_sweep at this step";
+  if (need == CountNeed::boxes && kind != StructureKind::aabb_tree)
+    return "there is no aabb_tree at this step";
   if (need == CountNeed::inside && traits_of(kind).is_own)
     return fmt::format("'{}' is seen from outside, nobody counts its tests and its memory",
                        to_string(kind));
@@ -79,6 +83,8 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
     case CountNeed::tree:
     case CountNeed::structure:
     case CountNeed::kd_tree:
+    case CountNeed::sweep:
+    case CountNeed::boxes:
     case CountNeed::array:
     case CountNeed::inside:
     case CountNeed::split:

@@ -27,6 +27,10 @@ constexpr CountDoc kCounts[] = {
     {"pairs_tested", contacts, "Pairs whose shapes were tested in the last world step."},
     {"narrow_tests", contacts,
      "Tests made of them; a pair may be looked at several times in a step."},
+    {"impact_looks", contacts,
+     "Those of them that looked for the moment of an impact, in the midst of the step."},
+    {"impacts_located", contacts,
+     "Impacts whose moment the last world step found, so that they took place then."},
     {"contacts", contacts,
      "Pairs that really touch, as the last world step found; of sleepers, their last one."},
     {"contact_points", contacts, "Points at which they do."},
@@ -56,7 +60,8 @@ constexpr CountDoc kCounts[] = {
     {"islands_asleep", islands, "Those of them that sleep."},
     {"box_tests", inside,
      "Tests of a body against a node or plane since the tree was built; of `sort_and_sweep`, "
-     "comparisons while sorting; of a `grid`, bodies put into their cells."},
+     "comparisons while sorting; of a `grid`, bodies put into their cells; of an `aabb_tree`, when "
+     "it last followed its bodies."},
     {"splits", structure, "Leaves that split since the tree was built."},
     {"tests_so_far", inside,
      "Tests made to find pairs since the script began: `box_tests` and `pair_tests` of every build "
@@ -69,6 +74,12 @@ constexpr CountDoc kCounts[] = {
     {"branches_asleep", asleep_nodes,
      "The topmost of them: a search for pairs skips each with all below it."},
     {"stale", kd_tree, "Bodies that have left the cells which a `kd_tree` fitted to them."},
+    {"swaps", sweep,
+     "Neighbours that changed places when the sweep sorted its boxes last, by insertion."},
+    {"reinserted", boxes,
+     "Bodies that had left their boxes when an `aabb_tree` last followed its bodies, and were "
+     "inserted again."},
+    {"refitted", boxes, "The same of those whose boxes were made anew where they stand."},
     {"nodes_reused", inside, "Nodes that took an old node's place instead of new memory."},
     {"allocations", inside, "Calls for memory since the structure was made."},
     {"slots", array, "Places of the array that all leaves share."},
@@ -124,6 +135,8 @@ constexpr CountDoc kTexts[] = {
 };
 
 constexpr CountDoc kMeasures[] = {
+    {"tree_cost", boxes,
+     "Sum of the perimeters, in a 3D world of the surfaces, of all inner nodes' boxes.", "units"},
     {"energy", physics, "Kinetic and potential energy.", "J"},
     {"kinetic_energy", physics, "Energy of motion and rotation.", "J"},
     {"potential_energy", physics, "Energy of height and of springs.", "J"},
@@ -139,6 +152,10 @@ constexpr CountDoc kMeasures[] = {
     {"overlap", separated, "Where none parts them, how far they overlap along the best one.",
      "units"},
     {"distance", searched, "Of the bodies of the last `gjk`; 0 if they overlap.", "units"},
+    {"time_of_impact", contacts,
+     "When the first of the last world step's impacts was, as a part of the step; 1 if it located "
+     "none.",
+     "of a step"},
     {"joint_gap", joints,
      "How far the joint that holds worst is from holding: a pin's points apart, a rod too long or "
      "short.",
@@ -196,6 +213,8 @@ std::string_view when_counted(CountNeed need) {
       "with a structure",
       "with a structure",
       "with a kD-tree",
+      "with `sort_and_sweep`",
+      "with an `aabb_tree`",
       "with a tree whose leaves share an array",
       "with a structure that is not the user's own",
       "with `split_static`",

@@ -17,13 +17,18 @@ std::uint32_t ScriptRun::frame_every(int of_step) const {
   return static_cast<std::uint32_t>(of_step > 0 ? of_step : scenario.world.frame_every);
 }
 
-void ScriptRun::let_time_pass() {
+std::vector<FrameLook> ScriptRun::let_time_pass(bool with_looks) {
+  std::vector<FrameLook> looks;
   if (stage.engine) {
-    engine().step();
+    if (with_looks)
+      looks = engine().step_and_tell_looks();
+    else
+      engine().step();
     if (watch) watch->passed(engine());
     engine().rebuild();
   }
   stage.time += scenario.world.time_step;
+  return looks;
 }
 
 void ScriptRun::focus(std::size_t body) { frames.focus.insert(*engine().id_of(body)); }

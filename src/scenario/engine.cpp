@@ -1,6 +1,7 @@
 #include "scenario/engine.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "scenario/narrow_asked.hpp"
 #include "scenario/queries.hpp"
 #include "scenario/structure_picture.hpp"
+#include "scenario/trails.hpp"
 #include "scenario/world_picture.hpp"
 
 namespace lantern::scenario {
@@ -26,6 +28,7 @@ class EngineOf : public Engine {
         players_(scenario),
         structure_(scenario.structure),
         brains_(scenario) {
+    if (scenario.shows_trails()) trails_.emplace();
     ++work_.worlds_created;
     count_structures();
     if (std::ranges::count(scenario.panels, Panel::collisions) > 0) collision_log_.emplace();
@@ -54,6 +57,7 @@ class EngineOf : public Engine {
     const BodySpec& spec = scenario_.bodies[move.body];
     if (move.turned) orientation = turned(Rotation<D>(), spin_about<D>(spec.axis, *move.turned));
     world().place(before.id, to, velocity, orientation);
+    if (trails_ && to != before.position) trails_->forget(before.id);
     if (move.spin)
       world().set_angular_velocity(before.id, spin_about<D>(spec.axis_of_spin(), *move.spin));
   }
@@ -87,7 +91,9 @@ class EngineOf : public Engine {
     const double h = scenario_.world.time_step;
     if (!steered_) steer();
     const WorldWork before = world().work();
+    if (trails_) trails_->begin(world());
     world().step(h);
+    if (trails_) trails_->end(world());
     steer();
     last_ = work_between(before, world().work());
     ++work_.world_steps;
@@ -101,12 +107,31 @@ class EngineOf : public Engine {
     if (collision_log_) collision_log_->see(world());
   }
 
+  std::vector<FrameLook> step_and_tell_looks() override {
+    world().keep_impact_looks(true);
+    step();
+    world().keep_impact_looks(false);
+    return looks_of(world().impacts(), scenario_.world.time_step);
+  }
+
   void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) override {
     emissions_.push_back({bodies, every, 0, 1});
     let_in();
   }
 
   void rebuild() override { outdated_ = true; }
+
+  void follow(const Watch& watch) override {
+    if (!has_structure()) return;
+    being_stored_ = true;
+    look_ahead(watch);
+    being_stored_ = outdated_ = false;
+  }
+
+  void each_swept(const std::function<void(BodyId, BodyId)>& f) override {
+    bring_up_to_date();
+    world().broad_phase()->each_swept(f);
+  }
 
   void rebuild_as(const StructureSpec& structure) override {
     count_builds();
@@ -207,21 +232,33 @@ class EngineOf : public Engine {
     picture_world(players_, frame);
     if (std::ranges::count(frame.panels, Panel::islands) > 0)
       picture_islands(players_, island_numbers_, frame);
+    if (trails_ && frame.display.trail > 0)
+      trails_->picture(world(), scenario_.world.time_step, frame);
     if (frame.display.forces) picture_forces(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
     frame.may_sleep = scenario_.world.may_sleep;
     picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, frame);
     count_tests(frame);
+    if (!being_stored_) light_those_that_left(frame);
     work_.pair_searches += has_structure();
     work_.pairs_found += frame.pairs.size();
     count_builds();
     count(frame);
     if (scenario_.has_physics()) measure_world(players_, scenario_, frame);
+    if (scenario_.has_contacts()) measure_impact(world(), scenario_.world.time_step, frame);
     measure_bodies(players_, scenario_, frame);
   }
 
  private:
   World<D>& world() { return players_.world(); }
+
+  // The leaves of bodies that had left their boxes when the structure last followed them.
+  void light_those_that_left(Frame& frame) const {
+    for (FrameNode& node : frame.nodes)
+      if (node.leaf &&
+          std::ranges::any_of(node.bodies, [&](BodyId id) { return left_.contains(id); }))
+        node.mark = Mark::lit;
+  }
 
   // Bodies that enter one after another, `every` so many world steps.
   struct Emission {
@@ -286,9 +323,15 @@ class EngineOf : public Engine {
     outdated_ = false;
   }
 
-  void look_ahead() {
+  void look_ahead(const Watch& watch = {}) {
     if (!steered_) steer();
-    world().look_ahead(scenario_.world.time_step);
+    left_.clear();
+    if (structure_.kind != StructureKind::aabb_tree)
+      return world().look_ahead(scenario_.world.time_step, watch);
+    world().look_ahead(scenario_.world.time_step, [&](const Event& event) {
+      if (event.kind == Event::Kind::leave) left_.insert(event.body);
+      if (watch) watch(event);
+    });
   }
 
   void count(Frame& frame) const {
@@ -311,6 +354,8 @@ class EngineOf : public Engine {
       frame.add_count("touches_in_all", all_touches_);
       frame.add_count("pairs_tested", last_.narrow_pairs);
       frame.add_count("narrow_tests", last_.narrow_tests);
+      frame.add_count("impact_looks", last_.impact_looks);
+      frame.add_count("impacts_located", last_.impacts_located);
       frame.add_count("constraint_rows", last_.constraint_rows);
       frame.add_count("friction_rows", last_.friction_rows);
     }
@@ -342,6 +387,8 @@ class EngineOf : public Engine {
   BroadPhaseCounters builds_;                  // of them, what is counted
   std::uint64_t tests_so_far_ = 0;             // to find pairs
   bool untold_build_ = false;                  // its tests are not among them yet
+  std::optional<Trails<D>> trails_;            // if any frame shows them
+  std::set<BodyId> left_;  // their boxes, when an aabb_tree last followed its bodies
   std::uint64_t begins_ = 0;
   std::uint64_t ends_ = 0;
   std::uint64_t all_begins_ = 0;  // since the world began

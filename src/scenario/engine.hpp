@@ -64,6 +64,10 @@ class Engine {
   // From now on the structure is that of the bodies as they are. It is built, its memory reused,
   // when a frame, a query or the next step of a world with contacts needs it.
   virtual void rebuild() = 0;
+  // The same at once; a structure that goes on from where its bodies were tells what it does.
+  virtual void follow(const Watch& watch) = 0;
+  // f(id, id) for each pair that a sweep compares, in its order.
+  virtual void each_swept(const std::function<void(BodyId, BodyId)>& f) = 0;
   // Another structure, all bodies anew; the world's broad phase becomes the same kind.
   virtual void rebuild_as(const StructureSpec& structure) = 0;
 
@@ -98,6 +102,9 @@ class Engine {
   // What the world remembered of pairs that touch, step by step. It is written down only if the
   // scenario has a panel for it.
   virtual void list_collisions(FrameCollisions& collisions) const = 0;
+
+  // One world step, and the looks by which it found its first impact; none if it found none.
+  virtual std::vector<FrameLook> step_and_tell_looks() = 0;
 
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;

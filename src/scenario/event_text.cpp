@@ -19,9 +19,9 @@ std::string capitalised(std::string text) {
 }  // namespace
 
 std::string_view event_name(Event::Kind kind) {
-  static constexpr std::string_view kNames[] = {"test",        "miss",        "make_child",
-                                                "store",       "split",       "hand_down",
-                                                "depth_limit", "no_progress", "rotate"};
+  static constexpr std::string_view kNames[] = {"test",   "miss",      "make_child",  "store",
+                                                "split",  "hand_down", "depth_limit", "no_progress",
+                                                "rotate", "leave"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -63,6 +63,7 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
           "pair.",
           name, e.count, e.limit);
     case Event::Kind::rotate:
+    case Event::Kind::leave:
       return fitting_event_text(e, node, body);
   }
   return {};
@@ -86,6 +87,11 @@ std::string fitting_event_text(const Event& e, const std::string& node, const st
       return fmt::format(
           "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
           place, place);
+    case Event::Kind::leave:
+      return fmt::format(
+          "{} has left its box: its leaf goes, the sibling takes the parent's place, and {} is "
+          "inserted again.",
+          capitalised(body), body);
     default:
       return event_text(e, node, body, 0);
   }
@@ -160,6 +166,21 @@ std::string search_text(const FrameSearch& search, const std::string& a, const s
       "The line of the two points comes nearer: {:.4g}. Again, straight at the "
       "origin.",
       distance);
+}
+
+std::string look_text(const FrameLook& look) {
+  if (look.meets)
+    return fmt::format("At {:.3f} of the step they touch: the time of impact, found by {} looks.",
+                       look.time, look.number);
+  // A guess, by how fast they come nearer.
+  if (look.gap < 0)
+    return fmt::format("Do they meet by {:.2f} of the step? Yes, they would overlap: too late.",
+                       look.time);
+  if (!(look.free_until > look.time))
+    return fmt::format("Do they meet by {:.2f} of the step? Not yet: the gap is {:.2g}.", look.time,
+                       look.gap);
+  return fmt::format("At {:.2f} of the step the gap is {:.2g}: it cannot close before {:.2f}.",
+                     look.time, look.gap, look.free_until);
 }
 
 std::string phase_text(std::string_view phase, const Frame& frame) {

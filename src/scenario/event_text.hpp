@@ -38,6 +38,9 @@ std::string axis_text(const FrameSeparation& separation, const std::string& a,
 std::string search_text(const FrameSearch& search, const std::string& a, const std::string& b);
 
 // Of a world step shown phase by phase: "broad_phase", "narrow_phase" or "solve".
+// Of a look for the moment of an impact.
+std::string look_text(const FrameLook& look);
+
 std::string phase_text(std::string_view phase, const Frame& frame);
 
 }  // namespace lantern::scenario

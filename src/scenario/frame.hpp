@@ -38,6 +38,17 @@ struct Touched {
   }
 };
 
+// Where a body is, or was, or would be.
+struct FramePlace {
+  Vec<3> position{0.0};
+  double angle = 0;  // radians, of a flat world
+};
+
+// Of a body's trail.
+struct FrameStop : FramePlace {
+  bool impact = false;  // between two steps; else at the end of one
+};
+
 // Points are of three dimensions; in a flat world z is 0, and so are the half sizes along it.
 struct FrameBody : BodyState {
   BodyId id = 0;
@@ -50,6 +61,8 @@ struct FrameBody : BodyState {
   std::optional<Box<3>> stored_box;  // that the structure holds: with contacts enlarged by how far
                                      // it may come in the next step; of a tree that was not
                                      // rebuilt, the old one
+  std::vector<FrameStop> trail;      // where it has been, the oldest first, if frames show it
+  std::optional<FramePlace> ahead;   // after the step that is about to be taken, if nothing is met
   bool is_static = false;
   bool asleep = false;
   bool lit = false;     // the step is about it
@@ -126,6 +139,22 @@ struct FrameContact {
   bool begins = false;   // they did not touch a step before
   bool crushes = false;  // one of them, against a third
 };
+
+// A look at two bodies within a world step, to find out when they meet. Times are shares of the
+// step.
+struct FrameLook {
+  Pair pair;
+  FramePlace a, b;              // where they are then
+  Vec<3> on_a{0.0}, on_b{0.0};  // where their surfaces are nearest to each other
+  double time = 0;
+  double gap = 0;         // between them; below 0 they overlap
+  double free_until = 0;  // for so long they surely do not touch; `time` if that is not known
+  bool meets = false;     // this is the moment
+  int number = 1;         // of the looks at this pair, from 1: not all of them are told
+};
+
+// So many are told of one step.
+inline constexpr std::size_t kMostLooks = 24;
 
 // A spring, a distance joint or a pin, between two points.
 struct FrameLink {
@@ -390,6 +419,7 @@ struct Frame {
   std::uint32_t capacity = 0;           // of its leaves, if they split
   std::vector<GridExtent> grid_levels;  // of a grid, the finest first
   bool hashed = false;                  // its cells share buckets, of which the extents tell
+  std::optional<BodyId> swept_to;       // a sweep stands at this body's beginning
   int sweep_axis = 0;  // along which a sweep sorted; of other structures of no matter
   std::vector<Panel> panels;
   Box<3> bounds;
@@ -404,6 +434,7 @@ struct Frame {
   std::vector<FramePair> pairs;  // in order of ids
   std::vector<Pair> tested;      // by the narrow phase in the last step, in order of ids
   std::vector<FrameContact> contacts;
+  std::vector<FrameLook> looks;  // for the moment of an impact, so far; the last is this frame's
   std::vector<FrameLink> links;
   std::vector<FrameIsland> islands;  // if they have a panel; in order of their numbers
   std::vector<FrameEdge> edges;      // the same; in order of ids

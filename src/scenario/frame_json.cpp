@@ -55,6 +55,7 @@ class FrameWriter {
     if (whole_way_ && !frame.islands.empty()) write_list("islands", frame.islands);
     if (!frame.forces.empty()) write_list("forces", frame.forces);
     if (!frame.rulers.empty()) write_list("rulers", frame.rulers);
+    if (whole_way_ && !frame.looks.empty()) write_list("looks", frame.looks);
     if (!frame.rays.empty()) write_list("rays", frame.rays);
     if (!frame.views.empty()) write_list("views", frame.views);
     if (!frame.queries.empty()) write_list("queries", frame.queries);
@@ -259,6 +260,14 @@ class FrameWriter {
     if (ruler.before) members("before", *ruler.before);
     json_.end_object();
   }
+  void write(const FramePlace& place) {
+    frame_.dimension == 2 ? object("position", place.position, "orientation", place.angle)
+                          : object("position", place.position);
+  }
+  void write(const FrameLook& look) {
+    object("pair", look.pair, "a", look.a, "b", look.b, "time", look.time, "gap", look.gap,
+           "free_until", look.free_until, "meets", look.meets);
+  }
   void write(const FrameRay::Hit& hit) { object("body", hit.body, "position", hit.position); }
   void write(const FrameRay& ray) { object("from", ray.from, "to", ray.to, "hits", ray.hits); }
   void write(const FrameView& view) { object("eye", view.eye, "corners", view.corners); }
@@ -318,9 +327,9 @@ class FrameWriter {
   void write(const FrameCollision& c) { object("pair", c.pair, "moments", c.moments); }
 
   static constexpr std::string_view kNewCounts[] = {
-      "testable_pairs",   "pairs_tested",  "impulses",       "leaves_asleep",
-      "branches_asleep",  "islands",       "largest_island", "islands_asleep",
-      "collisions_alive", "begins_in_all", "touches_in_all"};
+      "testable_pairs", "pairs_tested",   "impulses",       "leaves_asleep",    "branches_asleep",
+      "islands",        "largest_island", "islands_asleep", "collisions_alive", "begins_in_all",
+      "touches_in_all", "impact_looks",   "impacts_located"};
 
   static constexpr std::string_view kPhases[] = {"whole", "broad", "boxes", "narrow", "resolve"};
 

@@ -151,6 +151,8 @@ enum class CountNeed {
   tree,  // a structure, a compiled level or an atlas
   structure,
   kd_tree,
+  sweep,   // a sort_and_sweep
+  boxes,   // an aabb_tree
   array,   // a structure whose leaves share one
   inside,  // a structure of ours, which counts what it does
   split,   // one structure for what never moves, one for what does

@@ -61,6 +61,12 @@ bool ScenarioSpec::has_body_of(BodyKind kind) const {
   return std::ranges::find(bodies, kind, &BodySpec::kind) != bodies.end();
 }
 
+bool ScenarioSpec::shows_trails() const {
+  return display.trail > 0 || std::ranges::any_of(steps, [](const Step& step) {
+           return step.display && step.display->trail > 0;
+         });
+}
+
 Scenario::Scenario(ScenarioSpec spec) : ScenarioSpec(std::move(spec)) { Indices(*this).check(); }
 
 }  // namespace lantern::scenario

@@ -127,6 +127,7 @@ struct ScenarioSpec {
   bool has_physics() const { return has_contacts() || has_forces(); }  // more than free flight
   bool tells_sleepers() const;  // bodies may rest: those that do are told from those that do not
   bool has_body_of(BodyKind kind) const;
+  bool shows_trails() const;  // on any frame
 };
 
 // One that is right, and the only one that can be walked, explained, run or drawn: whatever is
@@ -145,8 +146,8 @@ std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step);
 // What standard input is called as a file, in messages and facts.
 inline constexpr std::string_view kStandardInput = "<stdin>";
 
-// Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is standard
-// input; without a name of its own, the scenario from there is called `stdin`.
+// Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is
+// standard input; without a name of its own, the scenario from there is called `stdin`.
 Scenario load_scenario(const std::string& path);
 
 // Of a file of a folder, what must be known before it is read as a scenario.

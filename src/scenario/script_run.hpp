@@ -24,8 +24,9 @@ struct ScriptRun {
 
   std::uint32_t ticks_in(double seconds) const;
   std::uint32_t frame_every(int of_step) const;  // 0: the world's
-  // One world step, and the structure anew.
-  void let_time_pass();
+  // One world step, and the structure anew. The looks by which it found its first impact, if they
+  // are asked for.
+  std::vector<FrameLook> let_time_pass(bool with_looks = false);
 
   // The step is about this body, or about all that move.
   void focus(std::size_t body);

@@ -94,19 +94,24 @@ struct PlaneSpec {
   SourcePosition where;
 };
 
+// Along which a sweep sorts: where centres vary most, or along one axis.
+enum class SweepAxis { widest, x, y, z };
+
 struct StructureSpec {
   StructureKind kind = StructureKind::none;
   std::uint32_t capacity = 2;
   std::uint32_t max_depth = 6;
   Children children = Children::lazy;
   bool no_progress_stop = false;
-  bool split_static = false;      // one structure for what never moves, one for what does
-  double cell = 0;                // of a grid: side of the smallest cells; 0: what suits its bodies
-  std::uint32_t levels = 1;       // of a grid
-  bool open = false;              // of a grid
-  double margin = 0;              // aabb_tree only
-  std::vector<PlaneSpec> planes;  // bsp only; a plane's parent stands before it
-  bool of_level = false;          // bsp only: its planes are the compiled level's
+  bool split_static = false;  // one structure for what never moves, one for what does
+  double cell = 0;            // of a grid: side of the smallest cells; 0: what suits its bodies
+  std::uint32_t levels = 1;   // of a grid
+  bool open = false;          // of a grid
+  double margin = 0;          // aabb_tree only
+  Following following = Following::automatic;  // aabb_tree only
+  SweepAxis axis = SweepAxis::widest;          // sort_and_sweep only
+  std::vector<PlaneSpec> planes;               // bsp only; a plane's parent stands before it
+  bool of_level = false;                       // bsp only: its planes are the compiled level's
   std::vector<std::uint32_t> sectors;  // of its nodes, in the order of visiting; kNone: inner ones
   std::string why;                     // the kind, if it was left to the bodies
   SourcePosition where;
@@ -297,6 +302,8 @@ inline EnumNames names(StructureKind) {
   return all;
 }
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
+inline EnumNames names(Following) { return {"auto", "reinsert", "refit"}; }
+inline EnumNames names(SweepAxis) { return {"widest", "x", "y", "z"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
   return {"world",   "tree",  "atlas",      "chart",      "memory", "ledger",

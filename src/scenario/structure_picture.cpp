@@ -1,6 +1,7 @@
 #include "scenario/structure_picture.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -154,8 +155,9 @@ class NodePicture {
 
   void add_counters(const Counters& c, bool of_static) {
     using C = Counters;
-    for (const auto count : {&C::nodes, &C::leaves, &C::entries, &C::box_tests, &C::splits,
-                             &C::nodes_reused, &C::allocations, &C::places, &C::node_bytes})
+    for (const auto count :
+         {&C::nodes, &C::leaves, &C::entries, &C::box_tests, &C::splits, &C::nodes_reused,
+          &C::allocations, &C::places, &C::node_bytes, &C::swaps, &C::reinserted, &C::refitted})
       counters.*count += c.*count;
     counters.depth = std::max(counters.depth, c.depth);
     if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
@@ -240,6 +242,18 @@ std::uint64_t count_stale(const World<D>& world) {
   }));
 }
 
+// The sum of all inner nodes' surfaces; of what has no end, none.
+void measure_boxes(Frame& frame) {
+  double sum = 0;
+  for (const FrameNode& node : frame.nodes) {
+    if (node.leaf) continue;
+    const Vec<3> size = node.box.size();
+    sum += frame.dimension == 2 ? 2 * (size.x + size.y)
+                                : 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  }
+  if (std::isfinite(sum)) frame.measures.emplace_back("tree_cost", sum);
+}
+
 // Pairs of which a broad phase would test one: not both never move.
 std::uint64_t testable_pairs_of(const Frame& frame) {
   const auto never_move = static_cast<std::uint64_t>(
@@ -260,6 +274,8 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
   config.eager_children = spec.children == Children::eager;
   config.no_progress_stop = spec.no_progress_stop;
   config.margin = spec.margin;
+  config.following = spec.following;
+  if (spec.axis != SweepAxis::widest) config.sweep_axis = static_cast<int>(spec.axis) - 1;
   config.planes = planes_of<D>(spec);
   config.cell = spec.cell;
   config.levels = spec.levels;
@@ -342,6 +358,12 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
     frame.add_count("slots", c.places);
     frame.add_count("node_bytes", c.node_bytes);
     frame.add_count("node_bytes_with_bounds", c.node_bytes + c.nodes * sizeof(Box<D>));
+  }
+  if (spec.kind == StructureKind::sort_and_sweep) frame.add_count("swaps", c.swaps);
+  if (spec.kind == StructureKind::aabb_tree) {
+    frame.add_count("reinserted", c.reinserted);
+    frame.add_count("refitted", c.refitted);
+    measure_boxes(frame);
   }
   if (tells_sleepers) {
     const Sleepers asleep = count_sleepers(frame);

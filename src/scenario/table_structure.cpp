@@ -71,6 +71,15 @@ void check_kind(const TableReader& table, const StructureSpec& s, const Draft& d
     table.bad_key("margin",
                   fmt::format("a structure of kind '{}' has no margin", to_string(s.kind)),
                   "only kind = \"aabb_tree\" has");
+  if (table.has("following") && s.kind != StructureKind::aabb_tree)
+    table.bad_key("following",
+                  fmt::format("a structure of kind '{}' follows no bodies", to_string(s.kind)),
+                  "only kind = \"aabb_tree\" does");
+  if (table.has("axis") && s.kind != StructureKind::sort_and_sweep)
+    table.bad_key("axis", fmt::format("a structure of kind '{}' has no axis", to_string(s.kind)),
+                  "only kind = \"sort_and_sweep\" has");
+  if (table.has("axis") && s.axis == SweepAxis::z && draft.dimension == 2)
+    table.bad_value("axis", "a 2D world has no z axis", "take \"x\" or \"y\"");
   if (!table.has("planes") && s.kind == StructureKind::bsp && s.planes.empty())
     table.bad_value("kind", "a bsp needs the lines that divide it",
                     draft.dimension == 3
@@ -131,6 +140,15 @@ TableDoc structure_table() {
           "Of an `aabb_tree`: its leaves' boxes are larger than their bodies' by this on every "
           "side. A body that moves within its enlarged box changes nothing in the tree.",
           range(0, kFar)),
+      key(&S::following, "following",
+          "Of an `aabb_tree`: what is done with a body that has left its leaf's box. It is taken "
+          "out "
+          "and inserted again (`reinsert`), its box and those above it are made anew where they "
+          "stand (`refit`), or whichever is quicker."),
+      key(&S::axis, "axis",
+          "Of `sort_and_sweep`: along which it sorts, `widest` for the one along which centres "
+          "vary "
+          "most."),
       key(KeyType::tables, "planes", "A BSP's dividing lines or planes.", at_most(255),
           holds("structure.planes")),
   };

@@ -105,6 +105,11 @@ TableDoc display_table() {
               "How deep bodies overlap, beside their contacts; `show_depths` of [world]."),
           key(&D::coordinates, "coordinates",
               "The borders of the lit way, at a 2D world's edges; `show_coordinates` of [world]."),
+          key(&D::trail, "trail",
+              "Where moving bodies were at the ends of so many world steps before, in outline, and "
+              "their way from one to the next by the impacts between; before a step is taken "
+              "(`phases`), dotted, also where they would be after it if they met nothing.",
+              range(0, kMostTrail), in("steps")),
           key(&D::counters, "counters", "The numbers at the right of the caption."),
           key(&D::title, "title", "The thin line above."),
           key(&D::caption, "caption", "The caption below."),

@@ -36,6 +36,8 @@ TableDoc Move::table() {
               key(&Move::spin, "spin", "How fast it turns from now on.",
                   range(-kMostTurn, kMostTurn), in("°/s"), or_else("as it does")),
               key(&Move::rebuild, "rebuild", "The structure is rebuilt, or left as it was."),
+              pace_key(),
+              events_key({"leave", "test", "miss", "split", "store", "rotate"}),
           },
       .groups = {{{"to"}, {"velocity"}, {"turned"}, {"spin"}}, false},
       .example = R"([[step]]
@@ -64,8 +66,12 @@ void Move::change(Engine& engine) const { engine.move(*this); }
 
 void Move::act(ScriptRun& run) const {
   change(run.engine());
-  if (rebuild) run.engine().rebuild();
   run.focus(body);
+  if (rebuild && run.frames.by_event())
+    run.engine().follow([&](const Event& event) { run.witness(event); });
+  else if (rebuild)
+    run.engine().rebuild();
+  run.frames.touched = {};
   run.frames.settle("move");
 }
 

@@ -161,9 +161,9 @@ void Wait::act(ScriptRun& run) const {
 namespace {
 
 constexpr std::string_view kOfTheStep[] = {
-    "contacts",      "contact_points",    "impulses",     "begins",
-    "ends",          "pairs_tested",      "narrow_tests", "constraint_rows",
-    "friction_rows", "force_evaluations", "rotations",    "crushes"};
+    "contacts",     "contact_points", "impulses",        "begins",         "ends",
+    "pairs_tested", "narrow_tests",   "constraint_rows", "friction_rows",  "force_evaluations",
+    "rotations",    "crushes",        "impact_looks",    "impacts_located"};
 
 // What the step before found is no longer so, and what this one will find is not there yet.
 void forget_findings(Frame& frame) {
@@ -172,7 +172,7 @@ void forget_findings(Frame& frame) {
   for (auto& [name, number] : frame.counts)
     if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep)) number = 0;
   for (auto& [name, number] : frame.measures)
-    if (name == "penetration") number = 0;
+    if (name == "penetration" || name == "time_of_impact") number = name == "penetration" ? 0 : 1;
 }
 
 // Bodies and structure as they were before the step, contacts as it found them.
@@ -184,16 +184,50 @@ Frame met(const Frame& before, const Frame& after) {
     if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep))
       number = after.count(name).value_or(number);
   for (auto& [name, number] : frame.measures)
-    if (name == "penetration") number = after.measure(name).value_or(number);
+    if (name == "penetration" || name == "time_of_impact")
+      number = after.measure(name).value_or(number);
   return frame;
+}
+
+bool is_look(std::string_view event) { return event == "approach" || event == "impact"; }
+
+// Bodies as they were before the step, and the looks so far; nobody knows yet who will touch.
+void show_looks(const std::vector<FrameLook>& looks, const Frame& narrow, ScriptRun& run) {
+  Frame frame = narrow;
+  frame.phase = StepPhase::narrow;
+  frame.contacts.clear();
+  for (auto& [name, number] : frame.counts)
+    for (const char* later : {"contacts", "contact_points", "impulses", "crushes", "begins", "ends",
+                              "impacts_located", "impact_looks"})
+      if (name == later) number = 0;
+  for (auto& [name, number] : frame.measures) {
+    if (name == "penetration") number = 0;
+    if (name == "time_of_impact") number = 1;
+  }
+  for (const FrameLook& look : looks) {
+    frame.looks.push_back(look);
+    frame.event = look.meets ? "impact" : "approach";
+    if (!run.frames.wanted(frame.event)) continue;
+    for (auto& [name, number] : frame.counts)
+      if (name == "impact_looks") number = look.number;
+    for (auto& [name, number] : frame.measures)
+      if (name == "time_of_impact" && look.meets) number = look.time;
+    frame.caption = look_text(look);
+    run.frames.give(frame);
+  }
 }
 
 }  // namespace
 
 TableDoc Phases::table() {
+  KeyDoc events = events_key(
+      {"broad_phase", "boxes", "narrow_phase", "approach", "impact", "solve", "integrate"});
+  events.doc =
+      "Only these give frames: those named, else all but `approach` and `impact`. An `approach` is "
+      "a look at the two bodies of the step's first impact on the way to its moment.";
+  events.otherwise = "all but two";
   return {.doc = "One world step, phase by phase.",
-          .keys = {pace_key(),
-                   events_key({"broad_phase", "boxes", "narrow_phase", "solve", "integrate"})},
+          .keys = {pace_key(), std::move(events)},
           .example = R"([[step]]
 do = "phases"
 pace = "event"
@@ -201,9 +235,13 @@ caption = "Of {pairs:candidate pair}, {contacts} in contact."
 )"};
 }
 
-void Phases::read(const TableReader&, ScriptReading& script) {
+void Phases::read(const TableReader& table, ScriptReading& script) {
   constexpr std::uint64_t kMostPhases = 5;
   script.frames = kMostPhases;
+  const std::vector<Named> events = table.names("events");
+  const bool looks = std::ranges::any_of(events, [](const Named& n) { return is_look(n.name); });
+  if (looks) script.require_contacts(table.place("events"));
+  if (looks) script.frames += kMostLooks;
   ++script.state.ticks;
   ++script.state.least_ticks;
 }
@@ -223,7 +261,8 @@ void Phases::act(ScriptRun& run) const {
   };
   show("broad_phase", StepPhase::broad, before);
   if (before.count("overlaps") && before.count("contacts")) show("boxes", StepPhase::boxes, before);
-  run.let_time_pass();
+  const std::vector<FrameLook> looks =
+      run.let_time_pass(std::ranges::any_of(run.frames.step().events, is_look));
   const Frame after = run.frames.picture(run.frames.touched, "integrate");
   const Frame meeting = met(before, after);
   Frame narrow = meeting;
@@ -232,6 +271,7 @@ void Phases::act(ScriptRun& run) const {
   for (auto& [name, number] : narrow.counts)
     if (name == "impulses") number = 0;
   show("narrow_phase", StepPhase::narrow, narrow);
+  show_looks(looks, narrow, run);
   show("solve", StepPhase::resolve, meeting);
   run.frames.settle("integrate");
 }

@@ -190,6 +190,14 @@ struct Compare {
   std::string answer;  // with {count}; may be empty
 };
 
+// A sort and sweep finds its pairs: one frame for each body at whose beginning the sweep stands.
+struct Sweep {
+  static constexpr VerbTraits kTraits{.name = "sweep", .basis = Basis::bodies};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+};
+
 // The nearest hit, or all.
 struct CastRay {
   static constexpr VerbTraits kTraits{.name = "ray", .basis = Basis::bodies, .asks = true};
@@ -313,8 +321,8 @@ struct AskRoom {
 // In the order of the reference page.
 using Verb =
     std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse, Run, Wait,
-                 Phases, SolveBy, Rebuild, Compare, CastRay, Cull, Query, TestShapes, Separate,
-                 SearchDistance, CompileLevel, Locate, OrderFrom, See, Pack, AskRoom>;
+                 Phases, SolveBy, Rebuild, Sweep, Compare, CastRay, Cull, Query, TestShapes,
+                 Separate, SearchDistance, CompileLevel, Locate, OrderFrom, See, Pack, AskRoom>;
 
 inline const VerbTraits& traits_of(const Verb& verb) {
   return std::visit([](const auto& v) -> const VerbTraits& { return v.kTraits; }, verb);

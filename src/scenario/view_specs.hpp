@@ -21,6 +21,8 @@ namespace lantern::scenario {
 enum class ShownNames { story, all, none };
 
 // What a frame shows of what there is. A mark that is off is neither drawn nor named.
+inline constexpr int kMostTrail = 64;
+
 struct Display {
   ShownNames names = ShownNames::story;
   bool pairs = true;
@@ -33,6 +35,7 @@ struct Display {
   bool boxes = false;        // the bodies' broad-phase boxes
   bool depths = false;       // beside contacts
   bool coordinates = false;  // of the lit way's borders, at the world's edges
+  int trail = 0;             // so many world steps back, where moving bodies were
   bool counters = true;
   bool title = true;
   bool caption = true;

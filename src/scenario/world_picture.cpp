@@ -178,11 +178,12 @@ template <int D>
 void measure_world(const Players<D>& players, const Scenario& scenario, Frame& frame) {
   const std::span<const Body<D>> bodies(players.world().bodies());
   const Energy now = energy(bodies, players.world().forces());
-  frame.measures = {{"energy", now.total()},
-                    {"kinetic_energy", now.kinetic()},
-                    {"potential_energy", now.potential()},
-                    {"momentum", glm::length(momentum(bodies))},
-                    {"angular_momentum", glm::length(angular_momentum<D>(bodies))}};
+  frame.measures.insert(frame.measures.end(),
+                        {{"energy", now.total()},
+                         {"kinetic_energy", now.kinetic()},
+                         {"potential_energy", now.potential()},
+                         {"momentum", glm::length(momentum(bodies))},
+                         {"angular_momentum", glm::length(angular_momentum<D>(bodies))}});
   if (scenario.has_joints()) frame.measures.emplace_back("joint_gap", widest_gap(players.world()));
   if (!scenario.has_contacts()) return;
   double deepest = 0;

@@ -19,7 +19,7 @@ bool AabbTree<D>::suits(const Node& leaf, const Item<D>& item) const {
 }
 
 template <int D>
-void AabbTree<D>::update(std::span<const Item<D>> items) {
+void AabbTree<D>::update(std::span<const Item<D>> items, const EventWatch& watch) {
   bool same = items.size() == bodies();
   for (std::size_t i = 0; i < items.size(); ++i) {
     require_valid(items[i]);
@@ -32,23 +32,45 @@ void AabbTree<D>::update(std::span<const Item<D>> items) {
     out += same && !suits(nodes_[i], items[nodes_[i].link]);
   }
   if (!same || items.empty()) return build(items);
+  box_tests_ = items.size();
+  reinserted_ = refitted_ = 0;
   if (out == 0) return listed_ ? void() : list();
   // To insert one costs some hundred times as much as to mend a node.
   constexpr std::size_t kFew = 64;
   constexpr double kMuchWorse = 1.3;
-  if (kFew * out < items.size())
-    take_out_and_put_back(items);
-  else if (!(mend_all(kRoot, items) <= kMuchWorse * cost_))
+  const bool automatic = following_ == Following::automatic;
+  listed_ = false;
+  if (following_ == Following::reinsert || (automatic && kFew * out < items.size()))
+    take_out_and_put_back(items, watch);
+  else if (!(mend_all(kRoot, items) <= kMuchWorse * cost_) && automatic)
     build_of_leaves();
   list();
 }
 
 template <int D>
-void AabbTree<D>::take_out_and_put_back(std::span<const Item<D>> items) {
+void AabbTree<D>::take_out_and_put_back(std::span<const Item<D>> items, const EventWatch& watch) {
+  if (watch) tell_leaving(kRoot, items, watch);
   left_.clear();
   if (!keep_those_that_suit(kRoot, items)) nodes_[kRoot] = Node{};
   NoObserver nobody;
-  for (const BodyId body : left_) put(Node::leaf(items[body], margin_), nobody);
+  for (const BodyId body : left_) {
+    const Node leaf = Node::leaf(items[body], margin_);
+    watch ? put(leaf, watch) : put(leaf, nobody);
+  }
+  reinserted_ = left_.size();
+}
+
+// While all are still in the tree.
+template <int D>
+void AabbTree<D>::tell_leaving(NodeHandle at, std::span<const Item<D>> items,
+                               const EventWatch& watch) const {
+  const Node& node = nodes_[at];
+  if (!node.is_leaf()) {
+    tell_leaving(node.link, items, watch);
+    tell_leaving(node.link + 1, items, watch);
+  } else if (!suits(node, items[node.link])) {
+    watch({Event::Kind::leave, handle_of(at), node.link, 0, 0});
+  }
 }
 
 // Takes the others out of the branch. False if none is left in it.
@@ -79,7 +101,9 @@ double AabbTree<D>::mend_all(NodeHandle at, std::span<const Item<D>> items) {
   ++box_tests_;
   if (node.is_leaf()) {
     const Item<D>& item = items[node.link];
-    if (!suits(node, item)) node = Node::leaf(item, margin_);
+    if (suits(node, item)) return 0;
+    node = Node::leaf(item, margin_);
+    ++refitted_;
     return 0;
   }
   const double below = mend_all(node.link, items) + mend_all(node.link + 1, items);
@@ -164,8 +188,8 @@ void AabbTree<D>::pair_between(const AabbSpot& of_a, const AabbSpot& of_b, const
                              : pair_between(of_a, child(of_b, which), table, runs);
 }
 
-template void AabbTree<2>::update(std::span<const Item<2>>);
-template void AabbTree<3>::update(std::span<const Item<3>>);
+template void AabbTree<2>::update(std::span<const Item<2>>, const EventWatch&);
+template void AabbTree<3>::update(std::span<const Item<3>>, const EventWatch&);
 template void AabbTree<2>::list();
 template void AabbTree<3>::list();
 template std::uint64_t AabbTree<2>::pair(std::span<const Item<2>>, FoundPairs&);

@@ -55,10 +55,13 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
   // A tree that insertions have made higher is built anew.
   static constexpr std::uint32_t kHighest = 100;
 
-  static AabbTree made(const StructureConfig<D>& config) { return AabbTree(config.margin); }
+  static AabbTree made(const StructureConfig<D>& config) {
+    return AabbTree(config.margin, config.following);
+  }
 
   // Throws Refused for a margin that is negative or not finite.
-  explicit AabbTree(double margin = 0) : margin_(margin) {
+  explicit AabbTree(double margin = 0, Following following = Following::automatic)
+      : margin_(margin), following_(following) {
     if (!(margin >= 0 && std::isfinite(margin)))
       throw Refused(fmt::format("AABB tree: margin is {}, must be finite and at least 0", margin));
     clear();
@@ -80,16 +83,17 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
   // These items, whose boxes may have changed since they were built: those in the tree, in any
   // order, ids being 0 … n-1 (else the tree is built anew). If few have left their enlarged boxes,
   // these are taken out and inserted again; if many have, all boxes are mended where they stand,
-  // and once the tree has become much worse by that, it is built anew. Throws Refused as `insert`
-  // does; nothing changes then.
-  void update(std::span<const Item<D>> items);
+  // and once the tree has become much worse by that, it is built anew; or as its `following` says.
+  // `watch`, if there is one, is told who leaves and how each is inserted. Throws Refused as
+  // `insert` does; nothing changes then.
+  void update(std::span<const Item<D>> items, const EventWatch& watch = {});
 
   void clear() {
     nodes_.assign(2, Node{});
     free_.clear();
     listed_ = false;
     cost_ = 0;
-    box_tests_ = splits_ = 0;
+    box_tests_ = splits_ = reinserted_ = refitted_ = 0;
   }
 
   std::uint32_t bodies() const { return nodes_[kRoot].bodies(); }
@@ -145,7 +149,9 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
             .entries = n,
             .box_tests = box_tests_,
             .splits = splits_,
-            .allocations = allocations_};
+            .allocations = allocations_,
+            .reinserted = reinserted_,
+            .refitted = refitted_};
   }
 
  private:
@@ -291,7 +297,8 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
   void grow_all();
   void grow(NodeHandle at, std::span<Node> leaves, std::uint32_t height);
   std::size_t cut(std::span<Node> leaves, std::uint32_t height);
-  void take_out_and_put_back(std::span<const Item<D>> items);
+  void take_out_and_put_back(std::span<const Item<D>> items, const EventWatch& watch);
+  void tell_leaving(NodeHandle at, std::span<const Item<D>> items, const EventWatch& watch) const;
   bool suits(const Node& leaf, const Item<D>& item) const;
   bool keep_those_that_suit(NodeHandle at, std::span<const Item<D>> items);
   double mend_all(NodeHandle at, std::span<const Item<D>> items);
@@ -369,9 +376,11 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
 
   std::vector<Node> nodes_;  // from place 1 on; siblings side by side
   double margin_;
-  double cost_ = 0;  // areas of all inner nodes, when it was built last
-  std::uint64_t box_tests_ = 0;
+  Following following_;
+  double cost_ = 0;              // areas of all inner nodes, when it was built last
+  std::uint64_t box_tests_ = 0;  // since it was built, or followed its bodies last
   std::uint64_t splits_ = 0;
+  std::uint64_t reinserted_ = 0, refitted_ = 0;  // when it followed them last
 
   BoxTable<D> table_;    // leaves, from the first to the last, so that a branch is one run of it
   bool listed_ = false;  // the leaves stand there

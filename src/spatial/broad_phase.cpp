@@ -65,11 +65,11 @@ void BroadPhase<D>::update(std::span<const Proxy<D>> proxies) {
 }
 
 template <int D>
-void BroadPhase<D>::build(std::span<const Proxy<D>> proxies) {
+void BroadPhase<D>::build(std::span<const Proxy<D>> proxies, const Watch& watch) {
   take(proxies);
   all_or_nothing([&] {
     for (Store* store : stores())
-      if (!store->stands) build(*store, Use::questions);
+      if (!store->stands) build(*store, Use::questions, watch);
   });
 }
 
@@ -177,9 +177,9 @@ void BroadPhase<D>::forget() {
 // --- building ---
 
 template <int D>
-void BroadPhase<D>::build(Store& store, Use use) {
+void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
   if (config_.kind == StructureKind::automatic && !suits(store, use)) choose(store, use);
-  if (mended(store)) return;
+  if (mended(store, watch)) return;
   if (config_.in_proportion && store.items.size() > store.room) {
     store.room = std::bit_ceil(store.items.size());
     store.settings.max_depth = config_.max_depth;
@@ -225,13 +225,19 @@ void BroadPhase<D>::choose(Store& store, Use use) {
 
 // A structure that can go on from where its bodies were is not built anew.
 template <int D>
-bool BroadPhase<D>::mended(Store& store) {
+bool BroadPhase<D>::mended(Store& store, const Watch& watch) {
   if (!store.only_moved) return false;
+  EventWatch told;
+  if (watch)
+    told = [&](Event event) {
+      event.body = store.names[event.body];
+      watch(event);
+    };
   return std::visit(
       [&](auto& structure) {
         if constexpr (requires { structure.update(std::span<const Item<D>>()); }) {
-          structure.update(std::span<const Item<D>>(store.items));
-          store.stands = true;
+          store.stands = true;  // for who looks meanwhile: each body that is in it has its name
+          structure.update(std::span<const Item<D>>(store.items), told);
           return true;
         } else {
           return false;
@@ -339,6 +345,15 @@ template <int D>
 std::vector<GridExtent> BroadPhase<D>::grid_extents() const {
   const auto* grid = std::get_if<Grid<D>>(&dynamic_.structure);
   return grid ? grid->extents() : std::vector<GridExtent>();
+}
+
+template <int D>
+void BroadPhase<D>::each_swept(const std::function<void(BodyId, BodyId)>& f) const {
+  const auto* sweep = std::get_if<SortAndSweep<D>>(&dynamic_.structure);
+  if (!sweep || !dynamic_.stands) return;
+  SortAndSweep<D>(*sweep).compare(
+      [](BodyId) { return true; },
+      [&](const Item<D>& a, const Item<D>& b) { f(dynamic_.names[a.id], dynamic_.names[b.id]); });
 }
 
 template <int D>

@@ -128,7 +128,7 @@ class BroadPhase {
  public:
   using Config = BroadPhaseConfig<D>;
   using Structure = AnyStructure<D>;
-  using Watch = std::function<void(const Event&)>;
+  using Watch = EventWatch;
 
   // Throws Refused for what the structures refuse.
   explicit BroadPhase(const Config& config);
@@ -144,8 +144,9 @@ class BroadPhase {
 
   // The structures of these bodies, awake or not; no pairs are looked for: `automatic` takes one
   // that is quickly asked. Throws as `update` does.
-  // An update of the same bodies then builds nothing.
-  void build(std::span<const Proxy<D>> proxies);
+  // An update of the same bodies then builds nothing. A structure that goes on from where its
+  // bodies were tells `watch`, if there is one, what it does; `watch` may look at the structures.
+  void build(std::span<const Proxy<D>> proxies, const Watch& watch = {});
 
   // One body more, as the lecture inserts it; a structure that is fitted to its bodies is built
   // anew. Ids must come in ascending order. `watch`, if there is one, is told what happens; it may
@@ -178,6 +179,8 @@ class BroadPhase {
   std::optional<int> sweep_axis() const;
   // If it is a grid: its levels.
   std::vector<GridExtent> grid_extents() const;
+  // f(id, id) for each pair that it compares, in the order of the sweep; nothing if it sweeps none.
+  void each_swept(const std::function<void(BodyId, BodyId)>& f) const;
 
   // f(structure) with the real type of structure (see structure.hpp for what it offers: visit,
   // visit_toward, kZones, counters), its bodies named by their ids: for views and queries. The
@@ -259,8 +262,8 @@ class BroadPhase {
   void move(std::span<const Proxy<D>> proxies);
   void replace(std::span<const Proxy<D>> proxies);
   void forget();
-  void build(Store& store, Use use = Use::pairs);
-  bool mended(Store& store);
+  void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
+  bool mended(Store& store, const Watch& watch);
   template <class F>
   static void with_names(const Store& store, F&& f);
   void empty(Store& store);

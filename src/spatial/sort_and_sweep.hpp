@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,7 +35,11 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   static constexpr StructureTraits kTraits{
       .words = "sort and sweep", .is_tree = false, .meets_in_leaves = false, .splits = false};
 
-  static SortAndSweep made(const StructureConfig<D>&) { return {}; }
+  static SortAndSweep made(const StructureConfig<D>& config) {
+    SortAndSweep sweep;
+    sweep.wanted_axis_ = config.sweep_axis;
+    return sweep;
+  }
 
   // Throws Refused for a box that is not valid; nothing changes then. Tells `store` only.
   template <class Observer = NoObserver>
@@ -67,7 +72,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   // Chooses the axis and sorts. Needed before `sweep`, and for `near` to be fast.
   void sort() {
     if (sorted_) return;
-    axis_ = widest_axis();
+    axis_ = wanted_axis_.value_or(widest_axis());
     if (order_.size() != items_.size()) {
       order_.clear();
       for (std::uint32_t i = 0; i < items_.size(); ++i) append(order_, i);
@@ -77,6 +82,7 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
       const double x = items_[a].box.lo[axis_], y = items_[b].box.lo[axis_];
       return x < y || (x == y && items_[a].id < items_[b].id);
     };
+    swaps_ = 0;
     if (!insertion_sort(before)) std::sort(order_.begin(), order_.end(), before);
     ends_.clear();
     for (const std::uint32_t i : order_) {
@@ -184,7 +190,8 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
             .leaves = 1,
             .entries = items_.size(),
             .box_tests = sort_tests_,
-            .allocations = allocations_};
+            .allocations = allocations_,
+            .swaps = swaps_};
   }
 
  private:
@@ -223,13 +230,15 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   // False when it gave up after a few moves an item; the order holds each item once in any case.
   template <class Before>
   bool insertion_sort(const Before& before) {
-    std::size_t moves = 8 * order_.size();
+    const std::size_t most = 8 * order_.size();
+    std::size_t moves = most;
     for (std::size_t i = 1; i < order_.size(); ++i) {
       const std::uint32_t item = order_[i];
       std::size_t hole = i;
       for (; hole > 0 && moves > 0 && before(item, order_[hole - 1]); --hole, --moves)
         order_[hole] = order_[hole - 1];
       order_[hole] = item;
+      swaps_ = most - moves;
       if (moves == 0) return false;
     }
     return true;
@@ -242,6 +251,8 @@ class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
   std::vector<std::uint32_t> watchful_;  // places in order_ of those awake, while sweeping
   Box<D> box_;
   int axis_ = 0;
+  std::optional<int> wanted_axis_;
+  std::uint64_t swaps_ = 0;  // of the last sort, as far as it was by insertion
   bool sorted_ = false;
   std::uint64_t sort_tests_ = 0;
 };

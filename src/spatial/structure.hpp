@@ -26,7 +26,8 @@
 // and, if what it shows is made only for who looks,
 //   work()                   counters() of what is there already
 // and, if it can go on from where its bodies were,
-//   update(items)            the same bodies, in the same order, in other places
+//   update(items, watch)     the same bodies, in the same order, in other places; what it does to
+//                            follow them is told to `watch`, if there is one
 //
 // structure_kinds.hpp lists them all; own_structure.hpp brings one of your own.
 //
@@ -37,6 +38,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -116,6 +118,10 @@ struct BspPlane {
   bool front = false;            // it divides what lies in front of its parent
 };
 
+// What an aabb_tree does with bodies that have left their boxes: it takes them out and inserts them
+// again, mends the boxes where they stand, or whichever is quicker.
+enum class Following { automatic, reinsert, refit };
+
 // What a structure is told when it is made; each reads what concerns it.
 template <int D>
 struct StructureConfig {
@@ -130,6 +136,8 @@ struct StructureConfig {
   std::uint32_t levels = 1;  // of a grid: sizes of cells
   bool open = false;         // of a grid: its cells are hashed, and have no rim
   double margin = 0;         // of an aabb_tree: how far boxes are enlarged on every side
+  Following following = Following::automatic;  // of an aabb_tree
+  std::optional<int> sweep_axis = {};          // of sort_and_sweep; none: that of most variance
 };
 
 // What tells kinds of structures apart for whoever shows or describes them.
@@ -160,6 +168,7 @@ struct Event {
                   // so small that no number lies between its bounds
     no_progress,  // the leaf holds `count`, more than `limit`, but a split would part no pair
     rotate,       // a child of the node and the node's sibling have changed places
+    leave,        // the body has left the box of its leaf, which will be taken out of the tree
   };
   Kind kind{};
   NodeHandle node = 0;
@@ -167,6 +176,8 @@ struct Event {
   std::uint32_t count = 0;
   std::uint32_t limit = 0;
 };
+
+using EventWatch = std::function<void(const Event&)>;
 
 // The default observer: its calls compile to nothing.
 struct NoObserver {
@@ -190,6 +201,11 @@ struct Counters {
   // Of a pool of nodes, as many as it ever held at once: the first `nodes` of them, by their
   // handles, are in use now, and of these the first `nodes_reused` held another before.
   std::uint64_t pool = 0;
+  std::uint64_t swaps = 0;  // of a sweep's last sort: neighbours that changed places
+  // Of the last time that a tree followed its bodies: those that had left their boxes and were
+  // inserted again, or whose boxes were mended where they stand.
+  std::uint64_t reinserted = 0;
+  std::uint64_t refitted = 0;
 };
 
 }  // namespace lantern::spatial

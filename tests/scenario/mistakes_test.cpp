@@ -339,6 +339,17 @@ TEST(Mistakes, OfSettingsThatAStructureHasNot) {
   good(scene + "capacity = 2\n" + show + "[[step]]\ndo = \"rebuild\"\nkind = \"quadtree\"\n");
   expect_mistakes(scene + "@cell = 2\n@levels = 3\n@open = true\n" + show,
                   {"'sort_and_sweep' has no 'cell'", "no 'levels'", "no 'open'"});
+  expect_mistakes(scene + "@following = \"refit\"\n" + show, {"follows no bodies"});
+  expect_mistakes(scene + "axis = @\"z\"\n" + show, {"no z axis"});
+  expect_mistakes(scene + "axis = \"y\"\n" + show +
+                      "[[step]]\ndo = \"rebuild\"\nkind = \"grid\"\n@axis = \"x\"\n",
+                  {"has no axis"});
+  good(scene + "axis = \"y\"\n" + show + "[[step]]\ndo = \"sweep\"\nexpect = { swaps = 0 }\n");
+  expect_mistakes(scene + show + "[[step]]\ndo = \"rebuild\"\nkind = \"quadtree\"\n" +
+                      "[[step]]\ndo = @\"sweep\"\n",
+                  {"there is no sort_and_sweep"});
+  expect_mistakes(scene + show + "[[step]]\ndo = \"phases\"\n@events = [\"approach\"]\n",
+                  {"nothing"});
   good(scene + "cell = 2\n" + show + "[[step]]\ndo = \"rebuild\"\nkind = \"grid\"\n");
 }
 

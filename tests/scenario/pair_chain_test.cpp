@@ -77,6 +77,15 @@ class Chain {
     std::set<BodyId> of_static;
     for (const FrameNode& node : frame_.nodes)
       if (node.of_static) of_static.insert(node.bodies.begin(), node.bodies.end());
+    if (frame_.structure == StructureKind::aabb_tree) {  // its leaves compare their boxes
+      for (const FrameNode& a : frame_.nodes)
+        for (const FrameNode& b : frame_.nodes) {
+          if (!a.leaf || !b.leaf || a.bodies.empty() || b.bodies.empty() || a.id >= b.id) continue;
+          if (overlap(a.box, b.box) && (stirs(a.bodies[0]) || stirs(b.bodies[0])))
+            meet(a.bodies[0], b.bodies[0]);
+        }
+      return summed(met);
+    }
     for (const FrameNode& node : frame_.nodes)
       if (node.leaf && node.of_static) {
         for (const FrameBody& b : frame_.bodies)
@@ -171,7 +180,12 @@ std::vector<Pair> pairs_of(const Frame& frame, bool overlapping) {
 
 // The frame's own chain: leaves, pairs, overlaps; contacts, points, impulses.
 void expect_chain_of(const Frame& frame, const Chain& chain) {
-  if (frame.structure != StructureKind::none) {
+  // A body that an aabb_tree inserts again is in no leaf meanwhile, and a sweep under way has not
+  // found all.
+  const bool waits = frame.structure == StructureKind::aabb_tree &&
+                     frame.count("entries") < std::int64_t(frame.bodies.size());
+  const bool midst = frame.swept_to || waits;
+  if (frame.structure != StructureKind::none && !midst) {
     const Expected expected = chain.expected();
     EXPECT_TRUE(expected.met.contains(*frame.count("pair_tests"))) << *frame.count("pair_tests");
     EXPECT_EQ(pairs_of(frame, false), expected.pairs);

@@ -239,6 +239,9 @@ TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
   expect_mistakes(free + steps({show + "at_most = { @contacts = 1 } }"}), {"no contacts"});
   expect_mistakes(kPhysicsScene + steps({show + "@stale = 1 }"}), {"no kd_tree at this step"});
   good(kPhysicsScene + steps({"do = \"rebuild\"\nkind = \"kd_tree\"\nexpect = { stale = 0 }"}));
+  expect_mistakes(kPhysicsScene + steps({show + "@swaps = 1 }"}), {"no sort_and_sweep"});
+  for (const std::string count : {"reinserted", "refitted", "tree_cost"})
+    expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}), {"no aabb_tree"});
   for (const std::string count : {"slots", "node_bytes", "node_bytes_with_bounds", "nodes_asleep",
                                   "static_builds", "dynamic_builds"})
     expect_mistakes(kPhysicsRules + kBodies + steps({show + "@" + count + " = 1 }"}),

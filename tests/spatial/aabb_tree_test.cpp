@@ -301,6 +301,41 @@ TEST(AabbTree, RotationsMakeItBetter) {
   EXPECT_GT(rotations, 5u);
 }
 
+// What leaves its box is taken out and inserted again, as it is told; nobody else is touched.
+TEST(AabbTree, InsertsAgainThoseThatLeftTheirBoxesAndTellsIt) {
+  Random random(21);
+  std::vector<Item<2>> items = testing::random_world<2>(Sort::uniform, 40, random);
+  for (const Following following : {Following::reinsert, Following::refit}) {
+    AabbTree<2> tree(0.5, following);
+    for (const Item<2>& item : items) tree.insert(item);
+    for (int step = 0; step < 20; ++step) {
+      std::set<BodyId> moved;
+      for (Item<2>& item : items) {
+        const double way = random.unit() < 0.2 ? 2 : 0;  // out of its box, or not at all
+        if (way > 0) moved.insert(item.id);
+        item.box.lo += Vec<2>(way);
+        item.box.hi += Vec<2>(way);
+      }
+      std::set<BodyId> left, stored;
+      tree.update(items, [&](const Event& event) {
+        std::size_t nodes = 0;
+        tree.visit([&](const NodeView<2>&) { return ++nodes > 0; });
+        EXPECT_GT(nodes, 0u);
+        if (event.kind == Event::Kind::leave) left.insert(event.body);
+        if (event.kind == Event::Kind::store) stored.insert(event.body);
+      });
+      const Counters c = tree.counters();
+      const bool again = following == Following::reinsert;
+      EXPECT_EQ(again ? c.reinserted : c.refitted, moved.size());
+      EXPECT_EQ(again ? c.refitted : c.reinserted, 0u);
+      EXPECT_GE(c.box_tests, items.size()) << "each is asked whether it has left";
+      EXPECT_EQ(left, again ? moved : std::set<BodyId>());
+      EXPECT_EQ(stored, left);
+      expect_sound(tree, items);
+    }
+  }
+}
+
 TEST(AabbTree, RefusesWhatItCannotHold) {
   EXPECT_THROW(AabbTree<2>(-1.0), Refused);
   EXPECT_THROW(AabbTree<2>(std::numeric_limits<double>::quiet_NaN()), Refused);

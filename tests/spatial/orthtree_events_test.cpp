@@ -61,6 +61,7 @@ class Witness {
       case Kind::miss:
         break;
       case Kind::rotate:
+      case Kind::leave:
         ADD_FAILURE() << "an orthtree turns nothing";
         break;
     }

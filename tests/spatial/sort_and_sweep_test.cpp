@@ -55,6 +55,25 @@ TEST(SortAndSweep, SweepsAlongTheAxisOnWhichCentresVaryTheMost) {
   }
 }
 
+// Swaps are the pairs whose order has changed, and the order is kept from sort to sort.
+TEST(SortAndSweep, CountsTheSwapsOfAnOrderThatIsNearlyRight) {
+  SortAndSweep<2> sweep = SortAndSweep<2>::made({.sweep_axis = 1});
+  std::vector<Item<2>> items;
+  for (BodyId id = 0; id < 16; ++id)
+    items.push_back({id, Box<2>::around(Vec<2>(10.0 * id, -id), Vec<2>(0.4))});
+  sweep.build(items);
+  EXPECT_EQ(sweep.axis(), 1) << "as asked, though x varies more";
+  EXPECT_EQ(sweep.counters().swaps, 120u) << "the reverse order: each pair once";
+  sweep.build(items);
+  EXPECT_EQ(sweep.counters().swaps, 0u) << "nothing has moved";
+  std::swap(items[3].box, items[4].box);
+  sweep.build(items);
+  EXPECT_EQ(sweep.counters().swaps, 1u);
+  items[0].box = Box<2>::around(Vec<2>(0, -99), Vec<2>(0.4));
+  sweep.build(items);
+  EXPECT_EQ(sweep.counters().swaps, 15u) << "one that jumps passes all others";
+}
+
 TEST(SortAndSweep, ShowsOneLeafHoweverOftenItIsVisited) {
   SortAndSweep<2> sweep;
   sweep.insert({7, {{0, 0}, {9, 1}}});

@@ -1,0 +1,122 @@
+// Where bodies come from and go to: trails, and the looks for the moment of an impact.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "draw/body_shapes.hpp"
+#include "draw/keys.hpp"
+#include "draw/pen.hpp"
+#include "draw/world2d_parts.hpp"
+
+namespace lantern::draw {
+namespace {
+
+using scenario::FrameLook;
+using scenario::FramePlace;
+
+// The body's outline where it stands then.
+Polygon outline_at(const FrameBody& body, const FramePlace& place, const View2D& map) {
+  constexpr int kRound = 40;
+  const Vec<2> middle = map.to_page(place.position);
+  if (const auto* ball = std::get_if<Sphere>(&body.shape))
+    return ring_of(middle, ball->radius * map.scale(), kRound);
+  const Box<2> box = Box<2>::around(middle, flat(body.box.size()) * (map.scale() / 2));
+  FrameBody there;
+  there.shape = body.shape;
+  there.box = body.box;
+  there.angle = place.angle;
+  const Polygon turned = turned_outline(there, box);
+  return turned.empty() ? polygon_of(box) : turned;
+}
+
+// A step that is about to be taken shows where it would end.
+bool looks_ahead(const Frame& frame) {
+  using enum scenario::StepPhase;
+  return frame.phase == broad || frame.phase == boxes || frame.phase == narrow;
+}
+
+void draw_trail(const FrameBody& body, const View2D& map, Pen& pen) {
+  std::vector<Vec<2>> way;
+  for (const scenario::FrameStop& stop : body.trail) way.push_back(map.to_page(stop.position));
+  way.push_back(map.to_page(body.position));
+  draw_way(way, pen);
+  for (const scenario::FrameStop& stop : body.trail)
+    pen.path(outline_at(body, stop, map), true,
+             stop.impact ? Stroke{Role::contact, kTrailStroke.width} : kTrailStroke);
+}
+
+// The gap that a look found, from surface to surface.
+void draw_gap(const FrameLook& look, const View2D& map, Pen& pen, Labels& labels) {
+  constexpr double kLeast = 30;  // page units: a shorter one has no room for its number
+  const Vec<2> a = map.to_page(look.on_a), b = map.to_page(look.on_b);
+  if (!(look.gap > 0)) return;
+  pen.line(a, b, {Role::lit, 3.4}, 1.6);
+  for (const Vec<2>& end : {a, b}) pen.dot(end, 4.5, Role::lit, {Role::panel, 1.4});
+  if (glm::distance(a, b) < kLeast) return;
+  const TextStyle style{kLeastLabel, Weight::semibold, Role::lit_ink, Role::panel};
+  const Vec<2> middle = (a + b) / 2.0;
+  labels.try_add(fmt::format("gap {:.2g}", look.gap),
+                 {{{middle.x, middle.y - 10}, 0.5},
+                  {{middle.x, middle.y + 28}, 0.5},
+                  {{middle.x + 14, middle.y + 8}, 0}},
+                 style, map.panel());
+}
+
+}  // namespace
+
+void draw_way(const std::vector<Vec<2>>& points, Pen& pen) {
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    pen.line(points[i], points[i + 1], {Role::quiet_ink, 1.8});
+}
+
+void draw_trails(const Frame& frame, const View2D& map, DrawList& list) {
+  Pen pen(list, mark_limit(map));
+  for (const FrameBody& body : frame.bodies) {
+    if (body.trail.empty() && !(body.ahead && looks_ahead(frame))) continue;
+    const DrawList::Scope scope(list, body_key("world/trail", body));
+    if (!body.trail.empty()) {
+      draw_trail(body, map, pen);
+      list.marks.add(MarkKind::trail);
+    }
+    if (!body.ahead || !looks_ahead(frame)) continue;
+    pen.line(map.to_page(body.position), map.to_page(body.ahead->position),
+             {Role::quiet_ink, 1.8, kAheadStroke.dash});
+    pen.path(outline_at(body, *body.ahead, map), true, kAheadStroke);
+    list.marks.add(MarkKind::ahead);
+  }
+}
+
+void draw_looks(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
+  if (frame.looks.empty()) return;
+  const DrawList::Scope scope(list, "world/looks");
+  Pen pen(list, mark_limit(map));
+  const BodiesById bodies = by_id(frame.bodies);
+  const FrameLook& last = frame.looks.back();
+  for (const FrameLook& look : frame.looks) {
+    const bool now = &look == &last;
+    for (const auto& [id, place] :
+         {std::pair(look.pair.a, look.a), std::pair(look.pair.b, look.b)}) {
+      const auto body = bodies.find(id);
+      if (body == bodies.end() || body->second->is_static) continue;
+      const Polygon outline = outline_at(*body->second, place, map);
+      const Role meets = look.meets ? Role::contact : Role::lit;
+      pen.path(outline, true, now ? Stroke{meets, 3.6} : kLookStroke);
+      const TextStyle style{kLeastLabel, Weight::semibold, now ? Role::lit_ink : Role::ray,
+                            Role::panel};
+      Box<2> box{outline[0], outline[0]};
+      for (const Vec<2>& p : outline) box = united(box, Box<2>{p, p});
+      const Vec<2> c = box.center();
+      labels.try_add(fmt::format("{:.2f}", look.time),
+                     {{{c.x, box.hi.y + 24}, 0.5},
+                      {{c.x, box.lo.y - 8}, 0.5},
+                      {{box.hi.x + 8, c.y + 8}, 0},
+                      {{box.lo.x - 8, c.y + 8}, 1}},
+                     style, map.panel());
+    }
+  }
+  draw_gap(last, map, pen, labels);
+  list.marks.add(MarkKind::look);
+  for (const char* name : {"impact_looks", "time_of_impact"}) list.referents.emplace(name);
+}
+
+}  // namespace lantern::draw
