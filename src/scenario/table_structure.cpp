@@ -71,11 +71,12 @@ void check_kind(const TableReader& table, const StructureSpec& s, const Draft& d
     table.bad_key("margin",
                   fmt::format("a structure of kind '{}' has no margin", to_string(s.kind)),
                   "only kind = \"aabb_tree\" has");
-  if (table.has("following") && s.kind != StructureKind::aabb_tree)
+  if (table.has("following") && s.following != Following::automatic &&
+      s.kind != StructureKind::aabb_tree)
     table.bad_key("following",
                   fmt::format("a structure of kind '{}' follows no bodies", to_string(s.kind)),
                   "only kind = \"aabb_tree\" does");
-  if (table.has("axis") && s.kind != StructureKind::sort_and_sweep)
+  if (table.has("axis") && s.axis != SweepAxis::widest && s.kind != StructureKind::sort_and_sweep)
     table.bad_key("axis", fmt::format("a structure of kind '{}' has no axis", to_string(s.kind)),
                   "only kind = \"sort_and_sweep\" has");
   if (table.has("axis") && s.axis == SweepAxis::z && draft.dimension == 2)

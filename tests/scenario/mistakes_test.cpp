@@ -348,7 +348,7 @@ TEST(Mistakes, OfSettingsThatAStructureHasNot) {
   expect_mistakes(scene + show + "[[step]]\ndo = \"rebuild\"\nkind = \"quadtree\"\n" +
                       "[[step]]\ndo = @\"sweep\"\n",
                   {"there is no sort_and_sweep"});
-  expect_mistakes(scene + show + "[[step]]\ndo = \"phases\"\n@events = [\"approach\"]\n",
+  expect_mistakes(scene + show + "[[step]]\ndo = \"phases\"\nevents = @[\"approach\"]\n",
                   {"nothing"});
   good(scene + "cell = 2\n" + show + "[[step]]\ndo = \"rebuild\"\nkind = \"grid\"\n");
 }
