@@ -67,7 +67,7 @@ SupportPair closest_points_of(const Nearest& nearest) {
 }
 
 // A corner of the plane's boxes is looked at once; more steps are rounding.
-constexpr int kMostSteps = 32;
+constexpr int kMostSearches = 32;
 
 // Places are relative to the first shape.
 class GjkSearch {
@@ -84,7 +84,7 @@ class GjkSearch {
     SupportPair found = farthest(direction);
     Nearest nearest = nearest_of(found);
     tell(direction, found, false, nearest);
-    for (int steps = 1; steps < kMostSteps; ++steps) {
+    for (int steps = 1; steps < kMostSearches; ++steps) {
       const double distance = glm::length(nearest.point);
       if (nearest.simplex.size() == 3 || distance <= narrow::kRounding * size_)
         return {true, 0, {}, steps};
@@ -96,7 +96,7 @@ class GjkSearch {
       tell(direction, found, ends, nearest);
       if (ends) return apart(nearest, direction, steps + 1);
     }
-    return apart(nearest, direction, kMostSteps);
+    return apart(nearest, direction, kMostSearches);
   }
 
  private:

@@ -178,6 +178,12 @@ std::string text_of(const Expectation& e, int dimension) {
       return point("half size");
     case turned:
       return fmt::format("{} turned by {:.9g}°", e.name, e.number / kDegree);
+    case build_work:
+      return fmt::format("work of {} to build = {:.9g}", e.name, e.number);
+    case step_work:
+      return fmt::format("work of {} = {:.9g}", e.name, e.number);
+    case fewest:
+      return fmt::format("fewest = {}", listed(e.names));
     case count:
     case measure:
       break;

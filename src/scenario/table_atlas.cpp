@@ -8,16 +8,18 @@
 #include "scenario/key.hpp"
 
 namespace lantern::scenario {
-namespace {
 
-enum class Order { as_made, tallest_first };
-EnumNames names(Order) { return {"as_made", "tallest_first"}; }
+// Not in the namespace below, where it would hide every other `names`.
+enum class PatternOrder { as_made, tallest_first };
+inline EnumNames names(PatternOrder) { return {"as_made", "tallest_first"}; }
+
+namespace {
 
 struct TexturePatternSpec {
   std::string name;
   std::size_t count = 1;
   int multiple = 1;
-  Order order = Order::as_made;
+  PatternOrder order = PatternOrder::as_made;
   int color = 0;  // 0: each the next
 };
 
@@ -74,7 +76,7 @@ void read_texture_pattern(const TomlValue& value, Draft& draft) {
     texture.height = static_cast<int>(random.whole(heights.least, heights.most)) * pattern.multiple;
     texture.where = draft.position(value.where);
   }
-  if (pattern.order == Order::tallest_first)
+  if (pattern.order == PatternOrder::tallest_first)
     std::stable_sort(made.begin(), made.end(), [](const TextureSpec& a, const TextureSpec& b) {
       return a.height != b.height ? a.height > b.height : a.width > b.width;
     });
