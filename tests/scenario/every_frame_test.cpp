@@ -88,9 +88,11 @@ PairState state_by_lists(const Frame& frame, const FrameBody& a, const FrameBody
   const auto listed = std::ranges::find(frame.pairs, pair, &FramePair::pair);
   if (listed == frame.pairs.end())
     return a.is_static && b.is_static ? PairState::untestable : PairState::ruled_out;
-  if (frame.phase == StepPhase::broad || !frame.count("contacts")) return PairState::candidate;
+  const bool tested = has(frame.tested, std::identity());
+  if (!frame.count("contacts")) return tested ? PairState::shapes_apart : PairState::candidate;
+  if (frame.phase == StepPhase::broad) return PairState::candidate;
   if (!listed->overlaps) return PairState::boxes_apart;
-  return has(frame.tested, std::identity()) ? PairState::shapes_apart : PairState::candidate;
+  return tested ? PairState::shapes_apart : PairState::candidate;
 }
 
 // Every pair is in one state, and states and counts agree.

@@ -68,7 +68,8 @@ TEST(SearchDistance, TellsSupportBySupport) {
 TEST(TestShapes, TestsAllPairsOfTheStructure) {
   const auto scene = [](const std::string& kind) {
     return "title = \"x\"\n[world]\nsize = [16, 16]\n[structure]\nkind = \"" + kind +
-           "\"\ncapacity = 3\n[[pattern]]\nname = \"disc\"\ncount = 20\nradius = 1.4\n"
+           (kind == "quadtree" ? "\"\ncapacity = 3\n" : "\"\n") +
+           "[[pattern]]\nname = \"disc\"\ncount = 20\nradius = 1.4\n"
            "[[step]]\ndo = \"insert\"\nbodies = [\"disc\"]\n[[step]]\ndo = \"test_shapes\"\n"
            "[[step]]\ndo = \"show\"\n";
   };
@@ -101,8 +102,8 @@ TEST(NarrowMistakes, OfPairsThatHaveNoTest) {
     const auto step = [&](const std::string& pair) {
       return "[[step]]\ndo = \"" + verb + "\"\npair = " + pair + "\n";
     };
-    expect_mistakes(kTwoBoxes + step("@[\"red\"]"), {"a pair is two different bodies"});
-    expect_mistakes(kTwoBoxes + step("@[\"red\", \"red\"]"), {"a pair is two different bodies"});
+    expect_mistakes(kTwoBoxes + step("@[\"red\"]"), {"a pair is two bodies"});
+    expect_mistakes(kTwoBoxes + step("[\"red\", @\"red\"]"), {"named twice"});
     expect_mistakes(kTwoBoxes + step("[\"red\", @\"pinc\"]"), {"pinc"});
     expect_mistakes(kTwoBoxes + "[[step]]\ndo = \"remove\"\nbodies = [\"pink\"]\n" +
                         step("[\"red\", @\"pink\"]"),
