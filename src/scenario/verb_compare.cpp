@@ -44,7 +44,7 @@ TableDoc Compare::table() {
                   "Kinds of structures, with the settings of the [structure] that stands; a `bsp` "
                   "with its planes.",
                   or_else("all of Lantern's own that are possible here and whose work is counted")),
-              key(&Compare::answer, "answer",
+              key(&Compare::verdict, "verdict",
                   "What the row says in words. It may quote counts, as a caption does.",
                   range(0, 56)),
           },
@@ -53,7 +53,7 @@ do = "compare"
 bodies = ["red", "pink", "blue"]
 row = "three ghosts"
 kinds = ["brute_force", "quadtree", "grid"]
-answer = "Of {compared_pairs:pair} at best {least_work} compared."
+verdict = "Of {compared_pairs:pair} at best {least_work} compared."
 expect = { compared_bodies = 3, step_work = { brute_force = 3 } }
 )"};
 }
@@ -75,13 +75,13 @@ void Compare::read(const TableReader& table, ScriptReading& script) {
   }
   if (table.is_good("kinds") && kinds.size() < 2)
     table.bad_value("kinds", "one kind alone has nothing beside it", "name two or more");
-  check_quotes(table, "answer", script.draft, script.state);
+  check_quotes(table, "verdict", script.draft, script.state);
 }
 
 void Compare::act(ScriptRun& run) const {
   FrameComparison::Row found = run.engine().compare(bodies, kinds);
   found.name = row;
-  run.frames.add_row(std::move(found), answer);
+  run.frames.add_row(std::move(found), verdict);
   run.frames.settle("compare");
 }
 

@@ -187,7 +187,7 @@ struct Compare {
   std::vector<std::size_t> bodies;
   std::string row;
   std::vector<StructureKind> kinds;
-  std::string answer;  // with {count}; may be empty
+  std::string verdict;  // with {count}; may be empty
 };
 
 // A sort and sweep finds its pairs: one frame for each body at whose beginning the sweep stands.

@@ -19,7 +19,7 @@ TEST(Compare, SetsEveryKindBesideTheOthersWithoutTouchingTheWorld) {
   const std::vector<Frame> frames = frames_of(
       good(world_text("size = [32, 32]", kTree + kDots + kWalls +
                                              compared("[\"dot\", \"wall\"]",
-                                                      "answer = \"{least_work} at best\"\n"
+                                                      "verdict = \"{least_work} at best\"\n"
                                                       "expect = { compared_pairs = 735 }\n") +
                                              compared("[\"dot1..dot4\"]"))));
   ASSERT_EQ(frames.size(), 2u);

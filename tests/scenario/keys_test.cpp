@@ -158,15 +158,12 @@ std::map<std::string, Surroundings> surroundings() {
         ""}},
       // All that can be counted is counted here.
       {"expect",
-       {kTitle + kRules + kLevel + "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" +
-            kRed + kCompile + "[[step]]\ndo = \"locate\"\npoint = [1, 1]\n" +
+       {kTitle + "panels = [\"islands\"]\n" + kRules + kLevel +
+            "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" + kRed + kMeasured + kCompile +
+            "[[step]]\ndo = \"see\"\neye = [1, 1]\n" +
+            "[[step]]\ndo = \"run\"\nseconds = 1\n" +
             "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\n" + kInsert +
             "[[step]]\ndo = \"compare\"\nbodies = [\"red\"]\nrow = \"a\"\n" + "[step.expect]\n",
-       {kTitle + "panels = [\"islands\"]\n" + kRules + kLevel +
-            "[structure]\nkind = \"quadtree\"\nsplit_static = true\n" + kRed + kCompile +
-            "[[step]]\ndo = \"locate\"\npoint = [1, 1]\n[[step]]\ndo = \"run\"\nseconds = 1\n" +
-            kRed + kCompile + "[[step]]\ndo = \"see\"\neye = [1, 1]\n" +
-            "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [1, 1]\n" + kInsert + "[step.expect]\n",
         {},
         ""}},
   };
@@ -449,8 +446,8 @@ void add_verb_cases(std::vector<KeyCase>& cases) {
        {"solve_by", "iterations", {"1", "1000"}, bad_whole("0", "1001", "1 to 1000")},
        {"compare", "bodies", {"[\"red\"]"}, bad_names("body")},
        {"compare", "row", {"\"a town\""}, bad_text("1 to 24", 24)},
-       {"compare", "answer", {"\"\"", "\"{least_work:comparison}\""}, bad_text("0 to 56", 56)},
-       {"compare", "answer", {}, {{"\"@{leest_work}\"", "did you mean 'least_work'?"}}},
+       {"compare", "verdict", {"\"\"", "\"{least_work:comparison}\""}, bad_text("0 to 56", 56)},
+       {"compare", "verdict", {}, {{"\"@{leest_work}\"", "did you mean 'least_work'?"}}},
        {"compare",
         "kinds",
         {"[\"grid\", \"quadtree\"]"},
