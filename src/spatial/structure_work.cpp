@@ -11,6 +11,14 @@ std::uint64_t dynamic_tests(const BroadPhase<D>& broad) {
   return broad.with_dynamic([](const auto& tree) { return tree.counters().box_tests; });
 }
 
+// Are those that move where they were?
+template <int D>
+bool same_movers(std::span<const Proxy<D>> before, std::span<const Proxy<D>> after) {
+  return std::ranges::equal(before, after, [](const Proxy<D>& a, const Proxy<D>& b) {
+    return a.is_static || (a.box.lo == b.box.lo && a.box.hi == b.box.hi);
+  });
+}
+
 }  // namespace
 
 bool counts_its_work(StructureKind kind) {
@@ -29,8 +37,10 @@ StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D
   work.build =
       at_first + broad.with_static([](const auto& tree) { return tree.counters().box_tests; });
   broad.build(after);
-  // What is built anew begins to count anew; what is mended, or stands, goes on.
-  const bool anew = broad.counters().dynamic_builds > builds;
+  // What is built anew begins to count anew, as does a tree that follows its bodies; what stands
+  // goes on.
+  const bool follows = config.kind == StructureKind::aabb_tree && !same_movers(before, after);
+  const bool anew = follows || broad.counters().dynamic_builds > builds;
   work.renew = dynamic_tests(broad) - (anew ? 0 : at_first);
 
   std::unordered_map<BodyId, bool> stirs;

@@ -60,8 +60,9 @@ TEST(FrameJson, TheVersionBeforeHasNoWayOfPairs) {
     body.erase("stored_box");
     EXPECT_EQ(body.erase("spin"), 1u);
   }
-  for (const char* key : {"testable_pairs", "pairs_tested", "impulses", "leaves_asleep",
-                          "branches_asleep", "collisions_alive", "begins_in_all", "touches_in_all"})
+  for (const char* key :
+       {"testable_pairs", "pairs_tested", "impulses", "leaves_asleep", "branches_asleep",
+        "collisions_alive", "begins_in_all", "touches_in_all", "impact_looks", "impacts_located"})
     EXPECT_EQ(now["counts"].erase(key), 1u) << key;
   now["format"] = before["format"];
   EXPECT_EQ(now, before);

@@ -305,6 +305,7 @@ TEST(AabbTree, RotationsMakeItBetter) {
 TEST(AabbTree, InsertsAgainThoseThatLeftTheirBoxesAndTellsIt) {
   Random random(21);
   std::vector<Item<2>> items = testing::random_world<2>(Sort::uniform, 40, random);
+  for (BodyId i = 0; i < items.size(); ++i) items[i].id = i;  // only then is the tree followed
   for (const Following following : {Following::reinsert, Following::refit}) {
     AabbTree<2> tree(0.5, following);
     for (const Item<2>& item : items) tree.insert(item);

@@ -60,7 +60,7 @@ TEST(SortAndSweep, CountsTheSwapsOfAnOrderThatIsNearlyRight) {
   SortAndSweep<2> sweep = SortAndSweep<2>::made({.sweep_axis = 1});
   std::vector<Item<2>> items;
   for (BodyId id = 0; id < 16; ++id)
-    items.push_back({id, Box<2>::around(Vec<2>(10.0 * id, -id), Vec<2>(0.4))});
+    items.push_back({id, Box<2>::around(Vec<2>(10.0, -1.0) * double(id), Vec<2>(0.4))});
   sweep.build(items);
   EXPECT_EQ(sweep.axis(), 1) << "as asked, though x varies more";
   EXPECT_EQ(sweep.counters().swaps, 120u) << "the reverse order: each pair once";
