@@ -203,7 +203,7 @@ std::string_view words_of(MarkKind kind) {
                                                 "pin",
                                                 "reach along the axis",
                                                 "gap",
-                                                "overlap on the axis",
+                                                "way out along the axis",
                                                 "farthest point",
                                                 "points kept",
                                                 "origin",

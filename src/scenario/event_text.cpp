@@ -138,7 +138,7 @@ std::string axis_text(const FrameSeparation& separation, const std::string& a,
   if (axis.separation > 0)
     return fmt::format("{}: a gap of {:.4g}. One gap is enough: they are apart.", name,
                        axis.separation);
-  return fmt::format("{}: the shadows overlap by {:.4g}. This axis does not part them.", name,
+  return fmt::format("{}: the shadows overlap. Along it the way out is {:.4g} long.", name,
                      -axis.separation);
 }
 
