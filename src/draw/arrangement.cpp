@@ -33,10 +33,13 @@ bool is_like_world(Panel panel) { return panel == Panel::world || panel == Panel
 // Width that a panel would take at this height if it could choose; 0 takes what is left.
 double wanted_width(const Frame& frame, Panel panel, double height) {
   if (panel == Panel::atlas) return atlas_width(frame, height);
+  if (panel == Panel::screen) return screen_width(frame, height);
   return is_like_world(panel) ? height * world_aspect(frame) : 0;
 }
 
-bool takes_the_rest(Panel panel) { return !is_like_world(panel) && panel != Panel::atlas; }
+bool takes_the_rest(Panel panel) {
+  return !is_like_world(panel) && panel != Panel::atlas && panel != Panel::screen;
+}
 
 std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& panels,
                                  const Box<2>& area) {

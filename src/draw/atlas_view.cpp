@@ -8,7 +8,7 @@
 #include "draw/keys.hpp"
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
-#include "draw/pattern.hpp"
+#include "draw/texture_picture.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw {
@@ -20,10 +20,27 @@ constexpr int kMostPanelShapes = 2200;  // of all packed textures together
 constexpr int kMostTextures = 3000;
 constexpr std::size_t kMostFree = 400;
 constexpr double kAtlasHeading = 36;
-constexpr double kTextureGap = 8;  // between textures in the strip
+constexpr double kTextureGap = 8;   // between textures in the strip
+constexpr double kSingleName = 34;  // under a texture that is shown by itself
+constexpr double kSingleGap = 26;
+constexpr double kMostSingle = 3;  // page units a pixel
 
 Vec<2> atlas_size(const Frame& frame) {
   return frame.nodes.empty() ? Vec<2>(1.0) : glm::max(flat(frame.nodes[0].box).size(), 1.0);
+}
+
+// A screen that is drawn from textures, of which none is packed yet: they are shown one by one.
+bool shows_single(const Frame& frame) {
+  return !frame.screen.elements.empty() &&
+         std::ranges::none_of(frame.textures,
+                              [](const FrameTexture& t) { return t.packed || t.refused; });
+}
+
+// Beside a screen there is a strip only while something is in it.
+bool has_strip(const Frame& frame) {
+  if (frame.textures.empty() || shows_single(frame)) return false;
+  return frame.screen.elements.empty() ||
+         !std::ranges::all_of(frame.textures, &FrameTexture::packed);
 }
 
 class AtlasView {
@@ -31,7 +48,7 @@ class AtlasView {
   AtlasView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
       : frame_(frame), panel_(panel), list_(list), labels_(labels) {
     const Vec<2> size = atlas_size(frame);
-    const double strip = frame.textures.empty() ? 0 : kStrip + kQueueGap;
+    const double strip = has_strip(frame) ? kStrip + kQueueGap : 0;
     const Vec<2> room = shrunk(panel, 3).size() - Vec<2>(strip, 0);
     scale_ = std::min(room.x / size.x, room.y / size.y);
     const Vec<2> used = size * scale_ + Vec<2>(strip, 0);
@@ -42,6 +59,7 @@ class AtlasView {
   }
 
   void draw() {
+    if (shows_single(frame_)) return draw_single();
     list_.crisp_rect(image_, Role::free_space);
     for (const FrameNode* node : free_leaves()) draw_free(*node);
     const std::vector<const FrameTexture*> packed = packed_textures();
@@ -49,6 +67,7 @@ class AtlasView {
     parts_ = std::clamp(kMostPanelShapes / count - 2, 0, kMostPatternParts);
     for (const FrameTexture* texture : packed) draw_textured(*texture, place_of(*texture));
     list_.crisp_rect(image_, Role::none, {Role::cell_line_0, 3.4});
+    if (frame_.screen.atlas_bound) list_.crisp_rect(image_, Role::none, {Role::lit, 5});
     for (const FrameNode& node : frame_.nodes)
       if (node.mark == Mark::lit) {
         const DrawList::Scope scope = shown("atlas/lit", node);
@@ -58,7 +77,7 @@ class AtlasView {
     for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
     for (const FrameNode* node : free_leaves()) name_free(*node);
     parts_ = kMostPatternParts;
-    if (!frame_.textures.empty()) draw_strip();
+    if (has_strip(frame_)) draw_strip();
   }
 
  private:
@@ -106,8 +125,9 @@ class AtlasView {
   void draw_textured(const FrameTexture& texture, const Box<2>& box) {
     const double scale = std::clamp(std::min(box.size().x, box.size().y) / 70, 0.6, 1.6);
     const DrawList::Scope scope(list_, texture_key("atlas/texture", texture));
-    draw_pattern(texture.id, texture.color, box, scale, parts_, list_, texture.turned);
+    draw_texture(texture, box, scale, parts_, list_, texture.turned);
     if (parts_ > 0) list_.rect(box, Role::none, {Role::body_line, 1.6});
+    if (is_bound(texture)) list_.rect(box, Role::none, {Role::lit, 4.5});
   }
 
   // The name on a plate of its own, so that it can be read on any pattern.
@@ -137,6 +157,51 @@ class AtlasView {
       if (!holds(shrunk(box, 6), Labels::extent(text, anchor, style))) continue;
       if (labels_.try_add(text, {anchor}, style, panel_)) return;
     }
+  }
+
+  // An image of its own, while it is drawn from.
+  bool is_bound(const FrameTexture& texture) const {
+    return !texture.packed && texture.id == frame_.screen.bound;
+  }
+
+  // --- one by one ---
+
+  // In rows, each over its name, as large as all of them have room. Gives the height that they
+  // take at this scale; draws them if they are to be.
+  double single_rows(double scale, bool draws, double top) {
+    const TextStyle name{kLabel, Weight::regular, Role::ink};
+    Vec<2> at{panel_.lo.x + 6, top};
+    double row = 0;
+    for (const FrameTexture& t : frame_.textures) {
+      const Vec<2> size = Vec<2>(t.width, t.height) * scale;
+      const double width = std::max(size.x, text_width(t.name, name));
+      if (at.x > panel_.lo.x + 6 && at.x + width > panel_.hi.x - 6)
+        at = {panel_.lo.x + 6, at.y + row}, row = 0;
+      row = std::max(row, size.y + kSingleName + kSingleGap);
+      if (draws) {
+        draw_textured(t, {at, at + size});
+        const TextStyle style =
+            is_bound(t) ? TextStyle{kLabel, Weight::semibold, Role::lit_ink} : name;
+        labels_.try_add(t.name, {{{at.x, at.y + size.y + 25}, 0}}, style, panel_);
+      }
+      at.x += width + kSingleGap;
+      if (at.x - kSingleGap > panel_.hi.x - 6) return 2 * panel_.size().y;  // too wide by itself
+    }
+    return at.y + row - kSingleGap - top;
+  }
+
+  void draw_single() {
+    const TextStyle quiet{kLabel, Weight::semibold, Role::quiet_ink};
+    const std::size_t n = frame_.textures.size();
+    const double room = panel_.size().y - kAtlasHeading;
+    double scale = kMostSingle;
+    while (scale > 0.02 && single_rows(scale, false, 0) > room) scale *= 0.96;
+    const double height = kAtlasHeading + single_rows(scale, false, 0);
+    const double top = std::max(panel_.lo.y, panel_.center().y - height / 2);
+    labels_.try_add(fmt::format("{} texture{}, each an image of its own", n, n == 1 ? "" : "s"),
+                    {{{panel_.lo.x + 6, top + 23}, 0}}, quiet, panel_);
+    parts_ = n > 100 ? 0 : kMostPatternParts;
+    single_rows(scale, true, top + kAtlasHeading);
   }
 
   // --- the strip ---
@@ -242,7 +307,7 @@ void draw_atlas(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
 
 double atlas_width(const Frame& frame, double height) {
   const Vec<2> size = atlas_size(frame);
-  return height * size.x / size.y + (frame.textures.empty() ? 0 : kStrip + kQueueGap);
+  return height * size.x / size.y + (has_strip(frame) ? kStrip + kQueueGap : 0);
 }
 
 DrawList draw_atlas_image(const Frame& frame) {
@@ -250,7 +315,7 @@ DrawList draw_atlas_image(const Frame& frame) {
   list.page = atlas_size(frame);
   for (const FrameTexture& t : frame.textures)
     if (t.packed)
-      draw_pattern(t.id, t.color, {{t.x, t.y}, {double(t.x) + t.width, double(t.y) + t.height}}, 1,
+      draw_texture(t, {{t.x, t.y}, {double(t.x) + t.width, double(t.y) + t.height}}, 1,
                    kMostPatternParts, list, t.turned);
   return list;
 }

@@ -94,6 +94,8 @@ void draw_panel(const Frame& frame, const Staging& staging, Panel panel, const B
       return draw_collisions(frame, box, list, labels);
     case Panel::matrix:
       return draw_matrix(frame, box, list, labels);
+    case Panel::screen:
+      return draw_screen(frame, box, list, labels);
   }
 }
 

@@ -35,10 +35,16 @@ struct TreeStage;
 void draw_one_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage,
                    DrawList& list, Labels& labels);
 
-// The packed image, and beside it the textures that wait or were refused. It wants this width at a
-// height.
+// The packed image, and beside it the textures that wait or were refused; of an atlas with a screen
+// those are shown one by one until the first is packed. It wants this width at a height.
 void draw_atlas(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 double atlas_width(const Frame& frame, double height);
+
+// A screen as far as it is drawn, and below it a row for each way in which it was drawn: the draws
+// in order, with a mark before each that another image had to be bound for. It wants this width at
+// a height.
+void draw_screen(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
+double screen_width(const Frame& frame, double height);
 
 // One count against another as lines, or counts as bars. Lines carry marks of different shapes and
 // their names at their ends; the newest point of each is larger and says its number. Bars lie

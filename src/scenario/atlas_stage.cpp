@@ -16,6 +16,7 @@ AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
     texture.id = static_cast<std::uint32_t>(i);
     texture.name = t.name;
     texture.color = t.color;
+    texture.picture = t.picture;
     texture.width = t.width;
     texture.height = t.height;
     textures_.push_back(texture);
@@ -82,6 +83,15 @@ void AtlasStage::name_free_leaf(const std::string& name, const std::vector<std::
 bool AtlasStage::ask_room(int width, int height) {
   room_ = atlas_.has_room(width, height);
   return *room_;
+}
+
+std::optional<std::uint32_t> AtlasStage::leaf_of(std::size_t texture) const {
+  std::optional<std::uint32_t> leaf;
+  atlas_.visit([&](const AtlasNodeView& node) {
+    if (node.texture == textures_[texture].id) leaf = node.handle;
+    return true;
+  });
+  return leaf;
 }
 
 std::string AtlasStage::label_of(std::uint32_t handle) const {

@@ -31,6 +31,8 @@ class AtlasStage {
   void name_free_leaf(const std::string& name, const std::vector<std::uint32_t>& before);
   bool ask_room(int width, int height);
 
+  // The leaf that holds the texture; none if it is not packed.
+  std::optional<std::uint32_t> leaf_of(std::size_t texture) const;
   std::string label_of(std::uint32_t node) const;  // its texture, its name, or its size
   void picture(const Touched& touched, Frame& frame) const;
 

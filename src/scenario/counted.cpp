@@ -79,6 +79,7 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
     case CountNeed::bodies:
     case CountNeed::atlas:
     case CountNeed::room:
+    case CountNeed::drawn:
       return {};
     case CountNeed::tree:
     case CountNeed::structure:
@@ -143,6 +144,8 @@ std::string why_not_counted(std::string_view name, const Draft& draft, const Scr
   const bool has_atlas = draft.scenario.atlas.has_value();
   if (doc->need == CountNeed::room && has_atlas && !state.asked_for_room)
     return "no step has asked for room yet";
+  if (doc->need == CountNeed::drawn && has_atlas && state.ways == 0)
+    return "no step has drawn the screen yet";
   if (doc->for_atlas() && has_atlas) return {};
   if (!doc->for_world()) return "the scenario has no [atlas]";
   if (name == "time" && draft.has_world) return {};

@@ -126,6 +126,8 @@ constexpr CountDoc kCounts[] = {
     {"free_leaves", atlas, "Leaves without a texture."},
     {"leaf_tests", atlas, "Leaves looked at, by packing and by questions for room."},
     {"room", room, "1 if the last `ask_room` found room, 0 if not."},
+    {"bindings", drawn, "Times that the last `draw` had to bind another image, so far."},
+    {"draws", drawn, "Elements that it has drawn."},
 };
 
 constexpr CountDoc kTexts[] = {
@@ -234,8 +236,9 @@ std::string_view when_counted(CountNeed need) {
       "after a `see` with an eye",
       "with an atlas",
       "after an `ask_room`",
-      "after a `compare`"};
-  static_assert(std::size(kWhen) == static_cast<std::size_t>(compared) + 1);
+      "after a `compare`",
+      "after a `draw`"};
+  static_assert(std::size(kWhen) == static_cast<std::size_t>(drawn) + 1);
   return kWhen[static_cast<std::size_t>(need)];
 }
 

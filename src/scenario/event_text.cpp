@@ -119,6 +119,17 @@ std::string event_text(const AtlasEvent& e, const std::string& node, const std::
   return {};
 }
 
+std::string bind_text(const std::string& image, const std::string& bound, std::uint64_t bindings) {
+  const std::string count = fmt::format("binding {}", bindings);
+  if (bound.empty()) return fmt::format("Nothing is bound yet. Bind {}: {}.", image, count);
+  return fmt::format("Next comes {}, but {} is bound. Bind {}: {}.", image, bound, image, count);
+}
+
+std::string draw_text(const std::string& texture, bool from_atlas) {
+  if (!from_atlas) return fmt::format("{} is bound: draw it.", capitalised(texture));
+  return fmt::format("The atlas is bound: draw {} from its place in it.", texture);
+}
+
 std::string query_text(std::string_view event, const std::string& node, const std::string& body) {
   const std::string place = place_of(node);
   if (event == "visit") return fmt::format("{} is reached: look inside.", capitalised(place));

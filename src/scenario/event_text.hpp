@@ -37,6 +37,11 @@ std::string axis_text(const FrameSeparation& separation, const std::string& a,
 // Of the newest search for a support point, before and after it has entered the simplex.
 std::string search_text(const FrameSearch& search, const std::string& a, const std::string& b);
 
+// Of a screen that is drawn: `bound` is what was bound before, empty if nothing was; `bindings` are
+// all up to this one. Then of the draw itself.
+std::string bind_text(const std::string& image, const std::string& bound, std::uint64_t bindings);
+std::string draw_text(const std::string& texture, bool from_atlas);
+
 // Of a world step shown phase by phase: "broad_phase", "narrow_phase" or "solve".
 // Of a look for the moment of an impact.
 std::string look_text(const FrameLook& look);

@@ -102,6 +102,7 @@ struct FrameTexture {
   std::uint32_t id = 0;
   std::string name;
   int color = 1;
+  Picture picture = Picture::pattern;
   int width = 0;
   int height = 0;
   bool packed = false;
@@ -109,6 +110,40 @@ struct FrameTexture {
   bool turned = false;  // by 90 degrees: width and height are exchanged
   int x = 0;            // of a packed one, upper left corner
   int y = 0;
+};
+
+// A screen that is drawn from textures, and each way in which it has been drawn so far.
+struct FrameElement {
+  std::uint32_t texture = 0;  // of frame.textures
+  int x = 0;                  // of the screen, upper left corner
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  bool drawn = true;  // by the way that is under way; before the first one all are shown
+  bool lit = false;   // the frame is about it
+};
+
+struct FrameDraw {
+  std::uint32_t element = 0;
+  bool binds = false;  // another image had to be bound before it
+  bool done = false;   // else it is bound and not yet drawn
+};
+
+struct FrameWay {
+  bool from_atlas = false;
+  bool by_texture = false;  // sorted so; else in the order of the list
+  std::vector<FrameDraw> draws;
+  std::uint64_t bindings = 0;
+};
+
+struct FrameScreen {
+  int width = 0;
+  int height = 0;
+  std::uint32_t planned = 0;           // ways, in the whole script
+  std::vector<FrameElement> elements;  // from the back to the front
+  std::vector<FrameWay> ways;          // the last may be under way
+  std::uint32_t bound = kNone;         // a texture, while it is drawn from
+  bool atlas_bound = false;            // or the atlas
 };
 
 struct FramePair {
@@ -461,6 +496,7 @@ struct Frame {
   std::uint32_t pool_size = 0;   // nodes that the tree's pool held at most; 0: it has none
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
   std::vector<FrameTexture> textures;
+  FrameScreen screen;  // of an atlas; without elements there is none
   std::vector<std::pair<std::string, std::int64_t>> counts;  // in a fixed order
   // What is measured rather than counted: energies, in a fixed order.
   std::vector<std::pair<std::string, double>> measures;

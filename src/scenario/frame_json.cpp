@@ -68,6 +68,7 @@ class FrameWriter {
     if (!frame.comparison.rows.empty()) write_list("comparison", frame.comparison.rows);
     if (frame.code) lines("code", *frame.code);
     if (frame.collisions) write_list("collisions", frame.collisions->rows);
+    if (whole_way_ && !frame.screen.elements.empty()) lines("screen", frame.screen);
     json_.line().key("counts").begin_object();
     for (const auto& [name, number] : frame.counts)
       if (whole_way_ || std::ranges::find(kNewCounts, name) == std::end(kNewCounts))
@@ -326,10 +327,24 @@ class FrameWriter {
   }
   void write(const FrameCollision& c) { object("pair", c.pair, "moments", c.moments); }
 
+  void write(const FrameElement& e) {
+    object("texture", e.texture, "position", std::vector{e.x, e.y}, "drawn", e.drawn);
+  }
+  void write(const FrameDraw& d) { object("element", d.element, "binds", d.binds, "done", d.done); }
+  void write(const FrameWay& way) {
+    object("from", way.from_atlas ? "atlas" : "textures", "order",
+           way.by_texture ? "by_texture" : "as_listed", "bindings", way.bindings, "draws",
+           way.draws);
+  }
+  void write(const FrameScreen& screen) {
+    object("size", std::vector{screen.width, screen.height}, "elements", screen.elements, "ways",
+           screen.ways);
+  }
+
   static constexpr std::string_view kNewCounts[] = {
-      "testable_pairs", "pairs_tested",   "impulses",       "leaves_asleep",    "branches_asleep",
-      "islands",        "largest_island", "islands_asleep", "collisions_alive", "begins_in_all",
-      "touches_in_all", "impact_looks",   "impacts_located"};
+      "testable_pairs", "pairs_tested",   "impulses",        "leaves_asleep",    "branches_asleep",
+      "islands",        "largest_island", "islands_asleep",  "collisions_alive", "begins_in_all",
+      "touches_in_all", "impact_looks",   "impacts_located", "bindings",         "draws"};
 
   static constexpr std::string_view kPhases[] = {"whole", "broad", "boxes", "narrow", "resolve"};
 

@@ -160,6 +160,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   if (stage_.level)
     stage_.level->picture(stage_.engine && stage_.engine->structure().of_level, frame);
   if (stage_.atlas) stage_.atlas->picture(now, frame);
+  if (stage_.screen) stage_.screen->picture(frame);
   frame.hash = state_hash(frame);
   add_finding(frame);
   add_comparison(frame);

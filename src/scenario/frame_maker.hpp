@@ -17,6 +17,7 @@
 #include "scenario/looks.hpp"
 #include "scenario/narrow_shown.hpp"
 #include "scenario/plotter.hpp"
+#include "scenario/screen_stage.hpp"
 
 namespace lantern::scenario {
 
@@ -25,11 +26,13 @@ struct Stage {
   Stage(const Scenario& scenario, Work& work) {
     if (!scenario.bodies.empty()) engine = make_engine(scenario, work);
     if (scenario.atlas) atlas.emplace(scenario, work);
+    if (!scenario.elements.empty()) screen.emplace(scenario);
     if (scenario.level) level.emplace(scenario);
   }
 
   std::unique_ptr<Engine> engine;  // if there are bodies
   std::optional<AtlasStage> atlas;
+  std::optional<ScreenStage> screen;
   std::optional<LevelStage> level;
   double time = 0;  // seconds of world time
 };

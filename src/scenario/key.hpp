@@ -200,6 +200,7 @@ TableDoc problem_table();
 TableDoc atlas_table();
 TableDoc texture_table();
 TableDoc texture_pattern_table();
+TableDoc element_table();
 TableDoc side_table();
 TableDoc expect_table();
 TableDoc display_table();

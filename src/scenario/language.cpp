@@ -49,7 +49,8 @@ TableDoc file_table() {
           "show what it allocates piece by piece. "
           "The `islands` are a graph: a dot for each body, where it is in the world, and a line "
           "for each contact, spring and joint; what hangs together lies on one ground. The "
-          "`matrix` of a level's sectors has a square for each two: who sees whom.",
+          "`matrix` of a level's sectors has a square for each two: who sees whom. "
+          "The `screen` shows what is drawn from textures, and below it a mark for each binding.",
           or_else("what the scenario uses")),
       key(KeyType::table, "display", "What frames show.", holds("display")),
       key(KeyType::texts, "headline",
@@ -75,6 +76,8 @@ TableDoc file_table() {
           holds("texture")),
       key(KeyType::tables, "texture_pattern", "Many textures each.", at_most(kMostTextures),
           holds("texture_pattern")),
+      key(KeyType::tables, "element", "What the atlas's screen shows, from the back to the front.",
+          at_most(kMostElements), holds("element")),
       key(KeyType::tables, "side", "The same under other settings, side by side.",
           at_most(kMostSides), holds("side")),
       key(KeyType::tables, "step", "The script.", must(), at_most(kMostSteps), holds("step")),
@@ -196,13 +199,13 @@ const KeyDoc* TableDoc::find(std::string_view key) const {
 
 std::span<const TableDoc> language_tables() {
   static const std::vector<TableDoc> tables = {
-      file_table(),      world_table(), structure_table(), planes_table(),
-      prototype_table(), body_table(),  pattern_table(),   map_table(),
-      spring_table(),    joint_table(), level_table(),     chart_table(),
-      problem_table(),   atlas_table(), texture_table(),   texture_pattern_table(),
-      side_table(),      step_table(),  ruler_table(),     expect_table(),
-      display_table(),   view_table(),  camera_table(),    note_table(),
-      code_table()};
+      file_table(),      world_table(),   structure_table(), planes_table(),
+      prototype_table(), body_table(),    pattern_table(),   map_table(),
+      spring_table(),    joint_table(),   level_table(),     chart_table(),
+      problem_table(),   atlas_table(),   texture_table(),   texture_pattern_table(),
+      element_table(),   side_table(),    step_table(),      ruler_table(),
+      expect_table(),    display_table(), view_table(),      camera_table(),
+      note_table(),      code_table()};
   return tables;
 }
 

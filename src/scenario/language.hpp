@@ -32,8 +32,10 @@ inline constexpr double kMostInOrder = 9'999;     // scenarios of a lecture
 inline constexpr std::size_t kMostCaption = 180;  // letters
 inline constexpr std::size_t kMostNotesText = 2000;
 inline constexpr std::size_t kMostSides = 4;
-inline constexpr std::size_t kMostHeadline = 3;  // counts and measures
-inline constexpr std::size_t kMostRulers = 8;    // of a step
+inline constexpr std::size_t kMostHeadline = 3;   // counts and measures
+inline constexpr std::size_t kMostRulers = 8;     // of a step
+inline constexpr std::size_t kMostElements = 48;  // of a screen
+inline constexpr std::size_t kMostWays = 4;       // in which a script draws it
 
 enum class KeyType {
   text,            // on one line; `least` to `most` letters
@@ -173,6 +175,7 @@ enum class CountNeed {
   atlas,
   room,      // of an atlas: it was asked for room
   compared,  // bodies were
+  drawn,     // of an atlas: its screen was
 };
 
 struct CountDoc {
@@ -181,10 +184,10 @@ struct CountDoc {
   std::string_view doc;
   std::string_view unit = {};  // of a measure: "J"
 
-  bool for_atlas() const {
-    return need == CountNeed::atlas || need == CountNeed::room || need == CountNeed::tree;
+  bool for_atlas() const { return !for_world() || need == CountNeed::tree; }
+  bool for_world() const {
+    return need != CountNeed::atlas && need != CountNeed::room && need != CountNeed::drawn;
   }
-  bool for_world() const { return need != CountNeed::atlas && need != CountNeed::room; }
 };
 
 // "with a structure", "once the level is compiled": for the reference page.

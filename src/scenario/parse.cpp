@@ -59,6 +59,10 @@ bool compiles_level(const ScenarioSpec& s) {
   return s.level && some_step<CompileLevel>(s, [](const CompileLevel&) { return true; });
 }
 
+bool draws_screen(const ScenarioSpec& s) {
+  return some_step<DrawScreen>(s, [](const DrawScreen&) { return true; });
+}
+
 // Can there be those that the file wishes for?
 void check_panels(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
@@ -105,7 +109,8 @@ void check_panels(const TableReader& file, Draft& draft) {
        "it needs a step that runs, and contacts, springs or joints that hold bodies together"},
       {code, "it needs a step with 'code'"},
       {remembers, "it needs [world] contacts = \"lecture\", which remembers them"},
-      {sees, "it needs a [level] and a step with do = \"see\""}};
+      {sees, "it needs a [level] and a step with do = \"see\""},
+      {draws_screen(s), "it needs [[element]]s and a step that draws them"}};
   std::size_t i = 0;
   for (const Named& written : file.names("panels")) {
     const auto panel = static_cast<std::size_t>(s.panels[i++]);
@@ -128,6 +133,7 @@ std::vector<Panel> derived_panels(const ScenarioSpec& s) {
       some_step<Rebuild>(s, [](const Rebuild& r) { return is_tree(r.structure); });
   std::vector<Panel> panels;
   if (!s.bodies.empty() || s.level) panels.push_back(Panel::world);
+  if (draws_screen(s)) panels.push_back(Panel::screen);
   if (s.atlas) panels.push_back(Panel::atlas);
   if (has_tree) panels.push_back(Panel::tree);
   if (s.chart) panels.push_back(Panel::chart);
@@ -241,7 +247,7 @@ Scenario finished(Draft& draft) {
 void share_panels(std::vector<std::unique_ptr<Draft>>& drafts) {
   if (!drafts[0]->scenario.panels.empty()) return;  // as the file wishes
   std::vector<Panel> all;
-  for (const Panel panel : {Panel::world, Panel::atlas, Panel::tree, Panel::chart})
+  for (const Panel panel : {Panel::world, Panel::screen, Panel::atlas, Panel::tree, Panel::chart})
     if (std::ranges::any_of(drafts, [&](const auto& draft) {
           const std::vector<Panel> own = derived_panels(draft->scenario);
           return std::ranges::find(own, panel) != own.end();

@@ -64,6 +64,7 @@ constexpr std::string_view kAtlasExample = R"(title = "A small atlas"
 
 [atlas]
 size = [128, 128]
+screen = [160, 90]
 
 [[texture]]
 name = "A"
@@ -75,6 +76,18 @@ count = 3
 min = [16, 16]
 max = [32, 32]
 multiple = 8
+
+[[element]]
+texture = "tile1"
+at = [8, 8]
+
+[[element]]
+texture = "A"
+at = [56, 4]
+
+[[element]]
+texture = "tile1"
+at = [112, 8]
 
 [[step]]
 do = "show"
@@ -198,7 +211,9 @@ do = "run"
 seconds = 2
 )";
 
-bool is_of_atlas(std::string_view verb) { return verb == "pack" || verb == "ask_room"; }
+bool is_of_atlas(std::string_view verb) {
+  return verb == "pack" || verb == "ask_room" || verb == "draw";
+}
 bool is_of_level(std::string_view verb) {
   return verb == "compile" || verb == "locate" || verb == "order" || verb == "see";
 }
@@ -227,9 +242,11 @@ std::string panel_example(Panel panel) {
       if (verb.name == "see") text += fmt::format("\n{}", verb.example);
     return text;
   }
-  if (panel != Panel::atlas) return only + std::string(kWorldExample);
+  const bool screen = panel == Panel::screen;
+  if (panel != Panel::atlas && !screen) return only + std::string(kWorldExample);
   for (const TableDoc& verb : language_verbs())
-    if (verb.name == "pack") return fmt::format("{}{}\n{}", only, kAtlasExample, verb.example);
+    if (verb.name == (screen ? "draw" : "pack"))
+      return fmt::format("{}{}\n{}", only, kAtlasExample, verb.example);
   return {};
 }
 

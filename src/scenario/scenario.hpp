@@ -109,6 +109,7 @@ struct ScenarioSpec {
   std::vector<LinkSpec> links;
   std::vector<BodyMeasureSpec> body_measures;  // that chart, expectations and captions ask for
   std::vector<TextureSpec> textures;
+  std::vector<ElementSpec> elements;  // of the atlas's screen, from the back to the front
   std::vector<Step> steps;
   std::uint64_t text_hash = 0;    // of the file's bytes
   std::string text;               // the file's bytes, for diagnostics of the run

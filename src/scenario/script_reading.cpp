@@ -209,8 +209,8 @@ class ScriptReader {
     if (basis == Basis::atlas)
       return has_atlas ? Lack{} : Lack{"an [atlas]", "add [atlas] with size = [512, 512]"};
     if (!draft_.has_world)
-      return {"a [world]",
-              has_atlas ? "an atlas knows pack and ask_room" : "add [world] with size = [64, 64]"};
+      return {"a [world]", has_atlas ? "an atlas knows pack, ask_room and draw"
+                                     : "add [world] with size = [64, 64]"};
     if (basis == Basis::level && !draft_.scenario.level)
       return {"a [level]", "add [level] with its loops"};
     if (basis == Basis::bodies && draft_.bodies.empty())

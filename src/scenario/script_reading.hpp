@@ -16,6 +16,7 @@ struct ScriptState {
   std::vector<bool> packed;        // by index of the texture; refused ones, too
   StructureSpec structure;         // as it stands
   bool asked_for_room = false;
+  std::size_t ways = 0;        // in which the screen was drawn
   bool queried = false;        // by a ray, cull or query
   bool shapes_tested = false;  // of all pairs
   bool separated = false;      // two bodies, axis by axis

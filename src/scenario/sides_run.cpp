@@ -43,6 +43,7 @@ Frame without_facts(Frame frame) {
   frame.time = 0;
   frame.chart = {};
   frame.eye.reset();
+  frame.screen = {};
   frame.since_last_frame.reset();
   const auto clear = [](auto&... lists) { (lists.clear(), ...); };
   clear(frame.bodies, frame.nodes, frame.pairs, frame.contacts, frame.links, frame.rays,

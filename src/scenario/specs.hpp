@@ -38,7 +38,8 @@ enum class Panel {
   islands,
   code,
   collisions,
-  matrix
+  matrix,
+  screen
 };
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box, person, demon, item };
@@ -264,11 +265,15 @@ struct ProblemSpec {
   SourcePosition where;
 };
 
+// What a texture is drawn as; `pattern` follows from its place in the list.
+enum class Picture { pattern, heart, sword, potion, coin, map };
+
 struct TextureSpec {
   std::string name;
   int width = 0;
   int height = 0;
   int color = 1;
+  Picture picture = Picture::pattern;
   SourcePosition where;
 };
 
@@ -283,7 +288,16 @@ struct AtlasSpec {
   AtlasRule rule = AtlasRule::first_fit;
   bool turn = false;
   int trials = kMostTrials;
+  int screen_width = 0;  // 0: there is no screen
+  int screen_height = 0;
   SourcePosition where;
+};
+
+// A texture's place on the screen: its upper left corner.
+struct ElementSpec {
+  std::size_t texture = 0;  // of the scenario's
+  int x = 0;
+  int y = 0;
 };
 
 // How a scenario writes an enum's values, in the enum's order.
@@ -304,11 +318,12 @@ inline EnumNames names(StructureKind) {
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Following) { return {"auto", "reinsert", "refit"}; }
 inline EnumNames names(SweepAxis) { return {"widest", "x", "y", "z"}; }
+inline EnumNames names(Picture) { return {"pattern", "heart", "sword", "potion", "coin", "map"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Panel) {
   return {"world",   "tree",  "atlas",      "chart",      "memory", "ledger",
           "pool",    "bytes", "sparkline",  "difference", "axes",   "comparison",
-          "islands", "code",  "collisions", "matrix"};
+          "islands", "code",  "collisions", "matrix",     "screen"};
 }
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) {

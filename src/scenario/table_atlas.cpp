@@ -1,5 +1,6 @@
 // [atlas], [[texture]] and [[texture_pattern]].
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -93,6 +94,43 @@ void read_texture_pattern(const TomlValue& value, Draft& draft) {
   }
 }
 
+// One texture of that name, not all of a pattern.
+std::optional<std::size_t> one_texture(const Named& name, Draft& draft) {
+  const NamedRange* found = draft.textures.find(name.name);
+  if (found && found->count == 1) return found->first;
+  if (found)
+    draft.problems.add(name.where, fmt::format("'{}' is a pattern of textures", name.name),
+                       fmt::format("name one of its textures, as '{}1'", name.name));
+  else
+    draft.problems.add(name.where, fmt::format("there is no texture '{}'", name.name),
+                       nearest(name.name, draft.textures.declared()));
+  return std::nullopt;
+}
+
+void read_element(const TomlValue& value, Draft& draft) {
+  const TableReader table = open(value, language_table("element"), draft);
+  const AtlasSpec* atlas = draft.scenario.atlas ? &*draft.scenario.atlas : nullptr;
+  if (!atlas || atlas->screen_width == 0)
+    return draft.problems.add(value.where, "an [[element]] needs a screen",
+                              "give [atlas] screen = [256, 144]");
+  const auto name = table.named("texture");
+  const auto at = table.get<Vec<2>>("at");
+  if (!name || !at) return;
+  const auto texture = one_texture(*name, draft);
+  if (!texture) return;
+  const ElementSpec element{*texture, static_cast<int>(at->x), static_cast<int>(at->y)};
+  const TextureSpec& t = draft.scenario.textures[*texture];
+  const int right = atlas->screen_width - t.width, bottom = atlas->screen_height - t.height;
+  if (element.x > right || element.y > bottom)
+    return table.bad_value(
+        "at",
+        fmt::format("'{}' ({} × {}) reaches beyond the screen ({} × {})", t.name, t.width, t.height,
+                    atlas->screen_width, atlas->screen_height),
+        right < 0 || bottom < 0 ? std::string("enlarge the screen")
+                                : fmt::format("at most [{}, {}]", right, bottom));
+  draft.scenario.elements.push_back(element);
+}
+
 }  // namespace
 
 TableDoc atlas_table() {
@@ -102,19 +140,23 @@ TableDoc atlas_table() {
       "atlas", "[atlas]",
       "One large image that textures are packed into, by a kD-tree. Its origin is the upper "
       "left corner."};
-  table.keys = {key(KeyType::size, "size", "Its width and height; it is also written as an image.",
-                    must(), range(1, kMostAtlas), in("px")),
-                key(&A::rule, "rule",
-                    "`first_fit`: each texture takes the first leaf that it fits, in order of "
-                    "descent. `best_texture`: the free leaves choose, of all textures that a "
-                    "`pack` brings, the one that leaves least of them."),
-                key(&A::turn, "turn",
-                    "May textures be turned by 90°? By `first_fit` they are if they fit nowhere "
-                    "as they are."),
-                key(&A::trials, "trials",
-                    "Of `best_texture`: packings that are tried at most; there are 6, with `turn` "
-                    "18. The first that packs all is taken, or the one that packs most.",
-                    range(1, kMostTrials))};
+  table.keys = {
+      key(KeyType::size, "size", "Its width and height; it is also written as an image.", must(),
+          range(1, kMostAtlas), in("px")),
+      key(&A::rule, "rule",
+          "`first_fit`: each texture takes the first leaf that it fits, in order of "
+          "descent. `best_texture`: the free leaves choose, of all textures that a "
+          "`pack` brings, the one that leaves least of them."),
+      key(&A::turn, "turn",
+          "May textures be turned by 90°? By `first_fit` they are if they fit nowhere "
+          "as they are."),
+      key(&A::trials, "trials",
+          "Of `best_texture`: packings that are tried at most; there are 6, with `turn` "
+          "18. The first that packs all is taken, or the one that packs most.",
+          range(1, kMostTrials)),
+      key(KeyType::size, "screen",
+          "The width and height of a screen that is drawn from the textures, element by element.",
+          range(1, kMostPixels), in("px"), or_else("none"))};
   return table;
 }
 
@@ -127,6 +169,7 @@ TableDoc texture_table() {
       key(&T::name, "name", "Unique over textures and their patterns.", must(), like(kNamePattern)),
       key(KeyType::size, "size", "Its width and height.", must(), range(1, kMostPixels), in("px")),
       key(&T::color, "color", "As a body's.", range(1, 8)),
+      key(&T::picture, "picture", "What is seen on it; a `pattern` is like no other near it."),
   };
   return table;
 }
@@ -155,6 +198,19 @@ TableDoc texture_pattern_table() {
   return table;
 }
 
+TableDoc element_table() {
+  using namespace keys;
+  TableDoc table = {"element", "[[element]]",
+                    "A texture's place on the [atlas]'s `screen`, as large as the texture. Later "
+                    "elements lie over earlier ones."};
+  table.keys = {
+      key(KeyType::text, "texture", "Its texture, by name.", must()),
+      key(KeyType::size, "at", "Its upper left corner, from that of the screen.", must(),
+          range(0, kMostPixels), in("px")),
+  };
+  return table;
+}
+
 void read_atlas(const TableReader& file, Draft& draft) {
   if (file.has("atlas")) draft.scenario.atlas.emplace();  // a bad one is told once
   for (const TomlValue* value : file.tables("atlas")) {
@@ -164,6 +220,9 @@ void read_atlas(const TableReader& file, Draft& draft) {
     table.fill(atlas);
     atlas.width = static_cast<int>(size.x);
     atlas.height = static_cast<int>(size.y);
+    const auto screen = table.get<Vec<2>>("screen").value_or(Vec<2>(0.0));
+    atlas.screen_width = static_cast<int>(screen.x);
+    atlas.screen_height = static_cast<int>(screen.y);
     atlas.where = draft.position(value->where);
     if (file.has("world"))
       draft.problems.add(value->where, "a scenario has either a [world] or an [atlas], not both",
@@ -176,6 +235,7 @@ void read_atlas(const TableReader& file, Draft& draft) {
                        "textures need an [atlas]", "add [atlas] with size = [512, 512]");
   for (const TomlValue* value : textures) read_texture(*value, draft);
   for (const TomlValue* value : patterns) read_texture_pattern(*value, draft);
+  for (const TomlValue* value : file.tables("element")) read_element(*value, draft);
 }
 
 }  // namespace lantern::scenario

@@ -29,7 +29,7 @@ std::uint64_t points_of(const FrameChart& chart) {
 struct Seen {
   std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0,
                 sectors = 0, drawn_walls = 0, nodes = 0, slots = 0, pool = 0, bytes = 0,
-                moments = 0, differences = 0, axes = 0, islands = 0, matrix = 0;
+                moments = 0, differences = 0, axes = 0, islands = 0, matrix = 0, ways = 0;
   bool pairs = false;  // two bodies or more, of one side
   bool code = false;
   bool collisions = false;
@@ -54,6 +54,7 @@ struct Seen {
     code |= frame.code.has_value();
     collisions |= frame.collisions && !frame.collisions->rows.empty();
     matrix += frame.matrix.rows.size();
+    ways += frame.screen.ways.size();
     pairs |= frame.bodies.size() > 1;
   }
 };
@@ -99,6 +100,7 @@ void Tally::see(const Frame& frame) {
   with_code_ += seen.code;
   with_collisions_ += seen.collisions;
   with_matrix_ += seen.matrix > 0;
+  with_screen_ += seen.ways > 0;
   count_builds(frame);
 }
 
@@ -247,6 +249,7 @@ void Tally::list_pictures(Stages& all) const {
   all.push_back(panel(Panel::code, "code panel", {frames(with_code_, "lines of code")}));
   all.push_back(panel(Panel::collisions, "collisions", {frames(with_collisions_, "a collision")}));
   all.push_back(panel(Panel::matrix, "matrix panel", {frames(with_matrix_, "sectors to see")}));
+  all.push_back(panel(Panel::screen, "screen panel", {frames(with_screen_, "a drawn screen")}));
   all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
   all.push_back({"OpenGL",
                  {amount(work_.graphics_contexts, "context")},

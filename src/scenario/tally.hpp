@@ -58,7 +58,7 @@ class Tally {
                 with_points_ = 0, with_array_ = 0, with_two_ = 0, with_pool_ = 0, with_bytes_ = 0,
                 with_trace_ = 0, with_difference_ = 0, with_axes_ = 0, with_rows_ = 0,
                 with_islands_ = 0, with_code_ = 0, with_collisions_ = 0, with_matrix_ = 0,
-                solid_ = 0;
+                with_screen_ = 0, solid_ = 0;
   std::map<StructureKind, std::uint64_t> builds_;
   std::uint64_t builds_of_several_ = 0;  // kinds, in one step
   std::uint64_t builds_before_ = 0;      // of the frame that is seen

@@ -318,11 +318,25 @@ struct AskRoom {
   int height = 0;
 };
 
+// The screen, element by element.
+struct DrawScreen {
+  enum class From { textures, atlas };
+  enum class Order { as_listed, by_texture };
+  static constexpr VerbTraits kTraits{.name = "draw", .basis = Basis::atlas};
+  static TableDoc table();
+  void read(const TableReader& table, ScriptReading& script);
+  void act(ScriptRun& run) const;
+  From from = From::textures;
+  Order order = Order::as_listed;
+};
+inline EnumNames names(DrawScreen::From) { return {"textures", "atlas"}; }
+inline EnumNames names(DrawScreen::Order) { return {"as_listed", "by_texture"}; }
+
 // In the order of the reference page.
-using Verb =
-    std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse, Run, Wait,
-                 Phases, SolveBy, Rebuild, Sweep, Compare, CastRay, Cull, Query, TestShapes,
-                 Separate, SearchDistance, CompileLevel, Locate, OrderFrom, See, Pack, AskRoom>;
+using Verb = std::variant<Show, Insert, Emit, Remove, Move, Sleep, Wake, ApplyForce, ApplyImpulse,
+                          Run, Wait, Phases, SolveBy, Rebuild, Sweep, Compare, CastRay, Cull, Query,
+                          TestShapes, Separate, SearchDistance, CompileLevel, Locate, OrderFrom,
+                          See, Pack, AskRoom, DrawScreen>;
 
 inline const VerbTraits& traits_of(const Verb& verb) {
   return std::visit([](const auto& v) -> const VerbTraits& { return v.kTraits; }, verb);

@@ -438,7 +438,7 @@ static Named make_all() {
   frames.emplace_back("empty", empty());
   frames.emplace_back("unstructured", unstructured());
   for (const Named& more :
-       {charts(), memories(), ledgers(), islands(), strips(), worlds(), sides()})
+       {charts(), memories(), ledgers(), islands(), screens(), strips(), worlds(), sides()})
     frames.insert(frames.end(), more.begin(), more.end());
   for (auto& [name, frame] : all_solid()) frames.emplace_back("solid_" + name, frame);
   return frames;

@@ -29,6 +29,7 @@ Named charts();    // lines and bars, few and many, plain and extreme
 Named memories();  // the array that all leaves share, from no slot to 10,000
 Named ledgers();   // from two bodies to many, every state of a pair, each phase
 Named islands();   // two, one asleep, over a floor and a body that is in none; very many
+Named screens();   // before, in the midst of and after its ways; all elements on one spot
 Named strips();    // a pool of nodes, bytes, a line so far; the intervals of a sweep
 Named worlds();    // turned bodies, contacts, links, rays, views, levels, sleepers, two trees
 Named sides();     // two to four of them, with a chart, with long titles, one that holds

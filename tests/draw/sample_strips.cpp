@@ -115,6 +115,43 @@ Named islands() {
   return frames;
 }
 
+Named screens() {
+  Named frames;
+  Frame frame = atlas(8, 0);
+  frame.panels = {Panel::screen, Panel::atlas};
+  for (FrameTexture& t : frame.textures) t.picture = static_cast<scenario::Picture>(t.id % 6);
+  FrameScreen& screen = frame.screen;
+  screen.width = 480;
+  screen.height = 270;
+  screen.planned = 2;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const FrameTexture& t = frame.textures[i * 5 % 8];
+    screen.elements.push_back({t.id, static_cast<int>(30 * i), 20, t.width, t.height});
+  }
+  frames.emplace_back("screen_before", frame);
+  FrameWay way;
+  for (std::uint32_t i = 0; i < 5; ++i) way.draws.push_back({i, i != 2, i < 4});
+  way.bindings = 4;
+  screen.ways = {way};
+  for (std::uint32_t i = 4; i < 12; ++i) screen.elements[i].drawn = false;
+  screen.elements[4].lit = true;
+  screen.bound = screen.elements[4].texture;
+  frames.emplace_back("screen_midst", frame);
+  frame.panels = {Panel::screen};
+  frames.emplace_back("screen_alone", frame);
+  Frame packed = atlas(8, 8);
+  packed.panels = {Panel::screen, Panel::atlas, Panel::tree};
+  packed.screen = screen;
+  packed.screen.ways.push_back({true, true, {{0, true, false}}, 1});
+  packed.screen.atlas_bound = true;
+  frames.emplace_back("screen_packed", packed);
+  for (FrameElement& element : packed.screen.elements) element.x = element.y = 0;
+  packed.screen.width = packed.screen.height = 128;
+  packed.screen.planned = 4;
+  frames.emplace_back("screen_tiny", packed);
+  return frames;
+}
+
 Named strips() {
   Named frames;
   Frame all = ghosts(4);

@@ -97,6 +97,7 @@ class Maker {
     const auto of_bodies = verb.find("bodies") || verb.find("body");
     if (verb.name == "insert" || verb.name == "emit") return !around.absent.empty();
     if (of_bodies) return !around.present.empty();
+    if (verb.name == "draw") return false;  // it needs a screen
     if (verb.find("textures") || verb.name == "ask_room") return around.has_atlas;
     if (verb.name == "compile" || verb.name == "locate" || verb.name == "order")
       return around.has_level;

@@ -28,6 +28,9 @@ const std::string kWorld = "[world]\nsize = [64, 64]\n";
 const std::string kRed = "[[body]]\nname = \"red\"\nradius = 1\nposition = [1, 1]\n";
 const std::string kDot = "[[prototype]]\nname = \"dot\"\nfriction = 0\n";
 const std::string kInsert = "[[step]]\ndo = \"insert\"\nbodies = [\"red\"]\n";
+const std::string kScreen =
+    "[atlas]\nsize = [64, 64]\nscreen = [16, 16]\n[[texture]]\nname = \"A\"\nsize = [8, 8]\n";
+const std::string kElement = "[[element]]\ntexture = \"A\"\nat = [0, 0]\n";
 const std::string kAtlas = "[atlas]\nsize = [64, 64]\n[[texture]]\nname = \"A\"\nsize = [8, 8]\n";
 const std::string kRules = "[world]\nsize = [64, 64]\ncontacts = \"impulse\"\nmay_sleep = true\n";
 const std::string kLevel = "[level]\nloops = [[[0, 0], [8, 0], [8, 6]]]\n";
@@ -84,6 +87,8 @@ std::map<std::string, Surroundings> surroundings() {
        {kTitle + kAtlas + "[[texture_pattern]]\n",
         {{"name", "\"t\""}, {"count", "5"}, {"min", "[8, 8]"}, {"max", "[16, 16]"}},
         kShow}},
+      {"element",
+       {kTitle + kScreen + "[[element]]\n", {{"texture", "\"A\""}, {"at", "[0, 0]"}}, kShow}},
       {"spring",
        {scene + "[[spring]]\n", {{"a", "\"red\""}, {"to", "[1, 9]"}, {"stiffness", "10"}}, kShow}},
       {"joint",
@@ -149,6 +154,10 @@ std::map<std::string, Surroundings> surroundings() {
         ""}},
       {"pack", {kTitle + kAtlas + step, {{"do", "\"pack\""}, {"textures", "[\"A\"]"}}, ""}},
       {"ask_room", {kTitle + kAtlas + step, {{"do", "\"ask_room\""}, {"size", "[8, 8]"}}, ""}},
+      {"draw",
+       {kTitle + kScreen + kElement + step + "do = \"pack\"\ntextures = [\"A\"]\n" + step,
+        {{"do", "\"draw\""}},
+        ""}},
       {"display", {kTitle + kRules + "[display]\n", {}, kTree + kRed + kShow}},
       {"view", {scene + kShow + "[step.view]\n", {{"at", "[32, 32]"}, {"width", "16"}}, ""}},
       {"camera",
@@ -802,7 +811,17 @@ std::vector<KeyCase> key_cases() {
        bad_choice("best_textur", "best_texture")},
       {"atlas", "turn", {"true", "false"}, bad_truth()},
       {"atlas", "trials", {"1", "18"}, bad_whole("0", "19", "1 to 18")},
+      {"atlas", "screen", {"[1, 16384]"}, bad_size()},
       {"texture", "name", {"\"B\""}, bad_name()},
+      {"texture", "picture", {"\"pattern\"", "\"heart\""}, bad_choice("hart", "heart")},
+      {"element", "texture", {"\"A\""}, {{"@1", "must be a text"}, {"@\"Ab\"", "no texture"}}},
+      {"element",
+       "at",
+       {"[0, 0]", "[8, 8]"},
+       {{"@1", "two whole numbers"},
+        {"@[1]", "two numbers"},
+        {"[@-1, 8]", "0 to 16384"},
+        {"@[9, 0]", "at most [8, 8]"}}},
       {"texture", "size", {"[1, 16384]"}, bad_size()},
       {"texture", "color", {"1", "8"}, color},
       {"texture_pattern", "name", {"\"t\""}, bad_name()},
@@ -842,6 +861,10 @@ std::vector<KeyCase> key_cases() {
       {"pack", "each", {"true", "false"}, bad_truth()},
       {"pack", "free_name", {"\"C\""}, bad_text("1 to 24", 24)},
       {"ask_room", "size", {"[1, 16384]"}, bad_size()},
+      {"draw", "from", {"\"textures\"", "\"atlas\""}, bad_choice("atla", "atlas")},
+      {"draw", "order", {"\"as_listed\"", "\"by_texture\""}, bad_choice("by_textur", "by_texture")},
+      {"draw", "pace", {"\"step\"", "\"event\""}, bad_choice("evnt", "event")},
+      {"draw", "events", {"[\"bind\"]"}, {{"[@\"bnd\"]", "did you mean 'bind'?"}}},
       {"expect",
        "in_leaves",
        {"{ red = 1 }"},

@@ -285,7 +285,7 @@ TEST(Mistakes, OfWhatIsMissingAround) {
   expect_mistakes("title = \"x\"\n[[step]]\ndo = @\"pack\"\ntextures = [\"A\"]\n",
                   {"add [atlas] with size"});
   expect_mistakes(kAtlasScene + "[[step]]\ndo = @\"insert\"\nbodies = [\"A\"]\n",
-                  {"an atlas knows pack and ask_room"});
+                  {"an atlas knows pack, ask_room and draw"});
   expect_mistakes("title = \"x\"\n@[[step]]\nname = \"a\"\n[[step]]\ndo = \"show\"\n",
                   {"a step has no 'do'"});
 }

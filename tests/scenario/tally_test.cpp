@@ -64,6 +64,7 @@ struct DryRun {
     if (panel == Panel::code) return frame.code.has_value();
     if (panel == Panel::collisions) return frame.collisions && !frame.collisions->rows.empty();
     if (panel == Panel::matrix) return !frame.matrix.rows.empty();
+    if (panel == Panel::screen) return !frame.screen.ways.empty();
     return !frame.chart.bars.empty() ||
            std::any_of(frame.chart.series.begin(), frame.chart.series.end(),
                        [](const FrameSeries& series) { return !series.points.empty(); });
@@ -217,7 +218,7 @@ void expect_rest(const DryRun& run) {
       {Panel::sparkline, "sparkline"}, {Panel::difference, "difference panel"},
       {Panel::axes, "axes panel"},     {Panel::islands, "islands panel"},
       {Panel::code, "code panel"},     {Panel::collisions, "collisions"},
-      {Panel::matrix, "matrix panel"}};
+      {Panel::matrix, "matrix panel"}, {Panel::screen, "screen panel"}};
   for (const auto& [panel, name] : panels) {
     const bool wanted = std::find(s.panels.begin(), s.panels.end(), panel) != s.panels.end();
     EXPECT_EQ(run.uses(name), wanted) << name << ": each panel that there is shows something";
