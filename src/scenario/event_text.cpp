@@ -74,7 +74,7 @@ std::string fitting_event_text(const Event& e, const std::string& node, const st
   const std::string name = capitalised(place);
   switch (e.kind) {
     case Event::Kind::test:
-      return fmt::format("{} comes to {}: with it the boxes on the way down grow least.",
+      return fmt::format("{} comes to {}: would all boxes together grow least beside it?",
                          capitalised(body), place);
     case Event::Kind::miss:
       return fmt::format("{} would grow more by {}: it is left out.", name, body);
