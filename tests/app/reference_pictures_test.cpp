@@ -17,7 +17,7 @@ TEST(ReferencePictures, AreTodaysAndSmall) {
       << o.out << "draw them anew: build/lantern reference --pictures scenarios/reference";
   std::uintmax_t bytes = 0;
   for (const auto& entry : fs::directory_iterator(folder)) bytes += entry.file_size();
-  EXPECT_LT(bytes, 400u << 10);
+  EXPECT_LT(bytes, 480u << 10);
 }
 
 TEST(ReferencePictures, AreDrawnAnewWhereTheyAreNotRight) {
