@@ -1,6 +1,6 @@
 // The axes that two bodies were measured along, below each other and all lying the same way.
 //
-//   1  ======                overlap 1.2
+//   1  ======                way out 1.2
 //          =========
 //   2  =====  =======        gap 0.6
 #include <algorithm>
@@ -111,7 +111,7 @@ class AxesView {
       draw_shared_shadow({x(s.b_lo), y}, {x(s.a_hi), y}, pen_);
     const TextStyle style{kLabel, front ? Weight::semibold : Weight::regular, Role::ink};
     labels_.add(
-        fmt::format("{} {}", apart ? "gap" : "overlap", short_number(std::abs(axis.separation))),
+        fmt::format("{} {}", apart ? "gap" : "way out", short_number(std::abs(axis.separation))),
         centred({panel_.hi.x - 8, y}, style, 1), style, panel_);
   }
 
