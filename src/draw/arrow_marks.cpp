@@ -35,11 +35,6 @@ double reach_of_body(const FrameBody& body, const Vec<3>& way) {
   return reach < std::numeric_limits<double>::max() ? reach : 0;
 }
 
-const FrameBody* find(const Frame& frame, BodyId id) {
-  const auto found = std::ranges::find(frame.bodies, id, &FrameBody::id);
-  return found == frame.bodies.end() ? nullptr : &*found;
-}
-
 // "40 N", beside the middle of an arrow of the page, else at its tip.
 void write_size(const std::string& text, const Vec<2>& from, const Vec<2>& to, Role role,
                 const Box<2>& room, Labels& labels) {
@@ -105,7 +100,7 @@ std::vector<ForceArrow> force_arrows(const Frame& frame, const Projection& view)
     const double size = glm::length(f.force);
     if (!is_finite(f.force) || !(size > kLeastSize * most)) continue;
     const Vec<3> way = f.force / size;
-    const FrameBody* body = find(frame, f.body);
+    const FrameBody* body = frame.body_of(f.body);
     // At a body's centre it would be hidden by the body.
     const bool central = body && glm::distance(f.at, body->position) < 1e-9;
     const Vec<3> from = central ? f.at + way * reach_of_body(*body, way) : f.at;

@@ -79,15 +79,10 @@ class AxesView {
                      {Role::rule, 1.8, 7});
   }
 
-  const FrameBody* body(BodyId id) const {
-    const auto found = std::ranges::find(frame_.bodies, id, &FrameBody::id);
-    return found == frame_.bodies.end() ? nullptr : &*found;
-  }
-
   void draw_row(std::size_t i) {
     const auto& separation = *frame_.separation;
     const auto& axis = separation.axes[i];
-    const FrameBody *a = body(separation.a), *b = body(separation.b);
+    const FrameBody *a = frame_.body_of(separation.a), *b = frame_.body_of(separation.b);
     if (!a || !b) return;
     const double y = y_of(i);
     const bool front = i == separation.answer.value_or(separation.axes.size() - 1);

@@ -76,8 +76,8 @@ class DifferenceView {
   Vec<2> to_page(const Vec<2>& p) const { return origin_ + Vec<2>(p.x, -p.y) * scale_; }
 
   std::string name_of(BodyId id) const {
-    const auto body = std::ranges::find(frame_.bodies, id, &FrameBody::id);
-    return body == frame_.bodies.end() ? "" : body->name;
+    const FrameBody* body = frame_.body_of(id);
+    return body ? body->name : "";
   }
 
   void draw_heading() {

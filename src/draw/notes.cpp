@@ -29,8 +29,8 @@ std::optional<Target> find_target(const Frame& frame, std::size_t index, const L
   const FrameNote& note = frame.notes[index];
   const auto place = [&](const std::string& key) { return labels.place_of(key); };
   const auto of_body = [&](BodyId id) -> const Box<2>* {
-    const auto body = std::ranges::find(frame.bodies, id, &FrameBody::id);
-    return body == frame.bodies.end() ? nullptr : place(target_of(*body));
+    const FrameBody* body = frame.body_of(id);
+    return body ? place(target_of(*body)) : nullptr;
   };
   const Box<2>* found = nullptr;
   if (note.of == NoteOf::pair) {

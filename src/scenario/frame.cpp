@@ -72,6 +72,11 @@ std::uint64_t state_hash(const Frame& frame) {
   return hash.value();
 }
 
+const FrameBody* Frame::body_of(BodyId id) const {
+  const auto found = std::ranges::find(bodies, id, &FrameBody::id);
+  return found == bodies.end() ? nullptr : &*found;
+}
+
 const Frame* Frame::side_named(std::string_view name) const {
   const auto found = std::ranges::find(sides, name, &Frame::side);
   return found == sides.end() ? nullptr : &*found;

@@ -515,6 +515,8 @@ struct Frame {
     return may_sleep && !node.awake && !node.of_static && !(node.leaf && node.bodies.empty());
   }
 
+  // The body of that id; null if it is not there.
+  const FrameBody* body_of(BodyId id) const;
   // The side of that name; null if there is none.
   const Frame* side_named(std::string_view name) const;
 

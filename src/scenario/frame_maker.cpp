@@ -31,8 +31,8 @@ bool in_view(const FrameNote& note, const Frame& frame) {
   if (!frame.view) return true;
   if (note.of == NoteOf::point) return contains(*frame.view, flat(note.point));
   for (const BodyId id : note.bodies) {
-    const auto body = std::ranges::find(frame.bodies, id, &FrameBody::id);
-    if (body == frame.bodies.end() || !overlap(flat(body->box), *frame.view)) return false;
+    const FrameBody* body = frame.body_of(id);
+    if (!body || !overlap(flat(body->box), *frame.view)) return false;
   }
   return true;
 }

@@ -11,10 +11,6 @@
 namespace lantern::scenario {
 namespace {
 
-Placed<2> placed_as_is(const Body<2>& body) {
-  return {body.shape, body.position, body.orientation};
-}
-
 FrameAxis axis_of(const MeasuredAxis<2>& measured, const Body<2>& a, const Body<2>& b) {
   using Across = MeasuredAxis<2>::Across;
   const Vec<2> n = measured.normal;
@@ -24,7 +20,7 @@ FrameAxis axis_of(const MeasuredAxis<2>& measured, const Body<2>& a, const Body<
   if (measured.across == Across::face_of_a) axis.across = a.id;
   if (measured.across == Across::face_of_b) axis.across = b.id;
   const auto farthest = [&](const Body<2>& body, const Vec<2>& along) {
-    const auto points = farthest_points(placed_as_is(body), along);
+    const auto points = farthest_points(placed(body), along);
     LANTERN_CHECK(points.has_value(), ==, true);
     return *points;
   };
@@ -47,7 +43,7 @@ FrameSeparation axes_between(const Body<D>& a, const Body<D>& b) {
     std::vector<MeasuredAxis<2>> axes;
     NarrowTrace<2> trace;
     trace.axes = &axes;
-    const auto contact = collide<2>(placed_as_is(a), placed_as_is(b), 0, trace);
+    const auto contact = collide<2>(placed(a), placed(b), 0, trace);
     LANTERN_CHECK(axes.empty(), ==, false);
     for (const MeasuredAxis<2>& axis : axes) separation.axes.push_back(axis_of(axis, a, b));
     separation.answer = axes.size() - 1;
@@ -72,8 +68,7 @@ ShapeTests tests_of_shapes(const World<D>& world) {
   for (const Pair& pair : tests.tested) {
     stop_if_asked();
     const Body<D>&a = *world.find(pair.a), &b = *world.find(pair.b);
-    const auto manifold = collide<D>({a.shape, a.position, a.orientation},
-                                     {b.shape, b.position, b.orientation}, 0, trace);
+    const auto manifold = collide<D>(placed(a), placed(b), 0, trace);
     if (!manifold) continue;
     FrameContact& contact = tests.touching.emplace_back();
     contact.pair = pair;
@@ -91,7 +86,7 @@ FrameSearch distance_search(const Body<D>& a, const Body<D>& b) {
   search.a = a.id;
   search.b = b.id;
   if constexpr (D == 2) {
-    search.answer = gjk(placed_as_is(a), placed_as_is(b), &search.steps);
+    search.answer = gjk(placed(a), placed(b), &search.steps);
     LANTERN_CHECK(search.answer.has_value(), ==, true);
   } else {
     LANTERN_CHECK(D, ==, 2);
@@ -102,7 +97,7 @@ FrameSearch distance_search(const Body<D>& a, const Body<D>& b) {
 template <int D>
 std::optional<FrameDifference> difference_of(const Body<D>& a, const Body<D>& b) {
   if constexpr (D == 2) {
-    const auto found = minkowski_difference(placed_as_is(a), placed_as_is(b));
+    const auto found = minkowski_difference(placed(a), placed(b));
     if (found) return FrameDifference{a.id, b.id, found->corners, found->radius};
   }
   return std::nullopt;

@@ -64,9 +64,7 @@ void Sweep::act(ScriptRun& run) const {
   Frame whole = run.frames.picture(run.frames.touched, "sweep");
   std::vector<Pair> met;
   run.engine().each_swept([&](BodyId a, BodyId b) { met.push_back({a, b}); });
-  const auto name_of = [&](BodyId id) {
-    return std::ranges::find(whole.bodies, id, &FrameBody::id)->name;
-  };
+  const auto name_of = [&](BodyId id) { return whole.body_of(id)->name; };
   std::set<Pair> found;
   std::size_t next = 0;
   for (const BodyId at : in_order(whole)) {
