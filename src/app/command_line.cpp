@@ -104,7 +104,6 @@ void add_merge(CLI::App& app, Run& run) {
   c->add_option("OUT", o.output, "folder of the whole")->check(kNotEmpty)->required();
   c->add_option("IN", o.folders, "folders that shards wrote into with -o; the default is OUT")
       ->check(kNotEmpty);
-  add_choice(*c, "--backend", o.backend, "off-screen OpenGL, for a report's plots", kBackends);
   add_json(*c, o.json);
 }
 

@@ -54,7 +54,6 @@ int watch_command(const RenderOptions& options);
 struct MergeOptions {
   std::string output;                // folder of the whole
   std::vector<std::string> folders;  // that shards wrote into; empty: the same
-  std::string backend = "auto";      // auto, osmesa, egl; for a report's plots
   bool json = false;
 };
 int merge_command(const MergeOptions& options);
@@ -155,7 +154,6 @@ struct MeasureOptions {
   bool peers = true;
   std::string theme = "light";
   std::string backend = "auto";
-  std::string shard = "";  // "2/4": the second of four parts; empty for all
   bool list = false;
   bool json = false;
 };
@@ -218,7 +216,6 @@ struct StressOptions {
   std::string output;              // folder; empty for none
   std::string theme = "light";
   std::string backend = "auto";  // auto, osmesa, egl
-  std::string shard = "";        // "2/4": the second of four parts; empty for all
   bool list = false;
   bool full = false;  // the slow ones, too
   bool json = false;

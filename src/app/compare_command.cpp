@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -11,6 +12,8 @@
 
 #include "app/answer.hpp"
 #include "app/commands.hpp"
+#include "app/kept_files.hpp"
+#include "app/named_files.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
@@ -33,7 +36,7 @@ struct Result {
 
 std::string bytes_of(const fs::path& path) {
   constexpr std::size_t kMostFileBytes = 1u << 30;
-  return read_file(path, kMostFileBytes);
+  return read_input(path, kMostFileBytes);
 }
 
 Image image_of(const fs::path& path, std::string_view bytes) {
@@ -57,8 +60,8 @@ class FileComparison {
         before_(bytes_of(expected)),
         now_(bytes_of(actual)) {}
 
-  // A difference picture goes to `picture`, unless that is empty.
-  Result result(const fs::path& picture) const {
+  // A difference picture goes where `picture` says, unless that is empty.
+  Result result(const std::function<FilePlace()>& picture) const {
     const std::string kind = actual_.extension().string();
     Result result{actual_.string(), true, "same bytes"};
     if (before_ == now_ && (kind == ".svg" || kind == ".json")) return result;
@@ -85,14 +88,15 @@ class FileComparison {
     result.finding = result.equal ? "the same facts" : finding(*compared);
   }
 
-  void compare_pictures(Result& result, const fs::path& picture) const {
+  void compare_pictures(Result& result, const std::function<FilePlace()>& picture) const {
     const Image a = image_of(expected_, before_), b = image_of(actual_, now_);
     const Comparison compared = compare(a, b, options_.tolerance);
     result.equal = passes(compared, a, {options_.tolerance, options_.fraction});
     result.finding = finding(compared);
-    if (result.equal || picture.empty()) return;
-    if (picture.has_parent_path()) make_folder(picture.parent_path());
-    write_file(picture,
+    if (result.equal || !picture) return;
+    const FilePlace place = picture();
+    require_free(place.path());
+    write_file(place,
                encode_png(difference_picture(a, b, options_.tolerance), PngEffort::fast, {}, 0));
   }
 
@@ -108,9 +112,16 @@ std::set<std::string> files_in(const fs::path& folder) {
     const std::string kind = entry.path().extension().string();
     if (entry.path().filename() == "manifest.json") continue;
     if (kind == ".png" || kind == ".svg" || kind == ".json")
-      names.insert(fs::relative(entry.path(), folder).string());
+      names.insert(entry.path().lexically_relative(folder).string());
   }
   return names;
+}
+
+// Of a name that these folders have, below that of the user: through no link on the way.
+FilePlace place_below(const std::string& output, const fs::path& name) {
+  Folder folder = Folder::made(output);
+  for (const fs::path& part : name.parent_path()) folder = folder.inside(part.string());
+  return {folder, name.filename().string()};
 }
 
 // Every file of either folder; one that stands only in one of them differs.
@@ -129,7 +140,8 @@ std::vector<Result> compare_folders(const CompareOptions& o) {
       results.push_back({name, false, "was not expected"});
     } else {
       const fs::path a = expected_folder / name, b = actual_folder / name;
-      const fs::path picture = o.output.empty() ? fs::path() : fs::path(o.output) / name;
+      std::function<FilePlace()> picture;
+      if (!o.output.empty()) picture = [&] { return place_below(o.output, name); };
       results.push_back(FileComparison(a, b, o).result(picture));
       results.back().name = name;
     }
@@ -144,7 +156,13 @@ std::vector<Result> compare_two_files(const CompareOptions& o) {
   };
   if ((is_text(a) || is_text(b)) && a.extension() != b.extension())
     throw UsageError(fmt::format("'{}' and '{}' are files of two kinds", o.expected, o.actual));
-  return {FileComparison(a, b, o).result(o.output)};
+  std::function<FilePlace()> picture;
+  if (!o.output.empty())
+    picture = [&] {
+      make_place(o.output);
+      return FilePlace(o.output);
+    };
+  return {FileComparison(a, b, o).result(picture)};
 }
 
 }  // namespace

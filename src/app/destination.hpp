@@ -31,6 +31,8 @@ class Destination {
   Destination(const std::string& words, bool sheet);
 
   OutputKind kind() const { return kind_; }
+  // A file, or one for each step or frame, and neither a folder nor standard output.
+  bool is_file() const { return kind_ > OutputKind::standard_output; }
   const std::string& ending() const { return ending_; }  // "mp4"; empty for a folder
   bool is_by(std::string_view placeholder) const;        // is_by("step")
 

@@ -67,7 +67,7 @@ class FilmSink : public FileSink {
     show(last, walk_.page(), clock_.now());
     clock_.hold(last);
     finish_film();
-    make_durable(folder_of(made_.files.back()));
+    Folder(folder_of(made_.files.back())).settle();
   }
 
  private:
@@ -109,7 +109,7 @@ class FilmSink : public FileSink {
 
   void begin_film(const Frame& of, std::uint64_t moment) {
     file_ = to_.file({scenario_.name, of.step, of.index});
-    make_folder(folder_of(file_));
+    make_place(file_);
     film_.emplace(ffmpeg_, settings_, file_);
     begun_ = moment;
   }

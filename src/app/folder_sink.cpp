@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/shard_render.hpp"
 #include "app/terminal.hpp"
 #include "atlas/atlas.hpp"
 #include "base/file.hpp"
@@ -17,16 +18,16 @@ namespace {
 namespace fs = std::filesystem;
 
 // The facts of a frame are the same whatever is drawn of it.
-std::string facts_of(const RenderJob& job, const Frame& frame, const MadeFrom& from) {
-  const FactsVersion version = job.options.facts == "1" ? FactsVersion::v1 : FactsVersion::v2;
-  return sealed(FileKind::json, to_json(frame, version), {from.facts, from.facts});
+std::string facts_of(const Manifest& manifest, const Frame& frame) {
+  const MadeFrom from = manifest.frame_from(frame.index);
+  return sealed(FileKind::json, to_json(frame, manifest.facts), {from.facts, from.facts});
 }
 
 // Where each texture lies in the image of the finished atlas.
-std::string atlas_facts(const RenderJob& job, const Frame& frame, const DrawList& list) {
+std::string atlas_facts(const Manifest& manifest, const Frame& frame, const DrawList& list) {
   JsonWriter json;
   json.begin_object().line().member("format", "lantern.atlas/1");
-  json.line().member("image", frame.scenario + "_atlas." + job.options.format);
+  json.line().member("image", atlas_file(manifest.scenario, manifest.format));
   json.line().key("size").begin_array();
   json.value(static_cast<int>(list.page.x)).value(static_cast<int>(list.page.y)).end_array();
   json.line().key("textures").begin_array();
@@ -86,12 +87,12 @@ void FolderSink::close(const DirectorReport& report) {
   manifest_.expectations = report.expectations;
   manifest_.unmet = report.unmet.size();
   write_manifest();
-  make_durable(path_);  // before anybody is told that it is finished
+  folder_->folder().settle();  // before anybody is told that it is finished
 }
 
 // Only when there is a frame for it.
 void FolderSink::open_folder() {
-  folder_.emplace(path_, manifest_, selection_.takes_all());
+  folder_.emplace(output_folder(job_.options), manifest_, selection_.takes_all());
   if (!folder_->removed().empty())
     say(about_files(scenario_.name, "removed what an earlier run has left", folder_->removed()));
   write_manifest();
@@ -109,18 +110,17 @@ void FolderSink::take(const Frame& frame, const Staging& staging) {
 void FolderSink::take_facts(const Frame& frame) {
   if (!folder_) open_folder();
   taken_.insert(frame.index);
-  if (!folder_->stands(frame.index, "json"))
-    write_counted(folder_->file(frame.index, "json"),
-                  facts_of(job_, frame, manifest_.frame_from(frame.index)));
+  if (!folder_->stands(frame.index, FileKind::json))
+    write_counted(frame_file(manifest_.scenario, frame.index, FileKind::json),
+                  facts_of(manifest_, frame));
 }
 
 void FolderSink::take_picture(const Frame& frame) {
-  const std::string& format = job_.options.format;
-  if (folder_->stands(frame.index, format)) {
+  if (folder_->stands(frame.index, manifest_.format)) {
     ++kept_;
     return;
   }
-  write_picture(folder_->file(frame.index, format), walk_.page(), frame,
+  write_picture(frame_file(manifest_.scenario, frame.index, manifest_.format), walk_.page(), frame,
                 manifest_.frame_from(frame.index));
   ++drawn_;
 }
@@ -138,25 +138,25 @@ void FolderSink::take_in_betweens() {
   for (std::uint64_t k = 1; k <= count; ++k) {
     if (folder_->in_between_stands(index, k)) continue;
     const double t = static_cast<double>(k) / static_cast<double>(count + 1);
-    write_picture(folder_->in_between(index, k), walk_.in_between(t), here,
+    write_picture(in_between_file(manifest_, index, k), walk_.in_between(t), here,
                   manifest_.in_between_from(index, k));
   }
 }
 
-void FolderSink::write_picture(const fs::path& file, const DrawList& list, const Frame& frame,
+void FolderSink::write_picture(const std::string& file, const DrawList& list, const Frame& frame,
                                const MadeFrom& from) {
-  if (job_.svg) {
+  if (job_.format == FileKind::svg) {
     write_counted(file, picture_of(job_, job_.picture, frame, list, from, work_));
     ++work_.frames_written;
   } else {
-    pipeline().submit(list, texts_of(frame), file, from);
-    written_.insert(file.filename().string());
+    pipeline().submit(list, texts_of(frame), {folder_->folder(), file}, from);
+    written_.insert(file);
   }
 }
 
-void FolderSink::write_counted(const fs::path& file, const std::string& bytes) {
-  write_file(file, bytes);
-  written_.insert(file.filename().string());
+void FolderSink::write_counted(const std::string& file, const std::string& bytes) {
+  write_file({folder_->folder(), file}, bytes);
+  written_.insert(file);
   work_.bytes_written += bytes.size();
 }
 
@@ -174,7 +174,8 @@ Pipeline& FolderSink::pipeline() {
 // stands beside it.
 void FolderSink::list_frames() {
   const auto still_stands = [&](std::uint32_t i) {
-    return part_.is_all() && folder_->stands(i, job_.options.format) && folder_->stands(i, "json");
+    return part_.is_all() && folder_->stands(i, manifest_.format) &&
+           folder_->stands(i, FileKind::json);
   };
   for (std::uint32_t i = 0; i < all_.size(); ++i)
     if (taken_.contains(i) || still_stands(i)) list_frame(i);
@@ -202,15 +203,17 @@ void FolderSink::write_atlas(const Frame& frame) {
   as.transparent = true;
   as.pixels_per_metre = 0;
   const MadeFrom from = manifest_.atlas_from();
-  if (!folder_->atlas_stands(job_.options.format))
-    write_counted(folder_->atlas(job_.options.format),
+  if (!folder_->atlas_stands(manifest_.format))
+    write_counted(atlas_file(manifest_.scenario, manifest_.format),
                   picture_of(job_, as, frame, list, from, work_));
-  if (!folder_->atlas_stands("json"))
-    write_counted(folder_->atlas("json"),
-                  sealed(FileKind::json, atlas_facts(job_, frame, list), from));
+  if (!folder_->atlas_stands(FileKind::json))
+    write_counted(atlas_file(manifest_.scenario, FileKind::json),
+                  sealed(FileKind::json, atlas_facts(manifest_, frame, list), from));
   has_atlas_ = true;
 }
 
-void FolderSink::write_manifest() { write_file(path_ / "manifest.json", to_json(manifest_)); }
+void FolderSink::write_manifest() {
+  write_file({folder_->folder(), kManifest}, to_json(manifest_));
+}
 
 }  // namespace lantern::app

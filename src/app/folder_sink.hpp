@@ -50,9 +50,9 @@ class FolderSink : public StagedSink {
   void take_facts(const Frame& frame);
   void take_picture(const Frame& frame);
   void take_in_betweens();
-  void write_picture(const std::filesystem::path& file, const DrawList& list, const Frame& frame,
+  void write_picture(const std::string& file, const DrawList& list, const Frame& frame,
                      const MadeFrom& from);
-  void write_counted(const std::filesystem::path& file, const std::string& bytes);
+  void write_counted(const std::string& file, const std::string& bytes);
   Pipeline& pipeline();
   void list_frames();
   void list_frame(std::uint32_t index);

@@ -1,16 +1,22 @@
 // The folder DIR/<scenario>: what an earlier run has left in it, and what of that still stands.
 #pragma once
 
-#include <filesystem>
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/file.hpp"
 #include "base/folder_lock.hpp"
+#include "render/png.hpp"
 #include "render/seal.hpp"
+#include "scenario/frame.hpp"
 #include "scenario/scenario.hpp"
+#include "scenario/scenario_name.hpp"
 
 namespace lantern::app {
 
@@ -27,10 +33,16 @@ struct ListedFrame {
 };
 
 struct Manifest {
-  std::string scenario;
+  explicit Manifest(ScenarioName of) : scenario(std::move(of)) {}
+
+  ScenarioName scenario;
   std::string title;
   std::uint64_t seed = 1;
-  std::string pace, size, theme, format, png, facts;
+  Pace pace = Pace::step;
+  std::string size, theme;  // "1600x900", "light"
+  FileKind format = FileKind::png;
+  PngEffort png = PngEffort::fast;
+  FactsVersion facts = FactsVersion::v2;
   std::string in_betweens;    // how many are wanted, as InBetweens says it; empty for none
   int in_between_digits = 2;  // of their numbers, so that they stand in order by name
   bool transparent = false;
@@ -50,23 +62,39 @@ struct Manifest {
   MadeFrom atlas_from() const;
 };
 
-// Was the folder's last run made by this very build? Two builds of one version may draw
-// differently. False if the file is missing or damaged.
-bool is_of_this_build(const std::filesystem::path& manifest);
+// How manifests, and the command line, call what a folder's files are.
+inline constexpr std::pair<std::string_view, FileKind> kPictureKinds[] = {{"png", FileKind::png},
+                                                                          {"svg", FileKind::svg}};
+inline constexpr std::pair<std::string_view, PngEffort> kPngEfforts[] = {
+    {"fast", PngEffort::fast}, {"small", PngEffort::small}};
+inline constexpr std::pair<std::string_view, Pace> kPaces[] = {{"step", Pace::step},
+                                                               {"event", Pace::event}};
+inline constexpr std::pair<std::string_view, FactsVersion> kFactsVersions[] = {
+    {"1", FactsVersion::v1}, {"2", FactsVersion::v2}};
+
+// The word for a value, which must be there.
+template <class Value, std::size_t n>
+std::string_view word_for(Value value, const std::pair<std::string_view, Value> (&words)[n]) {
+  return std::ranges::find(words, value, &std::pair<std::string_view, Value>::second)->first;
+}
+
+inline constexpr const char* kManifest = "manifest.json";
 
 std::string to_json(const Manifest& manifest);
-// What to_json wrote, but for the digits of in-betweens, which it does not tell. Nothing for a text
-// that is damaged, of another format, or of another build.
-std::optional<Manifest> read_manifest(std::string_view json);
+// What to_json wrote, but for the digits of in-betweens, which it does not tell. Throws RefusedFile
+// (app/json_members.hpp) for a text that is anything else, or of another build.
+Manifest read_manifest(std::string_view json);
 
 // "ghost_quadtree_0007.png"
-std::string frame_file(const std::string& scenario, std::uint32_t index, std::string_view ending);
+std::string frame_file(const ScenarioName& scenario, std::uint32_t index, FileKind kind);
 // The index of the frame whose picture or facts have this name; nothing for any other file.
-std::optional<std::uint32_t> frame_of(std::string_view file, const std::string& scenario);
+std::optional<std::uint32_t> frame_of(std::string_view file, std::string_view scenario);
+// Would a run write a file of this name into a scenario's folder?
+bool is_frame_file(std::string_view file, std::string_view scenario);
 // Are these the bytes of such a file exactly as Lantern wrote it? By its ending: png, svg, json.
 bool is_as_made(std::string_view file, std::string_view bytes);
 // "ghost_quadtree_atlas.png"
-std::string atlas_file(const std::string& scenario, std::string_view ending);
+std::string atlas_file(const ScenarioName& scenario, FileKind kind);
 // "ghost_quadtree_0007_03.png", the third on the way from frame 7 to frame 8: by name in-betweens
 // stand where they are seen.
 std::string in_between_file(const Manifest& manifest, std::uint32_t index, std::uint64_t number);
@@ -77,20 +105,18 @@ std::string about_files(const std::string& scenario, const char* what,
 
 class FrameFolder {
  public:
-  // Makes the folder, and keeps other processes out of it. What an earlier run has left and what is
-  // not wanted now is removed, if Lantern made it and nobody has changed it since; `whole` runs, of
-  // all frames, leave nothing of another format, either. Throws IoError.
-  FrameFolder(const std::filesystem::path& path, const Manifest& wanted, bool whole);
+  // Makes DIR/<scenario> in the folder DIR, and keeps other processes out of it. What an earlier
+  // run has left and what is not wanted now is removed, if Lantern made it and nobody has changed
+  // it since; `whole` runs, of all frames, leave nothing of another format, either. Throws IoError,
+  // and UsageError for a folder that Lantern keeps for something else.
+  FrameFolder(const Folder& output, const Manifest& wanted, bool whole);
 
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path file(std::uint32_t index, std::string_view ending) const;
-  std::filesystem::path in_between(std::uint32_t index, std::uint64_t number) const;
-  std::filesystem::path atlas(std::string_view ending) const;
+  const Folder& folder() const { return folder_; }
 
-  // Is the picture, or are the facts ("json"), of this frame there as they are wanted?
-  bool stands(std::uint32_t index, std::string_view ending) const;
+  // Is the picture, or are the facts (FileKind::json), of this frame there as they are wanted?
+  bool stands(std::uint32_t index, FileKind kind) const;
   bool in_between_stands(std::uint32_t index, std::uint64_t number) const;
-  bool atlas_stands(std::string_view ending) const;
+  bool atlas_stands(FileKind kind) const;
   bool stands(const std::string& name) const { return standing_.contains(name); }
   // How many in-betweens stand from this frame on.
   std::uint64_t in_betweens_standing(std::uint32_t index) const;
@@ -100,11 +126,10 @@ class FrameFolder {
   const std::vector<std::string>& strange() const { return strange_; }
 
  private:
-  bool is_wanted(const std::string& name, std::string_view ending, const MadeFrom& found,
-                 bool whole) const;
+  bool is_wanted(const std::string& name, FileKind kind, const MadeFrom& found, bool whole) const;
   void look_at(const std::string& name, bool same_build, bool whole);
 
-  std::filesystem::path path_;
+  Folder folder_;
   const Manifest& wanted_;
   FolderLock lock_;
   std::map<std::string, MadeFrom> standing_;  // by file name

@@ -15,6 +15,7 @@
 #include "app/golden_list.hpp"
 #include "app/golden_sink.hpp"
 #include "app/inputs.hpp"
+#include "app/kept_files.hpp"
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
@@ -23,6 +24,7 @@
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
 #include "publish/golden_report.hpp"
+#include "scenario/scenario_name.hpp"
 
 namespace lantern::app {
 namespace {
@@ -60,6 +62,11 @@ class GoldenRun {
   int run() {
     make_ready();
     load();
+    require_free(report_file());
+    if (!options_.junit.empty()) {
+      require_free(options_.junit);
+      make_folder(folder_of(options_.junit));
+    }
     json_.line().key("scenarios").begin_array();
     for (auto& [suite, scenario] : loaded_) {
       if (scenario) try_one(suite, *scenario);
@@ -81,19 +88,12 @@ class GoldenRun {
   void make_ready() const {
     if (!std::isfinite(options_.fraction))
       throw UsageError("--fraction must be a number from 0 to 1");
-    if (!options_.junit.empty() && options_.junit == options_.report)
+    std::error_code none;
+    if (!options_.junit.empty() &&
+        fs::weakly_canonical(options_.junit, none) == fs::weakly_canonical(report_file(), none))
       throw UsageError("--junit and --report name the same file");
-    for (const fs::path& file : {fs::path(options_.junit), report_file()}) {
-      std::error_code error;
+    for (const fs::path& file : {fs::path(options_.junit), report_file()})
       if (file == "-") throw UsageError("--junit and --report write files, not standard output");
-      for (const std::string& input : options_.files)
-        if (fs::equivalent(file, input, error))
-          throw UsageError(fmt::format("'{}' is the scenario; name another file", file.string()));
-      if (fs::is_directory(file, error))
-        throw UsageError(fmt::format("'{}' is a folder; give a file's name", file.string()));
-    }
-    if (fs::path(options_.junit).has_parent_path())
-      make_folder(fs::path(options_.junit).parent_path());
   }
 
   fs::path report_file() const {
@@ -149,17 +149,22 @@ class GoldenRun {
   }
 
   void one(GoldenSuite& suite, const Scenario& scenario) {
-    const fs::path folder = fs::path(options_.folder) / scenario.name;
+    const ScenarioName name = name_of(scenario);
+    const fs::path output = options_.folder;
+    std::error_code none;
+    const auto folder =
+        fs::is_directory(output, none) ? Folder(output).find(name.text()) : std::nullopt;
     const Pace pace = pace_of(options_.pace, scenario);
     Selection selection(options_.frames, options_.at, extent_of(scenario, pace).frames);
-    const auto list = read_list(folder / kGoldenList, selection);
+    const auto list = folder ? read_list(*folder, selection) : std::nullopt;
     const Goldens goldens{
-        job_, scenario, pace, selection, work_, folder, list.value_or(GoldenList())};
+        job_, scenario, pace, selection, work_, name, output, folder, list.value_or(GoldenList())};
     const std::string words = list ? other_words(list->made_with, goldens.made_with()) : "";
     if (options_.update) return update(suite, goldens, words);
     if (!list) {
       suite.findings.push_back(
-          fmt::format("there are no golden frames in '{}'; --update makes them", folder.string()));
+          fmt::format("there are no golden frames in '{}'; --update makes them",
+                      (output / name.text()).string()));
     } else if (!words.empty()) {
       suite.findings.push_back(fmt::format(
           "the golden frames were made with{}; compare so, or --update makes others", words));
@@ -169,8 +174,8 @@ class GoldenRun {
   }
 
   // A damaged list is no hindrance for a new one of all frames.
-  std::optional<GoldenList> read_list(const fs::path& file, const Selection& selection) const try {
-    return read_golden_list(file);
+  std::optional<GoldenList> read_list(const Folder& folder, const Selection& selection) const try {
+    return read_golden_list(folder);
   } catch (const DamagedGoldens&) {
     if (!options_.update || !selection.takes_all()) throw;
     return std::nullopt;
@@ -261,7 +266,7 @@ class GoldenRun {
     const auto differs = [](const GoldenSuite& s) { return s.first() != nullptr; };
     if (options_.report.empty() && std::ranges::none_of(suites_, differs)) return {};
     const fs::path page = report_file();
-    if (page.has_parent_path()) make_folder(page.parent_path());
+    make_folder(folder_of(page));
     write_file(page, golden_page(suites_, fmt::format("Lantern {}", kVersion)));
     return page.string();
   }

@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "app/frame_folder.hpp"
 #include "base/file.hpp"
 #include "base/printable.hpp"
+#include "draw/theme.hpp"
 
 namespace lantern::app {
 namespace {
@@ -41,6 +43,18 @@ bool read_frame(std::string_view line, GoldenList& list) {
          list.frames.emplace(index, GoldenList::Entry{std::string(hash), std::string(line)}).second;
 }
 
+// They are told as words to type.
+bool is_right(const GoldenList::MadeWith& m) {
+  const auto is_of = [](std::string_view text, std::string_view letters) {
+    return text.size() <= 32 && text.find_first_not_of(letters) == text.npos;
+  };
+  return is_of(m.version, "0123456789.") && is_of(m.size, "0123456789x") &&
+         (m.theme.empty() || theme_named(m.theme)) &&
+         (m.pace.empty() || m.pace == word_for(Pace::step, kPaces) ||
+          m.pace == word_for(Pace::event, kPaces)) &&
+         is_of(m.facts, "lantern.frame/0123456789");
+}
+
 bool read_line(std::string_view line, GoldenList& list) {
   const std::string_view key = line.substr(0, line.find(' '));
   if (key.size() == line.size()) return false;
@@ -49,7 +63,7 @@ bool read_line(std::string_view line, GoldenList& list) {
   for (const auto& [name, member] : kMembers)
     if (key == name && (list.made_with.*member).empty()) {
       list.made_with.*member = line;
-      return true;
+      return is_right(list.made_with);
     }
   return false;
 }
@@ -65,31 +79,31 @@ std::string to_text(const GoldenList& list) {
   return text;
 }
 
-std::optional<GoldenList> read_golden_list(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
-    return std::nullopt;
+std::optional<GoldenList> read_golden_list(const Folder& folder) {
   constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-  std::istringstream lines(read_file(file, kMostBytes));
+  const auto text = folder.read(kGoldenList, kMostBytes);
+  if (!text) return std::nullopt;
+  const std::string file = folder.path(kGoldenList).string();
+  std::istringstream lines(*text);
   GoldenList list;
   std::string line;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.ends_with('\r')) line.pop_back();  // as some version control systems give it
     if (number == 1) {
       if (!line.starts_with(kGoldenFormat))
-        throw IoError(fmt::format("'{}' is not Lantern's: move it, or give --dir another folder",
-                                  file.string()));
+        throw IoError(
+            fmt::format("'{}' is not Lantern's: move it, or give --dir another folder", file));
       if (line.substr(kGoldenFormat.size()) != kGoldenVersion)
-        throw IoError(fmt::format("'{}' is of a later Lantern: {}", file.string(), line));
+        throw IoError(fmt::format("'{}' is of a later Lantern: {}", file, line));
     } else if (!read_line(line, list)) {
       throw DamagedGoldens(
-          fmt::format("'{}' is damaged in line {}; --update makes it anew", file.string(), number));
+          fmt::format("'{}' is damaged in line {}; --update makes it anew", file, number));
     }
   }
   for (const auto& [name, member] : kMembers)
     if ((list.made_with.*member).empty())
       throw DamagedGoldens(
-          fmt::format("'{}' is damaged: no {}; --update makes it anew", file.string(), name));
+          fmt::format("'{}' is damaged: no {}; --update makes it anew", file, name));
   return list;
 }
 

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/file.hpp"
 
 namespace lantern::app {
 
@@ -38,8 +38,8 @@ class DamagedGoldens : public IoError {
 
 std::string to_text(const GoldenList& list);
 
-// Nothing if there is no such file. Throws DamagedGoldens; IoError if it cannot be read, is no
-// golden.txt of Lantern's, or is that of a later Lantern.
-std::optional<GoldenList> read_golden_list(const std::filesystem::path& file);
+// That of the folder; nothing if there is none. Throws DamagedGoldens; IoError if it cannot be
+// read, is no golden.txt of Lantern's, or is that of a later Lantern.
+std::optional<GoldenList> read_golden_list(const Folder& folder);
 
 }  // namespace lantern::app

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/kept_files.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "embedded/version.hpp"
@@ -15,8 +16,6 @@
 
 namespace lantern::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string packed(const Image& image) { return encode_png(image, PngEffort::small, {}, 0); }
 
@@ -28,7 +27,8 @@ bool same_facts(std::string_view golden, std::string_view facts) {
 
 GoldenList::MadeWith Goldens::made_with() const {
   const Manifest m = job.manifest(scenario, pace);
-  return {std::string(kVersion), m.size, m.theme, m.pace, "lantern.frame/" + m.facts};
+  return {std::string(kVersion), m.size, m.theme, std::string(word_for(m.pace, kPaces)),
+          fmt::format("lantern.frame/{}", word_for(m.facts, kFactsVersions))};
 }
 
 void GoldenSink::draw(const Frame& frame, const Staging& staging) {
@@ -47,27 +47,20 @@ void GoldenSink::draw(const Frame& frame, const Staging& staging) {
   take(frame, image_, to_json(frame));
 }
 
-std::string GoldenSink::file(std::uint32_t frame, std::string_view ending) const {
-  return frame_file(goldens_.scenario.name, frame, ending);
+std::string GoldenSink::file(std::uint32_t frame, FileKind kind) const {
+  return frame_file(goldens_.name, frame, kind);
 }
 
 std::map<std::string, std::uint32_t> GoldenSink::frame_files() const {
   std::map<std::string, std::uint32_t> files;
-  std::error_code error;
-  for (fs::directory_iterator it(goldens_.folder, error), end; !error && it != end;
-       it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (const auto index = frame_of(name, goldens_.scenario.name)) files.emplace(name, *index);
-  }
+  for (const std::string& name : folder_ ? folder_->names() : std::vector<std::string>())
+    if (const auto index = frame_of(name, goldens_.name.text())) files.emplace(name, *index);
   return files;
 }
 
 std::optional<std::string> GoldenSink::read(const std::string& file) const {
   constexpr std::size_t kMostBytes = std::size_t{1} << 30;
-  const fs::path path = goldens_.folder / file;
-  std::error_code error;
-  if (fs::status(path, error).type() == fs::file_type::not_found) return std::nullopt;
-  return read_file(path, kMostBytes);
+  return folder_ ? folder_->read(file, kMostBytes) : std::nullopt;
 }
 
 GoldenComparison::GoldenComparison(const Goldens& goldens, const Allowance& allowance,
@@ -90,7 +83,7 @@ void GoldenComparison::take(const Frame& frame, const Image& image, const std::s
 // Facts of another format differ all over, which is said once.
 void GoldenComparison::compare_facts_of(GoldenCase& one, const std::string& facts) const {
   if (goldens_.list.made_with.facts != goldens_.made_with().facts) return;
-  const std::string name = file(one.frame, "json");
+  const std::string name = file(one.frame, FileKind::json);
   const auto golden = read(name);
   if (!golden) {
     one.findings.push_back(name + " is missing");
@@ -106,7 +99,7 @@ void GoldenComparison::compare_facts_of(GoldenCase& one, const std::string& fact
 // The list and the golden picture must tell of the same pixels: people look at the picture.
 void GoldenComparison::compare_picture_of(GoldenCase& one, const GoldenList::Entry& golden,
                                           const Image& image) {
-  const std::string name = file(one.frame, "png");
+  const std::string name = file(one.frame, FileKind::png);
   const bool same = pixel_hash(image) == golden.pixels;
   const auto bytes = read(name);
   const auto expected = bytes ? decode_png(*bytes) : std::nullopt;
@@ -156,13 +149,15 @@ void GoldenComparison::close(const DirectorReport&) {
 
 void GoldenUpdate::take(const Frame& frame, const Image& image, const std::string& facts) {
   if (!lock_) {
-    make_folder(goldens_.folder);
-    lock_.emplace(goldens_.folder);
-    remove_leftovers(goldens_.folder);
+    folder_ = Folder::made(goldens_.output).inside(goldens_.name.text());
+    require_kept_for(KeptFor::goldens, *folder_);
+    lock_.emplace(*folder_);
+    folder_->remove_leftovers();
   }
   const RenderJob& job = goldens_.job;
   const MadeFrom from = job.manifest(goldens_.scenario, goldens_.pace).frame_from(frame.index);
-  const std::string png = file(frame.index, "png"), json = file(frame.index, "json");
+  const std::string png = file(frame.index, FileKind::png),
+                    json = file(frame.index, FileKind::json);
   const auto picture = read(png);
   if (!picture || decode_png(*picture) != image)
     write(png, sealed(FileKind::png,
@@ -176,7 +171,7 @@ void GoldenUpdate::take(const Frame& frame, const Image& image, const std::strin
 }
 
 void GoldenUpdate::write(const std::string& file, const std::string& bytes) {
-  write_file(goldens_.folder / file, bytes);
+  write_file({*folder_, file}, bytes);
   goldens_.work.bytes_written += bytes.size();
   written_.push_back(file);
 }
@@ -197,16 +192,11 @@ void GoldenUpdate::close(const DirectorReport&) {
 void GoldenUpdate::remove_gone() {
   for (const auto& [name, index] : frame_files()) {
     if (index < count_) continue;
-    std::error_code error;
     const auto bytes = read(name);
-    if (!bytes || !is_as_made(name, *bytes)) {
+    if (!bytes || !is_as_made(name, *bytes))
       strange_.push_back(name);
-    } else if (fs::remove(goldens_.folder / name, error)) {
+    else if (folder_->remove(name))
       removed_.push_back(name);
-    } else {
-      throw IoError(fmt::format("cannot remove '{}': {}", (goldens_.folder / name).string(),
-                                error.message()));
-    }
   }
 }
 

@@ -19,10 +19,12 @@
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
 #include "app/staged_sink.hpp"
+#include "base/file.hpp"
 #include "base/folder_lock.hpp"
 #include "publish/golden_report.hpp"
 #include "render/compare.hpp"
 #include "render/renderer.hpp"
+#include "scenario/scenario_name.hpp"
 
 namespace lantern::app {
 
@@ -33,7 +35,9 @@ struct Goldens {
   Pace pace;
   Selection& selection;
   Work& work;
-  std::filesystem::path folder;  // DIR/<scenario>
+  ScenarioName name;
+  std::filesystem::path output;  // DIR
+  std::optional<Folder> folder;  // DIR/<scenario>, if it is there
   GoldenList list;               // that stands there; without frames if none does
 
   // What this run's frames are made with.
@@ -43,21 +47,22 @@ struct Goldens {
 // Draws the chosen frames.
 class GoldenSink : public StagedSink {
  protected:
-  explicit GoldenSink(const Goldens& goldens) : goldens_(goldens) {}
+  explicit GoldenSink(const Goldens& goldens) : goldens_(goldens), folder_(goldens.folder) {}
 
   // `facts` without a seal.
   virtual void take(const Frame& frame, const Image& image, const std::string& facts) = 0;
 
   // Throws BackendError, and UsageError for a picture that is too large.
   void draw(const Frame& frame, const Staging& staging) final;
-  std::string file(std::uint32_t frame, std::string_view ending) const;
+  std::string file(std::uint32_t frame, FileKind kind) const;
   // The pictures and facts of frames that stand in the folder, by name, with their frame's index.
   std::map<std::string, std::uint32_t> frame_files() const;
   // Nothing if it is not there. Throws IoError if it cannot be read.
   std::optional<std::string> read(const std::string& file) const;
 
   const Goldens& goldens_;
-  std::uint32_t count_ = 0;  // frames of the run so far, chosen or not
+  std::optional<Folder> folder_;  // goldens_.folder, or as it was made since
+  std::uint32_t count_ = 0;       // frames of the run so far, chosen or not
 
  private:
   std::optional<Renderer> renderer_;  // made when there is something to draw

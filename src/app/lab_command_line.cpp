@@ -41,7 +41,6 @@ void add_measure(CLI::App& app, Run& run) {
                 "machine, side by side")
       ->allow_extra_args(false)
       ->type_name("PATH");
-  add_shard(*c, o.shard);
   add_memory(*c);
   add_json(*c, o.json);
 }
@@ -201,7 +200,6 @@ void add_stress(CLI::App& app, Run& run) {
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   c->add_flag("--list", o.list, "list the cases and exit");
   c->add_flag("--full", o.full, "run the slow cases, too");
-  add_shard(*c, o.shard);
   add_memory(*c);
   add_json(*c, o.json);
 }

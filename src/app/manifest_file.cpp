@@ -1,74 +1,118 @@
-// manifest.json, read back.
-#include <charconv>
-#include <utility>
-
-#include <nlohmann/json.hpp>
+// manifest.json, written and read back.
+#include <limits>
 
 #include "app/frame_folder.hpp"
+#include "app/in_betweens.hpp"
+#include "app/json_members.hpp"
+#include "app/selection.hpp"
+#include "app/terminal.hpp"
+#include "base/json_writer.hpp"
+#include "draw/theme.hpp"
 #include "embedded/version.hpp"
+#include "render/renderer.hpp"
 
 namespace lantern::app {
 namespace {
 
-using Json = nlohmann::json;
-
+constexpr const char* kFormat = "lantern.manifest/2";
 constexpr std::string_view kFactsFormat = "lantern.frame/";
+constexpr std::uint64_t kMostWhole = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMostIndex = std::numeric_limits<std::uint32_t>::max();
 
-// As 16 hexadecimal digits.
-std::optional<std::uint64_t> hash_in(const Json& json) {
-  const auto& digits = json.get_ref<const std::string&>();
-  std::uint64_t hash = 0;
-  const char* end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, hash, 16);
-  return digits.size() == 16 && error == std::errc() && stop == end ? std::optional(hash)
-                                                                    : std::nullopt;
+// A frame's entry, whose files must be those of that frame.
+ListedFrame read_frame(const JsonMembers& json, const Manifest& m, std::uint32_t index) {
+  json.is("file", frame_file(m.scenario, index, m.format));
+  json.is("facts", frame_file(m.scenario, index, FileKind::json));
+  ListedFrame frame;
+  frame.step = static_cast<std::uint32_t>(json.whole("step", 0, kMostIndex));
+  frame.event = json.text("event");
+  frame.time = json.number("time");
+  frame.caption = json.text("caption");
+  frame.hash = json.hash("hash");
+  if (!m.in_betweens.empty())
+    frame.in_betweens = json.whole("in_betweens", 0, InBetweens::kMostPictures);
+  return frame;
 }
 
-bool read_frames(const Json& json, Manifest& m) {
-  for (const Json& one : json.at("frames")) {
-    ListedFrame frame;
-    one.at("step").get_to(frame.step);
-    one.at("event").get_to(frame.event);
-    one.at("time").get_to(frame.time);
-    one.at("caption").get_to(frame.caption);
-    if (!m.in_betweens.empty()) one.at("in_betweens").get_to(frame.in_betweens);
-    const auto hash = hash_in(one.at("hash"));
-    if (!hash) return false;
-    frame.hash = *hash;
-    m.frames.emplace(one.at("frame").get<std::uint32_t>(), std::move(frame));
+void read_frames(const JsonMembers& json, Manifest& m) {
+  std::uint64_t pictures = 0;
+  for (const JsonMembers& one : json.objects("frames")) {
+    const auto index = static_cast<std::uint32_t>(one.whole("frame", 0, kMostIndex));
+    ListedFrame frame = read_frame(one, m, index);
+    pictures += frame.in_betweens;
+    if (pictures > InBetweens::kMostPictures)
+      one.refuse("in_betweens", "there are too many of them in all");
+    if (!m.frames.emplace(index, std::move(frame)).second)
+      one.refuse("frame", "it is listed before");
   }
-  return true;
+}
+
+// "1600x900", as --size takes it.
+std::string read_size(const JsonMembers& json) {
+  const std::string size = json.text("size");
+  try {
+    const auto [width, height] = parse_size(size, Renderer::kMostPixels);
+    if (fmt::format("{}x{}", width, height) == size) return size;
+  } catch (const UsageError&) {
+    // refused below
+  }
+  json.refuse("size", "it is a picture's size, as 1600x900");
 }
 
 }  // namespace
 
-std::optional<Manifest> read_manifest(std::string_view text) try {
-  const Json json = Json::parse(text.begin(), text.end());
-  const std::string facts = json.at("facts_format");
-  const auto hash = hash_in(json.at("scenario_hash"));
-  if (json.at("format") != "lantern.manifest/2" || json.at("version") != kVersion ||
-      json.at("sources") != kSourceHash || !facts.starts_with(kFactsFormat) || !hash)
-    return std::nullopt;
-  Manifest m;
-  json.at("scenario").get_to(m.scenario);
-  json.at("title").get_to(m.title);
-  json.at("seed").get_to(m.seed);
-  json.at("pace").get_to(m.pace);
-  json.at("size").get_to(m.size);
-  json.at("theme").get_to(m.theme);
-  json.at("picture_format").get_to(m.format);
-  json.at("png").get_to(m.png);
-  m.facts = facts.substr(kFactsFormat.size());
-  json.at("transparent").get_to(m.transparent);
-  json.at("finished").get_to(m.finished);
-  json.at("expectations").get_to(m.expectations);
-  json.at("unmet").get_to(m.unmet);
-  json.at("switches").get_to(m.switches);
-  if (json.contains("tween")) json.at("tween").get_to(m.in_betweens);
-  m.scenario_hash = *hash;
-  return read_frames(json, m) ? std::optional(std::move(m)) : std::nullopt;
-} catch (const Json::exception&) {
-  return std::nullopt;
+std::string to_json(const Manifest& m) {
+  JsonWriter json;
+  json.begin_object().lines(
+      "format", kFormat, "scenario", m.scenario.text(), "title", m.title, "version", kVersion,
+      "sources", kSourceHash, "scenario_hash", fmt::format("{:016x}", m.scenario_hash), "seed",
+      m.seed, "pace", word_for(m.pace, kPaces), "size", m.size, "theme", m.theme, "facts_format",
+      fmt::format("{}{}", kFactsFormat, word_for(m.facts, kFactsVersions)), "picture_format",
+      word_for(m.format, kPictureKinds), "png", word_for(m.png, kPngEfforts), "transparent",
+      m.transparent, "finished", m.finished, "expectations", m.expectations, "unmet", m.unmet);
+  json.line().key("switches").begin_array();
+  for (const std::string& name : m.switches) json.value(name);
+  json.end_array();
+  if (!m.in_betweens.empty()) json.line().member("tween", m.in_betweens);
+  json.line().key("frames").begin_array();
+  for (const auto& [index, frame] : m.frames) {
+    json.line().begin_object().members(
+        "frame", index, "file", frame_file(m.scenario, index, m.format), "facts",
+        frame_file(m.scenario, index, FileKind::json), "step", frame.step, "event", frame.event,
+        "time", frame.time, "caption", frame.caption, "hash", fmt::format("{:016x}", frame.hash));
+    if (!m.in_betweens.empty()) json.member("in_betweens", frame.in_betweens);
+    json.end_object();
+  }
+  json.line().end_array().line().end_object();
+  return json.text() + "\n";
+}
+
+Manifest read_manifest(std::string_view text) {
+  const JsonMembers json(text);
+  json.is("format", kFormat);
+  json.is("version", kVersion);
+  json.is("sources", kSourceHash);
+  Manifest m(json.scenario_name("scenario"));
+  m.title = json.text("title");
+  m.seed = json.whole("seed", 0, kMostWhole);
+  m.pace = json.word<Pace>("pace", kPaces);
+  m.size = read_size(json);
+  m.theme = json.text("theme");
+  if (!theme_named(m.theme)) json.refuse("theme", "there is no such theme");
+  m.format = json.word<FileKind>("picture_format", kPictureKinds);
+  m.png = json.word<PngEffort>("png", kPngEfforts);
+  m.facts = json.text("facts_format") == fmt::format("{}1", kFactsFormat) ? FactsVersion::v1
+                                                                          : FactsVersion::v2;
+  json.is("facts_format", fmt::format("{}{}", kFactsFormat, word_for(m.facts, kFactsVersions)));
+  m.transparent = json.flag("transparent");
+  m.finished = json.flag("finished");
+  m.expectations = json.whole("expectations", 0, kMostWhole);
+  m.unmet = json.whole("unmet", 0, kMostWhole);
+  m.switches = json.texts("switches");
+  if (json.has("tween")) m.in_betweens = json.text("tween");
+  m.scenario_hash = json.hash("scenario_hash");
+  read_frames(json, m);
+  return m;
 }
 
 }  // namespace lantern::app

@@ -10,7 +10,6 @@
 #include "app/commands.hpp"
 #include "app/interrupts.hpp"
 #include "app/measure_pages.hpp"
-#include "app/measure_shard.hpp"
 #include "app/measure_unsuited.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
@@ -122,7 +121,8 @@ bool same(const Circumstances& a, const Circumstances& b) {
 // damaged.
 std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
   try {
-    auto earlier = read_measurement(read_file(folder.path() / "measure.json", kMostMeasureBytes));
+    const auto text = folder.earlier("measure.json", kMostMeasureBytes);
+    auto earlier = text ? read_measurement(*text) : std::nullopt;
     if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
   } catch (const IoError&) {
     // there is none
@@ -255,18 +255,16 @@ class Measuring {
 
 int measure_problems(const MeasureOptions& options) {
   PlanOptions planned = plan_options(options);
-  MeasureShard shard(options, planned);
-  ReportFolder folder(shard.folder(), "measure");
+  ReportFolder folder(options.output, "measure");
   Plan plan(std::move(planned), [](const Scenario&) {});
   // Of all problems some suit no other engine: only who asks for a few is told.
   for (const std::string& line : unsuited_words(plan.unsuited(), !options.problems.empty()))
     say(line);
   Measuring measuring(plan, folder, options);
   const Measurement& m = measuring.measurement();
-  shard.begin(plan, m.circumstances);
   measuring.run();
   const bool is_nothing = std::ranges::none_of(m.rows, &Row::was_run);
-  if (is_nothing && !shard.is_one() && !interrupted()) {
+  if (is_nothing && !interrupted()) {
     complain("nothing was measured: no method applies, or every run is too long (--full)");
     return kFailed;
   }
@@ -275,12 +273,6 @@ int measure_problems(const MeasureOptions& options) {
     complain("interrupted; the same command goes on from here");
     return kInterrupted;
   }
-  if (shard.is_one()) {
-    shard.finish(plan);
-    say(fmt::format("the rows are in {}; 'lantern merge' makes the report", shard.folder()));
-    return kGood;
-  }
-  // The bars belong to the whole.
   save_pages(folder, m, {options.problems.empty(), options.theme, options.backend});
   folder.finish();
   say(fmt::format("the report is in {}", options.output));
@@ -292,10 +284,11 @@ int page_of_earlier(const MeasureOptions& options) {
   std::vector<Measurement> measurements;
   for (const std::string& word : options.from) {
     const fs::path path = fs::is_directory(word) ? fs::path(word) / "measure.json" : fs::path(word);
-    auto read = read_measurement(read_file(path, kMostMeasureBytes));
+    std::string why;
+    auto read = read_measurement(read_input(path, kMostMeasureBytes), &why);
     if (!read)
-      throw UsageError(
-          fmt::format("'{}' is no measurement that 'lantern measure' has written", path.string()));
+      throw UsageError(fmt::format("'{}' is no measurement that 'lantern measure' has written: {}",
+                                   path.string(), why));
     measurements.push_back(std::move(*read));
   }
   ReportFolder folder(options.output, "measure_page");
@@ -319,8 +312,6 @@ bool measures_more(const MeasureOptions& options) {
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems(options.json);
   const bool is_of_problems = options.from.empty() && !measures_more(options);
-  if (!options.shard.empty() && !is_of_problems)
-    throw UsageError("--shard divides measurements of problems and scenarios only");
   if (is_of_problems) return measure_problems(options);
   if (!options.from.empty()) return page_of_earlier(options);
   const std::vector<std::string>& words = options.problems;

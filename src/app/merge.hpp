@@ -1,7 +1,4 @@
-// What `lantern merge` does with the shards of each command. Each makes in options.output what one
-// run without --shard would have made, gives the exit code of that run, and throws UsageError for
-// the same shard twice with other contents; UnfitShard for one that is not whole. All shards are
-// there, finished.
+// What `lantern merge` does with shards that are all there, finished.
 #pragma once
 
 #include <stdexcept>
@@ -18,9 +15,10 @@ class UnfitShard : public std::runtime_error {
   UnfitShard(const ShardSet& set, const FoundShard& shard, const std::string& what);
 };
 
-// `json` gets members of what was done.
+// Makes in options.output what one run without --shard would have made, and gives the exit code of
+// that run; `json` gets members of what was done. Nothing is written before all that the shards say
+// of themselves was found right: throws UsageError for the same shard twice with other contents,
+// UnfitShard for one that is not whole.
 int merge_frames(const ShardSet& set, const MergeOptions& options, JsonWriter& json);
-int merge_measurements(const ShardSet& set, const MergeOptions& options, JsonWriter& json);
-int merge_stress(const ShardSet& set, const MergeOptions& options, JsonWriter& json);
 
 }  // namespace lantern::app

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -17,20 +16,13 @@
 namespace lantern::app {
 namespace {
 
-using Merge = int (*)(const ShardSet&, const MergeOptions&, JsonWriter&);
-
-Merge merge_of(std::string_view command) {
-  if (command == "render") return merge_frames;
-  if (command == "measure") return merge_measurements;
-  if (command == "stress") return merge_stress;
-  throw UsageError(fmt::format("shards of '{}' cannot be merged", command));
-}
-
 // The whole would stand where a part of it does.
 void require_apart(const ShardSet& set, const std::string& output) {
-  std::error_code not_there;
+  std::error_code none;
+  if (!std::filesystem::is_directory(output, none)) return;
+  const Folder whole(output);
   for (const FoundShard* shard : set.shards())
-    if (shard != nullptr && std::filesystem::equivalent(output, shard->path, not_there))
+    if (shard != nullptr && shard->folder.is(whole))
       throw UsageError(fmt::format("'{}' is the folder of shard {}; give another one for the whole",
                                    output, shard->record.shard.text()));
 }
@@ -39,21 +31,21 @@ void require_apart(const ShardSet& set, const std::string& output) {
 
 UnfitShard::UnfitShard(const ShardSet& set, const FoundShard& shard, const std::string& what)
     : runtime_error(fmt::format("shard {} in '{}': {}: {}", shard.record.shard.text(),
-                                shard.path.string(), what, set.advice(shard.record.shard))) {}
+                                shard.folder.path().string(), what,
+                                set.advice(shard.record.shard))) {}
 
 int merge_command(const MergeOptions& options) {
   const ShardSet set(options.folders.empty() ? std::vector{options.output} : options.folders);
-  const Merge merge = merge_of(set.run().command);
   require_apart(set, options.output);
   const std::vector<std::string> missing = set.missing();
   for (const std::string& sentence : missing) complain(sentence);
   JsonWriter json = answer_of("merge");
-  json.lines("command", set.run().command, "shards", set.run().shard.of, "merged", missing.empty());
+  json.lines("command", "render", "shards", set.run().shard.of, "merged", missing.empty());
   json.line().key("missing").begin_array();
   for (std::uint32_t i = 0; i < set.shards().size(); ++i)
     if (set.shards()[i] == nullptr) json.value(i + 1);
   json.end_array();
-  const int code = missing.empty() ? merge(set, options, json) : int{kFailed};
+  const int code = missing.empty() ? merge_frames(set, options, json) : int{kFailed};
   json.line().end_object();
   if (options.json) answer(json.text());
   return code;

@@ -11,6 +11,8 @@
 
 #include "app/folder_sink.hpp"
 #include "app/frame_folder.hpp"
+#include "app/json_members.hpp"
+#include "app/kept_files.hpp"
 #include "app/merge.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
@@ -19,8 +21,6 @@
 
 namespace lantern::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
 
@@ -38,55 +38,79 @@ struct MergedSequence {
   std::vector<ShardFile> files;
 };
 
+// Of one scenario in a shard. Throws UnfitShard if it is not there.
+Folder folder_of(const ShardSet& set, const FoundShard& shard, const ScenarioName& scenario) {
+  if (auto folder = shard.folder.find(scenario.text())) return *folder;
+  throw UnfitShard(set, shard, fmt::format("there is no folder '{}'", scenario.text()));
+}
+
 // Its bytes, if they are as the shard wrote them.
-std::optional<std::string> whole_bytes(const fs::path& folder, const ShardFile& file) try {
-  std::string bytes = read_file(folder / file.name, kMostFileBytes);
-  return made_from(file.kind, bytes) == file.from ? std::optional(std::move(bytes)) : std::nullopt;
+std::optional<std::string> whole_bytes(const Folder& folder, const ShardFile& file) try {
+  std::optional<std::string> bytes = folder.read(file.name, kMostFileBytes);
+  return bytes && made_from(file.kind, *bytes) == file.from ? std::move(bytes) : std::nullopt;
 } catch (const IoError&) {
   return std::nullopt;
 }
 
+// What the shard's manifest says, if it says it of this input. Throws UnfitShard.
 Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardInput& input) {
-  const fs::path path = shard.path / input.name / "manifest.json";
+  const Folder folder = folder_of(set, shard, input.name);
+  const auto refuse = [&](const std::string& why) {
+    throw UnfitShard(
+        set, shard,
+        fmt::format("'{}' is not what the shard wrote: {}", folder.path(kManifest).string(), why));
+  };
   std::optional<Manifest> manifest;
   try {
-    manifest = read_manifest(read_file(path, kMostFileBytes));
-  } catch (const IoError&) {
-    // told as one that cannot be read
+    const auto bytes = folder.read(kManifest, kMostFileBytes);
+    if (!bytes) refuse("it is missing");
+    manifest = read_manifest(*bytes);
+  } catch (const IoError& why) {
+    refuse(why.what());
+  } catch (const RefusedFile& why) {
+    refuse(why.what());
   }
-  if (!manifest || !manifest->finished || manifest->frames.size() != input.here ||
-      fmt::format("{:016x}", manifest->scenario_hash) != input.text)
-    throw UnfitShard(set, shard, fmt::format("'{}' is not what the shard wrote", path.string()));
-  const auto digits = set.run().settings.find("tween digits");
-  if (digits != set.run().settings.end()) manifest->in_between_digits = std::stoi(digits->second);
+  if (manifest->scenario != input.name)
+    refuse(fmt::format("scenario is \"{}\", the record names '{}'", manifest->scenario.text(),
+                       input.name.text()));
+  if (!manifest->finished) refuse("finished is false");
+  if (manifest->frames.size() != input.here)
+    refuse(fmt::format("it lists {} frames, the record {}", manifest->frames.size(), input.here));
+  if (fmt::format("{:016x}", manifest->scenario_hash) != input.text)
+    refuse(fmt::format("scenario_hash is another than {}", input.text));
+  manifest->in_between_digits = *in_between_digits(set.run());
   return std::move(*manifest);
 }
 
 std::vector<ShardFile> files_of(const FoundShard& shard, const Manifest& m, bool atlas) {
-  const FileKind picture = m.format == "svg" ? FileKind::svg : FileKind::png;
   std::vector<ShardFile> files;
   for (const auto& [index, frame] : m.frames) {
     const MadeFrom from = m.frame_from(index);
-    files.push_back(
-        {&shard, frame_file(m.scenario, index, "json"), FileKind::json, {from.facts, from.facts}});
-    files.push_back({&shard, frame_file(m.scenario, index, m.format), picture, from});
+    files.push_back({&shard,
+                     frame_file(m.scenario, index, FileKind::json),
+                     FileKind::json,
+                     {from.facts, from.facts}});
+    files.push_back({&shard, frame_file(m.scenario, index, m.format), m.format, from});
     for (std::uint64_t k = 1; k <= frame.in_betweens; ++k)
-      files.push_back({&shard, in_between_file(m, index, k), picture, m.in_between_from(index, k)});
+      files.push_back(
+          {&shard, in_between_file(m, index, k), m.format, m.in_between_from(index, k)});
   }
   if (atlas) {
-    files.push_back({&shard, atlas_file(m.scenario, m.format), picture, m.atlas_from()});
-    files.push_back({&shard, atlas_file(m.scenario, "json"), FileKind::json, m.atlas_from()});
+    files.push_back({&shard, atlas_file(m.scenario, m.format), m.format, m.atlas_from()});
+    files.push_back(
+        {&shard, atlas_file(m.scenario, FileKind::json), FileKind::json, m.atlas_from()});
   }
   return files;
 }
 
 // Throws UnfitShard unless each of the files is whole.
-void require_whole(const ShardSet& set, const FoundShard& shard, const std::string& scenario,
+void require_whole(const ShardSet& set, const FoundShard& shard, const ScenarioName& scenario,
                    const std::vector<ShardFile>& files) {
+  const Folder folder = folder_of(set, shard, scenario);
   std::vector<std::string> bad;
   for (const ShardFile& file : files) {
     stop_if_asked();
-    if (!whole_bytes(shard.path / scenario, file)) bad.push_back(file.name);
+    if (!whole_bytes(folder, file)) bad.push_back(file.name);
   }
   if (bad.empty()) return;
   const std::string more =
@@ -95,19 +119,15 @@ void require_whole(const ShardSet& set, const FoundShard& shard, const std::stri
 }
 
 // What lies in the shard's folder and is not its own stays there, and is named.
-void tell_of_others(const FoundShard& shard, const std::string& scenario,
+void tell_of_others(const FoundShard& shard, const Folder& folder,
                     const std::vector<ShardFile>& files) {
   std::vector<std::string> others;
-  std::error_code error;
-  for (fs::directory_iterator it(shard.path / scenario, error), end; !error && it != end;
-       it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (name != "manifest.json" && std::ranges::find(files, name, &ShardFile::name) == files.end())
-      others.push_back(name);
-  }
-  std::ranges::sort(others);
+  std::set<std::string> own = {kManifest};
+  for (const ShardFile& file : files) own.insert(file.name);
+  for (const std::string& name : folder.names())
+    if (!own.contains(name)) others.push_back(name);
   const std::string what = "not of shard " + shard.record.shard.text() + ", left where it is";
-  if (!others.empty()) say(about_files(scenario, what.c_str(), others));
+  if (!others.empty()) say(about_files(folder.path().filename().string(), what.c_str(), others));
 }
 
 // Throws UsageError for two parts that tell of different runs.
@@ -116,7 +136,7 @@ void require_same_run(Manifest a, Manifest b, const FoundShard& shard) {
   b.frames.clear();
   if (to_json(a) != to_json(b))
     throw UsageError(fmt::format("'{}' in '{}' tells of another run than the other shards",
-                                 a.scenario, shard.path.string()));
+                                 a.scenario.text(), shard.folder.path().string()));
 }
 
 // Nothing if no frame of it was chosen by anybody.
@@ -128,7 +148,7 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
     Manifest part = manifest_of(set, *shard, input);
     std::vector<ShardFile> files = files_of(*shard, part, input.atlas);
     require_whole(set, *shard, input.name, files);
-    tell_of_others(*shard, input.name, files);
+    tell_of_others(*shard, folder_of(set, *shard, input.name), files);
     if (!whole) {
       whole = MergedSequence{std::move(part), std::move(files)};
       continue;
@@ -150,13 +170,14 @@ void require_equal(const ShardSet& set, const ShardSet::Twins& twins) {
       const Manifest m = manifest_of(set, *twins.first, first);
       same = to_json(m) == to_json(manifest_of(set, *twins.second, second));
       for (const ShardFile& file : files_of(*twins.first, m, first.atlas))
-        same = same && whole_bytes(twins.first->path / first.name, file) ==
-                           whole_bytes(twins.second->path / first.name, file);
+        same = same && whole_bytes(folder_of(set, *twins.first, first.name), file) ==
+                           whole_bytes(folder_of(set, *twins.second, first.name), file);
     }
     if (!same)
       throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'",
-                                   twins.first->path.string(), twins.second->path.string(),
-                                   twins.first->record.shard.text(), first.name));
+                                   twins.first->folder.path().string(),
+                                   twins.second->folder.path().string(),
+                                   twins.first->record.shard.text(), first.name.text()));
   }
 }
 
@@ -165,15 +186,17 @@ struct Counted {
 };
 
 // As a run does it: a manifest of nothing first, that of all frames last.
-Counted write_whole(const fs::path& path, MergedSequence& whole, bool all_frames) {
+Counted write_whole(const ShardSet& set, const Folder& output, MergedSequence& whole,
+                    bool all_frames) {
   Manifest finished = whole.manifest;
   whole.manifest.frames.clear();
   whole.manifest.finished = false;
-  const FrameFolder folder(path, whole.manifest, all_frames);
+  const FrameFolder folder(output, whole.manifest, all_frames);
+  const std::string& name = finished.scenario.text();
   if (!folder.removed().empty())
-    say(about_files(finished.scenario, "removed what an earlier run has left", folder.removed()));
+    say(about_files(name, "removed what an earlier run has left", folder.removed()));
   const auto write_manifest = [&](const Manifest& m) {
-    write_file(path / "manifest.json", to_json(m));
+    write_file({folder.folder(), kManifest}, to_json(m));
   };
   write_manifest(whole.manifest);
   Counted counted;
@@ -184,15 +207,15 @@ Counted write_whole(const fs::path& path, MergedSequence& whole, bool all_frames
       ++counted.kept;
       continue;
     }
-    const auto bytes = whole_bytes(file.shard->path / finished.scenario, file);
+    const auto bytes = whole_bytes(folder_of(set, *file.shard, finished.scenario), file);
     if (!bytes) throw IoError(fmt::format("'{}' has changed meanwhile", file.name));
-    write_file(path / file.name, *bytes);
+    write_file({folder.folder(), file.name}, *bytes);
     written.insert(file.name);
     ++counted.written;
   }
-  tell_of_strange(finished.scenario, folder, written);
+  tell_of_strange(name, folder, written);
   write_manifest(finished);
-  make_durable(path);
+  folder.folder().settle();
   return counted;
 }
 
@@ -206,19 +229,20 @@ int merge_frames(const ShardSet& set, const MergeOptions& options, JsonWriter& j
   const auto chosen = [&](const char* name) { return !set.run().settings.at(name).empty(); };
   const bool all_frames = !chosen("frames") && !chosen("at");
   std::uint64_t unmet = 0;
+  const Folder output = Folder::made(options.output);
+  require_kept_for(KeptFor::frames, output);
   json.line().key("scenarios").begin_array();
   for (MergedSequence& whole : sequences) {
     const std::size_t frames = whole.manifest.frames.size();
-    const fs::path path = fs::path(options.output) / whole.manifest.scenario;
-    const Counted counted = write_whole(path, whole, all_frames);
+    const std::string& name = whole.manifest.scenario.text();
+    const std::string path = output.path(name).string();
+    const Counted counted = write_whole(set, output, whole, all_frames);
     unmet += whole.manifest.unmet;
-    json.line().begin_object().members("scenario", whole.manifest.scenario, "folder", path.string(),
-                                       "frames", frames, "written", counted.written, "kept",
-                                       counted.kept);
+    json.line().begin_object().members("scenario", name, "folder", path, "frames", frames,
+                                       "written", counted.written, "kept", counted.kept);
     json.end_object();
     say(fmt::format(
-        "{}: {} frames of {} shards in {}{}", whole.manifest.scenario, frames, set.run().shard.of,
-        path.string(),
+        "{}: {} frames of {} shards in {}{}", name, frames, set.run().shard.of, path,
         counted.kept > 0 ? fmt::format(", {} files of them there already", counted.kept) : ""));
   }
   json.line().end_array();

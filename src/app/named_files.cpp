@@ -4,13 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "app/kept_files.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 
 namespace lantern::app {
 
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-  return file.has_parent_path() ? file.parent_path() : ".";
+void make_place(const std::filesystem::path& file) {
+  require_free(file);
+  make_folder(folder_of(file));
 }
 
 void refuse_in_betweens(const Sequence& sequence) {
@@ -22,7 +24,7 @@ void refuse_in_betweens(const Sequence& sequence) {
 
 void NamedFiles::write(const std::filesystem::path& file, std::string_view bytes,
                        std::uint64_t frames) {
-  make_folder(folder_of(file));
+  make_place(file);
   write_file(file, bytes);
   work_.bytes_written += bytes.size();
   work_.frames_written += frames;
@@ -33,7 +35,7 @@ void NamedFiles::write(const std::filesystem::path& file, std::string_view bytes
 void NamedFiles::settle() const {
   std::set<std::filesystem::path> folders;
   for (const auto& file : made_.files) folders.insert(folder_of(file));
-  for (const auto& folder : folders) make_durable(folder);
+  for (const auto& folder : folders) Folder(folder).settle();
 }
 
 }  // namespace lantern::app

@@ -13,8 +13,8 @@ namespace lantern::app {
 // Throws UsageError if in-betweens are asked for: what is printed does not move.
 void refuse_in_betweens(const Sequence& sequence);
 
-// Where this file will stand; "." if its name says no folder.
-std::filesystem::path folder_of(const std::filesystem::path& file);
+// Makes the folder of a file that an option names, if the file may be written: see require_free().
+void make_place(const std::filesystem::path& file);
 
 class NamedFiles {
  public:

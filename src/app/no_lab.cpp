@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "app/merge.hpp"
 #include "app/terminal.hpp"
 #include "measure/peers.hpp"
 
@@ -25,11 +24,6 @@ int structure_bench_command(const StructureBenchOptions&) { return refused("stru
 int bench_atlas_command(const BenchAtlasOptions&) { return refused("bench atlas"); }
 int bench_pairs_command(const BenchPairsOptions&) { return refused("bench pairs"); }
 int bench_step_command(const BenchStepOptions&) { return refused("bench step"); }
-
-int merge_measurements(const ShardSet&, const MergeOptions&, JsonWriter&) {
-  return refused("merge");
-}
-int merge_stress(const ShardSet&, const MergeOptions&, JsonWriter&) { return refused("merge"); }
 
 }  // namespace lantern::app
 

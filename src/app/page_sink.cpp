@@ -88,7 +88,7 @@ class PageSink : public FileSink {
 
   void close(const DirectorReport&) override {
     selection_.require_some();
-    make_folder(folder_of(file_));
+    make_place(file_);
     std::string html = lesson_.html();
     if (options_.reloading) html.insert(html.rfind("</body>"), reload_script(file_));
     write_file(file_, html);

@@ -47,8 +47,8 @@ class PictureSink : public FileSink {
       waiting_[file] = picture_of(job_, job_.picture, frame, list, from, work_);
       return;
     }
-    make_folder(folder_of(file));
-    if (job_.svg)
+    make_place(file);
+    if (job_.format == FileKind::svg)
       write(file, picture_of(job_, job_.picture, frame, list, from, work_));
     else
       pipeline().submit(list, texts_of(frame), file, from);
@@ -58,10 +58,10 @@ class PictureSink : public FileSink {
     selection_.require_some();
     if (pipeline_) pipeline_->finish();
     for (const auto& [file, bytes] : waiting_) {
-      make_folder(folder_of(file));
+      make_place(file);
       write(file, bytes);
     }
-    make_durable(folder_of(made_.files.back()));
+    Folder(folder_of(made_.files.back())).settle();
   }
 
  private:

@@ -14,6 +14,7 @@
 #include "app/folder_sink.hpp"
 #include "app/forecast.hpp"
 #include "app/inputs.hpp"
+#include "app/kept_files.hpp"
 #include "app/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
@@ -143,7 +144,7 @@ void list_lessons(const Destination& to) {
       folder != to.file({"b"}).parent_path())
     return;
   const auto index = folder / "index.html";
-  const bool written = publish::write_lesson_index(folder.empty() ? "." : folder);
+  const bool written = publish::write_lesson_index(Folder(folder));
   say(written ? fmt::format("all lessons there are listed in {}", index.string())
               : fmt::format("{} is not of this kind and was left alone", index.string()));
 }
@@ -217,6 +218,9 @@ int render_command(const RenderOptions& asked) {
   const RenderJob job(options);
   int code = kGood;
   const std::vector<Scenario> scenarios = load_all(files, code);
+  // Of names that only the run can tell, each is looked at before its file is written.
+  if (to.is_file() && !to.is_by("step") && !to.is_by("frame"))
+    for (const Scenario& scenario : scenarios) require_free(to.file({scenario.name}));
   Work work;
   JsonWriter json = answer_of("render");
   json.line().key("scenarios").begin_array();

@@ -37,7 +37,10 @@ SvgWords svg_words(const RenderJob& job, const Frame& frame, const MadeFrom& fro
 }  // namespace
 
 RenderJob::RenderJob(const RenderOptions& o)
-    : options(o), backend(*backend_named(o.backend)), svg(o.format == "svg"), in_betweens(o) {
+    : options(o),
+      backend(*backend_named(o.backend)),
+      format(o.format == "svg" ? FileKind::svg : FileKind::png),
+      in_betweens(o) {
   std::tie(picture.width, picture.height) =
       parse_size(o.size.empty() ? kUsualSize : o.size, Renderer::kMostPixels);
   picture.theme = *theme_named(o.theme);
@@ -85,16 +88,15 @@ std::uint64_t program_hash() {
 }  // namespace
 
 Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
-  Manifest m;
-  m.scenario = scenario.name;
+  Manifest m(name_of(scenario));
   m.title = scenario.title;
   m.seed = scenario.seed;
-  m.pace = to_string(pace);
+  m.pace = pace;
   m.size = fmt::format("{}x{}", picture.width, picture.height);
   m.theme = options.theme;
-  m.format = options.format;
-  m.png = options.png;
-  m.facts = options.facts;
+  m.format = format;
+  m.png = picture.effort;
+  m.facts = options.facts == "1" ? FactsVersion::v1 : FactsVersion::v2;
   m.transparent = options.transparent;
   m.in_betweens = in_betweens.setting();
   m.in_between_digits =
@@ -105,8 +107,9 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
        {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},
         std::pair{options.no_counters, "no-counters"}, std::pair{options.legend, "legend"}})
     if (on) m.switches.emplace_back(name);
-  if (svg && options.text == "text") m.switches.emplace_back("text");
-  if (!svg && options.dpi != kUsualDots) m.switches.push_back(fmt::format("dpi-{}", options.dpi));
+  if (format == FileKind::svg && options.text == "text") m.switches.emplace_back("text");
+  if (format == FileKind::png && options.dpi != kUsualDots)
+    m.switches.push_back(fmt::format("dpi-{}", options.dpi));
   return m;
 }
 
@@ -120,7 +123,7 @@ std::vector<PngText> texts_of(const Frame& frame) {
 
 std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
                        const DrawList& list, const MadeFrom& from, Work& work) {
-  if (job.svg)
+  if (job.format == FileKind::svg)
     return sealed(
         FileKind::svg,
         to_svg(list, as.theme, as.transparent, as.width, as.height, svg_words(job, frame, from)),

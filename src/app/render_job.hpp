@@ -22,7 +22,7 @@ struct RenderJob {
   const RenderOptions& options;
   Pipeline::Config picture;  // how the picture of a frame is made
   Backend backend = Backend::automatic;
-  bool svg = false;
+  FileKind format = FileKind::png;  // of a frame's picture, where it is a file
   InBetweens in_betweens;
 
   // What of the frame is shown: as the scenario has it, and the command line.

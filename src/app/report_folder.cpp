@@ -4,7 +4,6 @@
 
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
-#include "base/file.hpp"
 
 namespace lantern::app {
 
@@ -17,12 +16,12 @@ ReportFolder::ReportFolder(const std::string& path, std::string_view report)
   for (fs::path folder = path_; !folder.empty() && !fs::exists(folder, ignored);
        folder = folder.parent_path())
     made_.push_back(folder);
-  make_folder(path_);
-  lock_.emplace(path_);
-  remove_leftovers(path_);
-  const fs::path probe = path_ / ".lantern-try";
-  write_file(probe, "");
-  fs::remove(probe, ignored);
+  folder_ = Folder::made(path_);
+  lock_.emplace(*folder_);
+  folder_->remove_leftovers();
+  constexpr const char* kProbe = ".lantern-try";
+  write_file({*folder_, kProbe}, "");
+  folder_->remove(kProbe);
 }
 
 ReportFolder::~ReportFolder() {
@@ -30,31 +29,35 @@ ReportFolder::~ReportFolder() {
   for (const fs::path& folder : made_) fs::remove(folder, not_empty);
 }
 
+std::optional<std::string> ReportFolder::earlier(std::string_view name,
+                                                 std::size_t most_bytes) const {
+  return wanted() ? folder_->read(name, most_bytes) : std::nullopt;
+}
+
 void ReportFolder::write(std::string_view name, std::string_view bytes) {
   if (!wanted()) return;
   if (!begun_) remove_old_pages();
   begun_ = true;
-  write_file(path_ / name, bytes);
+  write_file({*folder_, name}, bytes);
 }
 
 void ReportFolder::remove_old_pages() {
-  std::vector<fs::path> old;
-  std::error_code error;
-  for (fs::directory_iterator it(path_, error), end; !error && it != end; it.increment(error))
-    if (is_page_of(report_, it->path())) old.push_back(it->path());
-  for (const fs::path& page : old) fs::remove(page, error);
-  if (!old.empty())
-    say(fmt::format("{} of an earlier report removed from {}", counted(old.size(), "page"),
+  std::size_t removed = 0;
+  for (const std::string& name : folder_->names())
+    if (is_page_of(report_, *folder_, name)) removed += folder_->remove(name) ? 1 : 0;
+  if (removed > 0)
+    say(fmt::format("{} of an earlier report removed from {}", counted(removed, "page"),
                     path_.string()));
 }
 
 void ReportFolder::draw(const std::vector<ReportPage>& pages, const std::string& theme,
                         const std::string& backend) const {
-  if (wanted()) save_pictures(path_, report_, pages, *theme_named(theme), *backend_named(backend));
+  if (wanted())
+    save_pictures(*folder_, report_, pages, *theme_named(theme), *backend_named(backend));
 }
 
 void ReportFolder::finish() const {
-  if (wanted()) make_durable(path_);
+  if (wanted()) folder_->settle();
 }
 
 }  // namespace lantern::app

@@ -1,12 +1,14 @@
 // A folder for a report's files.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/file.hpp"
 #include "base/folder_lock.hpp"
 #include "report/pictures.hpp"
 
@@ -26,6 +28,9 @@ class ReportFolder {
   bool wanted() const { return !path_.empty(); }
   const std::filesystem::path& path() const { return path_; }
 
+  // What an earlier run has left there; nothing if there is no such file. Throws IoError.
+  std::optional<std::string> earlier(std::string_view name, std::size_t most_bytes) const;
+
   // With the first file of a new report, the pages of an older one of its kind go: they would tell
   // of other numbers.
   void write(std::string_view name, std::string_view bytes);
@@ -39,6 +44,7 @@ class ReportFolder {
   void remove_old_pages();
 
   std::filesystem::path path_;
+  std::optional<Folder> folder_;
   std::string report_;
   std::optional<FolderLock> lock_;
   bool begun_ = false;

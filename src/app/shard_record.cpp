@@ -1,11 +1,13 @@
 #include "app/shard_record.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "app/json_members.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
@@ -15,6 +17,7 @@ namespace lantern::app {
 namespace {
 
 constexpr std::string_view kFormat = "lantern.shard/1";
+constexpr std::string_view kCommand = "render";  // no other is divided
 
 std::string differs(std::string_view what, std::string_view a, std::string_view b) {
   const auto shown = [](std::string_view value) {
@@ -33,19 +36,18 @@ std::optional<std::string> difference_of_inputs(const ShardRecord& a, const Shar
     return differs("the number of inputs", std::to_string(a.inputs.size()),
                    std::to_string(b.inputs.size()));
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
-    if (a.inputs[i].name != b.inputs[i].name)
-      return differs(fmt::format("input {}", i + 1), a.inputs[i].name, b.inputs[i].name);
+    const std::string &first = a.inputs[i].name.text(), &second = b.inputs[i].name.text();
+    if (first != second) return differs(fmt::format("input {}", i + 1), first, second);
     if (a.inputs[i].text != b.inputs[i].text)
-      return fmt::format("'{}' has another text in the second", a.inputs[i].name);
+      return fmt::format("'{}' has another text in the second", first);
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-ShardRecord new_record(std::string command, const Shard& shard) {
+ShardRecord new_record(const Shard& shard) {
   ShardRecord record;
-  record.command = std::move(command);
   record.shard = shard;
   record.version = kVersion;
   record.sources = kSourceHash;
@@ -55,7 +57,7 @@ ShardRecord new_record(std::string command, const Shard& shard) {
 
 std::string to_json(const ShardRecord& r) {
   JsonWriter json;
-  json.begin_object().lines("format", kFormat, "command", r.command, "shard", r.shard.number, "of",
+  json.begin_object().lines("format", kFormat, "command", kCommand, "shard", r.shard.number, "of",
                             r.shard.of, "version", r.version, "sources", r.sources, "finished",
                             r.finished);
   json.line().key("settings").begin_object();
@@ -66,40 +68,48 @@ std::string to_json(const ShardRecord& r) {
   for (const ShardInput& input : r.inputs)
     json.line()
         .begin_object()
-        .members("name", input.name, "text", input.text, "here", input.here, "atlas", input.atlas)
+        .members("name", input.name.text(), "text", input.text, "here", input.here, "atlas",
+                 input.atlas)
         .end_object();
   json.line().end_array().line().end_object();
   return json.text() + "\n";
 }
 
-std::optional<ShardRecord> read_record(std::string_view text) try {
-  const auto json = nlohmann::json::parse(text.begin(), text.end());
-  if (json.at("format") != kFormat) return std::nullopt;
+ShardRecord read_record(std::string_view text) {
+  const JsonMembers json(text);
+  json.is("format", kFormat);
+  json.is("command", kCommand);
   ShardRecord r;
-  json.at("command").get_to(r.command);
-  json.at("shard").get_to(r.shard.number);
-  json.at("of").get_to(r.shard.of);
-  json.at("version").get_to(r.version);
-  json.at("sources").get_to(r.sources);
-  json.at("finished").get_to(r.finished);
-  json.at("settings").get_to(r.settings);
-  json.at("words").get_to(r.words);
-  for (const auto& one : json.at("inputs")) {
-    ShardInput& input = r.inputs.emplace_back();
-    one.at("name").get_to(input.name);
-    one.at("text").get_to(input.text);
-    one.at("here").get_to(input.here);
-    one.at("atlas").get_to(input.atlas);
+  r.shard.of = static_cast<std::uint32_t>(json.whole("of", 1, Shard::kMost));
+  r.shard.number = static_cast<std::uint32_t>(json.whole("shard", 1, r.shard.of));
+  r.version = json.text("version");
+  r.sources = json.text("sources");
+  r.finished = json.flag("finished");
+  const JsonMembers settings = json.object("settings");
+  for (const std::string& name : settings.names()) r.settings[name] = settings.text(name.c_str());
+  settings.text("frames"), settings.text("at");  // what a merge asks for
+  if (!in_between_digits(r)) settings.refuse("tween digits", "it is a whole number from 2 to 9");
+  r.words = json.texts("words");
+  if (r.words.empty() || r.words.front() != kCommand)
+    json.refuse("words", "they begin with render");
+  std::set<std::string> names;
+  for (const JsonMembers& one : json.objects("inputs")) {
+    one.hash("text");
+    r.inputs.push_back({one.scenario_name("name"), one.text("text"),
+                        one.whole("here", 0, std::numeric_limits<std::uint32_t>::max()),
+                        one.flag("atlas")});
+    if (!names.insert(one.text("name")).second) one.refuse("name", "it is listed before");
   }
-  const Shard& shard = r.shard;
-  const bool can_be = 1 <= shard.number && shard.number <= shard.of && shard.of <= Shard::kMost;
-  return can_be ? std::optional(std::move(r)) : std::nullopt;
-} catch (const nlohmann::json::exception&) {
-  return std::nullopt;
+  return r;
+}
+
+std::optional<int> in_between_digits(const ShardRecord& record) {
+  const std::string digits = setting(record, "tween digits");
+  const bool is_one = digits.size() == 1 && '2' <= digits[0] && digits[0] <= '9';
+  return is_one ? std::optional(digits[0] - '0') : std::nullopt;
 }
 
 std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b) {
-  if (a.command != b.command) return differs("the command", a.command, b.command);
   if (a.version != b.version) return differs("the version", a.version, b.version);
   if (a.sources != b.sources) return differs("the program's source hash", a.sources, b.sources);
   if (a.shard.of != b.shard.of)
@@ -112,9 +122,9 @@ std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b
   return difference_of_inputs(a, b);
 }
 
-ShardFolder::ShardFolder(const std::filesystem::path& path, ShardRecord record)
-    : path_(path), record_(std::move(record)) {
-  write_file(path_ / kShardFile, to_json(record_));
+ShardFolder::ShardFolder(Folder folder, ShardRecord record)
+    : folder_(std::move(folder)), record_(std::move(record)) {
+  write_file({folder_, kShardFile}, to_json(record_));
 }
 
 void ShardFolder::finish() {
@@ -122,8 +132,8 @@ void ShardFolder::finish() {
     say(fmt::format("shard {} is empty: there is too little for {}", record_.shard.text(),
                     record_.shard.of));
   record_.finished = true;
-  write_file(path_ / kShardFile, to_json(record_));
-  make_durable(path_);
+  write_file({folder_, kShardFile}, to_json(record_));
+  folder_.settle();
 }
 
 }  // namespace lantern::app

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,19 +9,20 @@
 #include <vector>
 
 #include "app/shard.hpp"
+#include "base/file.hpp"
+#include "scenario/scenario_name.hpp"
 
 namespace lantern::app {
 
-// One scenario, problem or case of the whole run.
+// One scenario of the whole run.
 struct ShardInput {
-  std::string name;
-  std::string text;        // hash of what it says, 16 digits; empty for a case of the program's own
-  std::uint64_t here = 0;  // of its frames, rows or cases, how many are in this shard
+  ScenarioName name;
+  std::string text;        // hash of what it says, 16 digits
+  std::uint64_t here = 0;  // of its frames, how many are in this shard
   bool atlas = false;      // its finished atlas is in this shard, too
 };
 
 struct ShardRecord {
-  std::string command;  // "render", "measure", "stress"
   Shard shard;
   std::string version, sources;                 // of the program that wrote it
   std::map<std::string, std::string> settings;  // all that the result depends on, by name
@@ -34,11 +34,14 @@ struct ShardRecord {
 inline constexpr const char* kShardFile = "shard.json";
 
 // Of this program and this command line.
-ShardRecord new_record(std::string command, const Shard& shard);
+ShardRecord new_record(const Shard& shard);
 
 std::string to_json(const ShardRecord& record);
-// Nothing for a text that is damaged or of another format.
-std::optional<ShardRecord> read_record(std::string_view json);
+// Throws RefusedFile (app/json_members.hpp) for a text that is damaged, or not as to_json wrote it.
+ShardRecord read_record(std::string_view json);
+
+// How many digits the numbers of in-betweens have; nothing if the settings do not say it rightly.
+std::optional<int> in_between_digits(const ShardRecord& record);
 
 // How two records of one run would differ, as "the size is 160x90 in the first, 320x180 in the
 // second"; nothing if they are parts of one run. The number of the shard, and what is in it, may
@@ -49,14 +52,14 @@ std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b
 class ShardFolder {
  public:
   // The folder must be there, and nobody else may write into it meanwhile. Throws IoError.
-  ShardFolder(const std::filesystem::path& path, ShardRecord record);
+  ShardFolder(Folder folder, ShardRecord record);
 
   // To be told of what each input has here, and then, when all of it stands, to be finished.
   ShardInput& input(std::size_t index) { return record_.inputs[index]; }
   void finish();
 
  private:
-  std::filesystem::path path_;
+  Folder folder_;
   ShardRecord record_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "app/destination.hpp"
 #include "app/forecast.hpp"
+#include "app/kept_files.hpp"
 #include "app/run_scenario.hpp"
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
@@ -36,9 +37,9 @@ std::map<std::string, std::string> settings_of(const RenderJob& job, const Scena
           {"pace", job.options.pace},
           {"size", m.size},
           {"theme", m.theme},
-          {"format", m.format},
-          {"png", m.png},
-          {"facts", m.facts},
+          {"format", std::string(word_for(m.format, kPictureKinds))},
+          {"png", std::string(word_for(m.png, kPngEfforts))},
+          {"facts", std::string(word_for(m.facts, kFactsVersions))},
           {"tween", m.in_betweens},
           {"tween digits", std::to_string(m.in_between_digits)},
           {"transparent", m.transparent ? "yes" : "no"},
@@ -60,19 +61,28 @@ RenderOptions options_of_shard(const RenderOptions& options) {
   return of_shard;
 }
 
+Folder output_folder(const RenderOptions& options) {
+  const std::filesystem::path path = options.output;
+  const bool is_shard = !options.shard.empty();
+  const Folder folder = is_shard ? Folder::made(path.parent_path()).inside(path.filename().string())
+                                 : Folder::made(path);
+  require_kept_for(is_shard ? KeptFor::shard : KeptFor::frames, folder);
+  return folder;
+}
+
 RenderShard::RenderShard(const RenderJob& job, const std::vector<Scenario>& scenarios)
     : parts_(scenarios.size()) {
   const auto shard = parse_shard(job.options.shard);
   if (!shard || scenarios.empty()) return;
   parts_ = parts_of(*shard, chosen_frames(job.options, scenarios));
-  ShardRecord record = new_record("render", *shard);
+  ShardRecord record = new_record(*shard);
   record.settings = settings_of(job, scenarios.front());
   for (const Scenario& s : scenarios)
-    record.inputs.push_back({s.name, fmt::format("{:016x}", s.text_hash)});
-  make_folder(job.options.output);
-  lock_.emplace(job.options.output);
-  remove_leftovers(job.options.output);
-  folder_.emplace(job.options.output, std::move(record));
+    record.inputs.push_back({name_of(s), fmt::format("{:016x}", s.text_hash)});
+  const Folder folder = output_folder(job.options);
+  lock_.emplace(folder);
+  folder.remove_leftovers();
+  folder_.emplace(folder, std::move(record));
 }
 
 void RenderShard::drawn(std::size_t scenario, const FolderSink& sink) {

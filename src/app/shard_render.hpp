@@ -9,6 +9,7 @@
 #include "app/render_job.hpp"
 #include "app/shard.hpp"
 #include "app/shard_record.hpp"
+#include "base/file.hpp"
 #include "base/folder_lock.hpp"
 
 namespace lantern::app {
@@ -16,6 +17,10 @@ namespace lantern::app {
 // The options of a shard: the same, but into the shard's own folder. Throws UsageError for words
 // that name no shard, and for an output that is no folder.
 RenderOptions options_of_shard(const RenderOptions& options);
+
+// The folder that the frames' folders stand in: the user's own, or the shard's within it. Made where
+// it is missing. Throws IoError, and UsageError for a folder that is kept for something else.
+Folder output_folder(const RenderOptions& options);
 
 class RenderShard {
  public:

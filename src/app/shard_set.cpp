@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/json_members.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -15,13 +16,17 @@
 namespace lantern::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMostRecordBytes = std::size_t{16} << 20;
 
-bool is_named_as_a_shard(const fs::path& folder) {
-  const std::string name = folder.filename().string();
-  return name.starts_with("shard-") && name.find("-of-") != name.npos;
+// "shard-2-of-4", and not what somebody has written down beside it.
+bool is_named_as_a_shard(std::string_view name) {
+  constexpr std::string_view kStart = "shard-", kMiddle = "-of-", kDigits = "0123456789";
+  if (!name.starts_with(kStart)) return false;
+  name.remove_prefix(kStart.size());
+  const std::size_t middle = std::min(name.find_first_not_of(kDigits), name.size());
+  const std::string_view rest = name.substr(middle);
+  return middle > 0 && rest.starts_with(kMiddle) && rest.size() > kMiddle.size() &&
+         rest.find_first_not_of(kDigits, kMiddle.size()) == rest.npos;
 }
 
 }  // namespace
@@ -32,45 +37,48 @@ ShardSet::ShardSet(const std::vector<std::string>& folders) {
   sort_by_number();
 }
 
-void ShardSet::look_into(const fs::path& folder) {
+void ShardSet::look_into(const std::string& path) {
   const std::size_t before = found_.size();
   std::error_code error;
-  if (fs::exists(folder / kShardFile, error)) take(folder);
-  std::vector<fs::path> inside;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (is_named_as_a_shard(it->path())) inside.push_back(it->path());
-  std::ranges::sort(inside);
-  for (const fs::path& path : inside)
-    if (fs::exists(path / kShardFile, error)) take(path);
+  if (std::filesystem::is_directory(path, error)) {
+    const Folder folder(path);
+    if (folder.has(kShardFile)) take(folder);
+    for (const std::string& name : folder.names()) {
+      if (!is_named_as_a_shard(name)) continue;
+      const auto inside = folder.find(name);
+      if (inside && inside->has(kShardFile)) take(*inside);
+    }
+  }
   if (found_.size() == before)
-    throw UsageError(fmt::format(
-        "'{}' holds no shard; give folders that a run with --shard wrote into", folder.string()));
+    throw UsageError(
+        fmt::format("'{}' holds no shard; give folders that a run with --shard wrote into", path));
 }
 
 // A folder that is named twice counts once.
-void ShardSet::take(const fs::path& folder) {
-  std::error_code error;
+void ShardSet::take(const Folder& folder) {
   for (const FoundShard& one : found_)
-    if (fs::equivalent(one.path, folder, error)) return;
-  auto record = read_record(read_file(folder / kShardFile, kMostRecordBytes));
-  if (!record)
-    throw UsageError(fmt::format("'{}' is no record of a shard that this Lantern can read",
-                                 (folder / kShardFile).string()));
-  found_.push_back({folder, std::move(*record)});
+    if (one.folder.is(folder)) return;
+  try {
+    found_.push_back({folder, read_record(*folder.read(kShardFile, kMostRecordBytes))});
+  } catch (const RefusedFile& why) {
+    throw UsageError(fmt::format("'{}' is no record of a shard that this Lantern can read: {}",
+                                 folder.path(kShardFile).string(), why.what()));
+  }
 }
 
 void ShardSet::require_one_run() const {
   const FoundShard& first = found_.front();
   for (const FoundShard& one : found_)
     if (const auto words = difference(first.record, one.record))
-      throw UsageError(fmt::format("'{}' and '{}' are no parts of one run: {}", first.path.string(),
-                                   one.path.string(), *words));
+      throw UsageError(fmt::format("'{}' and '{}' are no parts of one run: {}",
+                                   first.folder.path().string(), one.folder.path().string(),
+                                   *words));
   const auto require_ours = [&](const char* what, std::string_view theirs, std::string_view ours) {
     if (theirs != ours)
       throw UsageError(
           fmt::format("'{}' was made by another Lantern: its {} is {}, this one's {}; "
                       "merge with the Lantern that made it, or make it again",
-                      first.path.string(), what, theirs, ours));
+                      first.folder.path().string(), what, theirs, ours));
   };
   require_ours("version", run().version, kVersion);
   require_ours("source hash", run().sources, kSourceHash);
@@ -91,10 +99,10 @@ void ShardSet::sort_by_number() {
 // Of what the shard is one: "pong_bsp", "pong_bsp and 3 more".
 std::string ShardSet::names() const {
   const auto& inputs = run().inputs;
-  if (inputs.empty()) return run().command;
+  if (inputs.empty()) return "a run";
   const std::string more =
       inputs.size() > 1 ? fmt::format(" and {} more", inputs.size() - 1) : std::string();
-  return inputs.front().name + more;
+  return inputs.front().name.text() + more;
 }
 
 std::vector<std::string> ShardSet::missing() const {
@@ -104,9 +112,9 @@ std::vector<std::string> ShardSet::missing() const {
     const Shard shard{i + 1, run().shard.of};
     const auto begun = std::ranges::find_if(
         found_, [&](const FoundShard& one) { return one.record.shard == shard; });
-    const std::string what = begun == found_.end()
-                                 ? std::string("is missing")
-                                 : fmt::format("in '{}' is not finished", begun->path.string());
+    const std::string what = begun == found_.end() ? std::string("is missing")
+                                                   : fmt::format("in '{}' is not finished",
+                                                                 begun->folder.path().string());
     sentences.push_back(
         fmt::format("shard {} of {} {}: {}", shard.text(), names(), what, advice(shard)));
   }

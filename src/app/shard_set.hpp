@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,15 +11,16 @@
 namespace lantern::app {
 
 struct FoundShard {
-  std::filesystem::path path;  // of its folder
+  Folder folder;
   ShardRecord record;
 };
 
 class ShardSet {
  public:
   // Looks into each folder: it is a shard's, or holds some (shard-2-of-4). Throws UsageError for a
-  // folder with none, for a record that cannot be read, for shards of another build than this one,
-  // and, naming two folders and what differs, for shards that are no parts of one run.
+  // folder with none, for a record that is not as Lantern writes it, for shards of another build
+  // than this one, and, naming two folders and what differs, for shards that are no parts of one
+  // run.
   explicit ShardSet(const std::vector<std::string>& folders);
 
   // A record of the run, of some shard.
@@ -40,8 +40,8 @@ class ShardSet {
   std::string advice(const Shard& shard) const;
 
  private:
-  void look_into(const std::filesystem::path& folder);
-  void take(const std::filesystem::path& folder);
+  void look_into(const std::string& path);
+  void take(const Folder& folder);
   void require_one_run() const;
   void sort_by_number();
   std::string names() const;

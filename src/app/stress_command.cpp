@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,14 +9,13 @@
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
-#include "app/shard.hpp"
-#include "app/shard_record.hpp"
-#include "app/stress_files.hpp"
 #include "app/terminal.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"
+#include "measure/stability_map.hpp"
+#include "report/pages.hpp"
 #include "report/stress_tables.hpp"
 
 namespace lantern::app {
@@ -74,44 +71,17 @@ StressReport run_all(const std::vector<StressCase>& cases) {
   return report;
 }
 
-// Of the cases those that are the shard's, with the record of it; without --shard all.
-class StressShard {
- public:
-  StressShard(const StressOptions& options, std::vector<StressCase>& cases)
-      : options_(options), shard_(parse_shard(options.shard)), all_(cases) {
-    if (!shard_) return;
-    if (options.output.empty())
-      throw UsageError("--shard needs a folder (-o) for what is to be merged");
-    cases.clear();
-    for (std::size_t i = 0; i < all_.size(); ++i)
-      if (shard_->has(i)) cases.push_back(all_[i]);
-  }
+// The stability map, of a finished run.
+void draw_stress_map(const ReportFolder& folder, const StressReport& report,
+                     const StressOptions& options) {
+  if (!folder.wanted() || !report.finished) return;
+  const StabilityMap map = make_stability_map();
+  folder.draw({{"stability_map", draw_stability_map(map)}}, options.theme, options.backend);
+}
 
-  std::string folder() const {
-    return shard_ ? shard_->folder_in(options_.output).string() : options_.output;
-  }
-
-  void begin() {
-    if (!shard_) return;
-    ShardRecord record = new_record("stress", *shard_);
-    record.settings = {{"theme", options_.theme}};
-    for (std::size_t i = 0; i < all_.size(); ++i)
-      record.inputs.push_back({std::string(all_[i].name), "", shard_->has(i) ? 1u : 0u});
-    folder_.emplace(folder(), std::move(record));
-  }
-
-  // The tables of a shard are enough: the map is the same for all, and made when they are merged.
-  void finish(const ReportFolder& folder, const StressReport& report) {
-    if (!shard_) return draw_stress_map(folder, report, options_.theme, options_.backend);
-    if (report.finished) folder_->finish();
-  }
-
- private:
-  const StressOptions& options_;
-  std::optional<Shard> shard_;
-  std::vector<StressCase> all_;
-  std::optional<ShardFolder> folder_;
-};
+bool is_good(const StressReport& report) {
+  return std::ranges::all_of(report.outcomes, [](const StressOutcome& o) { return o.result.good; });
+}
 
 }  // namespace
 
@@ -120,14 +90,12 @@ int stress_command(const StressOptions& options) {
     list_cases(options.json);
     return kGood;
   }
-  std::vector<StressCase> cases = chosen_cases(options);
-  StressShard shard(options, cases);
-  ReportFolder folder(shard.folder(), "stress");
-  shard.begin();
-  const StressReport report = run_all(cases);
-  save_stress_tables(folder, report);
+  ReportFolder folder(options.output, "stress");
+  const StressReport report = run_all(chosen_cases(options));
+  folder.write("stress.csv", to_csv(report));
+  folder.write("stress.json", to_json(report));
   options.json ? answer(to_json(report)) : print(to_table(report));
-  shard.finish(folder, report);
+  draw_stress_map(folder, report, options);
   if (interrupted()) {
     complain("interrupted; what is finished has been reported");
     return kInterrupted;

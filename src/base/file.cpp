@@ -1,17 +1,22 @@
 #include "base/file.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/stop.hpp"
@@ -58,10 +63,9 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-}  // namespace
-
-std::string read_file(const std::filesystem::path& path, std::size_t most_bytes) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+// What was opened to be read from `path`, to its end.
+std::string read_opened(const Descriptor& file, const std::filesystem::path& path,
+                        std::size_t most_bytes) {
   if (file.number() < 0) fail("read", path, errno);
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
@@ -85,7 +89,68 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
   return bytes;
 }
 
+bool are_same(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+// What the run was given to read, by name. The names are kept, not the numbers of files: a file
+// that an editor has replaced meanwhile leaves its number to another one.
+class Inputs {
+ public:
+  void add(const std::filesystem::path& path) {
+    const std::lock_guard lock(mutex_);
+    paths_.insert(path);
+  }
+  void add_stdin() { stdin_ = true; }
+
+  bool has(const std::filesystem::path& path) {
+    struct stat one {};
+    if (::stat(path.c_str(), &one) != 0) return false;
+    struct stat input {};
+    if (stdin_ && ::fstat(STDIN_FILENO, &input) == 0 && are_same(input, one)) return true;
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(paths_, [&](const std::filesystem::path& read) {
+      return ::stat(read.c_str(), &input) == 0 && are_same(input, one);
+    });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::filesystem::path> paths_;
+  std::atomic<bool> stdin_ = false;
+};
+
+Inputs& inputs() {
+  static Inputs all;
+  return all;
+}
+
+// As open() takes it: one entry, of which somebody else may have chosen the name.
+const char* entry(const std::string& name) {
+  const bool is_one = !name.empty() && name != "." && name != ".." &&
+                      name.find_first_of(std::string_view("/\0", 2)) == name.npos;
+  LANTERN_CHECK(is_one ? name : "the name of one entry", ==, name);
+  return name.c_str();
+}
+
+int open_folder(const std::filesystem::path& path) {
+  return ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+}  // namespace
+
+std::string read_file(const std::filesystem::path& path, std::size_t most_bytes) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  return read_opened(file, path, most_bytes);
+}
+
+std::string read_input(const std::filesystem::path& path, std::size_t most_bytes) {
+  inputs().add(path);
+  return read_file(path, most_bytes);
+}
+
 std::string read_stdin(std::size_t most_bytes) {
+  inputs().add_stdin();
   std::string bytes;
   char part[1 << 16];
   for (;;) {
@@ -106,36 +171,184 @@ std::string read_stdin(std::size_t most_bytes) {
   }
 }
 
+bool is_input(const std::filesystem::path& path) { return inputs().has(path); }
+
+Folder::Folder(int descriptor, std::filesystem::path path)
+    : descriptor_(new int(descriptor),
+                  [](const int* number) {
+                    ::close(*number);
+                    delete number;
+                  }),
+      path_(std::move(path)) {}
+
+Folder::Folder(const std::filesystem::path& path) : Folder(open_folder(path), path) {
+  if (descriptor() < 0) fail("open", path, errno);
+}
+
+Folder Folder::made(const std::filesystem::path& path) {
+  make_folder(path);
+  return Folder(path);
+}
+
+// That it is missing is told of the file.
+Folder Folder::of_file(const std::filesystem::path& file) {
+  const bool has_name = file.has_filename() && file.filename() != "." && file.filename() != "..";
+  if (!has_name) fail("write", file, EISDIR);
+  const int number = open_folder(file.parent_path());
+  if (number < 0) fail("write", file, errno);
+  return {number, file.parent_path()};
+}
+
+std::optional<Folder> Folder::opened(std::string_view name) const {
+  const std::string one(name);
+  const int number =
+      ::openat(descriptor(), entry(one), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (number >= 0) return Folder(number, path(name));
+  if (errno == ENOENT) return std::nullopt;
+  if (errno == ENOTDIR || errno == ELOOP)
+    throw IoError(fmt::format("'{}' is no folder{}", shown(path(name)),
+                              std::filesystem::is_symlink(path(name))
+                                  ? ", but a link, and what it leads to is not touched"
+                                  : ""));
+  fail("open", path(name), errno);
+}
+
+Folder Folder::inside(std::string_view name) const {
+  if (auto there = opened(name)) return *there;
+  if (::mkdirat(descriptor(), std::string(name).c_str(), 0777) != 0 && errno != EEXIST)
+    throw IoError(
+        fmt::format("cannot make the folder '{}': {}", shown(path(name)), std::strerror(errno)));
+  if (auto made = opened(name)) return *made;
+  fail("open", path(name), ENOENT);
+}
+
+std::optional<Folder> Folder::find(std::string_view name) const { return opened(name); }
+
+bool Folder::is(const Folder& other) const {
+  struct stat here {
+  }, there{};
+  return ::fstat(descriptor(), &here) == 0 && ::fstat(other.descriptor(), &there) == 0 &&
+         are_same(here, there);
+}
+
+bool Folder::has_file(std::string_view name) const {
+  struct stat status {};
+  const std::string one(name);
+  return ::fstatat(descriptor(), entry(one), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+         S_ISREG(status.st_mode);
+}
+
+bool Folder::has(std::string_view name) const {
+  struct stat status {};
+  const std::string one(name);
+  return ::fstatat(descriptor(), entry(one), &status, AT_SYMLINK_NOFOLLOW) == 0;
+}
+
+std::vector<std::string> Folder::names() const {
+  std::vector<std::string> names;
+  // Opened anew: copies of a descriptor would share one place in the list.
+  const int number = ::openat(descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  DIR* list = number < 0 ? nullptr : ::fdopendir(number);
+  if (!list) {
+    const int code = errno;
+    if (number >= 0) ::close(number);
+    fail("list", path_, code);
+  }
+  while (const dirent* one = ::readdir(list)) {
+    const std::string_view name = one->d_name;
+    if (name != "." && name != "..") names.emplace_back(name);
+  }
+  ::closedir(list);
+  std::ranges::sort(names);
+  return names;
+}
+
+std::optional<std::string> Folder::read(std::string_view name, std::size_t most_bytes) const {
+  const std::string one(name);
+  const Descriptor file(
+      ::openat(descriptor(), entry(one), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
+  if (file.number() < 0 && errno == ENOENT) return std::nullopt;
+  if (file.number() < 0 && errno == ELOOP)
+    throw IoError(fmt::format("cannot read '{}': a link, and what it leads to is not touched",
+                              shown(path(name))));
+  return read_opened(file, path(name), most_bytes);
+}
+
+bool Folder::remove(std::string_view name) const {
+  const std::string one(name);
+  if (::unlinkat(descriptor(), entry(one), 0) == 0) return true;
+  if (errno == ENOENT) return false;
+  fail("remove", path(name), errno);
+}
+
+void Folder::remove_leftovers() const noexcept try {
+  for (const std::string& name : names())
+    if (name.starts_with(kTemporary)) ::unlinkat(descriptor(), name.c_str(), 0);
+} catch (const std::exception&) {
+  // they take no more than room
+}
+
+void Folder::settle() const {
+  if (::syncfs(descriptor()) == 0) return;
+  if (errno != ENOSYS) fail("save", path_, errno);
+  ::sync();  // more than is wanted, where one file system alone cannot be asked for
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder, error))
+    throw IoError(fmt::format("cannot make the folder '{}': {}", shown(folder),
+                              error ? error.message() : "something else has this name"));
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
+FilePlace::FilePlace(const std::filesystem::path& path, int)
+    : folder(Folder::of_file(path)), name(path.filename().string()) {}
+
 // A file without a name vanishes with a killed process. Not every file system has those.
-PartFile::PartFile(std::filesystem::path path) : path_(std::move(path)) {
+PartFile::PartFile(FilePlace place) : place_(std::move(place)) {
   static std::atomic<unsigned> serial{0};
-  const std::filesystem::path folder = path_.has_parent_path() ? path_.parent_path() : ".";
-  spare_ = folder / fmt::format("{}{}-{}", kTemporary, ::getpid(), serial++);
-  descriptor_ = ::open(folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+  entry(place_.name);
+  if (is_input(place_.path()))
+    throw IoError(
+        fmt::format("cannot write '{}': it is what this run has read", shown(place_.path())));
+  spare_ = fmt::format("{}{}-{}", kTemporary, ::getpid(), serial++);
+  descriptor_ = ::openat(place_.folder.descriptor(), ".", O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
   if (descriptor_ < 0) open_spare();
 }
 
 PartFile::~PartFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!temporary_.empty()) ::unlinkat(place_.folder.descriptor(), temporary_.c_str(), 0);
 }
 
 void PartFile::open_spare() {
-  descriptor_ = ::open(spare_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  descriptor_ = ::openat(place_.folder.descriptor(), spare_.c_str(),
+                         O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail_to_write();
   temporary_ = spare_;
 }
 
-void PartFile::fail_to_write() const { fail("write", path_, errno); }
+std::filesystem::path PartFile::temporary() const {
+  return temporary_.empty() ? std::filesystem::path() : place_.folder.path(temporary_);
+}
+
+void PartFile::fail_to_write() const { fail("write", place_.path(), errno); }
 
 void PartFile::write(std::string_view bytes) {
   if (!write_all(descriptor_, bytes)) fail_to_write();
 }
 
 // Without /proc it cannot be given a name: then a copy gets it.
-bool PartFile::link_to(const std::filesystem::path& name) {
+bool PartFile::link_to(const std::string& name) {
   const std::string self = fmt::format("/proc/self/fd/{}", descriptor_);
-  if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
+  if (::linkat(AT_FDCWD, self.c_str(), place_.folder.descriptor(), name.c_str(),
+               AT_SYMLINK_FOLLOW) == 0)
+    return true;
   if (errno == EEXIST) return false;
   const Descriptor nameless(std::exchange(descriptor_, -1));
   open_spare();
@@ -152,31 +365,25 @@ bool PartFile::link_to(const std::filesystem::path& name) {
 
 // At once if it is new, by way of a temporary name if it replaces a file.
 void PartFile::give_name() {
-  if (temporary_.empty() && link_to(path_)) return;
+  if (temporary_.empty() && link_to(place_.name)) return;
   if (temporary_.empty() && link_to(spare_)) temporary_ = spare_;
   if (::close(std::exchange(descriptor_, -1)) != 0 ||  // some disks tell only here
-      ::rename(temporary_.c_str(), path_.c_str()) != 0)
+      ::renameat(place_.folder.descriptor(), temporary_.c_str(), place_.folder.descriptor(),
+                 place_.name.c_str()) != 0)
     fail_to_write();
   temporary_.clear();
 }
 
 std::uint64_t PartFile::bytes() const {
   struct stat status {};
-  if (::fstat(descriptor_, &status) != 0) fail("read", path_, errno);
+  if (::fstat(descriptor_, &status) != 0) fail("read", place_.path(), errno);
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  PartFile file(path);
+void write_file(const FilePlace& place, std::string_view bytes) {
+  PartFile file(place);
   file.write(bytes);
   file.give_name();
-}
-
-void make_durable(const std::filesystem::path& folder) {
-  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.number() >= 0 && ::syncfs(opened.number()) == 0) return;
-  if (errno != ENOSYS) fail("save", folder, errno);
-  ::sync();  // more than is wanted, where one file system alone cannot be asked for
 }
 
 void hold_standard_streams() noexcept {
@@ -200,25 +407,6 @@ void write_stderr(std::string_view bytes) noexcept {
     if (n < 0 && errno != EINTR) return;
     if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
   }
-}
-
-void remove_leftovers(const std::filesystem::path& folder) noexcept {
-  std::error_code error;
-  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
-       it.increment(error)) {
-    if (it->path().filename().string().starts_with(kTemporary)) {
-      std::error_code ignored;
-      std::filesystem::remove(it->path(), ignored);
-    }
-  }
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder, error))
-    throw IoError(fmt::format("cannot make the folder '{}': {}", shown(folder),
-                              error ? error.message() : "something else has this name"));
 }
 
 }  // namespace lantern

@@ -1,11 +1,17 @@
-// Whole files in, whole files out. A reader never sees half a file.
+// Whole files in, whole files out, and folders that are held open. A reader never sees half a file,
+// and no file is written over what the same run was given to read.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace lantern {
 
@@ -13,15 +19,92 @@ namespace lantern {
 // larger than `most_bytes` (found from its size, before it is read).
 std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
 
-// The bytes of standard input, to its end. Throws IoError if it cannot be read or has more than
-// `most_bytes`, and Stopped if that is wished while it waits.
+// The same of a file that the user gives to be read: an input of this run from then on.
+std::string read_input(const std::filesystem::path& path, std::size_t most_bytes);
+
+// The bytes of standard input, to its end: an input of this run, too. Throws IoError if it cannot
+// be read or has more than `most_bytes`, and Stopped if that is wished while it waits.
 std::string read_stdin(std::size_t most_bytes);
-// A file that gets its name when it is whole: until then what stood at `path` stands, and when this
-// goes, nothing is left. A symbolic link at `path` is replaced, not followed.
+
+// Is what stands at `path` an input of this run, under whatever name? Nothing is written over it.
+bool is_input(const std::filesystem::path& path);
+
+// A folder that is held open. Whatever happens to its path meanwhile, and whatever names somebody
+// else has chosen: nothing is read, written or removed but what is right in it. Names are those of
+// single entries, and to give a path, "..", or nothing is a broken invariant; an entry that is a
+// symbolic link is not followed. Copies hold the same open folder.
+class Folder {
+ public:
+  // That of a path which the user named, "." if it is empty; links on the way are the user's own.
+  // Throws IoError naming path and reason, as the calls below do.
+  explicit Folder(const std::filesystem::path& path);
+  // The same, made with its parents where it is missing.
+  static Folder made(const std::filesystem::path& path);
+
+  // The folder of this name in it, made where it is missing.
+  Folder inside(std::string_view name) const;
+  // The same; nothing if there is no entry of this name.
+  std::optional<Folder> find(std::string_view name) const;
+
+  // How it was named, and an entry of it: for messages.
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path path(std::string_view name) const { return path_ / name; }
+  int descriptor() const { return *descriptor_; }
+
+  bool is(const Folder& other) const;          // the same one, under whatever path
+  bool has_file(std::string_view name) const;  // a regular file
+  bool has(std::string_view name) const;       // an entry of any kind
+  std::vector<std::string> names() const;      // of all entries, in order
+  // The bytes of a regular file, as read_file() has them; nothing if there is no entry of this
+  // name.
+  std::optional<std::string> read(std::string_view name, std::size_t most_bytes) const;
+  // A file, or a link itself. False if there is none of this name.
+  bool remove(std::string_view name) const;
+  // Removes what an earlier PartFile left when it was killed. Never throws.
+  void remove_leftovers() const noexcept;
+  // Returns when everything that was written on the folder's file system would outlast a power cut.
+  // That is dear: call it once when all is written, before it is said to be finished.
+  void settle() const;
+
+ private:
+  Folder(int descriptor, std::filesystem::path path);
+  friend struct FilePlace;
+  static Folder of_file(const std::filesystem::path& file);  // in which it stands
+  std::optional<Folder> opened(std::string_view name) const;
+
+  std::shared_ptr<const int> descriptor_;
+  std::filesystem::path path_;
+};
+
+// Makes the folder and its parents. Throws IoError naming path and reason.
+void make_folder(const std::filesystem::path& folder);
+
+// The folder in a file's path; "." if there is none.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
+// Where a file stands, or shall stand: the name of an entry of a folder, or a path that the user
+// names, whose folder must be there. Throws IoError naming path and reason.
+struct FilePlace {
+  FilePlace(Folder in, std::string_view called) : folder(std::move(in)), name(called) {}
+  template <class Path>
+  requires std::is_convertible_v<Path, std::filesystem::path> FilePlace(const Path& path)
+      : FilePlace(std::filesystem::path(path), 0) {}
+
+  std::filesystem::path path() const { return folder.path(name); }  // for messages
+
+  Folder folder;
+  std::string name;
+
+ private:
+  FilePlace(const std::filesystem::path& path, int);
+};
+
+// A file that gets its name when it is whole: until then what stood there stands, and when this
+// goes, nothing is left. A symbolic link of this name is replaced, not followed.
 class PartFile {
  public:
-  // Throws IoError naming path and reason, as the calls below do.
-  explicit PartFile(std::filesystem::path path);
+  // Throws IoError naming path and reason, as the calls below do; also for an input of this run.
+  explicit PartFile(FilePlace place);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -32,26 +115,22 @@ class PartFile {
   // For another process that is to write it: the open file, and the temporary name that it may have
   // beside; empty if it has none and vanishes with this process.
   int descriptor() const { return descriptor_; }
-  const std::filesystem::path& temporary() const { return temporary_; }
+  std::filesystem::path temporary() const;
   std::uint64_t bytes() const;  // in it by now
 
  private:
   void open_spare();
-  bool link_to(const std::filesystem::path& name);
+  bool link_to(const std::string& name);
   [[noreturn]] void fail_to_write() const;
 
-  std::filesystem::path path_, temporary_, spare_;
+  FilePlace place_;
+  std::string temporary_, spare_;
   int descriptor_ = -1;
 };
 
-// Writes under a temporary name in the same folder, then renames, so that `path` is either the old
-// file or the whole new one. A symbolic link at `path` is replaced, not followed. Throws IoError
-// naming path and reason, and removes the temporary file.
-void write_file(const std::filesystem::path& path, std::string_view bytes);
-
-// Returns when everything that was written on the folder's file system would outlast a power cut.
-// That is dear: call it once when all is written, before it is said to be finished. Throws IoError.
-void make_durable(const std::filesystem::path& folder);
+// Writes under a temporary name in the same folder, then renames, so that there is either the old
+// file or the whole new one. Throws IoError as PartFile does, and removes the temporary file.
+void write_file(const FilePlace& place, std::string_view bytes);
 
 // Takes the numbers of standard streams that are closed, so that no file opened later gets one and
 // has messages written into it. What is written to a stream held so is an error like any other.
@@ -64,11 +143,5 @@ void write_stdout(std::string_view bytes);
 
 // Writes to standard error what can be written there, unbuffered; the rest is lost.
 void write_stderr(std::string_view bytes) noexcept;
-
-// Removes what an earlier write_file left in `folder` when it was killed. Never throws.
-void remove_leftovers(const std::filesystem::path& folder) noexcept;
-
-// Makes the folder and its parents. Throws IoError naming path and reason.
-void make_folder(const std::filesystem::path& folder);
 
 }  // namespace lantern

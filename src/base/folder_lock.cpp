@@ -15,10 +15,12 @@
 
 namespace lantern {
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+// Opened anew: copies of a descriptor share their locks.
+FolderLock::FolderLock(const Folder& folder)
+    : descriptor_(::openat(folder.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0)
-    throw IoError(fmt::format("cannot open '{}': {}", folder.string(), std::strerror(errno)));
+    throw IoError(
+        fmt::format("cannot open '{}': {}", folder.path().string(), std::strerror(errno)));
   // A run that was killed a moment ago may not be quite gone.
   constexpr int kTries = 100;
   constexpr auto kPause = std::chrono::milliseconds(20);
@@ -29,8 +31,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
   }
   ::close(descriptor_);
   stop_if_asked();
-  throw IoError(fmt::format(
-      "another run is writing into '{}'; wait for it, or give -o another folder", folder.string()));
+  throw IoError(
+      fmt::format("another run is writing into '{}'; wait for it, or give -o another folder",
+                  folder.path().string()));
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

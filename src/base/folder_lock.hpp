@@ -1,7 +1,7 @@
 // One process at a time writes into a folder.
 #pragma once
 
-#include <filesystem>
+#include "base/file.hpp"
 
 namespace lantern {
 
@@ -9,9 +9,9 @@ namespace lantern {
 // keeps nobody out.
 class FolderLock {
  public:
-  // Waits up to two seconds for it. Throws IoError if another process holds it then, or if the
-  // folder cannot be opened; Stopped if that is wished meanwhile.
-  explicit FolderLock(const std::filesystem::path& folder);
+  // Waits up to two seconds for it. Throws IoError if another process holds it then; Stopped if
+  // that is wished meanwhile.
+  explicit FolderLock(const Folder& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -265,7 +265,7 @@ class AabbsReader {
 }  // namespace
 
 BoxScene read_boxes(const fs::path& file, std::uint64_t seed) {
-  const std::string bytes = read_file(file, kMostBytes);
+  const std::string bytes = read_input(file, kMostBytes);
   require_memory(4 * bytes.size(), file.string() + ": its boxes", "take fewer of them");
   if (file.extension() == ".aabbs") return scene_of(file, 3, AabbsReader(file, bytes).read(), seed);
   std::vector<std::vector<FileBody>> frames(1);

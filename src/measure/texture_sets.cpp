@@ -158,7 +158,7 @@ TextureSet texture_set(std::string_view name, std::size_t count, std::uint64_t s
 }
 
 TextureSet read_texture_sizes(const std::filesystem::path& file) {
-  const std::string text = read_file(file, kMostSizesBytes);
+  const std::string text = read_input(file, kMostSizesBytes);
   TextureSet set{file.stem().string(), SizesReader(file.string(), text).read()};
   if (set.sizes.empty())
     throw Refused(fmt::format("{}: it has no texture; a line is WIDTH,HEIGHT", file.string()));

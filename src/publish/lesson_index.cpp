@@ -19,10 +19,9 @@
 namespace lantern::publish {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::string_view kIndexMark =
     "<meta name=\"generator\" content=\"Lantern lesson index\">";
+constexpr const char* kIndex = "index.html";
 constexpr std::size_t kMostPage = std::size_t{256} << 20;
 
 struct Listed {
@@ -42,26 +41,23 @@ std::optional<std::string_view> between_marks(std::string_view text, std::string
 }
 
 // A page of ours, or nothing.
-std::optional<Listed> listed(const fs::path& file) {
-  const std::string page = read_file(file, kMostPage);
+std::optional<Listed> listed(const Folder& folder, const std::string& file) {
+  const std::string page = folder.read(file, kMostPage).value_or("");
   const auto json =
       between_marks(page, "<script type=\"application/json\" id=\"card\">", "</script>");
   const auto picture = between_marks(page, "<template id=\"cover\"><img src=\"", "\"");
   if (!json || !picture) return std::nullopt;
   auto card = lesson_card(*json);
   if (!card) return std::nullopt;
-  return Listed{file.filename().string(), std::move(*card), std::string(*picture)};
+  return Listed{file, std::move(*card), std::string(*picture)};
 }
 
-std::vector<Listed> lessons_in(const fs::path& folder) {
+std::vector<Listed> lessons_in(const Folder& folder) {
   std::vector<Listed> lessons;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().extension() != ".html" || it->path().filename() == "index.html") continue;
-    if (!it->is_regular_file()) continue;
-    if (auto lesson = listed(it->path())) lessons.push_back(std::move(*lesson));
+  for (const std::string& name : folder.names()) {
+    if (!name.ends_with(".html") || name == kIndex || !folder.has_file(name)) continue;
+    if (auto lesson = listed(folder, name)) lessons.push_back(std::move(*lesson));
   }
-  if (error) throw IoError(fmt::format("cannot list '{}': {}", folder.string(), error.message()));
   std::ranges::sort(lessons, [](const Listed& a, const Listed& b) {
     if (a.card.lecture.has_value() != b.card.lecture.has_value()) return a.card.lecture.has_value();
     return std::tie(a.card.lecture, a.card.scenario, a.file) <
@@ -111,7 +107,7 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
 
 }  // namespace
 
-std::string lesson_index(const fs::path& folder) {
+std::string lesson_index(const Folder& folder) {
   const std::vector<Listed> lessons = lessons_in(folder);
   std::map<std::string, const Listed*> by_name;
   for (const Listed& lesson : lessons) by_name.emplace(lesson.card.scenario, &lesson);
@@ -127,13 +123,10 @@ std::string lesson_index(const fs::path& folder) {
   });
 }
 
-bool write_lesson_index(const fs::path& folder) {
-  const fs::path file = folder / "index.html";
-  std::error_code error;
-  if (fs::exists(fs::symlink_status(file, error)) &&
-      read_file(file, kMostPage).find(kIndexMark) == std::string::npos)
-    return false;
-  write_file(file, lesson_index(folder));
+bool write_lesson_index(const Folder& folder) {
+  const auto before = folder.read(kIndex, kMostPage);
+  if (before && before->find(kIndexMark) == std::string::npos) return false;
+  write_file({folder, kIndex}, lesson_index(folder));
   return true;
 }
 

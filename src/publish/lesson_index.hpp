@@ -1,8 +1,9 @@
 // The page that lists the lessons of a folder.
 #pragma once
 
-#include <filesystem>
 #include <string>
+
+#include "base/file.hpp"
 
 namespace lantern::publish {
 
@@ -10,10 +11,10 @@ namespace lantern::publish {
 // without a place there behind the others by name, with its first picture, its idea, how many steps
 // it has and what is to be seen before. Made from those pages alone, so that it is the same
 // whichever of them were written last. Throws IoError if the folder or a page cannot be read.
-std::string lesson_index(const std::filesystem::path& folder);
+std::string lesson_index(const Folder& folder);
 
 // Writes it. False, and nothing is touched, if an index.html stands there that is not of this kind.
 // Throws IoError.
-bool write_lesson_index(const std::filesystem::path& folder);
+bool write_lesson_index(const Folder& folder);
 
 }  // namespace lantern::publish

@@ -122,14 +122,13 @@ std::shared_ptr<EncodePool::Picture> EncodePool::picture_of(const Image& image,
 }
 
 void EncodePool::submit(const Image& image, const std::vector<bool>& changed,
-                        std::vector<PngText> texts, std::filesystem::path path,
-                        std::optional<MadeFrom> from) {
+                        std::vector<PngText> texts, FilePlace place, std::optional<MadeFrom> from) {
   LANTERN_CHECK(changed.size(), ==, static_cast<std::size_t>(image.height));
   wait_for_room();
   last_ = picture_of(image, changed);
   const std::lock_guard lock(mutex_);
   rethrow_locked();
-  jobs_.push_back({last_, std::move(texts), std::move(path), std::move(from)});
+  jobs_.push_back({last_, std::move(texts), std::move(place), std::move(from)});
   job_ready_.notify_one();
 }
 
@@ -188,12 +187,12 @@ void EncodePool::encode(const Job& job) {
   });
   std::string png = assemble(picture.body, job.texts, config_.pixels_per_metre);
   if (job.from) png = sealed(FileKind::png, std::move(png), *job.from);
-  write_file(job.path, png);
+  write_file(job.place, png);
   work_.bytes_written += png.size();
   ++work_.frames_written;
   if (!config_.written) return;
   const std::lock_guard lock(written_mutex_);
-  config_.written(job.path);
+  config_.written(job.place.path());
 }
 
 }  // namespace lantern::render

@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/file.hpp"
 #include "base/work.hpp"
 #include "render/image.hpp"
 #include "render/png.hpp"
@@ -43,12 +43,13 @@ class EncodePool {
   // Without finish(): gives up what is not yet begun, and waits for the rest.
   ~EncodePool();
 
-  // `image` becomes a file, later; the caller may go on drawing upon it. `changed` tells of each
-  // row whether it may differ from the image submitted before; of the first all may. The file is
-  // sealed if it says what it was made `from`. Waits while too many are under way. An error of an
-  // earlier file is thrown here or by finish(), as it was; after it nothing more is written.
+  // `image` becomes a file of this name, later; the caller may go on drawing upon it. `changed`
+  // tells of each row whether it may differ from the image submitted before; of the first all may.
+  // The file is sealed if it says what it was made `from`. Waits while too many are under way. An
+  // error of an earlier file is thrown here or by finish(), as it was; after it nothing more is
+  // written.
   void submit(const Image& image, const std::vector<bool>& changed, std::vector<PngText> texts,
-              std::filesystem::path path, std::optional<MadeFrom> from = std::nullopt);
+              FilePlace place, std::optional<MadeFrom> from = std::nullopt);
 
   // Waits until every file is in place.
   void finish();
@@ -59,7 +60,7 @@ class EncodePool {
   struct Job {
     std::shared_ptr<Picture> picture;
     std::vector<PngText> texts;
-    std::filesystem::path path;
+    FilePlace place;
     std::optional<MadeFrom> from;
   };
 

@@ -1,7 +1,6 @@
 // From draw lists to PNG files: the caller's thread draws, others encode and write meanwhile.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -37,12 +36,12 @@ class Pipeline {
   // Draws at once; the file appears later. Waits while too many pictures are under way. An error of
   // an earlier file is thrown here or by finish(), as it was; after it nothing more is written.
   // The file is sealed if it says what it was made `from`.
-  void submit(const DrawList& list, std::vector<PngText> texts, std::filesystem::path path,
+  void submit(const DrawList& list, std::vector<PngText> texts, FilePlace place,
               std::optional<MadeFrom> from = std::nullopt) {
     const Drawn drawn = renderer_.draw(list, config_.theme, config_.transparent);
     ++work_.frames_drawn;
     work_.pixels_drawn += static_cast<std::uint64_t>(drawn.pixels);
-    pool_.submit(drawn.image, drawn.changed, std::move(texts), std::move(path), std::move(from));
+    pool_.submit(drawn.image, drawn.changed, std::move(texts), std::move(place), std::move(from));
   }
 
   // Waits until every file is in place.

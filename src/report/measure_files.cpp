@@ -4,8 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
 #include "measure/records.hpp"
 #include "report/measure_tables.hpp"
+#include "scenario/scenario_name.hpp"
 
 // Where the rows are, since they are found by the rows' type.
 namespace lantern::measure {
@@ -77,7 +80,10 @@ constexpr std::string_view kFormat = "lantern.measure/1";
 
 using Json = nlohmann::json;
 
-struct Damaged {};
+// What is not as to_json() writes it: "problem is \"../x\"".
+struct Damaged {
+  std::string what;
+};
 
 void take(const Json& json, std::string& text) { text = json.get_ref<const std::string&>(); }
 
@@ -92,7 +98,7 @@ void take(const Json& json, std::uint64_t& count) {
 void take(const Json& json, int& repeats) {
   std::uint64_t count = 0;
   take(json, count);
-  if (count > 1'000'000'000) throw Damaged();
+  if (count > 1'000'000'000) throw Damaged{"too many"};
   repeats = static_cast<int>(count);
 }
 
@@ -100,7 +106,7 @@ void take(const Json& json, Status& status) {
   std::string name;
   take(json, name);
   const auto known = std::ranges::find(kStatusNames, name);
-  if (known == kStatusNames.end()) throw Damaged();
+  if (known == kStatusNames.end()) throw Damaged{"no status"};
   status = static_cast<Status>(known - kStatusNames.begin());
 }
 
@@ -108,7 +114,7 @@ void take(const Json& json, Hashed<std::uint64_t> hash) {
   std::string digits;
   take(json, digits);
   if (digits.size() != 16 || digits.find_first_not_of("0123456789abcdef") != std::string::npos)
-    throw Damaged();
+    throw Damaged{"no hash"};
   hash.value = std::stoull(digits, nullptr, 16);
 }
 
@@ -131,6 +137,28 @@ void take(const Json& json, std::vector<DriftSample>& samples) {
   }
 }
 
+// "is \"../x\"", short.
+std::string shown(const Json& json) {
+  if (json.is_structured()) return "is a list or an object";
+  constexpr std::size_t kMostShown = 60;
+  const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return "is " + (text.size() > kMostShown ? text.substr(0, kMostShown) + "…" : text);
+}
+
+// take(), and whose fault it was.
+void take_member(const Json& object, const std::string& name, auto&& value) {
+  const auto& members = object.get_ref<const Json::object_t&>();
+  const auto there = members.find(name);
+  if (there == members.end()) throw Damaged{name + " is missing"};
+  try {
+    take(there->second, value);
+  } catch (const Damaged& why) {
+    throw Damaged{fmt::format("{} {}: {}", name, shown(there->second), why.what)};
+  } catch (const Json::exception&) {  // of another type
+    throw Damaged{fmt::format("{} {}", name, shown(there->second))};
+  }
+}
+
 template <class T>
 T read_fields(const Json& json) {
   T read;
@@ -150,7 +178,7 @@ T read_fields(const Json& json) {
       double number = 0;
       if (take_if_there(number)) value = number;
     } else if constexpr (!std::same_as<Value, IfTimed<const double>>) {  // that is derived
-      take(object.at(name), value);
+      take_member(object, name, value);
     }
   });
   return read;
@@ -206,22 +234,28 @@ std::string to_json(const Measurement& measurement) {
   return json.text() + "\n";
 }
 
-std::optional<Measurement> read_measurement(std::string_view text) {
-  const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
-  if (json.is_discarded()) return std::nullopt;
+std::optional<Measurement> read_measurement(std::string_view text, std::string* why) {
+  std::string place;
   try {
-    if (json.at("format") != kFormat) return std::nullopt;
+    const Json json = Json::parse(text.begin(), text.end());
+    if (json.at("format") != kFormat) throw Damaged{"format " + shown(json.at("format"))};
     Measurement measurement{read_fields<Circumstances>(json.at("circumstances")), {}, {}};
     for (const Json& peer : json.at("peers").get_ref<const Json::array_t&>())
       measurement.peers.push_back(read_fields<PeerRecord>(peer));
-    for (const Json& row : json.at("rows").get_ref<const Json::array_t&>())
+    for (const Json& row : json.at("rows").get_ref<const Json::array_t&>()) {
+      place = fmt::format("rows[{}].", measurement.rows.size());
       measurement.rows.push_back(read_fields<Row>(row));
+      if (!ScenarioName::of(measurement.rows.back().problem))
+        throw Damaged{fmt::format("problem {}: a scenario's name is 1 to 64 of a–z, 0–9 and _",
+                                  shown(row.at("problem")))};
+    }
     return measurement;
-  } catch (const Damaged&) {
-    return std::nullopt;
-  } catch (const Json::exception&) {  // what is missing, or of another type
-    return std::nullopt;
+  } catch (const Damaged& damaged) {
+    if (why) *why = place + damaged.what;
+  } catch (const Json::exception&) {  // no JSON, or what is missing, or of another type
+    if (why) *why = place + "it is damaged";
   }
+  return std::nullopt;
 }
 
 }  // namespace lantern::report

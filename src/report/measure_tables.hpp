@@ -27,12 +27,13 @@ std::string to_csv(const Circumstances& circumstances);
 // The same for how each engine was run, a record each.
 std::string to_csv(const std::vector<PeerRecord>& peers);
 
-// lantern.measure/1: circumstances, peers and rows, one row a line. What is not finite becomes null; bytes
-// of texts that are no UTF-8 become U+FFFD.
+// lantern.measure/1: circumstances, peers and rows, one row a line. What is not finite becomes
+// null; bytes of texts that are no UTF-8 become U+FFFD.
 std::string to_json(const Measurement& measurement);
 
-// What to_json wrote. Nothing for a text that is damaged or of another format; null is read as NaN.
-std::optional<Measurement> read_measurement(std::string_view json);
+// What to_json wrote; null is read as NaN. Nothing for a text that is damaged or of another format:
+// `why` gets the member and its value.
+std::optional<Measurement> read_measurement(std::string_view json, std::string* why = nullptr);
 
 // For each problem a line a method: its runs, order, least error and what that cost. At most 100
 // columns wide.

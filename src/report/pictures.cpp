@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/hash.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
@@ -34,11 +33,11 @@ MadeFrom page_from(std::string_view report, std::string_view page) {
 
 }  // namespace
 
-void save_pictures(const std::filesystem::path& folder, std::string_view report,
-                   std::span<const ReportPage> pages, const Theme& theme, Backend backend) {
+void save_pictures(const Folder& folder, std::string_view report, std::span<const ReportPage> pages,
+                   const Theme& theme, Backend backend) {
   for (const ReportPage& page : pages) {
     const Pixels size = pixels_of(page.list);
-    write_file(folder / (page.name + ".svg"),
+    write_file({folder, page.name + ".svg"},
                sealed(FileKind::svg, to_svg(page.list, theme, false, size.width, size.height),
                       page_from(report, page.name)));
   }
@@ -53,19 +52,20 @@ void save_pictures(const std::filesystem::path& folder, std::string_view report,
       rendered = size;
     }
     renderer->draw(page.list, theme, false, image);
-    write_file(folder / (page.name + ".png"),
+    write_file({folder, page.name + ".png"},
                sealed(FileKind::png, encode_png(image, PngEffort::small, {}, 0),
                       page_from(report, page.name)));
   }
 }
 
-bool is_page_of(std::string_view report, const std::filesystem::path& file) {
-  const bool png = file.extension() == ".png";
-  if (!png && file.extension() != ".svg") return false;
+bool is_page_of(std::string_view report, const Folder& folder, const std::string& file) {
+  const bool png = file.ends_with(".png");
+  if (!png && !file.ends_with(".svg")) return false;
   try {
     constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-    return made_from(png ? FileKind::png : FileKind::svg, read_file(file, kMostBytes)) ==
-           page_from(report, file.stem().string());
+    const auto bytes = folder.read(file, kMostBytes);
+    return bytes && made_from(png ? FileKind::png : FileKind::svg, *bytes) ==
+                        page_from(report, file.substr(0, file.size() - 4));
   } catch (const IoError&) {
     return false;
   }

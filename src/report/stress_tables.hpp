@@ -1,10 +1,8 @@
 // What the stress cases gave, as a table for people, as CSV and as JSON.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "measure/stress.hpp"
 
@@ -26,10 +24,6 @@ std::string to_csv(const StressReport& report);
 
 // Format "lantern.stress/1". A figure that is not finite is null.
 std::string to_json(const StressReport& report);
-
-// What to_json wrote. Nothing for a text that is damaged or of another format, or that has a case
-// which there is no more; null is read as not a number.
-std::optional<StressReport> read_stress(std::string_view json);
 
 // "70 of 72 good, 2 failed: overflow, ..."
 std::string summary(const StressReport& report);

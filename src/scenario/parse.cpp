@@ -318,12 +318,12 @@ Scenario load_scenario(const std::string& path) {
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
     if (!error && bytes > kMostFileBytes) refuse_size(path, bytes);
   }
-  return parse_scenario(read_file(path, kMostFileBytes), path);
+  return parse_scenario(read_input(path, kMostFileBytes), path);
 }
 
 Glance glance_at(const std::string& path) try {
   Problems problems;
-  const std::string text = read_file(path, kMostFileBytes);
+  const std::string text = read_input(path, kMostFileBytes);
   const TomlTable table = read_toml(without_mark(text), problems);
   Glance glance;
   if (problems.any() || table.empty()) return glance;

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/json_members.hpp"
 #include "app/process.hpp"
 #include "app/shard_record.hpp"
 #include "app/terminal.hpp"
@@ -103,22 +104,21 @@ TEST(Shard, ACommandIsGivenForAnotherShard) {
 // --- records ---
 
 TEST(ShardRecord, WhatIsWrittenIsReadBack) {
-  ShardRecord r = new_record("render", {2, 3});
-  r.settings = {{"size", "16x9"}};
-  r.inputs = {{"pong", "0123456789abcdef", 7, true}};
+  ShardRecord r = new_record({2, 3});
+  r.settings = {{"frames", ""}, {"at", ""}, {"size", "16x9"}, {"tween digits", "2"}};
+  r.inputs = {{*ScenarioName::of("pong"), "0123456789abcdef", 7, true}};
   r.words = {"render", "\"quoted\".toml"};
-  const auto read = read_record(to_json(r));
-  ASSERT_TRUE(read);
-  EXPECT_EQ(to_json(*read), to_json(r));
-  EXPECT_FALSE(difference(r, *read));
-  EXPECT_FALSE(read_record("{}"));
-  EXPECT_FALSE(read_record("{\"format\": \"lantern.shard/1\", "));
+  const ShardRecord read = read_record(to_json(r));
+  EXPECT_EQ(to_json(read), to_json(r));
+  EXPECT_FALSE(difference(r, read));
+  EXPECT_THROW(read_record("{}"), RefusedFile);
+  EXPECT_THROW(read_record("{\"format\": \"lantern.shard/1\", "), RefusedFile);
 }
 
 TEST(ShardRecord, DifferencesAreNamed) {
-  ShardRecord a = new_record("render", {1, 3});
+  ShardRecord a = new_record({1, 3});
   a.settings = {{"size", "16x9"}};
-  a.inputs = {{"pong", "0123456789abcdef"}};
+  a.inputs = {{*ScenarioName::of("pong"), "0123456789abcdef"}};
   const auto words = [&](const auto& change) {
     ShardRecord b = a;
     b.shard.number = 2;
@@ -135,7 +135,7 @@ TEST(ShardRecord, DifferencesAreNamed) {
             "the program's source hash is ");
   EXPECT_EQ(words([](ShardRecord& b) { b.inputs[0].text = "0"; }),
             "'pong' has another text in the second");
-  EXPECT_EQ(words([](ShardRecord& b) { b.inputs[0].name = "other"; }),
+  EXPECT_EQ(words([](ShardRecord& b) { b.inputs[0].name = *ScenarioName::of("other"); }),
             "input 1 is pong in the first, other in the second");
 }
 
@@ -371,42 +371,6 @@ TEST_F(Shards, AreOfFoldersOnly) {
   EXPECT_EQ(shell("lantern stress cradle --shard 1/2").code, 2);
   EXPECT_EQ(shell("lantern measure pictures --shard 1/2 -o " + at("out")).code, 2);
   EXPECT_FALSE(fs::exists(home_ / "out"));
-}
-
-// --- stress and measure ---
-
-TEST_F(Shards, OfStressHaveTheSameRows) {
-  const std::string stress = "lantern stress root_too_small cradle overflow ";
-  ASSERT_EQ(shell(stress + "-o " + at("one")).code, 0);
-  for (const char* shard : {"1/2", "2/2"})
-    ASSERT_EQ(shell(stress + "--shard " + shard + " -o " + at("parts")).code, 0);
-  const Outcome o = merge("whole");
-  EXPECT_EQ(o.code, 0) << o.err;
-  expect_same(home_ / "one", home_ / "whole");
-}
-
-// Seconds apart, which are measured.
-json without_times(const fs::path& file) {
-  json measured = json::parse(read_text(file));
-  for (json& row : measured["rows"]) row.erase("timing");
-  return measured;
-}
-
-TEST_F(Shards, OfMeasureHaveTheSameRowsButForTimes) {
-  const std::string measure =
-      "lantern measure kepler oscillator projectile --quick --no-peers --method velocity_verlet "
-      "--step 0.01 --longest 600 ";
-  const Outcome one = shell(measure + "-o " + at("one"));
-  ASSERT_EQ(one.code, 0) << one.err;
-  for (const char* shard : {"1/2", "2/2"})
-    ASSERT_EQ(shell(measure + "--shard " + shard + " -o " + at("parts")).code, 0);
-  const Outcome o = merge("whole");
-  EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_EQ(without_times(home_ / "one/measure.json"), without_times(home_ / "whole/measure.json"));
-  const Tree a = tree_of(home_ / "one"), b = tree_of(home_ / "whole");
-  ASSERT_EQ(a.size(), b.size());
-  for (const auto& [name, bytes] : a) EXPECT_TRUE(b.contains(name)) << name;
-  EXPECT_EQ(a.at("drift.csv"), b.at("drift.csv"));
 }
 
 }  // namespace

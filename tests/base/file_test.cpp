@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -131,10 +132,9 @@ TEST_F(File, LeftoversGoAndNothingElse) {
   write_file(folder_ / ".lantern-part-1-0", "half");
   write_file(folder_ / "frame.png", "whole");
   write_file(folder_ / ".hidden", "mine");
-  remove_leftovers(folder_);
+  Folder(folder_).remove_leftovers();
   EXPECT_FALSE(fs::exists(folder_ / ".lantern-part-1-0"));
   EXPECT_EQ(entries(), 2u);
-  remove_leftovers(folder_ / "missing");  // must not throw
 }
 
 TEST_F(File, MakesFoldersWithTheirParents) {
@@ -158,11 +158,11 @@ TEST_F(File, IsWrittenWithoutProc) {
 
 TEST_F(File, AFolderIsMadeDurableByTheSystem) {
   const int before = syncfs_calls;
-  make_durable(folder_);
+  Folder(folder_).settle();
   EXPECT_EQ(syncfs_calls, before + 1);
-  expect_io_error("missing", "No such file", [&] { make_durable(folder_ / "missing"); });
+  expect_io_error("missing", "No such file", [&] { Folder(folder_ / "missing"); });
   syncfs_error = EIO;
-  expect_io_error(folder_.filename().string(), "Input/output", [&] { make_durable(folder_); });
+  expect_io_error(folder_.filename().string(), "Input/output", [&] { Folder(folder_).settle(); });
   syncfs_error = 0;
 }
 
@@ -178,6 +178,73 @@ TEST_F(File, WritesIntoTheCurrentFolder) {
   write_file("plain", "1");
   fs::current_path(before);
   EXPECT_EQ(read_file(folder_ / "plain", 10), "1");
+}
+
+// --- held open ---
+
+TEST_F(File, AFolderStaysTheSameWhateverBecomesOfItsPath) {
+  make_folder(folder_ / "held");
+  const Folder held(folder_ / "held");
+  fs::rename(folder_ / "held", folder_ / "moved");
+  make_folder(folder_ / "held");
+  write_file({held, "x"}, "1");
+  EXPECT_EQ(read_file(folder_ / "moved/x", 10), "1");
+  EXPECT_FALSE(fs::exists(folder_ / "held/x"));
+  EXPECT_EQ(held.names(), std::vector<std::string>{"x"});
+  EXPECT_EQ(held.read("x", 10), "1");
+  EXPECT_FALSE(held.read("y", 10));
+  EXPECT_TRUE(held.remove("x"));
+  EXPECT_FALSE(held.remove("x"));
+  EXPECT_TRUE(held.is(Folder(folder_ / "moved")));
+  EXPECT_FALSE(held.is(Folder(folder_ / "held")));
+}
+
+TEST_F(File, AFolderFollowsNoLink) {
+  make_folder(folder_ / "outside");
+  write_file(folder_ / "outside/x", "precious");
+  const Folder in = Folder::made(folder_ / "in");
+  fs::create_directory_symlink(folder_ / "outside", folder_ / "in/link");
+  fs::create_symlink(folder_ / "outside/x", folder_ / "in/x");
+  expect_io_error("in/link", "a link", [&] { in.inside("link"); });
+  expect_io_error("in/link", "a link", [&] { in.find("link"); });
+  expect_io_error("in/x", "a link", [&] { in.read("x", 10); });
+  EXPECT_TRUE(in.has("x"));
+  EXPECT_FALSE(in.has_file("x"));
+  write_file({in, "x"}, "new");
+  EXPECT_EQ(read_file(folder_ / "outside/x", 10), "precious");
+  EXPECT_TRUE(in.remove("link"));
+  EXPECT_TRUE(fs::exists(folder_ / "outside/x"));
+}
+
+TEST_F(File, AFolderHasEntriesAndNoPaths) {
+  const Folder folder(folder_);
+  for (const char* name : {"", ".", "..", "a/b", "../x", "/tmp/x"}) {
+    EXPECT_DEATH(folder.inside(name), "broken invariant");
+    EXPECT_DEATH(write_file({folder, name}, ""), "broken invariant");
+  }
+  EXPECT_DEATH(folder.read(std::string_view("a\0b", 3), 1), "broken invariant");
+}
+
+// --- inputs ---
+
+TEST_F(File, NothingIsWrittenOverWhatWasRead) {
+  write_file(folder_ / "in", "mine");
+  fs::create_hard_link(folder_ / "in", folder_ / "other");
+  EXPECT_FALSE(is_input(folder_ / "in"));
+  read_input(folder_ / "in", 10);
+  for (const char* name : {"in", "./in", "other"}) {
+    EXPECT_TRUE(is_input(folder_ / name)) << name;
+    expect_io_error(name, "what this run has read", [&] { write_file(folder_ / name, "new"); });
+  }
+  expect_io_error("in", "what this run has read", [&] {
+    write_file({Folder(folder_), "in"}, "new");
+  });
+  EXPECT_EQ(read_file(folder_ / "in", 10), "mine");
+  // An editor puts a new file in the place of the old, whose number is then free for another.
+  fs::remove(folder_ / "in");
+  fs::remove(folder_ / "other");
+  write_file(folder_ / "picture", "1");
+  EXPECT_NO_THROW(write_file(folder_ / "picture", "2"));
 }
 
 }  // namespace

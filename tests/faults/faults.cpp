@@ -67,6 +67,18 @@ bool fails(const char* kind, int descriptor) {
   return fails(kind, path);
 }
 
+// The same of an entry of an open folder.
+bool fails(const char* kind, int folder, const char* name) {
+  if (!counts(kind)) return false;
+  if (folder == AT_FDCWD || (name && name[0] == '/')) return fails(kind, name);
+  char link[64], path[8192] = {};
+  std::snprintf(link, sizeof link, "/proc/self/fd/%d", folder);
+  const ssize_t size = ::readlink(link, path, 4096);
+  if (size < 0) return false;
+  std::snprintf(path + size, sizeof path - static_cast<std::size_t>(size), "/%s", name);
+  return fails(kind, static_cast<const char*>(path));
+}
+
 // The real function of that name.
 template <class F>
 F real(const char* name) {
@@ -124,7 +136,7 @@ int openat(int folder, const char* path, int flags, ...) {
   va_start(list, flags);
   const int mode = mode_of(flags, list);
   va_end(list);
-  return fails("open", path) ? -1 : REAL(openat)(folder, path, flags, mode);
+  return fails("open", folder, path) ? -1 : REAL(openat)(folder, path, flags, mode);
 }
 
 FILE* fopen(const char* path, const char* mode) {
@@ -139,20 +151,28 @@ int rename(const char* from, const char* to) {
   return fails("rename", to) ? -1 : REAL(rename)(from, to);
 }
 
+int renameat(int from_folder, const char* from, int to_folder, const char* to) {
+  return fails("rename", to_folder, to) ? -1 : REAL(renameat)(from_folder, from, to_folder, to);
+}
+
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
-  return fails("link", to) ? -1 : REAL(linkat)(from_folder, from, to_folder, to, flags);
+  return fails("link", to_folder, to) ? -1 : REAL(linkat)(from_folder, from, to_folder, to, flags);
 }
 
 int unlink(const char* path) { return fails("unlink", path) ? -1 : REAL(unlink)(path); }
 
 int unlinkat(int folder, const char* path, int flags) {
-  return fails("unlink", path) ? -1 : REAL(unlinkat)(folder, path, flags);
+  return fails("unlink", folder, path) ? -1 : REAL(unlinkat)(folder, path, flags);
 }
 
 int remove(const char* path) { return fails("unlink", path) ? -1 : REAL(remove)(path); }
 
 int mkdir(const char* path, mode_t mode) {
   return fails("mkdir", path) ? -1 : REAL(mkdir)(path, mode);
+}
+
+int mkdirat(int folder, const char* path, mode_t mode) {
+  return fails("mkdir", folder, path) ? -1 : REAL(mkdirat)(folder, path, mode);
 }
 
 int fsync(int file) { return fails("sync", file) ? -1 : REAL(fsync)(file); }

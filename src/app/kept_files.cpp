@@ -1,0 +1,73 @@
+#include "app/kept_files.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/frame_folder.hpp"
+#include "app/golden_list.hpp"
+#include "app/shard_record.hpp"
+#include "app/terminal.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Kept {
+  const char* list;         // the file that says so
+  std::string_view format;  // which its first line has
+  KeptFor what;
+  const char* words;
+};
+constexpr std::array kKept = {
+    Kept{kManifest, "\"lantern.manifest/", KeptFor::frames, "the frames of a run"},
+    Kept{kGoldenList, "lantern.golden_frames/", KeptFor::goldens, "golden frames"},
+    Kept{kShardFile, "\"lantern.shard/", KeptFor::shard, "a part of a run"},
+};
+constexpr const char* kMeasurement = "measure.json";
+
+// Is there a file of this name in it that says so in its first line or the next?
+bool says(const Folder& folder, const char* name, std::string_view format) try {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28, kHead = 200;
+  const auto bytes = folder.read(name, kMostBytes);
+  return bytes && std::string_view(*bytes).substr(0, kHead).find(format) != std::string_view::npos;
+} catch (const IoError&) {
+  return false;
+}
+
+[[noreturn]] void refuse(const fs::path& file, std::string_view what) {
+  throw UsageError(fmt::format("'{}' is {}; name another file", file.string(), what));
+}
+
+}  // namespace
+
+void require_kept_for(KeptFor wanted, const Folder& folder) {
+  for (const Kept& kept : kKept)
+    if (kept.what != wanted && says(folder, kept.list, kept.format))
+      throw UsageError(fmt::format("'{}' holds {}, of which {} tells; give another folder",
+                                   folder.path().string(), kept.words, kept.list));
+}
+
+void require_free(const fs::path& file) {
+  std::error_code none;
+  if (fs::is_directory(file, none)) refuse(file, "a folder");
+  if (!fs::exists(fs::symlink_status(file, none))) return;
+  if (is_input(file)) refuse(file, "what this run reads");
+  const Folder folder(folder_of(file));
+  const std::string name = file.filename().string();
+  const std::string scenario = fs::weakly_canonical(folder.path(), none).filename().string();
+  for (const Kept& kept : kKept) {
+    const bool is_list = name == kept.list;
+    if ((is_list || is_frame_file(name, scenario)) && says(folder, kept.list, kept.format))
+      refuse(file, is_list ? fmt::format("the list of {} there", kept.words)
+                           : fmt::format("one of {} there", kept.words));
+  }
+  if (name == kMeasurement && says(folder, kMeasurement, "\"lantern.measure/"))
+    refuse(file, "a measurement");
+}
+
+}  // namespace lantern::app

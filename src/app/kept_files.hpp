@@ -1,0 +1,23 @@
+// What Lantern keeps in folders, and what the user has given to be read: no output is written over
+// it.
+#pragma once
+
+#include <filesystem>
+
+#include "base/file.hpp"
+
+namespace lantern::app {
+
+// For what a folder is kept: the frames of a run, golden frames, or a part of a run.
+enum class KeptFor { frames, goldens, shard };
+
+// Throws UsageError if the folder is kept for anything else: its files would be lost.
+void require_kept_for(KeptFor wanted, const Folder& folder);
+
+// For each file that an option names: -o, --report, --junit. Throws UsageError if that is what this
+// run has read, or what Lantern keeps for another purpose: a manifest, a list of golden frames, the
+// record of a part, a measurement, or a frame or its facts beside one of these. It must not be a
+// folder, either.
+void require_free(const std::filesystem::path& file);
+
+}  // namespace lantern::app
