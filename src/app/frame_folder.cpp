@@ -16,15 +16,15 @@ namespace lantern::app {
 namespace {
 
 constexpr std::string_view kAtlas = "atlas";
-constexpr std::size_t kMostFileBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostFrameBytes = std::size_t{1} << 30;
 
-constexpr std::pair<std::string_view, FileKind> kEndings[] = {
+constexpr std::pair<std::string_view, FileKind> kFileKinds[] = {
     {"png", FileKind::png}, {"svg", FileKind::svg}, {"json", FileKind::json}};
 
 // By the ending of a file's name.
 std::optional<FileKind> kind_of(std::string_view file) {
   const std::size_t dot = std::min(file.find('.'), file.size() - 1);
-  for (const auto& [ending, kind] : kEndings)
+  for (const auto& [ending, kind] : kFileKinds)
     if (file.substr(dot + 1) == ending) return kind;
   return std::nullopt;
 }
@@ -105,7 +105,7 @@ MadeFrom Manifest::atlas_from() const {
 }
 
 std::string frame_file(const ScenarioName& scenario, std::uint32_t index, FileKind kind) {
-  return fmt::format("{}_{:04}.{}", scenario.text(), index, word_for(kind, kEndings));
+  return fmt::format("{}_{:04}.{}", scenario.text(), index, word_for(kind, kFileKinds));
 }
 
 bool is_frame_file(std::string_view file, std::string_view scenario) {
@@ -133,12 +133,12 @@ std::string about_files(const std::string& scenario, const char* what,
 }
 
 std::string atlas_file(const ScenarioName& scenario, FileKind kind) {
-  return fmt::format("{}_{}.{}", scenario.text(), kAtlas, word_for(kind, kEndings));
+  return fmt::format("{}_{}.{}", scenario.text(), kAtlas, word_for(kind, kFileKinds));
 }
 
 std::string in_between_file(const Manifest& m, std::uint32_t index, std::uint64_t number) {
   return fmt::format("{}_{:04}_{:0{}}.{}", m.scenario.text(), index, number, m.in_between_digits,
-                     word_for(m.format, kEndings));
+                     word_for(m.format, kFileKinds));
 }
 
 namespace {
@@ -147,7 +147,7 @@ namespace {
 // differently. False if the manifest is missing or damaged; as to_json() writes it: within a text
 // of the file, a quote has a backslash before it.
 bool is_of_this_build(const Folder& folder) try {
-  const std::string text = folder.read(kManifest, kMostFileBytes).value_or("");
+  const std::string text = folder.read(kManifest, kMostFrameBytes).value_or("");
   return text.find(fmt::format("\n\"sources\": \"{}\"", kSourceHash)) != text.npos;
 } catch (const IoError&) {
   return false;
@@ -168,7 +168,7 @@ void FrameFolder::look_at(const std::string& name, bool same_build, bool whole) 
   const FileKind kind = *kind_of(name);
   std::string bytes;
   try {
-    bytes = folder_.read(name, kMostFileBytes).value_or("");
+    bytes = folder_.read(name, kMostFrameBytes).value_or("");
   } catch (const IoError&) {
     strange_.push_back(name);
     return;

@@ -32,9 +32,9 @@ constexpr const char* kMeasurement = "measure.json";
 
 // Is there a file of this name in it that says so in its first line or the next?
 bool says(const Folder& folder, const char* name, std::string_view format) try {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 28, kHead = 200;
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28, kFirst = 200;
   const auto bytes = folder.read(name, kMostBytes);
-  return bytes && std::string_view(*bytes).substr(0, kHead).find(format) != std::string_view::npos;
+  return bytes && std::string_view(*bytes).substr(0, kFirst).find(format) != std::string_view::npos;
 } catch (const IoError&) {
   return false;
 }

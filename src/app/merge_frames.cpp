@@ -39,7 +39,7 @@ struct MergedSequence {
 };
 
 // Of one scenario in a shard. Throws UnfitShard if it is not there.
-Folder folder_of(const ShardSet& set, const FoundShard& shard, const ScenarioName& scenario) {
+Folder folder_in_part(const ShardSet& set, const FoundShard& shard, const ScenarioName& scenario) {
   if (auto folder = shard.folder.find(scenario.text())) return *folder;
   throw UnfitShard(set, shard, fmt::format("there is no folder '{}'", scenario.text()));
 }
@@ -54,7 +54,7 @@ std::optional<std::string> whole_bytes(const Folder& folder, const ShardFile& fi
 
 // What the shard's manifest says, if it says it of this input. Throws UnfitShard.
 Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardInput& input) {
-  const Folder folder = folder_of(set, shard, input.name);
+  const Folder folder = folder_in_part(set, shard, input.name);
   const auto refuse = [&](const std::string& why) {
     throw UnfitShard(
         set, shard,
@@ -106,7 +106,7 @@ std::vector<ShardFile> files_of(const FoundShard& shard, const Manifest& m, bool
 // Throws UnfitShard unless each of the files is whole.
 void require_whole(const ShardSet& set, const FoundShard& shard, const ScenarioName& scenario,
                    const std::vector<ShardFile>& files) {
-  const Folder folder = folder_of(set, shard, scenario);
+  const Folder folder = folder_in_part(set, shard, scenario);
   std::vector<std::string> bad;
   for (const ShardFile& file : files) {
     stop_if_asked();
@@ -148,7 +148,7 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
     Manifest part = manifest_of(set, *shard, input);
     std::vector<ShardFile> files = files_of(*shard, part, input.atlas);
     require_whole(set, *shard, input.name, files);
-    tell_of_others(*shard, folder_of(set, *shard, input.name), files);
+    tell_of_others(*shard, folder_in_part(set, *shard, input.name), files);
     if (!whole) {
       whole = MergedSequence{std::move(part), std::move(files)};
       continue;
@@ -170,8 +170,8 @@ void require_equal(const ShardSet& set, const ShardSet::Twins& twins) {
       const Manifest m = manifest_of(set, *twins.first, first);
       same = to_json(m) == to_json(manifest_of(set, *twins.second, second));
       for (const ShardFile& file : files_of(*twins.first, m, first.atlas))
-        same = same && whole_bytes(folder_of(set, *twins.first, first.name), file) ==
-                           whole_bytes(folder_of(set, *twins.second, first.name), file);
+        same = same && whole_bytes(folder_in_part(set, *twins.first, first.name), file) ==
+                           whole_bytes(folder_in_part(set, *twins.second, first.name), file);
     }
     if (!same)
       throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'",
@@ -207,7 +207,7 @@ Counted write_whole(const ShardSet& set, const Folder& output, MergedSequence& w
       ++counted.kept;
       continue;
     }
-    const auto bytes = whole_bytes(folder_of(set, *file.shard, finished.scenario), file);
+    const auto bytes = whole_bytes(folder_in_part(set, *file.shard, finished.scenario), file);
     if (!bytes) throw IoError(fmt::format("'{}' has changed meanwhile", file.name));
     write_file({folder.folder(), file.name}, *bytes);
     written.insert(file.name);

@@ -1,10 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
-#include <nlohmann/json.hpp>
-
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "measure/records.hpp"
 #include "report/measure_tables.hpp"
@@ -184,6 +184,22 @@ T read_fields(const Json& json) {
   return read;
 }
 
+// What plots and sentences are made from.
+void require_sane(const Row& row, const Json& json) {
+  if (!ScenarioName::of(row.problem))
+    throw Damaged{fmt::format("problem {}: a scenario's name is 1 to 64 of a–z, 0–9 and _",
+                              shown(json.at("problem")))};
+  if (!(row.step >= 0 && std::isfinite(row.step)))
+    throw Damaged{fmt::format("step {}: it is no step", shown(json.at("step")))};
+  const Timing& t = row.timing;
+  const double in_order[] = {0,        t.least,          t.lower_quartile,
+                             t.median, t.upper_quartile, std::numeric_limits<double>::max()};
+  if (!std::ranges::is_sorted(in_order) ||
+      std::ranges::any_of(in_order, [](double x) { return std::isnan(x); }))
+    throw Damaged{
+        fmt::format("timing {}: its quartiles are in no order", json.at("timing").dump())};
+}
+
 }  // namespace
 
 std::string to_csv(const Measurement& measurement) {
@@ -245,9 +261,7 @@ std::optional<Measurement> read_measurement(std::string_view text, std::string* 
     for (const Json& row : json.at("rows").get_ref<const Json::array_t&>()) {
       place = fmt::format("rows[{}].", measurement.rows.size());
       measurement.rows.push_back(read_fields<Row>(row));
-      if (!ScenarioName::of(measurement.rows.back().problem))
-        throw Damaged{fmt::format("problem {}: a scenario's name is 1 to 64 of a–z, 0–9 and _",
-                                  shown(row.at("problem")))};
+      require_sane(measurement.rows.back(), row);
     }
     return measurement;
   } catch (const Damaged& damaged) {

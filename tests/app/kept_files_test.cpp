@@ -1,0 +1,103 @@
+// No output is an input, and none is written over what Lantern keeps for another purpose.
+#include <gtest/gtest.h>
+
+#include "app/process.hpp"
+
+namespace lantern::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLittle =
+    "title = \"Little\"\n[world]\nsize = [16, 9]\n[structure]\nkind = \"quadtree\"\n"
+    "[[body]]\nname = \"a\"\nradius = 0.5\nposition = [3, 5]\n"
+    "[[step]]\ndo = \"insert\"\nbodies = [\"a\"]\n";
+
+// Commands run in a folder with little.toml, the same under other endings, and what Lantern has
+// made of it: out/ with frames, golden/, parts/, measured/.
+class KeptFiles : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    made() = fresh_folder("kept-files");
+    for (const char* name :
+         {"little.toml", "little.html", "little.png", "little.pdf", "little.svg"})
+      write_text(made() / name, kLittle);
+    for (const char* words :
+         {"render little.toml --size 80x45 -o out", "golden little.toml --size 80x45 --update",
+          "render little.toml --size 80x45 -o parts --shard 1/1",
+          "measure projectile --quick --no-peers --method velocity_verlet --step 0.2 -o "
+          "measured"}) {
+      const Outcome o = run(words);
+      ASSERT_EQ(o.code, 0) << words << o.err;
+    }
+  }
+  static fs::path& made() {
+    static fs::path folder;
+    return folder;
+  }
+  static Outcome run(const std::string& words) {
+    return shell("cd " + made().string() + " && lantern " + words);
+  }
+  // Exit code 2, with these words, and the file is as it was.
+  static void expect_refused(const std::string& words, const std::string& file,
+                             const std::string& why) {
+    const std::string before = read_text(made() / file);
+    const Outcome o = run(words);
+    EXPECT_EQ(o.code, 2) << words << "\n" << o.err;
+    EXPECT_NE(o.err.find(why), o.err.npos) << words << "\n" << o.err;
+    EXPECT_EQ(read_text(made() / file), before) << words;
+  }
+};
+
+TEST_F(KeptFiles, WhatARunReadsIsNotWrittenOver) {
+  for (const char* ending : {"html", "pdf", "svg", "png"}) {
+    const std::string file = std::string("little.") + ending;
+    expect_refused("render " + file + " -o " + file, file, "is what this run reads");
+    expect_refused("render " + file + " -o ./{scenario}." + ending, file, "is what this run reads");
+  }
+  expect_refused("render little.png --sheet 2x1 -o little.png", "little.png",
+                 "what this run reads");
+  fs::create_hard_link(made() / "little.html", made() / "same.html");
+  fs::create_symlink("little.html", made() / "link.html");
+  expect_refused("render little.html -o same.html", "little.html", "is what this run reads");
+  expect_refused("render little.html -o link.html", "little.html", "is what this run reads");
+  expect_refused("render - -o little.html <little.html", "little.html", "is what this run reads");
+  expect_refused("golden little.html --junit little.html", "little.html", "is what this run reads");
+  expect_refused("golden little.html --report little.html", "little.html", "what this run reads");
+  expect_refused("compare little.png little.svg -o little.png", "little.png", "");
+}
+
+// Its name is known when its frame is there: nothing is lost then, either.
+TEST_F(KeptFiles, NorWhereTheNameIsAFrames) {
+  write_text(made() / "0000.svg", kLittle);
+  expect_refused("render 0000.svg -o {frame}.svg", "0000.svg", "is what this run reads");
+}
+
+TEST_F(KeptFiles, WhatLanternKeepsIsNotWrittenOverByAnotherOption) {
+  const std::string golden = "golden/little/", out = "out/little/";
+  for (const std::string& file :
+       {golden + "little_0000.png", golden + "golden.txt", out + "manifest.json",
+        out + "little_0000.json", std::string("parts/shard-1-of-1/shard.json"),
+        std::string("measured/measure.json")}) {
+    expect_refused("golden little.toml --size 80x45 --junit " + file, file, "name another file");
+    expect_refused("golden little.toml --size 80x45 --report " + file, file, "name another file");
+  }
+  for (const std::string& file : {golden + "little_0000.png", out + "little_0000.png"})
+    expect_refused("render little.toml -o " + file, file, "name another file");
+  // What is nobody's is, and so is a file of another name beside them.
+  for (const char* words : {"golden/little/mine.png", "out/little/mine.png", "mine.png"})
+    for (int twice = 0; twice < 2; ++twice)
+      EXPECT_EQ(run(std::string("render little.toml -o ") + words).code, 0) << words;
+}
+
+TEST_F(KeptFiles, AFolderIsKeptForOnePurpose) {
+  expect_refused("render little.toml --size 80x45 -o golden", "golden/little/little_0000.png",
+                 "'golden/little' holds golden frames, of which golden.txt tells");
+  expect_refused("golden little.toml --dir out --update", "out/little/little_0000.png",
+                 "'out/little' holds the frames of a run, of which manifest.json tells");
+  expect_refused("render little.toml -o parts/shard-1-of-1", "parts/shard-1-of-1/shard.json",
+                 "'parts/shard-1-of-1' holds a part of a run");
+}
+
+}  // namespace
+}  // namespace lantern::app
