@@ -1,6 +1,7 @@
 #include "draw/font.hpp"
 
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,11 +19,20 @@ namespace {
 
 constexpr int kReplacement = 0xfffd;
 
-// One weight. Immutable once made, so every thread may use it.
+std::atomic<std::uint64_t> faces{0};
+
+// Where the tables of a weight's file are: enough to ask which letters it has.
+stbtt_fontinfo tables_of(Weight weight) {
+  stbtt_fontinfo info{};
+  const auto* data = reinterpret_cast<const unsigned char*>(font_file(weight).data());
+  LANTERN_CHECK(stbtt_InitFont(&info, data, 0), !=, 0);
+  return info;
+}
+
+// One weight, measured and kerned. Immutable once made, so every thread may use it.
 struct FontFace {
-  explicit FontFace(std::string_view bytes) {
-    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    LANTERN_CHECK(stbtt_InitFont(&info, data, 0), !=, 0);
+  explicit FontFace(Weight weight) : info(tables_of(weight)) {
+    ++faces;
     em_per_unit = static_cast<double>(stbtt_ScaleForMappingEmToPixels(&info, 1.0f));
     for (int c = 0; c < kAscii; ++c) ascii_[c] = stbtt_FindGlyphIndex(&info, c);
     for (int a = 0; a < kAscii; ++a)
@@ -48,7 +58,7 @@ struct FontFace {
   double advance(int glyph) const { return advances_[glyph] * em_per_unit; }
 
   static constexpr int kAscii = 128;
-  stbtt_fontinfo info{};
+  stbtt_fontinfo info;
   double em_per_unit = 0, cap_height = 0;
   std::array<int, kAscii> ascii_{};
   std::array<int, kAscii * kAscii> kern_{};  // of pairs of characters, font units
@@ -56,8 +66,8 @@ struct FontFace {
 };
 
 const FontFace& face(Weight weight) {
-  static const FontFace regular(font_file(Weight::regular));
-  static const FontFace semibold(font_file(Weight::semibold));
+  static const FontFace regular(Weight::regular);
+  static const FontFace semibold(Weight::semibold);
   return weight == Weight::regular ? regular : semibold;
 }
 
@@ -92,9 +102,12 @@ std::string_view font_file(Weight weight) {
   return weight == Weight::regular ? font::inter_regular_otf : font::inter_semibold_otf;
 }
 
+std::uint64_t faces_made() { return faces; }
+
 bool has_glyph(char32_t letter) {
+  static const stbtt_fontinfo tables = tables_of(Weight::regular);
   // Control characters are drawn as blanks.
-  return letter < ' ' || face(Weight::regular).glyph(static_cast<int>(letter)) != 0;
+  return letter < ' ' || stbtt_FindGlyphIndex(&tables, static_cast<int>(letter)) != 0;
 }
 
 double text_width(std::string_view text, double size, Weight weight) {

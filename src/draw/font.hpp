@@ -20,7 +20,11 @@ std::string_view font_file(Weight weight);
 double cap_height(Weight weight);
 
 // Can the letter be shown? Another one is drawn as a box, in every picture alike.
+// Takes no more of the typeface than the list of its letters.
 bool has_glyph(char32_t letter);
+
+// How many weights were measured and kerned: each once, when a text is first set in it.
+std::uint64_t faces_made();
 
 struct PlacedGlyph {
   int glyph = 0;        // index in the font
