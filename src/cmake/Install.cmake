@@ -41,8 +41,9 @@ endfunction()
 function(lantern_install_development)
   set(here DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lantern COMPONENT development)
   list(TRANSFORM lantern_public_rooms PREPEND ${PROJECT_SOURCE_DIR}/src/ OUTPUT_VARIABLE folders)
-  # gl.hpp is not for others: it would ask them for OpenGL's headers.
-  install(DIRECTORY ${folders} ${here} FILES_MATCHING PATTERN *.hpp PATTERN gl.hpp EXCLUDE)
+  # These are not for others: they would ask them for the headers of OpenGL and Highway.
+  install(DIRECTORY ${folders} ${here} FILES_MATCHING PATTERN *.hpp PATTERN gl.hpp EXCLUDE
+    PATTERN vector_target.hpp EXCLUDE)
   install(FILES ${PROJECT_SOURCE_DIR}/src/rooms.hpp ${PROJECT_BINARY_DIR}/include/lantern/version.hpp
     ${here})
   install(FILES ${PROJECT_SOURCE_DIR}/src/app/program.hpp

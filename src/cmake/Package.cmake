@@ -26,7 +26,7 @@ engine's own. The scenarios of the lecture come along: lantern list")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME lantern-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libhwy-dev, libdeflate-dev, libtomlplusplus-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libglm-dev, libdeflate-dev, libtomlplusplus-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
 "Static libraries, headers and CMake's files for find_package(Lantern): the
 targets Lantern::spatial, Lantern::physics, Lantern::render, and

@@ -6,6 +6,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "spatial/vector_target.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace lantern::spatial::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -90,26 +92,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace lantern::spatial {
 
-HWY_EXPORT(Reached2);
-HWY_EXPORT(Reached3);
-HWY_EXPORT(Met2);
-HWY_EXPORT(Met3);
-
 BlockBits reached_in_block(const BoxTable<2>& table, std::uint32_t first,
                            const AabbNode<2>& asked) {
-  return HWY_DYNAMIC_DISPATCH(Reached2)(table, first, asked);
+  static const auto best = LANTERN_BEST(Reached2);
+  return best(table, first, asked);
 }
 BlockBits reached_in_block(const BoxTable<3>& table, std::uint32_t first,
                            const AabbNode<3>& asked) {
-  return HWY_DYNAMIC_DISPATCH(Reached3)(table, first, asked);
+  static const auto best = LANTERN_BEST(Reached3);
+  return best(table, first, asked);
 }
 std::uint32_t met_in_block(const BoxTable<2>& table, std::uint32_t first, const FloatRay<2>& ray,
                            float limit) {
-  return HWY_DYNAMIC_DISPATCH(Met2)(table, first, ray, limit);
+  static const auto best = LANTERN_BEST(Met2);
+  return best(table, first, ray, limit);
 }
 std::uint32_t met_in_block(const BoxTable<3>& table, std::uint32_t first, const FloatRay<3>& ray,
                            float limit) {
-  return HWY_DYNAMIC_DISPATCH(Met3)(table, first, ray, limit);
+  static const auto best = LANTERN_BEST(Met3);
+  return best(table, first, ray, limit);
 }
 
 }  // namespace lantern::spatial

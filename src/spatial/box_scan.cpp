@@ -7,6 +7,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "spatial/vector_target.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace lantern::spatial::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -102,16 +104,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace lantern::spatial {
 
-HWY_EXPORT(ScanRuns2);
-HWY_EXPORT(ScanRuns3);
-
 ScanDone scan_runs(const ScanTask<2>& task, const ScanRoom& room, std::size_t begin,
                    std::size_t end) {
-  return HWY_DYNAMIC_DISPATCH(ScanRuns2)(task, room, begin, end);
+  static const auto best = LANTERN_BEST(ScanRuns2);
+  return best(task, room, begin, end);
 }
 ScanDone scan_runs(const ScanTask<3>& task, const ScanRoom& room, std::size_t begin,
                    std::size_t end) {
-  return HWY_DYNAMIC_DISPATCH(ScanRuns3)(task, room, begin, end);
+  static const auto best = LANTERN_BEST(ScanRuns3);
+  return best(task, room, begin, end);
 }
 
 }  // namespace lantern::spatial

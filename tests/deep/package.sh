@@ -26,7 +26,7 @@ use libraries 0.3 || fail "find_package: $(cat "$work/libraries.log")"
 cmake --build "$work/libraries" >>"$work/libraries.log" 2>&1 || fail "$(cat "$work/libraries.log")"
 "$work/libraries/libraries" >/dev/null || fail "libraries"
 grep -q liblantern_spatial "$work/libraries/CMakeFiles/libraries.dir/link.txt" || fail "no link.txt"
-! grep -qE "deflate|toml|CLI" "$work/libraries/CMakeFiles/libraries.dir/link.txt" || fail "too much"
+! grep -qE "hwy|deflate|toml|CLI" "$work/libraries/CMakeFiles/libraries.dir/link.txt" || fail "too much"
 for version in 0.2 0.4 1.0; do
   ! use "version$version" $version || fail "version $version is taken for this one"
 done
