@@ -24,10 +24,8 @@ namespace {
 constexpr const char* kFilesHelp =
     "scenario files, folders of them (by 'lecture', then by name), or - for standard input";
 
-// `render`, and `watch`, which takes the same options.
-void add_render(CLI::App& app, Run& run, const char* name, const char* help,
-                int (*start)(const RenderOptions&)) {
-  const auto [c, o] = command(app, run, name, help, start);
+// Of `render` and of `watch`.
+void add_drawing(CLI::App* c, RenderOptions& o) {
   c->add_option("FILE", o.files, kFilesHelp)->required();
   c->add_option(
        "-o,--output", o.output,
@@ -93,23 +91,29 @@ void add_render(CLI::App& app, Run& run, const char* name, const char* help,
   c->add_option("-j,--threads", o.threads, "encoding threads; the default is one per core")
       ->check(CLI::Range(1, 256))
       ->type_name("N");
-  if (start == render_command) add_shard(*c, o.shard);
+}
+
+void render_options(CLI::App* c, RenderOptions& o) {
+  add_drawing(c, o);
+  add_shard(*c, o.shard);
   add_memory(*c);
   add_json(*c, o.json);
 }
 
-void add_merge(CLI::App& app, Run& run) {
-  const auto [c, o] = command(app, run, "merge",
-                              "Make one folder of the parts that --shard has made", merge_command);
+void watch_options(CLI::App* c, RenderOptions& o) {
+  add_drawing(c, o);
+  add_memory(*c);
+  add_json(*c, o.json);
+}
+
+void merge_options(CLI::App* c, MergeOptions& o) {
   c->add_option("OUT", o.output, "folder of the whole")->check(kNotEmpty)->required();
   c->add_option("IN", o.folders, "folders that shards wrote into with -o; the default is OUT")
       ->check(kNotEmpty);
   add_json(*c, o.json);
 }
 
-void add_check(CLI::App& app, Run& run) {
-  const auto [c, o] = command(app, run, "check",
-                              "Run scenarios without drawing, verify expectations", check_command);
+void check_options(CLI::App* c, CheckOptions& o) {
   c->add_option("FILE", o.files, kFilesHelp)->required();
   c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
   add_memory(*c);
@@ -117,9 +121,7 @@ void add_check(CLI::App& app, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_list(CLI::App& app, Run& run) {
-  const auto [c, o] = command(
-      app, run, "list", "List the scenarios in a folder in the order of a lecture", list_command);
+void list_options(CLI::App* c, ListOptions& o) {
   c->add_option("DIR", o.folders, "folders or files; the default is scenarios");
   add_json(*c, o.json);
   c->add_flag("--course", o.course,
@@ -128,20 +130,13 @@ void add_list(CLI::App& app, Run& run) {
       ->excludes("--json");
 }
 
-void add_explain(CLI::App& app, Run& run) {
-  const auto [c, o] =
-      command(app, run, "explain", "Run a scenario without pixels, tell what each stage did",
-              explain_command);
+void explain_options(CLI::App* c, ExplainOptions& o) {
   c->add_option("FILE", o.file, "scenario file; - is standard input")->required();
   add_memory(*c);
   add_json(*c, o.json);
 }
 
-void add_doctor(CLI::App& app, Run& run) {
-  const auto [c, o] =
-      command(app, run, "doctor", "Graphics backends found, and what to install", doctor_command);
-  add_json(*c, o.json);
-}
+void doctor_options(CLI::App* c, DoctorOptions& o) { add_json(*c, o.json); }
 
 void add_allowance(CLI::App& c, int& tolerance, double& fraction) {
   c.add_option("--tolerance", tolerance, "by how many levels a channel may differ")
@@ -152,12 +147,9 @@ void add_allowance(CLI::App& c, int& tolerance, double& fraction) {
       ->capture_default_str();
 }
 
-void add_structure_check(CLI::App& structure, Run& run) {
-  const auto [c, o] =
-      command(structure, run, "check",
-              "Hold structures against brute force on random worlds; the smallest world on which "
-              "one fails is told and written as a scenario",
-              structure_check_command);
+void structure_list_options(CLI::App* c, StructureListOptions& o) { add_json(*c, o.json); }
+
+void structure_check_options(CLI::App* c, StructureCheckOptions& o) {
   c->add_option("NAME", o.names, "structures; the default is all of them");
   c->add_option("--worlds", o.worlds, "how many worlds")
       ->check(CLI::Range(1, 10'000'000))
@@ -174,10 +166,7 @@ void add_structure_check(CLI::App& structure, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_structure_bench(CLI::App& structure, Run& run) {
-  const auto [c, o] = command(structure, run, "bench",
-                              "Time structures beside each other and brute force, in turns",
-                              structure_bench_command);
+void structure_bench_options(CLI::App* c, StructureBenchOptions& o) {
   c->add_option("NAME", o.names, "structures; the default is all of them");
   c->add_option("--bodies", o.bodies, "how many bodies; the default is 100, 400 and 1600")
       ->allow_extra_args(false)
@@ -197,21 +186,19 @@ void add_structure_bench(CLI::App& structure, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_structure(CLI::App& app, Run& run) {
-  CLI::App* c = app.add_subcommand(
-      "structure", "The spatial structures, and those of your own: list, check, bench");
+void add_structure(CLI::App* c, Run& run) {
   c->require_subcommand(1);
-  const auto [list, o] = command(*c, run, "list", "List the structures that this program knows",
-                                 structure_list_command);
-  add_json(*list, o.json);
-  add_structure_check(*c, run);
-  add_structure_bench(*c, run);
+  add_command(*c, run, "list", "List the structures that this program knows",
+              structure_list_command, structure_list_options);
+  add_command(*c, run, "check",
+              "Hold structures against brute force on random worlds; the smallest world on which "
+              "one fails is told and written as a scenario",
+              structure_check_command, structure_check_options);
+  add_command(*c, run, "bench", "Time structures beside each other and brute force, in turns",
+              structure_bench_command, structure_bench_options);
 }
 
-void add_compare(CLI::App& app, Run& run) {
-  const auto [c, o] =
-      command(app, run, "compare", "Compare two PNG, SVG or JSON files, or two folders of them",
-              compare_command);
+void compare_options(CLI::App* c, CompareOptions& o) {
   c->add_option("EXPECTED", o.expected, "picture, facts or folder")->required();
   c->add_option("ACTUAL", o.actual, "picture, facts or folder")->required();
   c->add_option("-o,--output", o.output,
@@ -221,10 +208,7 @@ void add_compare(CLI::App& app, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_golden(CLI::App& app, Run& run) {
-  const auto [c, o] = command(
-      app, run, "golden", "Compare scenarios' pictures and facts with golden ones, or update those",
-      golden_command);
+void golden_options(CLI::App* c, GoldenOptions& o) {
   c->add_option("FILE", o.files, "scenario files")->required();
   CLI::Option* update =
       c->add_flag("--update", o.update, "make today's frames the golden ones: writes what changed");
@@ -254,12 +238,11 @@ void add_golden(CLI::App& app, Run& run) {
 }
 
 // `help bench step` prints what `bench step --help` does.
-void print_help(const CLI::App& app, const std::vector<std::string>& words) {
-  const CLI::App* command = &app;
+void print_help(CLI::App& app, const std::vector<std::string>& words) {
+  CLI::App* command = &app;
   std::string before;  // the words before the command's own name
   for (const std::string& word : words) {
-    const auto next =
-        command->get_subcommands([&](const CLI::App* one) { return one->get_name() == word; });
+    const auto next = complete_commands(*command, word);
     if (next.empty()) throw UsageError(no_command(*command, word));
     before += (before.empty() ? "" : " ") + command->get_name();
     command = next.front();
@@ -268,9 +251,8 @@ void print_help(const CLI::App& app, const std::vector<std::string>& words) {
   print(command->get_formatter()->make_help(command, name, CLI::AppFormatMode::Normal));
 }
 
-void add_help(CLI::App& app, Run& run) {
+void help_options(CLI::App* c, CLI::App& app, Run& run) {
   const auto words = std::make_shared<std::vector<std::string>>();
-  CLI::App* c = app.add_subcommand("help", "Print the help of a command, as its --help does");
   c->add_option("COMMAND", *words, "its name, such as: bench step; without one, all commands");
   c->callback([&app, &run, words] {
     run = [&app, words] {
@@ -280,20 +262,19 @@ void add_help(CLI::App& app, Run& run) {
   });
 }
 
-void add_texts(CLI::App& app, Run& run) {
-  const auto [c, o] =
-      command(app, run, "reference", "Print the scenario language's reference page (Markdown)",
-              reference_command);
+void reference_options(CLI::App* c, ReferenceOptions& o) {
   c->add_option("--pictures", o.pictures, "draw the page's pictures into this folder instead")
       ->check(kNotEmpty)
       ->type_name("DIR");
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   add_json(*c, o.json);
+}
+
+void schema_options(CLI::App* c, Run& run) {
   const auto of = std::make_shared<std::string>("scenario");
-  CLI::App* schema = app.add_subcommand("schema", "Print a JSON Schema");
-  add_choice(*schema, "--of", *of, "scenario files, or what commands print with --json",
+  add_choice(*c, "--of", *of, "scenario files, or what commands print with --json",
              {"scenario", "output"});
-  schema->callback([&run, of] {
+  c->callback([&run, of] {
     run = [of] {
       write_stdout(*of == "output" ? std::string(output::output_schema_json) : json_schema());
       return int{kGood};
@@ -325,22 +306,37 @@ void add_commands(CLI::App& app, Run& run) {
   app.footer(fmt::format("Exit codes: {}.\nStart with: lantern render ghost_quadtree",
                          fmt::join(codes, ", ")));
   add_memory(app);
-  add_render(app, run, "render",
-             "Draw a scenario's frames: pictures, films, documents, lesson pages", render_command);
-  add_render(app, run, "watch", "Render scenarios again whenever they are saved", watch_command);
-  add_merge(app, run);
-  add_check(app, run);
-  add_list(app, run);
-  add_explain(app, run);
-  add_doctor(app, run);
-  add_golden(app, run);
-  add_compare(app, run);
-  add_structure(app, run);
+  add_manners(app);
+  add_command(app, run, "render",
+              "Draw a scenario's frames: pictures, films, documents, lesson pages", render_command,
+              render_options);
+  add_command(app, run, "watch", "Render scenarios again whenever they are saved", watch_command,
+              watch_options);
+  add_command(app, run, "merge", "Make one folder of the parts that --shard has made",
+              merge_command, merge_options);
+  add_command(app, run, "check", "Run scenarios without drawing, verify expectations",
+              check_command, check_options);
+  add_command(app, run, "list", "List the scenarios in a folder in the order of a lecture",
+              list_command, list_options);
+  add_command(app, run, "explain", "Run a scenario without pixels, tell what each stage did",
+              explain_command, explain_options);
+  add_command(app, run, "doctor", "Graphics backends found, and what to install", doctor_command,
+              doctor_options);
+  add_command(app, run, "golden",
+              "Compare scenarios' pictures and facts with golden ones, or update those",
+              golden_command, golden_options);
+  add_command(app, run, "compare", "Compare two PNG, SVG or JSON files, or two folders of them",
+              compare_command, compare_options);
+  add_command(app, "structure", "The spatial structures, and those of your own: list, check, bench",
+              [&run](CLI::App* c) { add_structure(c, run); });
   add_lab_commands(app, run);
-  add_texts(app, run);
+  add_command(app, run, "reference", "Print the scenario language's reference page (Markdown)",
+              reference_command, reference_options);
+  add_command(app, "schema", "Print a JSON Schema",
+              [&run](CLI::App* c) { schema_options(c, run); });
   add_manual_commands(app, run);
-  add_help(app, run);
-  add_manners(app);  // behind all commands, since it goes through them
+  add_command(app, "help", "Print the help of a command, as its --help does",
+              [&app, &run](CLI::App* c) { help_options(c, app, run); });
 }
 
 }  // namespace lantern::app

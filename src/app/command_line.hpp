@@ -15,7 +15,8 @@ namespace lantern::app {
 // What the command line asks for; gives the exit code.
 using Run = std::function<int()>;
 
-// Every command of Lantern, in the order of the help. Parsing sets `run`; both must outlive it.
+// Every command of Lantern, in the order of the help. Parsing adds the options of the commands that
+// it comes by, and sets `run`; both must outlive it.
 void add_commands(CLI::App& app, Run& run);
 
 // Of these: measure, bench and stress.

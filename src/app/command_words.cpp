@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/option_words.hpp"
+
 namespace lantern::app {
 namespace {
 
@@ -48,11 +50,11 @@ OptionWords words_of(const CLI::Option& option) {
   return o;
 }
 
-CommandWords command_of(const CLI::App& app, std::string name) {
+CommandWords command_of(CLI::App& app, std::string name) {
   CommandWords c{std::move(name), app.get_description(), {}, {}};
   for (const CLI::Option* option : app.get_options())
     if (!option->get_group().empty()) c.options.push_back(words_of(*option));
-  for (const CLI::App* command : app.get_subcommands(nullptr))
+  for (CLI::App* command : complete_commands(app))
     if (!command->get_group().empty())
       c.commands.push_back(command_of(*command, command->get_name()));
   return c;
@@ -77,7 +79,7 @@ void add_all(const CommandWords& command, std::vector<std::string> names,
 
 }  // namespace
 
-CommandWords words_of(const CLI::App& app) {
+CommandWords words_of(CLI::App& app) {
   CommandWords root = command_of(app, "lantern");
   std::vector<std::string> names;
   for (const CommandWords& c : root.commands) names.push_back(c.name);

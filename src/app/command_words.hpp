@@ -43,8 +43,8 @@ struct CommandWords {
   std::vector<CommandWords> commands;
 };
 
-// Of the whole program: what add_commands() made of `app`.
-CommandWords words_of(const CLI::App& app);
+// Of the whole program: what add_commands() made of `app`, with the options of all commands.
+CommandWords words_of(CLI::App& app);
 
 // A command with the names that lead to it, {"lantern", "bench", "step"}.
 struct CommandPath {

@@ -9,10 +9,7 @@
 namespace lantern::app {
 namespace {
 
-void add_measure(CLI::App& app, Run& run) {
-  const auto [c, o] = command(
-      app, run, "measure", "Error against run time: problems with known answers, method by method",
-      measure_command);
+void measure_options(CLI::App* c, MeasureOptions& o) {
   c->add_option("PROBLEM", o.problems,
                 "problems or families by name, or scenario files; the default is all problems; "
                 "'pictures' measures antialiasing, 'broad_phase' the trees' settings");
@@ -45,10 +42,7 @@ void add_measure(CLI::App& app, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_bench_step(CLI::App& bench, Run& run) {
-  const auto [c, o] =
-      command(bench, run, "step", "Milliseconds and penetration of piles of bodies, beside engines",
-              bench_step_command);
+void bench_step_options(CLI::App* c, BenchStepOptions& o) {
   c->add_option("--pile", o.piles,
                 "boxes2d:N, balls2d:N, boxes3d:N, balls3d:N; the default is some of 500 and 2,000")
       ->allow_extra_args(false)
@@ -77,11 +71,7 @@ void add_bench_step(CLI::App& bench, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_bench_pairs(CLI::App& bench, Run& run) {
-  const auto [c, o] = command(
-      bench, run, "pairs",
-      "All pairs of moving boxes, and what rays, boxes and balls meet, beside other libraries",
-      bench_pairs_command);
+void bench_pairs_options(CLI::App* c, BenchPairsOptions& o) {
   CLI::Option* workload =
       c->add_option(
            "--workload", o.workloads,
@@ -127,10 +117,7 @@ void add_bench_pairs(CLI::App& bench, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_bench_atlas(CLI::App& bench, Run& run) {
-  const auto [c, o] =
-      command(bench, run, "atlas", "How full texture atlases become, and how soon, beside stb",
-              bench_atlas_command);
+void bench_atlas_options(CLI::App* c, BenchAtlasOptions& o) {
   CLI::Option* set = c->add_option("--set", o.sets, "only these: square, powers, tall, glyphs")
                          ->allow_extra_args(false)
                          ->type_name("NAME");
@@ -162,35 +149,38 @@ void add_bench_atlas(CLI::App& bench, Run& run) {
   add_json(*c, o.json);
 }
 
-void add_bench(CLI::App& app, Run& run) {
-  CLI::App* c = app.add_subcommand("bench", "Measure speed against named peers");
-  c->require_subcommand(1);
-  const auto [frames, o] = command(
-      *c, run, "frames", "Frames per second written to disk, beside cairo", bench_frames_command);
-  frames->add_option("FILE", o.scenarios,
-                     "scenario files; the default is six of Lantern's in which much moves");
-  frames->add_option("--rounds", o.rounds, "repeats; the median counts")
+void bench_frames_options(CLI::App* c, BenchOptions& o) {
+  c->add_option("FILE", o.scenarios,
+                "scenario files; the default is six of Lantern's in which much moves");
+  c->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  frames->add_option("--frames", o.frames, "of a sequence, at most; those that differ count")
+  c->add_option("--frames", o.frames, "of a sequence, at most; those that differ count")
       ->check(CLI::Range(2, 10000))
       ->capture_default_str();
-  frames
-      ->add_option("-o,--output", o.output,
-                   "folder for bench_frames.html, bench_frames.csv and bench_frames.json")
+  c->add_option("-o,--output", o.output,
+                "folder for bench_frames.html, bench_frames.csv and bench_frames.json")
       ->check(kNotEmpty)
       ->type_name("DIR");
-  add_memory(*frames);
-  add_json(*frames, o.json);
-  add_bench_pairs(*c, run);
-  add_bench_atlas(*c, run);
-  add_bench_step(*c, run);
+  add_memory(*c);
+  add_json(*c, o.json);
 }
 
-void add_stress(CLI::App& app, Run& run) {
-  const auto [c, o] =
-      command(app, run, "stress", "Check extreme input, stiff springs and the limits of stability",
-              stress_command);
+void add_bench(CLI::App* c, Run& run) {
+  c->require_subcommand(1);
+  add_command(*c, run, "frames", "Frames per second written to disk, beside cairo",
+              bench_frames_command, bench_frames_options);
+  add_command(*c, run, "pairs",
+              "All pairs of moving boxes, and what rays, boxes and balls meet, beside other "
+              "libraries",
+              bench_pairs_command, bench_pairs_options);
+  add_command(*c, run, "atlas", "How full texture atlases become, and how soon, beside stb",
+              bench_atlas_command, bench_atlas_options);
+  add_command(*c, run, "step", "Milliseconds and penetration of piles of bodies, beside engines",
+              bench_step_command, bench_step_options);
+}
+
+void stress_options(CLI::App* c, StressOptions& o) {
   c->add_option("CASE", o.cases, "names of cases; the default is all that are not slow");
   c->add_option("-o,--output", o.output,
                 "folder for stress.csv, stress.json, stability_map.png and .svg")
@@ -207,9 +197,13 @@ void add_stress(CLI::App& app, Run& run) {
 }  // namespace
 
 void add_lab_commands(CLI::App& app, Run& run) {
-  add_measure(app, run);
-  add_bench(app, run);
-  add_stress(app, run);
+  add_command(app, run, "measure",
+              "Error against run time: problems with known answers, method by method",
+              measure_command, measure_options);
+  add_command(app, "bench", "Measure speed against named peers",
+              [&run](CLI::App* c) { add_bench(c, run); });
+  add_command(app, run, "stress", "Check extreme input, stiff springs and the limits of stability",
+              stress_command, stress_options);
 }
 
 }  // namespace lantern::app

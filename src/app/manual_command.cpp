@@ -22,7 +22,7 @@ struct ManualOptions {
   std::string folder;              // empty: one page is printed
 };
 
-int manual_command(const CLI::App& app, ManualOptions options) {
+int manual_command(CLI::App& app, ManualOptions options) {
   const CommandWords root = words_of(app);
   const std::vector<CommandPath> all = all_commands(root);
   if (!options.folder.empty()) {
@@ -41,11 +41,8 @@ int manual_command(const CLI::App& app, ManualOptions options) {
   return kGood;
 }
 
-}  // namespace
-
-void add_manual_commands(CLI::App& app, Run& run) {
+void manual_options(CLI::App* c, CLI::App& app, Run& run) {
   const auto manual = std::make_shared<ManualOptions>();
-  CLI::App* c = app.add_subcommand("man", "Print a command's manual page, or write all of them");
   CLI::Option* names = c->add_option("COMMAND", manual->names,
                                      "the command; the default is all of "
                                      "Lantern");
@@ -55,18 +52,28 @@ void add_manual_commands(CLI::App& app, Run& run) {
       ->type_name("DIR");
   c->callback(
       [&app, &run, manual] { run = [&app, manual] { return manual_command(app, *manual); }; });
+}
 
+void completions_options(CLI::App* c, CLI::App& app, Run& run) {
   const auto shell = std::make_shared<std::string>();
-  CLI::App* print = app.add_subcommand("completions", "Print the completions of a shell");
-  print->add_option("SHELL", *shell, "the shell")
+  c->add_option("SHELL", *shell, "the shell")
       ->check(CLI::IsMember({"bash", "zsh", "fish"}))
       ->required();
-  print->callback([&app, &run, shell] {
+  c->callback([&app, &run, shell] {
     run = [&app, shell] {
       write_stdout(completions(*shell, words_of(app)));
       return int{kGood};
     };
   });
+}
+
+}  // namespace
+
+void add_manual_commands(CLI::App& app, Run& run) {
+  add_command(app, "man", "Print a command's manual page, or write all of them",
+              [&app, &run](CLI::App* c) { manual_options(c, app, run); });
+  add_command(app, "completions", "Print the completions of a shell",
+              [&app, &run](CLI::App* c) { completions_options(c, app, run); });
 }
 
 }  // namespace lantern::app

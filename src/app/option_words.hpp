@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -70,7 +71,7 @@ inline std::string no_command(const CLI::App& parent, const std::string& word) {
                      known.empty() ? "see 'lantern help'" : suggestion(word, known, known.size()));
 }
 
-// On the program and on each of its commands, however deep: before and after the command's name.
+// On the program and on each of its commands: before and after the command's name.
 inline void add_manners(CLI::App& app) {
   app.add_flag_callback("--quiet", be_quiet, "say nothing but errors and warnings")
       ->trigger_on_parse();
@@ -85,17 +86,49 @@ inline void add_manners(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->trigger_on_parse()
       ->type_name("WHEN");
-  for (CLI::App* command : app.get_subcommands(nullptr)) add_manners(*command);
 }
 
-// A command and its options, which live as long as it can be run.
+// A command that is no more than its name and help until words name it or its help is told: to make
+// the options of all thirty takes longer than most of what the one asked for does.
+class Command : public CLI::App {
+ public:
+  Command(const char* name, const char* help, std::function<void(CLI::App*)> add_options)
+      : CLI::App(help, name, nullptr) {
+    preparse_callback([this, add = std::move(add_options)](std::size_t) {
+      const CLI::Option& parents_help = *get_parent()->get_help_ptr();
+      set_help_flag(parents_help.get_name(false, true), parents_help.get_description());
+      footer(get_parent()->get_footer());
+      add(this);
+      add_manners(*this);
+    });
+  }
+  // Adds its options and commands if they are not there yet. Parsing does so by itself.
+  void complete() { _trigger_pre_parse(0); }
+};
+
+inline void add_command(CLI::App& app, const char* name, const char* help,
+                        std::function<void(CLI::App*)> add_options) {
+  app.add_subcommand(std::make_shared<Command>(name, help, std::move(add_options)));
+}
+
+// Its options live as long as it can be run.
 template <class Options>
-std::pair<CLI::App*, Options&> command(CLI::App& app, Run& run, const char* name, const char* help,
-                                       int (*start)(const Options&)) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* c = app.add_subcommand(name, help);
-  c->callback([&run, options, start] { run = [options, start] { return start(*options); }; });
-  return {c, *options};
+void add_command(CLI::App& app, Run& run, const char* name, const char* help,
+                 int (*start)(const Options&), void (*add_options)(CLI::App*, Options&)) {
+  add_command(app, name, help, [&run, start, add_options](CLI::App* c) {
+    const auto options = std::make_shared<Options>();
+    add_options(c, *options);
+    c->callback([&run, options, start] { run = [options, start] { return start(*options); }; });
+  });
+}
+
+// The commands of `app` that are called so, or all of them; each with its options.
+inline std::vector<CLI::App*> complete_commands(CLI::App& app,
+                                                const std::optional<std::string>& name = {}) {
+  const auto commands =
+      app.get_subcommands([&](const CLI::App* one) { return !name || one->get_name() == *name; });
+  for (CLI::App* one : commands) static_cast<Command*>(one)->complete();
+  return commands;
 }
 
 }  // namespace lantern::app

@@ -28,9 +28,8 @@ namespace {
 
 // The commands that the words name, from the outermost: "bench", "step". What stands before them
 // are options and their values.
-std::vector<const CLI::App*> commands_of(const CLI::App& app, int argc, char** argv,
-                                         std::string& unknown) {
-  std::vector<const CLI::App*> commands = {&app};
+std::vector<CLI::App*> commands_of(CLI::App& app, int argc, char** argv, std::string& unknown) {
+  std::vector<CLI::App*> commands = {&app};
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with('-')) {
@@ -40,8 +39,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app, int argc, char** a
       continue;
     }
     if (commands.back()->get_subcommands(nullptr).empty()) break;
-    const auto known = commands.back()->get_subcommands(
-        [&](const CLI::App* one) { return one->get_name() == word; });
+    const auto known = complete_commands(*commands.back(), word);
     if (known.empty()) {
       unknown = word;
       break;
@@ -52,7 +50,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app, int argc, char** a
 }
 
 // The names of these, without the program's own.
-std::string names_of(const std::vector<const CLI::App*>& commands, std::string_view between) {
+std::string names_of(const std::vector<CLI::App*>& commands, std::string_view between) {
   std::string names;
   for (std::size_t i = 1; i < commands.size(); ++i)
     names += (names.empty() ? "" : std::string(between)) + commands[i]->get_name();
@@ -60,7 +58,7 @@ std::string names_of(const std::vector<const CLI::App*>& commands, std::string_v
 }
 
 // A misspelt command gets the nearest one.
-std::string usage_hint(const CLI::App& app, int argc, char** argv) {
+std::string usage_hint(CLI::App& app, int argc, char** argv) {
   std::string unknown;
   const auto commands = commands_of(app, argc, argv, unknown);
   if (unknown.empty()) {
@@ -71,7 +69,7 @@ std::string usage_hint(const CLI::App& app, int argc, char** argv) {
 }
 
 // A wish for JSON holds even if the other words make no sense.
-void owe_answer_if_wanted(const CLI::App& app, int argc, char** argv) {
+void owe_answer_if_wanted(CLI::App& app, int argc, char** argv) {
   const auto end = std::find(argv, argv + argc, std::string_view("--"));
   const auto wants_json = [](std::string_view word) {
     return word == "--json" || word == "--json=true" || word == "--json=1";
