@@ -1,8 +1,14 @@
 // What a scene does not need is not there: counters at zero, libraries not loaded.
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
+#include "app/command_line.hpp"
 #include "app/process.hpp"
+#include "app/program.hpp"
+#include "draw/font.hpp"
+#include "rooms.hpp"
 
 namespace lantern::app {
 namespace {
@@ -95,6 +101,56 @@ TEST(LeaveOut, ExplainLoadsNoLibraryForAnyScenarioOrProblem) {
             "lantern_peer'; done; true");
   EXPECT_EQ(o.code, 0);
   EXPECT_EQ(o.out, "");
+}
+
+// Highway's library measures a clock before main().
+TEST(LeaveOut, BoxesAreScannedWithoutHighwaysLibrary) {
+  EXPECT_FALSE(loads_any("check " + scenario("sweep_and_prune"), {"libhwy"}));
+}
+
+// In a process of its own, in which no other test has set a text: both weights are made at once.
+[[noreturn]] void check_and_count_faces() {
+  std::vector<std::string> words = {"lantern", "check", "--quiet", kGhosts};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  const bool good = run_program(static_cast<int>(argv.size()), argv.data()) == 0;
+  const std::uint64_t before = draw::faces_made();
+  draw::text_width("A", 1, draw::Weight::regular);
+  ::_exit(good && before == 0 && draw::faces_made() == 2 ? 0 : 1);
+}
+
+TEST(LeaveOutDeathTest, CheckKernsNoTypeface) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(check_and_count_faces(), testing::ExitedWithCode(0), "");
+}
+
+TEST(LeaveOut, NoCommandHasOptionsButTheOneThatIsNamed) {
+  CLI::App app;
+  app::Run run;
+  add_commands(app, run);
+  app.parse("check " + kGhosts);
+  const auto commands = app.get_subcommands(nullptr);
+  EXPECT_GT(commands.size(), 10u);
+  for (const CLI::App* c : commands)
+    EXPECT_EQ(c->get_options().empty(), c->get_name() != "check") << c->get_name();
+}
+
+// The options of all commands would take 5,000 more.
+TEST(LeaveOut, CheckOfASmallFileTakesFewAllocations) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizers allocate by themselves";
+#endif
+  const fs::path out = fresh_folder("leave-out-allocations");
+  const std::string readme = read_text(repository("README.md"));
+  const std::size_t at = readme.find("```toml\n") + 8;
+  write_text(out / "first.toml", readme.substr(at, readme.find("```", at) - at));
+  const Outcome o = shell("cd " + out.string() +
+                          " && FAULT_KIND=new FAULT_LOG=calls LD_PRELOAD=" LANTERN_FAULTS
+                          " " LANTERN_BINARY " check first.toml");
+  EXPECT_EQ(o.code, 0) << o.err;
+  const int calls = std::atoi(read_text(out / "calls").c_str());
+  EXPECT_GT(calls, 100) << "they are not counted";
+  EXPECT_LT(calls, 2500);
 }
 
 TEST(LeaveOut, OtherEnginesAreLoadedOnlyToBeMeasured) {
