@@ -30,8 +30,8 @@ std::vector<const BoxWorkload*> workloads_of(const BenchPairsOptions& options) {
   for (const std::string& name : options.workloads) {
     const auto found = box_workloads_named(name);
     if (found.empty())
-      throw UsageError(fmt::format("there is no workload '{}'; {}", name,
-                                   suggestion(name, names, names.size())));
+      throw UsageError(with_suggestion(fmt::format("there is no workload '{}'", name), name, names,
+                                       names.size()));
     all.insert(all.end(), found.begin(), found.end());
   }
   return all;

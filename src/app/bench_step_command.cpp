@@ -39,8 +39,9 @@ StepBenchConfig config_of(const BenchStepOptions& options) {
   for (const StructureKind kind : kStructureKinds) kinds.push_back(to_string(kind));
   const auto kind = structure_named(options.broad_phase);
   if (!kind || *kind == StructureKind::none)
-    throw UsageError(fmt::format("there is no broad phase '{}'; {}", options.broad_phase,
-                                 suggestion(options.broad_phase, kinds)));
+    throw UsageError(
+        with_suggestion(fmt::format("there is no broad phase '{}'", options.broad_phase),
+                        options.broad_phase, kinds, kinds.size()));
   for (const Pile& pile : config.piles)
     if (!is_possible(*kind, pile.dimension))
       throw UsageError(fmt::format("{}: an octree needs three dimensions", pile.name()));

@@ -47,9 +47,10 @@ OutputKind kind_of(const std::string& words, const std::string& ending) {
     if (e.name == ending) return e.kind;
     names.push_back(e.name);
   }
-  throw UsageError(
-      fmt::format("-o {}: there is no output '.{}'; {}. A folder's name that has a dot ends with /",
-                  words, ending, suggestion(ending, names)));
+  throw UsageError(with_suggestion(
+      fmt::format("-o {}: there is no output '.{}', and a folder's name that has a dot ends with /",
+                  words, ending),
+      ending, names, names.size()));
 }
 
 // f(text) for what stands between placeholders, g(name) for each of them.
@@ -76,8 +77,8 @@ Destination::Destination(const std::string& words, bool sheet)
       [&](std::string_view name) {
         if (std::find(kPlaceholders.begin(), kPlaceholders.end(), name) == kPlaceholders.end())
           throw UsageError(
-              fmt::format("-o {}: there is no placeholder {{{}}}; {}", words_, name,
-                          suggestion(name, {kPlaceholders.begin(), kPlaceholders.end()})));
+              with_suggestion(fmt::format("-o {}: there is no placeholder {{{}}}", words_, name),
+                              name, {kPlaceholders.begin(), kPlaceholders.end()}));
         if (kind_ == OutputKind::folder)
           throw UsageError(fmt::format(
               "-o {}: a placeholder stands in the name of a file, such as {{frame}}.png", words_));

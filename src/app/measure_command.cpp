@@ -82,7 +82,7 @@ PlanOptions plan_options(const MeasureOptions& options) {
     if (!can_be_measured_by(name)) {
       if (const auto words = about_peer(name, plan.scenarios)) throw UsageError(*words);
       throw UsageError(
-          fmt::format("there is no method '{}'; {}", name, suggestion(name, method_names())));
+          with_suggestion(fmt::format("there is no method '{}'", name), name, method_names()));
     }
     plan.methods.push_back(name);
   }

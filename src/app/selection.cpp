@@ -85,7 +85,7 @@ void Selection::require_some() const {
   if (!at_.empty() && !time_ && !events_.contains(at_)) {
     const std::vector<std::string_view> known(events_.begin(), events_.end());
     throw UsageError(
-        fmt::format("--at {}: no frame has this event; {}", at_, suggestion(at_, known, 40)));
+        with_suggestion(fmt::format("--at {}: no frame has this event", at_), at_, known, 40));
   }
   throw UsageError(
       fmt::format("--at {}: no frame is chosen; the last one is at {:.6g} s", at_, end_));

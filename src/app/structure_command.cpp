@@ -112,7 +112,7 @@ std::vector<StructureKind> structures_called(const std::vector<std::string>& nam
   for (const std::string& name : names) {
     const auto kind = structure_named(name);
     if (!kind || *kind == StructureKind::none)
-      throw UsageError(fmt::format("no structure '{}'; {}", name, suggestion(name, known)));
+      throw UsageError(with_suggestion(fmt::format("no structure '{}'", name), name, known));
     if (std::ranges::find(kinds, *kind) == kinds.end())
       throw UsageError(fmt::format("{}: random flat worlds are not for it; take one of {}", name,
                                    fmt::join(known, ", ")));

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace lantern {
@@ -58,6 +59,12 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
     text += candidates[i];
   }
   return text;
+}
+
+std::string with_suggestion(std::string message, std::string_view name,
+                            std::span<const std::string_view> candidates, std::size_t most) {
+  const std::string hint = suggestion(name, candidates, most);
+  return hint.empty() ? message : std::move(message) + "; " + hint;
 }
 
 }  // namespace lantern

@@ -18,4 +18,8 @@ std::optional<std::string> nearest_name(std::string_view name,
 std::string suggestion(std::string_view name, std::span<const std::string_view> candidates,
                        std::size_t most = 12);
 
+// "<message>; <suggestion>", or the message alone where there is nothing to suggest.
+std::string with_suggestion(std::string message, std::string_view name,
+                            std::span<const std::string_view> candidates, std::size_t most = 12);
+
 }  // namespace lantern

@@ -118,7 +118,7 @@ std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
       continue;
     std::vector<std::string_view> names;
     for (const AtlasPeer& one : all) names.push_back(one.name);
-    throw Refused(fmt::format("there is no contestant '{}'; {}", name, suggestion(name, names)));
+    throw Refused(with_suggestion(fmt::format("there is no contestant '{}'", name), name, names));
   }
   if (!config.only.empty())
     std::erase_if(all, [&](const AtlasPeer& one) {

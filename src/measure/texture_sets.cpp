@@ -145,7 +145,7 @@ TextureSet texture_set(std::string_view name, std::size_t count, std::uint64_t s
   const auto doc = std::ranges::find(kSets, name, &SetDoc::name);
   if (doc == std::end(kSets))
     throw Refused(
-        fmt::format("there is no set '{}'; {}", name, suggestion(name, texture_set_names())));
+        with_suggestion(fmt::format("there is no set '{}'", name), name, texture_set_names()));
   TextureSet set{std::string(name), {}};
   Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
