@@ -33,21 +33,40 @@ RunExtent extent_of(const Scenario& scenario, Pace pace) {
   return {by_event ? std::nullopt : std::optional(scenario.most_frames), scenario.world_steps};
 }
 
-// World steps take the time where there are any.
-std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state) {
-  const auto left = [](std::uint64_t all, std::uint64_t done, double seconds) {
-    return static_cast<double>(all - std::min(all, done)) * seconds / static_cast<double>(done);
-  };
+namespace {
+
+double share_left(std::uint64_t all, std::uint64_t done, double seconds) {
+  return static_cast<double>(all - std::min(all, done)) * seconds / static_cast<double>(done);
+}
+
+// Of the run. World steps take the time where there are any.
+std::optional<TimeLeft> run_left(const RunExtent& extent, const RunState& state) {
   if (extent.world_steps > 0) {
     if (state.world_steps > 0)
-      return TimeLeft{left(extent.world_steps, state.world_steps, state.step_seconds), false};
+      return TimeLeft{share_left(extent.world_steps, state.world_steps, state.step_seconds), false};
     // Something is being inserted or compiled; only after a frame can it be a world step.
     if (state.frames == 0) return std::nullopt;
     const double least = state.step_seconds * static_cast<double>(extent.world_steps);
     return least < 1 ? std::nullopt : std::optional(TimeLeft{least, true});
   }
   if (!extent.frames || state.frames == 0) return std::nullopt;
-  return TimeLeft{left(*extent.frames, state.frames, state.seconds), false};
+  return TimeLeft{share_left(*extent.frames, state.frames, state.seconds), false};
+}
+
+}  // namespace
+
+// Frames that wait are drawn after the run, or a part of it: how long that takes, only those show
+// that are drawn.
+std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state) {
+  std::optional<TimeLeft> left = run_left(extent, state);
+  if (state.waiting == 0) return left;
+  const std::uint64_t drawn = state.frames - state.waiting;
+  if (drawn > 0 && extent.frames) {
+    const double drawing = share_left(*extent.frames, drawn, state.draw_seconds);
+    return TimeLeft{std::max(drawing, left ? left->seconds : 0), left && left->at_least};
+  }
+  if (left) left->at_least = true;
+  return left && left->seconds >= 1 ? left : std::nullopt;
 }
 
 std::string forecast_text(const RunExtent& extent, const RunState& state) {
@@ -77,15 +96,16 @@ std::string forecast_text(const RunExtent& extent, const RunState& state) {
 }
 
 std::string progress_text(const RunExtent& extent, const RunState& state) {
-  std::string text = extent.frames ? fmt::format("{} of {}", state.frames,
-                                                 counted_plainly(*extent.frames, "frame"))
-                                   : counted_plainly(state.frames, "frame");
+  const std::uint64_t frames = state.frames - state.waiting;
+  std::string text = extent.frames
+                         ? fmt::format("{} of {}", frames, counted_plainly(*extent.frames, "frame"))
+                         : counted_plainly(frames, "frame");
   if (extent.in_betweens > 0) text += ", " + counted_plainly(state.in_betweens, "in-between");
   if (extent.world_steps > 0)
     text += fmt::format(", {} of {}", grouped_plainly(state.world_steps),
                         counted_plainly(extent.world_steps, "world step"));
   if (state.files > 0) text += fmt::format(", {} on the disk", memory_text(state.bytes));
-  if (extent.frames && state.frames >= *extent.frames && state.drawn > 0)
+  if (extent.frames && frames >= *extent.frames && state.drawn > 0)
     return text + ", " + counted_plainly(state.drawn, "picture") + " drawn";
   return text + left_text(time_left(extent, state));
 }

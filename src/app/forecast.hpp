@@ -23,13 +23,15 @@ RunExtent extent_of(const Scenario& scenario, Pace pace);
 
 // How far it is.
 struct RunState {
-  double seconds = 0;        // since it began
-  std::uint64_t frames = 0;  // that it has given
+  double seconds = 0;         // since it began
+  std::uint64_t frames = 0;   // that it has given
+  std::uint64_t waiting = 0;  // those of them that are not drawn yet
   std::uint64_t in_betweens = 0;
   std::uint64_t drawn = 0;  // pictures
   std::uint64_t world_steps = 0;
   double step_seconds = 0;  // since the first world step began, or, before the first is done,
                             // since anything was finished
+  double draw_seconds = 0;  // since the first frame was drawn
   std::uint64_t files = 0;  // frames on the disk, with all that belongs to them
   std::uint64_t bytes = 0;  // of those
   std::optional<std::size_t> memory;  // bytes that the process has now
@@ -37,7 +39,8 @@ struct RunState {
 };
 
 // Seconds that are left, measured from what is done. `at_least`: not even one world step is done,
-// so that it is only known that it takes more than this. Nothing if nothing can be told yet.
+// or frames wait of which none is drawn, so that it is only known that it takes more than this.
+// Nothing if nothing can be told yet.
 struct TimeLeft {
   double seconds = 0;
   bool at_least = false;

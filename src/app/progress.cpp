@@ -1,5 +1,6 @@
 #include "app/progress.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <system_error>
@@ -31,10 +32,11 @@ std::optional<std::size_t> memory_in_use() {
 }  // namespace
 
 Progress::Progress(std::string name, const RunExtent& extent, const Work& work,
-                   std::optional<std::size_t> memory_budget)
+                   std::optional<std::size_t> memory_budget, std::function<std::uint64_t()> waiting)
     : name_(std::move(name)),
       extent_(extent),
       work_(&work),
+      waiting_(std::move(waiting)),
       steps_before_(work.world_steps),
       files_before_(work.frames_written),
       bytes_before_(work.bytes_written),
@@ -82,7 +84,10 @@ void Progress::watch() try {
     look(state);
     if (extent_ && !forecast && state.seconds >= kForecast) {
       const auto left = time_left(*extent_, state);
-      if (!left || left->at_least || left->seconds > kMoment) {
+      // What waits may be drawn in a moment.
+      const bool is_open =
+          state.waiting > 0 && state.waiting == state.frames && state.seconds < kMoment;
+      if ((left && left->seconds > kMoment) || (!is_open && (!left || left->at_least))) {
         say(fmt::format("{}: {}", name_, forecast_text(*extent_, state)));
         forecast = true;
       }
@@ -107,7 +112,10 @@ void Progress::watch() try {
 void Progress::look(RunState& state) {
   state.seconds = watch_.seconds();
   if (!extent_) return;
+  // Read first: what is drawn meanwhile was done before.
+  const std::uint64_t waiting = waiting_();
   state.frames = count_;
+  state.waiting = std::min(waiting, state.frames);
   state.world_steps = work_->world_steps - steps_before_;
   state.files = work_->frames_written - files_before_;
   state.bytes = work_->bytes_written - bytes_before_;
@@ -120,6 +128,8 @@ void Progress::look(RunState& state) {
     last_change_ = state.seconds;
   }
   state.step_seconds = state.seconds - last_change_;
+  if (state.frames == state.waiting) undrawn_until_ = state.seconds;
+  state.draw_seconds = state.seconds - undrawn_until_;
 }
 
 std::string Progress::words() {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -21,9 +22,12 @@ namespace lantern::app {
 class Progress {
  public:
   // Of the run of a scenario: says beforehand, once, what is to come, if that will take more than a
-  // moment. World steps are read off `work`, which must outlive this.
-  Progress(std::string name, const RunExtent& extent, const Work& work,
-           std::optional<std::size_t> memory_budget = std::nullopt);
+  // moment. World steps are read off `work`, which must outlive this; `waiting` tells, from any
+  // thread, how many of the frames that are done are not drawn yet.
+  Progress(
+      std::string name, const RunExtent& extent, const Work& work,
+      std::optional<std::size_t> memory_budget = std::nullopt,
+      std::function<std::uint64_t()> waiting = [] { return std::uint64_t{0}; });
   // Of so many equal parts.
   Progress(std::string name, std::uint64_t total, std::string unit);
   ~Progress();
@@ -44,6 +48,7 @@ class Progress {
   std::string name_;
   std::optional<RunExtent> extent_;  // of a scenario's run
   const Work* work_ = nullptr;
+  std::function<std::uint64_t()> waiting_;
   std::uint64_t steps_before_ = 0;  // that the work had when this began
   std::uint64_t files_before_ = 0;
   std::uint64_t bytes_before_ = 0;
@@ -57,6 +62,7 @@ class Progress {
   // Of the thread alone.
   double last_change_ = 0;  // when something was finished
   std::uint64_t last_frames_ = 0;
+  double undrawn_until_ = 0;  // when no frame had been drawn yet
 
   Stopwatch watch_;
   std::mutex lock_;  // of the words and the end

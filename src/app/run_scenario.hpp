@@ -22,6 +22,8 @@ class FrameSink {
   virtual void frame(const Frame& frame) = 0;
   // After the last one. What is to be whole stands whole from here on.
   virtual void finish(const DirectorReport& report) = 0;
+  // How many of the frames that it was given it has still to deal with; from any thread.
+  virtual std::uint64_t waiting() const { return 0; }
 };
 
 // "step", "event", or nothing for the scenario's own.

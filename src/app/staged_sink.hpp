@@ -1,6 +1,8 @@
 // Frames that are drawn wait until all are there that share a layout with them.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <vector>
 
 #include "app/run_scenario.hpp"
@@ -23,6 +25,7 @@ class StagedSink : public FrameSink {
 
   void frame(const Frame& frame) final;
   void finish(const DirectorReport& report) final;
+  std::uint64_t waiting() const final { return undrawn_; }
 
  protected:
   // Every frame of the run, in order.
@@ -36,6 +39,7 @@ class StagedSink : public FrameSink {
   Bound bound_;
   std::vector<Frame> waiting_;
   std::size_t bytes_ = 0;  // of those
+  std::atomic<std::uint64_t> undrawn_{0};
 };
 
 }  // namespace lantern::app

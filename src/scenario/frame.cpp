@@ -72,6 +72,25 @@ std::uint64_t state_hash(const Frame& frame) {
   return hash.value();
 }
 
+std::size_t estimated_bytes(const Frame& frame) {
+  std::size_t bytes = sizeof(Frame);
+  const auto add = [&](const auto&... lists) {
+    ((bytes += lists.size() * sizeof(*lists.data())), ...);
+  };
+  add(frame.bodies, frame.nodes, frame.pairs, frame.tested, frame.contacts, frame.looks);
+  add(frame.links, frame.islands, frame.edges, frame.forces, frame.rulers, frame.rays);
+  add(frame.walls, frame.portals, frame.sights, frame.textures, frame.counts, frame.measures);
+  add(frame.trace.points, frame.chart.bars, frame.screen.elements);
+  for (const FrameNode& node : frame.nodes) add(node.bodies, node.region);
+  for (const FrameContact& contact : frame.contacts) add(contact.points);
+  for (const FrameIsland& island : frame.islands) add(island.bodies);
+  for (const FrameSeries& series : frame.chart.series) bytes += sizeof series, add(series.points);
+  if (frame.collisions)
+    for (const FrameCollision& row : frame.collisions->rows) bytes += sizeof row, add(row.moments);
+  for (const Frame& side : frame.sides) bytes += estimated_bytes(side);
+  return bytes;
+}
+
 const FrameBody* Frame::body_of(BodyId id) const {
   const auto found = std::ranges::find(bodies, id, &FrameBody::id);
   return found == bodies.end() ? nullptr : &*found;

@@ -533,6 +533,10 @@ struct Frame {
 // Of time, bodies, nodes, pairs and textures; not of the counts of work.
 std::uint64_t state_hash(const Frame& frame);
 
+// About what the frame takes in memory, with its sides, by the lengths of its lists: the same on
+// every machine.
+std::size_t estimated_bytes(const Frame& frame);
+
 // `lantern.frame/1` has no way of pairs: neither `overlaps`, `stored_box` and `since_last_frame`
 // nor the counts that came with them. It will go with the next release.
 enum class FactsVersion { v1, v2 };

@@ -58,6 +58,32 @@ TEST(Forecast, OfAStepThatIsNotDoneIsALeast) {
   EXPECT_FALSE(time_left(kBomb, after(0.5, 0, 0, 0.5))) << "it may still be inserting";
 }
 
+// The run is fast and its frames wait: only a frame that is drawn shows how long drawing takes.
+TEST(Forecast, OfFramesThatWaitIsALeastUntilOneIsDrawn) {
+  constexpr RunExtent kLesson{5001, 5000};
+  RunState state = after(0.5, 1001, 1000, 0.5);
+  state.waiting = 1001;
+  EXPECT_EQ(forecast_text(kLesson, state),
+            "up to 5001 frames of 5000 world steps, more than 2 s left");
+  EXPECT_EQ(progress_text(kLesson, state),
+            "0 of 5001 frames, 1000 of 5000 world steps, more than 2 s left");
+  state.waiting = 901;
+  state.seconds = 1;
+  state.step_seconds = 1;
+  state.draw_seconds = 0.5;
+  EXPECT_EQ(progress_text(kLesson, state),
+            "100 of 5001 frames, 1000 of 5000 world steps, about 25 s left");
+  RunState done = after(5, 70, 2120, 4);
+  done.waiting = 70;
+  EXPECT_FALSE(time_left({70, 2120}, done)) << "nothing is left but to draw";
+  done.waiting = 35;
+  done.draw_seconds = 3;
+  EXPECT_DOUBLE_EQ(time_left({70, 2120}, done)->seconds, 3);
+  RunState events = after(5, 70, 0, 0);
+  events.waiting = 35;
+  EXPECT_FALSE(time_left({std::nullopt, 0}, events));
+}
+
 TEST(Forecast, IsMeasuredFromWhatIsDone) {
   EXPECT_DOUBLE_EQ(time_left({100, 0}, after(2, 25, 0, 2))->seconds, 6);
   EXPECT_DOUBLE_EQ(time_left({10, 400}, after(50, 3, 100, 10))->seconds, 30)
