@@ -1,5 +1,9 @@
 #include "app/reload.hpp"
 
+#include <set>
+#include <string>
+#include <system_error>
+
 #include <fmt/format.h>
 
 #include "base/file.hpp"
@@ -26,6 +30,11 @@ constexpr const char* kScript = R"(<script>
 </script>
 )";
 
+std::set<std::filesystem::path>& written() {
+  static std::set<std::filesystem::path> files;
+  return files;
+}
+
 std::string version_file(const std::filesystem::path& page) {
   return page.filename().string() + ".version.js";
 }
@@ -45,8 +54,15 @@ std::string reload_script(const std::filesystem::path& page) {
 }
 
 void tell_version(const std::filesystem::path& page, std::string_view bytes) {
-  write_file(page.parent_path() / version_file(page),
-             fmt::format("lanternVersion(\"{:016x}\");\n", Hash().add(bytes).value()));
+  const std::filesystem::path file = page.parent_path() / version_file(page);
+  written().insert(file);
+  write_file(file, fmt::format("lanternVersion(\"{:016x}\");\n", Hash().add(bytes).value()));
+}
+
+void forget_versions() noexcept {
+  std::error_code error;
+  for (const std::filesystem::path& file : written()) std::filesystem::remove(file, error);
+  written().clear();
 }
 
 }  // namespace lantern::app

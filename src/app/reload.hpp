@@ -15,4 +15,8 @@ std::string reload_script(const std::filesystem::path& page);
 // Writes PAGE.version.js, when the page stands with these bytes. Throws IoError.
 void tell_version(const std::filesystem::path& page, std::string_view bytes);
 
+// Removes what tell_version wrote in this process: nobody makes the pages again. One that a killed
+// process has left tells a page what it knows, until the next one writes it anew.
+void forget_versions() noexcept;
+
 }  // namespace lantern::app

@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/destination.hpp"
+#include "app/reload.hpp"
 #include "app/render_job.hpp"
 #include "app/terminal.hpp"
 #include "app/watched_files.hpp"
@@ -42,12 +43,18 @@ int watch_command(const RenderOptions& asked) {
   for (const std::string& file : options.files)
     if (!std::filesystem::exists(file))
       throw IoError(fmt::format("'{}' is not there to be watched", file));
+  const struct Leftovers {
+    ~Leftovers() { forget_versions(); }
+  } at_the_end;
   WatchedFiles watched(options.files);
   render_and_tell(options);
   say(fmt::format("watching {}; Ctrl-C ends", fmt::join(options.files, ", ")));
   while (!stop_asked()) {
     std::this_thread::sleep_for(kLook);
     options.files = watched.changed();
+    for (const std::string& file : watched.gone())
+      say(fmt::format("'{}' is gone; it is waited for", file));
+    for (const std::string& file : watched.back()) say(fmt::format("'{}' is back", file));
     if (!options.files.empty()) render_and_tell(options);
   }
   return kInterrupted;

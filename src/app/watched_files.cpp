@@ -39,10 +39,16 @@ std::optional<std::uint64_t> WatchedFiles::hash_of(const std::string& file) try 
 // another.
 std::vector<std::string> WatchedFiles::changed() {
   std::vector<std::string> changed;
+  gone_.clear();
+  back_.clear();
   for (Watched& one : files_) {
     const Stamp now = stamp_of(one.file);
     const bool rests = now == one.looked_at;
     one.looked_at = now;
+    if (rests && one.is_gone != !now) {
+      one.is_gone = !now;
+      (now ? back_ : gone_).push_back(one.file);
+    }
     if (!now || !rests || now == one.told) continue;
     const auto hash = hash_of(one.file);
     if (!hash) continue;

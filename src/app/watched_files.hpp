@@ -22,6 +22,9 @@ class WatchedFiles {
   // Those that have changed since they were told last, and have rested for one more look. Each is
   // told once.
   std::vector<std::string> changed();
+  // Those that were not there in its last two looks and had been before, and those that are back.
+  const std::vector<std::string>& gone() const { return gone_; }
+  const std::vector<std::string>& back() const { return back_; }
 
  private:
   // When it was written, its size, and which file it is; nothing if there is none.
@@ -31,11 +34,13 @@ class WatchedFiles {
     std::string file;
     Stamp looked_at, told;   // last
     std::uint64_t hash = 0;  // of the bytes told last
+    bool is_gone = false;    // and this has been told
   };
   static Stamp stamp_of(const std::string& file);
   static std::optional<std::uint64_t> hash_of(const std::string& file);
 
   std::vector<Watched> files_;
+  std::vector<std::string> gone_, back_;
 };
 
 }  // namespace lantern::app

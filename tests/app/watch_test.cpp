@@ -36,8 +36,33 @@ TEST(WatchedFiles, TellsOfOtherBytesOnce) {
   EXPECT_TRUE(looked(watched).empty()) << "saved without a change";
   fs::remove(a);
   EXPECT_TRUE(looked(watched).empty()) << "between two saves";
+  EXPECT_EQ(watched.gone(), std::vector<std::string>()) << "told once";
   write_text(a, "ten");
   EXPECT_EQ(looked(watched), std::vector{a});
+}
+
+TEST(WatchedFiles, TellsOnceThatAFileIsGoneAndOnceThatItIsBack) {
+  const fs::path folder = fresh_folder("vanished");
+  const std::string a = folder / "a.toml";
+  write_text(a, "one");
+  WatchedFiles watched({a});
+  std::vector<std::string> told;
+  const auto look = [&] {
+    for (int i = 0; i < 4; ++i) {
+      ::usleep(10'000);
+      EXPECT_TRUE(watched.changed().empty());
+      for (const std::string& file : watched.gone()) told.push_back("gone " + file);
+      for (const std::string& file : watched.back()) told.push_back("back " + file);
+    }
+  };
+  look();
+  EXPECT_TRUE(told.empty());
+  fs::remove(a);
+  look();
+  EXPECT_EQ(told, std::vector{"gone " + a});
+  write_text(a, "one");
+  look();
+  EXPECT_EQ(told, (std::vector{"gone " + a, "back " + a})) << "even if it is as it was";
 }
 
 // Waits, in the shell, until a command succeeds; 10 s at most.
@@ -71,6 +96,21 @@ TEST(Watch, DrawsWhatWasSavedAndGoesOnThroughErrors) {
   EXPECT_EQ(o.code, 0) << o.err << o.out;
   EXPECT_NE(o.out.find("ended 130"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("pong_bsp.toml:"), std::string::npos) << "the place of the error\n" << o.out;
+}
+
+TEST(Watch, TellsOfAFileThatIsGoneAndLeavesNothingBehind) {
+  const fs::path home = fresh_folder("watch-page");
+  fs::copy_file(scenario("pong_bsp"), home / "w.toml");
+  const Outcome o =
+      shell("cd " + home.string() +
+            "\nenv --default-signal=INT " LANTERN_BINARY
+            " watch w.toml --frames 0-1 -o w.html 2>said & lantern=$!\n" +
+            until("grep -q 'watching w.toml' said") +
+            "test -e w.html.version.js || exit 8\nmv w.toml away\n" +
+            until("grep -q \"'w.toml' is gone\" said") + "mv away w.toml\n" +
+            until("grep -q \"'w.toml' is back\" said") + "kill -INT $lantern; wait $lantern; ls");
+  EXPECT_EQ(o.code, 0) << o.err << o.out;
+  EXPECT_EQ(o.out, "said\nw.html\nw.toml\n");
 }
 
 TEST(Watch, WhatNoSaveCanMendEndsIt) {
