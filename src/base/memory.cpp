@@ -61,12 +61,13 @@ std::uint64_t own_limit(int resource) {
   return limit.rlim_cur == RLIM_INFINITY ? kEndless : std::uint64_t{limit.rlim_cur};
 }
 
-// Pages that count against RLIMIT_DATA, in bytes.
-std::uint64_t data_in_use() {
+// Bytes that count against the limit.
+std::uint64_t in_use(int resource) {
   std::ifstream file("/proc/self/statm");
   std::array<std::uint64_t, 6> pages{};
   for (std::uint64_t& n : pages) file >> n;
-  return file ? pages[5] * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+  const std::uint64_t counted = resource == RLIMIT_DATA ? pages[5] : pages[0];
+  return file ? counted * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
 // The address sanitizer maps more than there is.
@@ -76,7 +77,9 @@ constexpr bool kHasWall = false;
 constexpr bool kHasWall = true;
 #endif
 
-std::atomic<std::uint64_t> budget{0};  // 0: not yet known
+std::atomic<std::uint64_t> budget{0};          // 0: not yet known
+std::atomic<bool> budget_set{false};           // by the user
+std::atomic<std::uint64_t> own_data_limit{0};  // before the budget was enforced; 0: it was not
 
 }  // namespace
 
@@ -92,13 +95,29 @@ std::uint64_t memory_budget() {
   return budget;
 }
 
-void set_memory_budget(std::uint64_t bytes) { budget = bytes; }
+void set_memory_budget(std::uint64_t bytes) {
+  budget = bytes;
+  budget_set = true;
+}
 
 void enforce_memory_budget() {
   rlimit limit{};
   if (!kHasWall || ::getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, memory_budget() + data_in_use());
+  own_data_limit = limit.rlim_cur;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, memory_budget() + in_use(RLIMIT_DATA));
   ::setrlimit(RLIMIT_DATA, &limit);
+}
+
+std::optional<std::uint64_t> budget_needed(std::uint64_t bytes) {
+  const std::uint64_t wall = own_limit(RLIMIT_DATA), space = own_limit(RLIMIT_AS);
+  const std::uint64_t wanted = in_use(RLIMIT_DATA) + bytes;
+  // Nobody's wish: half of what those limits leave.
+  const bool is_of_limits =
+      !budget_set && std::min<std::uint64_t>(own_data_limit, space) < kEndless;
+  if (own_data_limit == 0 || is_of_limits || wanted <= wall || wanted > own_data_limit ||
+      in_use(RLIMIT_AS) + bytes > space)
+    return std::nullopt;
+  return wanted - (wall - memory_budget());
 }
 
 void keep_freed_memory() {
@@ -127,7 +146,10 @@ std::string memory_text(std::uint64_t bytes) {
 }
 
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view advice) {
-  if (bytes <= memory_budget()) return;
+  if (bytes > memory_budget()) refuse_memory(bytes, what, advice);
+}
+
+void refuse_memory(std::uint64_t bytes, std::string_view what, std::string_view advice) {
   // Some room for all else, in whole numbers of the largest unit.
   const double wanted = 1.2 * static_cast<double>(bytes);
   const bool gigabytes = wanted > 0x1p30;

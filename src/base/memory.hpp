@@ -22,6 +22,10 @@ void set_memory_budget(std::uint64_t bytes);
 // there is.
 void enforce_memory_budget();
 
+// If the enforced budget keeps `bytes` more from the process, which its own limits would leave it:
+// how large a budget would not.
+std::optional<std::uint64_t> budget_needed(std::uint64_t bytes);
+
 // Memory that is freed stays with the process, up to some hundred megabytes: a step of many bodies
 // takes and frees the same room again and again, and getting it anew costs more than using it. For
 // the start of a program.
@@ -37,5 +41,8 @@ std::string memory_text(std::uint64_t bytes);
 // Throws Refused if `bytes` are more than the budget: "<what> need about 3.3 GB, the budget is
 // 1 GB; <advice>, or --memory 4G".
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view advice);
+// Throws that.
+[[noreturn]] void refuse_memory(std::uint64_t bytes, std::string_view what,
+                                std::string_view advice);
 
 }  // namespace lantern

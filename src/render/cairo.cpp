@@ -1,6 +1,7 @@
 #include "render/cairo.hpp"
 
 #include <array>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -72,6 +73,8 @@ std::array<void*, 2> loaded_faces() {
 }  // namespace
 
 void Cairo::require(int code) const {
+  constexpr int kNoMemory = 1;  // CAIRO_STATUS_NO_MEMORY
+  if (code == kNoMemory) throw std::bad_alloc();
   if (code != 0) throw BackendError(fmt::format("cairo: {}", status_to_string(code)));
 }
 

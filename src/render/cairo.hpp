@@ -73,7 +73,8 @@ struct Cairo {
   LANTERN_CAIRO_FUNCTIONS(LANTERN_CAIRO_MEMBER)
 #undef LANTERN_CAIRO_MEMBER
 
-  // Throws BackendError with cairo's words unless the status is good.
+  // Throws BackendError with cairo's words unless the status is good, and std::bad_alloc where
+  // cairo has found no memory.
   void require(int code) const;
 };
 

@@ -10,6 +10,7 @@
 #include <sys/resource.h>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 
 namespace lantern::render {
 namespace {
@@ -42,6 +43,8 @@ std::uint64_t stack_bytes() {
 void require_room(std::uint64_t bytes) {
   void* room = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (const auto budget = room == MAP_FAILED ? budget_needed(bytes) : std::nullopt)
+    refuse_memory(*budget, "pictures by OpenGL", "let them be smaller, or SVG where that will do");
   if (room == MAP_FAILED)
     throw BackendError(
         fmt::format("out of memory: OpenGL needs room for {} MB, which the limits of this process "

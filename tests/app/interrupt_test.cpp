@@ -83,6 +83,28 @@ TEST(Memory, BehindAllElseThereIsAWall) {
       << o.err;
 }
 
+// Whatever is drawn, and by whatever.
+TEST(Memory, ABudgetThatIsTooSmallToDrawIsBlamed) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer maps more than any budget";
+#endif
+  const fs::path out = fresh_folder("memory-drawing");
+  for (const char* to : {"a.png --frames 0", "frames", "a.mp4"}) {
+    const Outcome o =
+        shell("lantern render --memory 64M " + kGhosts + " -o " + (out / to).string());
+    EXPECT_EQ(o.code, 1) << to << ": " << o.err;
+    EXPECT_NE(o.err.find("pictures by OpenGL need about "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("the budget is 64 MB; "), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find(", or --memory "), std::string::npos) << o.err;
+    EXPECT_EQ(o.err.find("ulimit"), std::string::npos) << o.err;
+  }
+  // The limits of the process are blamed where they are in the way.
+  const Outcome limited = shell("ulimit -v 400000; lantern render --memory 4G " + kGhosts + " -o " +
+                                (out / "frames").string());
+  EXPECT_EQ(limited.code, 4) << limited.err;
+  EXPECT_NE(limited.err.find("ulimit -v"), std::string::npos) << limited.err;
+}
+
 TEST(Memory, ASizeThatIsNoneIsAUsageError) {
   for (const char* words : {"5", "1Q", "-4G", "4k", "''"}) {
     const Outcome o = shell(std::string("lantern check x.toml --memory ") + words);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <new>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include "base/program.hpp"
 #include "draw/labels.hpp"
 #include "fresh_folder.hpp"
+#include "render/cairo.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/sample_scene.hpp"
@@ -59,6 +61,11 @@ TEST(Pdf, HasThePagesThatWereAddedAndNoClock) {
   EXPECT_EQ(count(pdf, "(Trees and more)"), 1u);
   EXPECT_EQ(count(pdf, "(Lantern test)"), 1u);
   EXPECT_EQ(document(3), pdf) << "the same pages, other bytes";
+}
+
+TEST(Pdf, CairoWithoutMemoryIsAProgramWithoutMemory) {
+  EXPECT_THROW(render::cairo().require(1), std::bad_alloc);
+  EXPECT_THROW(render::cairo().require(2), BackendError);
 }
 
 TEST(Pdf, EmbedsBothWeightsOnceForAllPages) {
