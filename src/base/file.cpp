@@ -63,6 +63,8 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
+bool input_was_closed = false;  // when the program began (hold_standard_streams)
+
 // What was opened to be read from `path`, to its end.
 std::string read_opened(const Descriptor& file, const std::filesystem::path& path,
                         std::size_t most_bytes) {
@@ -162,7 +164,9 @@ std::string read_stdin(std::size_t most_bytes) {
       continue;
     }
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw IoError(fmt::format("cannot read standard input: {}", std::strerror(errno)));
+    if (n < 0)
+      throw IoError(fmt::format("cannot read standard input: {}",
+                                input_was_closed ? "it is closed" : std::strerror(errno)));
     if (n == 0) return bytes;
     bytes.append(part, static_cast<std::size_t>(n));
     if (bytes.size() > most_bytes)
@@ -388,8 +392,10 @@ void write_file(const FilePlace& place, std::string_view bytes) {
 
 void hold_standard_streams() noexcept {
   int number;
-  do number = ::open("/", O_RDONLY | O_DIRECTORY);
-  while (number >= 0 && number <= STDERR_FILENO);
+  do {
+    number = ::open("/", O_RDONLY | O_DIRECTORY);
+    input_was_closed = input_was_closed || number == STDIN_FILENO;
+  } while (number >= 0 && number <= STDERR_FILENO);
   if (number >= 0) ::close(number);
 }
 

@@ -55,7 +55,11 @@ TEST(StandardInput, CanBeReadOnce) {
   }
   const Outcome closed = shell("lantern check - <&-");
   EXPECT_EQ(closed.code, 1) << closed.err;
-  EXPECT_NE(closed.err.find("standard input"), std::string::npos) << closed.err;
+  EXPECT_NE(closed.err.find("cannot read standard input: it is closed"), std::string::npos)
+      << closed.err;
+  const Outcome folder = shell("lantern check - </tmp");
+  EXPECT_NE(folder.err.find("cannot read standard input: Is a directory"), std::string::npos)
+      << folder.err;
 }
 
 // --- folders ---
