@@ -20,36 +20,23 @@
 namespace lantern::scenario {
 namespace {
 
-// About what a frame takes.
-std::uint64_t bytes_of(const Frame& frame) {
-  std::uint64_t bytes = sizeof(Frame);
-  const auto add = [&](const auto& list) { bytes += list.size() * sizeof(list[0]); };
-  add(frame.bodies), add(frame.nodes), add(frame.pairs), add(frame.contacts), add(frame.links);
-  add(frame.walls), add(frame.textures), add(frame.counts), add(frame.measures);
-  for (const FrameNode& node : frame.nodes) add(node.bodies);
-  for (const FrameContact& contact : frame.contacts) add(contact.points);
-  return bytes;
-}
-
-// What does not differ between sides: how the page is made, and where in the script it is.
-Frame without_facts(Frame frame) {
-  frame.side.clear();
-  frame.side_title.clear();
-  frame.event.clear();
-  frame.caption.clear();
-  frame.settings.clear();
-  frame.structure = StructureKind::none;
-  frame.array_size = 0;
-  frame.time = 0;
-  frame.chart = {};
-  frame.eye.reset();
-  frame.screen = {};
-  frame.since_last_frame.reset();
-  const auto clear = [](auto&... lists) { (lists.clear(), ...); };
-  clear(frame.bodies, frame.nodes, frame.pairs, frame.contacts, frame.links, frame.rays,
-        frame.views, frame.queries, frame.hits, frame.walls, frame.textures, frame.counts,
-        frame.measures, frame.grid_levels);
-  return frame;
+// What all sides share: the page, and where in the script it is. What else a frame has is each
+// side's own.
+Frame page_of(const Frame& side) {
+  Frame page;
+  page.dimension = side.dimension;
+  page.scenario = side.scenario;
+  page.title = side.title;
+  page.part = side.part;
+  page.seed = side.seed;
+  page.step = side.step;
+  page.steps = side.steps;
+  page.headline = side.headline;
+  page.ending = side.ending;
+  page.panels = side.panels;
+  page.bounds = side.bounds;
+  page.display = side.display;
+  return page;
 }
 
 // A frame of one side, with the texts that a caption may quote of it.
@@ -106,7 +93,7 @@ class Side {
  private:
   bool take(const Frame& frame) {
     if (watch_) watch_->see(frame);
-    *bytes_ += bytes_of(frame);
+    *bytes_ += estimated_bytes(frame);
     require_memory(*bytes_, "the frames of this step on all sides",
                    "cut it in two steps, or show fewer frames with a larger 'every'");
     Shown& shown = shown_.emplace_back();
@@ -166,7 +153,7 @@ class SidesRun {
 
   // What the sides share, and the frame of each.
   Frame together(std::size_t k) {
-    Frame frame = without_facts(sides_[0].at(k).frame);
+    Frame frame = page_of(sides_[0].at(k).frame);
     frame.index = report_.frames;
     for (const Side& side : sides_) {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
@@ -201,19 +188,6 @@ class SidesRun {
       if (side.caption != words) return "";
     for (Frame& side : frame.sides) side.caption.clear();
     return words;
-  }
-
-  // Which numbers the step's words quote, whichever side they are of.
-  void note_told(const Step& step, Frame& frame) const {
-    for (const std::string& quoted : placeholders_of(step.caption)) {
-      const std::size_t dot = quoted.find('.');
-      const bool of_side =
-          dot != std::string::npos &&
-          std::ranges::find(sides_, quoted.substr(0, dot), &Side::name) != sides_.end();
-      const std::string name = of_side ? quoted.substr(dot + 1) : quoted;
-      if (frame.sides[0].number(name) && std::ranges::find(frame.told, name) == frame.told.end())
-        frame.told.push_back(name);
-    }
   }
 
   std::string filled(const Step& step, const std::string& text, std::size_t k, const Frame& frame) {

@@ -1,9 +1,11 @@
 // [[side]]: the same script under other settings, on one clock.
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "scenario/directing.hpp"
 #include "scenario/frame.hpp"
@@ -68,6 +70,58 @@ TEST(Sides, ShareTheClockAndThePage) {
     }
   }
   EXPECT_NE(frames[1].hash, frames[2].hash);
+}
+
+// What FRAME.md says of a frame with sides: no facts but those of all sides.
+void expect_no_facts_of_its_own(const Frame& frame) {
+  static const std::set<std::string> kOfAll = {
+      "format", "scenario", "frame",    "time",     "step",  "event", "caption",
+      "seed",   "ending",   "headline", "question", "sides", "hash"};
+  const nlohmann::json facts = nlohmann::json::parse(to_json(frame));
+  ASSERT_TRUE(facts.contains("sides"));
+  for (const auto& [member, value] : facts.items())
+    EXPECT_TRUE(kOfAll.contains(member) || value.empty())
+        << member << " of frame " << frame.index << ": " << value;
+  // What no file has.
+  EXPECT_TRUE(frame.edges.empty() && frame.hits.empty() && frame.tested.empty());
+  EXPECT_TRUE(frame.grid_levels.empty() && frame.trace.points.empty() && frame.settings.empty());
+  EXPECT_FALSE(frame.eye || frame.swept_to || frame.separation || frame.search);
+}
+
+TEST(Sides, TheFrameOfAllHasNoFactsOfItsOwn) {
+  std::size_t sided = 0;
+  for (const std::string& name : all_scenarios()) {
+    const Scenario scenario = shipped(name);
+    if (scenario.sides.empty()) continue;
+    ++sided;
+    Work work;
+    direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+      if (frame.index < 24 || frame.index % 29 == 0) expect_no_facts_of_its_own(frame);
+      return !testing::Test::HasFailure();
+    });
+    EXPECT_FALSE(testing::Test::HasFailure()) << name;
+  }
+  EXPECT_GT(sided, 10u);
+}
+
+// What no shipped scenario with sides shows.
+TEST(Sides, TheFrameOfAllHasNoIslandsForcesOrLinksOfItsOwn) {
+  const auto frames =
+      frames_of(good("panels = [\"world\", \"islands\"]\ntitle = \"x\"\n[world]\nsize = [64, 64]\n"
+                     "contacts = \"soft\"\nshow_forces = true\n" +
+                     kTree + kSides + kSideBodies +
+                     "[[spring]]\na = \"red\"\nb = \"pink\"\nstiffness = 50\nrest_length = 2\n"
+                     "[[step]]\ndo = \"insert\"\nbodies = [\"red\", \"pink\", \"blue\"]\n"
+                     "[[step]]\ndo = \"force\"\nbody = \"blue\"\nforce = [0, 5]\n"
+                     "[[step]]\ndo = \"run\"\nseconds = 0.5\nevery = 10\n"
+                     "[[step]]\ndo = \"ray\"\nfrom = [0, 0]\nto = [64, 64]\n"
+                     "ruler = [{ a = \"red\", b = \"pink\" }]\n"
+                     "note = [{ body = \"red\", text = \"here\" }]\n"));
+  for (const Frame& frame : frames) expect_no_facts_of_its_own(frame);
+  const Frame& side = frames.back().sides[0];
+  EXPECT_FALSE(side.islands.empty() || side.forces.empty() || side.links.empty() ||
+               side.rays.empty() || side.rulers.empty() || side.notes.empty() || side.edges.empty())
+      << "the sides have them";
 }
 
 TEST(Sides, OneThatHasFewerFramesHoldsItsLast) {
