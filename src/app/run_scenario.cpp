@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/false_references.hpp"
 #include "app/missing_letters.hpp"
 #include "app/progress.hpp"
 #include "app/scenario_folder.hpp"
@@ -44,7 +45,7 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   RunExtent extent = extent_of(scenario, pace);
   extent.chosen = chosen;
   extent.in_betweens = in_betweens;
-  Progress progress(scenario.name, extent, work, memory_budget());
+  Progress progress(scenario.name, extent, work, memory_budget(), [&] { return sink.waiting(); });
   RunWatch watch(scenario, shows_a_body);
   std::uint64_t frames = 0;
   RunResult result;
@@ -58,7 +59,9 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
       },
       &watch);
   sink.finish(result.report);
-  result.warnings = watch.warnings();
+  result.warnings = warnings_of_file(scenario);
+  for (Diagnostic& found : false_references(scenario)) result.warnings.push_back(std::move(found));
+  for (Diagnostic& found : watch.warnings()) result.warnings.push_back(std::move(found));
   for (Diagnostic& found : missing_letters(scenario)) result.warnings.push_back(std::move(found));
   result.facts = watch.facts();
   return result;

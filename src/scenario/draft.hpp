@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -77,6 +78,10 @@ struct Draft {
 
   // Are `all` things, called `nouns`, no more than `most`? Else says so at `where`.
   bool has_room_for(std::size_t all, std::size_t most, const char* nouns, Place where);
+
+  // What stands there is legal and surely not meant. Nothing is noted if the file says it is.
+  void notice(Warning kind, SourcePosition where, std::string message,
+              const std::string& suggestion);
 };
 
 // A table within the file, whose points have as many numbers as the world has dimensions.
@@ -96,6 +101,14 @@ void read_chart(const TableReader& file, Draft& draft);
 void read_problem(const TableReader& file, Draft& draft);
 void read_atlas(const TableReader& file, Draft& draft);
 void read_script(const TableReader& file, Draft& draft);
+
+// Notices what the file says for nothing. It must have been read without a mistake.
+void notice_idle(const TableReader& file, Draft& draft);
+// The same of an `expect` or `always` in which nothing stands, of no side either: of the file
+// before it is read for each side.
+void notice_empty_expectations(const TomlTable& file, Draft& draft);
+// What was noticed of the file when it was read for each side, each thing once.
+std::vector<Noticed> noticed_on(const std::vector<std::shared_ptr<const Scenario>>& sides);
 
 // The [structure] of the file; read_world calls it.
 void read_structures(const TableReader& file, Draft& draft);

@@ -214,6 +214,8 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   const TableReader file(table, kTop, language_table(""), draft.problems, 0);
   if (has_strange_table(table)) return;
   file.fill(draft.scenario);
+  for (const Named& need : file.names("needs"))
+    draft.scenario.needs_at.push_back(draft.position(need.where));
   read_name(file, path, draft);
   read_world(file, draft);
   read_display(file, draft);
@@ -228,6 +230,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   check_panels(file, draft);
   check_settings(file, draft);
   check_grid(file, draft);
+  if (!draft.problems.any()) notice_idle(file, draft);
 }
 
 // What a reading of the file begins with.
@@ -287,7 +290,11 @@ Scenario parse_sides(const TomlTable& table, std::string_view text, const std::s
   whole.side.clear();
   whole.side_title.clear();
   if (whole.chart) whole.chart = chart_of_sides(table, *whole.chart, names);
-  return Scenario(std::move(whole));
+  whole.noticed = noticed_on(whole.sides);
+  Draft all;
+  all.scenario = std::move(whole);
+  notice_empty_expectations(table, all);
+  return Scenario(std::move(all.scenario));
 }
 
 }  // namespace
@@ -308,6 +315,7 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
     if (!draft.problems.any()) read_all(table, path, draft);
   }
   draft.problems.raise(path, draft.text);
+  notice_empty_expectations(table, draft);
   return finished(draft);
 }
 
@@ -326,7 +334,10 @@ Glance glance_at(const std::string& path) try {
   const std::string text = read_input(path, kMostFileBytes);
   const TomlTable table = read_toml(without_mark(text), problems);
   Glance glance;
+  glance.name = std::filesystem::path(path).stem().string();
   if (problems.any() || table.empty()) return glance;
+  if (const TomlEntry* name = entry_of(table, "name"))
+    if (const auto* text = std::get_if<std::string>(&name->value.data)) glance.name = *text;
   glance.is_scenario = std::ranges::any_of(
       table, [](const TomlEntry& entry) { return language_table("").find(entry.key) != nullptr; });
   if (const TomlEntry* lecture = entry_of(table, "lecture"))

@@ -44,6 +44,11 @@ class Indices {
 
 }  // namespace
 
+bool ScenarioSpec::is_quiet(Warning kind) const {
+  const std::vector<Warning>& quiet = atlas ? atlas->quiet : world.quiet;
+  return std::ranges::find(quiet, kind) != quiet.end();
+}
+
 bool ScenarioSpec::has_forces() const {
   return world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !links.empty();
 }

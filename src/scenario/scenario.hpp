@@ -83,6 +83,14 @@ struct Step {
 
 class Scenario;
 
+// What stands in the file, is legal and surely not meant.
+struct Noticed {
+  Warning kind = Warning::expect;
+  SourcePosition where;
+  std::string message;
+  std::string suggestion;
+};
+
 // All that a file says. Each value has its type, but nothing is known to be right: a name may be
 // that of nobody, an index may lie beyond its list. Only diagnostics can be made of it.
 struct ScenarioSpec {
@@ -94,6 +102,7 @@ struct ScenarioSpec {
   std::string idea;                      // the one that it is about, in a line; may be empty
   std::optional<std::uint32_t> lecture;  // its place in the order in which one would teach
   std::vector<std::string> needs;        // names of scenarios to be seen before
+  std::vector<SourcePosition> needs_at;  // where each of these is written
   std::uint64_t seed = 1;
   Pace pace = Pace::step;
   std::vector<Panel> panels;  // as wished, or all that can show something
@@ -121,6 +130,9 @@ struct ScenarioSpec {
   std::vector<std::shared_ptr<const Scenario>> sides;
   std::string side;  // of a side itself: its name, and what stands over it
   std::string side_title;
+
+  std::vector<Noticed> noticed;       // but for what is meant; of all sides together
+  bool is_quiet(Warning kind) const;  // what such a warning would tell is meant
 
   bool has_joints() const;  // links that are no springs
   bool has_contacts() const { return world.contacts != ContactMethod::none; }
@@ -153,7 +165,8 @@ Scenario load_scenario(const std::string& path);
 
 // Of a file of a folder, what must be known before it is read as a scenario.
 struct Glance {
-  bool is_scenario = true;               // false: sound TOML that has no key of a scenario
+  bool is_scenario = true;  // false: sound TOML that has no key of a scenario
+  std::string name;         // as in the file, or else the file's own; may be no legal one
   std::optional<std::uint32_t> lecture;  // as in the file, if it is a whole number
 };
 // Whatever cannot be read counts as a scenario: reading it as one tells what is wrong.
@@ -161,6 +174,9 @@ Glance glance_at(const std::string& path);
 
 // The same from text; `path` gives the name and is shown in messages. Never touches the disk.
 Scenario parse_scenario(std::string_view text, const std::string& path);
+
+// What ends a warning's suggestion: "; if it is meant, [world] quiet = ["bodies"]".
+std::string if_meant(const ScenarioSpec& scenario, Warning kind);
 
 // The line of `scenario.text` at `where`, and a diagnostic made of both.
 Diagnostic diagnose(const Scenario& scenario, const SourcePosition& where, std::string message,

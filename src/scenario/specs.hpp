@@ -45,15 +45,24 @@ enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box, person, demon, item };
 enum class Brain { none, follow, wander };  // who steers a body
 
-// What is legal in a scenario and surely not meant; found while it runs (see warnings.hpp).
+// What is legal in a scenario and surely not meant (see warnings.hpp): the first are found while it
+// runs, the others stand in the file.
 enum class Warning {
-  view,      // a picture that shows no body
-  outside,   // a body beyond the world's bounds
-  contacts,  // contacts are off, and bodies fall into each other
-  joints,    // a joint's ends part
-  energy,    // grows, and nothing drives it
-  through,   // a body is pushed through one that never moves
-  crush,     // a body is pressed between two others, deeper than they hold
+  view,        // a picture that shows no body
+  outside,     // a body beyond the world's bounds
+  contacts,    // contacts are off, and bodies fall into each other
+  joints,      // a joint's ends part
+  energy,      // grows, and nothing drives it
+  through,     // a body is pushed through one that never moves
+  crush,       // a body is pressed between two others, deeper than they hold
+  expect,      // an expectation that cannot fail
+  settings,    // of contacts, which there are not
+  bodies,      // that never enter
+  prototypes,  // that nobody is like
+  letters,     // of a map's legend, that stand nowhere
+  links,       // a spring or joint that is there twice
+  needs,       // a scenario that is not there
+  problem,     // whose answer is that of another problem
 };
 // A point has three coordinates; in a 2D world the third is 0.
 struct WorldSpec {
@@ -290,6 +299,7 @@ struct AtlasSpec {
   int trials = kMostTrials;
   int screen_width = 0;  // 0: there is no screen
   int screen_height = 0;
+  std::vector<Warning> quiet;  // kinds of warning whose cause is meant
   SourcePosition where;
 };
 
@@ -330,7 +340,8 @@ inline EnumNames names(Look) {
   return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};
 }
 inline EnumNames names(Warning) {
-  return {"view", "outside", "contacts", "joints", "energy", "through", "crush"};
+  return {"view",     "outside", "contacts",   "joints",  "energy", "through", "crush",  "expect",
+          "settings", "bodies",  "prototypes", "letters", "links",  "needs",   "problem"};
 }
 inline EnumNames names(LinkSpec::Kind) { return {"spring", "distance", "pin"}; }
 inline EnumNames names(Solution) {

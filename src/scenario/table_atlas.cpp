@@ -156,7 +156,9 @@ TableDoc atlas_table() {
           range(1, kMostTrials)),
       key(KeyType::size, "screen",
           "The width and height of a screen that is drawn from the textures, element by element.",
-          range(1, kMostPixels), in("px"), or_else("none"))};
+          range(1, kMostPixels), in("px"), or_else("none")),
+      key(&A::quiet, "quiet", "What is intended and needs no warning, as in [world].",
+          one_of({"expect", "needs"}), or_else("nothing"))};
   return table;
 }
 

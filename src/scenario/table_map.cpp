@@ -120,6 +120,7 @@ class MapReader {
                               fmt::format("{} in the legend is not one letter", in_quotes(e.key)),
                               "as legend = { \"#\" = \"wall\" }");
         const auto& name = std::get<std::string>(e.value.data);
+        letters_[e.key] = e.where;
         legend_[e.key] = kNobody;
         if (const TomlTable* keys = draft_.prototypes.find(name))
           legend_[e.key] = kind_of(name, *keys);
@@ -196,6 +197,13 @@ class MapReader {
           ++unknown.try_emplace(letter.text, letter.where, 0).first->second.second;
       }
     }
+    for (const auto& [letter, where] : letters_)
+      if (std::ranges::none_of(rows_, [&](const auto& row) {
+            return std::ranges::find(row, letter, &MapLetter::text) != row.end();
+          }))
+        draft_.notice(Warning::letters, draft_.position(where),
+                      fmt::format("the letter '{}' stands nowhere in the map", letter),
+                      "put it there, or take it out of the legend");
     std::vector<std::string_view> known;
     for (const auto& [letter, kind] : legend_) known.push_back(letter);
     for (const auto& [letter, place] : unknown)
@@ -274,6 +282,7 @@ class MapReader {
   Rows rows_;  // views into the text
   Vec<3> corner_{0.0};
   std::map<std::string, std::size_t, std::less<>> legend_;  // the kind of each letter
+  std::map<std::string, Place> letters_;                    // where the legend has it
   std::vector<MapKind> kinds_;
   std::vector<std::vector<std::size_t>> cells_;
 };

@@ -139,7 +139,11 @@ TableDoc world_table() {
           "What is intended and needs no warning: a `view` without any body, a body `outside` "
           "the world, bodies that fall into each other where `contacts` are off, `joints` that "
           "come apart, `energy` that grows though nothing drives it, a body pushed `through` a "
-          "static one, a body that is `crush`ed between two others.",
+          "static one, a body that is `crush`ed between two others; an `expect` that cannot fail, "
+          "`settings` of contacts where nothing touches, `bodies` that never enter, `prototypes` "
+          "that nobody is like, `letters` that stand nowhere in the map, `links` (springs or "
+          "joints) that are there twice, `needs` of a scenario that is not there, a `problem` "
+          "whose solution is another one's.",
           or_else("nothing")),
   };
   table.groups = {{{"size"}, {"min", "max"}}};

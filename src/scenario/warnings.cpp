@@ -1,6 +1,8 @@
 #include "scenario/warnings.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,13 +21,31 @@ bool contains(const std::vector<Diagnostic>& all, const Diagnostic& one) {
 
 }  // namespace
 
+std::vector<Diagnostic> warnings_of_file(const Scenario& scenario) {
+  static constexpr std::pair<Warning, const char*> kOthers[] = {
+      {Warning::expect, "expectations cannot fail"},
+      {Warning::settings, "settings change nothing"},
+      {Warning::bodies, "names of bodies never enter the world"},
+      {Warning::prototypes, "prototypes have nobody like them"},
+      {Warning::letters, "letters stand nowhere in the map"},
+      {Warning::links, "springs and joints are there twice"}};
+  std::vector<Diagnostic> all;
+  for (const auto& [kind, others] : kOthers) {
+    Warnings found(scenario);
+    for (const Noticed& one : scenario.noticed)
+      if (one.kind == kind)
+        found.add([&] { return warning(scenario, one.where, one.message, one.suggestion); });
+    std::ranges::move(found.list(others), std::back_inserter(all));
+  }
+  return all;
+}
+
 RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body) {
   for (const auto& side : scenario.sides)
     sides_.emplace_back(side->side, std::make_unique<RunWatch>(*side, shows_a_body));
   if (!sides_.empty()) return;
-  const std::vector<Warning>& quiet = scenario.world.quiet;
   const auto add = [&](Warning kind, Watching watcher) {
-    const bool is_quiet = std::find(quiet.begin(), quiet.end(), kind) != quiet.end();
+    const bool is_quiet = scenario.is_quiet(kind);
     if (watcher && (!is_quiet || watcher->has_fact()))
       watchers_.push_back({kind, std::move(watcher), is_quiet});
   };

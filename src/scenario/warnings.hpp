@@ -1,6 +1,6 @@
-// Warnings of what is legal in a scenario and surely not meant. Each is told from what the run did:
-// nothing is guessed from the file. Watching changes nothing of the run, and what a scene cannot
-// show is not watched for.
+// Warnings of what is legal in a scenario and surely not meant. Most are told from what the run
+// did; of the file itself only that what stands there does nothing. Watching changes nothing of the
+// run, and what a scene cannot show is not watched for.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,9 @@
 namespace lantern::scenario {
 
 class Watcher;
+
+// What was noticed in the file, by kind; of each kind only the first, and how many more there are.
+std::vector<Diagnostic> warnings_of_file(const Scenario& scenario);
 
 // Looks on while one scenario runs (see `direct`).
 class RunWatch {

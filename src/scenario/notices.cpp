@@ -1,0 +1,268 @@
+// What a file says for nothing: it is legal, changes no frame and fails no check, and is surely not
+// meant.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "base/counted.hpp"
+#include "geometry/angle.hpp"
+#include "scenario/draft.hpp"
+#include "scenario/key.hpp"
+
+namespace lantern::scenario {
+namespace {
+
+constexpr const char* kCannotFail = "it cannot fail";
+constexpr double kBeyondAll = 1e15;  // no measure of a lecture's world comes near
+constexpr double kWide = 1e6;        // a tolerance of so many times what is expected is none
+
+// --- expectations ---
+
+bool is_never_negative(std::string_view measure) {
+  static constexpr std::array<std::string_view, 10> kNever = {
+      "tree_cost", "kinetic_energy", "momentum", "penetration",    "gap",
+      "overlap",   "distance",       "speed",    "time_of_impact", "joint_gap"};
+  return std::ranges::find(kNever, measure.substr(0, measure.find('.'))) != kNever.end();
+}
+
+// What no frame of the scenario can count more of.
+double most_of(std::string_view name, const ScenarioSpec& s) {
+  const auto bodies = static_cast<double>(s.bodies.size());
+  for (const char* one : {"bodies", "asleep", "awake"})
+    if (name == one) return bodies;
+  for (const char* two : {"all_pairs", "testable_pairs", "pairs", "overlaps", "contacts"})
+    if (name == two) return bodies * (bodies - 1) / 2;
+  return kMostWhole;
+}
+
+// How far from what it should be anything may be without failing; nothing if that is not too far.
+std::optional<std::string> too_wide(const Expectation& e, const ScenarioSpec& s) {
+  using enum Expectation::Kind;
+  double most = 0;
+  if (e.kind == position || e.kind == half_size)
+    most = glm::length(s.world.bounds.size());
+  else if (e.kind == turned)
+    most = 360 * kDegree;
+  else if (e.kind == velocity)
+    most = kWide * std::max(1.0, glm::length(e.position));
+  else if (e.kind == measure)
+    most = kWide * std::max(1.0, std::abs(e.number));
+  else
+    return std::nullopt;
+  if (!(e.tolerance >= most)) return std::nullopt;
+  const double unit = e.kind == turned ? kDegree : 1;
+  return fmt::format("a tolerance of {:.6g} for '{}' takes whatever comes", e.tolerance / unit,
+                     e.name);
+}
+
+// Why the expectation holds whatever happens; nothing if it may fail.
+std::optional<std::string> why_it_holds(const Expectation& e, const ScenarioSpec& s) {
+  using enum Expectation::Kind;
+  const bool counts = find_in(known_counts(), e.name) != nullptr;
+  if (e.kind == at_least && e.number <= (counts || is_never_negative(e.name) ? 0 : -kBeyondAll))
+    return fmt::format("'{}' is always at least {:.6g}", e.name, e.number);
+  if (e.kind == at_most && e.number >= (counts ? most_of(e.name, s) : kBeyondAll))
+    return fmt::format("'{}' is always at most {:.6g}", e.name, e.number);
+  if ((e.kind == asleep || e.kind == awake) && e.names.empty())
+    return fmt::format("'{}' names no body", e.kind == asleep ? "asleep" : "awake");
+  return too_wide(e, s);
+}
+
+void notice_expectations(Draft& draft) {
+  for (const Step& step : draft.scenario.steps)
+    for (const auto* list : {&step.expect, &step.always})
+      for (const Expectation& e : *list)
+        if (const auto why = why_it_holds(e, draft.scenario))
+          draft.notice(Warning::expect, e.where, fmt::format("{}: {}", *why, kCannotFail),
+                       "give it a limit that a mistake would break");
+}
+
+// Neither of all sides nor of one.
+bool expects_nothing(const TomlTable& table) {
+  return std::ranges::all_of(table, [](const TomlEntry& e) {
+    const auto* inner = std::get_if<TomlTable>(&e.value.data);
+    return e.key == "tolerance" || (inner && expects_nothing(*inner));
+  });
+}
+
+// --- settings of contacts ---
+
+// The first place of a key that changes nothing, and how often it is there.
+class IdleKeys {
+ public:
+  void see(const TomlValue& table, std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys)
+      if (const TomlEntry* entry = entry_of(std::get<TomlTable>(table.data), key)) {
+        Seen& seen = found_.try_emplace(key, Seen{entry->where, 0}).first->second;
+        seen.first = std::min(seen.first, entry->where);
+        ++seen.times;
+      }
+  }
+  void tell(Draft& draft) const {
+    for (const auto& [key, seen] : found_)
+      draft.notice(
+          Warning::settings, draft.position(seen.first),
+          fmt::format("'{}' changes nothing{}: {}", key,
+                      seen.times > 1 ? ", here and " + counted(seen.times - 1, "time") + " more"
+                                     : std::string(),
+                      kNothingTouches),
+          fmt::format("{}, or leave it out", kGiveContacts));
+  }
+
+ private:
+  struct Seen {
+    Place first;
+    std::size_t times = 0;
+  };
+  std::map<std::string_view, Seen> found_;
+};
+
+void notice_settings(const TableReader& file, Draft& draft) {
+  const ScenarioSpec& s = draft.scenario;
+  const bool touches = s.has_contacts() || std::ranges::any_of(s.steps, [](const Step& step) {
+                         return std::holds_alternative<SolveBy>(step.verb);
+                       });
+  if (touches) return;
+  IdleKeys keys;
+  for (const TomlValue* world : file.tables("world")) {
+    keys.see(*world, {"iterations", "impact_budget"});
+    if (!s.has_joints()) keys.see(*world, {"sub_steps", "wanted_error"});
+  }
+  for (const char* owner : {"prototype", "body", "pattern"})
+    for (const TomlValue* body : file.tables(owner)) keys.see(*body, {"restitution", "friction"});
+  keys.tell(draft);
+}
+
+// --- what is declared and not used ---
+
+// Those that a step lets in, or stands up in a world of their own. A problem has all of them.
+void notice_bodies(Draft& draft) {
+  const ScenarioSpec& s = draft.scenario;
+  if (s.problem) return;
+  std::vector<bool> used(s.bodies.size());
+  for (const Step& step : s.steps) {
+    const auto* compare = std::get_if<Compare>(&step.verb);
+    if (const auto* bodies = compare ? &compare->bodies : entering(step.verb))
+      for (const std::size_t body : *bodies) used[body] = true;
+  }
+  for (const std::string_view name : draft.bodies.declared()) {
+    const NamedRange& range = *draft.bodies.find(std::string(name));
+    const auto first = used.begin() + static_cast<std::ptrdiff_t>(range.first);
+    if (std::find(first, first + static_cast<std::ptrdiff_t>(range.count), true) !=
+        first + static_cast<std::ptrdiff_t>(range.count))
+      continue;
+    draft.notice(Warning::bodies, draft.position(range.where),
+                 range.count == 1 ? fmt::format("'{}' never enters the world", name)
+                                  : fmt::format("none of the {} bodies of '{}' enters the world",
+                                                range.count, name),
+                 fmt::format("insert it, as bodies = [\"{}\"], or leave it out", name));
+  }
+}
+
+void notice_prototypes(const TableReader& file, Draft& draft) {
+  const auto text_in = [](const TomlValue& table, std::string_view key) {
+    const TomlEntry* entry = entry_of(std::get<TomlTable>(table.data), key);
+    return entry ? std::get<std::string>(entry->value.data) : std::string();
+  };
+  std::set<std::string> used;
+  for (const char* owner : {"prototype", "body", "pattern"})
+    for (const TomlValue* table : file.tables(owner)) used.insert(text_in(*table, "like"));
+  for (const TomlValue* map : file.tables("map"))
+    for (const TomlEntry& e :
+         std::get<TomlTable>(entry_of(std::get<TomlTable>(map->data), "legend")->value.data))
+      used.insert(std::get<std::string>(e.value.data));
+  for (const TomlValue* table : file.tables("prototype"))
+    if (const std::string name = text_in(*table, "name"); !used.contains(name))
+      draft.notice(Warning::prototypes, draft.position(table->where),
+                   fmt::format("nobody is like the prototype '{}'", name),
+                   fmt::format("give a body like = \"{}\", or leave it out", name));
+}
+
+// --- springs and joints ---
+
+void notice_links(Draft& draft) {
+  const ScenarioSpec& s = draft.scenario;
+  using End = std::tuple<std::size_t, double, double, double>;
+  constexpr auto kWorld = static_cast<std::size_t>(-1);
+  std::map<std::tuple<LinkSpec::Kind, End, End, std::optional<double>, double, double>, int> lines;
+  for (const LinkSpec& link : s.links) {
+    End a{link.a, link.at_a.x, link.at_a.y, link.at_a.z};
+    End b{link.b.value_or(kWorld), link.at_b.x, link.at_b.y, link.at_b.z};
+    if (b < a) std::swap(a, b);
+    const auto [first, is_new] = lines.try_emplace(
+        {link.kind, a, b, link.rest_length, link.stiffness, link.damping}, link.where.line);
+    if (is_new) continue;
+    const bool spring = link.kind == LinkSpec::Kind::spring;
+    const std::string from = fmt::format("'{}'", s.bodies[link.a].name);
+    draft.notice(
+        Warning::links, link.where,
+        fmt::format(
+            "the {} {} is there twice, first in line {}", spring ? "spring" : "joint",
+            link.b ? fmt::format("from {} to '{}'", from, s.bodies[*link.b].name) : "of " + from,
+            first->second),
+        spring ? "one of twice the stiffness and damping does the same" : "leave one of them out");
+  }
+}
+
+}  // namespace
+
+void Draft::notice(Warning kind, SourcePosition where, std::string message,
+                   const std::string& suggestion) {
+  if (scenario.is_quiet(kind)) return;
+  scenario.noticed.push_back(
+      {kind, std::move(where), std::move(message), suggestion + if_meant(scenario, kind)});
+}
+
+std::string if_meant(const ScenarioSpec& scenario, Warning kind) {
+  return fmt::format("; if it is meant, {} quiet = [\"{}\"]",
+                     scenario.atlas ? "[atlas]" : "[world]",
+                     names(kind)[static_cast<std::size_t>(kind)]);
+}
+
+void notice_idle(const TableReader& file, Draft& draft) {
+  notice_expectations(draft);
+  notice_settings(file, draft);
+  notice_bodies(draft);
+  notice_prototypes(file, draft);
+  notice_links(draft);
+}
+
+void notice_empty_expectations(const TomlTable& file, Draft& draft) {
+  const TomlEntry* steps = entry_of(file, "step");
+  for (const TomlValue& step : std::get<TomlArray>(steps->value.data))
+    for (const char* key : {"expect", "always"})
+      if (const TomlEntry* e = entry_of(std::get<TomlTable>(step.data), key);
+          e && expects_nothing(std::get<TomlTable>(e->value.data)))
+        draft.notice(Warning::expect, draft.position(e->where),
+                     fmt::format("'{}' expects nothing: {}", key, kCannotFail),
+                     "say what must hold, as { bodies = 3 }");
+}
+
+std::vector<Noticed> noticed_on(const std::vector<std::shared_ptr<const Scenario>>& sides) {
+  const auto has = [](const Scenario& side, const Noticed& one) {
+    return std::ranges::any_of(side.noticed, [&](const Noticed& other) {
+      return other.kind == one.kind && other.where.line == one.where.line &&
+             other.where.column == one.where.column && other.message == one.message;
+    });
+  };
+  std::vector<Noticed> all;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (const Noticed& one : sides[i]->noticed) {
+      const auto told = [&](const auto& side) { return has(*side, one); };
+      const bool is_first =
+          std::none_of(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(i), told);
+      // What one side overrides may be another's.
+      if (is_first && (one.kind != Warning::settings || std::ranges::all_of(sides, told)))
+        all.push_back(one);
+    }
+  return all;
+}
+
+}  // namespace lantern::scenario

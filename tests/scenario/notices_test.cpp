@@ -1,0 +1,243 @@
+// What a file says for nothing is told; its near twin is not.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scenario/directing.hpp"
+#include "scenario/parsing.hpp"
+#include "scenario/warnings.hpp"
+
+namespace lantern::scenario {
+namespace {
+
+std::vector<Diagnostic> noticed(const std::string& text) { return warnings_of_file(good(text)); }
+
+void expect_quiet(const std::string& text) {
+  const std::vector<Diagnostic> found = noticed(text);
+  EXPECT_TRUE(found.empty()) << text << "\n" << shown(found);
+}
+
+// Says `words` at the one mark @ in the text, which is taken out, and is still when `kind` is
+// meant.
+void expect_notice(std::string text, const std::string& words, const std::string& kind) {
+  const std::size_t at = text.find('@');
+  ASSERT_NE(at, std::string::npos) << text;
+  text.erase(at, 1);
+  const std::string before = text.substr(0, at);
+  const std::vector<Diagnostic> found = noticed(text);
+  ASSERT_EQ(found.size(), 1u) << text << "\n" << shown(found);
+  EXPECT_NE(found[0].message.find(words), std::string::npos) << shown(found);
+  EXPECT_EQ(found[0].where.line, 1 + std::count(before.begin(), before.end(), '\n'))
+      << shown(found);
+  EXPECT_EQ(found[0].where.column, int(before.size() - (before.rfind('\n') + 1)) + 1)
+      << shown(found);
+  EXPECT_EQ(found[0].severity, Severity::warning);
+  EXPECT_FALSE(found[0].source_line.empty());
+  const std::string hint = "; if it is meant, [world] quiet = [\"" + kind + "\"]";
+  EXPECT_TRUE(found[0].suggestion.ends_with(hint)) << shown(found);
+  const std::size_t world = text.find("[world]\n");
+  ASSERT_NE(world, std::string::npos);
+  expect_quiet(text.insert(world + 8, "quiet = [\"" + kind + "\"]\n"));
+}
+
+std::string disc(const std::string& name, const std::string& keys = "") {
+  return "[[body]]\nname = \"" + name + "\"\nradius = 0.5\nposition = [4, 4]\n" + keys;
+}
+
+std::string world(const std::string& rest, const std::string& keys = "") {
+  return world_text("size = [8, 8]\n" + keys, rest);
+}
+
+std::string insert(const std::string& names, const std::string& more = "") {
+  return "[[step]]\ndo = \"insert\"\nbodies = [" + names + "]\n" + more;
+}
+
+// --- expectations ---
+
+std::string expecting(const std::string& what) {
+  return world(kTree + disc("ann") + disc("bob") + insert("\"ann\", \"bob\"", what + "\n"),
+               "gravity = [0, -9]\n");
+}
+
+TEST(Notices, OfExpectationsThatCannotFail) {
+  const std::pair<std::string, std::string> cases[] = {
+      {"expect = { at_least = { @bodies = -5 } }", "'bodies' is always at least -5"},
+      {"expect = { at_least = { @pairs = 0 } }", "'pairs' is always at least 0"},
+      {"always = { at_least = { @kinetic_energy = 0 } }", "'kinetic_energy' is always at least 0"},
+      {"expect = { at_least = { @\"speed.bob\" = -1 } }", "'speed.bob' is always at least -1"},
+      {"expect = { at_least = { @energy = -1e300 } }", "'energy' is always at least -1e+300"},
+      {"expect = { at_most = { @bodies = 1e300 } }", "'bodies' is always at most 1e+300"},
+      {"expect = { at_most = { @bodies = 2 } }", "'bodies' is always at most 2"},
+      {"expect = { at_most = { @pairs = 1 } }", "'pairs' is always at most 1"},
+      {"expect = { at_most = { @energy = 1e300 } }", "'energy' is always at most 1e+300"},
+      {"expect = { position = { @bob = [4, 4] }, tolerance = 1e9 }",
+       "a tolerance of 1e+09 for 'bob' takes whatever comes"},
+      {"expect = { velocity = { @bob = [0, 0] }, tolerance = 1e9 }", "takes whatever comes"},
+      {"expect = { turned = { @bob = 0 }, tolerance = 360 }", "a tolerance of 360 for 'bob'"},
+      {"expect = { @energy = 10, tolerance = 1e9 }", "a tolerance of 1e+09 for 'energy'"},
+      {"@expect = {}", "'expect' expects nothing"},
+      {"@always = {}", "'always' expects nothing"},
+  };
+  for (const auto& [what, words] : cases)
+    expect_notice(expecting(what), words + (words.ends_with("nothing") ? ": it" : ""), "expect");
+}
+
+TEST(Notices, OfExpectationsThatMayFailAreNotGiven) {
+  for (const char* what :
+       {"expect = { bodies = 2 }", "expect = { at_least = { bodies = 1 } }",
+        "expect = { at_most = { bodies = 1 } }", "expect = { at_most = { pairs = 0 } }",
+        "expect = { at_least = { energy = -5 } }", "expect = { at_least = { \"y.bob\" = -3 } }",
+        "expect = { at_most = { energy = 1e6 } }", "expect = { at_most = { nodes = 1000 } }",
+        "expect = { position = { bob = [4, 4] }, tolerance = 3 }",
+        "expect = { turned = { bob = 0 }, tolerance = 10 }",
+        "expect = { energy = 72, tolerance = 100 }",
+        "expect = { pairs_are = [[\"ann\", \"bob\"]] }"})
+    expect_quiet(expecting(what));
+}
+
+// --- settings ---
+
+TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
+  const std::string rest = disc("ann") + insert("\"ann\"");
+  for (const std::string key :
+       {"iterations = 20", "sub_steps = 4", "wanted_error = 0.01", "impact_budget = 100"}) {
+    const std::string name = key.substr(0, key.find(' '));
+    expect_notice(world(rest, "@" + key + "\n"),
+                  "'" + name + "' changes nothing: in this world nothing touches", "settings");
+    expect_quiet(world(rest, key + "\ncontacts = \"soft\"\n"));
+    expect_quiet(world(rest + "[[step]]\ndo = \"solve_by\"\ncontacts = \"soft\"\n", key + "\n"));
+  }
+  expect_notice(world(disc("ann", "@restitution = 1\n") + insert("\"ann\"")),
+                "'restitution' changes nothing: ", "settings");
+  expect_notice(world(disc("ann", "@friction = 1\n") + disc("bob", "friction = 1\n") +
+                      insert("\"ann\", \"bob\"")),
+                "'friction' changes nothing, here and 1 time more: ", "settings");
+  expect_quiet(
+      world(disc("ann", "restitution = 1\n") + insert("\"ann\""), "contacts = \"impulse\"\n"));
+  // Joints are solved in sub-steps, too.
+  const std::string pin = "[[joint]]\na = \"ann\"\nto = [4, 6]\nkind = \"pin\"\n";
+  expect_quiet(world(disc("ann") + pin + insert("\"ann\""), "sub_steps = 4\n"));
+}
+
+// --- what is never used ---
+
+TEST(Notices, OfBodiesThatNeverEnter) {
+  const std::string pattern = "[[pattern]]\nname = @\"dot\"\ncount = 9\nradius = 0.1\n";
+  std::string quiet = pattern;
+  quiet.erase(quiet.find('@'), 1);
+  expect_notice(world("[[body]]\nname = @\"bob\"\nradius = 1\nposition = [1, 1]\n" + disc("ann") +
+                      insert("\"ann\"")),
+                "'bob' never enters the world", "bodies");
+  expect_notice(world(pattern + disc("ann") + insert("\"ann\"")),
+                "none of the 9 bodies of 'dot' enters the world", "bodies");
+  expect_quiet(world(quiet + insert("\"dot\"")));
+  expect_quiet(world(quiet + insert("\"dot2..dot3\"")));  // the others may come in another lesson
+  expect_quiet(world(quiet + "[[step]]\ndo = \"emit\"\nbodies = [\"dot\"]\nevery = 0.1\n"));
+  expect_quiet(
+      world(kTree + quiet + "[[step]]\ndo = \"compare\"\nbodies = [\"dot\"]\nrow = \"nine\"\n"));
+  // `lantern measure` has all bodies of a problem there from the start.
+  expect_quiet(world(disc("ann") + kShow +
+                     "[problem]\nsolution = \"projectile\"\nseconds = 1\nstep = 0.1\n"));
+}
+
+TEST(Notices, OfManyAreTenLinesAndOneForTheOthers) {
+  std::string bodies;
+  for (int i = 0; i < 13; ++i) bodies += disc("d" + std::to_string(i));
+  const std::vector<Diagnostic> found = noticed(world(bodies + kShow));
+  ASSERT_EQ(found.size(), 11u);
+  EXPECT_EQ(found[10].message, "3 more names of bodies never enter the world");
+}
+
+TEST(Notices, OfPrototypesThatNobodyIsLike) {
+  const std::string ball = "@[[prototype]]\nname = \"ball\"\nradius = 1\n";
+  const std::string used = ball.substr(1);
+  expect_notice(world(ball + disc("ann") + insert("\"ann\"")),
+                "nobody is like the prototype 'ball'", "prototypes");
+  expect_quiet(world(used + "[[body]]\nname = \"ann\"\nlike = \"ball\"\nposition = [4, 4]\n" +
+                     insert("\"ann\"")));
+  expect_quiet(
+      world(used + "[[pattern]]\nname = \"p\"\nlike = \"ball\"\ncount = 2\n" + insert("\"p\"")));
+  expect_quiet(world(used + "[[prototype]]\nname = \"red\"\nlike = \"ball\"\n" +
+                     "[[body]]\nname = \"ann\"\nlike = \"red\"\nposition = [4, 4]\n" +
+                     insert("\"ann\"")));
+  expect_quiet(world(used + "[map]\nrows = \"\"\"\n.o\n\"\"\"\nlegend = { o = \"ball\" }\n" +
+                     insert("\"ball\"")));
+}
+
+TEST(Notices, OfLettersThatStandNowhere) {
+  const std::string kinds = "[[prototype]]\nname = \"ball\"\nradius = 0.4\n";
+  const auto map = [&](const std::string& legend) {
+    return world(kinds + "[map]\nrows = \"\"\"\n.o\n\"\"\"\n" + legend + insert("\"ball\""));
+  };
+  expect_notice(map("legend = { o = \"ball\", @x = \"ball\" }\n"),
+                "the letter 'x' stands nowhere in the map", "letters");
+  expect_quiet(map("legend = { o = \"ball\" }\n"));
+}
+
+TEST(Notices, OfSpringsAndJointsThatAreThereTwice) {
+  const std::string bodies = disc("ann") + disc("bob");
+  const std::string spring =
+      "[[spring]]\na = \"ann\"\nb = \"bob\"\nat_a = [0.1, 0]\nstiffness = 5\n";
+  const auto text = [&](const std::string& links) {
+    return world(bodies + links + insert("\"ann\", \"bob\""));
+  };
+  expect_notice(text(spring + "@" + spring),
+                "the spring from 'ann' to 'bob' is there twice, first "
+                "in line 13",
+                "links");
+  expect_notice(text(spring + "@[[spring]]\na = \"bob\"\nb = \"ann\"\nat_b = [0.1, 0]\n"
+                              "stiffness = 5\n"),
+                "the spring from 'bob' to 'ann' is there twice", "links");
+  const std::string pin = "[[joint]]\na = \"ann\"\nto = [4, 6]\nkind = \"pin\"\n";
+  expect_notice(text(pin + "@" + pin), "the joint of 'ann' is there twice", "links");
+  expect_quiet(text(spring + "[[spring]]\na = \"ann\"\nb = \"bob\"\nat_a = [0.1, 0]\n"
+                             "stiffness = 6\n"));
+  expect_quiet(text(spring + "[[spring]]\na = \"ann\"\nb = \"bob\"\nat_a = [0.2, 0]\n"
+                             "stiffness = 5\n"));
+  expect_quiet(text(pin + "[[joint]]\na = \"bob\"\nto = [4, 6]\nkind = \"pin\"\n"));
+}
+
+// --- sides, atlases ---
+
+std::string sided(const std::string& first, const std::string& second, const std::string& step,
+                  const std::string& keys = "") {
+  return world("[[side]]\nname = \"one\"\n" + first + "[[side]]\nname = \"two\"\n" + second +
+                   disc("ann") + insert("\"ann\"", step),
+               keys);
+}
+
+TEST(Notices, OfSidesAreGivenOnce) {
+  expect_notice(sided("", "", "expect = { at_least = { @bodies = 0 } }\n"), "'bodies' is always",
+                "expect");
+  expect_notice(sided("", "", "expect = { one = { at_least = { @bodies = 0 } } }\n"),
+                "'bodies' is always", "expect");
+  expect_notice(sided("", "", "@expect = { one = {} }\n"), "'expect' expects nothing", "expect");
+  expect_quiet(sided("", "", "expect = { one = { bodies = 1 } }\n"));
+  expect_notice(sided("", "", "", "@iterations = 20\n"), "'iterations' changes nothing",
+                "settings");
+  expect_quiet(sided("world = { contacts = \"impulse\" }\n", "", "", "iterations = 20\n"));
+}
+
+TEST(Notices, OfAnAtlasCanBeMeant) {
+  const auto atlas = [](const std::string& quiet) {
+    return "title = \"t\"\n[atlas]\nsize = [64, 64]\n" + quiet +
+           "[[texture]]\nname = \"a\"\nsize = [8, 8]\n[[step]]\ndo = \"pack\"\n"
+           "textures = [\"a\"]\nexpect = { at_least = { refused = 0 } }\n";
+  };
+  const std::vector<Diagnostic> found = noticed(atlas(""));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].suggestion.ends_with("if it is meant, [atlas] quiet = [\"expect\"]"));
+  expect_quiet(atlas("quiet = [\"expect\"]\n"));
+}
+
+TEST(Notices, OfWhatComesWithLanternAreNotGiven) {
+  for (const std::string& name : all_files()) {
+    const std::vector<Diagnostic> found = warnings_of_file(shipped(name));
+    EXPECT_TRUE(found.empty()) << shown(found);
+  }
+}
+
+}  // namespace
+}  // namespace lantern::scenario
