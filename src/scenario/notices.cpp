@@ -32,7 +32,7 @@ bool is_never_negative(std::string_view measure) {
   return std::ranges::find(kNever, measure.substr(0, measure.find('.'))) != kNever.end();
 }
 
-// What no frame of the scenario can count more of.
+// What no frame of the scenario can count more of. To expect just that is to say so.
 double most_of(std::string_view name, const ScenarioSpec& s) {
   const auto bodies = static_cast<double>(s.bodies.size());
   for (const char* one : {"bodies", "asleep", "awake"})
@@ -68,7 +68,7 @@ std::optional<std::string> why_it_holds(const Expectation& e, const ScenarioSpec
   const bool counts = find_in(known_counts(), e.name) != nullptr;
   if (e.kind == at_least && e.number <= (counts || is_never_negative(e.name) ? 0 : -kBeyondAll))
     return fmt::format("'{}' is always at least {:.6g}", e.name, e.number);
-  if (e.kind == at_most && e.number >= (counts ? most_of(e.name, s) : kBeyondAll))
+  if (e.kind == at_most && e.number > (counts ? most_of(e.name, s) : kBeyondAll))
     return fmt::format("'{}' is always at most {:.6g}", e.name, e.number);
   if ((e.kind == asleep || e.kind == awake) && e.names.empty())
     return fmt::format("'{}' names no body", e.kind == asleep ? "asleep" : "awake");

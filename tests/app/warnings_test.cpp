@@ -65,6 +65,55 @@ TEST(Warnings, AreAListOfTheirOwnInJson) {
   EXPECT_TRUE(strict["warnings"].empty());
 }
 
+// --- what is beyond the file ---
+
+// One disc, and what comes first.
+std::string disc(const std::string& before, const std::string& world = "") {
+  return before + "title = \"t\"\n[world]\nsize = [8, 8]\n" + world +
+         "[[body]]\nname = \"a\"\nposition = [4, 4]\nradius = 0.5\n"
+         "[[step]]\ndo = \"insert\"\nbodies = [\"a\"]\n";
+}
+
+TEST(Warnings, OfNeedsThatAreNotThere) {
+  const fs::path folder = fresh_folder("warnings-needs");
+  const auto checked = [&](const std::string& needs, const std::string& world = "") {
+    write_text(folder / "lesson.toml", disc("needs = [" + needs + "]\n", world));
+    const Outcome o = shell("lantern check --quiet " + (folder / "lesson.toml").string());
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.err;
+  };
+  write_text(folder / "before.toml", disc(""));
+  write_text(folder / "file.toml", disc("name = \"called_so\"\n"));
+  EXPECT_EQ(checked("\"before\", \"called_so\", \"ghost_quadtree\""), "");
+  const std::string missing = checked("\"before\", \"nonexistent\"");
+  EXPECT_NE(missing.find("lesson.toml:1:20: warning: there is no scenario 'nonexistent' to be seen "
+                         "before"),
+            std::string::npos)
+      << missing;
+  EXPECT_NE(missing.find("if it is meant, [world] quiet = [\"needs\"]"), std::string::npos);
+  EXPECT_NE(checked("\"befor\"").find("did you mean 'before'?"), std::string::npos);
+  EXPECT_EQ(checked("\"nonexistent\"", "quiet = [\"needs\"]\n"), "");
+  EXPECT_EQ(shell("lantern check --quiet - < " + (folder / "lesson.toml").string()).err, "")
+      << "it lies in no folder";
+}
+
+TEST(Warnings, OfAProblemThatTheBodiesDoNotPose) {
+  const std::string kepler = "[problem]\nsolution = \"kepler\"\nseconds = 1\nstep = 0.1\n";
+  const auto checked = [&](const std::string& text) {
+    return shell("lantern check --quiet " + file_of("problem", text)).err;
+  };
+  const std::string wrong = checked(disc("") + kepler);
+  EXPECT_NE(wrong.find("problem.toml:11:1: warning: 'problem' is no problem of kind kepler: "
+                       "[world] needs a `gravitation`"),
+            std::string::npos)
+      << wrong;
+  EXPECT_EQ(checked(disc("", "quiet = [\"problem\"]\n") + kepler), "");
+  const std::string second =
+      "[[body]]\nname = \"b\"\nposition = [6, 4]\nradius = 0.5\n"
+      "velocity = [0, 1]\n";
+  EXPECT_EQ(checked(disc("", "gravitation = 2\n") + second + kepler), "");
+}
+
 TEST(Warnings, AreGivenOfNothingThatComesWithLantern) {
   const std::string root = repository("scenarios");
   std::string files = root + "/*.toml";
