@@ -1,6 +1,7 @@
 #include "render/headroom.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <thread>
 
 #include <fmt/format.h>
@@ -43,8 +44,11 @@ std::uint64_t stack_bytes() {
 void require_room(std::uint64_t bytes) {
   void* room = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (const auto budget = room == MAP_FAILED ? budget_needed(bytes) : std::nullopt)
-    refuse_memory(*budget, "pictures by OpenGL", "let them be smaller, or SVG where that will do");
+  if (const auto budget = room == MAP_FAILED ? budget_needed(bytes) : std::nullopt) try {
+      refuse_memory(*budget, "pictures by OpenGL", "make them smaller, or SVG where that will do");
+    } catch (const Refused& refused) {  // neither the picture nor the backend is wrong
+      throw std::runtime_error(refused.what());
+    }
   if (room == MAP_FAILED)
     throw BackendError(
         fmt::format("out of memory: OpenGL needs room for {} MB, which the limits of this process "

@@ -7,9 +7,9 @@
 namespace lantern::render {
 
 // Throws BackendError unless an OpenGL context, its threads and its shaders find room within the
-// limits of this process (ulimit -v, ulimit -d), and Refused if it is the budget (--memory) that
-// leaves none. Under such a limit all threads share one arena of
-// the allocator from now on: arenas of their own would take more than all the rest.
+// limits of this process (ulimit -v, ulimit -d), and std::runtime_error if it is the budget
+// (--memory) that leaves none. Under such a limit all threads share one arena of the allocator from
+// now on: arenas of their own would take more than all the rest.
 void require_room_for_context();
 
 // The same for a framebuffer of so many pixels, in a context that is there.
