@@ -126,10 +126,7 @@ class IdleKeys {
 
 void notice_settings(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
-  const bool touches = s.has_contacts() || std::ranges::any_of(s.steps, [](const Step& step) {
-                         return std::holds_alternative<SolveBy>(step.verb);
-                       });
-  if (touches) return;
+  if (s.has_contacts()) return;
   IdleKeys keys;
   for (const TomlValue* world : file.tables("world")) {
     keys.see(*world, {"iterations", "impact_budget"});

@@ -109,7 +109,6 @@ TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
     expect_notice(world(rest, "@" + key + "\n"),
                   "'" + name + "' changes nothing: in this world nothing touches", "settings");
     expect_quiet(world(rest, key + "\ncontacts = \"soft\"\n"));
-    expect_quiet(world(rest + "[[step]]\ndo = \"solve_by\"\ncontacts = \"soft\"\n", key + "\n"));
   }
   expect_notice(world(disc("ann", "@restitution = 1\n") + insert("\"ann\"")),
                 "'restitution' changes nothing: ", "settings");
