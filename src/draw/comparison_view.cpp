@@ -153,15 +153,18 @@ class ComparisonView {
     const Vec<3> b = solid ? Vec<3>{c.x, a.y, a.z} : Vec<3>{c.x, a.y, 0};
     const Vec<3> d = solid ? Vec<3>{a.x, a.y, c.z} : Vec<3>{a.x, c.y, 0};
     list_.polygon({at(a), at(b), at(c), at(d)}, Role::panel, {Role::cell_line_2, 1.6});
-    std::vector<const FrameComparison::Mark*> marks;
-    for (const FrameComparison::Mark& mark : row.marks) marks.push_back(&mark);
-    std::ranges::stable_sort(marks, {}, [](const auto* mark) { return mark->box.center().z; });
-    for (const FrameComparison::Mark* mark : marks) {
-      const Vec<3> extent = mark->box.size();
+    std::vector<FrameComparison::Mark> marks;
+    for (FrameComparison::Mark mark : row.marks) {
+      mark.box = common_part(mark.box, world);  // a half-space has no end
+      if (is_valid(mark.box)) marks.push_back(mark);
+    }
+    std::ranges::stable_sort(marks, {}, [](const auto& mark) { return mark.box.center().z; });
+    for (const FrameComparison::Mark& mark : marks) {
+      const Vec<3> extent = mark.box.size();
       const Vec<2> half{std::max(kLeastDot, scale * extent.x) / 2,
                         std::max(kLeastDot, scale * extent.y) / 2};
-      list_.rect(Box<2>::around(at(mark->box.center()), half),
-                 mark->is_static ? Role::static_body : body_role(mark->color),
+      list_.rect(Box<2>::around(at(mark.box.center()), half),
+                 mark.is_static ? Role::static_body : body_role(mark.color),
                  {Role::body_line, 0.8});
     }
   }
