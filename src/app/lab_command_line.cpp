@@ -36,7 +36,6 @@ void measure_options(CLI::App* c, MeasureOptions& o) {
   c->add_option("--from", o.from,
                 "measure nothing: report.html of these folders or measure.json files, one a "
                 "machine, side by side")
-      ->allow_extra_args(false)
       ->type_name("PATH");
   add_memory(*c);
   add_json(*c, o.json);
