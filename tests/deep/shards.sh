@@ -1,6 +1,7 @@
 #!/bin/sh
-# A course in shards, by GNU parallel as recipes/parallel.sh starts it: the same bytes as one run,
-# when all goes well, and after shards were killed in their midst and done again.
+# By GNU parallel, as the recipes start it: a course in shards has the same bytes as one run, when all
+# goes well, and after shards were killed in their midst and done again; problems and cases, a job
+# each, have the rows of one run.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 lantern=${LANTERN:-$root/build/lantern}
@@ -41,7 +42,10 @@ done
 # --- killed ---
 "$lantern" render $course -o killed --shard 2/4 >killed.log 2>&1 &
 program=$!
-until ls killed/shard-2-of-4/*/*.png >/dev/null 2>&1; do sleep 0.02; done
+until ls killed/shard-2-of-4/*/*.png >/dev/null 2>&1; do
+  kill -0 "$program" 2>/dev/null || fail "shard 2 draws nothing: $(tail -n 3 killed.log)"
+  sleep 0.02
+done
 kill -KILL "$program" 2>/dev/null || true
 wait "$program" 2>/dev/null || true
 for i in 1 4; do
@@ -56,4 +60,26 @@ sed -n 's/.*: run lantern render /render /p' merge.log >again
 while read -r words; do eval "$lantern $words" >>killed.log 2>&1 || fail "$words"; done <again
 "$lantern" merge killed >merge.log 2>&1 || fail "$(cat merge.log)"
 same_as_one killed || fail "a shard that was killed and done again differs"
-echo "killed, named, done again as the merge says: the same bytes"
+
+# --- a job each ---
+each=$root/tests/deep/recipes/each.sh
+problems="projectile oscillator" cases="root_too_small overflow zeno"
+OPTIONS="--quick --no-peers" sh "$each" measured measure $problems >each.log 2>&1 ||
+  fail "measure: $(tail -n 3 each.log)"
+"$lantern" measure $problems --quick --no-peers -o measured_in_one >each.log 2>&1 || fail "$(cat each.log)"
+sh "$each" tried stress $cases >each.log 2>&1 || fail "stress: $(tail -n 3 each.log)"
+"$lantern" stress $cases -o tried_in_one >each.log 2>&1 || fail "$(cat each.log)"
+# Of rows that hold times their names.
+rows() { for table; do tail -n +2 "$table" | cut -d, -f"$columns"; done | sort; }
+columns=1-6
+rows measured/*/measure.csv >all
+rows measured_in_one/measure.csv | cmp - all || fail "measured a job each, other rows"
+columns=1-
+rows tried/*/stress.csv >all
+rows tried_in_one/stress.csv | cmp - all || fail "cases a job each, other rows"
+"$lantern" measure --from measured/* -o page >each.log 2>&1 || fail "$(cat each.log)"
+for title in Projectile Oscillator; do
+  grep -q "<h2>$title" page/report.html || fail "no $title on the page"
+done
+echo "$(ls one | wc -l) scenarios in 1, 3 and 8 shards, and in 4 of which one was killed: the same bytes;" \
+  "2 problems and 3 cases, a job each: the same rows"

@@ -1,6 +1,7 @@
 #!/bin/sh
-# A course as a Slurm job array on this machine: slurmctld, slurmd and munge, one node. If they do
-# not start here, the script says why, and runs the tasks of the array by hand, one by one.
+# Slurm job arrays on this machine, as the recipes describe them: slurmctld, slurmd and munge, one
+# node; a course in shards, problems and cases a task each. If Slurm does not start here, the script
+# says why, and runs the tasks of the arrays by hand, one by one.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 lantern=${LANTERN:-$root/build/lantern}
@@ -21,6 +22,24 @@ course=""
 for s in pong_bsp kdtree_atlas n_squared; do course="$course $root/scenarios/$s.toml"; done
 export LANTERN="$lantern"
 "$lantern" render $course -o one >one.log 2>&1 || fail "one run: $(tail -n 3 one.log)"
+
+each=$root/tests/deep/recipes/each.sbatch
+problems="projectile oscillator" cases="root_too_small zeno"
+export OPTIONS=""
+
+# What a task each has left: all that was asked for, and one page of what was measured.
+each_is_there() {
+  "$lantern" measure --from measured/* -o page >page.log 2>&1 || fail "$(cat page.log)"
+  for problem in $problems; do
+    [ -f "measured/$problem/measure.csv" ] || fail "$problem was not measured: $(cat lantern-*.log)"
+  done
+  for title in Projectile Oscillator; do
+    grep -q "<h2>$title" page/report.html || fail "no $title on the page"
+  done
+  for case in $cases; do
+    grep -q '"finished": true' "tried/$case/stress.json" || fail "$case was not tried: $(cat lantern-*.log)"
+  done
+}
 
 same_as_one() {
   rm -rf compared
@@ -99,15 +118,25 @@ if start_slurm; then
   sbatch --wait --array=4 "$recipe" out 4 $course >said 2>&1 || fail "shard 4: $(cat said lantern-*.log)"
   sbatch --wait --output merge.log --wrap "$lantern merge out" >said 2>&1 || fail "$(cat said merge.log)"
   same_as_one
-  echo "a job array of 4 shards on one node, one of them done again by its number: the same bytes," \
+  OPTIONS="--quick --no-peers" sbatch --wait --array=1-2 "$each" measured measure $problems >said 2>&1 ||
+    fail "measure: $(cat said lantern-*.log)"
+  sbatch --wait --array=1-2 "$each" tried stress $cases >said 2>&1 || fail "stress: $(cat said lantern-*.log)"
+  each_is_there
+  echo "a job array of 4 shards on one node, one of them done again by its number: the same bytes;" \
+    "2 problems and 2 cases a task each;" \
     "$(awk -v a="$begun" -v b="$(date +%s%N)" 'BEGIN { printf "%.1f", (b - a) / 1e9 }') s with the daemons"
 else
-  echo "Slurm does not run here: $why"
-  echo "so the tasks of the array are run by hand"
   for task in 1 2 3 4; do
     SLURM_ARRAY_TASK_ID=$task sh "$recipe" out 4 $course >task.log 2>&1 || fail "$(cat task.log)"
   done
   "$lantern" merge out >merge.log 2>&1 || fail "$(cat merge.log)"
   same_as_one
-  echo "4 tasks of the array, run by hand: the same bytes"
+  for task in 1 2; do
+    SLURM_ARRAY_TASK_ID=$task OPTIONS="--quick --no-peers" sh "$each" measured measure $problems \
+      >task.log 2>&1 || fail "$(cat task.log)"
+    SLURM_ARRAY_TASK_ID=$task sh "$each" tried stress $cases >task.log 2>&1 || fail "$(cat task.log)"
+  done
+  each_is_there
+  echo "left out: Slurm does not run here ($(echo $why)); its 4 shards, 2 problems and 2 cases by hand:" \
+    "the same bytes"
 fi
