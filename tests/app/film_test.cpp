@@ -130,11 +130,11 @@ TEST_F(AFilm, ThatFailsLeavesTheOldFileAndFfmpegsWords) {
 
 TEST_F(AFilm, ThatIsInterruptedLeavesNothing) {
   write_text(folder_ / "out/talk.mp4", "old");
-  fake("echo $$ >\"$0.pid\"; head -c 50000 >&3; exec sleep 100");
+  fake("head -c 50000 >&3; echo $$ >\"$0.pid\"; exec sleep 10000");
   const Outcome o =
-      shell("export PATH=" + (folder_ / "bin").string() +
-            ":$PATH; timeout --preserve-status -k 30 -s INT 0.5 " LANTERN_BINARY " render " +
-            kGhosts + " --size 64x36 -o " + (folder_ / "out/talk.mp4").string());
+      shell("export PATH=" + (folder_ / "bin").string() + ":$PATH; begin render " + kGhosts +
+            " --size 64x36 -o " + (folder_ / "out/talk.mp4").string() + "; until_so 'test -s " +
+            (folder_ / "bin/ffmpeg.pid").string() + "'; interrupt");
   EXPECT_EQ(o.code, 130) << o.err;
   EXPECT_EQ(out("talk.mp4"), "old");
   EXPECT_EQ(files(), 1u);

@@ -340,10 +340,9 @@ TEST_F(GoldenCommand, AnUnmetExpectationFailsWithItsPlace) {
 }
 
 TEST_F(GoldenCommand, AnInterruptedUpdateLeavesNoListOfFramesThatAreNotThere) {
-  const Outcome o = shell("cd " + folder_.string() +
-                          " && timeout --preserve-status -k 30 -s INT 0.3 " LANTERN_BINARY
-                          " golden --update --size 128x72 " +
-                          repository("tests/cases/walls300ev.toml").string());
+  const Outcome o = shell("cd " + folder_.string() + "; begin golden --update --size 128x72 " +
+                          repository("tests/cases/walls300ev.toml").string() +
+                          " 2>said; until_so 'grep -q walls300ev said'; interrupt");
   EXPECT_EQ(o.code, 130) << o.err;
   EXPECT_FALSE(fs::exists(folder_ / "golden/walls300ev/golden.txt"));
 }

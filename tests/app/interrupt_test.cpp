@@ -14,15 +14,13 @@ std::string case_file(const std::string& name) {
   return repository("tests/cases/" + name + ".toml").string();
 }
 
-// Not timed closely: who does not hear within half a minute is killed, which gives another code.
-Outcome interrupted_after(const std::string& seconds, const std::string& words) {
-  return shell("timeout --preserve-status -k 30 -s INT " + seconds + " " LANTERN_BINARY " " +
-               words);
-}
-
 TEST(Interrupt, EndsWhatWouldTakeHours) {
   for (const char* name : {"nostruct20k", "events_bomb", "gravitation20k", "walls300ev"}) {
-    const Outcome o = interrupted_after("1.5", "check " + case_file(name));
+    // It says how much is to come once it is in the midst of it.
+    const fs::path said = fresh_folder("interrupted") / "said";
+    const Outcome o = shell("begin check " + case_file(name) + " 2>" + said.string() +
+                            "; until_so 'grep -q budget " + said.string() +
+                            "'; interrupt; code=$?; cat " + said.string() + " >&2; exit $code");
     EXPECT_EQ(o.code, 130) << name << ": " << o.err;
     EXPECT_NE(o.err.find("interrupted"), std::string::npos) << name << ": " << o.err;
   }
@@ -37,7 +35,7 @@ TEST(Interrupt, LosesNoRowThatWasMeasured) {
   const std::size_t before = rows();
   ASSERT_GT(before, 3u);
   for (const char* seconds : {"0.02", "0.05", "0.1", "0.2", "0.4"}) {
-    interrupted_after(seconds, words);
+    shell(std::string("timeout -s INT ") + seconds + " " LANTERN_BINARY " " + words);
     EXPECT_GE(rows(), before) << "cut after " << seconds << " s";
   }
 }

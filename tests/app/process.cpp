@@ -37,7 +37,19 @@ Outcome shell(const std::string& command) {
   // ours; the other rooms' tests look for leaks. The rest as in tests/CMakeLists.txt.
   const std::string script =
       "export ASAN_OPTIONS=detect_leaks=0:malloc_context_size=5:"
-      "quarantine_size_mb=32\nlantern() { " LANTERN_BINARY " \"$@\"; }\n" +
+      "quarantine_size_mb=32\nlantern() { " LANTERN_BINARY
+      " \"$@\"; }\n"
+      // Of the pipe that it opens the reader has been and gone.
+      "unread() { mkfifo " +
+      (folder / "pipe").string() + "; : <" + (folder / "pipe").string() + " & exec 5>" +
+      (folder / "pipe").string() +
+      "; wait; \"$@\" >&5; }\n"
+      // Without job control what a shell starts would ignore INT.
+      "begin() { env --default-signal=INT " LANTERN_BINARY
+      " \"$@\" & program=$!; }\n"
+      "until_so() { until eval \"$1\"; do kill -0 $program 2>/dev/null || return 1; sleep 0.01; "
+      "done; }\n"
+      "interrupt() { kill -INT $program; wait $program; }\n" +
       command + "\n";
   write_text(folder / "script", script);
   const std::string line = "sh " + (folder / "script").string() + " >" + (folder / "out").string() +

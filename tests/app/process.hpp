@@ -14,7 +14,12 @@ struct Outcome {
   std::string err;  // standard error
 };
 
-// A shell command. `lantern` in it is the program under test.
+// A shell command. Words in it:
+//   lantern WORDS...   the program under test
+//   unread COMMAND...  with a standard output that nobody reads any more
+//   begin WORDS...     the program in the background, its messages where "begin" sends them
+//   until_so CONDITION waits until this command succeeds, or the program has ended, which fails
+//   interrupt          sends SIGINT to what was begun, and ends with its exit code
 Outcome shell(const std::string& command);
 
 void write_text(const std::filesystem::path& path, const std::string& text);

@@ -82,11 +82,15 @@ TEST(StressCommand, AFolderThatCannotBeWrittenIsFoundOutBeforeTheWork) {
 
 TEST(StressCommand, CtrlCKeepsWhatIsFinished) {
   const fs::path out = fresh_folder("stress_cut");
-  const Outcome o = shell(
-      "timeout --preserve-status -s INT 2.5 " LANTERN_BINARY " stress --full -o " + out.string());
-  EXPECT_EQ(o.code, 130) << o.err;
+  const std::string said = (fresh_folder("stress_said") / "said").string();
+  // It is at its second case, or behind it.
+  const Outcome o =
+      shell("begin stress --full -o " + out.string() + " 2>" + said +
+            "; until_so 'grep -qE \"^stress: ([2-9]|[0-9]{2,}) of\" " + said + "'; interrupt");
+  EXPECT_EQ(o.code, 130) << read_text(said);
   const json report = json::parse(read_text(out / "stress.json"));
   EXPECT_FALSE(report["finished"]);
+  EXPECT_GT(report["cases"].size(), 0u);
   EXPECT_NE(o.out.find("interrupted before the end"), std::string::npos) << o.out;
   EXPECT_FALSE(fs::exists(out / "stability_map.png"));
 }

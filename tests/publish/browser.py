@@ -7,6 +7,7 @@ import subprocess
 import time
 import urllib.request
 
+PATIENCE = 3600  # seconds: only what never comes takes as long, however busy the machine
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 KEYS = {"right": "\ue014", "left": "\ue012", "home": "\ue011", "end": "\ue010", "tab": "\ue004",
         "escape": "\ue00c", "page down": "\ue00f", "page up": "\ue00e", "space": " "}
@@ -35,7 +36,8 @@ class Browser:
         if device:
             options["mobileEmulation"] = {"deviceMetrics": device}
         answer = self.ask("POST", "/session", {"capabilities": {"alwaysMatch": {
-            "browserName": "chrome", "goog:chromeOptions": options,
+            "browserName": "chrome", "timeouts": {"script": 1000 * PATIENCE, "pageLoad": 1000 * PATIENCE},
+            "goog:chromeOptions": options,
             "goog:loggingPrefs": {"browser": "ALL"}}}}, session=False)
         self.session = answer["sessionId"]
         if not device:
@@ -53,7 +55,7 @@ class Browser:
             self.ask("DELETE", "", {})
         finally:
             self.driver.terminate()
-            self.driver.wait(10)
+            self.driver.wait(PATIENCE)
 
     def ask(self, method, path, body=None, session=True):
         place = f"/session/{self.session}" if session else ""
@@ -61,7 +63,7 @@ class Browser:
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{place}{path}", data, method=method,
                                          headers={"Content-Type": "application/json"})
         try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
+            with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             raise RuntimeError(json.load(error)["value"]["message"]) from None
@@ -75,8 +77,8 @@ class Browser:
     def run(self, script, *arguments):
         return self.ask("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
-    def wait_for(self, script, seconds=10):
-        end = time.monotonic() + seconds
+    def wait_for(self, script):
+        end = time.monotonic() + PATIENCE
         while not (value := self.run(f"return {script}")):
             if time.monotonic() > end:
                 raise RuntimeError(f"never came: {script}")
