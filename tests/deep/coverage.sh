@@ -1,6 +1,6 @@
 #!/bin/sh
 # Which lines of src/scenario the fuzzer's files run, out of a build with counters.
-#   coverage.sh [ROUNDS]
+#   coverage.sh [ROUNDS]      5,000 files unless told
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${BUILD:-$root/build}/coverage
@@ -9,7 +9,7 @@ cmake -S "$root" -B "$build" -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=
   -DCMAKE_EXE_LINKER_FLAGS=-Wl,-u,__gcov_dump >/dev/null
 cmake --build "$build" --target tests_fuzz >"$build/build.log" || { tail -n 20 "$build/build.log"; exit 1; }
 find "$build" -name '*.gcda' -exec rm {} +
-"$build/tests/tests_fuzz" --rounds "${1:-20000}" --findings "$build/findings" >"$build/report.txt" ||
+"$build/tests/tests_fuzz" --rounds "${1:-5000}" --findings "$build/findings" >"$build/report.txt" ||
   echo "it found something: see $build/report.txt"
 head -n 2 "$build/report.txt"
 # Plain gcov: for each object a list of its sources' lines. A line counts once, however many

@@ -5,4 +5,4 @@ cd "$(dirname "$0")/../.."
 folder=${BUILD:-build}/test-output/lessons
 mkdir -p "$folder"
 ${LANTERN:-build/lantern} render scenarios/*.toml -o "$folder/{scenario}.html"
-exec python3 tests/publish/lesson_times.py "$folder"
+python3 tests/publish/lesson_times.py "$folder"

@@ -4,5 +4,5 @@
 # other places. Needs Debian's python3-clang-14 and libclang-14-dev.
 set -eu
 cd "$(dirname "$0")/../.."
-exec /usr/bin/python3 tests/mutate/mutate.py --seed "${1:-1}" --size "${2:-60}" \
+exec /usr/bin/python3 tests/mutate/mutate.py --seed "${1:-1}" --size "${2:-${MUTANTS:-60}}" \
   --folder "${BUILD:-build}/mutants"

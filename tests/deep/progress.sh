@@ -28,4 +28,5 @@ listen() {
 listen nostruct20k 'up to 601 frames of 600 000 world steps' 601 '600 000'
 listen gravitation20k 'up to 61 frames of 60 000 world steps' 61 '60 000'
 rm -f "$said"
+[ "$failed" = 1 ] || echo "2 long runs said within 1 s what is to come, and twice in 11.5 s how far they were"
 exit $failed

@@ -41,6 +41,7 @@ constexpr std::uint64_t kMostMemory = 1u << 30;        // bytes that a file may 
 constexpr double kEnergyGrowth = 0.1;                  // from which it is told
 constexpr std::size_t kMostKept = 6000;                // bytes of an interesting file
 constexpr int kMostMendings = 8;
+constexpr std::uint64_t kTold = 50'000;  // files after which it says how far it is
 constexpr int kHung = 71;  // exit code of a worker
 
 Desk* desk = nullptr;  // of the signal handler
@@ -197,7 +198,10 @@ class Worker {
     if (text.size() > kMostText) return std::nullopt;
     std::copy(text.begin(), text.end(), desk->text.begin());
     desk->size = text.size();
-    ++desk->files;
+    if (++desk->files % kTold == 0)
+      fmt::print(stderr, "fuzz: {} files, {} crashes, {} hangs, {} broken promises\n",
+                 desk->files.load(), desk->crashes.load(), desk->hangs.load(),
+                 desk->broken.load());
     try {
       TrialResult result = trial_.run(text, dice);
       count(result);

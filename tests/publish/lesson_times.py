@@ -51,7 +51,7 @@ def steps(page, last):
 
 
 def main():
-    slow = []
+    slow, lessons, slowest = [], 0, 0
     print(f"{'lesson':24} {'kB':>5} {'frames':>6} {'shapes':>6} {'open ms':>8} {'step ms':>8} {'most ms':>8} {'painted':>8}")
     with Browser((1600, 900)) as page:
         page.cdp("Performance.enable", timeDomain="threadTicks")
@@ -67,12 +67,14 @@ def main():
             times = steps(page, last)
             thread = sorted(time for time, _ in times)
             size = file.stat().st_size
+            lessons, slowest = lessons + 1, max(slowest, thread[-1])
             print(f"{file.stem:24} {size / 1000:5.0f} {last + 1:6} {shapes:6} {opened:8} {thread[len(thread) // 2]:8.1f}"
                   f" {thread[-1]:8.1f} {max(time for _, time in times):8.1f}", flush=True)
             if size > MOST_BYTES or opened > MOST_OPEN or thread[-1] > MOST_STEP:
                 slow.append(file.stem)
         errors = page.errors()
-    print("too large or too slow:", ", ".join(slow) or "none", "; script errors:", errors or "none")
+    print(f"{lessons} lessons, the slowest step {slowest:.0f} ms; too large or too slow:",
+          ", ".join(slow) or "none;", "script errors:", errors or "none")
     return 1 if slow or errors else 0
 
 
