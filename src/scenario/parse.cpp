@@ -331,8 +331,8 @@ Scenario load_scenario(const std::string& path) {
 
 Glance glance_at(const std::string& path) try {
   Problems problems;
-  const std::string text = read_input(path, kMostFileBytes);
-  const TomlTable table = read_toml(without_mark(text), problems);
+  const std::string bytes = read_file(path, kMostFileBytes);
+  const TomlTable table = read_toml(without_mark(bytes), problems);
   Glance glance;
   glance.name = std::filesystem::path(path).stem().string();
   if (problems.any() || table.empty()) return glance;
