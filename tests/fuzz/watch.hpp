@@ -28,7 +28,7 @@ struct BusyClock {
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &busy);
     const auto wall = std::chrono::steady_clock::now().time_since_epoch();
     return time_point(std::chrono::seconds(busy.tv_sec) + duration(busy.tv_nsec) +
-                      std::chrono::duration_cast<duration>(wall) / 20);
+                      std::chrono::duration_cast<duration>(wall) / 500);
   }
 };
 
