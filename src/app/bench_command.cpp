@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -6,7 +9,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "app/answer.hpp"
 #include "app/commands.hpp"
@@ -16,6 +18,7 @@
 #include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
+#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
@@ -31,8 +34,12 @@ namespace fs = std::filesystem;
 // A folder for the files of the measurement, gone when it ends.
 class ScratchFolder {
  public:
-  ScratchFolder() : path_(fs::temp_directory_path() / fmt::format("lantern-bench-{}", ::getpid())) {
-    make_folder(path_);
+  // Nobody else can have made it before.
+  ScratchFolder() {
+    std::string name = fs::temp_directory_path() / "lantern-bench-XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr)
+      throw IoError(fmt::format("cannot make the folder '{}': {}", name, std::strerror(errno)));
+    path_ = name;
   }
   ~ScratchFolder() {
     std::error_code ignored;
