@@ -35,10 +35,11 @@ struct World<D>::Step {
     bool located = false;
   };
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  // What a solver is given together: places of bodies, of near pairs, of joints; all ascending.
+  // What a solver is given together: places of bodies, of near pairs, of joints, of what pulls and
+  // pushes them; all ascending.
   struct Group {
     std::vector<std::uint32_t> bodies;
-    std::vector<std::size_t> pairs, joints;
+    std::vector<std::size_t> pairs, joints, springs, pushes;
   };
 
   World& world;
@@ -102,6 +103,7 @@ struct World<D>::Step {
   void find_reach();
   Box<D> enlarged_box(std::size_t place) const;
   bool looks_for_contacts() const;
+  std::vector<Pair> joined_pairs() const;
   std::optional<NearPair> nearing(const Pair& pair);
   IslandPair<D> island_pair(const NearPair& from) const;
   void wake(std::vector<std::uint32_t> places);

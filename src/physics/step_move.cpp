@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,24 +20,38 @@ namespace lantern::physics {
 // whole world. What neither touches nor is joined is in none of them, but flies.
 template <int D>
 auto World<D>::Step::groups_to_solve(bool whole_world) const -> std::vector<Group> {
-  std::vector<Group> groups(moved.size());
   const auto dynamic = [&](std::uint32_t i) { return moved[i].kind == BodyKind::dynamic_body; };
-  const auto group_of = [&](std::uint32_t i) -> Group& {
-    return groups[whole_world ? 0 : root[i]];
+  const auto own = [&](std::uint32_t i) { return whole_world ? 0 : root[i]; };
+  const auto owner = [&](std::uint32_t a, std::uint32_t b) { return own(dynamic(a) ? a : b); };
+  const auto places = [&](const auto& tie) { return std::pair(place_of(tie.a), place_of(tie.b)); };
+  // Of each root the number of its group, if pairs or joints are to be solved in it.
+  std::vector<std::uint32_t> number(moved.size(), kNone);
+  for (const NearPair& pair : near) number[owner(pair.a, pair.b)] = 0;
+  for (const auto& [id, joint] : world.joints_) number[std::apply(owner, places(joint))] = 0;
+  std::vector<Group> groups;
+  for (std::uint32_t& n : number) {
+    if (n == kNone) continue;
+    n = static_cast<std::uint32_t>(groups.size());
+    groups.emplace_back();
+  }
+  const auto add = [&](std::uint32_t to, auto list, auto what) {
+    if (number[to] != kNone) (groups[number[to]].*list).push_back(what);
   };
-  const auto owner = [&](std::uint32_t a, std::uint32_t b) -> Group& {
-    return group_of(dynamic(a) ? a : b);
-  };
-  for (std::size_t i = 0; i < near.size(); ++i) owner(near[i].a, near[i].b).pairs.push_back(i);
-  for (std::size_t i = 0; i < world.joints_.size(); ++i) {
-    const Joint<D>& joint = world.joints_[i].second;
-    owner(place_of(joint.a), place_of(joint.b)).joints.push_back(i);
+  for (std::size_t i = 0; i < near.size(); ++i) add(owner(near[i].a, near[i].b), &Group::pairs, i);
+  for (std::size_t i = 0; i < world.joints_.size(); ++i)
+    add(std::apply(owner, places(world.joints_[i].second)), &Group::joints, i);
+  for (std::size_t i = 0; i < forces.springs.size(); ++i) {
+    const auto [a, b] = places(forces.springs[i]);
+    if (whole_world || dynamic(a) || dynamic(b)) add(owner(a, b), &Group::springs, i);
+  }
+  for (std::size_t i = 0; i < forces.pushes.size(); ++i) {
+    const std::uint32_t pushed = place_of(forces.pushes[i].body);
+    if (whole_world || dynamic(pushed)) add(own(pushed), &Group::pushes, i);
   }
   for (std::uint32_t i = 0; i < moved.size(); ++i)
-    if (whole_world || dynamic(i)) group_of(i).bodies.push_back(i);
+    if (whole_world || dynamic(i)) add(own(i), &Group::bodies, i);
   std::erase_if(groups, [&](const Group& group) {
-    return (group.pairs.empty() && group.joints.empty()) ||
-           std::ranges::all_of(group.bodies, [&](std::uint32_t i) { return moved[i].asleep; });
+    return std::ranges::all_of(group.bodies, [&](std::uint32_t i) { return moved[i].asleep; });
   });
   return groups;
 }
@@ -69,9 +85,6 @@ template <int D>
 Island<D> World<D>::Step::gather(const Group& group) {
   Island<D> island;
   std::vector<std::uint32_t> others;  // static bodies, and ends of springs
-  const auto belongs = [&](BodyId id) {
-    return std::ranges::binary_search(group.bodies, place_of(id));
-  };
   const auto add = [&](BodyId id) { others.push_back(place_of(id)); };
   for (const std::size_t i : group.pairs)
     for (const std::uint32_t place : {near[i].a, near[i].b})
@@ -84,14 +97,13 @@ Island<D> World<D>::Step::gather(const Group& group) {
   island.forces.gravitation = forces.gravitation;
   if (forces.gravitation > 0)
     for (const Body<D>& body : moved) add(body.id);
-  for (const Spring<D>& spring : forces.springs) {
-    if (!belongs(spring.a) && !belongs(spring.b)) continue;
+  for (const std::size_t i : group.springs) {
+    const Spring<D>& spring = forces.springs[i];
     island.forces.springs.push_back(spring);
     add(spring.a);
     add(spring.b);
   }
-  for (const Push<D>& push : forces.pushes)
-    if (belongs(push.body)) island.forces.pushes.push_back(push);
+  for (const std::size_t i : group.pushes) island.forces.pushes.push_back(forces.pushes[i]);
   // Once each, in their order.
   std::ranges::sort(others);
   others.erase(std::unique(others.begin(), others.end()), others.end());
@@ -282,6 +294,8 @@ template <int D>
 void World<D>::Step::commit() {
   world.bodies_ = std::move(moved);
   world.rested_ = std::move(rested);
+  world.may_rest_ = world.work_.asleep > 0 ||
+                    std::ranges::any_of(world.rested_, [](double seconds) { return seconds > 0; });
   for (std::size_t i = 0; i < world.bodies_.size(); ++i)
     world.islands_[i] =
         world.bodies_[i].kind == BodyKind::dynamic_body ? world.bodies_[root[i]].id : kNoIsland;

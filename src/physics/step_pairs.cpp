@@ -117,12 +117,16 @@ std::vector<Proxy<D>> World<D>::Step::enlarged_boxes() const {
 }
 
 template <int D>
-void World<D>::store(BodyId id, double h, const typename BroadPhase<D>::Watch& watch) {
-  BroadPhase<D>& broad_phase = structure();
-  const Body<D>& body = bodies_[index_of(id)];
-  const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
-  const Box<D> box = body.box();
-  broad_phase.insert({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()}, watch);
+void World<D>::store(std::span<const BodyId> ids, double h,
+                     const typename BroadPhase<D>::Watch& watch) {
+  std::vector<Proxy<D>> proxies;
+  for (const BodyId id : ids) {
+    const Body<D>& body = bodies_[index_of(id)];
+    const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
+    const Box<D> box = body.box();
+    proxies.push_back({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()});
+  }
+  structure().insert(proxies, watch);
 }
 
 // How all would fly on, and the structure in which the next step looks for pairs. A step that would
@@ -186,9 +190,11 @@ void World<D>::Step::narrow_phase() {
   manifolds.clear();
   axes.clear();
   for (const Body<D>& body : moved) axes.push_back(axes_of(body));
+  const std::vector<Pair> joined = joined_pairs();
   auto touch = world.touching_.begin();  // in order of ids, as the pairs are
   for (const Pair& pair : pairs) {
     stop_if_asked();
+    if (std::ranges::binary_search(joined, pair)) continue;
     auto found = nearing(pair);
     if (!found) continue;
     while (touch != world.touching_.end() && touch->record.pair() < pair) ++touch;
@@ -202,6 +208,16 @@ void World<D>::Step::narrow_phase() {
                  "take fewer bodies that overlap");
 }
 
+// What a joint ties together without letting it touch; ascending.
+template <int D>
+std::vector<Pair> World<D>::Step::joined_pairs() const {
+  std::vector<Pair> joined;
+  for (const auto& [id, joint] : world.joints_)
+    if (!joint.collide) joined.push_back({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
+  std::ranges::sort(joined);
+  return joined;
+}
+
 // The pair, if the two may come to touch in this step.
 template <int D>
 auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
@@ -211,7 +227,6 @@ auto World<D>::Step::nearing(const Pair& pair) -> std::optional<NearPair> {
   const Body<D>& a = moved[found.a];
   const Body<D>& b = moved[found.b];
   if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
-  if (world.joined(a.id, b.id)) return std::nullopt;
   const double way =
       glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) + turning_way(b, h);
   // An impact with a third body may turn either of them towards the other.
@@ -325,7 +340,8 @@ void World<D>::Step::make_islands() {
   template IslandPair<D> World<D>::Step::island_pair(const NearPair&) const; \
   template void World<D>::look_ahead(double, const BroadPhase<D>::Watch&);   \
   template Body<D> World<D>::flown(BodyId, double) const;                    \
-  template void World<D>::store(BodyId, double, const typename BroadPhase<D>::Watch&);
+  template void World<D>::store(std::span<const BodyId>, double,             \
+                                const typename BroadPhase<D>::Watch&);
 
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)

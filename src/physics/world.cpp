@@ -32,6 +32,18 @@ void check_config(const WorldConfig<D>& config) {
       throw Refused("world: sleep_after, sleep_speed or sleep_spin is negative or not finite");
 }
 
+// Of lists that belong together, all at the places for which `goes(place)`.
+template <class F, class... Lists>
+void erase_where(F&& goes, Lists&... lists) {
+  std::size_t kept = 0, size = std::max({lists.size()...});
+  for (std::size_t i = 0; i < size; ++i) {
+    if (goes(i)) continue;
+    if (kept != i) ((lists[kept] = std::move(lists[i])), ...);
+    ++kept;
+  }
+  (lists.erase(lists.begin() + static_cast<std::ptrdiff_t>(kept), lists.end()), ...);
+}
+
 Spin<2> momentum_for(const Body<2>& body, double spin) {
   return body.inverse_inertia > 0 ? spin / body.inverse_inertia : 0;
 }
@@ -54,7 +66,7 @@ World<D>::World(const WorldConfig<D>& config) : config_(config) {
 }
 
 template <int D>
-BodyId World<D>::add(Body<D> body) {
+BodyId World<D>::add(Body<D> body, const Spin<D>& angular_velocity) {
   check_body(body);
   derive_mass(body);
   if (body.kind != BodyKind::dynamic_body) body.asleep = false;
@@ -62,28 +74,40 @@ BodyId World<D>::add(Body<D> body) {
     body.velocity = Vec<D>(0.0);
     body.angular_momentum = Spin<D>(0.0);
   }
+  if (angular_velocity != Spin<D>(0.0)) spin(body, angular_velocity);
   body.id = next_id_;
   ahead_.reset();
+  may_rest_ |= body.asleep;
   bodies_.push_back(std::move(body));
   rested_.push_back(0);
   islands_.push_back(kNoIsland);
   return next_id_++;
 }
 
+// All of them in one pass through all else: one after another would cost the square of them.
 template <int D>
-void World<D>::remove(BodyId id) {
-  if (find(id) == nullptr) return;
-  wake_from({id});
-  for (std::size_t i = forces_.springs.size(); i-- > 0;)
-    if (forces_.springs[i].a == id || forces_.springs[i].b == id) remove_spring(spring_ids_[i]);
-  for (std::size_t i = joints_.size(); i-- > 0;)
-    if (joints_[i].second.a == id || joints_[i].second.b == id) remove_joint(joints_[i].first);
-  clear_pushes(id);
-  forget_contacts_of(id);
-  const auto index = static_cast<std::ptrdiff_t>(index_of(id));
-  bodies_.erase(bodies_.begin() + index);
-  rested_.erase(rested_.begin() + index);
-  islands_.erase(islands_.begin() + index);
+void World<D>::remove(std::span<const BodyId> ids) {
+  std::vector<BodyId> gone, disturbed;
+  for (const BodyId id : ids)
+    if (find(id) != nullptr) gone.push_back(id);
+  if (gone.empty()) return;
+  std::ranges::sort(gone);
+  disturbed = gone;
+  const auto is_gone = [&](BodyId id) { return std::ranges::binary_search(gone, id); };
+  const auto goes = [&](const auto& tie) { return is_gone(tie.a) || is_gone(tie.b); };
+  const auto disturb = [&](const auto& tie) {
+    if (goes(tie)) disturbed.insert(disturbed.end(), {tie.a, tie.b});
+  };
+  for (const Spring<D>& spring : forces_.springs) disturb(spring);
+  for (const auto& entry : joints_) disturb(entry.second);
+  wake_from(disturbed);
+  erase_where([&](std::size_t i) { return goes(forces_.springs[i]); }, spring_ids_,
+              forces_.springs);
+  erase_where([&](std::size_t i) { return goes(joints_[i].second); }, joint_memories_, joints_);
+  std::erase_if(pushes_, [&](const TimedPush& push) { return is_gone(push.push.body); });
+  list_pushes();
+  forget_contacts_of(gone);
+  erase_where([&](std::size_t i) { return is_gone(bodies_[i].id); }, rested_, islands_, bodies_);
   part_islands();
 }
 
@@ -112,36 +136,44 @@ void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
   moved.velocity = velocity;
   if (orientation) moved.orientation = *orientation;
   check_body(moved);
-  wake_from({id});
-  forget_contacts_of(id);
+  wake_from(id);
+  forget_contacts_of(std::span(&id, 1));
   part_islands();
   moved.asleep = false;
   bodies_[index] = std::move(moved);
 }
 
 template <int D>
-void World<D>::set_velocity(BodyId id, const Vec<D>& velocity) {
-  Body<D>& body = bodies_[index_of(id)];
-  require_finite<D>(velocity, fmt::format("body '{}'", body.name), "velocity");
-  wake_from({id});
-  body.velocity = velocity;
+void World<D>::set_velocities(std::span<const std::pair<BodyId, Vec<D>>> velocities) {
+  if (velocities.empty()) return;
+  std::vector<BodyId> ids;
+  for (const auto& [id, velocity] : velocities) {
+    require_finite<D>(velocity, fmt::format("body '{}'", bodies_[index_of(id)].name), "velocity");
+    ids.push_back(id);
+  }
+  wake_from(ids);
+  for (const auto& [id, velocity] : velocities) bodies_[index_of(id)].velocity = velocity;
 }
 
 template <int D>
 void World<D>::set_angular_velocity(BodyId id, const Spin<D>& spin) {
   Body<D>& body = bodies_[index_of(id)];
   Body<D> turning = body;
-  if (body.kind == BodyKind::dynamic_body)
-    turning.angular_momentum = momentum_for(body, spin);
-  else
-    turning.kinematic_spin = spin;
-  // Spin of a body that cannot turn is lost above, so it is looked at by itself.
-  const std::string who = fmt::format("body '{}'", body.name);
-  require_finite(spin, who, "angular velocity");
-  check_body(turning);
-  wake_from({id});
+  World::spin(turning, spin);
+  wake_from(id);
   body.angular_momentum = turning.angular_momentum;
   body.kinematic_spin = turning.kinematic_spin;
+}
+
+template <int D>
+void World<D>::spin(Body<D>& body, const Spin<D>& angular_velocity) {
+  if (body.kind == BodyKind::dynamic_body)
+    body.angular_momentum = momentum_for(body, angular_velocity);
+  else
+    body.kinematic_spin = angular_velocity;
+  // Spin of a body that cannot turn is lost above, so it is looked at by itself.
+  require_finite(angular_velocity, fmt::format("body '{}'", body.name), "angular velocity");
+  check_body(body);
 }
 
 template <int D>
@@ -156,7 +188,7 @@ void World<D>::apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at)
   if (body.inverse_inertia != Spin<D>(0.0))
     struck.angular_momentum += cross(Vec<D>(at - body.position), impulse);
   check_body(struck);
-  wake_from({id});
+  wake_from(id);
   body.velocity = struck.velocity;
   body.angular_momentum = struck.angular_momentum;
 }
@@ -171,8 +203,9 @@ void World<D>::set_gravity(const Vec<D>& gravity) {
 }
 
 template <int D>
-void World<D>::wake_from(const std::vector<BodyId>& ids) {
+void World<D>::wake_from(std::span<const BodyId> ids) {
   ahead_.reset();
+  if (!may_rest_) return;
   std::vector<std::uint32_t> places;
   for (const BodyId id : ids) places.push_back(static_cast<std::uint32_t>(index_of(id)));
   wake_together<D>(bodies_, rested_, std::move(places), links(), Disturbed::all);
@@ -192,10 +225,12 @@ void World<D>::part_islands() {
       islands_[i] = bodies_[sets.root(static_cast<std::uint32_t>(i))].id;
 }
 
+// Ids ascend.
 template <int D>
-void World<D>::forget_contacts_of(BodyId id) {
+void World<D>::forget_contacts_of(std::span<const BodyId> ids) {
+  const auto is_of = [&](BodyId id) { return std::ranges::binary_search(ids, id); };
   std::erase_if(touching_,
-                [&](const Touch& touch) { return touch.record.a == id || touch.record.b == id; });
+                [&](const Touch& touch) { return is_of(touch.record.a) || is_of(touch.record.b); });
 }
 
 template <int D>
@@ -203,15 +238,15 @@ void World<D>::sleep(BodyId id) {
   Body<D>& body = bodies_[index_of(id)];
   if (body.kind != BodyKind::dynamic_body) return;
   ahead_.reset();
-  body.asleep = true;
+  may_rest_ = body.asleep = true;
   body.velocity = Vec<D>(0.0);
   body.angular_momentum = Spin<D>(0.0);
 }
 
 template <int D>
-void World<D>::wake(BodyId id) {
-  index_of(id);
-  wake_from({id});
+void World<D>::wake(std::span<const BodyId> ids) {
+  for (const BodyId id : ids) index_of(id);
+  wake_from(ids);
 }
 
 template <int D>

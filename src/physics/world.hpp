@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,16 +42,22 @@ class World {
   // inertia. Throws Refused, naming body and field, for a size, mass, density, drag, restitution or
   // friction that is negative or not finite, a pose, velocity or momentum that is not finite, a
   // dynamic body of no area (2D) or volume (3D) without an explicit mass, a dynamic half-space.
-  BodyId add(Body<D> body);
-  // Its springs, joints and pushes go with it. Does nothing if there is no such body.
-  void remove(BodyId id);
+  // It turns at that angular velocity, as after `set_angular_velocity`.
+  BodyId add(Body<D> body, const Spin<D>& angular_velocity = Spin<D>(0.0));
+  // Their springs, joints and pushes go with them. Does nothing of bodies that are not there.
+  void remove(std::span<const BodyId> ids);
+  void remove(BodyId id) { remove(std::span(&id, 1)); }
   const Body<D>* find(BodyId id) const;                           // null if not there
   const std::vector<Body<D>>& bodies() const { return bodies_; }  // in order of ids
 
   // Only `place` moves a static body.
   void place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
              const std::optional<Rotation<D>>& orientation = std::nullopt);  // else as it is
-  void set_velocity(BodyId id, const Vec<D>& velocity);
+  void set_velocities(std::span<const std::pair<BodyId, Vec<D>>> velocities);
+  void set_velocity(BodyId id, const Vec<D>& velocity) {
+    const std::pair one(id, velocity);
+    set_velocities(std::span(&one, 1));
+  }
   void set_angular_velocity(BodyId id, const Spin<D>& spin);  // radians a second, world's axes
   // In N s, at a point in the world. Moves only dynamic bodies.
   void apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at);
@@ -73,9 +80,10 @@ class World {
   const std::vector<std::pair<JointId, Joint<D>>>& joints() const { return joints_; }
 
   // A sleeping body stands still and is skipped until something wakes it. Only dynamic bodies can
-  // sleep; for others nothing happens. `wake` wakes all that touch or hang on it, too.
+  // sleep; for others nothing happens. `wake` wakes all that touch or hang on them, too.
   void sleep(BodyId id);
-  void wake(BodyId id);
+  void wake(std::span<const BodyId> ids);
+  void wake(BodyId id) { wake(std::span(&id, 1)); }
 
   // Goes on with another broad phase; the trajectory is the same, bit for bit.
   void switch_broad_phase(const BroadPhaseConfig<D>& config);
@@ -90,9 +98,10 @@ class World {
   // contacts that of the bodies as they are, which no step needs. Built once: the step finds it
   // standing. A structure that goes on from where its bodies were tells `watch`, if there is one.
   void look_ahead(double h, const typename BroadPhase<D>::Watch& watch = {});
-  // Puts this body into the structure, after all others (the lecture's Insert), as it will be used
-  // if no force acts. Throws Refused for ids that are not ascending, and as BroadPhase does.
-  void store(BodyId id, double h, const typename BroadPhase<D>::Watch& watch);
+  // Puts these bodies into the structure, after all others (the lecture's Insert), as they will be
+  // used if no force acts. Throws Refused for ids that are not ascending, and as BroadPhase does.
+  void store(std::span<const BodyId> ids, double h,
+             const typename BroadPhase<D>::Watch& watch = {});
 
   // The body as it will be after a step of `h` seconds, if it meets nothing. As the last
   // `look_ahead` found; without one, no force acts.
@@ -155,17 +164,19 @@ class World {
   };
 
   std::size_t index_of(BodyId id) const;
-  bool joined(BodyId a, BodyId b) const;
   std::vector<Pair> links() const;  // of what wakes together
-  void wake_from(const std::vector<BodyId>& ids);
+  void wake_from(std::span<const BodyId> ids);
+  void wake_from(BodyId id) { wake_from(std::span(&id, 1)); }
   void part_islands();
-  void forget_contacts_of(BodyId id);
+  void forget_contacts_of(std::span<const BodyId> ids);
+  static void spin(Body<D>& body, const Spin<D>& angular_velocity);
   void list_pushes();
   BroadPhase<D>& structure();  // made when it is first needed
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
   std::vector<double> rested_;   // seconds that each body has been slow
+  bool may_rest_ = false;        // one of them is above 0, or a body sleeps: there may be who wakes
   std::vector<BodyId> islands_;  // of each body
   Forces<D> forces_;             // its pushes are those of pushes_
   std::vector<SpringId> spring_ids_;

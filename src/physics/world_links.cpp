@@ -1,5 +1,6 @@
 // What ties bodies of a world, and what pushes them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -40,7 +41,7 @@ SpringId World<D>::add_spring(const Spring<D>& spring) {
   const Body<D>& b = bodies_[index_of(spring.b)];
   check_spring(spring, fmt::format("spring {}", next_spring_));
   check_same_integrator(a, b, config_);
-  wake_from({spring.a, spring.b});
+  wake_from(std::array{spring.a, spring.b});
   forces_.springs.push_back(spring);
   spring_ids_.push_back(next_spring_);
   return next_spring_++;
@@ -58,7 +59,7 @@ JointId World<D>::add_joint(const Joint<D>& joint) {
   require_finite<D>(joint.at_b, who, "at_b");
   if (joint.kind == JointKind::distance && !(std::isfinite(joint.length) && joint.length > 0))
     throw Refused(fmt::format("{}: length is {}, must be above 0", who, joint.length));
-  wake_from({joint.a, joint.b});
+  wake_from(std::array{joint.a, joint.b});
   joints_.emplace_back(next_joint_, joint);
   joint_memories_.push_back({});
   return next_joint_++;
@@ -69,7 +70,7 @@ void World<D>::remove_spring(SpringId id) {
   const auto place = std::ranges::find(spring_ids_, id) - spring_ids_.begin();
   if (place == std::ssize(spring_ids_)) return;
   const auto spring = forces_.springs.begin() + place;
-  wake_from({spring->a, spring->b});
+  wake_from(std::array{spring->a, spring->b});
   forces_.springs.erase(spring);
   spring_ids_.erase(spring_ids_.begin() + place);
   part_islands();
@@ -79,18 +80,10 @@ template <int D>
 void World<D>::remove_joint(JointId id) {
   const auto entry = std::ranges::find(joints_, id, &std::pair<JointId, Joint<D>>::first);
   if (entry == joints_.end()) return;
-  wake_from({entry->second.a, entry->second.b});
+  wake_from(std::array{entry->second.a, entry->second.b});
   joint_memories_.erase(joint_memories_.begin() + (entry - joints_.begin()));
   joints_.erase(entry);
   part_islands();
-}
-
-template <int D>
-bool World<D>::joined(BodyId a, BodyId b) const {
-  return std::any_of(joints_.begin(), joints_.end(), [&](const auto& entry) {
-    const Joint<D>& joint = entry.second;
-    return !joint.collide && ((joint.a == a && joint.b == b) || (joint.a == b && joint.b == a));
-  });
 }
 
 template <int D>
@@ -113,7 +106,7 @@ void World<D>::push(BodyId id, const Vec<D>& force, const Vec<D>& at,
   require_finite<D>(arm, who, "lever of the force");
   if (seconds && !(std::isfinite(*seconds) && *seconds > 0))
     throw Refused(fmt::format("{}: a push of {} seconds is not allowed", who, *seconds));
-  wake_from({id});
+  wake_from(id);
   TimedPush push{{id, arm, force}, std::nullopt};
   if (seconds) push.until = time_ + *seconds;
   pushes_.push_back(push);
@@ -137,7 +130,7 @@ void World<D>::clear_pushes() {
 
 template <int D>
 void World<D>::clear_pushes(BodyId id) {
-  if (find(id) != nullptr) wake_from({id});
+  if (find(id) != nullptr) wake_from(id);
   std::erase_if(pushes_, [&](const TimedPush& push) { return push.push.body == id; });
   list_pushes();
 }
@@ -147,7 +140,6 @@ void World<D>::clear_pushes(BodyId id) {
   template JointId World<D>::add_joint(const Joint<D>&);                                     \
   template void World<D>::remove_spring(SpringId);                                           \
   template void World<D>::remove_joint(JointId);                                             \
-  template bool World<D>::joined(BodyId, BodyId) const;                                      \
   template std::vector<Pair> World<D>::links() const;                                        \
   template void World<D>::push(BodyId, const Vec<D>&, const Vec<D>&, std::optional<double>); \
   template void World<D>::clear_pushes();                                                    \

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/hash.hpp"
@@ -18,11 +19,16 @@ namespace lantern::scenario {
 template <int D>
 class Brains {
  public:
-  explicit Brains(const Scenario& scenario) : scenario_(scenario) {}
+  explicit Brains(const Scenario& scenario)
+      : scenario_(scenario),
+        some_wander_(std::ranges::count(scenario.bodies, Brain::wander, &BodySpec::brain) > 0) {}
 
   // Sets the velocities with which the next world step begins. `id_of(index)` finds bodies.
   template <class IdOf>
   void steer(World<D>& world, double h, IdOf&& id_of) {
+    velocities_.clear();
+    away_.clear();
+    if (some_wander_) find_ways_out(world);
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) {
       const BodySpec& spec = scenario_.bodies[i];
       const std::optional<BodyId> id = spec.brain == Brain::none ? std::nullopt : id_of(i);
@@ -32,33 +38,39 @@ class Brains {
       else if (const std::optional<BodyId> target = id_of(spec.follows))
         follow(world, *id, *target, spec, h);
     }
+    world.set_velocities(velocities_);
   }
 
  private:
+  // For each that touches something, away from all of it.
+  void find_ways_out(const World<D>& world) {
+    for (const auto& contact : world.contacts()) {
+      away_.try_emplace(contact.a, 0.0).first->second -= contact.manifold.normal;
+      away_.try_emplace(contact.b, 0.0).first->second += contact.manifold.normal;
+    }
+  }
+
   // As fast as it may, but not beyond the place of the other.
-  static void follow(World<D>& world, BodyId id, BodyId target, const BodySpec& spec, double h) {
+  void follow(const World<D>& world, BodyId id, BodyId target, const BodySpec& spec, double h) {
     const Body<D>& body = *world.find(id);
     const Vec<D> way = world.find(target)->position - body.position;
     Vec<D> velocity{0.0};
     for (int i = 0; i < D; ++i)
       if (spec.brain_axes[i] != 0)
         velocity[i] = std::clamp(way[i] / h, -spec.brain_speed, spec.brain_speed);
-    if (velocity != body.velocity) world.set_velocity(id, velocity);
+    if (velocity != body.velocity) velocities_.emplace_back(id, velocity);
   }
 
   // After a touch it goes another way, at random, but away from what it touched.
-  void wander(World<D>& world, BodyId id, const BodySpec& spec) {
-    Vec<D> away{0.0};
-    for (const auto& contact : world.contacts()) {
-      if (contact.a == id) away -= contact.manifold.normal;
-      if (contact.b == id) away += contact.manifold.normal;
-    }
+  void wander(const World<D>& world, BodyId id, const BodySpec& spec) {
+    const auto out = away_.find(id);
+    const Vec<D> away = out == away_.end() ? Vec<D>(0.0) : out->second;
     const Body<D>& body = *world.find(id);
     const bool touches = away != Vec<D>(0.0);
     const double speed = std::sqrt(glm::dot(body.velocity, body.velocity));
     if (!touches && speed > 0) {
       if (std::abs(speed - spec.brain_speed) > 1e-9 * spec.brain_speed)
-        world.set_velocity(id, body.velocity * (spec.brain_speed / speed));
+        velocities_.emplace_back(id, body.velocity * (spec.brain_speed / speed));
       return;
     }
     // Clearly away, or it would touch again at once.
@@ -70,7 +82,7 @@ class Brains {
       if (glm::dot(way, away) > kClearly * length) break;
       way = direction(random);
     }
-    world.set_velocity(id, way * spec.brain_speed);
+    velocities_.emplace_back(id, way * spec.brain_speed);
   }
 
   // On the floor of a solid world.
@@ -90,7 +102,10 @@ class Brains {
   }
 
   const Scenario& scenario_;
+  bool some_wander_;
   std::map<BodyId, Random> random_;
+  std::vector<std::pair<BodyId, Vec<D>>> velocities_;  // that bodies are given
+  std::map<BodyId, Vec<D>> away_;
 };
 
 }  // namespace lantern::scenario

@@ -1,8 +1,9 @@
 // What a world remembers of pairs that touch, written down step by step.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "physics/contact_solver.hpp"
@@ -37,12 +38,13 @@ class CollisionLog {
 
  private:
   std::vector<FrameCollision::Moment>& row_of(const Pair& pair) {
-    const auto found = std::ranges::find(rows_, pair, &FrameCollision::pair);
-    if (found != rows_.end()) return found->moments;
-    return rows_.emplace_back(FrameCollision{pair, {}}).moments;
+    const auto [place, is_new] = places_.emplace(pair, rows_.size());
+    if (is_new) rows_.push_back({pair, {}});
+    return rows_[place->second].moments;
   }
 
   std::vector<FrameCollision> rows_;
+  std::map<Pair, std::size_t> places_;  // in rows_
   int remembered_ = 0;
 };
 

@@ -58,6 +58,15 @@ void ScriptRun::witness(const Event& event) {
   frames.emit(now, event_name(event.kind), text, event.body);
 }
 
+EventWatch ScriptRun::watch_of_insertion() {
+  if (!frames.by_event()) return {};
+  const EventKinds told = traits_of(engine().structure().kind).tells;
+  for (int kind = 0; kind <= static_cast<int>(Event::Kind::leave); ++kind)
+    if ((told >> kind & 1u) != 0 && frames.wanted(event_name(static_cast<Event::Kind>(kind))))
+      return [this](const Event& event) { witness(event); };
+  return {};
+}
+
 std::string ScriptRun::name_of(BodyId id) const {
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
     if (stage.engine->id_of(i) == id) return scenario.bodies[i].name;

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "base/check.hpp"
 #include "scenario/brains.hpp"
 #include "scenario/collision_log.hpp"
 #include "scenario/comparison.hpp"
@@ -38,14 +37,12 @@ class EngineOf : public Engine {
     players_.enter(body);
     steered_ = false;
   }
-  void leave(std::size_t body) override { players_.leave(body); }
+  void leave(std::span<const std::size_t> bodies) override { players_.leave(bodies); }
 
-  void store(std::size_t index, const Watch& watch) override {
-    const Body<D>* body = players_.body(index);
-    LANTERN_CHECK(body != nullptr, ==, true);
+  void store(std::span<const std::size_t> bodies, const Watch& watch) override {
     if (!has_structure()) return;
     being_stored_ = true;
-    world().store(body->id, scenario_.world.time_step, watch);
+    world().store(ids_of(bodies), scenario_.world.time_step, watch);
     being_stored_ = false;
   }
 
@@ -77,7 +74,7 @@ class EngineOf : public Engine {
   }
 
   void sleep(std::size_t body) override { world().sleep(*players_.id_of(body)); }
-  void wake(std::size_t body) override { world().wake(*players_.id_of(body)); }
+  void wake(std::span<const std::size_t> bodies) override { world().wake(ids_of(bodies)); }
 
   void solve_by(const SolveBy& method) override {
     const WorldConfig<D>& now = world().config();
@@ -251,6 +248,13 @@ class EngineOf : public Engine {
 
  private:
   World<D>& world() { return players_.world(); }
+
+  // Of bodies that are there.
+  std::vector<BodyId> ids_of(std::span<const std::size_t> bodies) const {
+    std::vector<BodyId> ids;
+    for (const std::size_t body : bodies) ids.push_back(*players_.id_of(body));
+    return ids;
+  }
 
   // The leaves of bodies that had left their boxes when the structure last followed them.
   void light_those_that_left(Frame& frame) const {

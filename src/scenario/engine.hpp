@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,13 +53,14 @@ class Engine {
   virtual void enter(std::size_t body) = 0;  // into the world only
   // The first of them now, then one each `every` world steps.
   virtual void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) = 0;
-  virtual void store(std::size_t body, const Watch& watch) = 0;  // into the structure as well
-  virtual void leave(std::size_t body) = 0;
+  // Into the structure as well, one after another.
+  virtual void store(std::span<const std::size_t> bodies, const Watch& watch) = 0;
+  virtual void leave(std::span<const std::size_t> bodies) = 0;
   virtual void move(const Move& move) = 0;
   virtual void apply(const ApplyForce& force) = 0;
   virtual void apply(const ApplyImpulse& impulse) = 0;
   virtual void sleep(std::size_t body) = 0;
-  virtual void wake(std::size_t body) = 0;
+  virtual void wake(std::span<const std::size_t> bodies) = 0;
   virtual void solve_by(const SolveBy& method) = 0;
   virtual void step() = 0;  // one world step
   // From now on the structure is that of the bodies as they are. It is built, its memory reused,

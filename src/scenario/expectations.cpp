@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -107,10 +109,12 @@ Unmet unmet_hits(const Expectation& e, const Frame& frame) {
 
 Unmet unmet_sleep(const Expectation& e, const Frame& frame) {
   const bool asleep = e.kind == Expectation::Kind::asleep;
+  std::unordered_set<std::string_view> as_wanted;
+  for (const FrameBody& body : frame.bodies)
+    if (body.asleep == asleep) as_wanted.insert(body.name);
   std::vector<std::string> others;
   for (const std::string& name : e.names)
-    if (const FrameBody* body = body_named(frame, name); !body || body->asleep != asleep)
-      others.push_back(name);
+    if (!as_wanted.contains(name)) others.push_back(name);
   if (others.empty()) return std::nullopt;
   return fmt::format("expected to be {}, but are not: {}", asleep ? "asleep" : "awake",
                      listed(others));

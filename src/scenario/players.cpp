@@ -50,30 +50,40 @@ Players<D>::Players(const Scenario& scenario)
     : scenario_(scenario),
       world_(config_of<D>(scenario)),
       ids_(scenario.bodies.size()),
-      links_(scenario.links.size()) {}
+      links_(scenario.links.size()),
+      links_of_(scenario.links.empty() ? 0 : scenario.bodies.size()) {
+  for (std::size_t i = 0; i < scenario.links.size(); ++i) {
+    const LinkSpec& link = scenario.links[i];
+    links_of_[link.a].push_back(i);
+    if (link.b && *link.b != link.a) links_of_[*link.b].push_back(i);
+  }
+}
 
 template <int D>
 void Players<D>::enter(std::size_t index) {
   const BodySpec& spec = scenario_.bodies[index];
-  const BodyId id = world_.add(body_of<D>(spec));
+  const BodyId id = world_.add(body_of<D>(spec), spin_about<D>(spec.axis_of_spin(), spec.spin));
   ids_[index] = id;
   index_of_.push_back(index);
-  if (spec.spin != 0)
-    world_.set_angular_velocity(id, spin_about<D>(spec.axis_of_spin(), spec.spin));
   stop_if_asked();
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const LinkSpec& link = scenario_.links[i];
-    if (!links_[i].there && ids_[link.a] && (!link.b || ids_[*link.b])) make_link(link, links_[i]);
-  }
+  if (!links_of_.empty())
+    for (const std::size_t i : links_of_[index]) {
+      const LinkSpec& link = scenario_.links[i];
+      if (ids_[link.a] && (!link.b || ids_[*link.b])) make_link(link, links_[i]);
+    }
   if (spec.asleep) world_.sleep(id);
 }
 
 template <int D>
-void Players<D>::leave(std::size_t index) {
-  world_.remove(*ids_[index]);
-  ids_[index].reset();
-  for (std::size_t i = 0; i < links_.size(); ++i)
-    if (scenario_.links[i].a == index || scenario_.links[i].b == index) links_[i].there = false;
+void Players<D>::leave(std::span<const std::size_t> indices) {
+  std::vector<BodyId> gone;
+  for (const std::size_t index : indices) {
+    gone.push_back(*ids_[index]);
+    ids_[index].reset();
+    if (!links_of_.empty())
+      for (const std::size_t i : links_of_[index]) links_[i].there = false;
+  }
+  world_.remove(gone);
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,7 @@ class Players {
 
   // As the scenario says, with the springs and joints whose other end is there already.
   void enter(std::size_t index);
-  void leave(std::size_t index);
+  void leave(std::span<const std::size_t> indices);
 
   std::optional<BodyId> id_of(std::size_t index) const { return ids_[index]; }
   // Null when it is not in the world.
@@ -67,9 +68,10 @@ class Players {
 
   const Scenario& scenario_;
   World<D> world_;
-  std::vector<std::optional<BodyId>> ids_;  // of the scenario's bodies
-  std::vector<std::size_t> index_of_;       // of a body id, in the scenario; or kAnchor
-  std::vector<Link> links_;                 // of the scenario's links
+  std::vector<std::optional<BodyId>> ids_;          // of the scenario's bodies
+  std::vector<std::size_t> index_of_;               // of a body id, in the scenario; or kAnchor
+  std::vector<Link> links_;                         // of the scenario's links
+  std::vector<std::vector<std::size_t>> links_of_;  // of each body, ascending; empty without links
 };
 
 // An angle or spin of the scenario, about `axis` in a solid world.

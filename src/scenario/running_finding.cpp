@@ -34,26 +34,27 @@ void RunningFinding::go_on() {
       break;
     case Kind::hit:
       so_far_.missed.erase(event.body);
-      add_hit(event.body);
+      hits_.push_back(event.body);
       break;
   }
-  if (++at_ == whole_.walk.size()) so_far_ = whole_;
+  ++at_;
 }
 
-// Of a ray in order along it, else by id.
-void RunningFinding::add_hit(BodyId body) {
-  std::vector<BodyId>& hits = so_far_.hits;
+// Hits of a ray in order along it, else by id.
+Finding RunningFinding::so_far() const {
+  if (at_ == whole_.walk.size()) return whole_;
+  Finding found = so_far_;
+  found.hits = hits_;
   if (!whole_.ray) {
-    hits.insert(std::ranges::lower_bound(hits, body), body);
-    return;
+    std::ranges::sort(found.hits);
+    return found;
   }
   const auto order = [&](BodyId id) { return std::pair{whole_.met.at(id).distance, id}; };
-  hits.insert(std::ranges::lower_bound(hits, order(body), {}, order), body);
-  if (whole_.nearest) hits.resize(1);
-  FrameRay& ray = *so_far_.ray;
-  ray.hits.clear();
-  for (const BodyId id : hits) ray.hits.push_back({id, whole_.met.at(id).position});
-  if (whole_.nearest) ray.to = ray.hits[0].position;
+  std::ranges::sort(found.hits, {}, order);
+  if (whole_.nearest && !found.hits.empty()) found.hits.resize(1);
+  for (const BodyId id : found.hits) found.ray->hits.push_back({id, whole_.met.at(id).position});
+  if (whole_.nearest && !found.hits.empty()) found.ray->to = found.ray->hits[0].position;
+  return found;
 }
 
 }  // namespace lantern::scenario

@@ -16,17 +16,16 @@ class RunningFinding {
   // The next event of whole.walk has happened.
   void go_on();
 
-  const Finding& so_far() const { return so_far_; }
+  Finding so_far() const;
   // Nodes of the structure of what moves.
   const Touched& touched() const { return touched_; }
   // Is the next event of the other structure, of what never moves?
   bool is_of_static() const { return at_ >= whole_.first_static; }
 
  private:
-  void add_hit(BodyId body);
-
   const Finding& whole_;
-  Finding so_far_;
+  Finding so_far_;            // but for its hits
+  std::vector<BodyId> hits_;  // as they were found
   Touched touched_;
   std::size_t at_ = 0;  // in the walk
 };

@@ -33,6 +33,8 @@ struct ScriptRun {
   void watch_movers();
   // An insertion into the structure, as it happens.
   void witness(const Event& event);
+  // Does that; empty if the step has no frame of anything that the structure tells of one.
+  EventWatch watch_of_insertion();
   std::string name_of(BodyId body) const;
 
   // One step of the script, the `index`-th. Throws ScenarioError, at its place, when the engine

@@ -103,7 +103,9 @@ class NodePicture {
         touched_(touched),
         shows_memory_(shows(frame, Panel::memory)),
         shows_pool_(shows(frame, Panel::pool)),
-        frame_(frame) {}
+        frame_(frame) {
+    for (std::uint32_t i = 0; i < touched.met.size(); ++i) met_.emplace(touched.met[i], i);
+  }
 
   // `awake`: null if nothing sleeps.
   template <class Structure>
@@ -148,9 +150,8 @@ class NodePicture {
     node.mark = touched_.mark_of(handle);
     node.skipped = touched_.skipped.contains(handle) ||
                    (node.parent != kNone && frame_.nodes[node.parent].skipped);
-    if (!node.leaf || touched_.met.empty()) return;
-    if (const auto at = std::ranges::find(touched_.met, handle); at != touched_.met.end())
-      node.met = static_cast<std::uint32_t>(at - touched_.met.begin());
+    if (!node.leaf) return;
+    if (const auto at = met_.find(handle); at != met_.end()) node.met = at->second;
   }
 
   void add_counters(const Counters& c, bool of_static) {
@@ -203,7 +204,8 @@ class NodePicture {
   const Touched& touched_;
   bool shows_memory_;
   bool shows_pool_;
-  Counters now_;  // of the structure that is being added
+  std::map<NodeHandle, std::uint32_t> met_;  // when a ray met them first
+  Counters now_;                             // of the structure that is being added
   Frame& frame_;
   std::uint32_t first_ = 0;  // node of the structure that is being added
 };

@@ -175,7 +175,10 @@ void Rest<kAsleep>::read(const TableReader& table, ScriptReading& script) {
 
 template <bool kAsleep>
 void Rest<kAsleep>::change(Engine& engine) const {
-  for (const std::size_t body : bodies) kAsleep ? engine.sleep(body) : engine.wake(body);
+  if constexpr (kAsleep)
+    for (const std::size_t body : bodies) engine.sleep(body);
+  else
+    engine.wake(bodies);
 }
 
 template struct Rest<true>;

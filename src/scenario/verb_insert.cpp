@@ -1,4 +1,6 @@
 // `insert`, `emit`, `remove` and `rebuild`: bodies enter and leave the world and the structure.
+#include <span>
+
 #include "base/stop.hpp"
 #include "scenario/key.hpp"
 #include "scenario/script_reading.hpp"
@@ -29,14 +31,17 @@ void Insert::change(Engine& engine) const {
   for (const std::size_t body : bodies) engine.enter(body);
 }
 
+// Where somebody looks on, each enters the world when the one before it is stored.
 void Insert::act(ScriptRun& run) const {
-  for (const std::size_t body : bodies) {
+  const EventWatch watch = run.watch_of_insertion();
+  for (const std::size_t& body : bodies) {
     if (run.frames.stopped()) return;
     run.engine().enter(body);
     run.focus(body);
     run.frames.touched = {};  // the way down is each body's own
-    run.engine().store(body, [&](const Event& event) { run.witness(event); });
+    if (watch) run.engine().store(std::span(&body, 1), watch);
   }
+  if (!watch) run.engine().store(bodies, {});
   run.frames.touched = {};
   run.frames.settle("insert");
 }
@@ -104,10 +109,8 @@ void Remove::read(const TableReader& table, ScriptReading& script) {
 }
 
 void Remove::change(Engine& engine) const {
-  for (const std::size_t body : bodies) {
-    stop_if_asked();
-    engine.leave(body);
-  }
+  stop_if_asked();
+  engine.leave(bodies);
 }
 
 void Remove::act(ScriptRun& run) const {

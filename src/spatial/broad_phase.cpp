@@ -1,7 +1,10 @@
 #include "spatial/broad_phase.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -247,37 +250,67 @@ bool BroadPhase<D>::mended(Store& store, const Watch& watch) {
 }
 
 template <int D>
-void BroadPhase<D>::insert(const Proxy<D>& proxy, const Watch& watch) {
-  require_valid(Item<D>{proxy.id, proxy.box});
-  Store& store = store_for(proxy);
-  for (const Store* other : stores())
-    if (!other->names.empty() && other->names.back() >= proxy.id)
+void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch) {
+  std::optional<BodyId> last;
+  for (const Store* store : stores())
+    if (!store->names.empty()) last = std::max(last, std::optional(store->names.back()));
+  for (const Proxy<D>& proxy : proxies) {
+    require_valid(Item<D>{proxy.id, proxy.box});
+    if (last >= proxy.id)
       throw Refused(fmt::format("body {}: ids must come in ascending order", proxy.id));
-  const auto number = static_cast<BodyId>(store.items.size());
-  const auto told = [&](Event event) {
-    event.body = store.names[event.body];
-    if (watch) watch(event);
-  };
+    last = proxy.id;
+  }
+  if (proxies.empty()) return;
   found_all_ = false;
   all_or_nothing([&] {
-    if (!store.stands) build(store);
-    store.items.push_back({number, proxy.box});
-    store.names.push_back(proxy.id);
-    store.states.push_back({proxy.is_static, proxy.awake});
-    store.ranks.push_back(static_cast<std::uint32_t>(all_names_.size()));
-    all_names_.push_back(proxy.id);
-    std::visit(
-        [&](auto& structure) {
-          if constexpr (requires { structure.insert(Item<D>{}, told); }) {
-            counters_.*store.builds += number == 0;
-            with_names(store, [&] { structure.insert(Item<D>{number, proxy.box}, told); });
-          } else {
-            store.only_moved = false;
-            build(store);
-          }
-        },
-        store.structure);
+    std::array<bool, 2> entered{};
+    for (const Proxy<D>& proxy : proxies) {
+      Store& store = store_for(proxy);
+      if (!std::exchange(entered[is_of_static(proxy)], true) && !store.stands) build(store);
+      put(store, proxy, watch);
+    }
+    if (entered[false]) finish(dynamic_);
+    if (entered[true]) finish(static_);
   });
+}
+
+// Into the structure, too, if that takes one after another.
+template <int D>
+void BroadPhase<D>::put(Store& store, const Proxy<D>& proxy, const Watch& watch) {
+  const auto number = static_cast<BodyId>(store.items.size());
+  const Item<D> item{number, proxy.box};
+  store.items.push_back(item);
+  store.names.push_back(proxy.id);
+  store.states.push_back({proxy.is_static, proxy.awake});
+  store.ranks.push_back(static_cast<std::uint32_t>(all_names_.size()));
+  all_names_.push_back(proxy.id);
+  const auto told = [&](Event event) {
+    event.body = store.names[event.body];
+    watch(event);
+  };
+  std::visit(
+      [&](auto& structure) {
+        if constexpr (requires { structure.insert(item); }) {
+          counters_.*store.builds += number == 0;
+          with_names(store, [&] { watch ? structure.insert(item, told) : structure.insert(item); });
+        }
+      },
+      store.structure);
+}
+
+// What several insertions leave to be done once.
+template <int D>
+void BroadPhase<D>::finish(Store& store) {
+  std::visit(
+      [&](auto& structure) {
+        if constexpr (!requires { structure.insert(Item<D>{}); }) {
+          store.only_moved = false;
+          build(store);
+        } else if constexpr (requires { structure.look(); }) {
+          with_names(store, [&] { structure.look(); });
+        }
+      },
+      store.structure);
 }
 
 // A fault is told of bodies by their ids, not by their places in the list.

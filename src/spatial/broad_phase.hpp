@@ -148,10 +148,12 @@ class BroadPhase {
   // bodies were tells `watch`, if there is one, what it does; `watch` may look at the structures.
   void build(std::span<const Proxy<D>> proxies, const Watch& watch = {});
 
-  // One body more, as the lecture inserts it; a structure that is fitted to its bodies is built
-  // anew. Ids must come in ascending order. `watch`, if there is one, is told what happens; it may
-  // look at the structures, but not change them. Throws as `update` does.
-  void insert(const Proxy<D>& proxy, const Watch& watch);
+  // These bodies more, one after another as the lecture inserts them; a structure that is fitted to
+  // its bodies is built anew, of all together. Ids must come in ascending order. `watch`, if there
+  // is one, is told what happens; it may look at the structures, but not change them. Throws as
+  // `update` does.
+  void insert(std::span<const Proxy<D>> proxies, const Watch& watch = {});
+  void insert(const Proxy<D>& proxy, const Watch& watch) { insert(std::span(&proxy, 1), watch); }
 
   // Of the dynamic structure: as configured or, of `automatic`, what it is now, and why.
   StructureKind kind() const { return dynamic_.kind; }
@@ -264,6 +266,8 @@ class BroadPhase {
   void forget();
   void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
   bool mended(Store& store, const Watch& watch);
+  void put(Store& store, const Proxy<D>& proxy, const Watch& watch);
+  void finish(Store& store);
   template <class F>
   static void with_names(const Store& store, F&& f);
   void empty(Store& store);

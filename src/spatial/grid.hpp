@@ -45,7 +45,10 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::rounded_rim;
   static constexpr StructureTraits kTraits{
-      .words = "grid", .meets_in_leaves = false, .splits = false};
+      .words = "grid",
+      .meets_in_leaves = false,
+      .splits = false,
+      .tells = kinds_of({Event::Kind::make_child, Event::Kind::test, Event::Kind::store})};
   static constexpr std::uint32_t kMostLevels = 16;
   static constexpr double kMostCells = 0x1p31;  // of a closed level: they are numbered
 
@@ -74,7 +77,7 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
   }
 
   // Throws Refused for a box that is not valid; nothing changes then. Tells make_child, test and
-  // store of the cells that the body reaches.
+  // store of the cells that the body reaches: whoever is told looks at all cells each time.
   template <class Observer = NoObserver>
   void insert(const Item<D>& item, Observer&& observer = {}) {
     require_valid(item);

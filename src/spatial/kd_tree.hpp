@@ -37,7 +37,7 @@ template <int D>
 class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::fitted;
-  static constexpr StructureTraits kTraits{.words = "kD-tree", .is_fitted = true};
+  static constexpr StructureTraits kTraits{.words = "kD-tree", .is_fitted = true, .tells = 0};
   static constexpr std::uint32_t kDeepest = 64;
 
   struct Config {

@@ -45,6 +45,7 @@ void OwnFlat::clear() {
   ids_.clear();
   boxes_.clear();
   broken_ = nullptr;
+  seen_ = false;
   try {
     renew();
     look();
@@ -73,6 +74,7 @@ OwnView OwnFlat::looked() {
   faults_ = view_.faults();
   for (OwnFault& fault : faults_)
     for (BodyId& body : fault.bodies) body = ids_[body];
+  seen_ = true;
   return before;
 }
 
@@ -85,6 +87,7 @@ void OwnFlat::put(const Item<2>& item) {
     cut.lo[i] = std::clamp(item.box.lo[i], rules_.bounds.lo[i], rules_.bounds.hi[i]);
     cut.hi[i] = std::clamp(item.box.hi[i], rules_.bounds.lo[i], rules_.bounds.hi[i]);
   }
+  seen_ = false;
   const auto place = static_cast<BodyId>(boxes_.size());
   ids_.push_back(item.id);
   boxes_.push_back(cut);

@@ -40,7 +40,9 @@ class OwnFlat : public Visitable<OwnFlat, 2> {
   }
   // To be called after insertions that nobody observed, and before anything is asked. Throws
   // StructureFault.
-  void look() { looked(); }
+  void look() {
+    if (!seen_) looked();
+  }
   void clear();
 
   template <class F>
@@ -85,6 +87,7 @@ class OwnFlat : public Visitable<OwnFlat, 2> {
   std::vector<BodyId> ids_;    // of the bodies, in the order of their insertion: the tree is told
   std::vector<Box<2>> boxes_;  // their places in it, and their boxes, cut to the bounds
   OwnView view_;
+  bool seen_ = false;  // it shows what the tree holds
   std::vector<OwnFault> faults_;
   std::exception_ptr broken_;  // the tree could not be made or cleared
 };

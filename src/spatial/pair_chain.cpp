@@ -39,31 +39,29 @@ PairChain BroadPhase<D>::pair_chain(const std::function<bool(BodyId)>& awake,
   std::vector<bool> stirring;
   for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
     stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
-  struct Body {
-    BodyId id;
-    const Box<D>* box;
+  struct Met {
+    Pair pair;
+    bool overlaps;
   };
-  const auto body = [](const Store& store, BodyId place) {
-    return Body{store.names[place], &store.items[place].box};
-  };
-  std::vector<std::pair<Body, Body>> met;
+  std::vector<Met> met;
   PairChain chain;
-  const auto meet = [&](const Body& a, const Body& b) {
+  const auto meet = [&](BodyId i, const Store& store, BodyId j) {
     require_within(++chain.met, most);
-    met.push_back(a.id < b.id ? std::pair(a, b) : std::pair(b, a));
+    const BodyId a = dynamic_.names[i], b = store.names[j];
+    met.push_back(
+        {{std::min(a, b), std::max(a, b)}, overlap(dynamic_.items[i].box, store.items[j].box)});
   };
   std::visit(
       [&](const auto& tree) {
-        chain.besides += each_met<D>(tree, stirring, [&](BodyId i, BodyId j) {
-          meet(body(dynamic_, i), body(dynamic_, j));
-        });
+        chain.besides +=
+            each_met<D>(tree, stirring, [&](BodyId i, BodyId j) { meet(i, dynamic_, j); });
       },
       dynamic_.structure);
   const auto ask = [&](const auto& of_static) {
     for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
       std::vector<BodyId> near;
       if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
-      for (const BodyId j : near) meet(body(dynamic_, i), body(static_, j));
+      for (const BodyId j : near) meet(i, static_, j);
     }
   };
   std::visit(
@@ -77,16 +75,14 @@ PairChain BroadPhase<D>::pair_chain(const std::function<bool(BodyId)>& awake,
         }
       },
       static_.structure);
-  const auto ids = [](const auto& both) { return Pair{both.first.id, both.second.id}; };
-  std::sort(met.begin(), met.end(), [&](const auto& x, const auto& y) {
+  std::sort(met.begin(), met.end(), [](const Met& x, const Met& y) {
     stop_if_asked();
-    return ids(x) < ids(y);
+    return x.pair < y.pair;
   });
-  const auto same = [&](const auto& x, const auto& y) { return ids(x) == ids(y); };
-  met.erase(std::unique(met.begin(), met.end(), same), met.end());
-  for (const auto& both : met) {
-    chain.pairs.push_back(ids(both));
-    if (overlap(*both.first.box, *both.second.box)) chain.overlapping.push_back(ids(both));
+  for (const Met& both : met) {
+    if (!chain.pairs.empty() && chain.pairs.back() == both.pair) continue;
+    chain.pairs.push_back(both.pair);
+    if (both.overlaps) chain.overlapping.push_back(both.pair);
   }
   return chain;
 }

@@ -39,6 +39,7 @@
 #include <compare>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -140,21 +141,6 @@ struct StructureConfig {
   std::optional<int> sweep_axis = {};          // of sort_and_sweep; none: that of most variance
 };
 
-// What tells kinds of structures apart for whoever shows or describes them.
-struct StructureTraits {
-  std::string_view words;       // "sort and sweep": as one would write it
-  bool is_tree = true;          // else one list of all bodies
-  bool meets_in_leaves = true;  // two bodies meet where they share a leaf; else by `compare`
-  bool holds_once = false;      // each body lies in one leaf, which holds no other
-  bool splits = true;           // leaves above capacity, down to the depth limit
-  bool is_fitted = false;       // to its bodies: built of all of them at once, stale when they move
-  bool shares_array = false;    // all leaves' contents lie in one array
-  bool ignores_height = false;  // in three dimensions it looks at x and z only
-  bool is_plain = false;        // makes all children, has no stop but the depth limit, and asks for
-                                // memory anew each time
-  bool is_own = false;          // a user's: seen from outside, its tests and memory are not counted
-};
-
 // What an algorithm does, told while it does it.
 struct Event {
   enum class Kind {
@@ -175,6 +161,31 @@ struct Event {
   BodyId body = 0;
   std::uint32_t count = 0;
   std::uint32_t limit = 0;
+};
+
+// Kinds of events, a bit each.
+using EventKinds = std::uint32_t;
+inline constexpr EventKinds kAllEvents = ~EventKinds{0};
+constexpr EventKinds kinds_of(std::initializer_list<Event::Kind> kinds) {
+  EventKinds bits = 0;
+  for (const Event::Kind kind : kinds) bits |= EventKinds{1} << static_cast<int>(kind);
+  return bits;
+}
+
+// What tells kinds of structures apart for whoever shows or describes them.
+struct StructureTraits {
+  std::string_view words;       // "sort and sweep": as one would write it
+  bool is_tree = true;          // else one list of all bodies
+  bool meets_in_leaves = true;  // two bodies meet where they share a leaf; else by `compare`
+  bool holds_once = false;      // each body lies in one leaf, which holds no other
+  bool splits = true;           // leaves above capacity, down to the depth limit
+  bool is_fitted = false;       // to its bodies: built of all of them at once, stale when they move
+  bool shares_array = false;    // all leaves' contents lie in one array
+  bool ignores_height = false;  // in three dimensions it looks at x and z only
+  bool is_plain = false;        // makes all children, has no stop but the depth limit, and asks for
+                                // memory anew each time
+  bool is_own = false;          // a user's: seen from outside, its tests and memory are not counted
+  EventKinds tells = kAllEvents;  // of an insertion
 };
 
 using EventWatch = std::function<void(const Event&)>;
