@@ -95,7 +95,7 @@ TEST_F(GoldenCommand, EqualFramesAreOneLineAndNoPage) {
     EXPECT_TRUE(fs::exists(of_scene(file))) << file;
   const Outcome o = golden("");
   EXPECT_EQ(o.code, 0);
-  EXPECT_EQ(o.err, "2 frames of 1 scenario as expected\n");
+  EXPECT_TRUE(o.err.ends_with("2 frames of 1 scenario as expected\n")) << o.err;
   EXPECT_FALSE(page_made());
   EXPECT_EQ(golden("--report page/ --junit j/golden.xml").code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "page/golden.html")) << "it was asked for";
@@ -149,7 +149,8 @@ TEST_F(GoldenCommand, UpdateWritesOnlyWhatChanged) {
   change(kNear);
   const Outcome o = golden("--update");
   EXPECT_EQ(o.code, 0);
-  EXPECT_EQ(o.err, "scene: written: scene_0001.png, scene_0001.json, golden.txt\n");
+  EXPECT_TRUE(o.err.ends_with("scene: written: scene_0001.png, scene_0001.json, golden.txt\n"))
+      << o.err;
   EXPECT_EQ(golden("").code, 0);
 }
 
@@ -250,7 +251,7 @@ TEST_F(GoldenCommand, APictureThatTheListDoesNotTellOfFails) {
   const Outcome o = golden("");
   EXPECT_EQ(o.code, 1);
   EXPECT_TRUE(says(o, "scene_0001.png is not the picture that golden.txt tells of"));
-  EXPECT_EQ(golden("--update").err, "scene: written: golden.txt\n");
+  EXPECT_TRUE(golden("--update").err.ends_with("scene: written: golden.txt\n"));
   EXPECT_EQ(golden("").code, 0);
 }
 

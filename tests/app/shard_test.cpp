@@ -203,7 +203,7 @@ TEST_F(Shards, MayBeMoreThanThereAreFrames) {
   ASSERT_EQ(run("--frames 2 --shard 1/2", "parts").code, 0);
   const Outcome empty = run("--frames 2 --shard 2/2", "parts");
   EXPECT_EQ(empty.code, 0);
-  EXPECT_EQ(empty.err, "shard 2/2 is empty: there is too little for 2\n");
+  EXPECT_TRUE(empty.err.ends_with("shard 2/2 is empty: there is too little for 2\n")) << empty.err;
   EXPECT_EQ(merge("whole").code, 0);
   EXPECT_FALSE(fs::exists(home_ / "parts/shard-2-of-2/six"));
   expect_same(home_ / "one", home_ / "whole");

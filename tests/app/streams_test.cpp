@@ -71,7 +71,8 @@ TEST(Streams, AStandardOutputThatCannotBeWrittenIsSaidInOneLine) {
   for (const char* words : {"--help", "--version", "render --help", "list", "list --json", "doctor",
                             "reference", "schema", "stress --list", "measure --list"})
     for (const char* stream : {" >/dev/full", " >&-"}) {
-      const Outcome o = shell("cd " LANTERN_ROOT "; lantern " + std::string(words) + stream);
+      const Outcome o =
+          shell("cd " LANTERN_ROOT "; lantern --quiet " + std::string(words) + stream);
       EXPECT_EQ(o.code, 1) << words << stream;
       EXPECT_EQ(line_count(o.err), 1u) << words << stream << ": " << o.err;
     }
