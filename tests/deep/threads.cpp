@@ -125,11 +125,33 @@ void may_be_given_up(const fs::path& folder, int threads) {
   forget_stop();
 }
 
+// All threads want the same picture, and the one that encodes it hears the wish.
+void what_others_wait_for_may_be_given_up(const fs::path& folder, int threads) {
+  constexpr int kSide = 600;
+  Work work;
+  EncodePool::Config c = config(threads, kSide);
+  c.effort = PngEffort::fast;  // hears it at each row
+  Image image;
+  paint(image, 0, kSide);
+  std::vector<bool> rows(kSide, true);
+  try {
+    EncodePool pool(c, work);
+    for (int i = 0; i < threads; ++i, rows.assign(kSide, false))
+      pool.submit(image, rows, texts(i), folder / std::to_string(i));
+    ask_to_stop();
+    pool.finish();
+  } catch (const Stopped&) {
+    // as wished, if it was not done before
+  }
+  forget_stop();
+}
+
 int run(const fs::path& folder) {
   for (int threads = 1; threads <= 8; ++threads) {
     writes_what_one_thread_writes(folder, threads);
     an_error_ends_it(folder, threads);
     may_be_given_up(folder, threads);
+    what_others_wait_for_may_be_given_up(folder, threads);
   }
   fmt::print("{} threads and fewer, {} failures\n", 8, failures);
   return failures == 0 ? 0 : 1;
