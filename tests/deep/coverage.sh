@@ -9,8 +9,11 @@ cmake -S "$root" -B "$build" -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_BUILD_TYPE=
   -DCMAKE_EXE_LINKER_FLAGS=-Wl,-u,__gcov_dump >/dev/null
 cmake --build "$build" --target tests_fuzz >"$build/build.log" || { tail -n 20 "$build/build.log"; exit 1; }
 find "$build" -name '*.gcda' -exec rm {} +
-"$build/tests/tests_fuzz" --rounds "${1:-5000}" --findings "$build/findings" >"$build/report.txt" ||
-  echo "it found something: see $build/report.txt"
+"$build/tests/tests_fuzz" --rounds "${1:-5000}" --findings "$build/findings" >"$build/report.txt" || {
+  cat "$build/report.txt"
+  echo "it found something: see $build/findings"
+  exit 1
+}
 head -n 2 "$build/report.txt"
 # Plain gcov: for each object a list of its sources' lines. A line counts once, however many
 # objects hold it.
@@ -27,6 +30,8 @@ find "$build/CMakeFiles/lantern_scenario.dir" -name '*.gcda' -exec "$gcov" -t {}
     }
     END {
       for (file in all)
-        printf "%6.1f %% of %4d lines  %s\n", 100 * run[file] / all[file], all[file], file
-      printf "%6.1f %% of %d lines of src/scenario\n", 100 * ran / total, total
-    }' | sort -n
+        printf "%6.1f %% of %4d lines  %s\n", 100 * run[file] / all[file], all[file], file | "sort -n"
+      close("sort -n")
+      if (total == 0) { print "no line of src/scenario was counted"; exit 1 }
+      printf "%.1f %% of %d lines of src/scenario\n", 100 * ran / total, total
+    }'
