@@ -81,6 +81,14 @@ TEST(Binder, ElementsThatOnlyTouchAreOfOneLayer) {
   const Elements row{{0, {0, 0, 4, 4}}, {1, {4, 0, 4, 4}}, {0, {8, 0, 4, 4}}, {1, {0, 4, 4, 4}}};
   EXPECT_EQ(sorted_by_image(row), (std::vector<std::size_t>{0, 2, 1, 3}));
   EXPECT_EQ(bindings_of(row, sorted_by_image(row)), 2u);
+  // Of one layer the one with the smaller image comes first, however it was listed.
+  const Rect middle{10, 20, 4, 5};
+  for (const auto& [x, y] : {std::pair{4, 0}, {-4, 0}, {0, 5}, {0, -5}}) {
+    const Rect beside{10 + x, 20 + y, 4, 5};
+    const Rect over{beside.x - x / 4, beside.y - y / 5, 4, 5};  // by one pixel
+    EXPECT_EQ(sorted_by_image({{1, middle}, {0, beside}}), (std::vector<std::size_t>{1, 0}));
+    EXPECT_EQ(sorted_by_image({{1, middle}, {0, over}}), (std::vector<std::size_t>{0, 1}));
+  }
 }
 
 }  // namespace

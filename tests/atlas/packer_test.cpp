@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "atlas/atlas.hpp"
+#include "atlas/stock.hpp"
 #include "base/error.hpp"
 #include "base/random.hpp"
 
@@ -88,6 +89,10 @@ TEST(Packer, PacksRandomTexturesIntoRandomLeaves) {
     Packer packer(sizes, turn);
     const Packing packing = packer.pack_most(leaves);
     EXPECT_TRUE(equal(packing, Packer(sizes, turn).pack_most(leaves))) << "not the same again";
+    for (const PackStep& step : packing.steps) {
+      EXPECT_TRUE(turn || !step.turned);
+      EXPECT_TRUE(step.kind == PackStep::Kind::store || !step.turned) << "nothing to turn";
+    }
     const auto places = places_of(packing, leaves, sizes.size());
     expect_sound(places, sizes, leaves, turn);
     std::int64_t packed = 0;
@@ -202,6 +207,35 @@ TEST(Packer, EqualTexturesOfTheLeavesSizeFillIt) {
   EXPECT_EQ(most.packed_area, 9 * 200);
 }
 
+// Rows 8 high, of which the last is filled up by 5 and 3: rows of 7, which come first, would waste.
+TEST(Packer, SixTexturesOfAHeightAreRowsThatAreSplitAtOnce) {
+  std::vector<TextureSize> sizes;
+  for (const TextureSize size : {TextureSize{8, 8}, {8, 7}, {4, 5}, {4, 3}})
+    sizes.insert(sizes.end(), 6, size);
+  const std::vector<Rect> leaves{{0, 0, 72, 8}, {0, 8, 48, 7}};
+  const Packing packing = Packer(sizes).pack(leaves);
+  EXPECT_TRUE(packing.complete);
+  EXPECT_EQ(packing.trials, 1u);
+  expect_sound(places_of(packing, leaves, sizes.size()), sizes, leaves, false);
+  sizes.pop_back();  // five: too few for rows of one height to be tried first
+  EXPECT_GT(Packer(sizes).pack(leaves).trials, 1u);
+}
+
+// As many of each list as a power of two, so that none has room to spare.
+TEST(Packer, CountsTheBytesItHolds) {
+  std::vector<TextureSize> sizes;
+  for (int height = 1; height <= 32; ++height)
+    for (int width = 1; width <= 32; ++width) sizes.push_back({width, height});
+  Packer packer(sizes);
+  const std::uint64_t n = sizes.size(), alone = n * sizeof(TextureSize);
+  EXPECT_EQ(packer.bytes(), alone);
+  packer.pack(std::vector<Rect>{{0, 0, 1000, 1000}}, 1);
+  // Of each kind also its place in the order, how many are left, and how wide they are.
+  const std::uint64_t least = n * (sizeof(Stock::Kind) + 12) + 32 * sizeof(Stock::HeightClass);
+  EXPECT_GE(packer.bytes(), alone + least);
+  EXPECT_LE(packer.bytes(), alone + least + n);
+}
+
 TEST(Packer, OnlyTurnedOnesFit) {
   const std::vector<TextureSize> sizes{{30, 10}, {10, 30}};
   const std::vector<Rect> leaf{{3, 4, 20, 30}};
@@ -244,6 +278,17 @@ TEST(Packer, TheAtlasFollowsThePlan) {
   });
   EXPECT_EQ(stored.size() + refused.size(), sizes.size());
   EXPECT_GT(refused.size(), 0u);
+  const std::vector<Rect> leaves{{0, 30, 20, 34}, {20, 0, 44, 64}};  // in order of descent
+  const auto planned = places_of(Packer(sizes, true).pack_most(leaves), leaves, sizes.size());
+  std::size_t planned_count = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (!planned[i]) continue;
+    ++planned_count;
+    ASSERT_TRUE(places[i]);
+    EXPECT_EQ(places[i]->rect, planned[i]->rect) << "not where the plan has it";
+    EXPECT_EQ(places[i]->turned, planned[i]->turned);
+  }
+  EXPECT_GT(planned_count, 30u);
   expect_sound(places, sizes, {{20, 0, 44, 64}, {0, 30, 20, 34}}, true);
   std::int64_t free = 0;
   int widest = 0;

@@ -62,6 +62,9 @@ TEST(Ray, ClosedFormsOfShapes) {
   EXPECT_EQ(entry<2>(right, HalfSpace<2>{{-1, 0}}, {7, 99}), 7);
   EXPECT_EQ(entry<2>(right, HalfSpace<2>{{1, 0}}, {7, 99}), 0) << "begins inside";
   EXPECT_EQ(entry<2>(right, HalfSpace<2>{{0, 1}}, {7, -1}), std::nullopt) << "runs along it";
+  EXPECT_EQ(entry<2>({{-3, 4}, {2, -1}}, Capsule{1, 3}, {0, 0}), 1) << "by t, on its side";
+  EXPECT_EQ(entry<2>({{-9, 6}, {4, -0.5}}, Capsule{1, 3}, {0, 0}), std::nullopt)
+      << "past its side before it comes down to it";
   const Ray<3> up{{0, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(entry<3>(up, Capsule{1, 3}, {0, 10, 0}), 6);
   EXPECT_EQ(entry<3>(up, Capsule{1, 3}, {1, 10, 0}), 7) << "along the rim of its cylinder";
@@ -146,6 +149,8 @@ TEST(Ray, ABallFarAwayKeepsItsDigits) {
 
 TEST(Ray, RefusesNamingTheField) {
   EXPECT_NO_THROW(require_valid(Ray<2>{{0, 0}, {1, 0}}));
+  EXPECT_NO_THROW(require_valid(Ray<2>{{0, 0}, {1, 0}, 0})) << "of its origin alone";
+  EXPECT_THROW(require_valid(Ray<2>{{0, 0}, {1, 0}, -1e-300}), Refused);
   EXPECT_THROW(require_valid(Ray<2>{{0, kInfinity}, {1, 0}}), Refused);
   EXPECT_THROW(require_valid(Ray<2>{{0, 0}, {NAN, 0}}), Refused);
   EXPECT_THROW(require_valid(Ray<2>{{0, 0}, {0, 0}}), Refused);

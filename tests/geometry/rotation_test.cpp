@@ -62,6 +62,7 @@ TEST(Rotation, CrossProductsAgreeBetweenTwoAndThreeDimensions) {
     const Vec<2> a = random_point<2>(random, -3, 3), b = random_point<2>(random, -3, 3);
     const double spin = random.between(-2, 2);
     EXPECT_EQ(cross(a, b), cross(solid(a), solid(b)).z);
+    EXPECT_EQ(dot(spin, a.x), dot(Vec<3>(0, 0, spin), Vec<3>(a, a.x))) << "of spins";
     EXPECT_EQ(cross(spin, a), flat(cross(Vec<3>(0, 0, spin), solid(a))));
   }
 }

@@ -57,6 +57,24 @@ TEST(Shape, AnAxisBoxDoesNotTurn) {
             (bounding_box<2>(AxisBox<2>{{1, 2}}, {3, 4})));
 }
 
+TEST(Shape, ThicknessIsHalfOfTheSmallestWidth) {
+  for (const double least : {0.0, 1.0, 2.0}) {
+    EXPECT_EQ(thickness<2>(OrientedBox<2>{{least, 3}}), least);
+    EXPECT_EQ(thickness<2>(AxisBox<2>{{3, least}}), least);
+    for (int i = 0; i < 3; ++i) {
+      Vec<3> half(3, 4, 5);
+      half[i] = least;
+      EXPECT_EQ(thickness<3>(OrientedBox<3>{half}), least);
+      EXPECT_EQ(thickness<3>(AxisBox<3>{half}), least);
+    }
+  }
+  EXPECT_EQ(thickness<2>(Sphere{7}), 7);
+  EXPECT_EQ(thickness<3>(Sphere{7}), 7);
+  EXPECT_EQ(thickness<2>(Capsule{2, 1}), 2);
+  EXPECT_EQ(thickness<3>(Capsule{2, 5}), 2);
+  EXPECT_GE(thickness<2>(HalfSpace<2>{{0, 1}}), kEndless);
+}
+
 // The farthest point of a capsule along an axis is that of one of its end balls.
 template <int D>
 void expect_box_of_end_balls() {
