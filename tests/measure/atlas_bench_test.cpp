@@ -117,6 +117,7 @@ class SizesFile : public ::testing::Test {
   ~SizesFile() override { fs::remove_all(folder_); }
 
   TextureSet read(const std::string& text) {
+    fs::remove(folder_ / "mine.csv");  // what was read is not written over
     write_file(folder_ / "mine.csv", text);
     return read_texture_sizes(folder_ / "mine.csv");
   }

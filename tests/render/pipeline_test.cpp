@@ -135,9 +135,10 @@ TEST(Pipeline, MakesDoWithTheThreadsThereAre) {
 }
 
 // Submits until the pipeline gives up; true if it threw an IoError.
-bool gives_up(Pipeline& pipeline, const fs::path& folder) {
+bool gives_up(Pipeline& pipeline, const Folder& folder) {
   try {
-    for (int i = 0; i < 200; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
+    for (int i = 0; i < 200; ++i)
+      pipeline.submit(sample_scene(i), texts(i), {folder, std::to_string(i)});
     pipeline.finish();
   } catch (const IoError&) {
     return true;
@@ -151,8 +152,9 @@ TEST(Pipeline, StopsWhenTheFolderVanishes) {
   Pipeline pipeline(Context::create(Backend::automatic), config(3), work);
   pipeline.submit(sample_scene(), texts(0), file(folder, 0));
   pipeline.finish();
+  const Folder held(folder);
   fs::remove_all(folder);
-  EXPECT_TRUE(gives_up(pipeline, folder));
+  EXPECT_TRUE(gives_up(pipeline, held));
   EXPECT_LT(work.frames_drawn, 100u) << "it went on drawing for nothing";
   EXPECT_THROW(pipeline.finish(), IoError) << "the error stays";
 }
@@ -167,7 +169,7 @@ TEST(Pipeline, StopsWhenTheDiskIsFull) {
   Work work;
   Pipeline pipeline(Context::create(Backend::automatic), config(2), work);
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
-  const bool stopped = gives_up(pipeline, folder);
+  const bool stopped = gives_up(pipeline, Folder(folder));
   ::setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, old_handler);
   EXPECT_TRUE(stopped);
