@@ -42,7 +42,9 @@ for file in sorted(glob.glob(os.path.join(ROOT, "tests/cases/*.toml"))):
     for command in (["check", file], ["render", file, "-o", "OUT"]):
         for budget, options in ((GIGA, ["--memory", "1G"]), (half, [])):
             code, peak, said = peak_of(command + options)
-            refused = [line for line in said.splitlines() if "--memory" in line]
+            # Too much for the budget, or a tree with more entries than one may have: what to change.
+            refused = [line for line in said.splitlines()
+                       if "--memory" in line or "entries); lower max_depth" in line]
             good = peak <= budget and code in (0, 1, 3, 130) and (code in (0, 130) or refused)
             failures += not good
             runs, fullest = runs + 1, max(fullest, peak / budget)
