@@ -240,6 +240,39 @@ TEST(AabbTree, StaysLow) {
   }
 }
 
+// In a row each cut is in its middle; where distances grow by and by it would be a chain, which is
+// followed as far as the height allows.
+TEST(AabbTree, IsCutWhereBoxesStaySmall) {
+  std::vector<Item<2>> row, growing;
+  for (BodyId i = 0; i < 256; ++i) row.push_back({i, Box<2>::around({2.0 * i, 0}, Vec<2>(0.5))});
+  for (BodyId i = 0; i < 300; ++i)
+    growing.push_back({i, Box<2>::around({std::pow(1.2, i), 0}, Vec<2>(1e-3))});
+  AabbTree<2> tree;
+  tree.build(row);
+  EXPECT_EQ(tree.counters().depth, 8u);
+  tree.build(growing);
+  EXPECT_GT(tree.counters().depth, 9u) << "cut at the median";
+  EXPECT_LE(tree.counters().depth, 9u + 8);
+}
+
+// A ray visits the nodes whose boxes it meets, one by one where no table was made of them.
+TEST(AabbTree, CountsTheNodesThatARayVisits) {
+  Random random(31);
+  const auto items = numbered_world<2>(Sort::uniform, 60, random);
+  AabbTree<2> tree;
+  for (const Item<2>& item : items) tree.insert(item);
+  for (int round = 0; round < 50; ++round) {
+    const Ray<2> ray{random_point<2>(random, -10, 74), random_direction<2>(random)};
+    std::uint64_t met = 0;
+    tree.visit([&](const NodeView<2>& view) {
+      met += span_in(ray, view.box).has_value();
+      return true;
+    });
+    const auto box_of = [&](BodyId id) { return items[id].box; };
+    EXPECT_EQ(raycast_all<2>(tree, ray, box_of).counts.nodes_visited, met);
+  }
+}
+
 // Beyond float, and so far apart that the distance is: no number of the rule of cuts is lost.
 TEST(AabbTree, HoldsWhatFloatCannot) {
   std::vector<Item<2>> items;
@@ -259,7 +292,13 @@ TEST(AabbTree, HoldsWhatFloatCannot) {
 TEST(AabbTree, ABodyComesToTheNeighbourWithWhichBoxesGrowLeast) {
   AabbTree<2> tree;
   std::vector<Event::Kind> told;
-  const auto watch = [&](const Event& event) { told.push_back(event.kind); };
+  const auto watch = [&](const Event& event) {
+    told.push_back(event.kind);
+    const bool is_test = event.kind == Event::Kind::test, parts = event.kind == Event::Kind::split;
+    EXPECT_EQ(event.count, is_test ? 0u : parts ? 2u : 1u);
+    EXPECT_EQ(event.limit, is_test ? 0u : 1u);
+    EXPECT_EQ(event.body, told.size() == 1 && !is_test ? 0u : 1u);
+  };
   const auto unit_at = [](double x) { return Box<2>::around({x, 0}, Vec<2>(0.5)); };
   tree.insert({0, unit_at(0)}, watch);
   EXPECT_EQ(told, std::vector{Event::Kind::store});

@@ -177,6 +177,12 @@ TEST(BroadPhase, TooManyPairsAreRefusedAndTheNextUpdateIsRight) {
     for (BodyId id = 0; id < 10; ++id) proxies.push_back({id, {{1, 1}, {2, 2}}});
     EXPECT_THROW(phase.update(proxies), Refused) << to_string(kind) << ": 45 pairs";
     EXPECT_TRUE(phase.pairs().empty()) << to_string(kind);
+    std::size_t held = 0;
+    phase.visit_dynamic([&](const NodeView<2>& node) {
+      held += node.bodies.size();
+      return true;
+    });
+    EXPECT_EQ(held, 0u) << to_string(kind) << ": it shows bodies that it has forgotten";
     proxies.pop_back();
     phase.update(proxies);
     EXPECT_EQ(phase.pairs().size(), 36u) << to_string(kind);

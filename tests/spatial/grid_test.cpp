@@ -246,13 +246,20 @@ TEST(Grid, AHashedGridShowsItsBuckets) {
     grid.insert({id, Box<2>::around({id * 3.0 + 0.5, (id * id % 97) + 0.5}, Vec<2>(0.2))});
   std::uint64_t buckets = 0, cells = 0;
   std::uint32_t last = kNone;
+  Box<2> root, all;
   grid.visit([&](const NodeView<2>& node) {
+    if (node.depth == 0) root = node.box;
+    if (node.depth == 2) all = cells == 0 ? node.box : united(all, node.box);
     buckets += node.depth == 1;
     cells += node.depth == 2;
     EXPECT_TRUE(node.depth != 1 || last == kNone || last < node.slot) << "in order";
     if (node.depth == 1) last = node.slot;
     return true;
   });
+  EXPECT_EQ(root, all) << "without bounds of its own, it is as large as its cells";
+  EXPECT_EQ(grid.work().nodes, 1u);
+  EXPECT_EQ(grid.work().leaves, 1u);
+  EXPECT_EQ(grid.work().entries, 60u);
   EXPECT_EQ(cells, 60u);
   EXPECT_LT(buckets, 60u) << "some share one";
   EXPECT_GT(buckets, 30u);
@@ -282,6 +289,14 @@ TEST(Grid, ChoosesCellsThatSuitItsBodies) {
   grid.build(points);
   EXPECT_GT(grid.side(), 0.3);
   EXPECT_LT(grid.side(), 4);
+  for (const double apart : {0.5, 2.0}) {  // points in rows: half of how far apart they are
+    for (BodyId id = 0; id < 1000; ++id) {
+      const Vec<2> at(apart * (id % 32), apart * (id / 32));
+      points[id].box = {at, at};
+    }
+    grid.build(points);
+    EXPECT_NEAR(grid.side(), apart / 2, 0.1 * apart);
+  }
 }
 
 TEST(Grid, NothingAndOneAndAllInOnePlace) {

@@ -53,6 +53,10 @@ TEST(KdTree, PlanesLieOnFacesAndBoxesFit) {
   EXPECT_EQ(nodes[3].bodies, std::vector<BodyId>{2});
   EXPECT_EQ(nodes[4].bodies, std::vector<BodyId>{3});
   EXPECT_EQ(tree.counters().entries, 3u) << "nothing was cut";
+  const std::uint64_t tests = tree.counters().box_tests;
+  EXPECT_GT(tests, 0u);
+  tree.build(std::vector{item(3, 6, 0, 9, 2), item(1, 0, 0, 2, 1), item(2, 3, 1, 4, 5)});
+  EXPECT_EQ(tree.counters().box_tests, tests) << "of this build, not of those before";
 }
 
 TEST(KdTree, WhatStraddlesAPlaneLiesOnBothSides) {

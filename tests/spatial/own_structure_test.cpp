@@ -344,6 +344,9 @@ TEST(OwnStructure, EventsAreInferred) {
     constexpr const char* kNames[] = {"test",  "miss",      "make_child",  "store",
                                       "split", "hand_down", "depth_limit", "no_progress"};
     told.push_back(std::string(kNames[static_cast<int>(e.kind)]) + " " + std::to_string(e.body));
+    const bool counts = e.kind != Event::Kind::make_child;
+    EXPECT_EQ(e.count > 0, counts) << told.back();
+    EXPECT_EQ(e.limit, counts ? 2u : 0u) << told.back();
   };
   own.insert({5, {{2, 2}, {4, 4}}}, watch);
   own.insert({6, {{40, 2}, {44, 4}}}, watch);
