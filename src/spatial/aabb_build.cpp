@@ -35,13 +35,6 @@ AabbNode<D> nowhere() {
   return node;
 }
 
-template <int D>
-AabbNode<D> around(std::span<const AabbNode<D>> leaves) {
-  AabbNode<D> all = leaves[0];
-  for (const AabbNode<D>& leaf : leaves) all.grow_around(all, leaf);
-  return all;
-}
-
 struct Spread {
   int axis = 0;
   float from = 0, to = 0;
