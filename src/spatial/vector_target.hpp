@@ -27,11 +27,20 @@ namespace lantern::spatial {
 
 template <class Function>
 Function best_of(std::initializer_list<Function> functions) {
+  // What stands for a level beside these, such as LZCNT, every such processor has; both GCC and
+  // Clang know these names.
+  const bool sse4 = __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&
+                    __builtin_cpu_supports("popcnt");
+  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  const bool avx3 = avx2 && __builtin_cpu_supports("avx512f") &&
+                    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
   std::int64_t targets = 0;
   if (__builtin_cpu_supports("ssse3")) targets |= HWY_SSSE3;
-  if (__builtin_cpu_supports("x86-64-v2")) targets |= HWY_SSE4;
-  if (__builtin_cpu_supports("x86-64-v3")) targets |= HWY_AVX2;
-  if (__builtin_cpu_supports("x86-64-v4")) targets |= HWY_AVX3;
+  if (sse4) targets |= HWY_SSE4;
+  if (avx2) targets |= HWY_AVX2;
+  if (avx3) targets |= HWY_AVX3;
   hwy::ChosenTarget chosen;
   chosen.Update(targets);
   return functions.begin()[chosen.GetIndex()];
