@@ -9,13 +9,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the module is; empty if it was not built.
+// Where the module is; empty if it was not built. Beside the program, or above the tests' folder: a
+// folder above a program may be that of another build.
 fs::path place_of(const PeerModule& module) {
   std::error_code error;
   const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& folder : {here / "peers", here.parent_path() / "peers"})
-    if (fs::is_regular_file(folder / module.file, error)) return folder / module.file;
-  return {};
+  const fs::path home = here.filename() == "tests" ? here.parent_path() : here;
+  const fs::path file = home / "peers" / module.file;
+  return fs::is_regular_file(file, error) ? file : fs::path();
 }
 
 }  // namespace
