@@ -89,8 +89,10 @@ class GoldenRun {
     if (!std::isfinite(options_.fraction))
       throw UsageError("--fraction must be a number from 0 to 1");
     std::error_code none;
-    if (!options_.junit.empty() &&
-        fs::weakly_canonical(options_.junit, none) == fs::weakly_canonical(report_file(), none))
+    const auto resolved = [&](const fs::path& file) {
+      return fs::weakly_canonical(fs::absolute(file, none), none);
+    };
+    if (!options_.junit.empty() && resolved(options_.junit) == resolved(report_file()))
       throw UsageError("--junit and --report name the same file");
     for (const fs::path& file : {fs::path(options_.junit), report_file()})
       if (file == "-") throw UsageError("--junit and --report write files, not standard output");

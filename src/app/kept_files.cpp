@@ -25,8 +25,8 @@ struct Kept {
 };
 constexpr std::array kKept = {
     Kept{kManifest, "\"lantern.manifest/", KeptFor::frames, "the frames of a run"},
-    Kept{kGoldenList, "lantern.golden_frames/", KeptFor::goldens, "golden frames"},
-    Kept{kShardFile, "\"lantern.shard/", KeptFor::shard, "a part of a run"},
+    Kept{kGoldenList, "lantern.golden_frames/", KeptFor::goldens, "the golden frames"},
+    Kept{kShardFile, "\"lantern.shard/", KeptFor::shard, "the frames of a part"},
 };
 constexpr const char* kMeasurement = "measure.json";
 
@@ -55,8 +55,9 @@ void require_kept_for(KeptFor wanted, const Folder& folder) {
 void require_free(const fs::path& file) {
   std::error_code none;
   if (fs::is_directory(file, none)) refuse(file, "a folder");
+  if (fs::is_other(file, none)) refuse(file, "a device or a pipe");
   if (!fs::exists(fs::symlink_status(file, none))) return;
-  if (is_input(file)) refuse(file, "what this run reads");
+  if (is_input(file)) refuse(file, "what this run reads, and cannot be its output");
   const Folder folder(folder_of(file));
   const std::string name = file.filename().string();
   const std::string scenario = fs::weakly_canonical(folder.path(), none).filename().string();

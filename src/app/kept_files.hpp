@@ -16,8 +16,8 @@ void require_kept_for(KeptFor wanted, const Folder& folder);
 
 // For each file that an option names: -o, --report, --junit. Throws UsageError if that is what this
 // run has read, or what Lantern keeps for another purpose: a manifest, a list of golden frames, the
-// record of a part, a measurement, or a frame or its facts beside one of these. It must not be a
-// folder, either.
+// record of a part, a measurement, or a frame or its facts beside one of these. Nor must it be a
+// folder, a device or a pipe.
 void require_free(const std::filesystem::path& file);
 
 }  // namespace lantern::app

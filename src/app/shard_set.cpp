@@ -38,18 +38,23 @@ ShardSet::ShardSet(const std::vector<std::string>& folders) {
 }
 
 void ShardSet::look_into(const std::string& path) {
-  const std::size_t before = found_.size();
+  bool holds_some = false;
+  const auto look = [&](const Folder& folder) {
+    if (!folder.has(kShardFile)) return;
+    take(folder);
+    holds_some = true;
+  };
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     const Folder folder(path);
-    if (folder.has(kShardFile)) take(folder);
+    look(folder);
     for (const std::string& name : folder.names()) {
       if (!is_named_as_a_shard(name)) continue;
       const auto inside = folder.find(name);
-      if (inside && inside->has(kShardFile)) take(*inside);
+      if (inside) look(*inside);
     }
   }
-  if (found_.size() == before)
+  if (!holds_some)
     throw UsageError(
         fmt::format("'{}' holds no shard; give folders that a run with --shard wrote into", path));
 }

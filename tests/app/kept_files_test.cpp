@@ -90,13 +90,24 @@ TEST_F(KeptFiles, WhatLanternKeepsIsNotWrittenOverByAnotherOption) {
       EXPECT_EQ(run(std::string("render little.toml -o ") + words).code, 0) << words;
 }
 
+TEST_F(KeptFiles, WhatIsNoFileIsNoOutput) {
+  ASSERT_EQ(shell("mkfifo " + (made() / "pipe.png").string()).code, 0);
+  for (const char* words : {"render little.toml -o pipe.png", "golden little.toml --junit pipe.png",
+                            "golden little.toml --report pipe.png"})
+    EXPECT_EQ(run(words).code, 2) << words;
+  EXPECT_TRUE(fs::is_fifo(made() / "pipe.png"));
+  const Outcome o = run("golden little.toml --junit x.html --report ./x.html");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("--junit and --report name the same file"), o.err.npos) << o.err;
+}
+
 TEST_F(KeptFiles, AFolderIsKeptForOnePurpose) {
   expect_refused("render little.toml --size 80x45 -o golden", "golden/little/little_0000.png",
-                 "'golden/little' holds golden frames, of which golden.txt tells");
+                 "'golden/little' holds the golden frames, of which golden.txt tells");
   expect_refused("golden little.toml --dir out --update", "out/little/little_0000.png",
                  "'out/little' holds the frames of a run, of which manifest.json tells");
   expect_refused("render little.toml -o parts/shard-1-of-1", "parts/shard-1-of-1/shard.json",
-                 "'parts/shard-1-of-1' holds a part of a run");
+                 "'parts/shard-1-of-1' holds the frames of a part, of which shard.json tells");
 }
 
 }  // namespace
