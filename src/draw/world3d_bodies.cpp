@@ -169,7 +169,9 @@ void draw_box(const Body3D& b, const View3D& view, Pen& pen) {
     const Role fill =
         b.body->dimmed ? Role::panel : in_tone(color, tone_of(face.normal, view.light()));
     pen.polygon(outline, fill, stroke);
-    if (outline.size() != 4 || least_side(outline) <= most) continue;
+    const bool whole = std::ranges::all_of(
+        face.corners(), [&](const Vec<3>& corner) { return view.seen(corner).has_value(); });
+    if (!whole || least_side(outline) <= most) continue;
     most = least_side(outline);
     widest = &face;
   }

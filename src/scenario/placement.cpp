@@ -41,11 +41,16 @@ Occupied::Occupied(const Box<3>& region, int dimension) : region_(region) {
 }
 
 void Occupied::add(const Box<3>& box) {
-  const std::size_t index = boxes_.size();
-  boxes_.push_back(box);
-  for_each_cell(box, [&](const std::vector<std::size_t>& cell) {
-    grid_[static_cast<std::size_t>(&cell - grid_.data())].push_back(index);
+  constexpr std::size_t kMostCells = 256;
+  const auto [lo, hi] = cells_of(box);
+  std::size_t count = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) count *= hi[axis] - lo[axis] + 1;
+  if (count > kMostCells) return wide_.push_back(box);
+  any_cell(box, [&](std::size_t cell) {
+    grid_[cell].push_back(boxes_.size());
+    return false;
   });
+  boxes_.push_back(box);
 }
 
 // What lies beyond the region belongs to the cells at its rim.
@@ -57,16 +62,13 @@ std::size_t Occupied::cell_of(double x, int axis) const {
   return static_cast<std::size_t>(std::clamp(cell, 0.0, last));
 }
 
-template <class F>
-void Occupied::for_each_cell(const Box<3>& box, F&& f) const {
-  std::array<std::size_t, 3> lo, hi;
+Occupied::Cells Occupied::cells_of(const Box<3>& box) const {
+  Cells cells{};
   for (int axis = 0; axis < 3; ++axis) {
-    lo[static_cast<std::size_t>(axis)] = cell_of(box.lo[axis], axis);
-    hi[static_cast<std::size_t>(axis)] = cell_of(box.hi[axis], axis);
+    cells.lo[static_cast<std::size_t>(axis)] = cell_of(box.lo[axis], axis);
+    cells.hi[static_cast<std::size_t>(axis)] = cell_of(box.hi[axis], axis);
   }
-  for (std::size_t z = lo[2]; z <= hi[2]; ++z)
-    for (std::size_t y = lo[1]; y <= hi[1]; ++y)
-      for (std::size_t x = lo[0]; x <= hi[0]; ++x) f(grid_[(z * cells_[1] + y) * cells_[0] + x]);
+  return cells;
 }
 
 Placement::Placement(const Arrangement& arrangement, const BodySpec& like,

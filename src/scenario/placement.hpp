@@ -1,6 +1,7 @@
 // Where the bodies of a pattern stand.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -25,22 +26,34 @@ class Occupied {
   // Is `holds` true of one of the boxes that may overlap this one?
   template <class F>
   bool any_near(const Box<3>& box, F&& holds) const {
-    bool found = false;
-    for_each_cell(box, [&](const std::vector<std::size_t>& cell) {
-      for (const std::size_t i : cell) found = found || holds(boxes_[i]);
-    });
-    return found;
+    return std::ranges::any_of(wide_, holds) || any_cell(box, [&](std::size_t cell) {
+             return std::ranges::any_of(grid_[cell],
+                                        [&](std::size_t i) { return holds(boxes_[i]); });
+           });
   }
 
  private:
+  struct Cells {
+    std::array<std::size_t, 3> lo, hi;  // both of them, too
+  };
+  Cells cells_of(const Box<3>& box) const;
+  // Until it holds of one of the cells that the box reaches.
   template <class F>
-  void for_each_cell(const Box<3>& box, F&& f) const;
+  bool any_cell(const Box<3>& box, F&& holds) const {
+    const auto [lo, hi] = cells_of(box);
+    for (std::size_t z = lo[2]; z <= hi[2]; ++z)
+      for (std::size_t y = lo[1]; y <= hi[1]; ++y)
+        for (std::size_t x = lo[0]; x <= hi[0]; ++x)
+          if (holds((z * cells_[1] + y) * cells_[0] + x)) return true;
+    return false;
+  }
   std::size_t cell_of(double x, int axis) const;
 
   Box<3> region_;
   std::array<std::size_t, 3> cells_{1, 1, 1};
   std::vector<std::vector<std::size_t>> grid_;
   std::vector<Box<3>> boxes_;
+  std::vector<Box<3>> wide_;  // that reach so many cells that they are in none
 };
 
 struct Arrangement {

@@ -37,10 +37,9 @@ TableReader::TableReader(const TomlTable& table, Place where, const TableDoc& do
       called_(called.empty() ? doc.heading : called) {
   for (const TomlEntry& e : table_) {
     const KeyDoc* key = doc_.find(e.key);
-    if (!key)
-      check_unknown(e);
-    else if (!check_value(e.value, *key, dimension_, problems_))
-      bad_.insert(e.key);
+    if (key && check_value(e.value, *key, dimension_, problems_)) continue;
+    if (!key) check_unknown(e);
+    bad_.insert(e.key);
   }
   check_missing();
   check_groups();

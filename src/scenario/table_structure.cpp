@@ -180,6 +180,11 @@ StructureSpec read_structure(const TableReader& table, const StructureSpec& base
   StructureSpec s = base;
   table.fill(s);
   s.where = draft.position(table.where());
+  constexpr double kLeastCell = 1e-9;
+  if (table.is_good("cell") && s.cell > 0 && s.cell < kLeastCell)
+    table.bad_value(
+        "cell", "cells so small are no use",
+        fmt::format("allowed is {:g} or more, or 0 for what suits the bodies", kLeastCell));
   if (table.has("planes")) s.planes = read_planes(table, draft);
   if (table.has("kind") && !table.is_good("kind"))
     s.kind = kGuess;

@@ -136,11 +136,15 @@ void Wait::read(const TableReader& table, ScriptReading& script) {
   if (written.empty() && bodies.empty()) return;
   for (const Named& name : written)
     if (script.draft.bodies.find(name.name)) one_body(name, script.draft);
-  if (written.size() != 2)
-    table.bad_value("bodies",
-                    fmt::format("{} of them cannot {}: it takes two", written.size(),
-                                *table.get<std::string>("event")),
-                    "as bodies = [\"ball\", \"wall\"]");
+  // A range stands for several.
+  const bool has_range = std::ranges::any_of(
+      written, [&](const Named& name) { return name.name.find("..") != name.name.npos; });
+  const std::size_t count = has_range ? bodies.size() : written.size();
+  if (count != 2)
+    table.bad_value(
+        "bodies",
+        fmt::format("{} of them cannot {}: it takes two", count, *table.get<std::string>("event")),
+        "as bodies = [\"ball\", \"wall\"]");
 }
 
 // Until the event, which must happen in time.

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.hpp"
 #include "draw/colour_vision.hpp"
 #include "draw/page.hpp"
 #include "draw/painter_order.hpp"
 #include "draw/panels.hpp"
 #include "draw/theme.hpp"
 #include "draw/world3d_samples.hpp"
+#include "geometry/random_vec.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -43,12 +45,17 @@ std::vector<Camera> extreme_cameras(const Box<3>& bounds) {
 }
 
 void expect_sound(const DrawList& list, const std::string& name) {
-  for (const DrawShape& shape : list.shapes)
+  for (const DrawShape& shape : list.shapes) {
+    if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
+      ASSERT_GE(polygon->stroke.width, 0) << name;
+      ASSERT_LE(polygon->stroke.width, kPanel.size().x) << name;
+    }
     for (const Vec<2>& p : points_of(shape)) {
       ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y)) << name << ": not a place on a page";
       ASSERT_TRUE(contains(shrunk(kPanel, -4), p))
           << name << ": " << p.x << ", " << p.y << " is out of the panel, shape " << shape.index();
     }
+  }
   for (std::size_t i = 0; i < list.labels.size(); ++i) {
     EXPECT_TRUE(holds(kPanel, list.labels[i].box)) << name << ": " << list.labels[i].text;
     for (std::size_t j = 0; j < i; ++j)
@@ -85,6 +92,21 @@ TEST(World3D, IsSoundForStrangeBodies) {
   expect_sound(drawn(frame), "strange bodies");
   frame.bounds = {{2, 2, 2}, {2, 2, 2}};
   expect_sound(drawn(frame), "a world without extent");
+}
+
+// Their faces have corners before it and behind it.
+TEST(World3D, IsSoundForBoxesThatReachPastTheEye) {
+  Random random(7);
+  const auto somewhere = [&] { return geometry::random_point<3>(random, 0, 16); };
+  for (int i = 0; i < 500; ++i) {
+    Frame frame;
+    frame.dimension = 3;
+    frame.bounds = {{0, 0, 0}, {16, 12, 16}};
+    frame.camera = Camera{somewhere(), somewhere(), 0.7};
+    frame.bodies.push_back(
+        samples::solid_body(0, "tall", AxisBox<3>{{313, 2054, 1}}, somewhere(), 1));
+    expect_sound(drawn(frame), "tall box " + std::to_string(i));
+  }
 }
 
 TEST(World3D, IsTheSameListEachTime) {

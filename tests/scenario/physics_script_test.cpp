@@ -82,6 +82,7 @@ TEST(PhysicsVerbs, WaitsForWhatCanHappen) {
   const std::string touch = "do = \"wait\"\nevent = \"touch\"\nat_most = 2\nbodies = ";
   expect_mistake(touch + "[\"red\", @\"dot\"]", "'dot1' to 'dot3'");
   expect_mistake(touch + "@[\"red\", \"pink\", \"wall\"]", "it takes two");
+  expect_mistake(touch + "@[\"red\", \"dot1..dot2\"]", "3 of them cannot touch: it takes two");
   expect_mistakes(kPhysicsScene + steps({"do = \"insert\"\nbodies = [\"red\"]",
                                          touch + "[\"red\", @\"pink\"]"}),
                   {"is not in the world at this step"});

@@ -1,4 +1,6 @@
 // Where a pattern's bodies stand, how they enter, and which way a body is turned.
+#include "scenario/placement.hpp"
+
 #include <cmath>
 #include <string>
 
@@ -50,6 +52,24 @@ TEST(Placement, ApartKeepsClearOfEachOtherAndOfWalls) {
   for (std::size_t i = 0; i < solid.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       EXPECT_GE(glm::length(solid[i].position - solid[j].position), 2 - 1e-6);
+}
+
+TEST(Placement, WhatReachesFarIsLookedAtOnce) {
+  Occupied occupied({Vec<3>(0.0), Vec<3>(10, 10, 0)}, 2);
+  for (int i = 0; i < 100; ++i) occupied.add({Vec<3>(-1e9), Vec<3>(1e9)});
+  for (int i = 0; i < 100; ++i)
+    occupied.add({Vec<3>(5, 0.1 * i, 0), Vec<3>(5.01, 0.1 * i + 0.01, 0)});
+  const Box<3> all{Vec<3>(0.0), Vec<3>(10, 10, 0)};
+  int looks = 0;
+  const auto look = [&](bool answer) {
+    looks = 0;
+    return occupied.any_near(all, [&](const Box<3>&) { return ++looks > 0 && answer; });
+  };
+  EXPECT_TRUE(look(true));
+  EXPECT_EQ(looks, 1) << "the first that meets it is enough";
+  EXPECT_FALSE(look(false));
+  EXPECT_GE(looks, 200);
+  EXPECT_LE(looks, 500) << "once each, and once more where it reaches a second cell";
 }
 
 TEST(Placement, ApartTellsHowManyFound) {

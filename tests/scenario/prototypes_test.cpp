@@ -49,6 +49,11 @@ TEST(Prototypes, TellTheirMistakesOnceHoweverManyAreLikeThem) {
                       "@position = [1, 1]\n[[pattern]]\nname = \"p\"\ncount = 2\n" +
                       "like = \"dot\"\n" + kShow,
                   {"unknown key 'position' in [[pattern]]"});
+  // One that a body has, of another type than there.
+  expect_mistakes(
+      world_text("size = [8, 8]\n",
+                 "[[pattern]]\nname = \"p\"\ncount = 2\nradius = 1\n@ground = 1\n" + kShow),
+      {"unknown key 'ground' in [[pattern]]"});
 }
 
 TEST(Prototypes, ThatAreNotThereOrGoInCircles) {
