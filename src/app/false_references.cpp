@@ -44,6 +44,16 @@ void add_needs(const Scenario& scenario, std::vector<Diagnostic>& found) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scenario.needs.size(); ++i) {
     const std::string& need = scenario.needs[i];
+    const auto earlier = scenario.needs.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool is_itself = need == scenario.name;
+    if (is_itself || std::find(scenario.needs.begin(), earlier, need) != earlier) {
+      found.push_back(
+          warning(scenario, Warning::needs, scenario.needs_at[i],
+                  is_itself ? fmt::format("'{}' cannot be seen before itself", need)
+                            : fmt::format("'{}' is to be seen before, and is named twice", need),
+                  "leave it out"));
+      continue;
+    }
     if (is_there(need)) continue;
     if (names.empty())
       for (const fs::path& folder : folders) add_names(folder, names);

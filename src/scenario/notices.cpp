@@ -19,7 +19,7 @@
 namespace lantern::scenario {
 namespace {
 
-constexpr const char* kCannotFail = "it cannot fail";
+constexpr const char* kCannotFail = "so this cannot fail";
 constexpr double kBeyondAll = 1e15;  // no measure of a lecture's world comes near
 constexpr double kWide = 1e6;        // a tolerance of so many times what is expected is none
 
@@ -80,7 +80,7 @@ void notice_expectations(Draft& draft) {
     for (const auto* list : {&step.expect, &step.always})
       for (const Expectation& e : *list)
         if (const auto why = why_it_holds(e, draft.scenario))
-          draft.notice(Warning::expect, e.where, fmt::format("{}: {}", *why, kCannotFail),
+          draft.notice(Warning::expect, e.where, fmt::format("{}, {}", *why, kCannotFail),
                        "give it a limit that a mistake would break");
 }
 
@@ -94,13 +94,17 @@ bool expects_nothing(const TomlTable& table) {
 
 // --- settings of contacts ---
 
-// The first place of a key that changes nothing, and how often it is there.
+// The first place of a key that changes nothing, how often it is there, and why.
 class IdleKeys {
  public:
-  void see(const TomlValue& table, std::initializer_list<std::string_view> keys) {
+  struct Reason {
+    std::string why, instead;
+  };
+  void see(const TomlValue& table, std::initializer_list<std::string_view> keys,
+           const Reason& reason) {
     for (const std::string_view key : keys)
       if (const TomlEntry* entry = entry_of(std::get<TomlTable>(table.data), key)) {
-        Seen& seen = found_.try_emplace(key, Seen{entry->where, 0}).first->second;
+        Seen& seen = found_.try_emplace(key, Seen{entry->where, 0, reason}).first->second;
         seen.first = std::min(seen.first, entry->where);
         ++seen.times;
       }
@@ -112,28 +116,55 @@ class IdleKeys {
           fmt::format("'{}' changes nothing{}: {}", key,
                       seen.times > 1 ? ", here and " + counted(seen.times - 1, "time") + " more"
                                      : std::string(),
-                      kNothingTouches),
-          fmt::format("{}, or leave it out", kGiveContacts));
+                      seen.reason.why),
+          fmt::format("{}, or leave it out", seen.reason.instead));
   }
 
  private:
   struct Seen {
     Place first;
     std::size_t times = 0;
+    Reason reason;
   };
   std::map<std::string_view, Seen> found_;
 };
 
+bool ever_solves_by(const ScenarioSpec& s, ContactMethod method) {
+  return s.world.contacts == method || std::ranges::any_of(s.steps, [&](const Step& step) {
+           const auto* solve_by = std::get_if<SolveBy>(&step.verb);
+           return solve_by && solve_by->contacts == method;
+         });
+}
+
+// How finely one method works, where only others do. `lantern measure` tries a problem under all.
+void see_idle_efforts(const TomlValue& world, const ScenarioSpec& s, IdleKeys& keys) {
+  static constexpr std::pair<std::string_view, ContactMethod> kEfforts[] = {
+      {"iterations", ContactMethod::impulse}, {"sub_steps", ContactMethod::soft}};
+  if (s.problem) return;
+  for (const auto& [key, method] : kEfforts)
+    if (!ever_solves_by(s, method))
+      keys.see(world, {key},
+               {fmt::format("only contacts = \"{}\" have {}, and these are \"{}\"",
+                            to_string(method), key, to_string(s.world.contacts)),
+                fmt::format("give [world] contacts = \"{}\"", to_string(method))});
+}
+
 void notice_settings(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
-  if (s.has_contacts()) return;
+  const IdleKeys::Reason untouched{kNothingTouches, kGiveContacts};
   IdleKeys keys;
   for (const TomlValue* world : file.tables("world")) {
-    keys.see(*world, {"iterations", "impact_budget"});
-    if (!s.has_joints()) keys.see(*world, {"sub_steps", "wanted_error"});
+    if (s.has_contacts()) {
+      see_idle_efforts(*world, s, keys);
+      continue;
+    }
+    keys.see(*world, {"iterations", "impact_budget"}, untouched);
+    if (!s.has_joints()) keys.see(*world, {"sub_steps", "wanted_error"}, untouched);
   }
-  for (const char* owner : {"prototype", "body", "pattern"})
-    for (const TomlValue* body : file.tables(owner)) keys.see(*body, {"restitution", "friction"});
+  if (!s.has_contacts())
+    for (const char* owner : {"prototype", "body", "pattern"})
+      for (const TomlValue* body : file.tables(owner))
+        keys.see(*body, {"restitution", "friction"}, untouched);
   keys.tell(draft);
 }
 
@@ -218,9 +249,9 @@ void Draft::notice(Warning kind, SourcePosition where, std::string message,
 }
 
 std::string if_meant(const ScenarioSpec& scenario, Warning kind) {
-  return fmt::format("; if it is meant, {} quiet = [\"{}\"]",
-                     scenario.atlas ? "[atlas]" : "[world]",
-                     names(kind)[static_cast<std::size_t>(kind)]);
+  return fmt::format("; if this is intended, add quiet = [\"{}\"] to {}",
+                     names(kind)[static_cast<std::size_t>(kind)],
+                     scenario.atlas ? "[atlas]" : "[world]");
 }
 
 void notice_idle(const TableReader& file, Draft& draft) {
@@ -238,7 +269,7 @@ void notice_empty_expectations(const TomlTable& file, Draft& draft) {
       if (const TomlEntry* e = entry_of(std::get<TomlTable>(step.data), key);
           e && expects_nothing(std::get<TomlTable>(e->value.data)))
         draft.notice(Warning::expect, draft.position(e->where),
-                     fmt::format("'{}' expects nothing: {}", key, kCannotFail),
+                     fmt::format("'{}' expects nothing, {}", key, kCannotFail),
                      "say what must hold, as { bodies = 3 }");
 }
 

@@ -175,7 +175,7 @@ Glance glance_at(const std::string& path);
 // The same from text; `path` gives the name and is shown in messages. Never touches the disk.
 Scenario parse_scenario(std::string_view text, const std::string& path);
 
-// What ends a warning's suggestion: "; if it is meant, [world] quiet = ["bodies"]".
+// What ends a warning's suggestion: "; if this is intended, add quiet = ["bodies"] to [world]".
 std::string if_meant(const ScenarioSpec& scenario, Warning kind);
 
 // The line of `scenario.text` at `where`, and a diagnostic made of both.

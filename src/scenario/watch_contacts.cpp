@@ -130,7 +130,7 @@ class ContactsWatch : public Watcher {
                    fmt::format("'{}' falls into '{}', {:.3g} deep in frame {} ({:.4g} s): contacts "
                                "are off",
                                one.name, other.name, depth, frame.index, frame.time),
-                   "give [world] contacts = \"soft\"; if it is meant, quiet = [\"contacts\"]");
+                   "give [world] contacts = \"soft\"" + if_meant(scenario_, Warning::contacts));
   }
 
   const Scenario& scenario_;

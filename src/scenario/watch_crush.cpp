@@ -41,7 +41,7 @@ class CrushWatch : public Watcher {
                     "of them is crushed against a third",
                     world.find(pair.a)->name, world.find(pair.b)->name, depth, world.time()),
         "let what pushes it stop, or " + firmer(scenario_.world) +
-            "; if it is meant, quiet = [\"crush\"]");
+            if_meant(scenario_, Warning::crush));
   }
 
   const Scenario& scenario_;

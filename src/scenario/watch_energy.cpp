@@ -86,9 +86,8 @@ class EnergyWatch : public Watcher {
         fmt::format("energy grows from {:.4g} J at {:.4g} s to {:.4g} J at {:.4g} s (frame {}), "
                     "and nothing drives it",
                     grown_->least, grown_->since, grown_->energy, grown_->time, grown_->frame),
-        fmt::format(
-            "give [world] {}a time_step below {:.3g} s; if it is meant, quiet = [\"energy\"]",
-            gaining(), world.time_step))};
+        fmt::format("give [world] {}a time_step below {:.3g} s", gaining(), world.time_step) +
+            if_meant(scenario_, Warning::energy))};
   }
 
  private:

@@ -90,9 +90,15 @@ TEST(Warnings, OfNeedsThatAreNotThere) {
                          "before"),
             std::string::npos)
       << missing;
-  EXPECT_NE(missing.find("if it is meant, [world] quiet = [\"needs\"]"), std::string::npos);
+  EXPECT_NE(missing.find("if this is intended, add quiet = [\"needs\"] to [world]"),
+            std::string::npos);
   EXPECT_NE(checked("\"befor\"").find("did you mean 'before'?"), std::string::npos);
   EXPECT_EQ(checked("\"nonexistent\"", "quiet = [\"needs\"]\n"), "");
+  EXPECT_NE(checked("\"lesson\"").find("1:10: warning: 'lesson' cannot be seen before itself"),
+            std::string::npos);
+  EXPECT_NE(checked("\"before\", \"before\"")
+                .find("1:20: warning: 'before' is to be seen before, and is named twice"),
+            std::string::npos);
   EXPECT_EQ(shell("lantern check --quiet - < " + (folder / "lesson.toml").string()).err, "")
       << "it lies in no folder";
 }

@@ -37,7 +37,7 @@ void expect_notice(std::string text, const std::string& words, const std::string
       << shown(found);
   EXPECT_EQ(found[0].severity, Severity::warning);
   EXPECT_FALSE(found[0].source_line.empty());
-  const std::string hint = "; if it is meant, [world] quiet = [\"" + kind + "\"]";
+  const std::string hint = "; if this is intended, add quiet = [\"" + kind + "\"] to [world]";
   EXPECT_TRUE(found[0].suggestion.ends_with(hint)) << shown(found);
   const std::size_t world = text.find("[world]\n");
   ASSERT_NE(world, std::string::npos);
@@ -83,7 +83,7 @@ TEST(Notices, OfExpectationsThatCannotFail) {
       {"@always = {}", "'always' expects nothing"},
   };
   for (const auto& [what, words] : cases)
-    expect_notice(expecting(what), words + (words.ends_with("nothing") ? ": it" : ""), "expect");
+    expect_notice(expecting(what), words + (words.ends_with("nothing") ? ", so" : ""), "expect");
 }
 
 TEST(Notices, OfExpectationsThatMayFailAreNotGiven) {
@@ -108,7 +108,8 @@ TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
     const std::string name = key.substr(0, key.find(' '));
     expect_notice(world(rest, "@" + key + "\n"),
                   "'" + name + "' changes nothing: in this world nothing touches", "settings");
-    expect_quiet(world(rest, key + "\ncontacts = \"soft\"\n"));
+    const std::string method = name == "iterations" ? "impulse" : "soft";
+    expect_quiet(world(rest, key + "\ncontacts = \"" + method + "\"\n"));
   }
   expect_notice(world(disc("ann", "@restitution = 1\n") + insert("\"ann\"")),
                 "'restitution' changes nothing: ", "settings");
@@ -117,6 +118,15 @@ TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
                 "'friction' changes nothing, here and 1 time more: ", "settings");
   expect_quiet(
       world(disc("ann", "restitution = 1\n") + insert("\"ann\""), "contacts = \"impulse\"\n"));
+  // Each method has an effort of its own; a method may come in later.
+  expect_notice(world(rest, "contacts = \"soft\"\n@iterations = 20\n"),
+                "'iterations' changes nothing: only contacts = \"impulse\" have iterations, and "
+                "these are \"soft\"",
+                "settings");
+  expect_notice(world(rest, "contacts = \"direct\"\n@sub_steps = 4\n"),
+                "'sub_steps' changes nothing: only contacts = \"soft\" have sub_steps", "settings");
+  const std::string later = "[[step]]\ndo = \"solve_by\"\ncontacts = \"impulse\"\n";
+  expect_quiet(world(rest + later, "contacts = \"soft\"\niterations = 20\n"));
   // Joints are solved in sub-steps, too.
   const std::string pin = "[[joint]]\na = \"ann\"\nto = [4, 6]\nkind = \"pin\"\n";
   expect_quiet(world(disc("ann") + pin + insert("\"ann\""), "sub_steps = 4\n"));
@@ -229,7 +239,8 @@ TEST(Notices, OfAnAtlasCanBeMeant) {
   };
   const std::vector<Diagnostic> found = noticed(atlas(""));
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(found[0].suggestion.ends_with("if it is meant, [atlas] quiet = [\"expect\"]"));
+  EXPECT_TRUE(
+      found[0].suggestion.ends_with("if this is intended, add quiet = [\"expect\"] to [atlas]"));
   expect_quiet(atlas("quiet = [\"expect\"]\n"));
 }
 
