@@ -3,10 +3,12 @@
 #define HWY_TARGET_INCLUDE "spatial/aabb_block.cpp"
 #include "spatial/aabb_block.hpp"
 
+// clang-format off: before Highway's own
+#include "spatial/vector_target.hpp"
+// clang-format on
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-#include "spatial/vector_target.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lantern::spatial::HWY_NAMESPACE {
