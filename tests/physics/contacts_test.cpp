@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/crushing.hpp"
 #include "physics/energy.hpp"
 #include "world_scene.hpp"
 
@@ -268,6 +269,26 @@ TEST(Contacts, ANeedleOnTheGroundGainsNoEnergy) {
       EXPECT_LE(energy_of(), before * (1 + 1e-3));
     }
   }
+}
+
+// Of three, each as deep as half of what crushes, the first and the last push against each other.
+TEST(Crushing, IsOfThoseThatPressFromOppositeSides) {
+  std::vector<Body<2>> bodies(4);
+  for (BodyId id = 0; id < 4; ++id) bodies[id].id = id;
+  bodies[0].shape = Sphere{1};
+  for (BodyId id = 1; id < 4; ++id) bodies[id].kind = BodyKind::static_body;
+  const Vec<2> from_zero[] = {{1, 0}, {0, 1}, {-1, 0}};
+  std::vector<Contact<2>> contacts;
+  for (BodyId id = 1; id < 4; ++id) {
+    Contact<2> contact{0, id, {}, {1}, {}};
+    contact.manifold.normal = from_zero[id - 1];
+    contact.manifold.add({Vec<2>(0.0), -0.6, 0});
+    contacts.push_back(contact);
+  }
+  const auto body_of = [&](BodyId id) -> const Body<2>& { return bodies[id]; };
+  EXPECT_EQ(crushing<2>(contacts, body_of), (std::vector<std::uint8_t>{1, 0, 1}));
+  contacts.pop_back();
+  EXPECT_TRUE(crushing<2>(contacts, body_of).empty()) << "from the side";
 }
 
 }  // namespace

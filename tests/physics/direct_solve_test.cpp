@@ -101,5 +101,13 @@ TEST(DirectSolve, AHeapComesToRest) {
       << "more than one sweep or two a sub-step";
 }
 
+TEST(EnvelopeSystem, TellsItsWorkBeforeItIsDone) {
+  EnvelopeSystem system;
+  for (int line = 0; line < 3; ++line) system.add_line(0);
+  EXPECT_EQ(system.work(), (1 + 4 + 9) / 2.0);
+  system.add_line(3);
+  EXPECT_EQ(system.work(), 7.5) << "a line of its diagonal alone";
+}
+
 }  // namespace
 }  // namespace lantern::physics

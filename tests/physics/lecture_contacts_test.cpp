@@ -205,5 +205,21 @@ TEST(LectureContacts, JointsAreRefusedAndTheWorldStaysAsItWas) {
   EXPECT_EQ(world.hash(), before);
 }
 
+// The corners of the boxes around them overlap.
+TEST(LectureContacts, BallsThatPassEachOtherAreLeftAlone) {
+  World<2> world(by_the_lecture<2>());
+  Body<2> one = ball_at<2>({0, 0}, {0, 0}), other = ball_at<2>({0, 0}, {0, 0});
+  const double radius = std::get<Sphere>(one.shape).radius;
+  other.position = Vec<2>(1.8 * radius, 1.8 * radius);
+  one.velocity = {0.5, -0.5};
+  other.velocity = {-0.5, 0.5};
+  const BodyId a = world.add(one), b = world.add(other);
+  for (int i = 0; i < 5; ++i) world.step(0.001);
+  EXPECT_EQ(world.find(a)->velocity, Vec<2>(0.5, -0.5));
+  EXPECT_EQ(world.find(b)->velocity, Vec<2>(-0.5, 0.5));
+  EXPECT_TRUE(world.contacts().empty());
+  EXPECT_GT(world.work().narrow_tests, 0u) << "they were looked at";
+}
+
 }  // namespace
 }  // namespace lantern::physics

@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
+#include "physics/world_scene.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -182,6 +183,19 @@ TEST(World, ContactMethodsHaveNames) {
         ContactMethod::lecture})
     EXPECT_EQ(contact_method_named(to_string(method)), method);
   EXPECT_EQ(contact_method_named("hard"), std::nullopt);
+}
+
+TEST(World, WhoIsAddedAsleepIsAtRest) {
+  WorldConfig<2> config;
+  config.may_sleep = true;
+  World<2> world(config);
+  Body<2> body = ball_at<2>({0, 0}, {1, 2});
+  body.asleep = true;
+  body.angular_momentum = 3;
+  const Body<2>& added = *world.find(world.add(body));
+  EXPECT_TRUE(added.asleep);
+  EXPECT_EQ(added.velocity, Vec<2>(0.0));
+  EXPECT_EQ(added.angular_momentum, Spin<2>(0.0));
 }
 
 }  // namespace

@@ -440,5 +440,21 @@ TEST(AabbTree, WhoWatchesFindsTheSame) {
   });
 }
 
+TEST(AabbTree, WithoutAMarginRefitsWhoseBoxHasChanged) {
+  std::vector<Item<2>> items;
+  for (BodyId id = 0; id < 20; ++id)
+    items.push_back({id, {Vec<2>(3.0 * id), Vec<2>(3.0 * id + 1)}});
+  AabbTree<2> tree(0.0);
+  tree.build(items);
+  tree.update(items);
+  EXPECT_EQ(tree.counters().refitted + tree.counters().reinserted, 0u);
+  items[7].box.lo.x -= 0.25;
+  tree.update(items);
+  EXPECT_EQ(tree.counters().refitted + tree.counters().reinserted, 1u) << "a lower side";
+  items[9].box.hi.y += 0.25;
+  tree.update(items);
+  EXPECT_EQ(tree.counters().refitted + tree.counters().reinserted, 1u) << "an upper one";
+}
+
 }  // namespace
 }  // namespace lantern::spatial

@@ -163,5 +163,14 @@ TEST(PairOrder, PutsPairsInOrderAndEachOnce) {
   }
 }
 
+TEST(FoundPairs, MayBeScannedForBySoManyThreads) {
+  FoundPairs found;
+  EXPECT_EQ(found.threads(), 1u);
+  for (const unsigned threads : {2u, 3u, 8u, 1u}) {
+    found.set_threads(threads);
+    EXPECT_EQ(found.threads(), threads);
+  }
+}
+
 }  // namespace
 }  // namespace lantern::spatial

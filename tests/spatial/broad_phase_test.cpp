@@ -490,5 +490,21 @@ TEST(BroadPhase, ManyBodiesLargerThanAllCellsMakeTheTreeShallowerAndNothingWorse
   EXPECT_LE(entries, 4096u + 64u * 512u) << "the tree grew out of proportion";
 }
 
+TEST(BroadPhase, AsManyPairsAsAreAllowedAreFound) {
+  for (const StructureKind kind : kinds<2>())
+    for (const std::uint32_t bodies : {9u, 33u, 65u, 100u, 129u, 257u}) {
+      BroadPhaseConfig<2> config;
+      config.kind = kind;
+      config.most_pairs = bodies * (bodies - 1) / 2;
+      std::vector<Proxy<2>> proxies;
+      for (BodyId id = 0; id < bodies; ++id) proxies.push_back({id, {{1, 1}, {2, 2}}});
+      BroadPhase<2> phase(config);
+      phase.update(proxies);
+      EXPECT_EQ(phase.pairs().size(), config.most_pairs) << to_string(kind);
+      --config.most_pairs;
+      EXPECT_THROW(BroadPhase<2>(config).update(proxies), Refused) << to_string(kind);
+    }
+}
+
 }  // namespace
 }  // namespace lantern::spatial

@@ -341,5 +341,41 @@ TEST(Grid, RefusesNonsenseAndStaysAsItWas) {
   EXPECT_EQ(testing::picture_of<2>(grid), before);
 }
 
+TEST(Grid, TellsHowManyCellsAreTooMany) {
+  StructureConfig<2> config;
+  config.bounds = {Vec<2>(0.0), Vec<2>(1e6)};
+  config.cell = 0.5;
+  config.levels = 1;
+  config.open = false;
+  try {
+    Grid<2> grid(config);
+    FAIL() << "4e12 cells";
+  } catch (const Refused& why) {
+    EXPECT_STREQ(why.what(),
+                 "grid: 4e+12 cells of 0.5 are too many; take larger ones, or an open grid");
+  }
+}
+
+TEST(GridRaster, CountsItsCells) {
+  const GridRaster<2> raster({Vec<2>(0.0), Vec<2>(10, 4)}, 2, false);
+  EXPECT_EQ(raster.cells(0), 5u);
+  EXPECT_EQ(raster.cells(1), 2u);
+  EXPECT_EQ(raster.cells(), 10);
+}
+
+// A query may ask for cells before the first that is in use.
+TEST(GridLevel, HasABucketForEachCellOnBothSidesOfItsBase) {
+  GridLevel<2> level;
+  level.base = {3, -2};
+  level.fold = {64, 64};
+  const std::int64_t columns = level.buckets(0), rows = level.buckets(1);
+  for (std::int64_t x = -columns; x <= columns; ++x)
+    for (const std::int64_t y : {-rows, -rows + 1, std::int64_t{-1}, std::int64_t{0}}) {
+      const std::uint32_t bucket = level.bucket({3 + x, -2 + y});
+      EXPECT_LT(bucket, columns * rows);
+      EXPECT_EQ(bucket, level.bucket({3 + x + columns, -2 + y + rows})) << x << ", " << y;
+    }
+}
+
 }  // namespace
 }  // namespace lantern::spatial

@@ -123,5 +123,13 @@ TEST(OddMaps, CompileAndKeepEveryWallsLength) {
   }
 }
 
+TEST(LevelRefusals, ScalesReachFrom2ToTheMinus300To2ToThe300) {
+  const auto bounds = [](int exponent) {  // half of 2^exponent
+    return Box<2>{Vec<2>(0.0), Vec<2>(std::ldexp(0.5, exponent))};
+  };
+  for (const int exponent : {-300, 300}) EXPECT_NO_THROW(LevelGrid{bounds(exponent)}) << exponent;
+  for (const int exponent : {-301, 301}) EXPECT_THROW(LevelGrid{bounds(exponent)}, Refused);
+}
+
 }  // namespace
 }  // namespace lantern::spatial

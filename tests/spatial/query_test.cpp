@@ -377,5 +377,17 @@ TEST(Query, RefusesWhatIsNoQuery) {
   EXPECT_THROW(overlap_query(brute, Ball<2>{{0, 0}, -1}, box_of), Refused);
 }
 
+// What grazes is not cut off.
+TEST(RayProbe, ARayInAPlaneLiesOnBothItsSides) {
+  const Ray<2> ray{{0, 5}, {0, 1}, 7};
+  const RayProbe<2> probe{ray};
+  for (const bool front : {false, true}) {
+    const auto part = probe.beside(probe.whole(), {{1, 0}, 0}, front);
+    ASSERT_TRUE(part) << front;
+    EXPECT_EQ(part->from, 0);
+    EXPECT_EQ(part->to, 7);
+  }
+}
+
 }  // namespace
 }  // namespace lantern::spatial

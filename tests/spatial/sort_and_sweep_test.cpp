@@ -126,5 +126,15 @@ TEST(SortAndSweep, TellsEachBodyThatItStores) {
   }
 }
 
+TEST(SortAndSweep, CountsAnewWhenItIsCleared) {
+  SortAndSweep<2> sweep;
+  for (BodyId id = 0; id < 20; ++id)
+    sweep.insert({id, {Vec<2>(40.0 - 2 * id), Vec<2>(41.0 - 2 * id)}});
+  sweep.sweep([](BodyId, BodyId) {});
+  EXPECT_GT(sweep.counters().box_tests, 0u);
+  sweep.clear();
+  EXPECT_EQ(sweep.counters().box_tests, 0u);
+}
+
 }  // namespace
 }  // namespace lantern::spatial

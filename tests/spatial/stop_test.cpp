@@ -8,6 +8,7 @@
 #include "base/random.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/level_bsp.hpp"
+#include "spatial/level_visibility.hpp"
 #include "spatial/overlap_query.hpp"
 #include "spatial/pairs.hpp"
 
@@ -167,6 +168,17 @@ TEST_F(HearsStop, ABroadPhaseWhoseNextUpdateIsRight) {
     if (kind != StructureKind::octree) next_update_is_right<2>(kind);
     next_update_is_right<3>(kind);
   }
+}
+
+TEST_F(HearsStop, ALevelWhoseSectorsAreLookedAt) {
+  std::vector<std::vector<Vec<2>>> loops = {{{1, 1}, {63, 1}, {63, 63}, {1, 63}}};
+  for (int i = 0; i < 4; ++i) {
+    const Vec<2> at(9.0 * i + 2, 11.0 * i + 2);
+    loops.push_back({at, at + Vec<2>(0.1, 3), at + Vec<2>(3, 2.9), at + Vec<2>(2.8, 0.2)});
+  }
+  const LevelBsp bsp = compile_level(walls_of_loops(loops), kStopBounds);
+  EXPECT_THROW(find_visibility(bsp, {}, wish_at(1)), Stopped);
+  EXPECT_EQ(after_, 0) << "not even one sector is finished";
 }
 
 }  // namespace

@@ -85,5 +85,20 @@ TEST(StructureWork, IsNotKnownOfTheLecturesOwnCode) {
   EXPECT_TRUE(counts_its_work(StructureKind::aabb_tree));
 }
 
+TEST(StructureWork, BuildsWhatMovesAndWhatNeverMovesApart) {
+  Random random(9);
+  BroadPhaseConfig<2> config;
+  config.bounds = {Vec<2>(0.0), Vec<2>(64.0)};
+  config.kind = StructureKind::quadtree;
+  const std::vector<Proxy<2>> all = town<2>(random, 80, 30);
+  const std::vector<Proxy<2>> movers(all.begin(), all.begin() + 30),
+      still(all.begin() + 30, all.end());
+  const auto build = [&](const std::vector<Proxy<2>>& bodies) {
+    return structure_work<2>(config, bodies, bodies, kMost).build;
+  };
+  EXPECT_GT(build(all), build(movers));
+  EXPECT_EQ(build(all), build(movers) + build(still));
+}
+
 }  // namespace
 }  // namespace lantern::spatial
