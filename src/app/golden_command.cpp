@@ -156,6 +156,7 @@ class GoldenRun {
     std::error_code none;
     const auto folder =
         fs::is_directory(output, none) ? Folder(output).find(name.text()) : std::nullopt;
+    if (folder) require_kept_for(KeptFor::goldens, *folder);
     const Pace pace = pace_of(options_.pace, scenario);
     Selection selection(options_.frames, options_.at, extent_of(scenario, pace).frames);
     const auto list = folder ? read_list(*folder, selection) : std::nullopt;

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "app/selection.hpp"
+#include "app/terminal.hpp"
+#include "render/renderer.hpp"
+
 namespace lantern::app {
 
 using Json = nlohmann::json;
@@ -87,6 +91,17 @@ ScenarioName JsonMembers::scenario_name(const char* member) const {
   const std::optional<ScenarioName> name = ScenarioName::of(text(member));
   if (!name) refuse(member, "a scenario's name is 1 to 64 of a–z, 0–9 and _");
   return *name;
+}
+
+std::string JsonMembers::picture_size(const char* member) const {
+  const std::string size = text(member);
+  try {
+    const auto [width, height] = parse_size(size, Renderer::kMostPixels);
+    if (fmt::format("{}x{}", width, height) == size) return size;
+  } catch (const UsageError&) {
+    // refused below
+  }
+  refuse(member, "it is a picture's size, as 1600x900");
 }
 
 void JsonMembers::is(const char* member, std::string_view text) const {

@@ -38,6 +38,7 @@ class JsonMembers {
   std::uint64_t whole(const char* member, std::uint64_t least, std::uint64_t most) const;
   std::uint64_t hash(const char* member) const;  // of 16 hexadecimal digits
   ScenarioName scenario_name(const char* member) const;
+  std::string picture_size(const char* member) const;  // as --size takes it, "1600x900"
   // Exactly this text.
   void is(const char* member, std::string_view text) const;
   // One of these words, by what it stands for.

@@ -39,6 +39,13 @@ bool says(const Folder& folder, const char* name, std::string_view format) try {
   return false;
 }
 
+// Of whatever scenario: the folder may have been given another name since.
+bool is_some_frame(std::string_view file) {
+  for (std::size_t end = file.find('_'); end != file.npos; end = file.find('_', end + 1))
+    if (is_frame_file(file, file.substr(0, end))) return true;
+  return false;
+}
+
 [[noreturn]] void refuse(const fs::path& file, std::string_view what) {
   throw UsageError(fmt::format("'{}' is {}; name another file", file.string(), what));
 }
@@ -56,16 +63,16 @@ void require_free(const fs::path& file) {
   std::error_code none;
   if (fs::is_directory(file, none)) refuse(file, "a folder");
   if (fs::is_other(file, none)) refuse(file, "a device or a pipe");
-  if (!fs::exists(fs::symlink_status(file, none))) return;
-  if (is_input(file)) refuse(file, "what this run reads, and cannot be its output");
+  if (file.extension() == ".toml") refuse(file, "called as scenarios are");
+  if (!fs::is_directory(folder_of(file), none)) return;
+  if (is_input(file)) refuse(file, "read by this run, so it cannot be its output");
   const Folder folder(folder_of(file));
   const std::string name = file.filename().string();
-  const std::string scenario = fs::weakly_canonical(folder.path(), none).filename().string();
   for (const Kept& kept : kKept) {
     const bool is_list = name == kept.list;
-    if ((is_list || is_frame_file(name, scenario)) && says(folder, kept.list, kept.format))
+    if ((is_list || is_some_frame(name)) && says(folder, kept.list, kept.format))
       refuse(file, is_list ? fmt::format("the list of {} there", kept.words)
-                           : fmt::format("one of {} there", kept.words));
+                           : fmt::format("called as one of {} there", kept.words));
   }
   if (name == kMeasurement && says(folder, kMeasurement, "\"lantern.measure/"))
     refuse(file, "a measurement");

@@ -4,12 +4,9 @@
 #include "app/frame_folder.hpp"
 #include "app/in_betweens.hpp"
 #include "app/json_members.hpp"
-#include "app/selection.hpp"
-#include "app/terminal.hpp"
 #include "base/json_writer.hpp"
 #include "draw/theme.hpp"
 #include "embedded/version.hpp"
-#include "render/renderer.hpp"
 
 namespace lantern::app {
 namespace {
@@ -45,18 +42,6 @@ void read_frames(const JsonMembers& json, Manifest& m) {
     if (!m.frames.emplace(index, std::move(frame)).second)
       one.refuse("frame", "it is listed before");
   }
-}
-
-// "1600x900", as --size takes it.
-std::string read_size(const JsonMembers& json) {
-  const std::string size = json.text("size");
-  try {
-    const auto [width, height] = parse_size(size, Renderer::kMostPixels);
-    if (fmt::format("{}x{}", width, height) == size) return size;
-  } catch (const UsageError&) {
-    // refused below
-  }
-  json.refuse("size", "it is a picture's size, as 1600x900");
 }
 
 }  // namespace
@@ -96,7 +81,7 @@ Manifest read_manifest(std::string_view text) {
   m.title = json.text("title");
   m.seed = json.whole("seed", 0, kMostWhole);
   m.pace = json.word<Pace>("pace", kPaces);
-  m.size = read_size(json);
+  m.size = json.picture_size("size");
   m.theme = json.text("theme");
   if (!theme_named(m.theme)) json.refuse("theme", "there is no such theme");
   m.format = json.word<FileKind>("picture_format", kPictureKinds);

@@ -117,12 +117,17 @@ bool same(const Circumstances& a, const Circumstances& b) {
          a.flags == b.flags && a.processor == b.processor && a.effort == b.effort;
 }
 
-// Rows of an earlier run under the same circumstances; none if there are none, or if its file is
-// damaged.
+// Rows of an earlier run under the same circumstances; none if there are none, or, which is told,
+// if its file is damaged.
 std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
   try {
     const auto text = folder.earlier("measure.json", kMostMeasureBytes);
-    auto earlier = text ? read_measurement(*text) : std::nullopt;
+    if (!text) return {};
+    std::string why;
+    auto earlier = read_measurement(*text, &why);
+    if (!earlier)
+      warn(fmt::format("nothing is taken over from '{}': {}",
+                       (folder.path() / "measure.json").string(), why));
     if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
   } catch (const IoError&) {
     // there is none

@@ -18,7 +18,8 @@ namespace lantern::app {
 class ReportFolder {
  public:
   // Makes the folder, keeps other processes out of it, and tries to write into it, before there is
-  // anything to lose. `report` names the kind of report: "measure". Throws IoError.
+  // anything to lose. `report` names the kind of report: "measure". Throws IoError, and
+  // UsageError if the run reads what the report would write over.
   ReportFolder(const std::string& path, std::string_view report);
   // Takes away what folders it made and nothing was written into.
   ~ReportFolder();

@@ -7,10 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "app/frame_folder.hpp"
 #include "app/json_members.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "draw/theme.hpp"
 #include "embedded/version.hpp"
 
 namespace lantern::app {
@@ -42,6 +44,19 @@ std::optional<std::string> difference_of_inputs(const ShardRecord& a, const Shar
       return fmt::format("'{}' has another text in the second", first);
   }
   return std::nullopt;
+}
+
+// That they are as a run of this program writes them (settings_of() in app/shard_render.cpp).
+void require_possible(const JsonMembers& settings) {
+  settings.picture_size("size");
+  if (!theme_named(settings.text("theme"))) settings.refuse("theme", "there is no such theme");
+  settings.word<FileKind>("format", kPictureKinds);
+  settings.word<PngEffort>("png", kPngEfforts);
+  settings.word<FactsVersion>("facts", kFactsVersions);
+  static constexpr std::pair<std::string_view, bool> kYesOrNo[] = {{"no", false}, {"yes", true}};
+  settings.word<bool>("transparent", kYesOrNo);
+  if (!settings.text("pace").empty()) settings.word<Pace>("pace", kPaces);
+  for (const char* text : {"tween", "switches"}) settings.text(text);
 }
 
 }  // namespace
@@ -88,6 +103,7 @@ ShardRecord read_record(std::string_view text) {
   const JsonMembers settings = json.object("settings");
   for (const std::string& name : settings.names()) r.settings[name] = settings.text(name.c_str());
   settings.text("frames"), settings.text("at");  // what a merge asks for
+  if (r.version == kVersion && r.sources == kSourceHash) require_possible(settings);
   if (!in_between_digits(r)) settings.refuse("tween digits", "it is a whole number from 2 to 9");
   r.words = json.texts("words");
   if (r.words.empty() || r.words.front() != kCommand)
@@ -100,6 +116,7 @@ ShardRecord read_record(std::string_view text) {
                         one.flag("atlas")});
     if (!names.insert(one.text("name")).second) one.refuse("name", "it is listed before");
   }
+  if (r.inputs.empty()) json.refuse("inputs", "a run has one or more");
   return r;
 }
 

@@ -210,10 +210,10 @@ std::optional<Folder> Folder::opened(std::string_view name) const {
   if (number >= 0) return Folder(number, path(name));
   if (errno == ENOENT) return std::nullopt;
   if (errno == ENOTDIR || errno == ELOOP)
-    throw IoError(fmt::format("'{}' is no folder{}", shown(path(name)),
+    throw IoError(fmt::format("'{}' is {}", shown(path(name)),
                               std::filesystem::is_symlink(path(name))
-                                  ? ", but a link, and what it leads to is not touched"
-                                  : ""));
+                                  ? "a link; links are not followed here"
+                                  : "no folder"));
   fail("open", path(name), errno);
 }
 

@@ -264,6 +264,12 @@ TEST_F(HostilePart, IsRefusedWithTheMemberAndItsValue) {
       {kManifestOfPart, "/frames", 7, "frames is 7: it is a list"},
       {kRecordOfPart, "/inputs/0/name", "../six", "inputs[0].name is \"../six\""},
       {kRecordOfPart, "/settings/tween digits", "abc", "settings.tween digits is \"abc\""},
+      {kRecordOfPart, "/settings/size", "99999999999x1",
+       "settings.size is \"99999999999x1\": it is a picture's size"},
+      {kRecordOfPart, "/settings/format", "../../x",
+       "settings.format is \"../../x\": it is one of png, svg"},
+      {kRecordOfPart, "/settings/transparent", "maybe", "settings.transparent is \"maybe\""},
+      {kRecordOfPart, "/inputs", json::array(), "inputs is []: a run has one or more"},
       {kRecordOfPart, "/command", "measure", "command is \"measure\": it is \"render\""},
       {kRecordOfPart, "/of", 1e300, "of is 1e+300: it is a whole number"},
   };
@@ -291,7 +297,7 @@ TEST_F(HostilePart, ThroughALinkIsRefused) {
   const fs::path folder = arena_ / "parts/shard-1-of-2/six";
   fs::rename(folder, arena_ / "elsewhere");
   fs::create_symlink(arena_ / "elsewhere", folder);
-  expect_refused("is no folder, but a link");
+  expect_refused("is a link; links are not followed here");
 }
 
 // A picture of a run must not come to stand where a link of that name leads to.
@@ -300,7 +306,7 @@ TEST_F(HostilePart, ALinkInTheOutputIsNotFollowed) {
   fs::create_symlink(home() / "outside/six", arena_ / "whole/six");
   const Outcome o = shell("cd " + arena_.string() + " && lantern merge whole parts");
   EXPECT_EQ(o.code, 1);
-  EXPECT_NE(o.err.find("'whole/six' is no folder, but a link"), o.err.npos) << o.err;
+  EXPECT_NE(o.err.find("'whole/six' is a link"), o.err.npos) << o.err;
   // One that the user gives herself is her word.
   fs::create_directories(home() / "elsewhere");
   fs::create_symlink(home() / "elsewhere", arena_ / "mine");

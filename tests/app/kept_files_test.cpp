@@ -52,25 +52,25 @@ class KeptFiles : public testing::Test {
 TEST_F(KeptFiles, WhatARunReadsIsNotWrittenOver) {
   for (const char* ending : {"html", "pdf", "svg", "png"}) {
     const std::string file = std::string("little.") + ending;
-    expect_refused("render " + file + " -o " + file, file, "is what this run reads");
-    expect_refused("render " + file + " -o ./{scenario}." + ending, file, "is what this run reads");
+    expect_refused("render " + file + " -o " + file, file, "is read by this run");
+    expect_refused("render " + file + " -o ./{scenario}." + ending, file, "is read by this run");
   }
   expect_refused("render little.png --sheet 2x1 -o little.png", "little.png",
-                 "what this run reads");
+                 "is read by this run");
   fs::create_hard_link(made() / "little.html", made() / "same.html");
   fs::create_symlink("little.html", made() / "link.html");
-  expect_refused("render little.html -o same.html", "little.html", "is what this run reads");
-  expect_refused("render little.html -o link.html", "little.html", "is what this run reads");
-  expect_refused("render - -o little.html <little.html", "little.html", "is what this run reads");
-  expect_refused("golden little.html --junit little.html", "little.html", "is what this run reads");
-  expect_refused("golden little.html --report little.html", "little.html", "what this run reads");
+  expect_refused("render little.html -o same.html", "little.html", "is read by this run");
+  expect_refused("render little.html -o link.html", "little.html", "is read by this run");
+  expect_refused("render - -o little.html <little.html", "little.html", "is read by this run");
+  expect_refused("golden little.html --junit little.html", "little.html", "is read by this run");
+  expect_refused("golden little.html --report little.html", "little.html", "is read by this run");
   expect_refused("compare little.png little.svg -o little.png", "little.png", "");
 }
 
 // Its name is known when its frame is there: nothing is lost then, either.
 TEST_F(KeptFiles, NorWhereTheNameIsAFrames) {
   write_text(made() / "0000.svg", kLittle);
-  expect_refused("render 0000.svg -o {frame}.svg", "0000.svg", "is what this run reads");
+  expect_refused("render 0000.svg -o {frame}.svg", "0000.svg", "is read by this run");
 }
 
 TEST_F(KeptFiles, WhatLanternKeepsIsNotWrittenOverByAnotherOption) {
@@ -84,10 +84,31 @@ TEST_F(KeptFiles, WhatLanternKeepsIsNotWrittenOverByAnotherOption) {
   }
   for (const std::string& file : {golden + "little_0000.png", out + "little_0000.png"})
     expect_refused("render little.toml -o " + file, file, "name another file");
+  // Nor is anything put where one of its frames is missing, whatever the folder is called now.
+  EXPECT_EQ(run("golden little.toml --size 80x45 --junit " + golden + "little_0007.png").code, 2);
+  EXPECT_FALSE(fs::exists(made() / golden / "little_0007.png"));
+  fs::copy(made() / "golden/little", made() / "renamed");
+  expect_refused("golden little.toml --size 80x45 --report renamed/little_0000.png",
+                 "renamed/little_0000.png", "name another file");
   // What is nobody's is, and so is a file of another name beside them.
   for (const char* words : {"golden/little/mine.png", "out/little/mine.png", "mine.png"})
     for (int twice = 0; twice < 2; ++twice)
       EXPECT_EQ(run(std::string("render little.toml -o ") + words).code, 0) << words;
+}
+
+// It may be read by another run.
+TEST_F(KeptFiles, NoReportIsCalledAsAScenario) {
+  write_text(made() / "exam.toml", kLittle);
+  for (const char* words :
+       {"golden little.toml --size 80x45 --junit ", "golden little.toml --size 80x45 --report "})
+    expect_refused(words + std::string("exam.toml"), "exam.toml", "called as scenarios are");
+}
+
+TEST_F(KeptFiles, ABenchIsNotWrittenOverItsBoxes) {
+  const std::string boxes = "bench_pairs.csv";
+  write_text(made() / boxes, "0,0,1,1\n2,2,3,3\n");
+  expect_refused("bench pairs --boxes " + boxes + " --no-peers --seconds 0.01 -o .", boxes,
+                 "is read by this run and would be written over");
 }
 
 TEST_F(KeptFiles, WhatIsNoFileIsNoOutput) {
@@ -105,6 +126,8 @@ TEST_F(KeptFiles, AFolderIsKeptForOnePurpose) {
   expect_refused("render little.toml --size 80x45 -o golden", "golden/little/little_0000.png",
                  "'golden/little' holds the golden frames, of which golden.txt tells");
   expect_refused("golden little.toml --dir out --update", "out/little/little_0000.png",
+                 "'out/little' holds the frames of a run, of which manifest.json tells");
+  expect_refused("golden little.toml --dir out", "out/little/little_0000.png",
                  "'out/little' holds the frames of a run, of which manifest.json tells");
   expect_refused("render little.toml -o parts/shard-1-of-1", "parts/shard-1-of-1/shard.json",
                  "'parts/shard-1-of-1' holds the frames of a part, of which shard.json tells");

@@ -86,7 +86,9 @@ TEST(MeasureCommand, GoesOnWithWhatIsFinished) {
   ASSERT_EQ(after.size(), 3u);
   EXPECT_EQ(after[0], before[0]) << "a finished row was measured anew";
   write_text(out / "measure.json", "{ \"damaged");
-  EXPECT_EQ(shell(kShort + out.string()).code, 0) << "a damaged file is as if there were none";
+  const Outcome anew = shell(kShort + out.string());
+  EXPECT_EQ(anew.code, 0) << "a damaged file is as if there were none";
+  EXPECT_NE(anew.err.find("nothing is taken over from '"), anew.err.npos) << anew.err;
 }
 
 TEST(MeasureCommand, MistakesAreToldBeforeAnythingIsRun) {
