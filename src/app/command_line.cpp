@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "app/in_betweens.hpp"
 #include "app/option_words.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
@@ -62,7 +61,7 @@ void add_drawing(CLI::App* c, RenderOptions& o) {
   c->add_option("--tween", o.tween,
                 "in-betweens after each frame but the last: <scenario>_0007_03.png is the third "
                 "from frame 7 on; a film shows so many in the same time, and cuts at 0")
-      ->check(CLI::Range(std::uint64_t{0}, InBetweens::kMostPictures))
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
       ->type_name("N");
   c->add_option("--fps", o.fps,
                 "as many in-betweens as a film of so many pictures a second has while something "
