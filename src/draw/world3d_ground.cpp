@@ -146,12 +146,14 @@ void fill_view(const FrameView& seen, const View3D& view, DrawList& list) {
 
 constexpr std::size_t kMostScaled = 12;  // bodies, of more heights are not counted
 
-// The heights of the floor's grid above the floor, up to `top`.
+// The heights of the floor's grid above the floor, up to `top`; none if that is so high that nobody
+// would count them.
 std::vector<double> heights_of(const Box<3>& bounds, double top) {
-  constexpr int kMost = 12;
+  constexpr int kMost = 12, kCountable = 100;
   double step = grid_step(bounds);
   while ((bounds.hi.y - bounds.lo.y) / step > kMost) step *= 2;
   std::vector<double> heights;
+  if (!((top - bounds.lo.y) / step <= kCountable)) return heights;
   for (int i = 1; bounds.lo.y + i * step <= top + 1e-9 * step; ++i) heights.push_back(i * step);
   return heights;
 }

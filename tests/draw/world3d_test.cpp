@@ -94,6 +94,20 @@ TEST(World3D, IsSoundForStrangeBodies) {
   expect_sound(drawn(frame), "a world without extent");
 }
 
+TEST(World3D, WhoFliesFarAwayIsFewShapes) {
+  Frame frame;
+  frame.dimension = 3;
+  frame.bounds = {{0, 0, 0}, {16, 12, 16}};
+  frame.camera = Camera{{9, 2, 6}, {2, 9, 4}, 0.7};
+  for (const double height : {1e4, 1e6, 1e7}) {
+    frame.bodies = {samples::solid_body(0, "high", Sphere{6}, {height, height, height}, 1),
+                    samples::solid_body(1, "here", Sphere{1}, {5, 5, 5}, 2)};
+    const DrawList list = drawn(frame);
+    expect_sound(list, "far away");
+    EXPECT_LT(list.shapes.size(), 500u);
+  }
+}
+
 // Their faces have corners before it and behind it.
 TEST(World3D, IsSoundForBoxesThatReachPastTheEye) {
   Random random(7);
