@@ -456,5 +456,46 @@ TEST(AabbTree, WithoutAMarginRefitsWhoseBoxHasChanged) {
   EXPECT_EQ(tree.counters().refitted + tree.counters().reinserted, 1u) << "an upper one";
 }
 
+// All have changed places: mended, the boxes would be far too large.
+TEST(AabbTree, IsBuiltAnewOnceItHasBecomeMuchWorse) {
+  Random random(13);
+  auto items = numbered_world<2>(Sort::uniform, 60, random);
+  const auto boxes = [](const AabbTree<2>& tree) {
+    std::vector<Box<2>> all;
+    tree.visit([&](const NodeView<2>& view) { return all.push_back(view.box), true; });
+    return all;
+  };
+  AabbTree<2> automatic, mended(0, Following::refit), anew;
+  automatic.build(items);
+  mended.build(items);
+  for (Item<2>& item : items) item.box = testing::random_box<2>(Sort::uniform, random);
+  automatic.update(items);
+  mended.update(items);
+  anew.build(items);
+  EXPECT_EQ(boxes(automatic), boxes(anew));
+  EXPECT_NE(boxes(mended), boxes(anew)) << "mending is as good: no test";
+}
+
+// Of an inner node that a ray enters each child is entered or skipped.
+TEST(AabbTree, ARayEntersOrSkipsEachChild) {
+  Random random(32);
+  const auto items = numbered_world<2>(Sort::uniform, 60, random);
+  AabbTree<2> tree;
+  for (const Item<2>& item : items) tree.insert(item);  // so that no leaves stand in blocks
+  const auto box_of = [&](BodyId id) { return items[id].box; };
+  std::uint64_t skipped = 0;
+  for (int round = 0; round < 50; ++round) {
+    const Ray<2> ray{random_point<2>(random, 0, 64), random_direction<2>(random), 40};
+    for (const QueryCounts& counts :
+         {raycast_all<2>(tree, ray, box_of).counts, raycast_nearest<2>(tree, ray, box_of).counts}) {
+      if (counts.nodes_visited == 0) continue;  // not even the root
+      const std::uint64_t inner = counts.nodes_visited - counts.objects_tested;
+      EXPECT_EQ(counts.nodes_visited + counts.nodes_skipped, 1 + 2 * inner);
+      skipped += counts.nodes_skipped;
+    }
+  }
+  EXPECT_GT(skipped, 0u);
+}
+
 }  // namespace
 }  // namespace lantern::spatial

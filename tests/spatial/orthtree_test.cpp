@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "spatial/flat_quadtree.hpp"
+#include "spatial/lecture_quadtree.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
 #include "spatial/worlds.hpp"
@@ -229,6 +230,26 @@ TEST(FlatQuadtree, ShowsTheQuadtreeOfXAndZ) {
   });
   EXPECT_GT(shown.size(), 9u);
   EXPECT_EQ(shown, expected);
+}
+
+TEST(LectureQuadtree, CountsTheNodesThatItShows) {
+  Random random(12);
+  StructureConfig<2> config;
+  config.bounds = testing::bounds_of<2>(Sort::uniform);
+  config.capacity = 3;
+  config.max_depth = 6;
+  LectureQuadtree<2> tree(config);
+  for (const Item<2>& item : testing::random_world<2>(Sort::uniform, 60, random)) tree.insert(item);
+  std::uint64_t nodes = 0, leaves = 0;
+  tree.visit([&](const NodeView<2>& node) {
+    ++nodes;
+    leaves += node.leaf;
+    return true;
+  });
+  const Counters counters = tree.counters();
+  EXPECT_GT(counters.splits, 1u) << "it was not split: no test";
+  EXPECT_EQ(counters.nodes, nodes);
+  EXPECT_EQ(counters.leaves, leaves);
 }
 
 }  // namespace

@@ -418,5 +418,19 @@ TEST(StructureTrial, AWrongTreeFailsOnASmallWorld) {
   EXPECT_EQ(try_structure(kind_named("by_middle"), 28, 1).fault, trial.fault);
 }
 
+// One that covers the world is listed in six of seven leaves: four are named.
+TEST(OwnStructure, OfManyLeavesOnlyTheFirstAreNamed) {
+  std::vector<Said> said{{kWorld, 0, false}};
+  for (int i = 0; i < 7; ++i)
+    said.push_back({{Vec<2>(64.0 * i / 7, 0), Vec<2>(64.0 * (i + 1) / 7, 64)}, 1, true, {0}});
+  const std::vector<Box<2>> all{kWorld};
+  said[7].bodies.clear();
+  EXPECT_TOLD(told_of(saying(said), all), "listed in 1, 2, 3, 4 and 2 more\n");
+  said[6].bodies.clear();
+  EXPECT_TOLD(told_of(saying(said), all), "listed in 1, 2, 3, 4 and 1 more\n");
+  said[5].bodies.clear();
+  EXPECT_TOLD(told_of(saying(said), all), "listed in 1, 2, 3, 4\n");
+}
+
 }  // namespace
 }  // namespace lantern::spatial
