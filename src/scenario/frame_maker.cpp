@@ -171,7 +171,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   if (plotter_) frame.chart = plotter_->chart();
   if (trace_) trace(frame);
   frame.code = code_;
-  if (shows(Panel::collisions)) add_collisions(frame);
+  if (stage_.engine && shows(Panel::collisions)) add_collisions(frame);
   return frame;
 }
 

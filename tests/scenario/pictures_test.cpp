@@ -56,6 +56,18 @@ TEST(Pictures, LeavesShareAnArrayButNoSlot) {
       << "without the panel nobody asks";
 }
 
+// Then there is no engine that could remember any.
+TEST(Pictures, NobodyRemembersCollisionsWithoutBodies) {
+  const std::string level = "[level]\nloops = [[[1, 1], [31, 1], [31, 17], [1, 17]]]\n";
+  for (const std::string& scene : {std::string(), level}) {
+    const auto frames =
+        frames_of(good("panels = [\"world\", \"collisions\"]\n" +
+                       world_text("size = [32, 18]\ncontacts = \"lecture\"", scene + kShow)));
+    ASSERT_EQ(frames.size(), 1u);
+    EXPECT_FALSE(frames[0].collisions);
+  }
+}
+
 TEST(Pictures, WhatNeverMovesIsBuiltOnce) {
   for (const std::string kind : {"brute_force", "quadtree", "sort_and_sweep", "grid"}) {
     const auto frames = crowd("split_static = true\nkind = \"" + kind + "\"\n",
