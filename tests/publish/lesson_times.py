@@ -2,7 +2,8 @@
 Usage: lesson_times.py FOLDER
 
 A step is told twice: as the time of the page's thread, which other work on the machine does not
-lengthen and which is bounded here, and as it passed until the browser had painted."""
+lengthen and which is bounded here, and as it passed until the browser had painted. A step beyond the
+bound is taken again: what a page costs it costs each time, a hitch of the machine comes once."""
 
 import pathlib
 import sys
@@ -11,6 +12,7 @@ from browser import Browser
 
 MOST_BYTES, MOST_OPEN, MOST_STEP = 5_000_000, 1000, 50  # bytes, ms, ms
 MOST_STEPS = 40  # that are measured of a lesson
+TRIES = 3  # of a step beyond the bound; the quickest counts
 
 READY = """
 const done = arguments[arguments.length - 1];
@@ -37,16 +39,24 @@ def thread_ms(page):
     return 1000 * next(metric["value"] for metric in metrics if metric["name"] == "TaskDuration")
 
 
+def step(page, index):
+    """Milliseconds of the step to `index`: of the thread, and until it was painted."""
+    page.run("window.lantern.go(arguments[0])", index - 1)
+    wait(page, IDLE)  # the lecturer speaks
+    before = thread_ms(page)
+    passed = wait(page, STEP, index)
+    return thread_ms(page) - before, passed
+
+
 def steps(page, last):
-    """Milliseconds of each step: of the thread, and until it was painted."""
     page.run("window.lantern.setPace(true)")
     times = []
     for index in range(1, last + 1, max(1, last // MOST_STEPS)):
-        page.run("window.lantern.go(arguments[0])", index - 1)
-        wait(page, IDLE)  # the lecturer speaks
-        before = thread_ms(page)
-        passed = wait(page, STEP, index)
-        times.append((thread_ms(page) - before, passed))
+        taken = step(page, index)
+        for _ in range(1, TRIES):
+            if taken[0] > MOST_STEP:
+                taken = min(taken, step(page, index))
+        times.append(taken)
     return times or [(0, 0)]
 
 
@@ -74,7 +84,7 @@ def main():
                 slow.append(file.stem)
         errors = page.errors()
     print(f"{lessons} lessons, the slowest step {slowest:.0f} ms; too large or too slow:",
-          ", ".join(slow) or "none;", "script errors:", errors or "none")
+          f"{', '.join(slow) or 'none'}; script errors: {errors or 'none'}")
     return 1 if slow or errors else 0
 
 
