@@ -161,11 +161,13 @@ TEST(LeaveOut, OtherEnginesAreLoadedOnlyToBeMeasured) {
   EXPECT_FALSE(loads_peers("check " + scenario("falling_boxes")));
   EXPECT_FALSE(loads_peers("render --frames 0 -o " + out.string() + " " + scenario("sleeping")));
   // Doctor loads those of engines and boxes; the packer's is built wherever stb is.
-  const fs::path modules = fs::path(LANTERN_BINARY).parent_path() / "peers";
   std::error_code error;
-  for (const fs::directory_entry& module : fs::directory_iterator(modules, error)) {
-    if (module.path().filename() == "lantern_peer_atlas_stb.so") continue;
-    EXPECT_TRUE(loads_peers("doctor")) << module.path() << ": the test above proves nothing";
+  const fs::directory_iterator modules(fs::path(LANTERN_BINARY).parent_path() / "peers", error);
+  const bool others = std::any_of(begin(modules), end(modules), [](const auto& module) {
+    return module.path().filename() != "lantern_peer_atlas_stb.so";
+  });
+  if (others) {
+    EXPECT_TRUE(loads_peers("doctor")) << "if this fails, the test above proves nothing";
   }
 }
 
