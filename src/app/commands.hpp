@@ -150,7 +150,7 @@ struct MeasureOptions {
   std::vector<std::string> from;     // earlier measurements: only their page is made
   bool quick = false;
   bool full = false;
-  std::optional<double> longest;  // seconds of one run; longer ones are left out
+  std::optional<double> longest;  // processor seconds of one run; longer ones are left out
   bool peers = true;
   std::string theme = "light";
   std::string backend = "auto";

@@ -23,13 +23,13 @@ bool is_near(int depth, Json::parse_event_t, const Json&) {
 }  // namespace
 
 JsonMembers::JsonMembers(std::string_view text)
-    : json_(Json::parse(text.begin(), text.end(), is_near, false)) {
-  if (!json_.is_object()) throw RefusedFile("it is no JSON object, or it is damaged");
+    : json_(std::make_shared<const Json>(Json::parse(text.begin(), text.end(), is_near, false))) {
+  if (!json_->is_object()) throw RefusedFile("it is no JSON object, or it is damaged");
 }
 
 const Json& JsonMembers::at(const char* member) const {
-  const auto found = json_.find(member);
-  if (found == json_.end()) throw RefusedFile(fmt::format("{}{} is missing", place_, member));
+  const auto found = json_->find(member);
+  if (found == json_->end()) throw RefusedFile(fmt::format("{}{} is missing", place_, member));
   return *found;
 }
 
@@ -110,7 +110,7 @@ void JsonMembers::is(const char* member, std::string_view text) const {
 
 JsonMembers JsonMembers::object(const char* member) const {
   if (!at(member).is_object()) refuse(member, "it is an object");
-  return {at(member), fmt::format("{}{}.", place_, member)};
+  return {*this, at(member), fmt::format("{}{}.", place_, member)};
 }
 
 std::vector<JsonMembers> JsonMembers::objects(const char* member) const {
@@ -119,14 +119,14 @@ std::vector<JsonMembers> JsonMembers::objects(const char* member) const {
   std::vector<JsonMembers> objects;
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (!list[i].is_object()) refuse(member, "it is a list of objects");
-    objects.push_back({list[i], fmt::format("{}{}[{}].", place_, member, i)});
+    objects.push_back({*this, list[i], fmt::format("{}{}[{}].", place_, member, i)});
   }
   return objects;
 }
 
 std::vector<std::string> JsonMembers::names() const {
   std::vector<std::string> names;
-  for (const auto& [name, value] : json_.items()) names.push_back(name);
+  for (const auto& [name, value] : json_->items()) names.push_back(name);
   return names;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -30,7 +31,7 @@ class JsonMembers {
   // The whole file. Throws RefusedFile unless it is one JSON object.
   explicit JsonMembers(std::string_view text);
 
-  bool has(const char* member) const { return json_.contains(member); }
+  bool has(const char* member) const { return json_->contains(member); }
   std::string text(const char* member) const;
   std::vector<std::string> texts(const char* member) const;
   double number(const char* member) const;
@@ -61,11 +62,12 @@ class JsonMembers {
   [[noreturn]] void refuse(const char* member, std::string_view must) const;
 
  private:
-  JsonMembers(nlohmann::json json, std::string place)
-      : json_(std::move(json)), place_(std::move(place)) {}
+  // A part of the whole, which lives as long as any part of it is used.
+  JsonMembers(const JsonMembers& whole, const nlohmann::json& part, std::string place)
+      : json_(whole.json_, &part), place_(std::move(place)) {}
   const nlohmann::json& at(const char* member) const;
 
-  nlohmann::json json_;
+  std::shared_ptr<const nlohmann::json> json_;
   std::string place_;  // "frames[3]."
 };
 

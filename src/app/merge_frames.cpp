@@ -169,9 +169,10 @@ void require_equal(const ShardSet& set, const ShardSet::Twins& twins) {
     if (same && first.here > 0) {
       const Manifest m = manifest_of(set, *twins.first, first);
       same = to_json(m) == to_json(manifest_of(set, *twins.second, second));
+      const Folder one = folder_in_part(set, *twins.first, first.name);
+      const Folder other = folder_in_part(set, *twins.second, first.name);
       for (const ShardFile& file : files_of(*twins.first, m, first.atlas))
-        same = same && whole_bytes(folder_in_part(set, *twins.first, first.name), file) ==
-                           whole_bytes(folder_in_part(set, *twins.second, first.name), file);
+        same = same && whole_bytes(one, file) == whole_bytes(other, file);
     }
     if (!same)
       throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'",

@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/false_references.hpp"
+#include "app/frame_folder.hpp"
 #include "app/missing_letters.hpp"
 #include "app/progress.hpp"
 #include "app/scenario_folder.hpp"
@@ -20,10 +21,8 @@ namespace lantern::app {
 
 Pace pace_of(std::string_view word, const Scenario& scenario) {
   if (word.empty()) return scenario.pace;
-  return word == to_string(Pace::event) ? Pace::event : Pace::step;
+  return word == word_for(Pace::event, kPaces) ? Pace::event : Pace::step;
 }
-
-std::string_view to_string(Pace pace) { return pace == Pace::event ? "event" : "step"; }
 
 std::optional<Scenario> load_or_complain(const std::string& file, int& code) try {
   Scenario scenario = load_scenario(scenario_file(file));

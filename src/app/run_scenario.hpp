@@ -28,7 +28,6 @@ class FrameSink {
 
 // "step", "event", or nothing for the scenario's own.
 Pace pace_of(std::string_view word, const Scenario& scenario);
-std::string_view to_string(Pace pace);
 
 // Nothing if it cannot be read: why is said, and `code` becomes that exit code unless it is worse.
 std::optional<Scenario> load_or_complain(const std::string& file, int& code);

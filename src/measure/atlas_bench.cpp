@@ -39,7 +39,7 @@ int next_side(int side) { return std::max(side + 1, static_cast<int>(std::ceil(1
 
 // The smallest square's side; 0 if there is none, or if it takes more seconds than `longest`.
 int search(TexturePacker& packer, int side, double longest, std::uint64_t& tried) {
-  const Stopwatch watch;
+  const CpuStopwatch watch;
   for (tried = 1; side <= kLargestSide; side = next_side(side), ++tried) {
     if (packer.pack(side, side)) return side;
     stop_if_asked();

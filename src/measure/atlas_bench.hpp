@@ -42,7 +42,8 @@ struct AtlasBenchConfig {
   bool peers = true;
   int rounds = 15;
   std::uint64_t seed = 1;
-  double longest = 10;  // seconds of a search for the smallest square: who needs more is left out
+  // Processor seconds of a search for the smallest square: who needs more is left out.
+  double longest = 10;
 };
 
 // One contestant at one set.

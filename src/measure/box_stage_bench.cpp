@@ -59,7 +59,7 @@ BoxSetting quickest(const BoxContestant& who, const BoxStage& stage, BoxSetting 
                     double seconds) {
   std::vector<BoxSetting> next = neighbours(who, best);
   if (next.empty()) return best;
-  const Stopwatch watch;
+  const CpuStopwatch watch;
   double least = tried(who, stage, best);
   std::set<BoxSetting> known = {best};
   while (!next.empty()) {

@@ -32,7 +32,7 @@ struct PlanOptions {
   Effort effort = Effort::normal;
   std::vector<std::string> methods;  // names; empty for those of each scenario
   std::vector<double> steps;         // seconds; empty for those of each scenario
-  std::optional<double> longest;     // seconds of one run; longer ones are left out
+  std::optional<double> longest;     // processor seconds of one run; longer ones are left out
   bool peers = true;
 };
 
@@ -56,11 +56,11 @@ class Plan {
   Plan(PlanOptions options, const std::function<void(const Scenario&)>& told);
 
   const std::vector<Job>& jobs() const { return jobs_; }  // those of a scenario stand together
-  // One run of it, estimated: from its first milliseconds, and, once one was run, from the last
-  // run of the same solver on the same scenario.
+  // Processor seconds of one run of it, estimated: from its first milliseconds, and, once one was
+  // run, from the last run of the same solver on the same scenario.
   double seconds(const Job& job) const;
   double seconds_with_repeats(const Job& job) const;
-  double longest() const;  // seconds that a run may take
+  double longest() const;  // processor seconds that a run may take
   bool is_too_long(const Job& job) const { return seconds(job) > longest(); }
   const std::vector<std::string>& missing_peers() const { return missing_peers_; }
   std::vector<PeerRecord> peers() const;         // those that have jobs

@@ -57,14 +57,16 @@ class Runner {
       begun = true;
       const std::uint64_t steps = schedule_.steps_in_part(leg, h_);
       for (std::uint32_t i = 0; i < leg.looks; ++i) {
-        const Stopwatch watch;
+        const CpuStopwatch processor;
+        const Stopwatch clock;
         for (std::uint64_t left = steps; left > 0;) {
           const std::uint64_t now = std::min(left, at_once_);
           stop_if_asked();
           simulation_->advance(now);
           left -= now;
         }
-        seconds_ += watch.seconds();
+        seconds_ += clock.seconds();
+        processor_seconds_ += processor.seconds();
         steps_ += steps;
         observe(metric, look);
       }
@@ -72,7 +74,8 @@ class Runner {
   }
 
   const Simulation& simulation() const { return *simulation_; }
-  double seconds() const { return seconds_; }
+  double seconds() const { return seconds_; }  // by the clock
+  double processor_seconds() const { return processor_seconds_; }
   double widest_skin() const { return widest_skin_; }
 
  private:
@@ -93,7 +96,7 @@ class Runner {
   std::unique_ptr<Simulation> simulation_;
   Observation now_;
   double widest_skin_ = 0;
-  double seconds_ = 0;
+  double seconds_ = 0, processor_seconds_ = 0;
   std::uint64_t steps_ = 0;
 };
 
@@ -167,7 +170,7 @@ Row blank_row(const Scenario& scenario, const Solver& solver, double h) {
   return row;
 }
 
-Row evaluated(const Trials& trials, const Solver& solver, double h, double* seconds) {
+Row evaluated(const Trials& trials, const Solver& solver, double h, double* processor_seconds) {
   Row row = blank_row(trials.scenario, solver, h);
   row.reference = trials.reference.text;
   row.reference_error = trials.reference.error;
@@ -183,7 +186,7 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* seco
     runner.emplace(trials.scenario, trials.schedule, solver, h);
     runner->run(sampler, [&](const Observation& now) { meter.look(now.states); });
     row.norms = metric->norms();
-    if (seconds) *seconds = runner->seconds();
+    if (processor_seconds) *processor_seconds = runner->processor_seconds();
   } catch (const Refused& refused) {
     failed(runner ? Status::diverged : Status::refused, refused.what());
   } catch (const NotANumber&) {
@@ -233,11 +236,11 @@ double estimated_seconds(const Scenario& scenario, const Schedule& schedule, con
   try {
     const std::unique_ptr<Simulation> simulation = solver.start(scenario, h);
     for (const Verb& verb : schedule.legs.front().before) simulation->act(verb);
-    // The quickest batch: the first steps are cold, and others use the machine, too.
+    // The quickest batch: the first steps are cold.
     double spent = 0, steps = 0, per_step = std::numeric_limits<double>::infinity();
     for (double batch = 1; spent < kLook && steps < all; batch *= 2) {
       const double n = std::min(batch, all - steps);
-      const Stopwatch watch;
+      const CpuStopwatch watch;
       simulation->advance(static_cast<std::uint64_t>(n));
       const double seconds = watch.seconds();
       spent += seconds;

@@ -40,8 +40,10 @@ struct Trials {
 Row blank_row(const Scenario& scenario, const Solver& solver, double h);
 
 // One run, which is not timed. Whatever goes wrong in it is the row's status; nothing is thrown but
-// Stopped. `seconds`, if given, is what the run took; it is left alone if the run broke off.
-Row evaluated(const Trials& trials, const Solver& solver, double h, double* seconds = nullptr);
+// Stopped. `processor_seconds`, if given, is what the run took; it is left alone if the run broke
+// off.
+Row evaluated(const Trials& trials, const Solver& solver, double h,
+              double* processor_seconds = nullptr);
 
 // A row that is ok, to be timed.
 struct TimedRun {
@@ -56,7 +58,8 @@ struct TimedRun {
 void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
                   const std::function<void(std::size_t)>& told);
 
-// Seconds that one run would take, from its first few milliseconds. 0 if it fails at once.
+// Processor seconds that one run would take, from its first few milliseconds: whether it is left
+// out as too long must not depend on what else the machine does. 0 if it fails at once.
 double estimated_seconds(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
                          double h);
 

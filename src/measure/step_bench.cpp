@@ -84,7 +84,7 @@ class PileFall {
     });
   }
 
-  bool goes_on() const { return row_.status == Status::ok && spent_ <= longest_; }
+  bool goes_on() const { return row_.status == Status::ok && computed_ <= longest_; }
 
   void take_turn() {
     guarded([&] {
@@ -93,8 +93,9 @@ class PileFall {
         const CpuStopwatch cpu;
         const Stopwatch watch;
         simulation_->advance(1);
-        seconds_.push_back(cpu.seconds());
         spent_ += watch.seconds();
+        seconds_.push_back(cpu.seconds());
+        computed_ += seconds_.back();
       }
       look();
     });
@@ -182,6 +183,7 @@ class PileFall {
   std::unique_ptr<Simulation> simulation_;
   std::optional<PileGauge> gauge_;
   std::vector<double> seconds_;               // of the processor, each step
+  double computed_ = 0;                       // their sum
   double spent_ = 0;                          // by the clock
   double start_ = 0, lowest_ = 0;             // energy
   std::deque<std::vector<BodyState>> looks_;  // of the last second

@@ -17,7 +17,7 @@ namespace lantern::measure {
 struct StepBenchConfig {
   std::vector<Pile> piles;
   double seconds = 4;   // of each fall, in quarters
-  double longest = 20;  // seconds by the clock for one solver and pile: it ends where it is then
+  double longest = 20;  // processor seconds for one solver and pile: it ends where it is then
   std::vector<std::string> only;  // solvers; empty for our usual efforts and all peers
   bool peers = true;
   StructureKind structure = StructureKind::sort_and_sweep;  // of our broad phase

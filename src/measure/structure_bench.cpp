@@ -155,10 +155,10 @@ struct Turn {
 void take_turn(Turn& turn, Finds& finds) {
   finds.pairs.clear();
   finds.tests = 0;
-  const Stopwatch build;
+  const CpuStopwatch build;
   turn.contestant->build();
   turn.build.push_back(build.seconds());
-  const Stopwatch pairs;
+  const CpuStopwatch pairs;
   turn.contestant->find(finds);
   turn.pairs.push_back(pairs.seconds());
 }

@@ -18,7 +18,7 @@ struct StructureTime {
   StructureKind kind = StructureKind::none;
   std::string scene;  // "uniform_2d"
   std::uint64_t bodies = 0;
-  Timing build;  // seconds
+  Timing build;  // processor seconds
   Timing pairs;
   std::uint64_t nodes = 0;
   std::uint64_t entries = 0;     // bodies in leaves, each once a leaf
@@ -33,7 +33,7 @@ struct StructureBench {
   std::vector<std::uint64_t> bodies;
   std::uint64_t seed = 1;
   int rounds = 9;
-  double longest = 5;  // seconds of one build; one that takes longer is not timed
+  double longest = 5;  // processor seconds of one build; one that takes longer is not timed
 };
 
 // Evenly spread and clustered boxes; all structures with capacity 8 and depth limit 7, in turns.

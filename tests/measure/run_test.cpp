@@ -1,5 +1,7 @@
 // Runs and what is told of them.
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -108,17 +110,20 @@ seconds = 40
   EXPECT_EQ(row.timing.repeats, 0) << "what has diverged is not timed";
 }
 
-// Lets all bodies fall through each other, and tells a skin.
+// Lets all bodies fall through each other, and tells a skin. It may wait in between, as if others
+// had the processor.
 class Falling : public Solver {
  public:
+  explicit Falling(double wait = 0) : wait_(wait) {}
   std::string name() const override { return "falling"; }
   std::string version() const override { return "1"; }
   std::optional<std::string> cannot(const Scenario&) const override { return std::nullopt; }
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override {
     struct Fall : Simulation {
       std::vector<BodyState> states;
-      double h = 0;
+      double h = 0, wait = 0;  // seconds
       void advance(std::uint64_t steps) override {
+        std::this_thread::sleep_for(std::chrono::duration<double>(wait));
         for (BodyState& state : states) state.position.y -= h * static_cast<double>(steps);
       }
       void observe(std::vector<BodyState>& now) const override { now = states; }
@@ -127,8 +132,12 @@ class Falling : public Solver {
     auto fall = std::make_unique<Fall>();
     fall->states = at_start(scenario).states;
     fall->h = h;
+    fall->wait = wait_;
     return fall;
   }
+
+ private:
+  double wait_;
 };
 
 TEST(Run, WhatHasFallenIsNoSuccess) {
@@ -171,6 +180,21 @@ TEST(Run, LongOnesAreFoundOutBefore) {
       EXPECT_GT(plan.seconds(job), 3600) << "a million million steps";
     }
   }
+}
+
+TEST(Run, AreNoLongerWhereOthersHaveTheProcessor) {
+  const Scenario scenario = thrown();
+  const Schedule schedule = Schedule::of(scenario);
+  const Invariants invariants(scenario);
+  const Reference reference = reference_for(scenario, schedule, 0.1);
+  constexpr double kWait = 0.05, kStep = 0.1;
+  const Falling kept_waiting(kWait);
+  EXPECT_LT(estimated_seconds(scenario, schedule, kept_waiting, kStep), kWait);
+  double seconds = 1;
+  const Row row =
+      evaluated({scenario, schedule, invariants, reference}, kept_waiting, kStep, &seconds);
+  EXPECT_EQ(row.status, Status::ok) << row.reason;
+  EXPECT_LT(seconds, kWait);
 }
 
 TEST(Run, WhatIsLeftOutIsARowAndSaysWhy) {
