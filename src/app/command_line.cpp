@@ -33,22 +33,16 @@ void add_drawing(CLI::App* c, RenderOptions& o) {
        "what it becomes: .png .svg pictures, .mp4 .webm .gif .apng .webp a film, .pdf a "
        "document, .html a lesson page; {scenario}, {step} and {frame} in its name make "
        "several, of a film with {step} a clip a step; - writes one picture to standard output")
-      ->check(kNotEmpty)
       ->type_name("PATH")
       ->capture_default_str();
   c->add_option("--sheet", o.sheet, "so many frames across and down a page, with -o x.pdf or x.png")
-      ->check(kNotEmpty)
       ->type_name("CxR");
-  c->add_option("--frames", o.frames, "only these frames: 7, 3-9, 3- or -9")
-      ->check(kNotEmpty)
-      ->type_name("A-B");
+  c->add_option("--frames", o.frames, "only these frames: 7, 3-9, 3- or -9")->type_name("A-B");
   c->add_option("--at", o.at,
                 "only the frames of this event (a step's name, split, store, ...), or the first "
                 "frame at or after this time in seconds")
-      ->check(kNotEmpty)
       ->type_name("EVENT|TIME");
   c->add_option("--size", o.size, "pixels; the default is 1600x900, of a sheet A4 across")
-      ->check(kNotEmpty)
       ->type_name("WxH");
   c->add_option("--dpi", o.dpi, "pixels to the inch: how large a PDF's page is, and a PNG on paper")
       ->check(CLI::Range(72, 1200))
@@ -68,11 +62,13 @@ void add_drawing(CLI::App* c, RenderOptions& o) {
                 "changes: half a second each, or the world's own time; of a film, its rate: 30, "
                 "25 for a .gif")
       ->check(CLI::Range(1.0, 240.0))
+      ->check(kFinite)
       ->type_name("F");
   c->add_option("--hold", o.hold,
                 "how long a film stands still where nothing moves, seconds; the default is as long "
                 "as it takes to read the caption")
       ->check(CLI::Range(0.0, 3600.0))
+      ->check(kFinite)
       ->type_name("S");
   add_choice(*c, "--theme", o.theme, "colours", kThemes);
   c->add_option("--pace", o.pace, "one frame per step, or one for each thing the algorithm does")
@@ -107,9 +103,8 @@ void watch_options(CLI::App* c, RenderOptions& o) {
 }
 
 void merge_options(CLI::App* c, MergeOptions& o) {
-  c->add_option("OUT", o.output, "folder of the whole")->check(kNotEmpty)->required();
-  c->add_option("IN", o.folders, "folders that shards wrote into with -o; the default is OUT")
-      ->check(kNotEmpty);
+  c->add_option("OUT", o.output, "folder of the whole")->required();
+  c->add_option("IN", o.folders, "folders that shards wrote into with -o; the default is OUT");
   add_json(*c, o.json);
 }
 
@@ -144,6 +139,7 @@ void add_allowance(CLI::App& c, int& tolerance, double& fraction) {
       ->capture_default_str();
   c.add_option("--fraction", fraction, "fraction of the pixels that may differ")
       ->check(CLI::Range(0.0, 1.0))
+      ->check(kFinite)
       ->capture_default_str();
 }
 
@@ -155,12 +151,8 @@ void structure_check_options(CLI::App* c, StructureCheckOptions& o) {
       ->check(CLI::Range(1, 10'000'000))
       ->type_name("N")
       ->capture_default_str();
-  c->add_option("--seed", o.seed, "of the random worlds")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-      ->type_name("S")
-      ->capture_default_str();
+  add_seed(*c, o.seed, "of the random worlds");
   c->add_option("-o,--output", o.output, "folder for NAME_fails.toml")
-      ->check(kNotEmpty)
       ->type_name("DIR")
       ->capture_default_str();
   add_json(*c, o.json);
@@ -172,15 +164,11 @@ void structure_bench_options(CLI::App* c, StructureBenchOptions& o) {
       ->allow_extra_args(false)
       ->check(CLI::Range(2, 1'000'000))
       ->type_name("N");
-  c->add_option("--seed", o.seed, "of the random worlds")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-      ->type_name("S")
-      ->capture_default_str();
+  add_seed(*c, o.seed, "of the random worlds");
   c->add_option("--rounds", o.rounds, "repeats; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   c->add_option("-o,--output", o.output, "folder for bench_structure.csv and .json")
-      ->check(kNotEmpty)
       ->type_name("DIR");
   add_memory(*c);
   add_json(*c, o.json);
@@ -213,25 +201,22 @@ void golden_options(CLI::App* c, GoldenOptions& o) {
   CLI::Option* update =
       c->add_flag("--update", o.update, "make today's frames the golden ones: writes what changed");
   c->add_option("--dir", o.folder, "the golden frames are in DIR/<scenario>")
-      ->check(kNotEmpty)
       ->type_name("DIR")
       ->capture_default_str();
   c->add_option("--report", o.report,
                 "page of what differs, with pictures side by side: a file, or a folder for "
                 "golden.html; without it output/golden.html, made only if something differs")
-      ->check(kNotEmpty)
       ->excludes(update)
       ->type_name("PATH");
   c->add_option("--junit", o.junit, "findings as JUnit's XML, for whatever builds and tests")
-      ->check(kNotEmpty)
       ->excludes(update)
       ->type_name("FILE");
   add_allowance(*c, o.tolerance, o.fraction);
   c->add_option("--size", o.size, "pixels")->type_name("WxH")->capture_default_str();
   add_choice(*c, "--theme", o.theme, "colours", kThemes);
   c->add_option("--pace", o.pace, "as for render")->check(CLI::IsMember({"step", "event"}));
-  c->add_option("--frames", o.frames, "as for render")->check(kNotEmpty)->type_name("A-B");
-  c->add_option("--at", o.at, "as for render")->check(kNotEmpty)->type_name("EVENT|TIME");
+  c->add_option("--frames", o.frames, "as for render")->type_name("A-B");
+  c->add_option("--at", o.at, "as for render")->type_name("EVENT|TIME");
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   add_memory(*c);
   add_json(*c, o.json);
@@ -264,7 +249,6 @@ void help_options(CLI::App* c, CLI::App& app, Run& run) {
 
 void reference_options(CLI::App* c, ReferenceOptions& o) {
   c->add_option("--pictures", o.pictures, "draw the page's pictures into this folder instead")
-      ->check(kNotEmpty)
       ->type_name("DIR");
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);
   add_json(*c, o.json);

@@ -94,9 +94,7 @@ class FileComparison {
     result.equal = passes(compared, a, {options_.tolerance, options_.fraction});
     result.finding = finding(compared);
     if (result.equal || !picture) return;
-    const FilePlace place = picture();
-    require_free(place.path());
-    write_file(place,
+    write_file(picture(),
                encode_png(difference_picture(a, b, options_.tolerance), PngEffort::fast, {}, 0));
   }
 
@@ -124,6 +122,14 @@ FilePlace place_below(const std::string& output, const fs::path& name) {
   return {folder, name.filename().string()};
 }
 
+// No difference picture takes the place of a file that is yet to be compared.
+void require_apart(const CompareOptions& o, std::set<std::string> names) {
+  std::erase_if(names, [](const std::string& name) { return !name.ends_with(".png"); });
+  for (const std::string& folder : {o.expected, o.actual})
+    for (const std::string& name : names) add_input(fs::path(folder) / name);
+  for (const std::string& name : names) require_free(fs::path(o.output) / name);
+}
+
 // Every file of either folder; one that stands only in one of them differs.
 std::vector<Result> compare_folders(const CompareOptions& o) {
   const fs::path expected_folder = o.expected, actual_folder = o.actual;
@@ -132,6 +138,7 @@ std::vector<Result> compare_folders(const CompareOptions& o) {
   std::set<std::string> all = expected;
   all.insert(actual.begin(), actual.end());
   if (all.empty()) throw UsageError("there are no PNG, SVG or JSON files in these folders");
+  if (!o.output.empty()) require_apart(o, all);
   std::vector<Result> results;
   for (const std::string& name : all) {
     if (!actual.contains(name)) {
@@ -157,18 +164,13 @@ std::vector<Result> compare_two_files(const CompareOptions& o) {
   if ((is_text(a) || is_text(b)) && a.extension() != b.extension())
     throw UsageError(fmt::format("'{}' and '{}' are files of two kinds", o.expected, o.actual));
   std::function<FilePlace()> picture;
-  if (!o.output.empty())
-    picture = [&] {
-      make_place(o.output);
-      return FilePlace(o.output);
-    };
+  if (!o.output.empty()) picture = [&] { return make_place(o.output, folder_of(o.output)); };
   return {FileComparison(a, b, o).result(picture)};
 }
 
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
-  if (!std::isfinite(options.fraction)) throw UsageError("--fraction must be a number from 0 to 1");
   std::error_code error;
   for (const std::string& input : {options.expected, options.actual}) {
     if (!fs::exists(input, error)) throw IoError(fmt::format("there is no '{}'", input));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/terminal.hpp"
+#include "base/file.hpp"
 #include "base/suggest.hpp"
 
 namespace lantern::app {
@@ -92,6 +93,8 @@ Destination::Destination(const std::string& words, bool sheet)
 bool Destination::is_by(std::string_view placeholder) const {
   return words_.find(fmt::format("{{{}}}", placeholder)) != std::string::npos;
 }
+
+fs::path Destination::users_folder() const { return folder_of(words_.substr(0, words_.find('{'))); }
 
 fs::path Destination::file(const NameParts& parts) const {
   std::string name;

@@ -38,6 +38,8 @@ class Destination {
 
   // The file for these parts; numbers have as many digits as the names of frames in a folder.
   std::filesystem::path file(const NameParts& parts) const;
+  // What of these files' folders stands before the first placeholder.
+  std::filesystem::path users_folder() const;
 
  private:
   std::string words_, ending_;

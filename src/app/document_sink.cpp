@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // step, or each alone.
 class DocumentSink : public FileSink {
  public:
-  explicit DocumentSink(const Sequence& sequence) : sequence_(sequence), files_(sequence.work) {
+  explicit DocumentSink(const Sequence& sequence) : sequence_(sequence), files_(sequence) {
     refuse_in_betweens(sequence);
     begin();  // what is missing for it is told before the run
   }

@@ -109,8 +109,7 @@ class FilmSink : public FileSink {
 
   void begin_film(const Frame& of, std::uint64_t moment) {
     file_ = to_.file({scenario_.name, of.step, of.index});
-    make_place(file_);
-    film_.emplace(ffmpeg_, settings_, file_);
+    film_.emplace(ffmpeg_, settings_, make_place(file_, to_.users_folder()));
     begun_ = moment;
   }
 

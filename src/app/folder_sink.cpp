@@ -90,11 +90,11 @@ void FolderSink::close(const DirectorReport& report) {
   folder_->folder().settle();  // before anybody is told that it is finished
 }
 
-// Only when there is a frame for it.
-void FolderSink::open_folder() {
+// Only when there is a frame for it. What cannot draw it removes nothing.
+void FolderSink::open_folder(const Frame& frame) {
   folder_.emplace(output_folder(job_.options), manifest_, selection_.takes_all());
-  if (!folder_->removed().empty())
-    say(about_files(scenario_.name, "removed what an earlier run has left", folder_->removed()));
+  if (job_.format == FileKind::png && !folder_->stands(frame.index, job_.format)) pipeline();
+  folder_->remove_old();
   write_manifest();
 }
 
@@ -108,7 +108,7 @@ void FolderSink::take(const Frame& frame, const Staging& staging) {
 }
 
 void FolderSink::take_facts(const Frame& frame) {
-  if (!folder_) open_folder();
+  if (!folder_) open_folder(frame);
   taken_.insert(frame.index);
   if (!folder_->stands(frame.index, FileKind::json))
     write_counted(frame_file(manifest_.scenario, frame.index, FileKind::json),
@@ -214,6 +214,7 @@ void FolderSink::write_atlas(const Frame& frame) {
 
 void FolderSink::write_manifest() {
   write_file({folder_->folder(), kManifest}, to_json(manifest_));
+  written_.insert(kManifest);
 }
 
 }  // namespace lantern::app

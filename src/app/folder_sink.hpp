@@ -45,7 +45,7 @@ class FolderSink : public StagedSink {
   void close(const DirectorReport& report) override;
 
  private:
-  void open_folder();
+  void open_folder(const Frame& frame);
   void take(const Frame& frame, const Staging& staging);
   void take_facts(const Frame& frame);
   void take_picture(const Frame& frame);

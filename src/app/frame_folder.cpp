@@ -143,14 +143,23 @@ std::string in_between_file(const Manifest& m, std::uint32_t index, std::uint64_
 
 namespace {
 
+// The text of the folder's manifest; empty if it is missing or cannot be read.
+std::string manifest_in(const Folder& folder) try {
+  return folder.read(kManifest, kMostFrameBytes).value_or("");
+} catch (const IoError&) {
+  return {};
+}
+
+// Of any version.
+bool is_lanterns(std::string_view manifest) {
+  return manifest.find("\"format\": \"lantern.manifest/") < 10;
+}
+
 // Was the folder's last run made by this very build? Two builds of one version may draw
 // differently. False if the manifest is missing or damaged; as to_json() writes it: within a text
 // of the file, a quote has a backslash before it.
-bool is_of_this_build(const Folder& folder) try {
-  const std::string text = folder.read(kManifest, kMostFrameBytes).value_or("");
-  return text.find(fmt::format("\n\"sources\": \"{}\"", kSourceHash)) != text.npos;
-} catch (const IoError&) {
-  return false;
+bool is_of_this_build(std::string_view manifest) {
+  return manifest.find(fmt::format("\n\"sources\": \"{}\"", kSourceHash)) != manifest.npos;
 }
 
 }  // namespace
@@ -159,7 +168,9 @@ FrameFolder::FrameFolder(const Folder& output, const Manifest& wanted, bool whol
     : folder_(output.inside(wanted.scenario.text())), wanted_(wanted), lock_(folder_) {
   require_kept_for(KeptFor::frames, folder_);
   folder_.remove_leftovers();
-  const bool same_build = is_of_this_build(folder_);
+  const std::string manifest = manifest_in(folder_);
+  if (!manifest.empty() && !is_lanterns(manifest)) strange_.push_back(kManifest);
+  const bool same_build = is_of_this_build(manifest);
   for (const std::string& name : folder_.names()) look_at(name, same_build, whole);
 }
 
@@ -178,9 +189,17 @@ void FrameFolder::look_at(const std::string& name, bool same_build, bool whole) 
     strange_.push_back(name);
   } else if (found && same_build && is_wanted(name, kind, *found, whole)) {
     standing_[name] = *found;
-  } else if (folder_.remove(name)) {
-    removed_.push_back(name);
+  } else {
+    old_.push_back(name);
   }
+}
+
+void FrameFolder::remove_old() const {
+  std::vector<std::string> removed;
+  for (const std::string& name : old_)
+    if (folder_.remove(name)) removed.push_back(name);
+  if (!removed.empty())
+    say(about_files(wanted_.scenario.text(), "removed what an earlier run has left", removed));
 }
 
 bool FrameFolder::is_wanted(const std::string& name, FileKind kind, const MadeFrom& found,

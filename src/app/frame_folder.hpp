@@ -105,10 +105,9 @@ std::string about_files(const std::string& scenario, const char* what,
 
 class FrameFolder {
  public:
-  // Makes DIR/<scenario> in the folder DIR, and keeps other processes out of it. What an earlier
-  // run has left and what is not wanted now is removed, if Lantern made it and nobody has changed
-  // it since; `whole` runs, of all frames, leave nothing of another format, either. Throws IoError,
-  // and UsageError for a folder that Lantern keeps for something else.
+  // Makes DIR/<scenario> in the folder DIR, keeps other processes out of it, and looks at what an
+  // earlier run has left. Throws IoError, and UsageError for a folder that Lantern keeps for
+  // something else.
   FrameFolder(const Folder& output, const Manifest& wanted, bool whole);
 
   const Folder& folder() const { return folder_; }
@@ -121,8 +120,11 @@ class FrameFolder {
   // How many in-betweens stand from this frame on.
   std::uint64_t in_betweens_standing(std::uint32_t index) const;
 
-  // Names of files, in order: removed; named as a frame, but not of Lantern's making, and left.
-  const std::vector<std::string>& removed() const { return removed_; }
+  // Removes what an earlier run has left and what is not wanted now, if Lantern made it and nobody
+  // has changed it since; `whole` runs, of all frames, leave nothing of another format, either. Says
+  // so. To be called when all is there that the frames need.
+  void remove_old() const;
+  // Names of files, in order: named as what a run writes, but not of Lantern's making, and left.
   const std::vector<std::string>& strange() const { return strange_; }
 
  private:
@@ -133,7 +135,7 @@ class FrameFolder {
   const Manifest& wanted_;
   FolderLock lock_;
   std::map<std::string, MadeFrom> standing_;  // by file name
-  std::vector<std::string> removed_, strange_;
+  std::vector<std::string> old_, strange_;
 };
 
 }  // namespace lantern::app

@@ -86,8 +86,6 @@ class GoldenRun {
 
  private:
   void make_ready() const {
-    if (!std::isfinite(options_.fraction))
-      throw UsageError("--fraction must be a number from 0 to 1");
     std::error_code none;
     const auto resolved = [&](const fs::path& file) {
       return fs::weakly_canonical(fs::absolute(file, none), none);

@@ -19,7 +19,6 @@ std::uint64_t within(double seconds, double fps) {
 }  // namespace
 
 InBetweens::InBetweens(const RenderOptions& options) {
-  if (options.fps && !std::isfinite(*options.fps)) throw UsageError("--fps: give a number");
   number_ = options.tween.value_or(0);
   if (options.fps) {
     fps_ = *options.fps;

@@ -8,8 +8,8 @@
 
 namespace lantern::app {
 
-// For what a folder is kept: the frames of a run, golden frames, or a part of a run.
-enum class KeptFor { frames, goldens, shard };
+// For what a folder is kept: the frames of a run, golden frames, a part of a run, or reports.
+enum class KeptFor { frames, goldens, shard, reports };
 
 // Throws UsageError if the folder is kept for anything else: its files would be lost.
 void require_kept_for(KeptFor wanted, const Folder& folder);

@@ -14,7 +14,6 @@ void measure_options(CLI::App* c, MeasureOptions& o) {
                 "problems or families by name, or scenario files; the default is all problems; "
                 "'pictures' measures antialiasing, 'broad_phase' the trees' settings");
   c->add_option("-o,--output", o.output, "folder for tables, plots and the overview page")
-      ->check(kNotEmpty)
       ->type_name("DIR")
       ->capture_default_str();
   c->add_option("--method", o.methods, "only these: velocity_verlet, soft:16, impulse:100, ...")
@@ -28,6 +27,7 @@ void measure_options(CLI::App* c, MeasureOptions& o) {
   c->add_flag("--full", o.full, "every run, however long it takes")->excludes(quick);
   c->add_option("--longest", o.longest, "leave out runs that would take more seconds than this")
       ->check(CLI::PositiveNumber)
+      ->check(kFinite)
       ->type_name("S");
   c->add_flag("!--no-peers", o.peers, "without other engines");
   add_choice(*c, "--theme", o.theme, "colours of the plots", kThemes);
@@ -48,11 +48,13 @@ void bench_step_options(CLI::App* c, BenchStepOptions& o) {
       ->type_name("PILE");
   c->add_option("--seconds", o.seconds, "of the fall; the default is 4, with --full 10")
       ->check(CLI::Range(1.0, 3600.0))
+      ->check(kFinite)
       ->type_name("S");
   c->add_option("--longest", o.longest,
                 "a solver ends early at a pile that takes it more seconds than this; the default "
                 "is 20, with --full 600")
       ->check(CLI::PositiveNumber)
+      ->check(kFinite)
       ->type_name("S");
   c->add_option("--only", o.only, "only these: soft:8, impulse:100, Box2D, ...")
       ->allow_extra_args(false)
@@ -62,7 +64,6 @@ void bench_step_options(CLI::App* c, BenchStepOptions& o) {
       ->capture_default_str();
   c->add_option("-o,--output", o.output,
                 "folder for bench_step.html, bench_step.csv and bench_step.json")
-      ->check(kNotEmpty)
       ->type_name("DIR");
   c->add_flag("--full", o.full, "500, 2,000 and 5,000 boxes and balls in 2D and 3D: hours");
   c->add_flag("!--no-peers", o.peers, "without other engines");
@@ -86,7 +87,6 @@ void bench_pairs_options(CLI::App* c, BenchPairsOptions& o) {
   c->add_option("--boxes", o.boxes,
                 "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named "
                 "columns), or .aabbs of Broadmark")
-      ->check(kNotEmpty)
       ->excludes(workload)
       ->type_name("FILE");
   c->add_option("--only", o.only, "only these: quadtree, sort_and_sweep, CGAL, ...")
@@ -99,16 +99,17 @@ void bench_pairs_options(CLI::App* c, BenchPairsOptions& o) {
                 "that a contestant is timed at a world, but three rounds at least; the default is "
                 "0.1, with --full 4")
       ->check(CLI::PositiveNumber)
+      ->check(kFinite)
       ->type_name("S");
   c->add_option("--longest", o.longest,
                 "leave out who needs more seconds a step than this; the default is 0.4, with "
                 "--full 10")
       ->check(CLI::PositiveNumber)
+      ->check(kFinite)
       ->type_name("S");
-  c->add_option("--seed", o.seed, "of the boxes")->type_name("N")->capture_default_str();
+  add_seed(*c, o.seed, "of the boxes");
   c->add_option("-o,--output", o.output,
                 "folder for bench_pairs.html, bench_pairs.csv and bench_pairs.json")
-      ->check(kNotEmpty)
       ->type_name("DIR");
   c->add_flag("--full", o.full, "up to a million boxes: the better part of an hour");
   c->add_flag("!--no-peers", o.peers, "without other libraries");
@@ -126,7 +127,6 @@ void bench_atlas_options(CLI::App* c, BenchAtlasOptions& o) {
           ->allow_extra_args(false)
           ->type_name("N");
   c->add_option("--sizes", o.sizes, "textures of your own instead: CSV, a line WIDTH,HEIGHT each")
-      ->check(kNotEmpty)
       ->excludes(set)
       ->excludes(count)
       ->type_name("FILE");
@@ -138,10 +138,9 @@ void bench_atlas_options(CLI::App* c, BenchAtlasOptions& o) {
   c->add_option("--rounds", o.rounds, "turns of each contestant; medians count")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  c->add_option("--seed", o.seed, "of the sets")->type_name("N")->capture_default_str();
+  add_seed(*c, o.seed, "of the sets");
   c->add_option("-o,--output", o.output,
                 "folder for bench_atlas.html, bench_atlas.csv and bench_atlas.json")
-      ->check(kNotEmpty)
       ->type_name("DIR");
   c->add_flag("!--no-peers", o.peers, "without other packers");
   add_memory(*c);
@@ -159,7 +158,6 @@ void bench_frames_options(CLI::App* c, BenchOptions& o) {
       ->capture_default_str();
   c->add_option("-o,--output", o.output,
                 "folder for bench_frames.html, bench_frames.csv and bench_frames.json")
-      ->check(kNotEmpty)
       ->type_name("DIR");
   add_memory(*c);
   add_json(*c, o.json);
@@ -183,7 +181,6 @@ void stress_options(CLI::App* c, StressOptions& o) {
   c->add_option("CASE", o.cases, "names of cases; the default is all that are not slow");
   c->add_option("-o,--output", o.output,
                 "folder for stress.csv, stress.json, stability_map.png and .svg")
-      ->check(kNotEmpty)
       ->type_name("DIR");
   add_choice(*c, "--theme", o.theme, "colours of the stability map", kThemes);
   add_choice(*c, "--backend", o.backend, "off-screen OpenGL", kBackends);

@@ -47,7 +47,6 @@ void manual_options(CLI::App* c, CLI::App& app, Run& run) {
                                      "the command; the default is all of "
                                      "Lantern");
   c->add_option("--dir", manual->folder, "write every page into this folder instead")
-      ->check(kNotEmpty)
       ->excludes(names)
       ->type_name("DIR");
   c->callback(

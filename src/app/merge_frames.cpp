@@ -103,14 +103,31 @@ std::vector<ShardFile> files_of(const FoundShard& shard, const Manifest& m, bool
   return files;
 }
 
-// Throws UnfitShard unless each of the files is whole.
-void require_whole(const ShardSet& set, const FoundShard& shard, const ScenarioName& scenario,
+// Do the facts of a frame say of it what the manifest says? They begin with what it lists.
+bool say_the_same(std::string_view facts, const Manifest& m, std::uint32_t index) {
+  const ListedFrame& frame = m.frames.at(index);
+  JsonWriter listed;
+  listed.begin_object().lines("scenario", m.scenario.text(), "frame", index, "time", frame.time,
+                              "step", frame.step, "event", frame.event, "caption", frame.caption);
+  return facts.find(std::string_view(listed.text()).substr(1)) != facts.npos &&
+         facts.rfind(fmt::format("\n\"hash\": \"{:016x}\"", frame.hash)) != facts.npos;
+}
+
+// Throws UnfitShard unless each of the files is whole, and tells what the manifest does.
+void require_whole(const ShardSet& set, const FoundShard& shard, const Manifest& m,
                    const std::vector<ShardFile>& files) {
-  const Folder folder = folder_in_part(set, shard, scenario);
+  const Folder folder = folder_in_part(set, shard, m.scenario);
   std::vector<std::string> bad;
   for (const ShardFile& file : files) {
     stop_if_asked();
-    if (!whole_bytes(folder, file)) bad.push_back(file.name);
+    const auto bytes = whole_bytes(folder, file);
+    if (!bytes) bad.push_back(file.name);
+    if (!bytes || file.kind != FileKind::json) continue;
+    const auto index = frame_of(file.name, m.scenario.text());
+    if (index && !say_the_same(*bytes, m, *index))
+      throw UnfitShard(
+          set, shard,
+          fmt::format("{} and {} do not say the same of frame {}", kManifest, file.name, *index));
   }
   if (bad.empty()) return;
   const std::string more =
@@ -147,7 +164,7 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
     if (input.here == 0) continue;
     Manifest part = manifest_of(set, *shard, input);
     std::vector<ShardFile> files = files_of(*shard, part, input.atlas);
-    require_whole(set, *shard, input.name, files);
+    require_whole(set, *shard, part, files);
     tell_of_others(*shard, folder_in_part(set, *shard, input.name), files);
     if (!whole) {
       whole = MergedSequence{std::move(part), std::move(files)};
@@ -194,14 +211,13 @@ Counted write_whole(const ShardSet& set, const Folder& output, MergedSequence& w
   whole.manifest.finished = false;
   const FrameFolder folder(output, whole.manifest, all_frames);
   const std::string& name = finished.scenario.text();
-  if (!folder.removed().empty())
-    say(about_files(name, "removed what an earlier run has left", folder.removed()));
+  folder.remove_old();
   const auto write_manifest = [&](const Manifest& m) {
     write_file({folder.folder(), kManifest}, to_json(m));
   };
   write_manifest(whole.manifest);
   Counted counted;
-  std::set<std::string> written;
+  std::set<std::string> written = {kManifest};
   for (const ShardFile& file : whole.files) {
     stop_if_asked();
     if (folder.stands(file.name)) {

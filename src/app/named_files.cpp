@@ -10,9 +10,17 @@
 
 namespace lantern::app {
 
-void make_place(const std::filesystem::path& file) {
+namespace fs = std::filesystem;
+
+FilePlace make_place(const fs::path& file, const fs::path& users) {
   require_free(file);
-  make_folder(folder_of(file));
+  Folder folder = Folder::made(users);
+  for (const fs::path& part : folder_of(file).lexically_relative(users).lexically_normal()) {
+    if (part == "..")
+      throw UsageError(fmt::format("-o {}: it leads out again by ..", file.string()));
+    if (!part.empty() && part != ".") folder = folder.inside(part.string());
+  }
+  return {folder, file.filename().string()};
 }
 
 void refuse_in_betweens(const Sequence& sequence) {
@@ -24,8 +32,7 @@ void refuse_in_betweens(const Sequence& sequence) {
 
 void NamedFiles::write(const std::filesystem::path& file, std::string_view bytes,
                        std::uint64_t frames) {
-  make_place(file);
-  write_file(file, bytes);
+  write_file(make_place(file, to_.users_folder()), bytes);
   work_.bytes_written += bytes.size();
   work_.frames_written += frames;
   made_.frames += frames;

@@ -1,6 +1,8 @@
 // What the options of several commands have in common.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,6 +25,15 @@ namespace lantern::app {
 inline const CLI::Validator kNotEmpty(
     [](const std::string& word) { return word.empty() ? "must not be empty" : std::string(); }, "");
 
+// CLI11's own checks of a number let NaN pass.
+inline const CLI::Validator kFinite(
+    [](const std::string& word) {
+      double number = 0;
+      const bool is_number = CLI::detail::lexical_cast(word, number);
+      return is_number && !std::isfinite(number) ? "must be a finite number" : std::string();
+    },
+    "");
+
 inline const std::vector<std::string> kThemes = {"light", "dark", "print"};
 inline const std::vector<std::string> kBackends = {"auto", "osmesa", "egl"};
 
@@ -41,8 +52,14 @@ inline void add_shard(CLI::App& command, std::string& words) {
       .add_option("--shard", words,
                   "only the I-th of N parts, into DIR/shard-I-of-N; 'lantern merge' makes one of "
                   "them")
-      ->check(kNotEmpty)
       ->type_name("I/N");
+}
+
+inline void add_seed(CLI::App& command, std::uint64_t& seed, const char* help) {
+  command.add_option("--seed", seed, help)
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+      ->type_name("S")
+      ->capture_default_str();
 }
 
 // Before a command, and after one that runs a scenario.
@@ -100,6 +117,8 @@ class Command : public CLI::App {
       footer(get_parent()->get_footer());
       add(this);
       add_manners(*this);
+      for (CLI::Option* one : get_options())
+        if (one->get_items_expected_max() > 0) one->check(kNotEmpty);
     });
   }
   // Adds its options and commands if they are not there yet. Parsing does so by itself.

@@ -58,6 +58,7 @@ class PageSink : public FileSink {
         selection_(s.selection),
         work_(s.work),
         file_(s.to.file({s.scenario.name})),
+        users_folder_(s.to.users_folder()),
         expected_(s.selection.most() ? s.selection.most() : extent_of(s.scenario, s.pace).frames),
         lesson_({s.scenario.name, s.scenario.title, s.scenario.idea, s.scenario.lecture,
                  s.scenario.needs, s.scenario.steps.size()},
@@ -88,10 +89,10 @@ class PageSink : public FileSink {
 
   void close(const DirectorReport&) override {
     selection_.require_some();
-    make_place(file_);
+    const FilePlace place = make_place(file_, users_folder_);
     std::string html = lesson_.html();
     if (options_.reloading) html.insert(html.rfind("</body>"), reload_script(file_));
-    write_file(file_, html);
+    write_file(place, html);
     if (options_.reloading) tell_version(file_, html);
   }
 
@@ -132,7 +133,7 @@ class PageSink : public FileSink {
   const Scenario& scenario_;
   Selection& selection_;
   Work& work_;
-  std::filesystem::path file_;
+  std::filesystem::path file_, users_folder_;
   std::optional<std::uint64_t> expected_;  // frames, at most
   publish::Lesson lesson_;
   Frame last_;  // of the one before only the time

@@ -47,26 +47,23 @@ class PictureSink : public FileSink {
       waiting_[file] = picture_of(job_, job_.picture, frame, list, from, work_);
       return;
     }
-    make_place(file);
+    const FilePlace place = make_place(file, to_.users_folder());
     if (job_.format == FileKind::svg)
-      write(file, picture_of(job_, job_.picture, frame, list, from, work_));
+      write(place, picture_of(job_, job_.picture, frame, list, from, work_));
     else
-      pipeline().submit(list, texts_of(frame), file, from);
+      pipeline().submit(list, texts_of(frame), place, from);
   }
 
   void close(const DirectorReport&) override {
     selection_.require_some();
     if (pipeline_) pipeline_->finish();
-    for (const auto& [file, bytes] : waiting_) {
-      make_place(file);
-      write(file, bytes);
-    }
+    for (const auto& [file, bytes] : waiting_) write(make_place(file, to_.users_folder()), bytes);
     Folder(folder_of(made_.files.back())).settle();
   }
 
  private:
-  void write(const fs::path& file, const std::string& bytes) {
-    write_file(file, bytes);
+  void write(const FilePlace& place, const std::string& bytes) {
+    write_file(place, bytes);
     ++work_.frames_written;
     work_.bytes_written += bytes.size();
   }

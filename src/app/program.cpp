@@ -1,6 +1,7 @@
 #include "app/program.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <new>
 #include <sstream>
 #include <string>
@@ -21,6 +22,7 @@
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
+#include "base/printable.hpp"
 #include "base/stop.hpp"
 
 namespace lantern::app {
@@ -105,6 +107,10 @@ int run_and_report(const Callable& run) noexcept {
   } catch (const std::bad_alloc&) {
     write_stderr(out_of_memory);  // and needs none
     write_answer_without_memory();
+    return kFailed;
+  } catch (const std::filesystem::filesystem_error& e) {
+    complain(
+        fmt::format("cannot look at '{}': {}", printable(e.path1().string()), e.code().message()));
     return kFailed;
   } catch (const std::exception& e) {
     complain(e.what());

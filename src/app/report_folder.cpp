@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/kept_files.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 
@@ -23,6 +24,7 @@ ReportFolder::ReportFolder(const std::string& path, std::string_view report)
        folder = folder.parent_path())
     made_.push_back(folder);
   folder_ = Folder::made(path_);
+  require_kept_for(KeptFor::reports, *folder_);
   lock_.emplace(*folder_);
   folder_->remove_leftovers();
   constexpr const char* kProbe = ".lantern-try";

@@ -78,7 +78,7 @@ class SheetSink : public FileSink {
         grid_(grid_of(sequence.job.options.sheet)),
         paper_(paper_of(sequence.job)),
         layout_(layout_of(paper_, grid_)),
-        files_(sequence.work) {
+        files_(sequence) {
     refuse_in_betweens(sequence);
     if (sequence.to.is_by("step"))
       throw UsageError(

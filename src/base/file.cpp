@@ -146,8 +146,16 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
   return read_opened(file, path, most_bytes);
 }
 
+void add_input(const std::filesystem::path& path) { inputs().add(path); }
+
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes) {
-  inputs().add(path);
+  add_input(path);
+  struct stat output {
+  }, input{};
+  if (::fstat(STDOUT_FILENO, &output) == 0 && S_ISREG(output.st_mode) &&
+      ::stat(path.c_str(), &input) == 0 && are_same(input, output))
+    throw IoError(
+        fmt::format("'{}' is to be read, and standard output is written to it", shown(path)));
   return read_file(path, most_bytes);
 }
 

@@ -19,12 +19,16 @@ namespace lantern {
 // larger than `most_bytes` (found from its size, before it is read).
 std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
 
-// The same of a file that the user gives to be read: an input of this run from then on.
+// The same of a file that the user gives to be read: an input of this run from then on. Throws
+// IoError, too, if standard output is written to it.
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes);
 
 // The bytes of standard input, to its end: an input of this run, too. Throws IoError if it cannot
 // be read or has more than `most_bytes`, and Stopped if that is wished while it waits.
 std::string read_stdin(std::size_t most_bytes);
+
+// What will be read is an input before it is.
+void add_input(const std::filesystem::path& path);
 
 // Is what stands at `path` an input of this run, under whatever name? Nothing is written over it.
 bool is_input(const std::filesystem::path& path);

@@ -94,10 +94,9 @@ struct Film::State {
     std::uint64_t moment = 0;
   };
 
-  State(const std::filesystem::path& ffmpeg, const FilmSettings& s,
-        const std::filesystem::path& where)
+  State(const std::filesystem::path& ffmpeg, const FilmSettings& s, const FilePlace& where)
       : settings(s),
-        path(where),
+        path(where.path()),
         bytes(picture_bytes(s)),
         file(where),
         child(film_command(ffmpeg, s, file), file.descriptor()) {
@@ -180,10 +179,10 @@ void Film::State::give_away(const std::stop_token& stop) {
 }
 
 Film::Film(const std::filesystem::path& ffmpeg, const FilmSettings& settings,
-           const std::filesystem::path& path)
+           const FilePlace& place)
     : state_((require_memory(picture_bytes(settings) * kImages, "pictures of a film",
                              "draw smaller ones (--size)"),
-              std::make_unique<State>(ffmpeg, settings, path))) {
+              std::make_unique<State>(ffmpeg, settings, place))) {
   State& s = *state_;
   try {
     s.thread = std::jthread([&s](const std::stop_token& stop) { s.give_away(stop); });

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/file.hpp"
 #include "render/image.hpp"
 #include "rooms.hpp"
 
@@ -48,9 +49,8 @@ std::vector<std::string> film_words(const FilmSettings& settings, const std::str
 class Film {
  public:
   // `ffmpeg` as require_ffmpeg() gives it; no film_problem(). Makes no folder.
-  Film(const std::filesystem::path& ffmpeg, const FilmSettings& settings,
-       const std::filesystem::path& path);
-  // Without finish(): what stood at `path` still does, and nothing else is left.
+  Film(const std::filesystem::path& ffmpeg, const FilmSettings& settings, const FilePlace& place);
+  // Without finish(): what stood at the place still does, and nothing else is left.
   ~Film();
 
   // To be drawn upon, of whatever it was before. Waits while too many are under way.
