@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 FilePlace make_place(const fs::path& file, const fs::path& users) {
   require_free(file);
-  Folder folder = Folder::made(users);
+  Folder folder = users == "." ? Folder("") : Folder::made(users);  // names without ./
   for (const fs::path& part : folder_of(file).lexically_relative(users).lexically_normal()) {
     if (part == "..")
       throw UsageError(fmt::format("-o {}: it leads out again by ..", file.string()));
