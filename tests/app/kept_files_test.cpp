@@ -131,6 +131,35 @@ TEST_F(KeptFiles, AFolderIsKeptForOnePurpose) {
                  "'out/little' holds the frames of a run, of which manifest.json tells");
   expect_refused("render little.toml -o parts/shard-1-of-1", "parts/shard-1-of-1/shard.json",
                  "'parts/shard-1-of-1' holds the frames of a part, of which shard.json tells");
+  expect_refused("measure --from measured -o golden/little", "golden/little/little_0000.png",
+                 "'golden/little' holds the golden frames, of which golden.txt tells");
+}
+
+// The difference of a/p.png would take the place of p.png, which comes later.
+TEST_F(KeptFiles, NoDifferenceTakesThePlaceOfWhatIsYetToBeCompared) {
+  const std::string frame = read_text(made() / "out/little/little_0000.png");
+  for (const char* folder : {"x/a/a", "x/b/a"}) {
+    fs::create_directories(made() / folder);
+    for (const char* file : {"p.png", "../p.png"}) write_text(made() / folder / file, frame);
+  }
+  expect_refused("compare x/a x/b -o x", "x/a/p.png", "'x/a/p.png' is read by this run");
+}
+
+TEST_F(KeptFiles, BelowAPlaceholderNoLinkIsFollowed) {
+  fs::create_directories(made() / "links");
+  fs::create_directories(made() / "elsewhere");
+  fs::create_symlink("../elsewhere", made() / "links/little");
+  const Outcome o = run("render little.toml --size 80x45 -o 'links/{scenario}/x.html'");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("'links/little' is a link"), o.err.npos) << o.err;
+  EXPECT_TRUE(fs::is_empty(made() / "elsewhere"));
+}
+
+TEST_F(KeptFiles, NoNumberIsNaNAndNoWordIsEmpty) {
+  for (const char* words :
+       {"render little.toml --hold nan -o x.gif", "compare out golden --fraction nan",
+        "golden little.toml --size ''", "structure check --seed ''"})
+    EXPECT_EQ(run(words).code, 2) << words;
 }
 
 }  // namespace
