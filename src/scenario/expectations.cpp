@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 
 #include <fmt/format.h>
@@ -21,11 +22,31 @@ NamePair ordered(std::string a, std::string b) {
   return a < b ? NamePair{std::move(a), std::move(b)} : NamePair{std::move(b), std::move(a)};
 }
 
-const FrameBody* body_named(const Frame& frame, const std::string& name) {
-  for (const FrameBody& body : frame.bodies)
-    if (body.name == name) return &body;
-  return nullptr;
-}
+// Where a frame has what expectations name: found once for all of them, as each body may have one.
+class Places {
+ public:
+  explicit Places(const Frame& frame) : frame_(frame) {}
+
+  const FrameBody* body_named(std::string_view name) {
+    if (bodies_.empty())
+      for (const FrameBody& body : frame_.bodies) bodies_.emplace(body.name, &body);
+    const auto found = bodies_.find(name);
+    return found == bodies_.end() ? nullptr : found->second;
+  }
+  std::size_t leaves_with(BodyId body) {
+    if (leaves_.empty())
+      for (const FrameNode& node : frame_.nodes)
+        if (node.leaf)
+          for (const BodyId id : node.bodies) ++leaves_[id];
+    const auto found = leaves_.find(body);
+    return found == leaves_.end() ? 0 : found->second;
+  }
+
+ private:
+  const Frame& frame_;
+  std::unordered_map<std::string_view, const FrameBody*> bodies_;
+  std::unordered_map<BodyId, std::size_t> leaves_;
+};
 
 // Bodies stand in order of ids.
 const std::string& name_of(const Frame& frame, BodyId id) {
@@ -50,7 +71,7 @@ std::string point_text(const Vec<3>& p, int dimension) {
                         : fmt::format("[{}, {}, {}]", p.x, p.y, p.z);
 }
 
-Unmet unmet_number(const Expectation& e, const Frame& frame) {
+Unmet unmet_number(const Expectation& e, const Frame& frame, Places&) {
   const std::optional<double> found = frame.number(e.name);
   const char* sign = "=";
   bool holds = found == e.number;
@@ -68,18 +89,16 @@ Unmet unmet_number(const Expectation& e, const Frame& frame) {
                      found ? fmt::format("{}", *found) : "none");
 }
 
-Unmet unmet_leaves(const Expectation& e, const Frame& frame) {
-  const FrameBody* body = body_named(frame, e.name);
+Unmet unmet_leaves(const Expectation& e, const Frame&, Places& places) {
+  const FrameBody* body = places.body_named(e.name);
   if (!body)
     return fmt::format("expected '{}' in {} leaves, but it is not there", e.name, e.number);
-  const auto leaves = std::count_if(frame.nodes.begin(), frame.nodes.end(), [&](const auto& node) {
-    return node.leaf && std::binary_search(node.bodies.begin(), node.bodies.end(), body->id);
-  });
+  const std::size_t leaves = places.leaves_with(body->id);
   if (static_cast<double>(leaves) == e.number) return std::nullopt;
   return fmt::format("expected '{}' in {} leaves, found it in {}", e.name, e.number, leaves);
 }
 
-Unmet unmet_pairs(const Expectation& e, const Frame& frame) {
+Unmet unmet_pairs(const Expectation& e, const Frame& frame, Places&) {
   const bool of_contacts = e.kind == Expectation::Kind::contacts;
   std::set<NamePair> expected, found;
   for (const auto& [a, b] : e.pairs) expected.insert(ordered(a, b));
@@ -96,7 +115,7 @@ Unmet unmet_pairs(const Expectation& e, const Frame& frame) {
 }
 
 // In order along a ray; in any order of a view or region.
-Unmet unmet_hits(const Expectation& e, const Frame& frame) {
+Unmet unmet_hits(const Expectation& e, const Frame& frame, Places&) {
   std::vector<std::string> found, expected = e.names;
   for (const BodyId id : frame.hits) found.push_back(name_of(frame, id));
   if (frame.rays.empty()) {
@@ -107,7 +126,7 @@ Unmet unmet_hits(const Expectation& e, const Frame& frame) {
   return fmt::format("expected the hits {}, found {}", listed(expected), listed(found));
 }
 
-Unmet unmet_sleep(const Expectation& e, const Frame& frame) {
+Unmet unmet_sleep(const Expectation& e, const Frame& frame, Places&) {
   const bool asleep = e.kind == Expectation::Kind::asleep;
   std::unordered_set<std::string_view> as_wanted;
   for (const FrameBody& body : frame.bodies)
@@ -120,8 +139,8 @@ Unmet unmet_sleep(const Expectation& e, const Frame& frame) {
                      listed(others));
 }
 
-Unmet unmet_vector(const Expectation& e, const Frame& frame) {
-  const FrameBody* body = body_named(frame, e.name);
+Unmet unmet_vector(const Expectation& e, const Frame& frame, Places& places) {
+  const FrameBody* body = places.body_named(e.name);
   using Kind = Expectation::Kind;
   const char* what = e.kind == Kind::position   ? "at"
                      : e.kind == Kind::velocity ? "with velocity"
@@ -139,8 +158,8 @@ Unmet unmet_vector(const Expectation& e, const Frame& frame) {
                      point_text(found, frame.dimension));
 }
 
-Unmet unmet_turn(const Expectation& e, const Frame& frame) {
-  const FrameBody* body = body_named(frame, e.name);
+Unmet unmet_turn(const Expectation& e, const Frame&, Places& places) {
+  const FrameBody* body = places.body_named(e.name);
   if (body && std::abs(body->angle - e.number) <= e.tolerance) return std::nullopt;
   return fmt::format("expected '{}' turned by {} degrees, found {}", e.name, e.number / kDegree,
                      body ? fmt::format("{}", body->angle / kDegree) : "none");
@@ -209,7 +228,7 @@ const FrameComparison::Cell* cell_of(const Frame& frame, const std::string& kind
   return rows.empty() || !named ? nullptr : rows.back().cell(*named);
 }
 
-Unmet unmet_work(const Expectation& e, const Frame& frame) {
+Unmet unmet_work(const Expectation& e, const Frame& frame, Places&) {
   const FrameComparison::Cell* cell = cell_of(frame, e.name);
   const bool of_build = e.kind == Expectation::Kind::build_work;
   const char* what = of_build ? "to build" : "in a step";
@@ -220,7 +239,7 @@ Unmet unmet_work(const Expectation& e, const Frame& frame) {
                      found);
 }
 
-Unmet unmet_fewest(const Expectation& e, const Frame& frame) {
+Unmet unmet_fewest(const Expectation& e, const Frame& frame, Places&) {
   std::set<std::string> found;
   for (const FrameComparison::Cell& cell : frame.comparison.rows.back().cells)
     if (cell.work.step() == frame.comparison.rows.back().least())
@@ -254,13 +273,17 @@ std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
   return proofs;
 }
 
-// In the order of Expectation::Kind.
-Unmet unmet(const Expectation& e, const Frame& frame) {
-  static constexpr Unmet (*kChecks[])(const Expectation&, const Frame&) = {
+std::vector<Unmet> unmet(const std::vector<Expectation>& expectations, const Frame& frame) {
+  // In the order of Expectation::Kind.
+  static constexpr Unmet (*kChecks[])(const Expectation&, const Frame&, Places&) = {
       unmet_number, unmet_number, unmet_number, unmet_leaves, unmet_pairs,  unmet_pairs,
       unmet_hits,   unmet_sleep,  unmet_sleep,  unmet_vector, unmet_vector, unmet_vector,
       unmet_turn,   unmet_number, unmet_work,   unmet_work,   unmet_fewest};
-  return kChecks[static_cast<std::size_t>(e.kind)](e, frame);
+  Places places(frame);
+  std::vector<Unmet> all;
+  for (const Expectation& e : expectations)
+    all.push_back(kChecks[static_cast<std::size_t>(e.kind)](e, frame, places));
+  return all;
 }
 
 }  // namespace lantern::scenario

@@ -544,8 +544,9 @@ enum class FactsVersion { v1, v2 };
 // The frame as JSON, one line a body, node and pair.
 std::string to_json(const Frame& frame, FactsVersion version = FactsVersion::v2);
 
-// Does the frame meet an expectation of its step? Nothing if it does; otherwise what was expected
-// and what was found.
-std::optional<std::string> unmet(const Expectation& expectation, const Frame& frame);
+// Does the frame meet expectations of its step? For each of them nothing if it does; otherwise what
+// was expected and what was found.
+std::vector<std::optional<std::string>> unmet(const std::vector<Expectation>& expectations,
+                                              const Frame& frame);
 
 }  // namespace lantern::scenario

@@ -408,12 +408,12 @@ std::string FrameMaker::fill(const std::string& text, const Frame& frame) const 
 }
 
 void FrameMaker::verify(const std::vector<Expectation>& expectations, const Frame& frame) {
-  for (const Expectation& expectation : expectations) {
-    ++report_.expectations;
-    const auto problem = unmet(expectation, frame);
-    if (!problem || !reported_.insert(&expectation).second) continue;
-    report_.unmet.push_back(diagnose(scenario_, expectation.where,
-                                     fmt::format("{} (frame {}, time {:.6g} s{})", *problem,
+  report_.expectations += expectations.size();
+  const auto problems = unmet(expectations, frame);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    if (!problems[i] || !reported_.insert(&expectations[i]).second) continue;
+    report_.unmet.push_back(diagnose(scenario_, expectations[i].where,
+                                     fmt::format("{} (frame {}, time {:.6g} s{})", *problems[i],
                                                  frame.index, frame.time, on_side())));
   }
 }

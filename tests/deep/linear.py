@@ -14,6 +14,7 @@ MOST = 2.3
 FEWEST = 500
 KINDS = "quadtree octree lecture_quadtree kd_tree grid auto aabb_tree sort_and_sweep".split()
 TREES = ("quadtree", "lecture_quadtree")
+ONCE = ("grid", "aabb_tree")  # each body is in one leaf
 VARIANTS = {
     "free": ("", ""),
     "contacts": ('contacts = "soft"\nsub_steps = 2', ""),
@@ -35,6 +36,7 @@ expect = {{ asleep = ["b1..b{n}"] }}
 [[step]]
 do = "wake"
 bodies = ["b"]
+{leaves}
 [[step]]
 do = "query"
 min = {low}
@@ -80,6 +82,8 @@ def text(kind, n, variant, events):
             low=point(*[0.0] * len(size)),
             high=point(*size),
             near=point(*near),
+            leaves=f"expect = {{ in_leaves = {{ {', '.join(f'b{i + 1} = 1' for i in range(n))} }} }}"
+            if kind in ONCE else "",
             events='pace = "event"\nevents = ["rotate"]' if events and kind != "aabb_tree" else "",
         )
     )
