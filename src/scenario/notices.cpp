@@ -43,20 +43,14 @@ double most_of(std::string_view name, const ScenarioSpec& s) {
 }
 
 // How far from what it should be anything may be without failing; nothing if that is not too far.
+// Bodies leave the world, and turn more than once.
 std::optional<std::string> too_wide(const Expectation& e, const ScenarioSpec& s) {
   using enum Expectation::Kind;
-  double most = 0;
-  if (e.kind == position || e.kind == half_size)
-    most = glm::length(s.world.bounds.size());
-  else if (e.kind == turned)
-    most = 360 * kDegree;
-  else if (e.kind == velocity)
-    most = kWide * std::max(1.0, glm::length(e.position));
-  else if (e.kind == measure)
-    most = kWide * std::max(1.0, std::abs(e.number));
-  else
-    return std::nullopt;
-  if (!(e.tolerance >= most)) return std::nullopt;
+  static constexpr std::array kTolerant = {position, velocity, half_size, turned, measure};
+  if (std::ranges::find(kTolerant, e.kind) == kTolerant.end()) return std::nullopt;
+  const double usual = std::max(
+      {1.0, std::abs(e.number), glm::length(e.position), glm::length(s.world.bounds.size())});
+  if (!(e.tolerance >= kWide * usual)) return std::nullopt;
   const double unit = e.kind == turned ? kDegree : 1;
   return fmt::format("a tolerance of {:.6g} for '{}' takes whatever comes", e.tolerance / unit,
                      e.name);

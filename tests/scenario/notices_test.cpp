@@ -77,7 +77,7 @@ TEST(Notices, OfExpectationsThatCannotFail) {
       {"expect = { position = { @bob = [4, 4] }, tolerance = 1e9 }",
        "a tolerance of 1e+09 for 'bob' takes whatever comes"},
       {"expect = { velocity = { @bob = [0, 0] }, tolerance = 1e9 }", "takes whatever comes"},
-      {"expect = { turned = { @bob = 0 }, tolerance = 360 }", "a tolerance of 360 for 'bob'"},
+      {"expect = { turned = { @bob = 0 }, tolerance = 1e9 }", "a tolerance of 1e+09 for 'bob'"},
       {"expect = { @energy = 10, tolerance = 1e9 }", "a tolerance of 1e+09 for 'energy'"},
       {"@expect = {}", "'expect' expects nothing"},
       {"@always = {}", "'always' expects nothing"},
@@ -92,8 +92,12 @@ TEST(Notices, OfExpectationsThatMayFailAreNotGiven) {
         "expect = { at_most = { bodies = 2 } }", "expect = { at_most = { pairs = 1 } }",
         "expect = { at_least = { energy = -5 } }", "expect = { at_least = { \"y.bob\" = -3 } }",
         "expect = { at_most = { energy = 1e6 } }", "expect = { at_most = { nodes = 1000 } }",
-        "expect = { position = { bob = [4, 4] }, tolerance = 3 }",
-        "expect = { turned = { bob = 0 }, tolerance = 10 }",
+        "expect = { at_most = { depth = 6 } }", "expect = { at_least = { nodes = 2 } }",
+        "expect = { at_most = { most_in_leaf = 2 } }",
+        // Bodies leave the world, and turn more than once.
+        "expect = { position = { bob = [4, 4] }, tolerance = 50 }",
+        "expect = { half_size = { bob = [0.5, 0.5] }, tolerance = 50 }",
+        "expect = { turned = { bob = 0 }, tolerance = 360 }",
         "expect = { energy = 72, tolerance = 100 }",
         "expect = { pairs_are = [[\"ann\", \"bob\"]] }"})
     expect_quiet(expecting(what));
