@@ -1,7 +1,6 @@
 #include "app/false_references.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <string>
 
@@ -66,19 +65,10 @@ void add_needs(const Scenario& scenario, std::vector<Diagnostic>& found) {
   }
 }
 
-// To know their answers takes runs of their own, or the cube of their bodies: `measure` has the
-// time.
-bool is_costly(Solution solution) {
-  using enum Solution;
-  static constexpr std::array kCostly = {chain, linkage, heavy_top, springs_along_pins, dominoes};
-  return std::ranges::find(kCostly, solution) != kCostly.end();
-}
-
 void add_problem(const Scenario& scenario, std::vector<Diagnostic>& found) {
-  if (!scenario.problem || is_costly(scenario.problem->solution)) return;
-  if (scenario.is_quiet(Warning::problem)) return;
+  if (!scenario.problem || scenario.is_quiet(Warning::problem)) return;
   try {
-    measure::make_error_metric(scenario);
+    measure::require_problem(scenario);
   } catch (const Refused& refused) {
     found.push_back(warning(scenario, Warning::problem, scenario.problem->where, refused.what(),
                             "'lantern measure' would refuse it: give it the solution that it "

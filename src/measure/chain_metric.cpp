@@ -104,9 +104,7 @@ void require_no_passing(const Scenario& scenario, const Line& row) {
   }
 }
 
-}  // namespace
-
-OwnMetric chain_metric(const Scenario& scenario) {
+Line line_of(const Scenario& scenario) {
   if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is no gravity");
   std::vector<Bond> bonds = read_bonds(scenario);
   Line row;
@@ -117,6 +115,15 @@ OwnMetric chain_metric(const Scenario& scenario) {
   find_rest(scenario, end, row);
   read_motion(scenario, row);
   require_no_passing(scenario, row);
+  return row;
+}
+
+}  // namespace
+
+void require_chain(const Scenario& scenario) { line_of(scenario); }
+
+OwnMetric chain_metric(const Scenario& scenario) {
+  const Line row = line_of(scenario);
   ChainMotion motion(row.masses, row.stiffnesses, row.displacements, row.velocities);
   long double length = 0, speed = 0;
   const int samples = static_cast<int>(std::min(scenario.problem->samples, 20u));

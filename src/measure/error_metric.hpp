@@ -55,6 +55,10 @@ class ErrorMetric {
 // is not such a problem: two springs where the oscillator has one, say.
 std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario);
 
+// Throws Refused as that does, as far as it can be told at once: to know some answers takes runs of
+// their own, or the cube of their bodies.
+void require_problem(const Scenario& scenario);
+
 // The norm "traj": the largest distance from the exact state over the run, in phase space:
 // |dx| / length or |dv| / speed, whichever is larger.
 Norm trajectory_norm(double value, double length, double speed);

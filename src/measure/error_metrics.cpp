@@ -228,6 +228,23 @@ std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario) {
   return nullptr;
 }
 
+void require_problem(const Scenario& scenario) {
+  using enum Solution;
+  constexpr std::size_t kMostLinks = 1000;  // to follow a chain takes the square of their number
+  switch (scenario.problem->solution) {
+    case chain:
+      return scenario.links.size() > kMostLinks ? void() : require_chain(scenario);
+    case linkage:
+      return require_linkage(scenario);
+    case heavy_top:
+      return require_heavy_top(scenario);
+    case dominoes:
+      return require_dominoes(scenario);
+    default:
+      make_error_metric(scenario);
+  }
+}
+
 Norm trajectory_norm(double value, double length, double speed) {
   return {"traj", value, "1",
           fmt::format("largest distance from the reference over the run: |Δx| / {:.3g} units or "

@@ -52,6 +52,12 @@ MakeErrorMetric dominoes_metric;
 MakeErrorMetric pile_metric;      // bodies that fall into a container and come to rest
 MakeErrorMetric standing_metric;  // bodies that begin at rest and should stay there
 
+// What is asked of those whose answer is costly to know, without the answer.
+void require_chain(const Scenario& scenario);
+void require_linkage(const Scenario& scenario);
+void require_heavy_top(const Scenario& scenario);
+void require_dominoes(const Scenario& scenario);
+
 // --- what they read from a scenario ---
 
 // Throws Refused: "'slide' is no problem of kind slide: <why>".

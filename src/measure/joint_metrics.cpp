@@ -73,8 +73,8 @@ Linkage::Body linked_body(const Scenario& scenario, std::size_t index) {
 // Bodies by their place in the linkage; what does not move is a point of the world.
 Linkage linkage_of(const Scenario& scenario, const std::vector<std::size_t>& bodies) {
   const auto place = [&](std::size_t body) -> std::optional<std::size_t> {
-    const auto found = std::ranges::find(bodies, body);
-    if (found == bodies.end()) return std::nullopt;
+    const auto found = std::ranges::lower_bound(bodies, body);
+    if (found == bodies.end() || *found != body) return std::nullopt;
     return static_cast<std::size_t>(found - bodies.begin());
   };
   const std::vector<BodyState> states = first_states(scenario);
@@ -233,11 +233,17 @@ class SpringsAlongPins : public ErrorMetric {
 
 }  // namespace
 
-OwnMetric linkage_metric(const Scenario& scenario) {
+void require_linkage(const Scenario& scenario) {
   if (scenario.world.dimension != 2) refuse_problem(scenario, "the world must be flat");
   if (scenario.world.contacts != ContactMethod::none) refuse_problem(scenario, "it collides");
   if (!(glm::length(scenario.world.gravity) > 0)) refuse_problem(scenario, "there is no gravity");
   reach_of(scenario);  // refuses
+  linkage_of(scenario, dynamic_bodies(scenario));
+  const JointGaps gaps(scenario);
+}
+
+OwnMetric linkage_metric(const Scenario& scenario) {
+  require_linkage(scenario);
   return std::make_unique<LinkageMetric>(scenario, swinging(scenario));
 }
 

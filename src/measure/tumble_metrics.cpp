@@ -261,9 +261,15 @@ OwnMetric rocking_block_metric(const Scenario& scenario) {
   return std::make_unique<RockingBlock>(scenario, std::move(moments));
 }
 
-OwnMetric dominoes_metric(const Scenario& scenario) {
+void require_dominoes(const Scenario& scenario) {
   require_links(scenario, 0);
   if (scenario.world.dimension != 2) refuse_problem(scenario, "the world must be flat");
+  if (scenario.world.gravity == Vec<3>(0.0)) refuse_problem(scenario, "there is no gravity");
+  moving_bodies(scenario);  // refuses
+}
+
+OwnMetric dominoes_metric(const Scenario& scenario) {
+  require_dominoes(scenario);
   const ProblemSpec& problem = *scenario.problem;
   auto own = std::make_shared<Dominoes::Own>();
   own->step = problem.step / std::ldexp(1.0, problem.halvings + 1);

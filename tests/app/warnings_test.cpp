@@ -120,6 +120,23 @@ TEST(Warnings, OfAProblemThatTheBodiesDoNotPose) {
   EXPECT_EQ(checked(disc("", "gravitation = 2\n") + second + kepler), "");
 }
 
+// Those whose answers are costly to know are not computed for it.
+TEST(Warnings, OfProblemsThatTwoDiscsDoNotPose) {
+  const std::string second = "[[body]]\nname = \"b\"\nposition = [6, 4]\nradius = 0.5\n";
+  const std::pair<std::string, std::string> cases[] = {{"chain", "no end of it is fixed"},
+                                                       {"linkage", "there is no gravity"},
+                                                       {"heavy_top", "the world must be solid"},
+                                                       {"springs_along_pins", "it has no joints"},
+                                                       {"dominoes", "there is no gravity"}};
+  for (const auto& [solution, why] : cases) {
+    const std::string text = disc("") + second + "[problem]\nsolution = \"" + solution +
+                             "\"\nseconds = 1e8\nstep = 0.1\n";
+    const std::string told = shell("lantern check --quiet " + file_of("problem", text)).err;
+    EXPECT_NE(told.find("is no problem of kind " + solution + ": " + why), std::string::npos)
+        << told;
+  }
+}
+
 TEST(Warnings, AreGivenOfNothingThatComesWithLantern) {
   const std::string root = repository("scenarios");
   std::string files = root + "/*.toml";

@@ -35,6 +35,7 @@ TEST(JointProblems, RefuseWhatIsAnother) {
       {"ball_on_plate", {{"body = \"plate\"", "body = \"ball\""}}, "does not pull the plate"},
       {"rocking_block", {{"friction = 2", "friction = 0.1"}}, "slips"},
       {"dominoes", {{"seconds = 3.0", "seconds = 0.2"}}, "not all of its dominoes fall"},
+      {"dominoes", {{"gravity = [0, -10]", ""}}, "no gravity"},
       {"pile", {{"gravity = [0, -10]", ""}}, "no gravity"},
       {"pyramid", {{"half_size = [0.5, 0.5]", "half_size = [0.5, 0.5]\nspeed = 1"}}, "at rest"},
   };
