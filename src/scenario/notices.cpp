@@ -32,10 +32,29 @@ bool is_never_negative(std::string_view measure) {
   return std::ranges::find(kNever, measure.substr(0, measure.find('.'))) != kNever.end();
 }
 
+// How deep trees become, if all structures of the script are trees that split down to a limit.
+std::optional<double> deepest(const ScenarioSpec& s) {
+  using enum StructureKind;
+  static constexpr std::array kSplitting = {quadtree, octree, kd_tree, lecture_quadtree};
+  std::vector<const StructureSpec*> all = {&s.structure};
+  for (const Step& step : s.steps)
+    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb)) all.push_back(&rebuild->structure);
+  double depth = 0;
+  for (const StructureSpec* one : all) {
+    if (std::ranges::find(kSplitting, one->kind) == kSplitting.end()) return std::nullopt;
+    depth = std::max<double>(depth, one->max_depth);
+  }
+  return depth;
+}
+
 // What no frame of the scenario can count more of. To expect just that is to say so.
-double most_of(std::string_view name, const ScenarioSpec& s) {
+double most_of(std::string_view name, const ScenarioSpec& s, const std::optional<double>& depth) {
+  constexpr double kMostParts = 1e8;  // structures refuse far fewer
   const auto bodies = static_cast<double>(s.bodies.size());
-  for (const char* one : {"bodies", "asleep", "awake"})
+  if (name == "depth") return depth.value_or(kMostWhole);
+  for (const char* part : {"nodes", "leaves", "entries"})
+    if (name == part) return kMostParts;
+  for (const char* one : {"bodies", "asleep", "awake", "most_in_leaf", "objects_tested", "hits"})
     if (name == one) return bodies;
   for (const char* two : {"all_pairs", "testable_pairs", "pairs", "overlaps", "contacts"})
     if (name == two) return bodies * (bodies - 1) / 2;
@@ -57,12 +76,19 @@ std::optional<std::string> too_wide(const Expectation& e, const ScenarioSpec& s)
 }
 
 // Why the expectation holds whatever happens; nothing if it may fail.
-std::optional<std::string> why_it_holds(const Expectation& e, const ScenarioSpec& s) {
+std::optional<std::string> why_it_holds(const Expectation& e, const ScenarioSpec& s,
+                                        const std::optional<double>& depth) {
   using enum Expectation::Kind;
   const bool counts = find_in(known_counts(), e.name) != nullptr;
-  if (e.kind == at_least && e.number <= (counts || is_never_negative(e.name) ? 0 : -kBeyondAll))
+  const bool has_root = depth && (e.name == "nodes" || e.name == "leaves");
+  const double least = has_root ? 1 : counts || is_never_negative(e.name) ? 0 : -kBeyondAll;
+  if (e.kind == at_least && e.number <= least)
     return fmt::format("'{}' is always at least {:.6g}", e.name, e.number);
-  if (e.kind == at_most && e.number > (counts ? most_of(e.name, s) : kBeyondAll))
+  // When an impact is, is a part of the step.
+  const double most = counts                       ? most_of(e.name, s, depth)
+                      : e.name == "time_of_impact" ? std::nextafter(1.0, 0.0)
+                                                   : kBeyondAll;
+  if (e.kind == at_most && e.number > most)
     return fmt::format("'{}' is always at most {:.6g}", e.name, e.number);
   if ((e.kind == asleep || e.kind == awake) && e.names.empty())
     return fmt::format("'{}' names no body", e.kind == asleep ? "asleep" : "awake");
@@ -70,10 +96,11 @@ std::optional<std::string> why_it_holds(const Expectation& e, const ScenarioSpec
 }
 
 void notice_expectations(Draft& draft) {
+  const std::optional<double> depth = deepest(draft.scenario);
   for (const Step& step : draft.scenario.steps)
     for (const auto* list : {&step.expect, &step.always})
       for (const Expectation& e : *list)
-        if (const auto why = why_it_holds(e, draft.scenario))
+        if (const auto why = why_it_holds(e, draft.scenario, depth))
           draft.notice(Warning::expect, e.where, fmt::format("{}, {}", *why, kCannotFail),
                        "give it a limit that a mistake would break");
 }

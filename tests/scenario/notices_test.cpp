@@ -74,6 +74,13 @@ TEST(Notices, OfExpectationsThatCannotFail) {
       {"expect = { at_most = { @bodies = 3 } }", "'bodies' is always at most 3"},
       {"expect = { at_most = { @pairs = 2 } }", "'pairs' is always at most 2"},
       {"expect = { at_most = { @energy = 1e300 } }", "'energy' is always at most 1e+300"},
+      {"expect = { at_most = { @depth = 7 } }", "'depth' is always at most 7"},
+      {"expect = { at_most = { @nodes = 1e9 } }", "'nodes' is always at most 1e+09"},
+      {"expect = { at_most = { @leaves = 1e9 } }", "'leaves' is always at most 1e+09"},
+      {"expect = { at_most = { @entries = 1e9 } }", "'entries' is always at most 1e+09"},
+      {"expect = { at_most = { @most_in_leaf = 3 } }", "'most_in_leaf' is always at most 3"},
+      {"expect = { at_least = { @nodes = 1 } }", "'nodes' is always at least 1"},
+      {"expect = { at_least = { @leaves = 1 } }", "'leaves' is always at least 1"},
       {"expect = { position = { @bob = [4, 4] }, tolerance = 1e9 }",
        "a tolerance of 1e+09 for 'bob' takes whatever comes"},
       {"expect = { velocity = { @bob = [0, 0] }, tolerance = 1e9 }", "takes whatever comes"},
@@ -101,6 +108,44 @@ TEST(Notices, OfExpectationsThatMayFailAreNotGiven) {
         "expect = { energy = 72, tolerance = 100 }",
         "expect = { pairs_are = [[\"ann\", \"bob\"]] }"})
     expect_quiet(expecting(what));
+}
+
+// What a structure cannot be follows from all that the script has.
+TEST(Notices, OfNodesAreThoseOfTreesThatSplitToALimit) {
+  const auto text = [](const std::string& structure, const std::string& limit,
+                       const std::string& before = "") {
+    return world(structure + disc("ann") + insert("\"ann\"") + before +
+                 "[[step]]\ndo = \"show\"\nexpect = { " + limit + " }\n");
+  };
+  const std::string rebuild = "[[step]]\ndo = \"rebuild\"\nmax_depth = 8\n";
+  expect_notice(text(kTree, "at_most = { @depth = 9 }", rebuild), "'depth' is always", "expect");
+  expect_quiet(text(kTree, "at_most = { depth = 8 }", rebuild));
+  const std::string remove = "[[step]]\ndo = \"remove\"\nbodies = [\"ann\"]\n";
+  for (const std::string kind : {"quadtree", "lecture_quadtree", "kd_tree"}) {
+    const std::string structure = "[structure]\nkind = \"" + kind + "\"\n";
+    const std::string empty = text(structure, "at_least = { @nodes = 1 }", remove);
+    expect_notice(empty, "'nodes' is always at least 1", "expect");
+  }
+  const std::string boxes = "[structure]\nkind = \"aabb_tree\"\n";
+  expect_quiet(text(boxes, "at_least = { nodes = 1 }"));
+  expect_quiet(text(boxes, "at_most = { depth = 9 }"));
+}
+
+TEST(Notices, OfQuestionsAndImpactsThatCannotFail) {
+  const auto asked = [](const std::string& limit) {
+    return world(kTree + disc("ann") + disc("bob") + insert("\"ann\", \"bob\"") +
+                 "[[step]]\ndo = \"ray\"\nfrom = [0, 4]\nto = [8, 4]\nexpect = { at_most = { " +
+                 limit + " } }\n");
+  };
+  expect_notice(asked("@hits = 3"), "'hits' is always at most 3", "expect");
+  expect_notice(asked("@objects_tested = 3"), "'objects_tested' is always at most 3", "expect");
+  expect_quiet(asked("hits = 2, objects_tested = 2"));
+  const auto struck = [](const std::string& limit) {
+    return world(disc("ann") + insert("\"ann\"", "expect = { at_most = { " + limit + " } }\n"),
+                 "contacts = \"impulse\"\n");
+  };
+  expect_notice(struck("@time_of_impact = 1"), "'time_of_impact' is always at most 1", "expect");
+  expect_quiet(struck("time_of_impact = 0.99"));
 }
 
 // --- settings ---
