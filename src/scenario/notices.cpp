@@ -157,35 +157,52 @@ bool ever_solves_by(const ScenarioSpec& s, ContactMethod method) {
          });
 }
 
-// How finely one method works, where only others do. `lantern measure` tries a problem under all.
-void see_idle_efforts(const TomlValue& world, const ScenarioSpec& s, IdleKeys& keys) {
+// How finely one method works, where only others do.
+void see_idle_efforts(const TomlValue& table, ContactMethod used, const ScenarioSpec& s,
+                      IdleKeys& keys) {
   static constexpr std::pair<std::string_view, ContactMethod> kEfforts[] = {
       {"iterations", ContactMethod::impulse}, {"sub_steps", ContactMethod::soft}};
-  if (s.problem) return;
   for (const auto& [key, method] : kEfforts)
     if (!ever_solves_by(s, method))
-      keys.see(world, {key},
+      keys.see(table, {key},
                {fmt::format("only contacts = \"{}\" have {}, and these are \"{}\"",
-                            to_string(method), key, to_string(s.world.contacts)),
-                fmt::format("give [world] contacts = \"{}\"", to_string(method))});
+                            to_string(method), key, to_string(used)),
+                fmt::format("give contacts = \"{}\"", to_string(method))});
 }
 
+// Why contacts do nothing although there may be some; nothing if they may do something.
+std::optional<IdleKeys::Reason> why_idle(const ScenarioSpec& s) {
+  const auto passes_time = [](const Step& step) { return traits_of(step.verb).passes_time; };
+  if (s.bodies.size() < 2) return {{"there are no two bodies", "add what may be touched"}};
+  if (!s.has_body_of(BodyKind::dynamic_body) && !s.has_body_of(BodyKind::kinematic_body))
+    return {{"all bodies are static", "add one that moves"}};
+  if (std::ranges::none_of(s.steps, passes_time))
+    return {{"no step lets time pass", "add one that does, as do = \"run\""}};
+  return std::nullopt;
+}
+
+// `lantern measure` tries a problem under all methods.
 void notice_settings(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
-  const IdleKeys::Reason untouched{kNothingTouches, kGiveContacts};
+  const bool touches = s.has_contacts();
+  const auto idle = touches ? why_idle(s) : IdleKeys::Reason{kNothingTouches, kGiveContacts};
+  if (touches && s.problem) return;
   IdleKeys keys;
-  for (const TomlValue* world : file.tables("world")) {
-    if (s.has_contacts()) {
-      see_idle_efforts(*world, s, keys);
-      continue;
-    }
-    keys.see(*world, {"iterations", "impact_budget"}, untouched);
-    if (!s.has_joints()) keys.see(*world, {"sub_steps", "wanted_error"}, untouched);
-  }
-  if (!s.has_contacts())
+  const auto see_methods = [&](const TomlValue& table, ContactMethod used) {
+    if (touches && !idle) return see_idle_efforts(table, used, s, keys);
+    // Joints are solved in as many sweeps or parts.
+    if (!touches || !s.has_joints()) keys.see(table, {"iterations", "impact_budget"}, *idle);
+    if (!touches && !s.has_joints()) keys.see(table, {"sub_steps", "wanted_error"}, *idle);
+  };
+  for (const TomlValue* world : file.tables("world")) see_methods(*world, s.world.contacts);
+  const std::vector<const TomlValue*> steps = file.tables("step");
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (const auto* solve_by = std::get_if<SolveBy>(&s.steps[i].verb))
+      see_methods(*steps[i], solve_by->contacts);
+  if (idle)
     for (const char* owner : {"prototype", "body", "pattern"})
       for (const TomlValue* body : file.tables(owner))
-        keys.see(*body, {"restitution", "friction"}, untouched);
+        keys.see(*body, {"restitution", "friction"}, *idle);
   keys.tell(draft);
 }
 

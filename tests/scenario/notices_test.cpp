@@ -150,8 +150,10 @@ TEST(Notices, OfQuestionsAndImpactsThatCannotFail) {
 
 // --- settings ---
 
+const std::string kRun = "[[step]]\ndo = \"run\"\nseconds = 1\n";
+
 TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
-  const std::string rest = disc("ann") + insert("\"ann\"");
+  const std::string rest = disc("ann") + disc("bob") + insert("\"ann\", \"bob\"") + kRun;
   for (const std::string key :
        {"iterations = 20", "sub_steps = 4", "wanted_error = 0.01", "impact_budget = 100"}) {
     const std::string name = key.substr(0, key.find(' '));
@@ -165,8 +167,8 @@ TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
   expect_notice(world(disc("ann", "@friction = 1\n") + disc("bob", "friction = 1\n") +
                       insert("\"ann\", \"bob\"")),
                 "'friction' changes nothing, here and 1 time more: ", "settings");
-  expect_quiet(
-      world(disc("ann", "restitution = 1\n") + insert("\"ann\""), "contacts = \"impulse\"\n"));
+  expect_quiet(world(disc("eve", "restitution = 1\n") + insert("\"eve\"") + rest,
+                     "contacts = \"impulse\"\n"));
   // Each method has an effort of its own; a method may come in later.
   expect_notice(world(rest, "contacts = \"soft\"\n@iterations = 20\n"),
                 "'iterations' changes nothing: only contacts = \"impulse\" have iterations, and "
@@ -176,9 +178,35 @@ TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
                 "'sub_steps' changes nothing: only contacts = \"soft\" have sub_steps", "settings");
   const std::string later = "[[step]]\ndo = \"solve_by\"\ncontacts = \"impulse\"\n";
   expect_quiet(world(rest + later, "contacts = \"soft\"\niterations = 20\n"));
+  expect_notice(
+      world(rest + "[[step]]\ndo = \"solve_by\"\ncontacts = \"impulse\"\n@sub_steps = 4\n",
+            "contacts = \"direct\"\n"),
+      "'sub_steps' changes nothing: only contacts = \"soft\" have sub_steps, and these "
+      "are \"impulse\"",
+      "settings");
   // Joints are solved in sub-steps, too.
   const std::string pin = "[[joint]]\na = \"ann\"\nto = [4, 6]\nkind = \"pin\"\n";
   expect_quiet(world(disc("ann") + pin + insert("\"ann\""), "sub_steps = 4\n"));
+}
+
+TEST(Notices, OfSettingsOfContactsThatNeverComeAbout) {
+  const std::string both = insert("\"ann\", \"bob\"");
+  const std::string impulse = "contacts = \"impulse\"\n";
+  const auto idle = [](const std::string& why) { return "changes nothing: " + why; };
+  expect_notice(world(disc("ann", "@friction = 1\n") + insert("\"ann\"") + kRun, impulse),
+                idle("there are no two bodies"), "settings");
+  const std::string fixed = disc("ann", "static = true\n") + disc("bob", "static = true\n");
+  expect_notice(world(fixed + both + kRun, impulse + "@iterations = 20\n"),
+                idle("all bodies are static"), "settings");
+  const std::string still = disc("ann", "@restitution = 1\n") + disc("bob") + both;
+  expect_notice(world(still, impulse), idle("no step lets time pass"), "settings");
+  // A pin is solved in as many sweeps.
+  const std::string pin = "[[joint]]\na = \"ann\"\nto = [4, 6]\nkind = \"pin\"\n";
+  expect_quiet(world(disc("ann") + pin + insert("\"ann\"") + kRun, impulse + "iterations = 20\n"));
+  // `lantern measure` lets the time of a problem pass.
+  expect_quiet(world(disc("ann", "restitution = 1\n") + kShow +
+                         "[problem]\nsolution = \"bouncing_ball\"\nseconds = 1\nstep = 0.1\n",
+                     impulse));
 }
 
 // --- what is never used ---
