@@ -14,15 +14,6 @@ double eased(double share) {
   return t * t * (3 - 2 * t);
 }
 
-double seconds_of(const Verb& verb, double time_step) {
-  return std::visit(
-      [&](const auto& v) {
-        if constexpr (requires { v.seconds_of(time_step); }) return v.seconds_of(time_step);
-        return 0.0;
-      },
-      verb);
-}
-
 // As wide as it says, in the world's proportions, moved into the world.
 Box<2> part_of(const Box<2>& bounds, const ViewSpec& view) {
   const Vec<2> size = bounds.size() * (view.width / bounds.size().x);

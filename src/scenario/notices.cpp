@@ -213,22 +213,31 @@ void notice_bodies(Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
   if (s.problem) return;
   std::vector<bool> used(s.bodies.size());
-  for (const Step& step : s.steps) {
-    const auto* compare = std::get_if<Compare>(&step.verb);
-    if (const auto* bodies = compare ? &compare->bodies : entering(step.verb))
-      for (const std::size_t body : *bodies) used[body] = true;
+  double left = 0;  // seconds until the end, at most
+  for (auto step = s.steps.rbegin(); step != s.steps.rend(); ++step) {
+    left += seconds_of(step->verb, s.world.time_step);
+    const auto* emit = std::get_if<Emit>(&step->verb);
+    const auto* compare = std::get_if<Compare>(&step->verb);
+    const auto* bodies = compare ? &compare->bodies : entering(step->verb);
+    const auto ticks = static_cast<std::uint64_t>(std::llround(left / s.world.time_step));
+    for (std::size_t i = 0; bodies && i < bodies->size(); ++i)
+      if (!emit || i * emit->every <= ticks) used[(*bodies)[i]] = true;
   }
   for (const std::string_view name : draft.bodies.declared()) {
     const NamedRange& range = *draft.bodies.find(std::string(name));
     const auto first = used.begin() + static_cast<std::ptrdiff_t>(range.first);
-    if (std::find(first, first + static_cast<std::ptrdiff_t>(range.count), true) !=
-        first + static_cast<std::ptrdiff_t>(range.count))
-      continue;
+    const auto out = static_cast<std::size_t>(
+        std::count(first, first + static_cast<std::ptrdiff_t>(range.count), false));
+    if (out == 0) continue;
+    const std::string bodies = fmt::format("of the {} bodies of '{}'", range.count, name);
     draft.notice(Warning::bodies, draft.position(range.where),
-                 range.count == 1 ? fmt::format("'{}' never enters the world", name)
-                                  : fmt::format("none of the {} bodies of '{}' enters the world",
-                                                range.count, name),
-                 fmt::format("insert it, as bodies = [\"{}\"], or leave it out", name));
+                 range.count == 1     ? fmt::format("'{}' never enters the world", name)
+                 : out == range.count ? fmt::format("none {} enters the world", bodies)
+                                      : fmt::format("{} {} never enter{} the world", out, bodies,
+                                                    out == 1 ? "s" : ""),
+                 out == range.count || range.count == 1
+                     ? fmt::format("insert it, as bodies = [\"{}\"], or leave it out", name)
+                     : "insert them, let time pass until they are emitted, or leave them out");
   }
 }
 

@@ -41,6 +41,14 @@ const std::vector<std::size_t>* entering(const Verb& verb) {
   return nullptr;
 }
 
+double seconds_of(const Verb& any, double time_step) {
+  const auto seconds = [&]<class V>(const V& verb) {
+    if constexpr (V::kTraits.passes_time) return verb.seconds_of(time_step);
+    return 0.0;
+  };
+  return std::visit(seconds, any);
+}
+
 void carry_out(const Verb& any, Engine& engine, double time_step) {
   const auto carry = [&]<class V>(const V& verb) {
     if constexpr (V::kTraits.changes_bodies) verb.change(engine);

@@ -345,6 +345,9 @@ inline const VerbTraits& traits_of(const Verb& verb) {
 // The bodies that the verb lets in; null if none.
 const std::vector<std::size_t>* entering(const Verb& verb);
 
+// How much time it lets pass, at most.
+double seconds_of(const Verb& verb, double time_step);
+
 // What a verb does to an engine's bodies, without frames: one that only shows, asks or partitions
 // does nothing, one that passes time takes its steps. Throws Refused as the engine does.
 void carry_out(const Verb& verb, Engine& engine, double time_step);

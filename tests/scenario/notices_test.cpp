@@ -221,8 +221,21 @@ TEST(Notices, OfBodiesThatNeverEnter) {
   expect_notice(world(pattern + disc("ann") + insert("\"ann\"")),
                 "none of the 9 bodies of 'dot' enters the world", "bodies");
   expect_quiet(world(quiet + insert("\"dot\"")));
-  expect_quiet(world(quiet + insert("\"dot2..dot3\"")));  // the others may come in another lesson
-  expect_quiet(world(quiet + "[[step]]\ndo = \"emit\"\nbodies = [\"dot\"]\nevery = 0.1\n"));
+  expect_notice(world(pattern + insert("\"dot2..dot3\"")),
+                "7 of the 9 bodies of 'dot' never enter the world", "bodies");
+  expect_notice(world(pattern + insert("\"dot2..dot9\"")),
+                "1 of the 9 bodies of 'dot' never enters the world", "bodies");
+  // The first comes at once.
+  const std::string emit = "[[step]]\ndo = \"emit\"\nbodies = [\"dot\"]\nevery = 0.1\n";
+  const std::string run = "[[step]]\ndo = \"run\"\nseconds = 0.";
+  expect_quiet(world(quiet + emit + run + "8\n"));
+  expect_notice(world(pattern + emit), "8 of the 9 bodies of 'dot' never enter", "bodies");
+  expect_notice(world(pattern + run + "8\n" + emit + run + "4\n" + run + "3\n"),
+                "1 of the 9 bodies of 'dot' never enters", "bodies");
+  const std::string late = "[[body]]\nname = @\"late\"\nradius = 0.1\nposition = [1, 1]\n";
+  expect_notice(world(late + disc("ann") +
+                      "[[step]]\ndo = \"emit\"\nbodies = [\"ann\", \"late\"]\nevery = 1\n"),
+                "'late' never enters the world", "bodies");
   expect_quiet(
       world(kTree + quiet + "[[step]]\ndo = \"compare\"\nbodies = [\"dot\"]\nrow = \"nine\"\n"));
   // `lantern measure` has all bodies of a problem there from the start.
