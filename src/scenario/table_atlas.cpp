@@ -24,9 +24,12 @@ struct TexturePatternSpec {
   int color = 0;  // 0: each the next
 };
 
-bool has_room_for_textures(std::size_t count, Place where, Draft& draft) {
-  return draft.has_room_for(draft.scenario.textures.size() + count, kMostTextures, "textures",
-                            where);
+// How many of them there are to be: those that go over the limit are cut, but for one that bears
+// the name, so that it is known to those who use it.
+std::size_t count_textures(std::size_t count, Place where, Draft& draft) {
+  const std::size_t before = draft.scenario.textures.size();
+  if (draft.has_room_for(before + count, kMostTextures, "textures", where)) return count;
+  return before < kMostTextures ? kMostTextures - before : 1;
 }
 
 void read_texture(const TomlValue& value, Draft& draft) {
@@ -37,7 +40,7 @@ void read_texture(const TomlValue& value, Draft& draft) {
   texture.width = static_cast<int>(size.x);
   texture.height = static_cast<int>(size.y);
   texture.where = draft.position(value.where);
-  if (!has_room_for_textures(1, value.where, draft)) return;
+  count_textures(1, value.where, draft);
   if (!texture.name.empty())
     draft.textures.add(texture.name, {draft.scenario.textures.size(), 1, table.place("name")}, true,
                        draft.problems);
@@ -67,8 +70,8 @@ void read_texture_pattern(const TomlValue& value, Draft& draft) {
   table.fill(pattern);
   const Lengths widths = read_lengths(table, 0, pattern.multiple);
   const Lengths heights = read_lengths(table, 1, pattern.multiple);
-  if (!has_room_for_textures(pattern.count, table.place("count"), draft) || pattern.name.empty())
-    return;
+  pattern.count = count_textures(pattern.count, table.place("count"), draft);
+  if (pattern.name.empty()) return;
 
   Random random(derived_seed(table, pattern.name, draft));
   std::vector<TextureSpec> made(pattern.count);

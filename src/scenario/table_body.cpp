@@ -197,8 +197,7 @@ void read_body(const TomlValue& value, Draft& draft, bool declared) {
   if (table.is_good("speed") && body.brain == Brain::none)
     table.bad_key("speed", "'speed' is of a body that follows or wanders",
                   "say where it goes: velocity");
-  if (!draft.has_room_for(draft.scenario.bodies.size() + 1, kMostBodies, "bodies", value.where))
-    return;
+  draft.has_room_for(draft.scenario.bodies.size() + 1, kMostBodies, "bodies", value.where);
   if (!body.name.empty())
     draft.bodies.add(body.name, {draft.scenario.bodies.size(), 1, table.place("name")}, declared,
                      draft.problems);

@@ -104,9 +104,9 @@ class MapReader {
   void read() {
     if (draft_.dimension == 3)
       return table_.bad_key("rows", "a map is for 2D worlds", "use [[pattern]] in a 3D one");
-    if (!table_.is_good("rows") || !table_.is_good("legend")) return;
+    if (!table_.is_good("legend")) return;
     read_legend();
-    if (!is_rectangle() || !read_place()) return;
+    if (!table_.is_good("rows") || !is_rectangle() || !read_place()) stand_in();
     resolve();
     for (std::size_t kind = 0; kind < kinds_.size(); ++kind) add_bodies(kind);
   }
@@ -183,6 +183,13 @@ class MapReader {
         "at", "from here, the map reaches beyond the world",
         fmt::format("it is {} x {} units; 'at' is its lower left corner", size.x, size.y));
     return false;
+  }
+
+  // A row of all letters for one that is wrong, so that its bodies are known to those that name
+  // them.
+  void stand_in() {
+    rows_.assign(1, {});
+    for (const auto& [letter, where] : letters_) rows_[0].push_back({letter, where});
   }
 
   // Who stands in each cell. '.' and ' ' are nobody, unless the legend has them.

@@ -132,9 +132,10 @@ void read_pattern(const TomlValue& value, Draft& draft) {
   if (table.is_good("gap") && pattern.arrange != Arrange::apart)
     table.bad_key("gap", "a 'gap' is of bodies that stand apart", "give arrange = \"apart\"");
   const std::size_t before = draft.scenario.bodies.size();
-  if (!draft.has_room_for(before + pattern.count, kMostBodies, "bodies", table.place("count")) ||
-      like.name.empty())
-    return;
+  // One that goes over the limit is cut, so that its name is known to those who use it.
+  if (!draft.has_room_for(before + pattern.count, kMostBodies, "bodies", table.place("count")))
+    pattern.count = before < kMostBodies ? kMostBodies - before : 1;
+  if (like.name.empty()) return;
   const NamedRange range{before, pattern.count, table.place("name")};
   if (!draft.bodies.add(like.name, range, true, draft.problems)) return;
   note_follower(table, pattern.count, draft);

@@ -463,7 +463,15 @@ TEST(Mistakes, OfTooMuchInAll) {
   for (const char* name : {"a", "b"})
     text += std::string("[[pattern]]\nname = \"") + name +
             "\"\nradius = 1\ncount = " + (*name == 'b' ? "@" : "") + "10001\n";
-  expect_mistakes(text + "[[step]]\ndo = \"show\"\n", {"20002 bodies in all, the limit is 20000"});
+  // Those who name them do not err.
+  text += "[[spring]]\nalong = \"b\"\nstiffness = 1\n";
+  expect_mistakes(text + "[[step]]\ndo = \"insert\"\nbodies = [\"a\", \"b\"]\n",
+                  {"20002 bodies in all, the limit is 20000"});
+  expect_mistakes(
+      "title = \"x\"\n[atlas]\nsize = [64, 64]\n[[texture]]\nname = \"a\"\nsize = [1, 1]\n"
+      "[[texture_pattern]]\nname = \"b\"\ncount = @20000\nmin = [1, 1]\nmax = [2, 2]\n"
+      "[[step]]\ndo = \"pack\"\ntextures = [\"a\", \"b\"]\n",
+      {"20001 textures in all, the limit is 20000"});
 
   std::string steps;
   for (std::size_t i = 0; i <= kMostSteps; ++i) steps += "{ do = \"show\" }, ";

@@ -126,6 +126,11 @@ TEST(Maps, AreRefusedForTheirShape) {
   expect_mistakes(with("cell = 5\nrows = @\"###\""), {"it would fit with cell = 4"});
   expect_mistakes(with("at = @[10, 0]\nrows = \"###\""), {"reaches beyond the world"});
   expect_mistakes(with("rows = @\"\""), {"the map is empty"});
+  // Those who name what would stand there do not err.
+  expect_mistakes(kArena + kStoneWall + kRoundDot +
+                      "@[map]\nlegend = { \"#\" = \"wall\", o = \"dot\" }\n" +
+                      "[[step]]\ndo = \"insert\"\nbodies = [\"wall\", \"dot\"]\n",
+                  {"[map] has no 'rows'"});
   expect_mistakes(kArena + kStoneWall +
                       "[map]\nrows = \"#\"\nlegend = { @ab = \"wall\", \"#\" = @\"wal\" }\n" +
                       kShow,
