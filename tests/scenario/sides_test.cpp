@@ -138,6 +138,8 @@ TEST(Sides, OneThatHasFewerFramesHoldsItsLast) {
       << "a step begins for all at once";
   for (const Frame& frame : frames) {
     EXPECT_FALSE(frame.sides[0].held && frame.sides[1].held);
+    EXPECT_EQ(frame.event, frame.sides[frame.sides[0].held ? 1 : 0].event);
+    EXPECT_EQ(frame.time, std::max(frame.sides[0].time, frame.sides[1].time));
     for (const Frame& side : frame.sides) EXPECT_EQ(side.index, frame.index);
   }
 }
