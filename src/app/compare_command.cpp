@@ -115,13 +115,6 @@ std::set<std::string> files_in(const fs::path& folder) {
   return names;
 }
 
-// Of a name that these folders have, below that of the user: through no link on the way.
-FilePlace place_below(const std::string& output, const fs::path& name) {
-  Folder folder = Folder::made(output);
-  for (const fs::path& part : name.parent_path()) folder = folder.inside(part.string());
-  return {folder, name.filename().string()};
-}
-
 // No difference picture takes the place of a file that is yet to be compared.
 void require_apart(const CompareOptions& o, std::set<std::string> names) {
   std::erase_if(names, [](const std::string& name) { return !name.ends_with(".png"); });
@@ -148,7 +141,8 @@ std::vector<Result> compare_folders(const CompareOptions& o) {
     } else {
       const fs::path a = expected_folder / name, b = actual_folder / name;
       std::function<FilePlace()> picture;
-      if (!o.output.empty()) picture = [&] { return place_below(o.output, name); };
+      if (!o.output.empty())
+        picture = [&] { return make_place(fs::path(o.output) / name, o.output); };
       results.push_back(FileComparison(a, b, o).result(picture));
       results.back().name = name;
     }

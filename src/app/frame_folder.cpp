@@ -150,11 +150,6 @@ std::string manifest_in(const Folder& folder) try {
   return {};
 }
 
-// Of any version.
-bool is_lanterns(std::string_view manifest) {
-  return manifest.find("\"format\": \"lantern.manifest/") < 10;
-}
-
 // Was the folder's last run made by this very build? Two builds of one version may draw
 // differently. False if the manifest is missing or damaged; as to_json() writes it: within a text
 // of the file, a quote has a backslash before it.
@@ -168,9 +163,8 @@ FrameFolder::FrameFolder(const Folder& output, const Manifest& wanted, bool whol
     : folder_(output.inside(wanted.scenario.text())), wanted_(wanted), lock_(folder_) {
   require_kept_for(KeptFor::frames, folder_);
   folder_.remove_leftovers();
-  const std::string manifest = manifest_in(folder_);
-  if (!manifest.empty() && !is_lanterns(manifest)) strange_.push_back(kManifest);
-  const bool same_build = is_of_this_build(manifest);
+  if (is_foreign(folder_, kManifest)) strange_.push_back(kManifest);
+  const bool same_build = is_of_this_build(manifest_in(folder_));
   for (const std::string& name : folder_.names()) look_at(name, same_build, whole);
 }
 

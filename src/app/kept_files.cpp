@@ -1,5 +1,6 @@
 #include "app/kept_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
@@ -57,6 +58,12 @@ void require_kept_for(KeptFor wanted, const Folder& folder) {
     if (kept.what != wanted && says(folder, kept.list, kept.format))
       throw UsageError(fmt::format("'{}' holds {}, of which {} tells; give another folder",
                                    folder.path().string(), kept.words, kept.list));
+}
+
+bool is_foreign(const Folder& folder, const char* list) {
+  return folder.has(list) && std::ranges::none_of(kKept, [&](const Kept& kept) {
+           return std::string_view(kept.list) == list && says(folder, list, kept.format);
+         });
 }
 
 void require_free(const fs::path& file) {

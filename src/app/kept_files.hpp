@@ -14,6 +14,9 @@ enum class KeptFor { frames, goldens, shard, reports };
 // Throws UsageError if the folder is kept for anything else: its files would be lost.
 void require_kept_for(KeptFor wanted, const Folder& folder);
 
+// Is there something called as a list of Lantern's, kManifest say, that is none?
+bool is_foreign(const Folder& folder, const char* list);
+
 // For each file that an option names: -o, --report, --junit. Throws UsageError if that is what this
 // run has read, or what Lantern keeps for another purpose: a manifest, a list of golden frames, the
 // record of a part, a measurement, or a frame or its facts beside one of these. Nor must it be a

@@ -9,6 +9,7 @@
 
 #include "app/frame_folder.hpp"
 #include "app/json_members.hpp"
+#include "app/kept_files.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
@@ -141,6 +142,9 @@ std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b
 
 ShardFolder::ShardFolder(Folder folder, ShardRecord record)
     : folder_(std::move(folder)), record_(std::move(record)) {
+  if (is_foreign(folder_, kShardFile))
+    warn(fmt::format("'{}' is replaced, though it was not as Lantern made it",
+                     folder_.path(kShardFile).string()));
   write_file({folder_, kShardFile}, to_json(record_));
 }
 

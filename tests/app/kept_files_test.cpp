@@ -145,6 +145,22 @@ TEST_F(KeptFiles, NoDifferenceTakesThePlaceOfWhatIsYetToBeCompared) {
   expect_refused("compare x/a x/b -o x", "x/a/p.png", "'x/a/p.png' is read by this run");
 }
 
+TEST_F(KeptFiles, AForeignFileIsReplacedWithAWord) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"foreign/little/manifest.json", "render little.toml --size 80x45 -o foreign"},
+      {"foreign/shard-1-of-1/shard.json",
+       "render little.toml --size 80x45 -o foreign --shard 1/1"}};
+  for (const auto& [file, words] : cases) {
+    fs::create_directories((made() / file).parent_path());
+    write_text(made() / file, "{\"mine\": 1}\n");
+    for (const bool is_foreign : {true, false}) {
+      const Outcome o = run(words);
+      EXPECT_EQ(o.code, 0) << o.err;
+      EXPECT_EQ(o.err.find("it was not as Lantern made it") != o.err.npos, is_foreign) << o.err;
+    }
+  }
+}
+
 TEST_F(KeptFiles, BelowAPlaceholderNoLinkIsFollowed) {
   fs::create_directories(made() / "links");
   fs::create_directories(made() / "elsewhere");
