@@ -148,8 +148,9 @@ TableDoc atlas_table() {
           range(1, kMostAtlas), in("px")),
       key(&A::rule, "rule",
           "`first_fit`: each texture takes the first leaf that it fits, in order of "
-          "descent. `best_texture`: the free leaves choose, of all textures that a "
-          "`pack` brings, the one that leaves least of them."),
+          "descent, so that n textures may look at n²/2 leaves. `best_texture`: the free leaves "
+          "choose, "
+          "of all textures that a `pack` brings, the one that leaves least of them."),
       key(&A::turn, "turn",
           "May textures be turned by 90°? By `first_fit` they are if they fit nowhere "
           "as they are."),

@@ -95,7 +95,7 @@ TableDoc world_table() {
       key(&W::contacts, "contacts",
           "How touching bodies are kept apart: by sequential `impulse`s; by `soft` contacts in "
           "small steps; by the same in whole steps, `direct`ly; by one impulse a pair, as the "
-          "`lecture` does it; or not at all."),
+          "`lecture` does it; or not at all. Without a [structure], every pair is tested for it."),
       key(&W::integrator, "integrator", "How forces become motion."),
       key(&W::rotation, "rotation",
           "How free bodies rotate. Where a splitting would change the energy by more than a "
