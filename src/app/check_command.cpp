@@ -43,7 +43,7 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
     verdict.code = tell(result, options.strict);
     verdict.report = result.report;
     verdict.facts = result.facts;
-    verdict.problems = result.report.unmet;
+    verdict.problems = unmet_of(result);
     auto& list = options.strict ? verdict.problems : verdict.warnings;
     list.insert(list.end(), result.warnings.begin(), result.warnings.end());
   } catch (const ScenarioError& e) {

@@ -85,7 +85,7 @@ void FolderSink::close(const DirectorReport& report) {
   tell_of_strange(scenario_.name, *folder_, written_);
   manifest_.finished = true;
   manifest_.expectations = report.expectations;
-  manifest_.unmet = report.unmet.size();
+  manifest_.unmet = report.unmet.count();
   write_manifest();
   folder_->folder().settle();  // before anybody is told that it is finished
 }

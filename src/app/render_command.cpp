@@ -90,7 +90,7 @@ void tell_of(const FolderSink& sink, const Scenario& scenario, const DirectorRep
   json.line().begin_object().members("scenario", scenario.name, "folder", sink.path().string(),
                                      "drawn", sink.drawn(), "kept", sink.kept(), "in_betweens",
                                      sink.in_betweens(), "expectations", report.expectations,
-                                     "unmet", report.unmet.size());
+                                     "unmet", report.unmet.count());
   json.end_object();
   const std::string between =
       sink.in_betweens() > 0 ? " and " + counted(sink.in_betweens(), "in-between") : "";
@@ -124,7 +124,7 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
   json.line().begin_object().member("scenario", scenario.name).key("files").begin_array();
   for (const auto& file : made.files) json.value(file.string());
   json.end_array().members("frames", made.frames, "expectations", report.expectations, "unmet",
-                           report.unmet.size());
+                           report.unmet.count());
   if (made.seconds) json.members("seconds", *made.seconds, "fps", made.rate);
   json.end_object();
   const std::string where =

@@ -66,8 +66,12 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   return result;
 }
 
+std::vector<Diagnostic> unmet_of(const RunResult& result) {
+  return result.report.unmet.list("that do not hold");
+}
+
 int tell(const RunResult& result, bool strict) {
-  complain(result.report.unmet);
+  complain(unmet_of(result));
   std::vector<Diagnostic> warnings = result.warnings;
   for (Diagnostic& d : warnings) d.severity = strict ? Severity::error : Severity::warning;
   complain(warnings);

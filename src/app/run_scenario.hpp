@@ -45,6 +45,9 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
                        std::optional<std::uint64_t> chosen = std::nullopt,
                        std::uint64_t in_betweens = 0);
 
+// What did not hold: the first in full, and how many more there are.
+std::vector<Diagnostic> unmet_of(const RunResult& result);
+
 // Says on standard error what did not hold and what was warned of, and gives the exit code that it
 // deserves; with `strict` a warning is an error of the scenario.
 int tell(const RunResult& result, bool strict);

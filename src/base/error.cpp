@@ -64,6 +64,22 @@ std::string to_string(const Diagnostic& d) {
   return text;
 }
 
+void Diagnostics::add_all(const Diagnostics& others) {
+  for (const Diagnostic& one : others.told_) add([&] { return one; });
+  count_ += others.count_ - others.told_.size();
+}
+
+std::vector<Diagnostic> Diagnostics::list(std::string_view others) const {
+  std::vector<Diagnostic> all = told_;
+  if (count_ > told_.size())
+    all.push_back({{told_.front().where.file, 0, 0},
+                   fmt::format("{} more {}", count_ - told_.size(), others),
+                   {},
+                   {},
+                   told_.front().severity});
+  return all;
+}
+
 ScenarioError::ScenarioError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 

@@ -1,6 +1,7 @@
 // The kinds of error that Lantern keeps apart. A broken invariant is the fourth: see check.hpp.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -33,8 +34,32 @@ struct Diagnostic {
 std::string_view to_string(Severity severity);
 
 // `file:line:column: error: message`, or `warning:`, the line, a caret under the column, and the
-// suggestion. All of them printable (see printable.hpp); only the line breaks between them are left.
+// suggestion. All of them printable (see printable.hpp); only the line breaks between them are
+// left.
 std::string to_string(const Diagnostic& diagnostic);
+
+// Diagnostics that may be very many: the first are told, all are counted.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::size_t most_told = 10) : most_(most_told) {}
+  // `make` gives one, and is asked only for those that are told.
+  template <class Make>
+  void add(Make&& make) {
+    if (told_.size() < most_) told_.push_back(make());
+    ++count_;
+  }
+  void add_all(const Diagnostics& others);
+
+  bool empty() const { return count_ == 0; }
+  std::size_t count() const { return count_; }
+  const std::vector<Diagnostic>& told() const { return told_; }
+  // Then one of the file as a whole, "7 more <others>", if there are more.
+  std::vector<Diagnostic> list(std::string_view others) const;
+
+ private:
+  std::size_t most_, count_ = 0;
+  std::vector<Diagnostic> told_;
+};
 
 // The user's scenario is wrong: every mistake found in one pass. Exit code 3.
 class ScenarioError : public std::runtime_error {

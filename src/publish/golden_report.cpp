@@ -12,7 +12,7 @@ std::size_t GoldenSuite::differing() const {
 }
 
 bool GoldenSuite::good() const {
-  return error.empty() && findings.empty() && unmet.empty() && first() == nullptr;
+  return error.empty() && findings.empty() && unmet_count == 0 && first() == nullptr;
 }
 
 const GoldenCase* GoldenSuite::first() const {

@@ -30,7 +30,8 @@ struct GoldenSuite {
   std::string file;                   // as the user named it
   std::string error;                  // why it could not be run to its end; empty if it was
   std::vector<std::string> findings;  // about all of its frames
-  std::vector<std::string> unmet;     // expectations of the scenario
+  std::uint64_t unmet_count = 0;      // expectations of the scenario that do not hold
+  std::vector<std::string> unmet;     // the first of them
   std::vector<GoldenCase> cases;      // of the frames compared, in order
 
   std::size_t differing() const;

@@ -14,7 +14,7 @@ namespace lantern::scenario {
 struct DirectorReport {
   std::uint32_t frames = 0;
   std::uint64_t expectations = 0;  // verified
-  std::vector<Diagnostic> unmet;   // one for each that did not hold
+  Diagnostics unmet{50};           // one for each that did not hold
   WorldWork world;                 // what the world did; zeros if there is none
 };
 

@@ -292,7 +292,7 @@ void FrameMaker::tell_splits(Frame& frame) {
 }
 
 void FrameMaker::fail(std::string message) {
-  report_.unmet.push_back(diagnose(scenario_, step_->where, message + on_side()));
+  report_.unmet.add([&] { return diagnose(scenario_, step_->where, message + on_side()); });
 }
 
 std::string FrameMaker::on_side() const {
@@ -388,10 +388,12 @@ void FrameMaker::add_notes(Frame& frame) {
 void FrameMaker::require_notes(const Frame& frame) {
   for (const NoteSpec& note : step_->notes)
     if (!noted_.contains(&note))
-      report_.unmet.push_back(
-          diagnose(scenario_, note.where,
-                   fmt::format("the note '{}' has nothing to point at on frame {}: {}{}", note.text,
-                               report_.frames, why_not_noted(note, frame), on_side())));
+      report_.unmet.add([&] {
+        return diagnose(
+            scenario_, note.where,
+            fmt::format("the note '{}' has nothing to point at on frame {}: {}{}", note.text,
+                        report_.frames, why_not_noted(note, frame), on_side()));
+      });
 }
 
 // The caption, and which numbers it tells.
@@ -412,9 +414,11 @@ void FrameMaker::verify(const std::vector<Expectation>& expectations, const Fram
   const auto problems = unmet(expectations, frame);
   for (std::size_t i = 0; i < problems.size(); ++i) {
     if (!problems[i] || !reported_.insert(&expectations[i]).second) continue;
-    report_.unmet.push_back(diagnose(scenario_, expectations[i].where,
-                                     fmt::format("{} (frame {}, time {:.6g} s{})", *problems[i],
-                                                 frame.index, frame.time, on_side())));
+    report_.unmet.add([&] {
+      return diagnose(scenario_, expectations[i].where,
+                      fmt::format("{} (frame {}, time {:.6g} s{})", *problems[i], frame.index,
+                                  frame.time, on_side()));
+    });
   }
 }
 

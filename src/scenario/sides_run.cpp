@@ -217,17 +217,19 @@ class SidesRun {
   // A caption must not say of all sides what only one shows.
   void tell_apart(const Step& step, std::string_view name, const Side& other, const Frame& frame) {
     if (std::exchange(told_, true)) return;
-    report_.unmet.push_back(diagnose(
-        scenario_, step.where,
-        fmt::format("the caption quotes '{}', which is not the same on the sides '{}' and '{}' "
-                    "(frame {}, time {:.6g} s)",
-                    name, sides_[0].name(), other.name(), frame.index, frame.time),
-        fmt::format("say of which side it is, as {{{}.{}}}", sides_[0].name(), name)));
+    report_.unmet.add([&] {
+      return diagnose(
+          scenario_, step.where,
+          fmt::format("the caption quotes '{}', which is not the same on the sides '{}' and '{}' "
+                      "(frame {}, time {:.6g} s)",
+                      name, sides_[0].name(), other.name(), frame.index, frame.time),
+          fmt::format("say of which side it is, as {{{}.{}}}", sides_[0].name(), name));
+    });
   }
 
   void add(DirectorReport of_side) {
     report_.expectations += of_side.expectations;
-    report_.unmet.insert(report_.unmet.end(), of_side.unmet.begin(), of_side.unmet.end());
+    report_.unmet.add_all(of_side.unmet);
     for (const WorldCounter& counter : kWorldCounters)
       report_.world.*counter.count += of_side.world.*counter.count;
     report_.world.islands += of_side.world.islands;

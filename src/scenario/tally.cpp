@@ -211,7 +211,7 @@ void Tally::list_others(const DirectorReport& report, Stages& all) const {
                  scenario_.atlas ? "" : "the scenario has none"});
   all.push_back({"expectations",
                  {amount(report.expectations, "check")},
-                 report.unmet.empty() ? "" : fmt::format("{} do not hold", report.unmet.size())});
+                 report.unmet.empty() ? "" : fmt::format("{} do not hold", report.unmet.count())});
   all.push_back({"chart",
                  {amount(points_, "point or bar", "points or bars")},
                  scenario_.chart ? "" : "the scenario has none"});

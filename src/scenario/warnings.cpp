@@ -31,7 +31,7 @@ std::vector<Diagnostic> warnings_of_file(const Scenario& scenario) {
       {Warning::links, "springs and joints are there twice"}};
   std::vector<Diagnostic> all;
   for (const auto& [kind, others] : kOthers) {
-    Warnings found(scenario);
+    Diagnostics found;
     for (const Noticed& one : scenario.noticed)
       if (one.kind == kind)
         found.add([&] { return warning(scenario, one.where, one.message, one.suggestion); });
@@ -114,14 +114,6 @@ Diagnostic warning(const Scenario& scenario, const SourcePosition& where, std::s
   Diagnostic found = diagnose(scenario, where, std::move(message), std::move(suggestion));
   found.severity = Severity::warning;
   return found;
-}
-
-std::vector<Diagnostic> Warnings::list(std::string_view others) const {
-  std::vector<Diagnostic> all = told_;
-  if (more_ > 0)
-    all.push_back(
-        warning(scenario_, {scenario_.file, 0, 0}, fmt::format("{} more {}", more_, others), {}));
-  return all;
 }
 
 std::unordered_map<std::string_view, const BodySpec*> bodies_by_name(const Scenario& scenario) {

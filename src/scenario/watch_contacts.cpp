@@ -49,7 +49,7 @@ Overlapping overlapping(const FrameBody& a, const FrameBody& b) {
 
 class ContactsWatch : public Watcher {
  public:
-  explicit ContactsWatch(const Scenario& scenario) : scenario_(scenario), found_(scenario) {
+  explicit ContactsWatch(const Scenario& scenario) : scenario_(scenario) {
     for (const LinkSpec& link : scenario.links)
       if (link.b)
         linked_.insert(std::minmax(scenario.bodies[link.a].name, scenario.bodies[*link.b].name));
@@ -138,7 +138,7 @@ class ContactsWatch : public Watcher {
   SortAndSweep<3> boxes_;
   Depths depths_;  // of the frame before, by pair
   std::set<Pair> told_;
-  Warnings found_;
+  Diagnostics found_;
   double time_ = 0;
   bool put_ = true;
 };

@@ -11,7 +11,7 @@ namespace {
 
 class CrushWatch : public Watcher {
  public:
-  explicit CrushWatch(const Scenario& scenario) : scenario_(scenario), found_(scenario) {}
+  explicit CrushWatch(const Scenario& scenario) : scenario_(scenario) {}
 
   bool sees_worlds() const override { return true; }
   void see_world(const Players<2>& players) override { look(players.world()); }
@@ -46,7 +46,7 @@ class CrushWatch : public Watcher {
 
   const Scenario& scenario_;
   std::set<Pair> told_;
-  Warnings found_;
+  Diagnostics found_;
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ class JointWatch : public Watcher {
     std::stable_sort(parted.begin(), parted.end(), [&](std::size_t i, std::size_t j) {
       return worst_[i].share > worst_[j].share;
     });
-    Warnings found(scenario_);
+    Diagnostics found;
     for (const std::size_t i : parted) found.add([&] { return parting(i); });
     return found.list("joints part");
   }

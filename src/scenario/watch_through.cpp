@@ -43,7 +43,7 @@ bool crossed(const Body<D>& obstacle, const Vec<D>& from, const Vec<D>& to) {
 
 class ThroughWatch : public Watcher {
  public:
-  explicit ThroughWatch(const Scenario& scenario) : scenario_(scenario), found_(scenario) {
+  explicit ThroughWatch(const Scenario& scenario) : scenario_(scenario) {
     for (const LinkSpec& link : scenario.links)
       if (link.b) linked_.insert(std::minmax(link.a, *link.b));
   }
@@ -118,7 +118,7 @@ class ThroughWatch : public Watcher {
   std::set<std::pair<std::size_t, std::size_t>> linked_;
   std::vector<std::optional<Vec<3>>> before_;  // centres of dynamic bodies a step ago, by id
   std::set<std::pair<BodyId, BodyId>> told_;
-  Warnings found_;
+  Diagnostics found_;
 };
 
 }  // namespace

@@ -73,7 +73,7 @@ class ViewWatch : public Watcher {
 class OutsideWatch : public Watcher {
  public:
   explicit OutsideWatch(const Scenario& scenario)
-      : scenario_(scenario), specs_(bodies_by_name(scenario)), found_(scenario) {}
+      : scenario_(scenario), specs_(bodies_by_name(scenario)) {}
 
   void see_frame(const Frame& frame) override {
     for (const FrameBody& body : frame.bodies) {
@@ -112,7 +112,7 @@ class OutsideWatch : public Watcher {
   const Scenario& scenario_;
   std::unordered_map<std::string_view, const BodySpec*> specs_;
   std::vector<Was> was_;  // by id
-  Warnings found_;
+  Diagnostics found_;
 };
 
 }  // namespace

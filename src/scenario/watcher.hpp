@@ -40,28 +40,6 @@ Watching watch_crush(const Scenario& scenario);
 Diagnostic warning(const Scenario& scenario, const SourcePosition& where, std::string message,
                    std::string suggestion);
 
-// Warnings of one kind: the first ones, then a line that says how many more there are.
-class Warnings {
- public:
-  explicit Warnings(const Scenario& scenario) : scenario_(scenario) {}
-  // `make` gives the diagnostic, and is asked only for those that are told.
-  template <class Make>
-  void add(Make&& make) {
-    constexpr std::size_t kMost = 10;
-    if (told_.size() < kMost)
-      told_.push_back(make());
-    else
-      ++more_;
-  }
-  // `others` of the last line: "bodies leave the world".
-  std::vector<Diagnostic> list(std::string_view others) const;
-
- private:
-  const Scenario& scenario_;
-  std::vector<Diagnostic> told_;
-  std::size_t more_ = 0;
-};
-
 // The bodies of a scenario by their names. It must outlive the map.
 std::unordered_map<std::string_view, const BodySpec*> bodies_by_name(const Scenario& scenario);
 

@@ -60,10 +60,10 @@ always = { bodies = 3 }
 )");
   Work work;
   const DirectorReport report = direct(s, Pace::step, work, [](const Frame&) { return true; });
-  ASSERT_EQ(report.unmet.size(), 2u) << "the second fails on 4 frames, and is reported once";
-  EXPECT_NE(report.unmet[0].message.find("expected pairs = 9, found 0"), std::string::npos);
-  EXPECT_GT(report.unmet[0].where.line, 1);
-  EXPECT_FALSE(report.unmet[0].source_line.empty());
+  ASSERT_EQ(report.unmet.count(), 2u) << "the second fails on 4 frames, and is reported once";
+  EXPECT_NE(report.unmet.told()[0].message.find("expected pairs = 9, found 0"), std::string::npos);
+  EXPECT_GT(report.unmet.told()[0].where.line, 1);
+  EXPECT_FALSE(report.unmet.told()[0].source_line.empty());
   EXPECT_EQ(report.expectations, 6u);
 }
 
@@ -124,6 +124,22 @@ TEST(Director, OfOneListNothingIsSaidAsOfATree) {
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_EQ(frames[0].caption, "Sort and sweep lists a: 1 in all.");
   EXPECT_EQ(frames[1].caption, "Sort and sweep lists b: 2 in all.");
+}
+
+// A line may have thousands, and each quotes it.
+TEST(Director, TellsTheFirstThatDoNotHoldAndCountsAll) {
+  std::string text =
+      "title = \"x\"\n[world]\nsize = [8, 8]\n[[pattern]]\nname = \"d\"\nradius = 0.1\n"
+      "count = 80\n[[step]]\ndo = \"insert\"\nbodies = [\"d\"]\nexpect = { velocity = { ";
+  for (int i = 1; i <= 80; ++i) text += (i > 1 ? ", d" : "d") + std::to_string(i) + " = [1, 0]";
+  Work work;
+  const DirectorReport report =
+      direct(good(text + " } }\n"), Pace::step, work, [](const Frame&) { return true; });
+  EXPECT_EQ(report.unmet.count(), 80u);
+  EXPECT_EQ(report.unmet.told().size(), 50u);
+  const std::vector<Diagnostic> list = report.unmet.list("that do not hold");
+  ASSERT_EQ(list.size(), 51u);
+  EXPECT_EQ(list.back().message, "30 more that do not hold");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ void expect_kept(const std::string& text) {
   Work work;
   const DirectorReport report =
       direct(scenario, scenario.pace, work, [](const Frame&) { return true; });
-  EXPECT_TRUE(report.unmet.empty()) << shown(report.unmet);
+  EXPECT_TRUE(report.unmet.empty()) << shown(report.unmet.told());
   EXPECT_GT(report.expectations, 0u) << "an example that promises nothing";
 }
 

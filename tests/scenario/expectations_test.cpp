@@ -26,7 +26,8 @@ std::string scene(const std::string& expect) {
 
 std::vector<Diagnostic> unmet_of(const std::string& expect) {
   Work work;
-  return direct(good(scene(expect)), Pace::step, work, [](const Frame&) { return true; }).unmet;
+  return direct(good(scene(expect)), Pace::step, work, [](const Frame&) { return true; })
+      .unmet.told();
 }
 
 struct Promise {
@@ -102,7 +103,7 @@ TEST(Expectations, OfARayAreInOrder) {
                                              "to = [0, 8]\nexpect = { hits_are = [" +
                                                  hits + "] }"}))),
                   Pace::step, work, [](const Frame&) { return true; })
-        .unmet.size();
+        .unmet.count();
   };
   EXPECT_EQ(unmet_with("\"p3\", \"p2\", \"p1\""), 0u);
   EXPECT_EQ(unmet_with("\"p1\", \"p2\", \"p3\""), 1u) << "the order along the ray is not verified";
@@ -118,8 +119,9 @@ TEST(Expectations, OfAlwaysAreVerifiedOnEveryFrame) {
   Work work;
   const DirectorReport report = direct(s, Pace::step, work, [](const Frame&) { return true; });
   EXPECT_EQ(report.expectations, 4u) << "one on each of four frames";
-  ASSERT_EQ(report.unmet.size(), 1u) << "it breaks on the last one, and is told once";
-  EXPECT_NE(report.unmet[0].message.find("frame 4"), std::string::npos) << report.unmet[0].message;
+  ASSERT_EQ(report.unmet.count(), 1u) << "it breaks on the last one, and is told once";
+  EXPECT_NE(report.unmet.told()[0].message.find("frame 4"), std::string::npos)
+      << report.unmet.told()[0].message;
 }
 
 }  // namespace

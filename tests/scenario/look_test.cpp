@@ -143,7 +143,7 @@ std::string told_of(const std::string& text) {
   const DirectorReport report =
       direct(scenario, Pace::step, work, [](const Frame&) { return true; });
   std::string all;
-  for (const Diagnostic& d : report.unmet)
+  for (const Diagnostic& d : report.unmet.told())
     all += fmt::format("{}:{}: {}\n", d.where.line, d.where.column, d.message);
   return all;
 }

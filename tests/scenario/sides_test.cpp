@@ -158,10 +158,10 @@ TEST(Sides, WithoutANameACaptionQuotesWhatTheyHaveInCommon) {
                                 "[[step]]\ndo = \"insert\"\nbodies = [\"red\", \"pink\", "
                                 "\"blue\"]\ncaption = \"{nodes}\"\n"));
   const DirectorReport report = sides_report(s);
-  ASSERT_EQ(report.unmet.size(), 1u);
-  EXPECT_NE(report.unmet[0].message.find("not the same on the sides 'eager' and 'lazy'"),
+  ASSERT_EQ(report.unmet.count(), 1u);
+  EXPECT_NE(report.unmet.told()[0].message.find("not the same on the sides 'eager' and 'lazy'"),
             std::string::npos);
-  EXPECT_NE(report.unmet[0].suggestion.find("{eager.nodes}"), std::string::npos);
+  EXPECT_NE(report.unmet.told()[0].suggestion.find("{eager.nodes}"), std::string::npos);
 }
 
 TEST(Sides, WhatAllDoAlikeIsSaidOnceWhatOneDoesStaysWithIt) {
@@ -187,10 +187,10 @@ TEST(Sides, ExpectationsHoldOnAllOrOnOne) {
   EXPECT_TRUE(met.unmet.empty());
   EXPECT_EQ(met.expectations, 5u);
   const DirectorReport unmet = expecting("nodes = 5");
-  ASSERT_EQ(unmet.unmet.size(), 1u);
-  EXPECT_NE(unmet.unmet[0].message.find("expected nodes = 5, found 3"), std::string::npos);
-  EXPECT_NE(unmet.unmet[0].message.find("side 'lazy'"), std::string::npos);
-  EXPECT_EQ(expecting("eager = { nodes = 4 }").unmet.size(), 1u);
+  ASSERT_EQ(unmet.unmet.count(), 1u);
+  EXPECT_NE(unmet.unmet.told()[0].message.find("expected nodes = 5, found 3"), std::string::npos);
+  EXPECT_NE(unmet.unmet.told()[0].message.find("side 'lazy'"), std::string::npos);
+  EXPECT_EQ(expecting("eager = { nodes = 4 }").unmet.count(), 1u);
 }
 
 TEST(Sides, ShareAChart) {

@@ -183,10 +183,10 @@ TEST(Verbs, AWaitInVainIsReportedAtItsLine) {
     frames.push_back(frame);
     return true;
   });
-  ASSERT_EQ(report.unmet.size(), 1u) << "a wait in vain was not noticed";
-  EXPECT_NE(report.unmet[0].message.find("has not happened within 0.5 s"), std::string::npos)
-      << report.unmet[0].message;
-  EXPECT_EQ(report.unmet[0].where.line, s.steps[1].where.line);
+  ASSERT_EQ(report.unmet.count(), 1u) << "a wait in vain was not noticed";
+  EXPECT_NE(report.unmet.told()[0].message.find("has not happened within 0.5 s"), std::string::npos)
+      << report.unmet.told()[0].message;
+  EXPECT_EQ(report.unmet.told()[0].where.line, s.steps[1].where.line);
   EXPECT_EQ(frames.back().event, "after") << "the rest of the script is still shown";
 }
 
