@@ -91,40 +91,68 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
   return bytes;
 }
 
-bool are_same(const struct stat& a, const struct stat& b) {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+using FileNumber = std::pair<dev_t, ino_t>;
+
+std::optional<FileNumber> number_of(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileNumber(status.st_dev, status.st_ino);
 }
 
-// What the run was given to read, by name. The names are kept, not the numbers of files: a file
-// that an editor has replaced meanwhile leaves its number to another one.
+// Of a regular file.
+std::optional<FileNumber> number_of(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return FileNumber(status.st_dev, status.st_ino);
+}
+
+// What the run was given to read, by name and number. A number counts only while it is that of the
+// name: a file that an editor has replaced meanwhile leaves its number to another one.
 class Inputs {
  public:
   void add(const std::filesystem::path& path) {
+    const auto number = number_of(path);
     const std::lock_guard lock(mutex_);
     paths_.insert(path);
+    if (!number) return;
+    files_.insert({*number, path});
+    has_output_ = has_output_ || number_of(STDOUT_FILENO) == number;
   }
-  void add_stdin() { stdin_ = true; }
+  void add_stdin() {
+    const auto number = number_of(STDIN_FILENO);
+    const std::lock_guard lock(mutex_);
+    stdin_ = number;
+    has_output_ = has_output_ || (number && number_of(STDOUT_FILENO) == number);
+  }
 
   bool has(const std::filesystem::path& path) {
-    struct stat one {};
-    if (::stat(path.c_str(), &one) != 0) return false;
-    struct stat input {};
-    if (stdin_ && ::fstat(STDIN_FILENO, &input) == 0 && are_same(input, one)) return true;
+    const auto number = number_of(path);
+    if (!number) return false;
     const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(paths_, [&](const std::filesystem::path& read) {
-      return ::stat(read.c_str(), &input) == 0 && are_same(input, one);
-    });
+    if (stdin_ == number || paths_.contains(path)) return true;
+    for (auto file = files_.lower_bound({*number, {}});
+         file != files_.end() && file->first == *number; ++file)
+      if (number_of(file->second) == number) return true;
+    return false;
   }
+  // Is standard output written to one of them?
+  bool has_output() const { return has_output_; }
 
  private:
   std::mutex mutex_;
   std::set<std::filesystem::path> paths_;
-  std::atomic<bool> stdin_ = false;
+  std::set<std::pair<FileNumber, std::filesystem::path>> files_;
+  std::optional<FileNumber> stdin_;
+  std::atomic<bool> has_output_ = false;
 };
 
 Inputs& inputs() {
   static Inputs all;
   return all;
+}
+
+void require_free_output() {
+  if (output_is_input()) throw IoError("standard output is written to a file that this run reads");
 }
 
 // As open() takes it: one entry, of which somebody else may have chosen the name.
@@ -150,17 +178,13 @@ void add_input(const std::filesystem::path& path) { inputs().add(path); }
 
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes) {
   add_input(path);
-  struct stat output {
-  }, input{};
-  if (::fstat(STDOUT_FILENO, &output) == 0 && S_ISREG(output.st_mode) &&
-      ::stat(path.c_str(), &input) == 0 && are_same(input, output))
-    throw IoError(
-        fmt::format("'{}' is to be read, and standard output is written to it", shown(path)));
+  require_free_output();
   return read_file(path, most_bytes);
 }
 
 std::string read_stdin(std::size_t most_bytes) {
   inputs().add_stdin();
+  require_free_output();
   std::string bytes;
   char part[1 << 16];
   for (;;) {
@@ -184,6 +208,8 @@ std::string read_stdin(std::size_t most_bytes) {
 }
 
 bool is_input(const std::filesystem::path& path) { return inputs().has(path); }
+
+bool output_is_input() { return inputs().has_output(); }
 
 Folder::Folder(int descriptor, std::filesystem::path path)
     : descriptor_(new int(descriptor),
@@ -240,7 +266,7 @@ bool Folder::is(const Folder& other) const {
   struct stat here {
   }, there{};
   return ::fstat(descriptor(), &here) == 0 && ::fstat(other.descriptor(), &there) == 0 &&
-         are_same(here, there);
+         here.st_dev == there.st_dev && here.st_ino == there.st_ino;
 }
 
 bool Folder::has_file(std::string_view name) const {
@@ -408,6 +434,7 @@ void hold_standard_streams() noexcept {
 }
 
 void write_stdout(std::string_view bytes) {
+  require_free_output();
   if (write_all(STDOUT_FILENO, bytes)) return;
   const int code = errno;
   const std::string text = fmt::format("cannot write to standard output: {}", std::strerror(code));

@@ -24,7 +24,8 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes);
 
 // The bytes of standard input, to its end: an input of this run, too. Throws IoError if it cannot
-// be read or has more than `most_bytes`, and Stopped if that is wished while it waits.
+// be read, has more than `most_bytes` or is what standard output is written to, and Stopped if that
+// is wished while it waits.
 std::string read_stdin(std::size_t most_bytes);
 
 // What will be read is an input before it is.
@@ -32,6 +33,9 @@ void add_input(const std::filesystem::path& path);
 
 // Is what stands at `path` an input of this run, under whatever name? Nothing is written over it.
 bool is_input(const std::filesystem::path& path);
+
+// Is standard output written to one? Nothing is written there either.
+bool output_is_input();
 
 // A folder that is held open. Whatever happens to its path meanwhile, and whatever names somebody
 // else has chosen: nothing is read, written or removed but what is right in it. Names are those of
@@ -141,8 +145,8 @@ void write_file(const FilePlace& place, std::string_view bytes);
 // Call it before anything is opened.
 void hold_standard_streams() noexcept;
 
-// Writes all bytes to standard output, unbuffered. Throws IoError (a full disk, a closed stream);
-// ReaderGone if it is a pipe that nobody reads any more.
+// Writes all bytes to standard output, unbuffered. Throws IoError (a full disk, a closed stream, an
+// input of this run); ReaderGone if it is a pipe that nobody reads any more.
 void write_stdout(std::string_view bytes);
 
 // Writes to standard error what can be written there, unbuffered; the rest is lost.

@@ -145,6 +145,24 @@ TEST_F(KeptFiles, NoDifferenceTakesThePlaceOfWhatIsYetToBeCompared) {
   expect_refused("compare x/a x/b -o x", "x/a/p.png", "'x/a/p.png' is read by this run");
 }
 
+// Not even the answer that says so.
+TEST_F(KeptFiles, StandardOutputIsNoInput) {
+  write_text(made() / "in.toml", kLittle);
+  for (const char* words :
+       {"lantern check in.toml --json 1<>in.toml", "lantern check in.toml --json >>in.toml",
+        "lantern list in.toml --json >>in.toml", "lantern check - --json <in.toml >>in.toml",
+        "lantern explain - <in.toml >>in.toml", "lantern explain in.toml >>in.toml",
+        "lantern render - -o - --size 80x45 <in.toml >>in.toml"}) {
+    const Outcome o = shell("cd " + made().string() + " && " + words);
+    EXPECT_EQ(o.code, 1) << words;
+    EXPECT_NE(o.err.find("standard output is written to a file that this run reads"), o.err.npos)
+        << words << "\n"
+        << o.err;
+    EXPECT_EQ(o.err.find("standard output"), o.err.rfind("standard output")) << "told once";
+    EXPECT_EQ(read_text(made() / "in.toml"), kLittle) << words;
+  }
+}
+
 TEST_F(KeptFiles, AForeignFileIsReplacedWithAWord) {
   const std::pair<const char*, const char*> cases[] = {
       {"foreign/little/manifest.json", "render little.toml --size 80x45 -o foreign"},
