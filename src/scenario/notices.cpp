@@ -32,15 +32,20 @@ bool is_never_negative(std::string_view measure) {
   return std::ranges::find(kNever, measure.substr(0, measure.find('.'))) != kNever.end();
 }
 
+// Of the whole script.
+std::vector<const StructureSpec*> structures_of(const ScenarioSpec& s) {
+  std::vector<const StructureSpec*> all = {&s.structure};
+  for (const Step& step : s.steps)
+    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb)) all.push_back(&rebuild->structure);
+  return all;
+}
+
 // How deep trees become, if all structures of the script are trees that split down to a limit.
 std::optional<double> deepest(const ScenarioSpec& s) {
   using enum StructureKind;
   static constexpr std::array kSplitting = {quadtree, octree, kd_tree, lecture_quadtree};
-  std::vector<const StructureSpec*> all = {&s.structure};
-  for (const Step& step : s.steps)
-    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb)) all.push_back(&rebuild->structure);
   double depth = 0;
-  for (const StructureSpec* one : all) {
+  for (const StructureSpec* one : structures_of(s)) {
     if (std::ranges::find(kSplitting, one->kind) == kSplitting.end()) return std::nullopt;
     depth = std::max<double>(depth, one->max_depth);
   }
@@ -113,7 +118,7 @@ bool expects_nothing(const TomlTable& table) {
   });
 }
 
-// --- settings of contacts ---
+// --- settings ---
 
 // The first place of a key that changes nothing, how often it is there, and why.
 class IdleKeys {
@@ -181,6 +186,17 @@ std::optional<IdleKeys::Reason> why_idle(const ScenarioSpec& s) {
   return std::nullopt;
 }
 
+const IdleKeys::Reason kLectures{"contacts = \"lecture\" know neither friction nor times of impact",
+                                 "give contacts = \"impulse\""};
+
+bool only_lectures(const ScenarioSpec& s) {
+  return s.world.contacts == ContactMethod::lecture &&
+         std::ranges::all_of(s.steps, [](const Step& step) {
+           const auto* solve_by = std::get_if<SolveBy>(&step.verb);
+           return !solve_by || solve_by->contacts == ContactMethod::lecture;
+         });
+}
+
 // `lantern measure` tries a problem under all methods.
 void notice_settings(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
@@ -189,7 +205,10 @@ void notice_settings(const TableReader& file, Draft& draft) {
   if (touches && s.problem) return;
   IdleKeys keys;
   const auto see_methods = [&](const TomlValue& table, ContactMethod used) {
-    if (touches && !idle) return see_idle_efforts(table, used, s, keys);
+    if (touches && !idle) {
+      if (only_lectures(s)) keys.see(table, {"impact_budget"}, kLectures);
+      return see_idle_efforts(table, used, s, keys);
+    }
     // Joints are solved in as many sweeps or parts.
     if (!touches || !s.has_joints()) keys.see(table, {"iterations", "impact_budget"}, *idle);
     if (!touches && !s.has_joints()) keys.see(table, {"sub_steps", "wanted_error"}, *idle);
@@ -199,10 +218,46 @@ void notice_settings(const TableReader& file, Draft& draft) {
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (const auto* solve_by = std::get_if<SolveBy>(&s.steps[i].verb))
       see_methods(*steps[i], solve_by->contacts);
-  if (idle)
-    for (const char* owner : {"prototype", "body", "pattern"})
-      for (const TomlValue* body : file.tables(owner))
-        keys.see(*body, {"restitution", "friction"}, *idle);
+  for (const char* owner : {"prototype", "body", "pattern"})
+    for (const TomlValue* body : file.tables(owner)) {
+      if (idle) keys.see(*body, {"restitution", "friction"}, *idle);
+      if (!touches) keys.see(*body, {"wander"}, *idle);
+      if (!idle && only_lectures(s)) keys.see(*body, {"friction"}, kLectures);
+    }
+  keys.tell(draft);
+}
+
+// Of structures that the script never has. Those of a user's own may have any, and one that is
+// compared is set as the one that stands.
+void notice_structures(const TableReader& file, Draft& draft) {
+  using enum StructureKind;
+  static const std::pair<const char*, std::vector<StructureKind>> kSettings[] = {
+      {"capacity", {quadtree, octree, kd_tree, lecture_quadtree}},
+      {"max_depth", {quadtree, octree, kd_tree, lecture_quadtree}},
+      {"children", {quadtree, octree}},
+      {"no_progress_stop", {quadtree, octree}},
+      {"cell", {grid}},
+      {"levels", {grid}},
+      {"open", {grid}}};
+  const ScenarioSpec& s = draft.scenario;
+  for (const Step& step : s.steps)
+    if (std::holds_alternative<Compare>(step.verb)) return;
+  const std::vector<const StructureSpec*> all = structures_of(s);
+  std::vector<const TomlValue*> tables = file.tables("structure");
+  const std::vector<const TomlValue*> steps = file.tables("step");
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (std::holds_alternative<Rebuild>(s.steps[i].verb)) tables.push_back(steps[i]);
+  IdleKeys keys;
+  for (const auto& [key, kinds] : kSettings) {
+    const auto has = [&](const StructureSpec* one) {
+      return one->kind >= own || std::ranges::find(kinds, one->kind) != kinds.end();
+    };
+    if (std::ranges::any_of(all, has)) continue;
+    for (const TomlValue* table : tables)
+      keys.see(*table, {key},
+               {"no structure here has it",
+                fmt::format("take kind = \"{}\"", to_string(kinds.front()))});
+  }
   keys.tell(draft);
 }
 
@@ -304,6 +359,7 @@ std::string if_meant(const ScenarioSpec& scenario, Warning kind) {
 void notice_idle(const TableReader& file, Draft& draft) {
   notice_expectations(draft);
   notice_settings(file, draft);
+  notice_structures(file, draft);
   notice_bodies(draft);
   notice_prototypes(file, draft);
   notice_links(draft);
@@ -320,22 +376,44 @@ void notice_empty_expectations(const TomlTable& file, Draft& draft) {
                      "say what must hold, as { bodies = 3 }");
 }
 
+namespace {
+
+// What a side has been told of, and where it expects something.
+struct SideNotices {
+  explicit SideNotices(const Scenario& side) {
+    for (const Noticed& one : side.noticed) told.insert(named(one));
+    for (const Step& step : side.steps)
+      for (const auto* list : {&step.expect, &step.always})
+        for (const Expectation& e : *list) expects.insert({e.where.line, e.where.column});
+  }
+  static std::tuple<Warning, int, int, std::string_view> named(const Noticed& one) {
+    return {one.kind, one.where.line, one.where.column, one.message};
+  }
+  bool has(const Noticed& one) const { return told.contains(named(one)); }
+  // What one side overrides may be another's, and what cannot fail on one may on another.
+  bool agrees(const Noticed& one) const {
+    return has(one) ||
+           !(one.kind == Warning::settings || expects.contains({one.where.line, one.where.column}));
+  }
+
+  std::set<std::tuple<Warning, int, int, std::string_view>> told;
+  std::set<std::pair<int, int>> expects;
+};
+
+}  // namespace
+
 std::vector<Noticed> noticed_on(const std::vector<std::shared_ptr<const Scenario>>& sides) {
-  const auto has = [](const Scenario& side, const Noticed& one) {
-    return std::ranges::any_of(side.noticed, [&](const Noticed& other) {
-      return other.kind == one.kind && other.where.line == one.where.line &&
-             other.where.column == one.where.column && other.message == one.message;
-    });
-  };
+  std::vector<SideNotices> of_sides;
+  for (const auto& side : sides) of_sides.emplace_back(*side);
   std::vector<Noticed> all;
   for (std::size_t i = 0; i < sides.size(); ++i)
     for (const Noticed& one : sides[i]->noticed) {
-      const auto told = [&](const auto& side) { return has(*side, one); };
-      const bool is_first =
-          std::none_of(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(i), told);
-      // What one side overrides may be another's.
-      if (is_first && (one.kind != Warning::settings || std::ranges::all_of(sides, told)))
-        all.push_back(one);
+      const auto before = of_sides.begin() + static_cast<std::ptrdiff_t>(i);
+      const bool is_first = std::none_of(of_sides.begin(), before,
+                                         [&](const SideNotices& side) { return side.has(one); });
+      const bool all_agree =
+          std::ranges::all_of(of_sides, [&](const SideNotices& side) { return side.agrees(one); });
+      if (is_first && all_agree) all.push_back(one);
     }
   return all;
 }

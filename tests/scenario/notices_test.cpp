@@ -148,6 +148,20 @@ TEST(Notices, OfQuestionsAndImpactsThatCannotFail) {
   expect_quiet(struck("time_of_impact = 0.99"));
 }
 
+TEST(Notices, OfSidesAreThoseThatNoneOfThemCanBreak) {
+  const auto sides = [](const std::string& expect) {
+    return world("[structure]\nkind = \"quadtree\"\nmax_depth = 2\n" + disc("ann") +
+                 "[[side]]\nname = \"shallow\"\n[[side]]\nname = \"deep\"\n"
+                 "structure = { max_depth = 8 }\n" +
+                 insert("\"ann\"", "expect = { " + expect + " }\n"));
+  };
+  expect_quiet(sides("at_most = { depth = 4 }"));
+  expect_quiet(sides("at_most = { depth = 8 }"));
+  expect_notice(sides("at_most = { @depth = 9 }"), "'depth' is always at most 9", "expect");
+  expect_notice(sides("shallow = { at_most = { @depth = 4 } }"), "'depth' is always at most 4",
+                "expect");
+}
+
 // --- settings ---
 
 const std::string kRun = "[[step]]\ndo = \"run\"\nseconds = 1\n";
@@ -207,6 +221,45 @@ TEST(Notices, OfSettingsOfContactsThatNeverComeAbout) {
   expect_quiet(world(disc("ann", "restitution = 1\n") + kShow +
                          "[problem]\nsolution = \"bouncing_ball\"\nseconds = 1\nstep = 0.1\n",
                      impulse));
+}
+
+TEST(Notices, OfSettingsThatTheLectureDoesNotHave) {
+  const std::string both = insert("\"ann\", \"bob\"") + kRun;
+  const std::string lecture = "contacts = \"lecture\"\n";
+  const std::string why = "contacts = \"lecture\" know neither friction nor times of impact";
+  expect_notice(world(disc("ann", "@friction = 1\n") + disc("bob") + both, lecture),
+                "'friction' changes nothing: " + why, "settings");
+  expect_notice(world(disc("ann") + disc("bob") + both, lecture + "@impact_budget = 9\n"),
+                "'impact_budget' changes nothing: " + why, "settings");
+  expect_quiet(world(disc("ann", "restitution = 0.5\n") + disc("bob") + both, lecture));
+  expect_quiet(world(disc("ann", "friction = 1\n") + disc("bob") + both +
+                         "[[step]]\ndo = \"solve_by\"\ncontacts = \"impulse\"\n",
+                     lecture));
+  expect_notice(world(disc("ann", "@wander = true\nspeed = 1\n") + insert("\"ann\"") + kRun),
+                "'wander' changes nothing: in this world nothing touches", "settings");
+}
+
+TEST(Notices, OfSettingsOfStructuresThatTheScriptNeverHas) {
+  const auto structure = [](const std::string& lines, const std::string& later = "") {
+    return world("[structure]\n" + lines + disc("ann") + insert("\"ann\"") + later);
+  };
+  const std::string rebuild = "[[step]]\ndo = \"rebuild\"\nkind = \"quadtree\"\n";
+  for (const std::string kind : {"kind = \"kd_tree\"\n", "kind = \"lecture_quadtree\"\n"}) {
+    for (const std::string key : {"children = \"eager\"\n", "no_progress_stop = true\n"}) {
+      expect_notice(
+          structure(kind + "@" + key),
+          "'" + key.substr(0, key.find(' ')) + "' changes nothing: no structure here has it",
+          "settings");
+      expect_quiet(structure(kind + key, rebuild));
+    }
+    expect_quiet(structure(kind + "capacity = 2\nmax_depth = 3\n"));
+  }
+  for (const std::string key : {"capacity = 2", "max_depth = 3", "cell = 1", "open = true"})
+    expect_notice(structure("kind = \"none\"\n@" + key + "\n"),
+                  "'" + key.substr(0, key.find(' ')) + "' changes nothing", "settings");
+  expect_notice(
+      structure("kind = \"kd_tree\"\n", "[[step]]\ndo = \"rebuild\"\n@children = \"eager\"\n"),
+      "'children' changes nothing", "settings");
 }
 
 // --- what is never used ---
