@@ -25,8 +25,8 @@ struct Bond {
 std::vector<Bond> read_bonds(const Scenario& scenario) {
   std::vector<Bond> bonds;
   for (const LinkSpec& link : scenario.links) {
-    if (link.kind != LinkSpec::Kind::spring) refuse_problem(scenario, "it has springs only");
-    if (link.damping != 0) refuse_problem(scenario, "its springs have no damping");
+    if (link.kind != LinkSpec::Kind::spring) refuse_problem(scenario, "it has a joint");
+    if (link.damping != 0) refuse_problem(scenario, "a spring has damping");
     bonds.push_back({read_tie(scenario, link), link.stiffness});
   }
   return bonds;
@@ -105,7 +105,8 @@ void require_no_passing(const Scenario& scenario, const Line& row) {
 }
 
 Line line_of(const Scenario& scenario) {
-  if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is no gravity");
+  if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is gravity");
+  require_untouched(scenario);
   std::vector<Bond> bonds = read_bonds(scenario);
   Line row;
   const std::optional<LongVec> end = follow(scenario, bonds, row);

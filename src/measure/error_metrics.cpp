@@ -63,7 +63,7 @@ Tie read_tie(const Scenario& scenario, const LinkSpec& link) {
   tie.a = link.a;
   const bool at_point = !link.b;
   if (link.at_a != Vec<3>(0.0) || (!at_point && link.at_b != Vec<3>(0.0)))
-    refuse_problem(scenario, "springs and rods end at the bodies' centres");
+    refuse_problem(scenario, "a spring or rod does not end at its bodies' centres");
   Vec<3> end = link.at_b;
   if (link.b) {
     tie.b = link.b;
@@ -105,6 +105,12 @@ std::vector<std::size_t> moving_bodies(const Scenario& scenario) {
   }
   if (bodies.empty()) refuse_problem(scenario, "nothing moves");
   return bodies;
+}
+
+void require_untouched(const Scenario& scenario) {
+  if (scenario.world.contacts != ContactMethod::none && scenario.bodies.size() > 1)
+    refuse_problem(scenario, fmt::format("its bodies may touch: contacts = \"{}\"",
+                                         to_string(scenario.world.contacts)));
 }
 
 Footing ground_of(const Scenario& scenario) {

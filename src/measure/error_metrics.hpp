@@ -72,6 +72,9 @@ std::size_t the_body(const Scenario& scenario);
 // Refuses any other number of springs and joints.
 void require_links(const Scenario& scenario, std::size_t count);
 
+// Refuses contacts where there are two bodies or more: the answers know of none.
+void require_untouched(const Scenario& scenario);
+
 // As the engine has it.
 double mass_of_body(const Scenario& scenario, std::size_t body);
 

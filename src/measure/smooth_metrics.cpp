@@ -24,6 +24,7 @@ OwnMetric projectile_metric(const Scenario& scenario) {
     }
   };
   require_links(scenario, 0);
+  require_untouched(scenario);
   std::vector<Thrown> flights;
   for (const std::size_t i : dynamic_bodies(scenario)) {
     const BodySpec& body = scenario.bodies[i];
@@ -53,6 +54,7 @@ OwnMetric projectile_metric(const Scenario& scenario) {
 OwnMetric oscillator_metric(const Scenario& scenario) {
   const std::size_t body = the_body(scenario);
   require_links(scenario, 1);
+  require_untouched(scenario);
   const LinkSpec& spring = scenario.links.front();
   if (spring.kind != LinkSpec::Kind::spring) refuse_problem(scenario, "it hangs on a spring");
   const Tie tie = read_tie(scenario, spring);
@@ -94,14 +96,15 @@ OwnMetric oscillator_metric(const Scenario& scenario) {
 // and is the centre.
 OwnMetric kepler_metric(const Scenario& scenario) {
   require_links(scenario, 0);
-  if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is no other gravity");
+  require_untouched(scenario);
+  if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is gravity, too");
   if (!(scenario.world.gravitation > 0)) refuse_problem(scenario, "[world] needs a `gravitation`");
   if (scenario.bodies.size() != 2)
     refuse_problem(scenario, fmt::format("it has two bodies, not {}", scenario.bodies.size()));
   const std::size_t ib = scenario.bodies[1].kind == BodyKind::static_body ? 0 : 1, ia = 1 - ib;
   const BodySpec &a = scenario.bodies[ia], &b = scenario.bodies[ib];
   if (b.kind != BodyKind::dynamic_body || a.kind == BodyKind::kinematic_body)
-    refuse_problem(scenario, "one body is dynamic, the other dynamic or static");
+    refuse_problem(scenario, "one body must be dynamic, the other dynamic or static");
   if (a.linear_drag != 0 || b.linear_drag != 0) refuse_problem(scenario, "nothing may brake it");
   const bool a_moves = a.kind == BodyKind::dynamic_body;
   const long double mass_a = a_moves ? mass_of_body(scenario, ia) : a.mass;
@@ -206,9 +209,10 @@ OwnMetric pendulum_metric(const Scenario& scenario) {
   Pendulum p;
   p.body = the_body(scenario);
   require_links(scenario, 1);
+  require_untouched(scenario);
   const BodySpec& body = scenario.bodies[p.body];
   const LinkSpec& link = scenario.links.front();
-  if (link.kind == LinkSpec::Kind::pin) refuse_problem(scenario, "its rod has kind \"distance\"");
+  if (link.kind == LinkSpec::Kind::pin) refuse_problem(scenario, "its rod must have kind \"distance\"");
   if (body.linear_drag != 0 || link.damping != 0) refuse_problem(scenario, "nothing may brake it");
   const Tie tie = read_tie(scenario, link);
   const LongVec gravity(scenario.world.gravity), velocity(body.velocity);
@@ -239,6 +243,7 @@ OwnMetric pendulum_metric(const Scenario& scenario) {
 OwnMetric free_top_metric(const Scenario& scenario) {
   const std::size_t i = the_body(scenario);
   require_links(scenario, 0);
+  require_untouched(scenario);
   const BodySpec& body = scenario.bodies[i];
   if (scenario.world.dimension != 3) refuse_problem(scenario, "the world must be solid");
   if (body.angular_drag != 0) refuse_problem(scenario, "nothing may brake it");

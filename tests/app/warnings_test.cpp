@@ -118,6 +118,13 @@ TEST(Warnings, OfAProblemThatTheBodiesDoNotPose) {
       "[[body]]\nname = \"b\"\nposition = [6, 4]\nradius = 0.5\n"
       "velocity = [0, 1]\n";
   EXPECT_EQ(checked(disc("", "gravitation = 2\n") + second + kepler), "");
+  // What is found is told, not what should be.
+  EXPECT_NE(checked(disc("", "gravitation = 2\ngravity = [0, -9]\n") + second + kepler)
+                .find("there is gravity, too"),
+            std::string::npos);
+  EXPECT_NE(checked(disc("", "gravitation = 2\ncontacts = \"soft\"\n") + second + kepler)
+                .find("its bodies may touch: contacts = \"soft\""),
+            std::string::npos);
 }
 
 // Those whose answers are costly to know are not computed for it.
