@@ -59,13 +59,13 @@ std::string names_of(const std::vector<CLI::App*>& commands, std::string_view be
   return names;
 }
 
-// A misspelt command gets the nearest one.
-std::string usage_hint(CLI::App& app, int argc, char** argv) {
+// A misspelt command gets the nearest one; other mistakes are told as the parser has found them.
+std::string usage_mistake(CLI::App& app, int argc, char** argv, const std::string& found) {
   std::string unknown;
   const auto commands = commands_of(app, argc, argv, unknown);
   if (unknown.empty()) {
     const std::string names = names_of(commands, " ");
-    return "see 'lantern " + names + (names.empty() ? "" : " ") + "--help'";
+    return found + "; see 'lantern " + names + (names.empty() ? "" : " ") + "--help'";
   }
   return no_command(*commands.back(), unknown);
 }
@@ -131,7 +131,7 @@ int run_words(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() != 0)
-      throw UsageError(std::string(e.what()) + "; " + usage_hint(app, argc, argv));
+      throw UsageError(usage_mistake(app, argc, argv, e.what()));
     owe_no_answer();
     std::ostringstream text;  // --help, --version
     app.exit(e, text, text);

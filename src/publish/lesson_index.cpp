@@ -124,6 +124,7 @@ std::string lesson_index(const Folder& folder) {
 }
 
 bool write_lesson_index(const Folder& folder) {
+  if (folder.has(kIndex) && !folder.has_file(kIndex)) return false;
   const auto before = folder.read(kIndex, kMostPage);
   if (before && before->find(kIndexMark) == std::string::npos) return false;
   write_file({folder, kIndex}, lesson_index(folder));

@@ -57,7 +57,7 @@ std::string why_not_in(const StructureSpec& structure, CountNeed need,
   if (need == CountNeed::asleep_nodes && !scenario.tells_sleepers())
     return "in this world nothing sleeps";
   if (need == CountNeed::array && !shares_an_array(kind))
-    return fmt::format("the leaves of a {} share no array", to_string(kind));
+    return fmt::format("the leaves of '{}' share no array", to_string(kind));
   return {};
 }
 
