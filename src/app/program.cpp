@@ -130,8 +130,7 @@ int run_words(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() != 0)
-      throw UsageError(usage_mistake(app, argc, argv, e.what()));
+    if (e.get_exit_code() != 0) throw UsageError(usage_mistake(app, argc, argv, e.what()));
     owe_no_answer();
     std::ostringstream text;  // --help, --version
     app.exit(e, text, text);
