@@ -71,18 +71,17 @@ void require_free(const fs::path& file) {
   if (fs::is_directory(file, none)) refuse(file, "a folder");
   if (fs::is_other(file, none)) refuse(file, "a device or a pipe");
   if (file.extension() == ".toml") refuse(file, "called as scenarios are");
+  if (file.filename() == kMeasurement) refuse(file, "called as a measurement is");
+  for (const Kept& kept : kKept)
+    if (file.filename() == kept.list)
+      refuse(file, fmt::format("called as the list of {} is", kept.words));
   if (!fs::is_directory(folder_of(file), none)) return;
   if (is_input(file)) refuse(file, "read by this run, so it cannot be its output");
   const Folder folder(folder_of(file));
   const std::string name = file.filename().string();
-  for (const Kept& kept : kKept) {
-    const bool is_list = name == kept.list;
-    if ((is_list || is_some_frame(name)) && says(folder, kept.list, kept.format))
-      refuse(file, is_list ? fmt::format("the list of {} there", kept.words)
-                           : fmt::format("called as one of {} there", kept.words));
-  }
-  if (name == kMeasurement && says(folder, kMeasurement, "\"lantern.measure/"))
-    refuse(file, "a measurement");
+  for (const Kept& kept : kKept)
+    if (is_some_frame(name) && says(folder, kept.list, kept.format))
+      refuse(file, fmt::format("called as one of {} there", kept.words));
 }
 
 }  // namespace lantern::app

@@ -18,9 +18,9 @@ void require_kept_for(KeptFor wanted, const Folder& folder);
 bool is_foreign(const Folder& folder, const char* list);
 
 // For each file that an option names: -o, --report, --junit. Throws UsageError if that is what this
-// run has read, or what Lantern keeps for another purpose: a manifest, a list of golden frames, the
-// record of a part, a measurement, or a frame or its facts beside one of these. Nor must it be a
-// folder, a device or a pipe.
+// run has read, or is called as what Lantern keeps: a manifest, a list of golden frames, the record
+// of a part, a measurement, or a frame or its facts beside one of these. Nor must it be a folder, a
+// device or a pipe.
 void require_free(const std::filesystem::path& file);
 
 }  // namespace lantern::app

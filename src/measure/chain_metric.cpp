@@ -106,7 +106,7 @@ void require_no_passing(const Scenario& scenario, const Line& row) {
 
 Line line_of(const Scenario& scenario) {
   if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is gravity");
-  require_untouched(scenario);
+  require_nothing_else(scenario);
   std::vector<Bond> bonds = read_bonds(scenario);
   Line row;
   const std::optional<LongVec> end = follow(scenario, bonds, row);

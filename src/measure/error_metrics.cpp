@@ -107,10 +107,22 @@ std::vector<std::size_t> moving_bodies(const Scenario& scenario) {
   return bodies;
 }
 
-void require_untouched(const Scenario& scenario) {
-  if (scenario.world.contacts != ContactMethod::none && scenario.bodies.size() > 1)
+void require_nothing_else(const Scenario& scenario, bool may_attract) {
+  const WorldSpec& world = scenario.world;
+  if (world.contacts != ContactMethod::none && scenario.bodies.size() > 1)
     refuse_problem(scenario, fmt::format("its bodies may touch: contacts = \"{}\"",
-                                         to_string(scenario.world.contacts)));
+                                         to_string(world.contacts)));
+  if (world.gravitation != 0 && scenario.bodies.size() > 1 && !may_attract)
+    refuse_problem(scenario, "its bodies attract each other");
+  for (const BodySpec& body : scenario.bodies) {
+    if (body.brain != Brain::none)
+      refuse_problem(scenario, fmt::format("'{}' is steered", body.name));
+    if (body.asleep) refuse_problem(scenario, fmt::format("'{}' begins asleep", body.name));
+  }
+  for (const Step& step : scenario.steps)
+    if (const auto* push = std::get_if<ApplyForce>(&step.verb); push && push->force != Vec<3>(0.0))
+      refuse_problem(scenario,
+                     fmt::format("the script pushes '{}'", scenario.bodies[push->body].name));
 }
 
 Footing ground_of(const Scenario& scenario) {

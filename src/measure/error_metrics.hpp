@@ -72,8 +72,9 @@ std::size_t the_body(const Scenario& scenario);
 // Refuses any other number of springs and joints.
 void require_links(const Scenario& scenario, std::size_t count);
 
-// Refuses contacts where there are two bodies or more: the answers know of none.
-void require_untouched(const Scenario& scenario);
+// For answers that know nothing of them: refuses contacts and attraction where there are two bodies
+// or more, bodies that are steered or begin asleep, and forces of the script.
+void require_nothing_else(const Scenario& scenario, bool may_attract = false);
 
 // As the engine has it.
 double mass_of_body(const Scenario& scenario, std::size_t body);

@@ -108,6 +108,7 @@ class HeavyTop : public ErrorMetric {
 Top top_of(const Scenario& scenario) {
   if (scenario.world.dimension != 3) refuse_problem(scenario, "the world must be solid");
   require_links(scenario, 1);
+  require_nothing_else(scenario);
   const LinkSpec& link = scenario.links.front();
   Top top;
   top.body = the_body(scenario);

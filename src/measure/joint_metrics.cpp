@@ -210,7 +210,7 @@ class SpringsAlongPins : public ErrorMetric {
  public:
   explicit SpringsAlongPins(const Scenario& scenario) : gaps_(scenario), energy_(scenario) {
     if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "it has gravity");
-    require_untouched(scenario);
+    require_nothing_else(scenario);
     if (std::ranges::none_of(scenario.links, [](const LinkSpec& link) {
           return link.kind == LinkSpec::Kind::spring && link.stiffness > 0;
         }))
@@ -235,7 +235,7 @@ class SpringsAlongPins : public ErrorMetric {
 
 void require_linkage(const Scenario& scenario) {
   if (scenario.world.dimension != 2) refuse_problem(scenario, "the world must be flat");
-  require_untouched(scenario);
+  require_nothing_else(scenario);
   if (!(glm::length(scenario.world.gravity) > 0)) refuse_problem(scenario, "there is no gravity");
   reach_of(scenario);  // refuses
   linkage_of(scenario, dynamic_bodies(scenario));

@@ -24,7 +24,7 @@ OwnMetric projectile_metric(const Scenario& scenario) {
     }
   };
   require_links(scenario, 0);
-  require_untouched(scenario);
+  require_nothing_else(scenario);
   std::vector<Thrown> flights;
   for (const std::size_t i : dynamic_bodies(scenario)) {
     const BodySpec& body = scenario.bodies[i];
@@ -54,7 +54,7 @@ OwnMetric projectile_metric(const Scenario& scenario) {
 OwnMetric oscillator_metric(const Scenario& scenario) {
   const std::size_t body = the_body(scenario);
   require_links(scenario, 1);
-  require_untouched(scenario);
+  require_nothing_else(scenario);
   const LinkSpec& spring = scenario.links.front();
   if (spring.kind != LinkSpec::Kind::spring) refuse_problem(scenario, "it hangs on a spring");
   const Tie tie = read_tie(scenario, spring);
@@ -96,7 +96,7 @@ OwnMetric oscillator_metric(const Scenario& scenario) {
 // and is the centre.
 OwnMetric kepler_metric(const Scenario& scenario) {
   require_links(scenario, 0);
-  require_untouched(scenario);
+  require_nothing_else(scenario, true);
   if (scenario.world.gravity != Vec<3>(0.0)) refuse_problem(scenario, "there is gravity, too");
   if (!(scenario.world.gravitation > 0)) refuse_problem(scenario, "[world] needs a `gravitation`");
   if (scenario.bodies.size() != 2)
@@ -209,10 +209,11 @@ OwnMetric pendulum_metric(const Scenario& scenario) {
   Pendulum p;
   p.body = the_body(scenario);
   require_links(scenario, 1);
-  require_untouched(scenario);
+  require_nothing_else(scenario);
   const BodySpec& body = scenario.bodies[p.body];
   const LinkSpec& link = scenario.links.front();
-  if (link.kind == LinkSpec::Kind::pin) refuse_problem(scenario, "its rod must have kind \"distance\"");
+  if (link.kind == LinkSpec::Kind::pin)
+    refuse_problem(scenario, "its rod must have kind \"distance\"");
   if (body.linear_drag != 0 || link.damping != 0) refuse_problem(scenario, "nothing may brake it");
   const Tie tie = read_tie(scenario, link);
   const LongVec gravity(scenario.world.gravity), velocity(body.velocity);
@@ -243,7 +244,7 @@ OwnMetric pendulum_metric(const Scenario& scenario) {
 OwnMetric free_top_metric(const Scenario& scenario) {
   const std::size_t i = the_body(scenario);
   require_links(scenario, 0);
-  require_untouched(scenario);
+  require_nothing_else(scenario);
   const BodySpec& body = scenario.bodies[i];
   if (scenario.world.dimension != 3) refuse_problem(scenario, "the world must be solid");
   if (body.angular_drag != 0) refuse_problem(scenario, "nothing may brake it");

@@ -84,6 +84,10 @@ TEST_F(KeptFiles, WhatLanternKeepsIsNotWrittenOverByAnotherOption) {
   }
   for (const std::string& file : {golden + "little_0000.png", out + "little_0000.png"})
     expect_refused("render little.toml -o " + file, file, "name another file");
+  for (const char* file : {"nowhere/golden.txt", "manifest.json", "shard.json", "measure.json"}) {
+    EXPECT_EQ(run(std::string("golden little.toml --size 80x45 --junit ") + file).code, 2) << file;
+    EXPECT_FALSE(fs::exists(made() / file)) << file;
+  }
   // Nor is anything put where one of its frames is missing, whatever the folder is called now.
   EXPECT_EQ(run("golden little.toml --size 80x45 --junit " + golden + "little_0007.png").code, 2);
   EXPECT_FALSE(fs::exists(made() / golden / "little_0007.png"));

@@ -125,6 +125,19 @@ TEST(Warnings, OfAProblemThatTheBodiesDoNotPose) {
   EXPECT_NE(checked(disc("", "gravitation = 2\ncontacts = \"soft\"\n") + second + kepler)
                 .find("its bodies may touch: contacts = \"soft\""),
             std::string::npos);
+  const std::string pushed = "[[step]]\ndo = \"force\"\nbody = \"b\"\nforce = [1, 0]\n";
+  EXPECT_NE(checked(disc("", "gravitation = 2\n") + second + kepler + pushed)
+                .find("the script pushes 'b'"),
+            std::string::npos);
+  const std::string steered =
+      "[[body]]\nname = \"b\"\nposition = [6, 4]\nradius = 0.5\n"
+      "wander = true\nspeed = 1\n";
+  EXPECT_NE(checked(disc("", "gravitation = 2\n") + steered + kepler).find("'b' is steered"),
+            std::string::npos);
+  const std::string flight = "[problem]\nsolution = \"projectile\"\nseconds = 1\nstep = 0.1\n";
+  EXPECT_NE(checked(disc("", "gravitation = 2\n") + second + flight)
+                .find("its bodies attract each other"),
+            std::string::npos);
 }
 
 // Those whose answers are costly to know are not computed for it.
