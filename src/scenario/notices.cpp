@@ -66,14 +66,24 @@ double most_of(std::string_view name, const ScenarioSpec& s, const std::optional
   return kMostWhole;
 }
 
+// How far anything may get in the script by itself, and how fast. Bodies leave the world, and turn
+// more than once.
+double reach_of(const ScenarioSpec& s) {
+  double seconds = 1, fastest = 0;
+  for (const Step& step : s.steps) seconds += seconds_of(step.verb, s.world.time_step);
+  for (const BodySpec& body : s.bodies)
+    fastest =
+        std::max({fastest, glm::length(body.velocity), body.brain_speed, std::abs(body.spin)});
+  return std::max(glm::length(s.world.bounds.size()),
+                  (fastest + glm::length(s.world.gravity) * seconds) * seconds);
+}
+
 // How far from what it should be anything may be without failing; nothing if that is not too far.
-// Bodies leave the world, and turn more than once.
-std::optional<std::string> too_wide(const Expectation& e, const ScenarioSpec& s) {
+std::optional<std::string> too_wide(const Expectation& e, double reach) {
   using enum Expectation::Kind;
   static constexpr std::array kTolerant = {position, velocity, half_size, turned, measure};
   if (std::ranges::find(kTolerant, e.kind) == kTolerant.end()) return std::nullopt;
-  const double usual = std::max(
-      {1.0, std::abs(e.number), glm::length(e.position), glm::length(s.world.bounds.size())});
+  const double usual = std::max({1.0, std::abs(e.number), glm::length(e.position), reach});
   if (!(e.tolerance >= kWide * usual)) return std::nullopt;
   const double unit = e.kind == turned ? kDegree : 1;
   return fmt::format("a tolerance of {:.6g} for '{}' takes whatever comes", e.tolerance / unit,
@@ -82,7 +92,7 @@ std::optional<std::string> too_wide(const Expectation& e, const ScenarioSpec& s)
 
 // Why the expectation holds whatever happens; nothing if it may fail.
 std::optional<std::string> why_it_holds(const Expectation& e, const ScenarioSpec& s,
-                                        const std::optional<double>& depth) {
+                                        const std::optional<double>& depth, double reach) {
   using enum Expectation::Kind;
   const bool counts = find_in(known_counts(), e.name) != nullptr;
   const bool has_root = depth && (e.name == "nodes" || e.name == "leaves");
@@ -97,15 +107,16 @@ std::optional<std::string> why_it_holds(const Expectation& e, const ScenarioSpec
     return fmt::format("'{}' is always at most {:.6g}", e.name, e.number);
   if ((e.kind == asleep || e.kind == awake) && e.names.empty())
     return fmt::format("'{}' names no body", e.kind == asleep ? "asleep" : "awake");
-  return too_wide(e, s);
+  return too_wide(e, reach);
 }
 
 void notice_expectations(Draft& draft) {
   const std::optional<double> depth = deepest(draft.scenario);
+  const double reach = reach_of(draft.scenario);
   for (const Step& step : draft.scenario.steps)
     for (const auto* list : {&step.expect, &step.always})
       for (const Expectation& e : *list)
-        if (const auto why = why_it_holds(e, draft.scenario, depth))
+        if (const auto why = why_it_holds(e, draft.scenario, depth, reach))
           draft.notice(Warning::expect, e.where, fmt::format("{}, {}", *why, kCannotFail),
                        "give it a limit that a mistake would break");
 }
@@ -177,7 +188,9 @@ void see_idle_efforts(const TomlValue& table, ContactMethod used, const Scenario
 
 // Why contacts do nothing although there may be some; nothing if they may do something.
 std::optional<IdleKeys::Reason> why_idle(const ScenarioSpec& s) {
-  const auto passes_time = [](const Step& step) { return traits_of(step.verb).passes_time; };
+  const auto passes_time = [](const Step& step) {
+    return traits_of(step.verb).passes_time || std::holds_alternative<Compare>(step.verb);
+  };
   if (s.bodies.size() < 2) return {{"there are no two bodies", "add what may be touched"}};
   if (!s.has_body_of(BodyKind::dynamic_body) && !s.has_body_of(BodyKind::kinematic_body))
     return {{"all bodies are static", "add one that moves"}};

@@ -110,6 +110,16 @@ TEST(Notices, OfExpectationsThatMayFailAreNotGiven) {
     expect_quiet(expecting(what));
 }
 
+TEST(Notices, OfTolerancesKnowHowFarBodiesGet) {
+  const auto flown = [](const std::string& tolerance) {
+    return world(disc("ann", "velocity = [1e8, 0]\n") + insert("\"ann\"") +
+                 "[[step]]\ndo = \"run\"\nseconds = 100\nevery = 1000\n"
+                 "expect = { position = { ann = [0, 0] }, tolerance = " +
+                 tolerance + " }\n");
+  };
+  expect_quiet(flown("1e9"));
+}
+
 // What a structure cannot be follows from all that the script has.
 TEST(Notices, OfNodesAreThoseOfTreesThatSplitToALimit) {
   const auto text = [](const std::string& structure, const std::string& limit,
@@ -214,6 +224,10 @@ TEST(Notices, OfSettingsOfContactsThatNeverComeAbout) {
                 idle("all bodies are static"), "settings");
   const std::string still = disc("ann", "@restitution = 1\n") + disc("bob") + both;
   expect_notice(world(still, impulse), idle("no step lets time pass"), "settings");
+  const std::string compare =
+      "[[step]]\ndo = \"compare\"\nbodies = [\"ann\", \"bob\"]\nrow = \"a\"\n";
+  expect_quiet(
+      world(kTree + disc("ann", "restitution = 1\n") + disc("bob") + both + compare, impulse));
   // A pin is solved in as many sweeps.
   const std::string pin = "[[joint]]\na = \"ann\"\nto = [4, 6]\nkind = \"pin\"\n";
   expect_quiet(world(disc("ann") + pin + insert("\"ann\"") + kRun, impulse + "iterations = 20\n"));
