@@ -23,9 +23,10 @@ std::pair<std::size_t, std::size_t> read_pair(const TableReader& table, ScriptRe
   if (draft.dimension == 3)
     table.bad_value("do", "this is drawn of flat worlds only",
                     "give the world a size of two numbers");
-  const std::vector<Named> written = table.names("pair");
+  const std::vector<Named> written =
+      without_ranges(table.names("pair"), draft.bodies, "body", draft.problems);
   if (!table.has("pair")) return kNone;
-  const std::vector<std::size_t> there = script.bodies.present(written);
+  script.bodies.present(written);
   std::vector<std::size_t> found;
   for (const Named& name : written) {
     if (!draft.bodies.find(name.name)) return kNone;  // which is told already

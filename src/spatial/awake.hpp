@@ -22,6 +22,8 @@ class AwakeNodes {
         [&](const auto& node) {
           parents_.push_back(node.parent);
           handles_.push_back(node.handle);
+          // There are gaps while bodies are on their way from one place to another.
+          if (node.handle >= awake_.size()) awake_.resize(node.handle + std::size_t{1});
           awake_[node.handle] = std::any_of(node.bodies.begin(), node.bodies.end(), awake);
           return true;
         },

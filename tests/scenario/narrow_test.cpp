@@ -104,6 +104,11 @@ TEST(NarrowMistakes, OfPairsThatHaveNoTest) {
     };
     expect_mistakes(kTwoBoxes + step("@[\"red\"]"), {"a pair is two bodies"});
     expect_mistakes(kTwoBoxes + step("[\"red\", @\"red\"]"), {"named twice"});
+    // A range stands for several.
+    const std::string dots = kTwoBoxes + "[[pattern]]\nname = \"dot\"\nradius = 0.1\ncount = 4\n";
+    const std::string insert = "[[step]]\ndo = \"insert\"\nbodies = [\"dot\"]\n";
+    expect_mistakes(dots + insert + step("@[\"dot1..dot4\"]"), {"a pair is two bodies"});
+    good(dots + insert + step("[\"dot2..dot3\"]"));
     expect_mistakes(kTwoBoxes + step("[\"red\", @\"pinc\"]"), {"pinc"});
     expect_mistakes(kTwoBoxes + "[[step]]\ndo = \"remove\"\nbodies = [\"pink\"]\n" +
                         step("[\"red\", @\"pink\"]"),
