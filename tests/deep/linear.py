@@ -14,7 +14,7 @@ MOST = 2.3
 FEWEST = 500
 KINDS = "quadtree octree lecture_quadtree kd_tree grid auto aabb_tree sort_and_sweep".split()
 TREES = ("quadtree", "lecture_quadtree")
-ONCE = ("grid", "aabb_tree")  # each body is in one leaf
+ONCE = ("aabb_tree",)  # each body is in one leaf
 VARIANTS = {
     "free": ("", ""),
     "contacts": ('contacts = "soft"\nsub_steps = 2', ""),
