@@ -125,7 +125,9 @@ TEST(Warnings, OfAProblemThatTheBodiesDoNotPose) {
   EXPECT_NE(checked(disc("", "gravitation = 2\ncontacts = \"soft\"\n") + second + kepler)
                 .find("its bodies may touch: contacts = \"soft\""),
             std::string::npos);
-  const std::string pushed = "[[step]]\ndo = \"force\"\nbody = \"b\"\nforce = [1, 0]\n";
+  const std::string pushed =
+      "[[step]]\ndo = \"insert\"\nbodies = [\"b\"]\n[[step]]\ndo = \"force\"\nbody = \"b\"\nforce "
+      "= [1, 0]\n";
   EXPECT_NE(checked(disc("", "gravitation = 2\n") + second + kepler + pushed)
                 .find("the script pushes 'b'"),
             std::string::npos);
