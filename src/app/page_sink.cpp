@@ -91,9 +91,12 @@ class PageSink : public FileSink {
     selection_.require_some();
     const FilePlace place = make_place(file_, users_folder_);
     std::string html = lesson_.html();
-    if (options_.reloading) html.insert(html.rfind("</body>"), reload_script(file_));
+    if (options_.reloading) {
+      require_version_place(place);
+      html.insert(html.rfind("</body>"), reload_script(file_));
+    }
     write_file(place, html);
-    if (options_.reloading) tell_version(file_, html);
+    if (options_.reloading) tell_version(place, html);
   }
 
  private:

@@ -1,12 +1,14 @@
 #include "app/reload.hpp"
 
-#include <set>
+#include <exception>
+#include <optional>
 #include <string>
-#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "base/file.hpp"
+#include "app/terminal.hpp"
+#include "base/error.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
 
@@ -30,13 +32,24 @@ constexpr const char* kScript = R"(<script>
 </script>
 )";
 
-std::set<std::filesystem::path>& written() {
-  static std::set<std::filesystem::path> files;
-  return files;
+constexpr std::string_view kCall = "lanternVersion(";
+
+struct Version {
+  FilePlace place;
+  std::string bytes;
+};
+
+std::vector<Version>& written() {
+  static std::vector<Version> versions;
+  return versions;
 }
 
-std::string version_file(const std::filesystem::path& page) {
-  return page.filename().string() + ".version.js";
+std::string version_file(std::string_view page) { return fmt::format("{}.version.js", page); }
+
+// What stands there; nothing if nothing does. Throws IoError for a link, a folder or a device.
+std::optional<std::string> standing(const FilePlace& place) {
+  constexpr std::size_t kMostBytes = 1000;  // of ours
+  return place.folder.read(place.name, kMostBytes);
 }
 
 // In a script, "</script>" would end it wherever it stands.
@@ -50,18 +63,40 @@ std::string script_string(std::string_view text) {
 }  // namespace
 
 std::string reload_script(const std::filesystem::path& page) {
-  return fmt::format(kScript, script_string(version_file(page)));
+  return fmt::format(kScript, script_string(version_file(page.filename().string())));
 }
 
-void tell_version(const std::filesystem::path& page, std::string_view bytes) {
-  const std::filesystem::path file = page.parent_path() / version_file(page);
-  written().insert(file);
-  write_file(file, fmt::format("lanternVersion(\"{:016x}\");\n", Hash().add(bytes).value()));
+void require_version_place(const FilePlace& page) {
+  const FilePlace place(page.folder, version_file(page.name));
+  require_writable(place);
+  const auto is_ours = [&] {
+    try {
+      return standing(place).value_or(std::string(kCall)).starts_with(kCall);
+    } catch (const IoError&) {
+      return false;
+    }
+  };
+  if (!is_ours())
+    throw UsageError(fmt::format(
+        "'{}' is not Lantern's, and the page is told by it that it was made again; name "
+        "another page",
+        place.path().string()));
+}
+
+void tell_version(const FilePlace& page, std::string_view bytes) {
+  const FilePlace place(page.folder, version_file(page.name));
+  const std::string text = fmt::format("{}\"{:016x}\");\n", kCall, Hash().add(bytes).value());
+  write_file(place, text);
+  std::erase_if(written(), [&](const Version& old) { return old.place.path() == place.path(); });
+  written().push_back({place, text});
 }
 
 void forget_versions() noexcept {
-  std::error_code error;
-  for (const std::filesystem::path& file : written()) std::filesystem::remove(file, error);
+  for (const Version& version : written()) try {
+      if (standing(version.place) == version.bytes) version.place.folder.remove(version.place.name);
+    } catch (const std::exception&) {
+      // it is somebody else's by now
+    }
   written().clear();
 }
 

@@ -1,4 +1,7 @@
 // `lantern watch`: what is saved is drawn again.
+#include <tuple>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "app/process.hpp"
@@ -110,6 +113,36 @@ TEST(Watch, TellsOfAFileThatIsGoneAndLeavesNothingBehind) {
             until("grep -q \"'w.toml' is back\" said") + "kill -INT $lantern; wait $lantern; ls");
   EXPECT_EQ(o.code, 0) << o.err << o.out;
   EXPECT_EQ(o.out, "said\nw.html\nw.toml\n");
+}
+
+// Only what it has written, and where it has written it.
+TEST(Watch, RemovesNothingOfAnybodyElse) {
+  const auto watched = [](const std::string& before, const std::string& words,
+                          const std::string& meanwhile) {
+    const fs::path home = fresh_folder("watch-others");
+    fs::copy_file(scenario("pong_bsp"), home / "w.toml");
+    const Outcome o = shell("cd " + home.string() + "\n" + before +
+                            "\nenv --default-signal=INT " LANTERN_BINARY " watch --frames 0 " +
+                            words + " 2>said & lantern=$!\n" + until("grep -q watching said") +
+                            meanwhile + "\nkill -INT $lantern; wait $lantern; cat said");
+    EXPECT_EQ(o.code, 0) << o.err << o.out;
+    return std::pair(home, o.out);
+  };
+  auto [home, said] = watched("mv w.toml w.html.version.js", "w.html.version.js -o w.html", "");
+  EXPECT_TRUE(fs::exists(home / "w.html.version.js")) << said;
+  EXPECT_NE(said.find("it is what this run has read"), said.npos) << said;
+  std::tie(home, said) = watched("echo mine >w.html.version.js", "w.toml -o w.html", "");
+  EXPECT_EQ(read_text(home / "w.html.version.js"), "mine\n");
+  EXPECT_NE(said.find("'w.html.version.js' is not Lantern's"), said.npos) << said;
+  std::tie(home, said) = watched("mkdir w.html.version.js", "w.toml -o w.html", "");
+  EXPECT_TRUE(fs::exists(home / "w.html.version.js")) << said;
+  std::tie(home, said) = watched("", "w.toml -o w.html", "echo mine >w.html.version.js");
+  EXPECT_EQ(read_text(home / "w.html.version.js"), "mine\n");
+  std::tie(home, said) =
+      watched("mkdir out; echo mine >out/l.html.version.js", "w.toml -o '{scenario}/l.html'",
+              "mv pong_bsp old; ln -s out pong_bsp");
+  EXPECT_EQ(read_text(home / "out/l.html.version.js"), "mine\n") << said;
+  EXPECT_FALSE(fs::exists(home / "old/l.html.version.js")) << "its own is gone";
 }
 
 TEST(Watch, WhatNoSaveCanMendEndsIt) {
