@@ -55,15 +55,21 @@ Vec<3> link_end(const FrameBody& body, const FrameBody& other) {
 std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place) {
   std::vector<Vec<2>> points = turning_outline(body.shape);
   if (points.empty()) return points;
-  // One scale for both axes, or the shape would not keep its angles.
-  const Vec<3> size = body.box.size();
+  const double c = std::cos(body.angle), s = std::sin(body.angle);
+  Vec<2> reach{0.0};  // from the middle
+  for (Vec<2>& p : points) {
+    p = Vec<2>(c * p.x - s * p.y, -(s * p.x + c * p.y));
+    reach = glm::max(reach, glm::abs(p));
+  }
+  Vec<2> size(body.box.size());
   const Vec<2> room = place.size();
+  for (int i = 0; i < 2; ++i)  // far from the origin its box is rounded to a line
+    if (!(size[i] > 0)) size[i] = 2 * reach[i];
+  // One scale for both axes, or the shape would not keep its angles.
   const double scale = std::max(size.x, size.y) > 0 ? std::min(size.x > 0 ? room.x / size.x : 1e300,
                                                                size.y > 0 ? room.y / size.y : 1e300)
                                                     : 0;
-  const double c = std::cos(body.angle), s = std::sin(body.angle);
-  for (Vec<2>& p : points)
-    p = place.center() + Vec<2>(c * p.x - s * p.y, -(s * p.x + c * p.y)) * scale;
+  for (Vec<2>& p : points) p = place.center() + p * scale;
   return points;
 }
 

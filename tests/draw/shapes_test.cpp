@@ -26,6 +26,20 @@ Box<2> painted(const DrawShape& shape) {
   return shrunk(box, polygon.stroke.role != Role::none ? -polygon.stroke.width / 2 : 0);
 }
 
+// Of a body so far from the origin that its box has no height left.
+TEST(Characters, OfAThinBodyFarAwayStayInTheirPlace) {
+  FrameBody body;
+  body.look = Look::box;
+  body.shape = Capsule{1e-7, 1.5};
+  body.position = {1.7, 1e30, 0};
+  body.box = {{1.7 - 1e-7, 1e30, 0}, {1.7 + 1e-7, 1e30, 0}};
+  const Box<2> place{{10, 20}, {40, 50}};
+  const std::vector<Vec<2>> outline = turned_outline(body, place);
+  ASSERT_FALSE(outline.empty());
+  for (const Vec<2>& p : outline)
+    EXPECT_TRUE(contains(shrunk(place, -1e-6), p)) << p.x << " " << p.y;
+}
+
 TEST(Characters, FillTheirPlaceAndStayInIt) {
   for (const Look look : {Look::ghost, Look::player, Look::ball, Look::bat, Look::disc, Look::box,
                           Look::demon, Look::item})
