@@ -8,7 +8,8 @@
 
 namespace lantern {
 
-// The candidate with the least Levenshtein distance to `name` (case ignored), the first of equals;
+// The candidate that is the fewest slips away from `name` (a letter missing, too many, or another
+// one, or two neighbours that have changed places; case ignored), the first of equals;
 // nothing if even that one differs in more than a third of its letters (but two are always allowed
 // for names of four letters and more).
 std::optional<std::string> nearest_name(std::string_view name,

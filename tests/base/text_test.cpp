@@ -35,6 +35,9 @@ TEST(Suggest, FindsTheNearestName) {
   EXPECT_EQ(nearest_name("capcity", kKeys), "capacity");
   EXPECT_EQ(nearest_name("Kind", kKeys), "kind") << "case is not a difference";
   EXPECT_EQ(nearest_name("maxdepth", kKeys), "max_depth");
+  static constexpr std::string_view kVerbs[] = {"wake", "wait", "like", "look"};
+  EXPECT_EQ(nearest_name("wati", kVerbs), "wait") << "two that have changed places are one slip";
+  EXPECT_EQ(nearest_name("loko", kVerbs), "look");
   EXPECT_EQ(nearest_name("it", kKeys), "at") << "one letter may differ in a short name";
   EXPECT_EQ(nearest_name("gravity_of_the_world", kKeys), std::nullopt);
   EXPECT_EQ(nearest_name("zz", kKeys), std::nullopt) << "nothing of 'at' is left";
