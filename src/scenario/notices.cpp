@@ -234,7 +234,6 @@ void notice_settings(const TableReader& file, Draft& draft) {
   for (const char* owner : {"prototype", "body", "pattern"})
     for (const TomlValue* body : file.tables(owner)) {
       if (idle) keys.see(*body, {"restitution", "friction"}, *idle);
-      if (!touches) keys.see(*body, {"wander"}, *idle);
       if (!idle && only_lectures(s)) keys.see(*body, {"friction"}, kLectures);
     }
   keys.tell(draft);

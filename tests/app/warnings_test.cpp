@@ -134,8 +134,9 @@ TEST(Warnings, OfAProblemThatTheBodiesDoNotPose) {
   const std::string steered =
       "[[body]]\nname = \"b\"\nposition = [6, 4]\nradius = 0.5\n"
       "wander = true\nspeed = 1\n";
-  EXPECT_NE(checked(disc("", "gravitation = 2\n") + steered + kepler).find("'b' is steered"),
-            std::string::npos);
+  const std::string said = checked(disc("", "gravitation = 2\n") + steered + kepler);
+  EXPECT_NE(said.find("'b' is steered"), said.npos);
+  EXPECT_EQ(said.find("'wander'"), said.npos) << "it moves, though it never has to turn";
   const std::string flight = "[problem]\nsolution = \"projectile\"\nseconds = 1\nstep = 0.1\n";
   EXPECT_NE(checked(disc("", "gravitation = 2\n") + second + flight)
                 .find("its bodies attract each other"),
