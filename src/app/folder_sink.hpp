@@ -34,6 +34,7 @@ class FolderSink : public StagedSink {
 
   std::size_t drawn() const { return drawn_; }
   std::size_t kept() const { return kept_; }
+  std::uint64_t chosen() const { return chosen_; }          // of the whole run, whoever draws them
   std::size_t in_betweens() const { return in_betweens_; }  // there now
   const std::filesystem::path& path() const { return path_; }
   bool has_atlas() const { return has_atlas_; }  // it stands there, whole

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/frame_folder.hpp"
+#include "app/json_members.hpp"
 #include "base/file.hpp"
 #include "base/printable.hpp"
 #include "draw/theme.hpp"
@@ -86,9 +87,10 @@ std::optional<GoldenList> read_golden_list(const Folder& folder) {
   const std::string file = folder.path(kGoldenList).string();
   std::istringstream lines(*text);
   GoldenList list;
-  std::string line;
+  std::string line, all;
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.ends_with('\r')) line.pop_back();  // as some version control systems give it
+    all += line + "\n";
     if (number == 1) {
       if (!line.starts_with(kGoldenFormat))
         throw IoError(
@@ -104,6 +106,12 @@ std::optional<GoldenList> read_golden_list(const Folder& folder) {
     if ((list.made_with.*member).empty())
       throw DamagedGoldens(
           fmt::format("'{}' is damaged: no {}; --update makes it anew", file, name));
+  try {
+    require_as_written(all, to_text(list));
+  } catch (const RefusedFile& why) {
+    throw DamagedGoldens(
+        fmt::format("'{}' is damaged: {}; --update makes it anew", file, why.what()));
+  }
   return list;
 }
 

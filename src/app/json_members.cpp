@@ -1,11 +1,13 @@
 #include "app/json_members.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
+#include "base/printable.hpp"
 #include "render/renderer.hpp"
 
 namespace lantern::app {
@@ -128,6 +130,17 @@ std::vector<std::string> JsonMembers::names() const {
   std::vector<std::string> names;
   for (const auto& [name, value] : json_->items()) names.push_back(name);
   return names;
+}
+
+void require_as_written(std::string_view file, std::string_view written) {
+  if (file == written) return;
+  constexpr std::size_t kMostShown = 120;
+  const auto here = std::ranges::mismatch(file, written).in1;
+  const auto line = 1 + std::count(file.begin(), here, '\n');
+  const std::size_t start = file.rfind('\n', static_cast<std::size_t>(here - file.begin()));
+  std::string_view text = file.substr(start == file.npos ? 0 : std::min(start + 1, file.size()));
+  text = text.substr(0, std::min(text.find('\n'), kMostShown));
+  throw RefusedFile(fmt::format("line {} is not as Lantern writes it: {}", line, printable(text)));
 }
 
 }  // namespace lantern::app

@@ -71,4 +71,8 @@ class JsonMembers {
   std::string place_;  // "frames[3]."
 };
 
+// That a file is as Lantern writes what was read of it, to the byte: no member more, none twice.
+// Throws RefusedFile with the first line that is otherwise.
+void require_as_written(std::string_view file, std::string_view written);
+
 }  // namespace lantern::app

@@ -5,6 +5,7 @@
 #include "app/in_betweens.hpp"
 #include "app/json_members.hpp"
 #include "base/json_writer.hpp"
+#include "base/printable.hpp"
 #include "draw/theme.hpp"
 #include "embedded/version.hpp"
 
@@ -79,6 +80,7 @@ Manifest read_manifest(std::string_view text) {
   json.is("sources", kSourceHash);
   Manifest m(json.scenario_name("scenario"));
   m.title = json.text("title");
+  if (!is_printable(m.title)) json.refuse("title", "no scenario has such a title");
   m.seed = json.whole("seed", 0, kMostWhole);
   m.pace = json.word<Pace>("pace", kPaces);
   m.size = json.picture_size("size");
@@ -97,6 +99,7 @@ Manifest read_manifest(std::string_view text) {
   if (json.has("tween")) m.in_betweens = json.text("tween");
   m.scenario_hash = json.hash("scenario_hash");
   read_frames(json, m);
+  require_as_written(text, to_json(m));
   return m;
 }
 

@@ -15,6 +15,7 @@
 #include "app/kept_files.hpp"
 #include "app/merge.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/stop.hpp"
@@ -78,6 +79,7 @@ Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardIn
     refuse(fmt::format("it lists {} frames, the record {}", manifest->frames.size(), input.here));
   if (fmt::format("{:016x}", manifest->scenario_hash) != input.text)
     refuse(fmt::format("scenario_hash is another than {}", input.text));
+  if (const auto words = contradiction(*manifest, shard.record)) refuse(*words);
   manifest->in_between_digits = *in_between_digits(set.run());
   return std::move(*manifest);
 }
@@ -108,7 +110,8 @@ bool say_the_same(std::string_view facts, const Manifest& m, std::uint32_t index
   const ListedFrame& frame = m.frames.at(index);
   JsonWriter listed;
   listed.begin_object().lines("scenario", m.scenario.text(), "frame", index, "time", frame.time,
-                              "step", frame.step, "event", frame.event, "caption", frame.caption);
+                              "step", frame.step, "event", frame.event, "caption", frame.caption,
+                              "seed", m.seed);
   return facts.find(std::string_view(listed.text()).substr(1)) != facts.npos &&
          facts.rfind(fmt::format("\n\"hash\": \"{:016x}\"", frame.hash)) != facts.npos;
 }
@@ -177,6 +180,19 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
   return whole;
 }
 
+// How many frames the run chose of a scenario, as the parts that stepped it say, and none is
+// missing. Throws UnfitShard for a part that says otherwise than there is.
+void require_all_frames(const ShardSet& set, std::size_t index, std::size_t frames) {
+  for (const FoundShard* shard : set.shards()) {
+    const ShardInput& input = shard->record.inputs[index];
+    if (input.chosen != 0 ? input.chosen == frames : frames > 0 || !set.takes_all()) continue;
+    throw UnfitShard(
+        set, *shard,
+        fmt::format("inputs[{}].chosen is {} in {}: of '{}' the parts have {}", index, input.chosen,
+                    kShardFile, input.name.text(), counted(frames, "frame")));
+  }
+}
+
 // Where both have a shard, they must have the same.
 void require_equal(const ShardSet& set, const ShardSet::Twins& twins) {
   for (std::size_t i = 0; i < set.run().inputs.size(); ++i) {
@@ -241,10 +257,11 @@ Counted write_whole(const ShardSet& set, const Folder& output, MergedSequence& w
 int merge_frames(const ShardSet& set, const MergeOptions& options, JsonWriter& json) {
   for (const ShardSet::Twins& twins : set.twins()) require_equal(set, twins);
   std::vector<MergedSequence> sequences;
-  for (std::size_t i = 0; i < set.run().inputs.size(); ++i)
-    if (auto whole = gather(set, i)) sequences.push_back(std::move(*whole));
-  const auto chosen = [&](const char* name) { return !set.run().settings.at(name).empty(); };
-  const bool all_frames = !chosen("frames") && !chosen("at");
+  for (std::size_t i = 0; i < set.run().inputs.size(); ++i) {
+    auto whole = gather(set, i);
+    require_all_frames(set, i, whole ? whole->manifest.frames.size() : 0);
+    if (whole) sequences.push_back(std::move(*whole));
+  }
   std::uint64_t unmet = 0;
   const Folder output = Folder::made(options.output);
   require_kept_for(KeptFor::frames, output);
@@ -253,7 +270,7 @@ int merge_frames(const ShardSet& set, const MergeOptions& options, JsonWriter& j
     const std::size_t frames = whole.manifest.frames.size();
     const std::string& name = whole.manifest.scenario.text();
     const std::string path = output.path(name).string();
-    const Counted counted = write_whole(set, output, whole, all_frames);
+    const Counted counted = write_whole(set, output, whole, set.takes_all());
     unmet += whole.manifest.unmet;
     json.line().begin_object().members("scenario", name, "folder", path, "frames", frames,
                                        "written", counted.written, "kept", counted.kept);

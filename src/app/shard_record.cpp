@@ -7,12 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "app/frame_folder.hpp"
 #include "app/json_members.hpp"
 #include "app/kept_files.hpp"
+#include "app/selection.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/printable.hpp"
 #include "draw/theme.hpp"
 #include "embedded/version.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::string_view kFormat = "lantern.shard/1";
 constexpr std::string_view kCommand = "render";  // no other is divided
+constexpr std::uint64_t kMostFrames = std::numeric_limits<std::uint32_t>::max();
 
 std::string differs(std::string_view what, std::string_view a, std::string_view b) {
   const auto shown = [](std::string_view value) {
@@ -58,6 +60,17 @@ void require_possible(const JsonMembers& settings) {
   settings.word<bool>("transparent", kYesOrNo);
   if (!settings.text("pace").empty()) settings.word<Pace>("pace", kPaces);
   for (const char* text : {"tween", "switches"}) settings.text(text);
+  try {
+    Selection(settings.text("frames"), settings.text("at"), std::nullopt);
+  } catch (const UsageError& why) {
+    settings.refuse("frames", why.what());
+  }
+  static constexpr std::string_view kAll[] = {"at",    "facts",       "format", "frames",
+                                              "pace",  "png",         "size",   "switches",
+                                              "theme", "transparent", "tween",  "tween digits"};
+  for (const std::string& name : settings.names())
+    if (std::ranges::find(kAll, name) == std::end(kAll))
+      settings.refuse(name.c_str(), "there is no such setting");
 }
 
 }  // namespace
@@ -84,8 +97,8 @@ std::string to_json(const ShardRecord& r) {
   for (const ShardInput& input : r.inputs)
     json.line()
         .begin_object()
-        .members("name", input.name.text(), "text", input.text, "here", input.here, "atlas",
-                 input.atlas)
+        .members("name", input.name.text(), "text", input.text, "here", input.here, "chosen",
+                 input.chosen, "atlas", input.atlas)
         .end_object();
   json.line().end_array().line().end_object();
   return json.text() + "\n";
@@ -104,7 +117,8 @@ ShardRecord read_record(std::string_view text) {
   const JsonMembers settings = json.object("settings");
   for (const std::string& name : settings.names()) r.settings[name] = settings.text(name.c_str());
   settings.text("frames"), settings.text("at");  // what a merge asks for
-  if (r.version == kVersion && r.sources == kSourceHash) require_possible(settings);
+  const bool is_ours = r.version == kVersion && r.sources == kSourceHash;
+  if (is_ours) require_possible(settings);
   if (!in_between_digits(r)) settings.refuse("tween digits", "it is a whole number from 2 to 9");
   r.words = json.texts("words");
   if (r.words.empty() || r.words.front() != kCommand)
@@ -112,13 +126,40 @@ ShardRecord read_record(std::string_view text) {
   std::set<std::string> names;
   for (const JsonMembers& one : json.objects("inputs")) {
     one.hash("text");
-    r.inputs.push_back({one.scenario_name("name"), one.text("text"),
-                        one.whole("here", 0, std::numeric_limits<std::uint32_t>::max()),
-                        one.flag("atlas")});
+    const std::uint64_t here = one.whole("here", 0, kMostFrames);
+    const std::uint64_t chosen = is_ours ? one.whole("chosen", here, kMostFrames) : here;
+    r.inputs.push_back(
+        {one.scenario_name("name"), one.text("text"), here, chosen, one.flag("atlas")});
     if (!names.insert(one.text("name")).second) one.refuse("name", "it is listed before");
   }
   if (r.inputs.empty()) json.refuse("inputs", "a run has one or more");
+  if (is_ours) require_as_written(text, to_json(r));
   return r;
+}
+
+std::map<std::string, std::string> settings_told_by(const Manifest& m) {
+  std::string switches;
+  for (const std::string& name : m.switches) switches += (switches.empty() ? "" : " ") + name;
+  return {{"pace", std::string(word_for(m.pace, kPaces))},
+          {"size", m.size},
+          {"theme", m.theme},
+          {"format", std::string(word_for(m.format, kPictureKinds))},
+          {"png", std::string(word_for(m.png, kPngEfforts))},
+          {"facts", std::string(word_for(m.facts, kFactsVersions))},
+          {"tween", m.in_betweens},
+          {"transparent", m.transparent ? "yes" : "no"},
+          {"switches", switches}};
+}
+
+std::optional<std::string> contradiction(const Manifest& manifest, const ShardRecord& record) {
+  for (const auto& [name, told] : settings_told_by(manifest)) {
+    const std::string recorded = setting(record, name);
+    const bool is_each_scenarios_own = name == "pace" && recorded.empty();
+    if (told != recorded && !is_each_scenarios_own)
+      return fmt::format("{} is \"{}\", the record's settings say \"{}\"", name, printable(told),
+                         printable(recorded));
+  }
+  return std::nullopt;
 }
 
 std::optional<int> in_between_digits(const ShardRecord& record) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/frame_folder.hpp"
 #include "app/shard.hpp"
 #include "base/file.hpp"
 #include "scenario/scenario_name.hpp"
@@ -17,9 +18,10 @@ namespace lantern::app {
 // One scenario of the whole run.
 struct ShardInput {
   ScenarioName name;
-  std::string text;        // hash of what it says, 16 digits
-  std::uint64_t here = 0;  // of its frames, how many are in this shard
-  bool atlas = false;      // its finished atlas is in this shard, too
+  std::string text;          // hash of what it says, 16 digits
+  std::uint64_t here = 0;    // of its frames, how many are in this shard
+  std::uint64_t chosen = 0;  // and in all shards; 0 if this one did not come to know it
+  bool atlas = false;        // its finished atlas is in this shard, too
 };
 
 struct ShardRecord {
@@ -39,6 +41,11 @@ ShardRecord new_record(const Shard& shard);
 std::string to_json(const ShardRecord& record);
 // Throws RefusedFile (app/json_members.hpp) for a text that is damaged, or not as to_json wrote it.
 ShardRecord read_record(std::string_view json);
+
+// What of the settings a manifest tells, by the same names.
+std::map<std::string, std::string> settings_told_by(const Manifest& manifest);
+// How a manifest contradicts the record's settings: "theme is \"dark\", the record says \"light\"".
+std::optional<std::string> contradiction(const Manifest& manifest, const ShardRecord& record);
 
 // How many digits the numbers of in-betweens have; nothing if the settings do not say it rightly.
 std::optional<int> in_between_digits(const ShardRecord& record);

@@ -30,20 +30,12 @@ std::vector<std::optional<std::uint64_t>> chosen_frames(const RenderOptions& opt
 // What the folder of one run would depend on: as its manifest says it, and the choice of frames.
 std::map<std::string, std::string> settings_of(const RenderJob& job, const Scenario& scenario) {
   const Manifest m = job.manifest(scenario, pace_of(job.options.pace, scenario));
-  std::string switches;
-  for (const std::string& name : m.switches) switches += (switches.empty() ? "" : " ") + name;
-  return {{"frames", job.options.frames},
-          {"at", job.options.at},
-          {"pace", job.options.pace},
-          {"size", m.size},
-          {"theme", m.theme},
-          {"format", std::string(word_for(m.format, kPictureKinds))},
-          {"png", std::string(word_for(m.png, kPngEfforts))},
-          {"facts", std::string(word_for(m.facts, kFactsVersions))},
-          {"tween", m.in_betweens},
-          {"tween digits", std::to_string(m.in_between_digits)},
-          {"transparent", m.transparent ? "yes" : "no"},
-          {"switches", switches}};
+  std::map<std::string, std::string> settings = settings_told_by(m);
+  settings["frames"] = job.options.frames;
+  settings["at"] = job.options.at;
+  settings["pace"] = job.options.pace;
+  settings["tween digits"] = std::to_string(m.in_between_digits);
+  return settings;
 }
 
 }  // namespace
@@ -88,6 +80,7 @@ RenderShard::RenderShard(const RenderJob& job, const std::vector<Scenario>& scen
 void RenderShard::drawn(std::size_t scenario, const FolderSink& sink) {
   if (!folder_) return;
   folder_->input(scenario).here = sink.drawn() + sink.kept();
+  folder_->input(scenario).chosen = sink.chosen();
   folder_->input(scenario).atlas = sink.has_atlas();
 }
 

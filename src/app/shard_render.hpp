@@ -18,8 +18,8 @@ namespace lantern::app {
 // that name no shard, and for an output that is no folder.
 RenderOptions options_of_shard(const RenderOptions& options);
 
-// The folder that the frames' folders stand in: the user's own, or the shard's within it. Made where
-// it is missing. Throws IoError, and UsageError for a folder that is kept for something else.
+// The folder that the frames' folders stand in: the user's own, or the shard's within it. Made
+// where it is missing. Throws IoError, and UsageError for a folder that is kept for something else.
 Folder output_folder(const RenderOptions& options);
 
 class RenderShard {

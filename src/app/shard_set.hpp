@@ -25,6 +25,10 @@ class ShardSet {
 
   // A record of the run, of some shard.
   const ShardRecord& run() const { return found_.front().record; }
+  // Of all its frames, not of some that were chosen.
+  bool takes_all() const {
+    return run().settings.at("frames").empty() && run().settings.at("at").empty();
+  }
   // By number - 1; none where it is missing or not finished. Of several equal ones the first.
   const std::vector<const FoundShard*>& shards() const { return shards_; }
   // Finished ones whose number was there before, beside that one: to be held against each other.

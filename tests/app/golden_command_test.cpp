@@ -285,6 +285,9 @@ TEST_F(GoldenCommand, ADamagedListIsMadeAnewAndAForeignOneStays) {
   EXPECT_EQ(o.code, 1);
   EXPECT_TRUE(says(o, "'golden/scene/golden.txt' is damaged in line 2; --update makes it anew"));
   EXPECT_EQ(golden("--update --frames 0").code, 1) << "the others would be lost";
+  std::string other = list;
+  write_text(list_file(), other.insert(list.find("frame 0") + 6, "0"));
+  EXPECT_TRUE(says(golden(""), "line 7 is not as Lantern writes it: frame 00 "));
   EXPECT_EQ(golden("--update").code, 0);
   EXPECT_EQ(read_text(list_file()), list);
   write_text(list_file(), "My golden rules\n");

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -149,12 +151,27 @@ class Hostile : public testing::Test {
       return "\"six\" is " + value.dump().substr(0, 80);
     }
     const fs::path& file = files[index(files.size())];
+    if (random_.whole(0, 3) > 0) return change_in_place(file, value);
     json whole = json::parse(read_text(file));
     const json flat = whole.flatten();
     const std::string path = std::next(flat.begin(), static_cast<long>(index(flat.size()))).key();
     whole[json::json_pointer(path)] = value;
     write_text(file, whole.dump(0) + "\n");
     return file.filename().string() + path + " is " + value.dump().substr(0, 80);
+  }
+
+  // Else as Lantern writes it.
+  std::string change_in_place(const fs::path& file, const json& value) {
+    static const std::regex kMember(R"re("[a-z_ ]+": ("[^"\\\n]*"|[-+.e0-9]+|true|false))re");
+    std::string text = read_text(file);
+    const std::vector<std::smatch> members(std::sregex_iterator(text.begin(), text.end(), kMember),
+                                           {});
+    const std::smatch& one = members[index(members.size())];
+    const std::string was = one.str();
+    text.replace(static_cast<std::size_t>(one.position(1)), static_cast<std::size_t>(one.length(1)),
+                 value.dump());
+    write_text(file, text);
+    return file.filename().string() + ": " + was + " is " + value.dump().substr(0, 80);
   }
 
   std::string change_a_line(const fs::path& file) {
@@ -235,6 +252,15 @@ class HostilePart : public Hostile {
     whole[json::json_pointer(pointer)] = value;
     write_text(arena_ / file, whole.dump(0) + "\n");
   }
+  // In all files, as Lantern writes them else.
+  void replace(const std::vector<const char*>& files, std::string_view old, std::string_view by) {
+    for (const char* file : files) {
+      std::string text = read_text(arena_ / file);
+      const std::size_t at = text.find(old);
+      ASSERT_NE(at, text.npos) << file << old;
+      write_text(arena_ / file, text.replace(at, old.size(), by));
+    }
+  }
   void expect_refused(const std::string& words) {
     const Outcome o = shell("cd " + arena_.string() + " && lantern merge whole parts");
     EXPECT_NE(o.code, 0);
@@ -283,6 +309,49 @@ TEST_F(HostilePart, IsRefusedWithTheMemberAndItsValue) {
   whole.erase("frames");
   write_text(arena_ / kManifestOfPart, whole.dump(0));
   expect_refused("frames is missing");
+}
+
+// Members that are possible, each by itself, and do not say what was done.
+TEST_F(HostilePart, IsRefusedWhereItContradictsItself) {
+  const std::vector<const char*> first = {kRecordOfPart},
+                                 records = {kRecordOfPart, "parts/shard-2-of-2/shard.json"},
+                                 manifest = {kManifestOfPart};
+  const struct {
+    const std::vector<const char*>& files;
+    const char *old, *by, *words;
+  } cases[] = {
+      {first, "\"here\": 2", "\"here\": 0",
+       "inputs[0].chosen is 3 in shard.json: of 'six' the parts have 1 frame"},
+      {records, "\"theme\": \"light\"", "\"theme\": \"dark\"",
+       "theme is \"light\", the record's settings say \"dark\""},
+      {records, "\"size\": \"80x45\"", "\"size\": \"160x90\"", "the record's settings say"},
+      {records, "\"facts\": \"2\"", "\"facts\": \"1\"", "the record's settings say"},
+      {records, "\"transparent\": \"no\"", "\"transparent\": \"yes\"", "the record's settings say"},
+      {records, "\"tween\": \"1\"", "\"tween\": \"3\"", "the record's settings say"},
+      {records, "\"pace\": \"\"", "\"pace\": \"event\"", "the record's settings say"},
+      {records, "\"switches\": \"\"", "\"switches\": \"legend\"", "the record's settings say"},
+      {records, "\"frames\": \"\"", "\"frames\": \"0-99999999999999999999\"",
+       "settings.frames is \"0-99999999999999999999\""},
+      {records, "\"at\": \"\"", "\"at\": \"\", \"mine\": \"\"",
+       "settings.mine is \"\": there is no such setting"},
+      {manifest, "\"seed\": 1", "\"seed\": 2", "do not say the same of frame 0"},
+      {manifest, "\"title\": \"Six\"", "\"title\": \"\\u001b[31mx\"",
+       "no scenario has such a title"},
+      {first, "\"finished\": true", "\"finished\": false,\n\"finished\": true",
+       "is not as Lantern writes it: \"finished\": false,"},
+      {manifest, "\"scenario\"", "\"zzz\": \"../y\",\n\"scenario\"",
+       "line 3 is not as Lantern writes it: \"zzz\": \"../y\","},
+  };
+  for (const auto& one : cases) {
+    SetUp();
+    replace(one.files, one.old, one.by);
+    expect_refused(one.words);
+  }
+  // Nor does a scenario vanish of which no part has any.
+  SetUp();
+  replace(first, "\"here\": 2, \"chosen\": 3", "\"here\": 0, \"chosen\": 0");
+  replace({records[1]}, "\"here\": 1, \"chosen\": 3", "\"here\": 0, \"chosen\": 0");
+  expect_refused("inputs[0].chosen is 0 in shard.json: of 'six' the parts have 0 frames");
 }
 
 // So deep that whoever follows it by calling himself runs out of stack.

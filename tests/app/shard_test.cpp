@@ -111,13 +111,14 @@ TEST(ShardRecord, WhatIsWrittenIsReadBack) {
                 {"png", "fast"},       {"facts", "2"},
                 {"tween", ""},         {"tween digits", "2"},
                 {"transparent", "no"}, {"switches", "no-title"}};
-  r.inputs = {{*ScenarioName::of("pong"), "0123456789abcdef", 7, true}};
+  r.inputs = {{*ScenarioName::of("pong"), "0123456789abcdef", 7, 9, true}};
   r.words = {"render", "\"quoted\".toml"};
   const ShardRecord read = read_record(to_json(r));
   EXPECT_EQ(to_json(read), to_json(r));
   EXPECT_FALSE(difference(r, read));
   EXPECT_THROW(read_record("{}"), RefusedFile);
   EXPECT_THROW(read_record("{\"format\": \"lantern.shard/1\", "), RefusedFile);
+  EXPECT_THROW(read_record(to_json(r) + " "), RefusedFile);
 }
 
 TEST(ShardRecord, DifferencesAreNamed) {
