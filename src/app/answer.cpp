@@ -74,7 +74,8 @@ void owe_answer(std::string_view command) {
 void owe_no_answer() noexcept { owed = false; }
 
 void write_answer(int exit_code) {
-  if (!owed || output_is_input()) return;  // that has been told
+  const bool is_told = exit_code != 0;
+  if (!owed || (output_is_input() && is_told)) return;
   const std::string text = ended(given, kept_diagnostics(), exit_code);
   owed = false;
   write_stdout(text);

@@ -162,6 +162,7 @@ bool is_of_this_build(std::string_view manifest) {
 FrameFolder::FrameFolder(const Folder& output, const Manifest& wanted, bool whole)
     : folder_(output.inside(wanted.scenario.text())), wanted_(wanted), lock_(folder_) {
   require_kept_for(KeptFor::frames, folder_);
+  require_writable({folder_, kManifest});
   folder_.remove_leftovers();
   if (is_foreign(folder_, kManifest)) strange_.push_back(kManifest);
   const bool same_build = is_of_this_build(manifest_in(folder_));

@@ -121,8 +121,8 @@ class FrameFolder {
   std::uint64_t in_betweens_standing(std::uint32_t index) const;
 
   // Removes what an earlier run has left and what is not wanted now, if Lantern made it and nobody
-  // has changed it since; `whole` runs, of all frames, leave nothing of another format, either. Says
-  // so. To be called when all is there that the frames need.
+  // has changed it since; `whole` runs, of all frames, leave nothing of another format, either.
+  // Says so. To be called when all is there that the frames need.
   void remove_old() const;
   // Names of files, in order: named as what a run writes, but not of Lantern's making, and left.
   const std::vector<std::string>& strange() const { return strange_; }

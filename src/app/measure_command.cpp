@@ -120,18 +120,18 @@ bool same(const Circumstances& a, const Circumstances& b) {
 // Rows of an earlier run under the same circumstances; none if there are none, or, which is told,
 // if its file is damaged.
 std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
+  std::string why;
   try {
     const auto text = folder.earlier("measure.json", kMostMeasureBytes);
     if (!text) return {};
-    std::string why;
     auto earlier = read_measurement(*text, &why);
-    if (!earlier)
-      warn(fmt::format("nothing is taken over from '{}': {}",
-                       (folder.path() / "measure.json").string(), why));
     if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
-  } catch (const IoError&) {
-    // there is none
+  } catch (const IoError& e) {
+    why = e.what();
   }
+  if (!why.empty())
+    warn(fmt::format("nothing is taken over from '{}': {}",
+                     (folder.path() / "measure.json").string(), why));
   return {};
 }
 

@@ -44,6 +44,7 @@ std::optional<std::string> ReportFolder::earlier(std::string_view name,
 
 void ReportFolder::write(std::string_view name, std::string_view bytes) {
   if (!wanted()) return;
+  require_writable({*folder_, name});
   if (!begun_) remove_old_pages();
   begun_ = true;
   write_file({*folder_, name}, bytes);

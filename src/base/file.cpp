@@ -65,6 +65,51 @@ bool write_all(int descriptor, std::string_view bytes) {
 
 bool input_was_closed = false;  // when the program began (hold_standard_streams)
 
+using FileNumber = std::pair<dev_t, ino_t>;
+
+std::optional<FileNumber> number_of(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileNumber(status.st_dev, status.st_ino);
+}
+
+// Of a regular file.
+std::optional<FileNumber> number_of(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return FileNumber(status.st_dev, status.st_ino);
+}
+
+// Is a standard stream written to a file that this run reads, by whatever way it came to read it?
+// From then on nothing is written there.
+class WrittenStream {
+ public:
+  WrittenStream(int descriptor, const char* name) : descriptor_(descriptor), name_(name) {}
+  bool is(const FileNumber& file) const { return number_of(descriptor_) == file; }
+  void close() { is_read_ = true; }
+  bool is_read() const { return is_read_; }
+  void require_free() const {
+    if (is_read_) throw IoError(fmt::format("{} is written to a file that this run reads", name_));
+  }
+
+ private:
+  int descriptor_;
+  const char* name_;
+  std::atomic<bool> is_read_ = false;
+};
+
+WrittenStream output_stream{STDOUT_FILENO, "standard output"};
+WrittenStream error_stream{STDERR_FILENO, "standard error"};
+
+// Throws IoError if one is written to the file of this number.
+void see_read(const FileNumber& number) {
+  const bool is_output = output_stream.is(number), is_error = error_stream.is(number);
+  if (is_output) output_stream.close();
+  if (is_error) error_stream.close();
+  if (is_output) output_stream.require_free();
+  if (is_error) error_stream.require_free();
+}
+
 // What was opened to be read from `path`, to its end.
 std::string read_opened(const Descriptor& file, const std::filesystem::path& path,
                         std::size_t most_bytes) {
@@ -74,6 +119,7 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
   if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
   if (!S_ISREG(status.st_mode))
     throw IoError(fmt::format("cannot read '{}': not a regular file", shown(path)));
+  see_read(FileNumber(status.st_dev, status.st_ino));
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > most_bytes)
     throw IoError(fmt::format("cannot read '{}': it has {} bytes, the limit is {}", shown(path),
@@ -91,21 +137,6 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
   return bytes;
 }
 
-using FileNumber = std::pair<dev_t, ino_t>;
-
-std::optional<FileNumber> number_of(const std::filesystem::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return FileNumber(status.st_dev, status.st_ino);
-}
-
-// Of a regular file.
-std::optional<FileNumber> number_of(int descriptor) {
-  struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return FileNumber(status.st_dev, status.st_ino);
-}
-
 // What the run was given to read, by name and number. A number counts only while it is that of the
 // name: a file that an editor has replaced meanwhile leaves its number to another one.
 class Inputs {
@@ -114,15 +145,12 @@ class Inputs {
     const auto number = number_of(path);
     const std::lock_guard lock(mutex_);
     paths_.insert(path);
-    if (!number) return;
-    files_.insert({*number, path});
-    has_output_ = has_output_ || number_of(STDOUT_FILENO) == number;
+    if (number) files_.insert({*number, path});
   }
   void add_stdin() {
     const auto number = number_of(STDIN_FILENO);
     const std::lock_guard lock(mutex_);
     stdin_ = number;
-    has_output_ = has_output_ || (number && number_of(STDOUT_FILENO) == number);
   }
 
   bool has(const std::filesystem::path& path) {
@@ -135,24 +163,17 @@ class Inputs {
       if (number_of(file->second) == number) return true;
     return false;
   }
-  // Is standard output written to one of them?
-  bool has_output() const { return has_output_; }
 
  private:
   std::mutex mutex_;
   std::set<std::filesystem::path> paths_;
   std::set<std::pair<FileNumber, std::filesystem::path>> files_;
   std::optional<FileNumber> stdin_;
-  std::atomic<bool> has_output_ = false;
 };
 
 Inputs& inputs() {
   static Inputs all;
   return all;
-}
-
-void require_free_output() {
-  if (output_is_input()) throw IoError("standard output is written to a file that this run reads");
 }
 
 // As open() takes it: one entry, of which somebody else may have chosen the name.
@@ -178,13 +199,12 @@ void add_input(const std::filesystem::path& path) { inputs().add(path); }
 
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes) {
   add_input(path);
-  require_free_output();
   return read_file(path, most_bytes);
 }
 
 std::string read_stdin(std::size_t most_bytes) {
   inputs().add_stdin();
-  require_free_output();
+  if (const auto number = number_of(STDIN_FILENO)) see_read(*number);
   std::string bytes;
   char part[1 << 16];
   for (;;) {
@@ -209,7 +229,7 @@ std::string read_stdin(std::size_t most_bytes) {
 
 bool is_input(const std::filesystem::path& path) { return inputs().has(path); }
 
-bool output_is_input() { return inputs().has_output(); }
+bool output_is_input() { return output_stream.is_read(); }
 
 Folder::Folder(int descriptor, std::filesystem::path path)
     : descriptor_(new int(descriptor),
@@ -347,13 +367,20 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 FilePlace::FilePlace(const std::filesystem::path& path, int)
     : folder(Folder::of_file(path)), name(path.filename().string()) {}
 
+void require_writable(const FilePlace& place) {
+  if (is_input(place.path()))
+    throw IoError(
+        fmt::format("cannot write '{}': it is what this run has read", shown(place.path())));
+  struct stat status {};
+  if (::fstatat(place.folder.descriptor(), entry(place.name), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+      S_ISDIR(status.st_mode))
+    fail("write", place.path(), EISDIR);
+}
+
 // A file without a name vanishes with a killed process. Not every file system has those.
 PartFile::PartFile(FilePlace place) : place_(std::move(place)) {
   static std::atomic<unsigned> serial{0};
-  entry(place_.name);
-  if (is_input(place_.path()))
-    throw IoError(
-        fmt::format("cannot write '{}': it is what this run has read", shown(place_.path())));
+  require_writable(place_);
   spare_ = fmt::format("{}{}-{}", kTemporary, ::getpid(), serial++);
   descriptor_ = ::openat(place_.folder.descriptor(), ".", O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
   if (descriptor_ < 0) open_spare();
@@ -434,7 +461,7 @@ void hold_standard_streams() noexcept {
 }
 
 void write_stdout(std::string_view bytes) {
-  require_free_output();
+  output_stream.require_free();
   if (write_all(STDOUT_FILENO, bytes)) return;
   const int code = errno;
   const std::string text = fmt::format("cannot write to standard output: {}", std::strerror(code));
@@ -443,6 +470,7 @@ void write_stdout(std::string_view bytes) {
 }
 
 void write_stderr(std::string_view bytes) noexcept {
+  if (error_stream.is_read()) return;
   while (!bytes.empty()) {
     const ssize_t n = ::write(STDERR_FILENO, bytes.data(), bytes.size());
     if (n < 0 && errno != EINTR) return;

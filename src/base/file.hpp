@@ -15,17 +15,16 @@
 
 namespace lantern {
 
-// The bytes of a regular file. Throws IoError if it cannot be read, is a folder or a device, or is
-// larger than `most_bytes` (found from its size, before it is read).
+// The bytes of a regular file. Throws IoError if it cannot be read, is a folder or a device, is
+// larger than `most_bytes` (found from its size, before it is read), or is what standard output or
+// standard error is written to: nothing is written there any more.
 std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
 
-// The same of a file that the user gives to be read: an input of this run from then on. Throws
-// IoError, too, if standard output is written to it.
+// The same of a file that the user gives to be read: an input of this run from then on.
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes);
 
-// The bytes of standard input, to its end: an input of this run, too. Throws IoError if it cannot
-// be read, has more than `most_bytes` or is what standard output is written to, and Stopped if that
-// is wished while it waits.
+// The bytes of standard input, to its end: an input of this run, too. Throws IoError as read_file()
+// does, and Stopped if that is wished while it waits.
 std::string read_stdin(std::size_t most_bytes);
 
 // What will be read is an input before it is.
@@ -34,7 +33,8 @@ void add_input(const std::filesystem::path& path);
 // Is what stands at `path` an input of this run, under whatever name? Nothing is written over it.
 bool is_input(const std::filesystem::path& path);
 
-// Is standard output written to one? Nothing is written there either.
+// Is standard output written to a file that this run has read, an input or not? Nothing is written
+// there either.
 bool output_is_input();
 
 // A folder that is held open. Whatever happens to its path meanwhile, and whatever names somebody
@@ -107,6 +107,10 @@ struct FilePlace {
   FilePlace(const std::filesystem::path& path, int);
 };
 
+// Throws IoError where PartFile would: for an input of this run, and for a folder. To be asked
+// before anything is removed.
+void require_writable(const FilePlace& place);
+
 // A file that gets its name when it is whole: until then what stood there stands, and when this
 // goes, nothing is left. A symbolic link of this name is replaced, not followed.
 class PartFile {
@@ -149,7 +153,8 @@ void hold_standard_streams() noexcept;
 // input of this run); ReaderGone if it is a pipe that nobody reads any more.
 void write_stdout(std::string_view bytes);
 
-// Writes to standard error what can be written there, unbuffered; the rest is lost.
+// Writes to standard error what can be written there, unbuffered; the rest is lost, and all of it
+// where standard error is a file that this run has read.
 void write_stderr(std::string_view bytes) noexcept;
 
 }  // namespace lantern

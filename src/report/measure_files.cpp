@@ -267,7 +267,8 @@ std::optional<Measurement> read_measurement(std::string_view text, std::string* 
   } catch (const Damaged& damaged) {
     if (why) *why = place + damaged.what;
   } catch (const Json::exception&) {  // no JSON, or what is missing, or of another type
-    if (why) *why = place + "it is damaged";
+    if (why)
+      *why = fmt::format("{} is damaged", place.empty() ? "it" : place.substr(0, place.size() - 1));
   }
   return std::nullopt;
 }

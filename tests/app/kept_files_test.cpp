@@ -100,12 +100,79 @@ TEST_F(KeptFiles, WhatLanternKeepsIsNotWrittenOverByAnotherOption) {
       EXPECT_EQ(run(std::string("render little.toml -o ") + words).code, 0) << words;
 }
 
+// A list that is a link, empty, or cannot be read may still be one.
+TEST_F(KeptFiles, AListThatCannotBeReadClosesItsFolder) {
+  for (const char* how : {"mv golden.txt s; ln -s s golden.txt", "mv golden.txt s; : >golden.txt",
+                          "rm golden.txt; ln -s nowhere golden.txt",
+                          "rm golden.txt; mkfifo golden.txt", "rm golden.txt; mkdir golden.txt"}) {
+    fs::remove_all(made() / "closed");
+    fs::copy(made() / "golden", made() / "closed", fs::copy_options::recursive);
+    ASSERT_EQ(shell("cd " + (made() / "closed/little").string() + "; " + how).code, 0);
+    const std::string frame = "closed/little/little_0000.png";
+    expect_refused(
+        "render little.toml --size 80x45 -o closed", frame,
+        "'closed/little' may hold the golden frames, of which golden.txt tells, which is "
+        "empty or cannot be read");
+    expect_refused("render little.toml -o " + frame, frame, "name another file");
+    expect_refused("golden little.toml --junit " + frame, frame, "name another file");
+  }
+  for (const char* how : {"mv shard.json s; ln -s s shard.json", ": >shard.json"}) {
+    fs::remove_all(made() / "closed");
+    fs::copy(made() / "parts/shard-1-of-1", made() / "closed", fs::copy_options::recursive);
+    ASSERT_EQ(shell("cd " + (made() / "closed").string() + "; " + how).code, 0);
+    expect_refused("render little.toml -o closed", "closed/little/little_0000.png",
+                   "'closed' may hold the frames of a part");
+  }
+}
+
+// What cannot be written is told before anything goes.
+TEST_F(KeptFiles, NothingIsRemovedForWhatCannotBeWritten) {
+  fs::copy(made() / "out", made() / "lost", fs::copy_options::recursive);
+  const fs::path manifest = made() / "lost/little/manifest.json";
+  write_text(manifest, std::string("name = \"little\"\n") + kLittle);
+  Outcome o = run("render lost/little/manifest.json --size 160x90 -o lost");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("it is what this run has read"), o.err.npos) << o.err;
+  EXPECT_TRUE(fs::exists(made() / "lost/little/little_0000.png"));
+  fs::remove(manifest);
+  fs::create_directory(manifest);
+  o = run("render little.toml --size 160x90 -o lost");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_TRUE(fs::exists(made() / "lost/little/little_0000.png")) << o.err;
+}
+
+TEST_F(KeptFiles, AFileThatWouldBeNoneIsRefused) {
+  fs::copy(made() / "out", made() / "other", fs::copy_options::recursive);
+  write_text(made() / "other/little/little_0000.json", "{}");
+  for (const char* place : {"new/", "new/.", "new/x/.."})
+    for (const char* words :
+         {"compare out/little/little_0000.json other/little/little_0000.json -o ",
+          "golden little.toml --size 80x45 --junit "}) {
+      const Outcome o = run(std::string(words) + place);
+      EXPECT_TRUE(o.code == 1 || o.code == 2) << words << place << o.code << o.err;
+      EXPECT_FALSE(fs::exists(made() / "new")) << words << place;
+    }
+  fs::create_directories(made() / "darker");
+  ASSERT_EQ(run("render little.toml --size 80x45 --theme dark -o darker").code, 0);
+  const Outcome o = run("compare out/little/little_0000.png darker/little/little_0000.png -o new/");
+  EXPECT_EQ(o.code, 2) << o.err;
+  EXPECT_NE(o.err.find("'new/' is a folder; name another file"), o.err.npos) << o.err;
+}
+
+TEST_F(KeptFiles, ATableOfAMeasurementIsNotWrittenOver) {
+  for (const char* file : {"measured/measure.csv", "measured/report.html"})
+    expect_refused(std::string("golden little.toml --size 80x45 --junit ") + file, file,
+                   "one of the tables and pages of a measurement there");
+}
+
 // It may be read by another run.
 TEST_F(KeptFiles, NoReportIsCalledAsAScenario) {
-  write_text(made() / "exam.toml", kLittle);
   for (const char* words :
        {"golden little.toml --size 80x45 --junit ", "golden little.toml --size 80x45 --report "})
-    expect_refused(words + std::string("exam.toml"), "exam.toml", "called as scenarios are");
+    for (const char* name : {"exam.toml", "exam.TOML"}) {
+      write_text(made() / name, kLittle);
+      expect_refused(words + std::string(name), name, "called as scenarios are");
+    }
 }
 
 TEST_F(KeptFiles, ABenchIsNotWrittenOverItsBoxes) {
@@ -164,6 +231,28 @@ TEST_F(KeptFiles, StandardOutputIsNoInput) {
         << o.err;
     EXPECT_EQ(o.err.find("standard output"), o.err.rfind("standard output")) << "told once";
     EXPECT_EQ(read_text(made() / "in.toml"), kLittle) << words;
+  }
+}
+
+// Whatever of it is read: also what Lantern has kept, and standard error.
+TEST_F(KeptFiles, NorIsAStreamWhatIsRead) {
+  fs::create_directories(made() / "read");
+  for (const char* folder : {"golden", "out", "parts"})
+    fs::copy(made() / folder, made() / "read" / folder, fs::copy_options::recursive);
+  write_text(made() / "read/little.toml", kLittle);
+  for (const auto& [words, file] :
+       {std::pair{"golden little.toml --size 80x45 --json >>", "golden/little/golden.txt"},
+        {"golden little.toml --size 80x45 2>>", "golden/little/golden.txt"},
+        {"render little.toml --size 80x45 -o out --json 1<>", "out/little/little_0000.png"},
+        {"render little.toml --size 80x45 -o out --json 1<>", "out/little/little_0000.json"},
+        {"merge parts --json 1<>", "parts/shard-1-of-1/shard.json"},
+        {"merge parts --json 1<>", "parts/shard-1-of-1/little/manifest.json"},
+        {"merge parts 2>>", "parts/shard-1-of-1/shard.json"},
+        {"check little.toml nope.toml 2>>", "little.toml"}}) {
+    const std::string before = read_text(made() / "read" / file);
+    const Outcome o = shell("cd " + (made() / "read").string() + " && lantern " + words + file);
+    EXPECT_NE(o.code, 0) << words << file;
+    EXPECT_EQ(read_text(made() / "read" / file), before) << words << file;
   }
 }
 
