@@ -125,7 +125,7 @@ TEST(Note, OnWhatIsNotThereIsAMistake) {
     return kFlatWorld + steps({kOne + "[[step.note]]\ntext = \"x\"\n" + note + "\n"});
   };
   expect_mistakes(with("body = @\"pink\""), {"not in the world at this step"});
-  expect_mistakes(with("body = @\"rde\""), {"known here: red, pink"});
+  expect_mistakes(with("body = @\"rde\""), {"did you mean 'red'?"});
   expect_mistakes(with("pair = [\"red\", @\"pink\"]"), {"not in the world"});
   expect_mistakes(with("count = @\"hits\""), {"not counted here"});
   expect_mistakes(with("count = @\"pair\""), {"did you mean 'pairs'?"});
