@@ -1,11 +1,11 @@
-# lantern_room(NAME LINKS ... [SOURCES ...]): the library lantern_NAME of all sources in src/NAME, or
-# of these. Packages that only sources include are linked as $<BUILD_INTERFACE:...>: who uses the
+# lantern_room(NAME LINKS ... [SOURCES ...]): the library lantern_NAME of all sources in src/NAME and
+# its folders, or of these. Packages that only sources include are linked as $<BUILD_INTERFACE:...>: who uses the
 # installed library need not have them.
 function(lantern_room name)
   cmake_parse_arguments(ROOM "" "" "LINKS;SOURCES" ${ARGN})
   set(sources ${ROOM_SOURCES})
   if(NOT sources)
-    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   endif()
   list(TRANSFORM ROOM_LINKS REPLACE "^([a-z]+)$" "lantern_\\1")
   set(includes $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
