@@ -11,8 +11,10 @@ that for each mutant only those run that may notice, the quickest first.
 """
 
 import argparse
+import bisect
 import collections
 import concurrent.futures
+import itertools
 import json
 import os
 import random
@@ -28,8 +30,12 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 CALL = "::lantern::mutant::"
 
-# One way to change one place. A place is named by (file, function, text, occurrence), so that a list
-# of mutants stays true when lines move.
+# The rooms whose tests are to notice: folders of src/ and of tests/.
+ROOMS = ("geometry", "atlas", "spatial", "physics")
+
+# One way to change one place. A place is named by (function, kind, text, occurrence): a list of
+# mutants stays true when lines move, and when functions move to other files, folders and rooms.
+# Occurrences are counted within one definition, so that an overload more or less changes none.
 Mutant = collections.namedtuple("Mutant", "room file function kind text occurrence line edits")
 # At `at`, `removed` bytes go and `text` comes. `begin` and `end` say around what, so that those that
 # lie around others are opened before them and closed after them.
@@ -78,7 +84,9 @@ class Finder:
     def __init__(self, cindex, room):
         self.ci, self.room, self.kinds = cindex, room, cindex.CursorKind
         self.folder = ROOT / "src" / room
-        self.files = sorted(p for p in self.folder.iterdir() if p.suffix in (".cpp", ".hpp"))
+        if not self.folder.is_dir():
+            stop(f"there is no room {self.folder.relative_to(ROOT)}")
+        self.files = sorted(p for p in self.folder.rglob("*") if p.suffix in (".cpp", ".hpp"))
         self.found = {}
 
     def run(self):
@@ -101,7 +109,7 @@ class Finder:
     def parsed(self, files):
         """The syntax tree, and the first error in our own files. One in a header of the system is
         clang's trouble with that library; our code around it is read all the same."""
-        unit = "".join(f'#include "{self.room}/{p.name}"\n' for p in files)
+        unit = "".join(f'#include "{p.relative_to(ROOT / "src").as_posix()}"\n' for p in files)
         options = self.ci.TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD
         tu = self.ci.Index.create().parse(
             "all.cpp", ["-std=c++20", "-xc++", f"-I{ROOT}/src"], [("all.cpp", unit)], options)
@@ -131,6 +139,7 @@ class Finder:
         for cursor in tu.cursor.get_children():
             if cursor.location.file and cursor.location.file.name in self.paths:
                 self.file = cursor.location.file.name
+                self.definition = None
                 self.visit(cursor, [], None, ())
 
     # --- the tree ---
@@ -160,6 +169,7 @@ class Finder:
         if kind in (k.FUNCTION_DECL, k.CXX_METHOD, k.FUNCTION_TEMPLATE, k.CONSTRUCTOR, k.DESTRUCTOR,
                     k.CONVERSION_FUNCTION):
             names, result = names + [cursor.spelling], cursor.result_type
+            self.definition = begin
             owner = cursor.semantic_parent
             if owner and owner.kind in (k.CLASS_DECL, k.STRUCT_DECL, k.CLASS_TEMPLATE) and (
                     len(names) < 2 or names[-2] != owner.spelling):
@@ -188,15 +198,22 @@ class Finder:
             self.statement(child, cursor, children, names)
             self.visit(child, names, result, above + (kind,))
 
+    def from_place(self, at):
+        """The tokens of the file, and the first of them that begins at this place or later."""
+        tokens = self.tokens[self.file]
+        return tokens, bisect.bisect_left(tokens, (at,))
+
     def between(self, begin, end):
-        return [t for t in self.tokens[self.file] if begin <= t[0] and t[1] <= end]
+        tokens, i = self.from_place(begin)
+        return list(itertools.takewhile(lambda t: t[1] <= end, itertools.islice(tokens, i, None)))
 
     def token_before(self, at):
-        return next((t for low, high, t in reversed(self.tokens[self.file]) if high <= at), "")
+        tokens, i = self.from_place(at)
+        return next((t for _, high, t in reversed(tokens[:i][-2:]) if high <= at), "")
 
     def token_after(self, at):
-        return next(((low, high, t) for low, high, t in self.tokens[self.file] if low >= at),
-                    (at, at, ""))
+        tokens, i = self.from_place(at)
+        return tokens[i] if i < len(tokens) else (at, at, "")
 
     # --- mutants ---
 
@@ -205,7 +222,7 @@ class Finder:
             return  # a constant of a namespace
         text = " ".join(t for _, _, t in self.between(begin, end))
         key = (self.file, begin, end, kind)
-        self.found.setdefault(key, ("::".join(names), text, edits))
+        self.found.setdefault(key, ("::".join(names), text, edits, self.definition))
 
     def around(self, begin, end, before, after=")", replaced=()):
         edits = [Edit(begin, 0, before, begin, end, False), Edit(end, 0, after, begin, end, True)]
@@ -298,20 +315,25 @@ class Finder:
 
     def named(self):
         seen, mutants = collections.Counter(), []
-        for (file, begin, end, kind), (function, text, edits) in sorted(
+        for (file, begin, end, kind), (function, text, edits, definition) in sorted(
                 self.found.items(), key=lambda item: item[0]):
             path = Path(file)
             name = path.relative_to(ROOT).as_posix()
-            seen[name, function, kind, text] += 1
+            place = (name, definition, function, kind, text)
+            seen[place] += 1
             line = path.read_bytes()[:begin].count(b"\n") + 1
-            mutants.append(Mutant(self.room, name, function, kind, text,
-                                  seen[name, function, kind, text], line, edits))
+            mutants.append(Mutant(self.room, name, function, kind, text, seen[place], line, edits))
         return mutants
 
 
 def key_of(mutant):
     again = f" #{mutant.occurrence}" if mutant.occurrence > 1 else ""
-    return f"{mutant.file} | {mutant.function} | {mutant.kind} | {mutant.text}{again}"
+    return f"{mutant.function} | {mutant.kind} | {mutant.text}{again}"
+
+
+def told(mutant):
+    """The mutant for people: with its place of today."""
+    return f"{key_of(mutant)}\n    {mutant.file}:{mutant.line}"
 
 
 class Tree:
@@ -397,7 +419,7 @@ def not_compiled(log, mutants):
         return {int(a or b) for a, b in found} & mutants.keys()
 
     def placed(lines):
-        found = re.findall(r"(src/\w+/\w+\.[ch]pp):(\d+)", "\n".join(lines))
+        found = re.findall(r"(src/(?:\w+/)+\w+\.[ch]pp):(\d+)", "\n".join(lines))
         return {number for file, line in found for number in by_place[file, int(line)]}
 
     wrong, before = set(), []
@@ -512,7 +534,7 @@ def reason_of(mutant, known):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("rooms", nargs="*", default=["geometry", "atlas", "spatial", "physics"])
+    parser.add_argument("rooms", nargs="*", default=list(ROOMS))
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--size", type=int, default=60, help="mutants a room; 0: all there are")
     parser.add_argument("--least", type=float, default=90, help="percent that must be killed")
@@ -523,26 +545,31 @@ def main():
                         help="do not run what equivalent.txt has")
     parser.add_argument("--verbose", action="store_true", help="tell what does not compile")
     parser.add_argument("--list", action="store_true", help="print the mutants, and run nothing")
+    parser.add_argument("--check", action="store_true",
+                        help="only see whether each line of equivalent.txt names one that is possible")
     parser.add_argument("--results", type=Path, help="a file for every mutant's fate")
     options = parser.parse_args()
     cindex = load_clang()
     began = time.monotonic()
 
     known = read_equivalent(HERE / "equivalent.txt")
-    picked, reserve, unused = [], {}, set(known)
+    picked, reserve, names = [], {}, collections.Counter()
     for room in options.rooms:
         everything = Finder(cindex, room).run()
-        unused -= {reason_of(m, known) for m in everything}
+        names.update(reason_of(m, known) for m in everything)
         wanted = [m for m in everything if options.only in key_of(m)]
         taken, reserve[room] = chosen(wanted, options.size, options.seed)
         print(f"{room}: {len(everything)} possible mutants, {len(taken)} taken", flush=True)
         picked += taken
-    for key in sorted(unused):
-        if key.split("/")[1] in options.rooms:
-            print(f"equivalent.txt names what is not there: {key}")
+    stale = sorted(set(known) - set(names)) if set(ROOMS) <= set(options.rooms) else []
+    for key in stale:
+        print(f"equivalent.txt names what is not there: {key}")
+    if options.check:
+        print(f"equivalent.txt: {len(known)} lines, of which {len(stale)} name nothing")
+        return 1 if stale else 0
     if options.list:
         for mutant in picked:
-            print(key_of(mutant))
+            print(told(mutant))
         return 0
 
     mutants = dict(enumerate(picked))
@@ -591,7 +618,7 @@ def main():
             reason = reason_of(mutant, known)
             same = reason is not None and not dead
             if reason is not None and dead and not reason.endswith("..."):
-                print(f"killed, though equivalent.txt has it: {key_of(mutant)}")
+                print(f"killed, though equivalent.txt has it: {told(mutant)}")
             count[mutant.room]["killed" if dead else "same" if same else "alive"] += 1
             if not dead and not same:
                 survivors.append((mutant, reaching))
@@ -602,7 +629,7 @@ def main():
 
     for mutant, reaching in survivors:
         seen = f"{reaching} tests reach it" if reaching else "no test reaches it"
-        print(f"survives: {key_of(mutant)}\n    {mutant.file}:{mutant.line}; {seen}")
+        print(f"survives: {told(mutant)}; {seen}")
     total = collections.Counter()
     print(f"{'room':10} {'mutants':>8} {'killed':>8} {'the same program':>18} {'survive':>8} "
           f"{'percent killed':>16}")
