@@ -222,17 +222,14 @@ struct StressOptions {
 };
 int stress_command(const StressOptions& options);
 
-// What is measured beside the problems.
-struct MeasureMoreOptions {
-  std::vector<std::string> files;  // scenarios; empty for a choice of its own
+struct MeasureBroadPhaseOptions {
+  std::vector<std::string> files;  // scenarios; empty for worlds of its own
   std::string output;              // folder of table, CSV, JSON and plots; empty: only the table
   std::string theme = "light";     // of the plots
-  bool full = false;               // larger pictures, more and longer repeats
+  bool full = false;               // more and longer repeats
   bool json = false;
 };
-// Error of antialiasing against milliseconds a frame.
-int measure_pictures_command(const MeasureMoreOptions& options);
 // Pairs missed, work and time of the broad phases over capacity and depth limit.
-int measure_broad_phase_command(const MeasureMoreOptions& options);
+int measure_broad_phase_command(const MeasureBroadPhaseOptions& options);
 
 }  // namespace lantern::app

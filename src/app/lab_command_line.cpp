@@ -12,7 +12,7 @@ namespace {
 void measure_options(CLI::App* c, MeasureOptions& o) {
   c->add_option("PROBLEM", o.problems,
                 "problems or families by name, or scenario files; the default is all problems; "
-                "'pictures' measures antialiasing, 'broad_phase' the trees' settings");
+                "'broad_phase' measures the trees' settings");
   c->add_option("-o,--output", o.output, "folder for tables, plots and the overview page")
       ->type_name("DIR")
       ->capture_default_str();

@@ -306,27 +306,18 @@ int page_of_earlier(const MeasureOptions& options) {
   return kGood;
 }
 
-// What has a measurement of its own.
-bool measures_more(const MeasureOptions& options) {
-  return !options.problems.empty() &&
-         (options.problems[0] == "pictures" || options.problems[0] == "broad_phase");
-}
-
 }  // namespace
 
 int measure_command(const MeasureOptions& options) {
   if (options.list) return list_problems(options.json);
-  const bool is_of_problems = options.from.empty() && !measures_more(options);
-  if (is_of_problems) return measure_problems(options);
   if (!options.from.empty()) return page_of_earlier(options);
   const std::vector<std::string>& words = options.problems;
-  const auto measure =
-      words[0] == "pictures" ? measure_pictures_command : measure_broad_phase_command;
-  return measure({{words.begin() + 1, words.end()},
-                  options.output,
-                  options.theme,
-                  options.full,
-                  options.json});
+  if (words.empty() || words[0] != "broad_phase") return measure_problems(options);
+  return measure_broad_phase_command({{words.begin() + 1, words.end()},
+                                      options.output,
+                                      options.theme,
+                                      options.full,
+                                      options.json});
 }
 
 }  // namespace lantern::app

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "measure/peers.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::app {
 namespace {

@@ -29,8 +29,6 @@ lantern_peer(bullet "${bullet_VERSION} (double)" FOUND ${bullet_FOUND}
   DEFINITIONS BT_USE_DOUBLE_PRECISION)
 lantern_peer(box2d "${box2d_VERSION} (single)" FOUND ${box2d_FOUND}
   LIBRARIES ${box2d_LINK_LIBRARIES})
-lantern_peer(ode "${ode_VERSION} (double)" FOUND ${ode_FOUND}
-  LIBRARIES ${ode_LINK_LIBRARIES} DEFINITIONS dIDEDOUBLE)
 if(LANTERN_MUJOCO AND LANTERN_MUJOCO_DIR)
   file(STRINGS ${LANTERN_MUJOCO_DIR}/mujoco/mujoco.h mujoco_version REGEX "mjVERSION_HEADER [0-9]")
   string(REGEX REPLACE ".* ([0-9])([0-9])([0-9])$" "\\1.\\2.\\3" mujoco_version

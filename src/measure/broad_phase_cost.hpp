@@ -102,13 +102,9 @@ const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::st
 // limit of the same capacity made a deeper one.
 bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& row);
 
-// "For 2000 clustered boxes: capacity 16, depth limit 5: 88 000 comparisons; ..."
-std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
-                           StructureKind kind);
-
 std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
 std::string to_csv(const std::vector<BroadPhaseCost>& rows);
-// lantern.measure.broad_phase/1
+// lantern.measure.broad_phase/2
 std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
 
 }  // namespace lantern::measure

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "base/grouped.hpp"
 #include "base/json_writer.hpp"
 #include "measure/broad_phase_cost.hpp"
 #include "measure/records.hpp"
@@ -54,55 +53,7 @@ std::string table_row(const BroadPhaseCost& row) {
       1e3 * row.timing.spread());
 }
 
-// What smallest and largest leaves cost more, if it can be told.
-std::string neighbour_words(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& best) {
-  std::uint32_t most = 1;
-  for (const BroadPhaseCost& row : rows) most = std::max(most, row.capacity);
-  std::string text;
-  const auto beside = [&](std::uint32_t capacity, std::uint64_t BroadPhaseCounts::*count,
-                          const char* words) {
-    const BroadPhaseCost* row = row_of(rows, best.scene, best.kind, capacity, best.depth_limit);
-    if (row == nullptr || best.counts.*count == 0) return;
-    const double ratio =
-        static_cast<double>(row->counts.*count) / static_cast<double>(best.counts.*count);
-    if (ratio > 1.05)
-      text += fmt::format("; capacity {} needs {:.1f} times as many {}", capacity, ratio, words);
-  };
-  beside(1, &BroadPhaseCounts::entries, "entries");
-  beside(most, &BroadPhaseCounts::pair_tests, "pair tests");
-  return text;
-}
-
-// Which pairs brute force counts, where some are of two static bodies.
-std::string brute_force_words(const BroadPhaseCost& row) {
-  const BroadPhaseCounts& c = row.counts;
-  if (c.testable_pairs == c.all_pairs) return "";
-  const std::uint64_t tests = c.pair_tests / row.updates, testable = c.testable_pairs / row.updates;
-  if (tests == testable) return " (pairs of two static bodies left out)";
-  return fmt::format(" (all pairs; {} without those of two static bodies)",
-                     grouped(static_cast<std::int64_t>(testable), " "));
-}
-
 }  // namespace
-
-std::string sentence_about(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
-                           StructureKind kind) {
-  const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
-  if (best == nullptr) return "";
-  const auto work = [](const BroadPhaseCost& row) {
-    return grouped(static_cast<std::int64_t>((row.counts.work() + row.updates / 2) / row.updates),
-                   " ");
-  };
-  std::string text = fmt::format("For {}: capacity {}, depth limit {}: {} comparisons", scene.words,
-                                 best->capacity, best->depth_limit, work(*best));
-  if (best->updates > 1) text += " an update";
-  text += neighbour_words(rows, *best);
-  if (const auto* sweep = cheapest(rows, scene.name, StructureKind::sort_and_sweep, CostBy::work))
-    text += "; sort and sweep " + work(*sweep);
-  if (const auto* force = cheapest(rows, scene.name, StructureKind::brute_force, CostBy::work))
-    text += "; brute force " + work(*force) + brute_force_words(*force);
-  return text + ".";
-}
 
 // Of the trees only the cheapest cells; all of them are in the files.
 std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes) {
@@ -116,10 +67,7 @@ std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxSc
       if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work))
         lines += table_row(*best);
     if (lines.empty()) continue;
-    const StructureKind tree =
-        scene.dimension() == 2 ? StructureKind::quadtree : StructureKind::octree;
     text += fmt::format("\n{}\n{}", scene.name, lines);
-    text += fmt::format("  {} {}\n", to_string(tree), sentence_about(rows, scene, tree));
   }
   return text;
 }
@@ -128,16 +76,11 @@ std::string to_csv(const std::vector<BroadPhaseCost>& rows) { return csv_of(rows
 
 std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes) {
   JsonWriter json;
-  json.begin_object().line().member("format", "lantern.measure.broad_phase/1");
+  json.begin_object().line().member("format", "lantern.measure.broad_phase/2");
   json.line().key("scenes").begin_array();
   for (const BoxScene& scene : scenes) {
     json.line().begin_object().member("name", scene.name).member("words", scene.words);
-    json.member("dimension", scene.dimension()).key("sentences").begin_array();
-    for (const StructureKind kind : kStructureKinds)
-      if (const BroadPhaseCost* best = cheapest(rows, scene.name, kind, CostBy::work);
-          best != nullptr && best->has_settings())
-        json.value(fmt::format("{}: {}", to_string(kind), sentence_about(rows, scene, kind)));
-    json.end_array().end_object();
+    json.member("dimension", scene.dimension()).end_object();
   }
   write_rows("rows", rows, json.line().end_array());
   json.line().end_object();

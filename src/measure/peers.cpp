@@ -117,7 +117,6 @@ class PeerSolver : public Solver {
 constexpr PeerModule kModules[] = {
     {"Bullet", "lantern_peer_bullet.so", "libbullet-dev"},
     {"Box2D", "lantern_peer_box2d.so", "libbox2d-dev"},
-    {"ODE", "lantern_peer_ode.so", "libode-dev"},
     {"MuJoCo", "lantern_peer_mujoco.so", "libmujoco-dev"},
 };
 

@@ -22,15 +22,12 @@ using CairoWrite = int (*)(void* closure, const unsigned char* bytes, unsigned i
   X(const char*, version_string, ())                                                             \
   X(const char*, status_to_string, (int))                                                        \
   X(void*, image_surface_create, (int format, int width, int height))                            \
-  X(unsigned char*, image_surface_get_data, (void*))                                             \
-  X(int, image_surface_get_stride, (void*))                                                      \
   X(void*, pdf_surface_create_for_stream, (CairoWrite, void* closure, double w, double h))       \
   X(void, pdf_surface_set_size, (void*, double width, double height))                            \
   X(void, pdf_surface_set_metadata, (void*, int what, const char* utf8))                         \
   X(void, pdf_surface_set_page_label, (void*, const char* utf8))                                 \
   X(int, pdf_surface_add_outline, (void*, int parent, const char*, const char* link, int flags)) \
   X(int, surface_status, (void*))                                                                \
-  X(void, surface_flush, (void*))                                                                \
   X(void, surface_finish, (void*))                                                               \
   X(int, surface_write_to_png, (void*, const char* path))                                        \
   X(void, surface_destroy, (void*))                                                              \
@@ -38,7 +35,6 @@ using CairoWrite = int (*)(void* closure, const unsigned char* bytes, unsigned i
   X(int, status, (void*))                                                                        \
   X(void, destroy, (void*))                                                                      \
   X(void, show_page, (void*))                                                                    \
-  X(void, set_antialias, (void*, int))                                                           \
   X(void, set_source_rgba, (void*, double, double, double, double))                              \
   X(void, set_line_width, (void*, double))                                                       \
   X(void, set_line_cap, (void*, int))                                                            \

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "measure/stress.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {

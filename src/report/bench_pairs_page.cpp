@@ -10,7 +10,7 @@
 #include "report/bench_pairs.hpp"
 #include "report/html_plot.hpp"
 #include "report/html_style.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {

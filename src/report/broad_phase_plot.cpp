@@ -11,7 +11,7 @@
 namespace lantern::report {
 namespace {
 
-constexpr double kGridMargin = 60;
+constexpr double kGridMargin = 60, kFoot = 836;
 
 // Five tones of blue, light where it is cheap, in every theme; `above` is the largest ratio to the
 // cheapest cell, `ink` what can be read on it.
@@ -65,13 +65,13 @@ class GridPage {
       return std::move(list_);
     }
     const BroadPhaseCost* best = cheapest(rows_, scene_.name, kind_, CostBy::work);
-    grid({{kGridMargin, 104}, {990, 726}}, CostBy::work, *best);
+    grid({{kGridMargin, 104}, {990, kFoot}}, CostBy::work, *best);
     const bool with_time = best->timing.repeats > 0;
     if (with_time)
-      grid({{1060, 104}, {list_.page.x - kGridMargin, 448}}, CostBy::time,
+      grid({{1060, 104}, {list_.page.x - kGridMargin, 500}}, CostBy::time,
            *cheapest(rows_, scene_.name, kind_, CostBy::time));
-    others({{1060, with_time ? 484.0 : 104.0}, {list_.page.x - kGridMargin, 726}}, with_time);
-    sentence();
+    others({{1060, with_time ? 536.0 : 104.0}, {list_.page.x - kGridMargin, kFoot}}, with_time);
+    foot();
     return std::move(list_);
   }
 
@@ -198,28 +198,14 @@ class GridPage {
     }
   }
 
-  // Three lines need smaller type, or there is no room for what the dagger means.
-  void sentence() {
-    list_.crisp_line({kGridMargin, 752}, {list_.page.x - kGridMargin, 752}, {Role::rule, 1.6});
-    TextStyle style{28, Weight::regular, Role::ink, Role::none};
-    const Box<2> place{{kGridMargin, 756}, {list_.page.x - kGridMargin, 894}};
-    const std::string text = sentence_about(rows_, scene_, kind_);
-    std::vector<std::string> lines = wrapped(text, place.size().x, style);
-    if (lines.size() > 2) {
-      style.size = kLeastCaption;
-      lines = wrapped(text, place.size().x, style);
-    }
-    double y = 756 + 1.5 * style.size;
-    for (const std::string& line : lines) {
-      labels_.add(line, {{kGridMargin, y}, 0}, style, place);
-      y += 1.45 * style.size;
-    }
+  void foot() {
+    if (!some_cut_back_) return;
     const TextStyle quiet{20, Weight::regular, Role::quiet_ink, Role::none};
-    if (some_cut_back_)
-      labels_.add(
-          "† The tree would hold more than 64 entries a body: its depth limit was halved until it "
-          "does not.",
-          {{kGridMargin, std::min(y, 884.0)}, 0}, quiet, place);
+    labels_.add(
+        "† The tree would hold more than 64 entries a body: its depth limit was halved until it "
+        "does not.",
+        {{kGridMargin, kFoot + 40}, 0}, quiet,
+        {{kGridMargin, kFoot}, {list_.page.x - kGridMargin, list_.page.y}});
   }
 
   std::span<const BroadPhaseCost> rows_;

@@ -9,27 +9,21 @@
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
 #include "render/cairo_painter.hpp"
-#include "render/image.hpp"
 
 namespace lantern::report {
-
-// Its own choices of antialiasing, as <cairo.h> numbers them.
-enum class CairoAntialias { standard = 0, none = 1, fast = 4, best = 6 };
 
 // Needs libcairo.so.2, which is loaded when asked for. Geometry, colours and text are Lantern's
 // own, the text as outlines.
 class CairoPeer {
  public:
   // Throws BackendError, naming the package to install, if there is no cairo.
-  CairoPeer(int width, int height, CairoAntialias antialias = CairoAntialias::standard);
+  CairoPeer(int width, int height);
   ~CairoPeer();
   CairoPeer(const CairoPeer&) = delete;
   CairoPeer& operator=(const CairoPeer&) = delete;
 
   std::string version() const;
   void draw(const DrawList& list, const Theme& theme);
-  // The picture as pixels; `image` is overwritten, its memory reused.
-  void read(Image& image);
   // By cairo_surface_write_to_png. Throws IoError.
   void write_png(const std::filesystem::path& path);
 

@@ -11,7 +11,7 @@
 #include "base/check.hpp"
 #include "report/measure_plots.hpp"
 #include "report/page_parts.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {
@@ -51,43 +51,17 @@ Plot plot_of(const ProblemRows& problem, const Looks& looks, double step, Sample
   return plot;
 }
 
-// "By the end, after 10 s in steps of 0.05 s, the energy has drifted least with velocity Verlet
-// (1e-4) and most with explicit Euler (0.3)." Empty without points.
-std::string end_of(const Plot& plot, const char* what, double step) {
-  std::vector<std::pair<double, std::string>> ends;
-  double time = 0;
-  for (const PlotSeries& series : plot.series) {
-    if (series.points.empty()) continue;
-    const PlotPoint& last = series.points.back();
-    time = std::max(time, last.at.x);
-    ends.push_back({last.beyond ? HUGE_VAL : last.at.y, series.name});
-  }
-  if (ends.empty()) return "";
-  const auto told = [](const auto& end) {
-    return fmt::format("{} ({})", end.second,
-                       std::isfinite(end.first) ? figure(end.first) : "beyond the scale");
-  };
-  const auto [least, most] = std::ranges::minmax_element(ends);
-  std::string text = fmt::format("By the end, after {} s in steps of {} s, {} least with {}",
-                                 figure(time), figure(step), what, told(*least));
-  if (most->first > least->first) text += fmt::format(" and most with {}", told(*most));
-  return text + ".";
-}
-
 }  // namespace
 
 std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& looks) {
   const auto step = shared_step(problem);
   if (!step) return std::nullopt;
-  DriftPlots plots{plot_of(problem, looks, *step, kError), plot_of(problem, looks, *step, kEnergy),
-                   ""};
+  DriftPlots plots{plot_of(problem, looks, *step, kError), plot_of(problem, looks, *step, kEnergy)};
   plots.error.title = "Error so far against time";
   plots.error.y_name = error_words(problem);
   plots.energy.title = "Drift of the energy against time";
   plots.energy.y_name = "largest change of the energy so far, relative";
   plots.energy.empty = "the problem does not keep its energy";
-  plots.sentence = end_of(plots.energy, "the energy has drifted", *step);
-  if (plots.sentence.empty()) plots.sentence = end_of(plots.error, "the error is", *step);
   return plots;
 }
 
@@ -98,10 +72,9 @@ DrawList draw_drift(const ProblemRows& problem, const Measurement& measurement) 
   Labels labels(list);
   draw_page_title(problem_words(problem), fmt::format("drift with time  ·  {}", file_name(problem)),
                   kDriftMargin, list, labels);
-  const double bottom =
-      draw_page_foot(plots->sentence, {}, circumstances_text(measurement.circumstances),
-                     kDriftMargin, list, labels) -
-      18;
+  const double bottom = draw_page_foot({}, circumstances_text(measurement.circumstances),
+                                       kDriftMargin, list, labels) -
+                        18;
   draw_plot_pair(std::move(plots->error), std::move(plots->energy), bottom, kDriftMargin, list,
                  labels);
   return list;

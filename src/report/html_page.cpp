@@ -10,13 +10,12 @@
 #include <fmt/format.h>
 
 #include "base/markup.hpp"
-#include "report/claims.hpp"
 #include "report/drift_plots.hpp"
 #include "report/html_plot.hpp"
 #include "report/html_style.hpp"
 #include "report/html_tables.hpp"
 #include "report/measure_plots.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {
@@ -191,10 +190,6 @@ class HtmlPage {
     const ProblemRows& any = problem.any();
     put("<section id=\"p{}\"><h2>{}</h2>\n<p class=\"quiet\">{}</p>\n", index,
         escaped(problem_words(any)), escaped(file_name(any)));
-    for (std::size_t i = 0; i < problem.of.size(); ++i)
-      if (problem.of[i])
-        put("<p>{}{}</p>\n", is_shared() ? machine_name(i) + ": " : "",
-            escaped(sentence(*problem.of[i])));
     for (const std::string& note : notes_on(any)) put("<p class=\"quiet\">{}</p>\n", escaped(note));
     put("<div class=\"plots\">\n");
     std::vector<std::vector<Plot>> plots;  // of each machine

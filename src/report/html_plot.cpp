@@ -10,7 +10,7 @@
 
 #include "base/markup.hpp"
 #include "draw/axis.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {

@@ -10,9 +10,8 @@
 
 #include "draw/plot.hpp"
 #include "draw/plot_marks.hpp"
-#include "report/claims.hpp"
 #include "report/page_parts.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {
@@ -276,8 +275,8 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
                               has_whole_errors(problem) ? "outcome" : "error", file_name(problem)),
                   kPlotMargin, list, labels);
   const double bottom =
-      draw_page_foot(sentence(problem), notes_on(problem),
-                     circumstances_text(measurement.circumstances), kPlotMargin, list, labels) -
+      draw_page_foot(notes_on(problem), circumstances_text(measurement.circumstances), kPlotMargin,
+                     list, labels) -
       18;
   auto [left, right] = plots_of(problem, looks);
   draw_plot_pair(std::move(left), std::move(right), bottom, kPlotMargin, list, labels);

@@ -22,7 +22,7 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
 std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks);
 
 // A page of 1600 x 900: error against seconds at the left, against counted work at the right, one
-// legend, the sentence below. Where no row is timed, the left plot says so. Looks and circumstances
+// legend, notes below. Where no row is timed, the left plot says so. Looks and circumstances
 // are those of the measurement, of which the problem is a part.
 DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement);
 

@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "report/claims.hpp"
 #include "report/problem_rows.hpp"
-#include "report/sentences.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {
@@ -96,7 +95,6 @@ std::string to_table(const Measurement& measurement) {
     text += line({"method", "runs ok", "order", norm.empty() ? "error" : norm, "at h", "time",
                   short_name(work.name), "not ok"});
     for (const MethodRows& c : by_method(problem)) text += line_for(c, work);
-    text += folded(sentence(problem));
     for (const std::string& note : notes_on(problem)) text += folded(note);
   }
   return text;

@@ -8,7 +8,6 @@
 #include "report/bars.hpp"
 #include "report/measure_plots.hpp"
 #include "report/pages.hpp"
-#include "report/sentences.hpp"
 
 namespace lantern::report {
 namespace {
@@ -19,11 +18,8 @@ constexpr double kCell = 320;         // least width of a small plot with its wo
 constexpr double kOverviewMargin = 56;
 constexpr double kGap = 34;
 constexpr double kSmall = 16.5, kCellText = 17.5;  // on A3, a page 1600 wide has 0.53 points a unit
-constexpr double kLine = 22;
-constexpr std::size_t kMostLines = 5;  // of a sentence
 
 const TextStyle kSmallPrint{kSmall, Weight::regular, Role::quiet_ink, Role::none};
-const TextStyle kSaid{kSmall, Weight::regular, Role::ink, Role::none};
 const TextStyle kCellName{kCellText, Weight::semibold, Role::ink, Role::none};
 
 class OverviewPage {
@@ -69,28 +65,16 @@ class OverviewPage {
     }
   }
 
-  // The width, the sentences' lines, and the height of a row of cells: what is left of the page,
-  // but enough to be read and no more than is of use.
+  // The width, and the height of a row of cells: what is left of the page, but enough to be read
+  // and no more than is of use.
   void plan_rows() {
     const auto columns = static_cast<double>(columns_);
     width_ = std::max(kLeastWidth, 2 * kOverviewMargin + columns * (kCell + kGap) - kGap);
-    said_.clear();
-    lines_ = 1;
-    for (const ProblemRows& problem : problems_) {
-      const std::string said = columns_ < 4 ? sentence(problem) : short_sentence(problem);
-      std::vector<std::string> lines = wrapped(said, cell_width(), kSaid);
-      if (lines.size() > kMostLines) {
-        lines.resize(kMostLines);
-        lines.back() = shortened(lines.back() + " …", cell_width(), kSaid);
-      }
-      lines_ = std::max(lines_, lines.size());
-      said_.push_back(std::move(lines));
-    }
     const auto rows = static_cast<double>((problems_.size() + columns_ - 1) / columns_);
     const double head = 140, foot = 84;
     const double bars = bars_.empty() ? 0 : bars_table_height(bars_) + 24;
     const double fixed = head + foot + bars + plot_legend_height(legend_, inner(), kSmall) + 48;
-    const double texts = 56 + kLine * static_cast<double>(lines_);
+    const double texts = 56;
     const double page = kTall * width_;
     row_ = rows > 0 ? (page - fixed) / rows : 0;
     const double tallest = columns_ > 2 ? 1.2 : 0.62;  // over the width
@@ -162,7 +146,6 @@ class OverviewPage {
     labels_.add(name, {{cell.lo.x, cell.lo.y + 16}, 0}, kCellName, cell);
     const std::string norm = norm_words(main_norm(problems_[i]));
     labels_.try_add(norm, {{{cell.hi.x, cell.lo.y + 16}, 1}}, kSmallPrint, cell);
-    const double said = cell.hi.y - kLine * static_cast<double>(lines_);
     Plot& plot = plots_[i];
     plot.names = PlotNames::none;
     plot.size = kSmall;
@@ -170,12 +153,7 @@ class OverviewPage {
     plot.front_name.clear();
     plot.empty = "no run was timed";
     for (PlotGuide& guide : plot.guides) guide.name.clear();
-    draw_plot(plot, {{cell.lo.x, cell.lo.y + 22}, {cell.hi.x, said - 4}}, list_, labels_);
-    double y = said + 16;
-    for (const std::string& line : said_[i]) {
-      labels_.add(line, {{cell.lo.x, y}, 0}, kSaid, {cell.lo, cell.hi + Vec<2>{0, 8}});
-      y += kLine;
-    }
+    draw_plot(plot, {{cell.lo.x, cell.lo.y + 22}, cell.hi}, list_, labels_);
   }
 
   void draw_bars(double y) {
@@ -198,8 +176,7 @@ class OverviewPage {
   Looks looks_;
   std::vector<Plot> plots_;
   std::vector<LegendEntry> legend_;
-  std::vector<std::vector<std::string>> said_;
-  std::size_t columns_ = 4, lines_ = 1;
+  std::size_t columns_ = 4;
   double width_ = kLeastWidth, row_ = 0;
   DrawList list_;
   Labels labels_;

@@ -41,34 +41,23 @@ void draw_page_title(const std::string& title, const std::string& rest, double m
   list.crisp_line({margin, kRule}, {list.page.x - margin, kRule}, {Role::rule, 1.6});
 }
 
-double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
-                      const std::string& small, double margin, DrawList& list, Labels& labels) {
-  constexpr double kSentence = 25, kLineHeight = 36, kNoteHeight = 26;
-  TextStyle style{kSentence, Weight::regular, Role::ink, Role::none};
+double draw_page_foot(const std::vector<std::string>& notes, const std::string& small,
+                      double margin, DrawList& list, Labels& labels) {
+  constexpr double kNoteHeight = 26;
   const TextStyle quiet{kLeastDeskLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
   const double width = list.page.x - 2 * margin;
-  std::vector<std::string> lines = wrapped(sentence, width, style);
-  if (lines.size() > 2) {
-    style.size = kLeastCaption;
-    lines = lines_of(sentence, width, style);
-  }
   std::string joined;
   for (const std::string& note : notes) joined += (joined.empty() ? "" : " ") + note;
-  const std::vector<std::string> told =
-      notes.empty() ? std::vector<std::string>() : lines_of(joined, width, quiet);
-  const double top = list.page.y - 62 - kLineHeight * static_cast<double>(lines.size()) -
-                     kNoteHeight * static_cast<double>(told.size());
+  std::vector<std::string> lines;
+  if (!joined.empty()) lines = lines_of(joined, width, quiet);
+  lines.push_back(shortened(small, width, quiet));
+  const double top = list.page.y - 36 - kNoteHeight * static_cast<double>(lines.size());
   const Box<2> band{{margin, top}, {list.page.x - margin, list.page.y - 14}};
-  const auto put = [&](const std::vector<std::string>& rows, double y, double height,
-                       const TextStyle& of) {
-    for (const std::string& words : rows) {
-      labels.add(words, {{margin, y}, 0}, of, band);
-      y += height;
-    }
-  };
-  put(lines, top + 36, kLineHeight, style);
-  put(told, list.page.y - 26 - kNoteHeight * static_cast<double>(told.size()), kNoteHeight, quiet);
-  labels.add(shortened(small, width, quiet), {{margin, list.page.y - 26}, 0}, quiet, band);
+  double y = list.page.y - 26 - kNoteHeight * static_cast<double>(lines.size() - 1);
+  for (const std::string& line : lines) {
+    labels.add(line, {{margin, y}, 0}, quiet, band);
+    y += kNoteHeight;
+  }
   list.crisp_line({margin, top}, {list.page.x - margin, top}, {Role::rule, 1.6});
   return top;
 }

@@ -13,11 +13,11 @@ namespace lantern::report {
 void draw_page_title(const std::string& title, const std::string& rest, double margin,
                      DrawList& list, Labels& labels);
 
-// A sentence, and in small what a reader must know beside it and how it was measured. Between the
-// page's margins, at its lower edge; `margin` in page units. The sentence has at most three lines,
-// smaller type if it needs more than two; so have the notes. Gives the y of the rule above it.
-double draw_page_foot(const std::string& sentence, const std::vector<std::string>& notes,
-                      const std::string& small, double margin, DrawList& list, Labels& labels);
+// What a reader must know beside the plots, in three lines at most, and in small how it was
+// measured. Between the page's margins, at its lower edge; `margin` in page units. Gives the y of
+// the rule above it.
+double draw_page_foot(const std::vector<std::string>& notes, const std::string& small,
+                      double margin, DrawList& list, Labels& labels);
 
 // Two plots of the same series side by side, from below the title to `bottom`, with one legend
 // below, unless the left one names its lanes.

@@ -17,8 +17,8 @@ namespace lantern::report {
 // Each small plot names its scenario's file, so that every number can be found in the rows.
 DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars);
 
-// How each engine beside Lantern was run, and who recommends it so: a table 1600 units wide, as high
-// as it needs. What is the same as in the line above is left empty.
+// How each engine beside Lantern was run, and who recommends it so: a table 1600 units wide, as
+// high as it needs. What is the same as in the line above is left empty.
 DrawList draw_peers(const Measurement& measurement);
 
 // The stability map as a picture.
@@ -30,8 +30,8 @@ DrawList draw_stability_map(const StabilityMap& map);
 
 // The picture that tells where to set a tree's capacity and depth limit for a scene.
 // A page of 1600 x 900 units: a grid of counted work over capacity and depth limit, the cheapest
-// cell marked and named; a smaller one of time, if times were taken; what other structures need for
-// the same scene; and a sentence. `kind` is one that has settings. A page that says so if there is
+// cell marked and named; a smaller one of time, if times were taken; and what other structures need
+// for the same scene. `kind` is one that has settings. A page that says so if there is
 // no row of it.
 DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
                                StructureKind kind);

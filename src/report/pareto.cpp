@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <string>
-#include <utility>
 
 namespace lantern::report {
 // A sweep in order of cost: a point is on the front if it has less error than all cheaper ones
@@ -36,31 +33,6 @@ std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cos
 std::optional<double> seconds_of(const Row& row) {
   if (row.timing.repeats < 1 || !std::isfinite(row.timing.median)) return std::nullopt;
   return row.timing.median;
-}
-
-bool costs_the_same(const Timing& faster, const Timing& slower) {
-  return slower.median - faster.median <= std::max(faster.spread(), slower.spread()) &&
-         slower.least <= faster.median + faster.spread();
-}
-
-std::vector<const Row*> cheapest_rows(std::span<const Row* const> rows, const Cost& cost,
-                                      bool timed) {
-  struct Priced {
-    const Row* row = nullptr;
-    double cost = 0;
-  };
-  std::vector<Priced> all;
-  for (const Row* row : rows)
-    if (const auto price = cost(*row)) all.push_back({row, *price});
-  std::ranges::stable_sort(all, {},
-                           [](const Priced& p) { return std::pair(p.cost, *p.row->error()); });
-  std::set<std::string> methods;  // each by its cheapest run
-  std::vector<const Row*> group;
-  for (const auto& [row, price] : all)
-    if (methods.insert(row->method).second &&
-        (timed ? costs_the_same(all[0].row->timing, row->timing) : price == all[0].cost))
-      group.push_back(row);
-  return group;
 }
 
 }  // namespace lantern::report

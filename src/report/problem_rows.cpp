@@ -5,10 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "draw/plot_marks.hpp"
+#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {
@@ -72,6 +74,26 @@ double fitted(std::span<const Sample> samples) {
     xy += dx * (std::log(s.error) - y);
   }
   return xy / xx;
+}
+
+// The same run by two methods: did it end alike, with the same error?
+bool agree(const Row& a, const Row& b) {
+  constexpr double kRounding = 1e-9;
+  if (a.status != b.status) return false;
+  const auto p = a.error(), q = b.error();
+  if (!p || !q) return !p && !q;
+  return *p == *q || std::abs(*p - *q) <= kRounding * std::max(*p, *q);
+}
+
+bool are_equal(const MethodRows& a, const MethodRows& b) {
+  std::size_t shared = 0;
+  for (const Row& row : a.rows) {
+    const auto same = std::ranges::find(b.rows, row.step, &Row::step);
+    if (same == b.rows.end() || !row.was_run() || !same->was_run()) continue;
+    if (!agree(row, *same)) return false;
+    shared += row.error().has_value();
+  }
+  return shared >= 2;
 }
 
 }  // namespace
@@ -218,6 +240,49 @@ WorkCount work_count(const ProblemRows& problem) {
     for (const Row& row : problem.rows)
       if (row.counted.*count.count > 0) return count;
   return counts[2];
+}
+
+std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem) {
+  std::vector<std::vector<std::string>> groups;
+  if (has_whole_errors(problem)) return groups;  // outcomes, which are right or wrong
+  std::vector<MethodRows> left = by_method(problem);
+  while (!left.empty()) {
+    const MethodRows first = left.front();
+    std::vector<std::string> group{first.method};
+    std::erase_if(left, [&](const MethodRows& other) {
+      if (other.method == first.method) return true;
+      const bool equal = !first.is_peer && !other.is_peer && are_equal(first, other);
+      if (equal) group.push_back(other.method);
+      return equal;
+    });
+    if (group.size() > 1) groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+std::vector<std::string> notes_on(const ProblemRows& problem) {
+  std::vector<std::string> notes;
+  double reference_error = 0;
+  const Norm* norm = nullptr;
+  bool adaptive = false;
+  for (const Row& row : problem.rows) {
+    reference_error = std::max(reference_error, row.reference_error);
+    if (!norm && !row.norms.empty()) norm = &row.norms.front();
+    adaptive = adaptive || is_adaptive(row.method);
+  }
+  if (norm && !norm->meaning.empty())
+    notes.push_back(fmt::format("“{}”{}: {}.", norm->name,
+                                norm->unit == "1" ? "" : " (" + norm->unit + ")", norm->meaning));
+  if (reference_error > 0)
+    notes.push_back(
+        fmt::format("The reference is itself off by about {}, its distance from the same run at "
+                    "twice its step; no smaller error is claimed.",
+                    figure(reference_error)));
+  if (adaptive)
+    notes.push_back(
+        "Dormand–Prince solves the bare equations of motion, without the world's step: its seconds "
+        "buy less than those of the others.");
+  return notes;
 }
 
 }  // namespace lantern::report

@@ -72,4 +72,13 @@ struct WorkCount {
 };
 WorkCount work_count(const ProblemRows& problem);
 
+// Methods whose errors agree in every run that two of them share, and in two runs at least: in
+// everything that the problem asks of them they are the same. Agreement is to a billionth, since
+// they round differently. Names, two or more a group, in order of their first rows.
+std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
+
+// What a reader must know beside the numbers: what the main norm is, how good its reference is, and
+// who is measured otherwise than the rest. A sentence each.
+std::vector<std::string> notes_on(const ProblemRows& problem);
+
 }  // namespace lantern::report

@@ -375,7 +375,7 @@ TEST_F(Shards, AreOfFoldersOnly) {
   EXPECT_NE(o.err.find("--shard divides a folder of frames"), std::string::npos) << o.err;
   EXPECT_EQ(shell(render_ + "--shard 0/3 -o " + at("out")).code, 2);
   EXPECT_EQ(shell("lantern stress cradle --shard 1/2").code, 2);
-  EXPECT_EQ(shell("lantern measure pictures --shard 1/2 -o " + at("out")).code, 2);
+  EXPECT_EQ(shell("lantern measure broad_phase --shard 1/2 -o " + at("out")).code, 2);
   EXPECT_FALSE(fs::exists(home_ / "out"));
 }
 

@@ -39,7 +39,6 @@ def commands():
         yield name + " svg", ["render", file, "--format", "svg", "-o", "OUT"]
     yield "measure", ["measure", "--no-peers", "-o", "OUT"]
     yield "measure with peers", ["measure", "-o", "OUT"]
-    yield "measure pictures", ["measure", "pictures", "-o", "OUT"]
     yield "measure broad_phase", ["measure", "broad_phase", "-o", "OUT"]
     yield "stress", ["stress", "--full", "-o", "OUT"]
     yield "bench frames", ["bench", "frames", os.path.join(ROOT, "scenarios/ghost_quadtree.toml")]

@@ -192,10 +192,7 @@ TEST(BroadPhaseCost, TextsTellEveryRow) {
   const std::vector<BroadPhaseCost> rows = measured(scenes[0]);
   const std::string csv = to_csv(rows);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), rows.size() + 1);
-  EXPECT_NE(to_json(rows, scenes).find("\"lantern.measure.broad_phase/1\""), std::string::npos);
-  const std::string sentence = sentence_about(rows, scenes[0], StructureKind::quadtree);
-  EXPECT_NE(sentence.find("For 150 clustered boxes: capacity "), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("brute force 11 175"), std::string::npos) << sentence;
+  EXPECT_NE(to_json(rows, scenes).find("\"lantern.measure.broad_phase/2\""), std::string::npos);
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST(HtmlPage, TwoMachinesLieInOnePlotAndTheirStatesAreCompared) {
 
 TEST(HtmlPage, TellsHowEnginesWereRun) {
   Measurement m = samples::measurement(1);
-  m.peers = {{"ODE", "0.16.2", {}}, {"Nobody", "1", {}}};
+  m.peers = {{"Bullet", "0.16.2", {}}, {"Nobody", "1", {}}};
   m.peers[0].settings.flags = "<some>";
   const std::string html = to_html(std::span(&m, 1), {});
   check(html);

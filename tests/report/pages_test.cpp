@@ -10,7 +10,6 @@
 #include "render/check_list.hpp"
 #include "report/measure_plots.hpp"
 #include "report/sample_rows.hpp"
-#include "report/sentences.hpp"
 
 namespace lantern::report {
 namespace {
@@ -58,13 +57,14 @@ TEST(ProblemPage, IsLaidOut) {
     }
 }
 
-TEST(ProblemPage, SaysItsSentenceItsFileAndItsCircumstances) {
+TEST(ProblemPage, SaysItsNotesItsFileAndItsCircumstances) {
   const Measurement m = samples::measurement();
   for (const ProblemRows& problem : by_problem(m.rows)) {
     const DrawList list = draw_problem(problem, m);
     EXPECT_TRUE(says_part(list, problem.problem + ".toml"));
     EXPECT_TRUE(says(list, circumstances_text(m.circumstances)));
-    EXPECT_TRUE(says_part(list, sentence(problem).substr(0, 30)));
+    for (const std::string& note : notes_on(problem))
+      EXPECT_TRUE(says_part(list, note.substr(0, 30))) << note;
     EXPECT_TRUE(says_part(list, work_count(problem).name));
     for (const MethodRows& c : by_method(problem))
       EXPECT_TRUE(says_part(list, c.is_peer ? c.method : method_words(c.method))) << c.method;

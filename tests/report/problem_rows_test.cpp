@@ -111,5 +111,39 @@ TEST(MethodWords, ReadAsWords) {
   EXPECT_EQ(method_words("Bullet"), "Bullet");
 }
 
+ProblemRows problem_of(std::vector<Row> rows) { return {"p", "p", "plain", std::move(rows)}; }
+
+TEST(Notes, DefineTheNormAndNameWhoIsMeasuredOtherwise) {
+  Row own = samples::row("dormand_prince", 0.1, 1e-9, 1e-3, 100);
+  own.norms[0] = {"depth", 0.1, "units", "deepest overlap"};
+  const std::vector<std::string> notes = notes_on(problem_of({own}));
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0], "“depth” (units): deepest overlap.");
+  EXPECT_NE(notes[1].find("without the world's step"), std::string::npos);
+  EXPECT_TRUE(notes_on(problem_of({})).empty());
+}
+
+TEST(Notes, TellHowGoodTheReferenceIs) {
+  Row fine = samples::row("velocity_verlet", 0.005, 1e-9, 0.002, 2060);
+  fine.reference_error = 3e-4;
+  EXPECT_EQ(fine.error(), 3e-4);
+  EXPECT_NE(notes_on(problem_of({fine})).back().find("is itself off by about 3e-4"),
+            std::string::npos);
+}
+
+TEST(EqualMethods, AgreeInEveryRunThatTheyShare) {
+  std::vector<Row> rows;
+  for (const char* name : {"velocity_verlet", "runge_kutta_4", "explicit_euler"})
+    for (const double h : {0.1, 0.05, 0.025})
+      rows.push_back(samples::row(name, h, h * h, 1e-4 / h, 100));
+  rows[4].norms[0].value *= 1 + 1e-12;  // by rounding
+  rows[7].norms[0].value *= 1.01;
+  EXPECT_EQ(equal_methods(problem_of(rows)),
+            (std::vector<std::vector<std::string>>{{"velocity_verlet", "runge_kutta_4"}}));
+  EXPECT_TRUE(equal_methods(problem_of({rows[0], rows[3]})).empty()) << "one run says little";
+  rows[5].status = Status::diverged;
+  EXPECT_TRUE(equal_methods(problem_of(rows)).empty());
+}
+
 }  // namespace
 }  // namespace lantern::report

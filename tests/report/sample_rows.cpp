@@ -20,7 +20,7 @@ const Method kSmooth[] = {
     {"explicit_euler", 1, 6, 0.06, 1},     {"semi_implicit_euler", 1, 2, 0.3, 1},
     {"velocity_verlet", 2, 3, 0.3, 1},     {"runge_kutta_4", 4, 4, 0.42, 4},
     {"implicit_midpoint", 2, 1.7, 1e9, 7}, {"implicit_euler", 1, 8, 1e9, 5},
-    {"Bullet", 1, 2.1, 0.3, 0, "3.25"},    {"ODE", 1, 2.4, 0.3, 0, "0.16.2"},
+    {"Bullet", 1, 2.1, 0.3, 0, "3.25"},    {"MuJoCo", 1, 2.4, 0.3, 0, "0.16.2"},
     {"Box2D", 1, 2.2, 1e9, 0, "3.1"}};
 const Method kContacts[] = {
     {"impulse:10", 1, 0.4, 1e9, 0},       {"impulse:100", 1, 0.02, 1e9, 0},
