@@ -1,4 +1,5 @@
-// Every command of the README works as it is written there.
+// Every command of the README, and of the pages that it leads to, works as it is written there.
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -61,14 +62,25 @@ fs::path look_alike() {
   return folder;
 }
 
+// The README first: the others use the scenario that it writes.
+constexpr const char* kPages[] = {"README.md",
+                                  "scenarios/PICTURES.md",
+                                  "scenarios/PIPELINES.md",
+                                  "scenarios/bench/README.md",
+                                  "tests/example/README.md",
+                                  "tests/README.md"};
+
 TEST(Readme, CommandsWork) {
-  const std::string page = read_text(repository("README.md"));
   const fs::path folder = look_alike();
-  const auto examples = blocks(page, "toml");
+  const auto examples = blocks(read_text(repository("README.md")), "toml");
   ASSERT_EQ(examples.size(), 1u) << "the first scenario";
   write_text(folder / "first.toml", examples[0]);
+  std::vector<std::string> all;
+  for (const char* page : kPages)
+    for (std::string& block : blocks(read_text(repository(page)), "sh"))
+      all.push_back(std::move(block));
   std::size_t commands = 0;
-  for (const std::string& block : blocks(page, "sh")) {
+  for (const std::string& block : all) {
     std::istringstream lines(block);
     for (std::string line; std::getline(lines, line);) {
       if (line.empty() || line == "./run test") continue;  // that one is running now
@@ -80,7 +92,7 @@ TEST(Readme, CommandsWork) {
       EXPECT_EQ(o.code, 0) << line << "\n" << o.out << o.err;
     }
   }
-  EXPECT_GE(commands, 9u);
+  EXPECT_GE(commands, 30u);
   EXPECT_TRUE(fs::exists(folder / "output" / "first" / "first_0001.png"));
   if (!kRunsAll) return;
   if (std::getenv("LANTERN_ALL") != nullptr) {
@@ -89,6 +101,11 @@ TEST(Readme, CommandsWork) {
   EXPECT_EQ(fs::exists(folder / "output" / "measure" / "overview.png"),
             std::getenv("LANTERN_ALL") != nullptr);
   EXPECT_TRUE(fs::exists(folder / "output" / "stress" / "stability_map.png"));
+}
+
+TEST(Readme, IsReadInOneSitting) {
+  const std::string page = read_text(repository("README.md"));
+  EXPECT_LE(std::count(page.begin(), page.end(), '\n'), 150);
 }
 
 TEST(Readme, ThePictureIsLanternsOwn) {
@@ -102,7 +119,7 @@ TEST(Readme, ThePictureIsLanternsOwn) {
 
 // A row a scenario, in the order of the lecture.
 TEST(Readme, ListsTheScenariosAsLanternDoes) {
-  const std::string page = read_text(repository("README.md"));
+  const std::string page = read_text(repository("scenarios/README.md"));
   std::string table = "|---|---|---|---|---|\n";
   std::set<std::string> before;
   const Outcome listed = shell("lantern list --json " + repository("scenarios").string());
