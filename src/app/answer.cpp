@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/terminal.hpp"
 #include "base/check.hpp"
 #include "base/file.hpp"

@@ -20,7 +20,7 @@ int structure_bench_command(const StructureBenchOptions& options) {
   // What all the others are held against.
   if (std::ranges::find(bench.kinds, StructureKind::brute_force) == bench.kinds.end())
     bench.kinds.insert(bench.kinds.begin(), StructureKind::brute_force);
-  bench.bodies = options.bodies;
+  bench.bodies.assign(options.bodies.begin(), options.bodies.end());
   if (bench.bodies.empty()) bench.bodies = {100, 400, 1600};
   bench.seed = options.seed;
   bench.rounds = options.rounds;

@@ -1,4 +1,4 @@
-// The subcommands: what each is told, and its exit code. Reading the command line is in main.cpp.
+// The lab's commands: what each is told, and its exit code.
 #pragma once
 
 #include <cstdint>
@@ -6,141 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/command.hpp"
+
 namespace lantern::app {
 
-// What a run of the program ends with.
-enum ExitCode {
-  kGood = 0,
-  kFailed = 1,  // an expectation, a comparison, a file; silently, if nobody reads the output
-  kUsage = 2,
-  kBadScenario = 3,
-  kNoBackend = 4,
-  kInterrupted = 130,
-};
-
-struct RenderOptions {
-  std::vector<std::string> files;
-  std::string output = "output";  // folder or file, see Destination; "-" is standard output
-  std::string sheet;              // "3x2": frames across and down a page; empty for none
-  std::string frames;             // "7", "3-9", "3-", "-9"; empty for all
-  std::string at;                 // an event or a time in seconds; empty for all
-  std::string size;               // pixels; empty for 1600x900, and for a sheet A4 across
-  int dpi = 160;                  // pixels to the inch, where a picture meets paper
-  std::string format = "png";     // png, svg
-  std::string text = "outlines";  // of SVG: outlines, text
-  std::string theme = "light";
-  std::string pace;              // step, event; empty for the scenario's own
-  std::string png = "fast";      // fast, small
-  std::string facts = "2";       // lantern.frame/2, or /1 until the next release
-  std::string backend = "auto";  // auto, osmesa, egl
-  bool transparent = false;
-  bool no_title = false, no_caption = false, no_counters = false;  // not drawn
-  bool legend = false;                                             // drawn in any case
-  bool strict = false;                                             // warnings are errors
-  int threads = 0;                                                 // that encode; 0 for one a core
-  std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
-  std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
-  bool reloading = false;  // a page loads itself again when it was made again (app/reload.hpp)
-  std::string shard = "";  // "2/4": the second of four parts; empty for all
-  std::optional<double> hold = std::nullopt;     // seconds of each still of a film
-  bool format_given = false, png_given = false;  // on the command line
-  bool json = false;
-};
-int render_command(const RenderOptions& options);
-// Renders, and again what was saved since, until Ctrl-C: exit code 130.
-int watch_command(const RenderOptions& options);
-
-// Parts that --shard has made.
-struct MergeOptions {
-  std::string output;                // folder of the whole
-  std::vector<std::string> folders;  // that shards wrote into; empty: the same
-  bool json = false;
-};
-int merge_command(const MergeOptions& options);
-
-struct CheckOptions {
-  std::vector<std::string> files;
-  std::string pace;
-  bool strict = false;  // a warning is an error
-  bool json = false;
-};
-int check_command(const CheckOptions& options);
-
-struct ListOptions {
-  std::vector<std::string> folders;
-  bool course = false;
-  bool json = false;
-};
-int list_command(const ListOptions& options);
-
-struct ExplainOptions {
-  std::string file;
-  bool json = false;
-};
-int explain_command(const ExplainOptions& options);
-
-struct ReferenceOptions {
-  std::string pictures;  // folder; empty: the page is printed
-  std::string backend = "auto";
-  bool json = false;
-};
-int reference_command(const ReferenceOptions& options);
-
-struct DoctorOptions {
-  bool json = false;
-};
-int doctor_command(const DoctorOptions& options);
-
-struct StructureListOptions {
-  bool json = false;
-};
-int structure_list_command(const StructureListOptions& options);
-
-struct StructureCheckOptions {
-  std::vector<std::string> names;  // empty for all
-  std::uint64_t worlds = 500;
-  std::uint64_t seed = 1;
-  std::string output = "output";  // folder of the scenario that shows a fault; empty for none
-  bool json = false;
-};
-int structure_check_command(const StructureCheckOptions& options);
-
 struct StructureBenchOptions {
-  std::vector<std::string> names;     // empty for all
-  std::vector<std::uint64_t> bodies;  // empty for the usual numbers
+  std::vector<std::string> names;  // empty for all
+  std::vector<int> bodies;         // empty for the usual numbers
   std::uint64_t seed = 1;
   int rounds = 9;
   std::string output;  // folder; empty for none
   bool json = false;
 };
 int structure_bench_command(const StructureBenchOptions& options);
-
-struct CompareOptions {
-  std::string expected;
-  std::string actual;
-  std::string output;  // where the difference picture goes; empty for nowhere
-  int tolerance = 0;
-  double fraction = 0;  // of the pixels that may differ
-  bool json = false;
-};
-int compare_command(const CompareOptions& options);
-
-struct GoldenOptions {
-  std::vector<std::string> files;
-  std::string folder = "golden";  // the golden frames are in folder/<scenario>
-  bool update = false;            // today's frames become the golden ones
-  std::string report;             // an HTML file, or a folder for golden.html; empty: the usual one
-  std::string junit;              // an XML file; empty for none
-  int tolerance = 0;
-  double fraction = 0;  // of the pixels that may differ
-  std::string size = "640x360";
-  std::string theme = "light";
-  std::string pace;        // step, event; empty for the scenario's own
-  std::string frames, at;  // as for render
-  std::string backend = "auto";
-  bool json = false;
-};
-int golden_command(const GoldenOptions& options);
 
 struct MeasureOptions {
   std::vector<std::string> problems;  // names, families or files; empty for all

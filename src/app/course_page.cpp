@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 

@@ -18,10 +18,10 @@ std::uint64_t within(double seconds, double fps) {
 
 }  // namespace
 
-InBetweens::InBetweens(const RenderOptions& options) {
-  number_ = options.tween.value_or(0);
-  if (options.fps) {
-    fps_ = *options.fps;
+InBetweens::InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps) {
+  number_ = tween.value_or(0);
+  if (fps) {
+    fps_ = *fps;
     number_ = within(kChange, fps_);
   }
 }

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "app/commands.hpp"
 #include "draw/tween.hpp"
 #include "scenario/frame.hpp"
 
@@ -20,7 +19,7 @@ class InBetweens {
 
   InBetweens() = default;
   // Both are asked for only of a film, which has a clock of its own (app/film_clock.hpp).
-  explicit InBetweens(const RenderOptions& options);
+  InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps);
 
   bool wanted() const { return number_ > 0; }
   // What they were asked for with: "7", "30 fps"; empty if they were not.

@@ -8,7 +8,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "base/stop.hpp"
 
 namespace lantern::app {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
-#include "app/commands.hpp"
 #include "app/shard_set.hpp"
 #include "base/json_writer.hpp"
 
@@ -15,10 +15,10 @@ class UnfitShard : public std::runtime_error {
   UnfitShard(const ShardSet& set, const FoundShard& shard, const std::string& what);
 };
 
-// Makes in options.output what one run without --shard would have made, and gives the exit code of
-// that run; `json` gets members of what was done. Nothing is written before all that the shards say
-// of themselves was found right: throws UsageError for the same shard twice with other contents,
-// UnfitShard for one that is not whole.
-int merge_frames(const ShardSet& set, const MergeOptions& options, JsonWriter& json);
+// Makes in the folder `into` what one run without --shard would have made, and gives the exit code
+// of that run; `json` gets members of what was done. Nothing is written before all that the shards
+// say of themselves was found right: throws UsageError for the same shard twice with other
+// contents, UnfitShard for one that is not whole.
+int merge_frames(const ShardSet& set, const std::string& into, JsonWriter& json);
 
 }  // namespace lantern::app

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "app/commands/command.hpp"
 #include "app/folder_sink.hpp"
 #include "app/frame_folder.hpp"
 #include "app/json_members.hpp"
@@ -254,7 +255,7 @@ Counted write_whole(const ShardSet& set, const Folder& output, MergedSequence& w
 
 }  // namespace
 
-int merge_frames(const ShardSet& set, const MergeOptions& options, JsonWriter& json) {
+int merge_frames(const ShardSet& set, const std::string& into, JsonWriter& json) {
   for (const ShardSet::Twins& twins : set.twins()) require_equal(set, twins);
   std::vector<MergedSequence> sequences;
   for (std::size_t i = 0; i < set.run().inputs.size(); ++i) {
@@ -263,7 +264,7 @@ int merge_frames(const ShardSet& set, const MergeOptions& options, JsonWriter& j
     if (whole) sequences.push_back(std::move(*whole));
   }
   std::uint64_t unmet = 0;
-  const Folder output = Folder::made(options.output);
+  const Folder output = Folder::made(into);
   require_kept_for(KeptFor::frames, output);
   json.line().key("scenarios").begin_array();
   for (MergedSequence& whole : sequences) {

@@ -40,16 +40,15 @@ RenderJob::RenderJob(const RenderOptions& o)
     : options(o),
       backend(*backend_named(o.backend)),
       format(o.format == "svg" ? FileKind::svg : FileKind::png),
-      in_betweens(o) {
+      in_betweens(o.tween, o.fps) {
   std::tie(picture.width, picture.height) =
       parse_size(o.size.empty() ? kUsualSize : o.size, Renderer::kMostPixels);
   picture.theme = *theme_named(o.theme);
   picture.transparent = o.transparent;
   picture.effort = o.png == "small" ? PngEffort::small : PngEffort::fast;
   picture.pixels_per_metre = static_cast<int>(std::lround(o.dpi / 0.0254));
-  picture.threads = o.threads > 0
-                        ? o.threads
-                        : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  picture.threads =
+      o.threads.value_or(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
 }
 
 Display RenderJob::display_of(const Frame& frame) const {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/false_references.hpp"
 #include "app/frame_folder.hpp"
 #include "app/missing_letters.hpp"

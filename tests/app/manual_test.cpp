@@ -1,19 +1,16 @@
 // Manual pages and completions say what --help says.
-#include "app/manual.hpp"
+#include "app/commands/manual.hpp"
 
-#include <functional>
-#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/command_line.hpp"
-#include "app/completions.hpp"
+#include "app/commands/command_line.hpp"
 #include "app/process.hpp"
 #include "base/program.hpp"
 
@@ -21,11 +18,6 @@ namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Told {
-  CommandWords words;
-  std::map<std::string, std::set<std::string>> options;  // by "lantern bench step": of its --help
-};
 
 // The names that stand first in the lines of a help.
 std::set<std::string> options_told(const std::string& help) {
@@ -42,19 +34,9 @@ std::set<std::string> options_told(const std::string& help) {
   return names;
 }
 
-Told told() {
-  CLI::App app;
-  Run run;
-  add_commands(app, run);
-  Told all{words_of(app), {}};
-  const std::function<void(const CLI::App&, const std::string&)> add =
-      [&](const CLI::App& command, const std::string& name) {
-        all.options[name] = options_told(command.help());
-        for (const CLI::App* c : command.get_subcommands(nullptr))
-          add(*c, name + " " + c->get_name());
-      };
-  add(app, "lantern");
-  return all;
+// Of a command's --help.
+std::set<std::string> options_told(const CommandPath& path) {
+  return options_told(help_text({path.names.begin() + 1, path.names.end()}));
 }
 
 // From the first place of `from` to the next one of `to`.
@@ -69,20 +51,17 @@ bool has_word(const std::string& text, const std::string& word) {
 }
 
 TEST(Manual, HasEveryCommandAndOptionOfTheHelp) {
-  const Told all = told();
   std::size_t options = 0;
-  const std::vector<CommandPath> paths = all_commands(all.words);
-  ASSERT_EQ(paths.size(), all.options.size());
-  for (const CommandPath& path : paths) {
-    const std::string page =
-        std::regex_replace(manual_page(path, all.words), std::regex("\\\\-"), "-");
-    EXPECT_NE(page.find(path.command->help.substr(0, 20)), std::string::npos) << page;
-    for (const std::string& name : all.options.at(joined(path.names, " "))) {
+  const std::vector<CommandPath> all = all_commands();
+  for (const CommandPath& path : all) {
+    const std::string page = std::regex_replace(manual_page(path, all), std::regex("\\\\-"), "-");
+    EXPECT_NE(page.find(std::string(path.command->help).substr(0, 20)), std::string::npos) << page;
+    for (const std::string& name : options_told(path)) {
       EXPECT_TRUE(has_word(page, "\\\\fB" + name + "\\\\fR")) << name << " of\n" << page;
       ++options;
     }
-    for (const CommandWords& c : path.command->commands)
-      EXPECT_NE(page.find("-" + c.name + " (1)"), std::string::npos) << c.name;
+    for (const auto& c : path.command->commands)
+      EXPECT_NE(page.find(fmt::format("-{} (1)", c.name)), std::string::npos) << c.name;
   }
   EXPECT_GT(options, 80u) << "the search for options found next to none: is it broken?";
 }
@@ -90,7 +69,7 @@ TEST(Manual, HasEveryCommandAndOptionOfTheHelp) {
 TEST(Manual, NamesAreThoseOfTheFiles) {
   const fs::path folder = fresh_folder("man");
   ASSERT_EQ(shell("lantern man --dir " + folder.string()).code, 0);
-  for (const CommandPath& path : all_commands(told().words))
+  for (const CommandPath& path : all_commands())
     EXPECT_TRUE(fs::exists(folder / manual_file(path))) << manual_file(path);
   EXPECT_EQ(shell("lantern man").out, read_text(folder / "lantern.1"));
   EXPECT_EQ(shell("lantern man compare").out, read_text(folder / "lantern-compare.1"));
@@ -102,20 +81,20 @@ TEST(Manual, NamesAreThoseOfTheFiles) {
 }
 
 TEST(Completions, HaveEveryCommandAndOptionOfTheHelp) {
-  const Told all = told();
-  const std::string bash = completions("bash", all.words), zsh = completions("zsh", all.words),
-                    fish = completions("fish", all.words);
-  for (const CommandPath& path : all_commands(all.words)) {
-    const std::string name = joined(path.names, " ");
+  const std::vector<CommandPath> all = all_commands();
+  const std::string bash = completions("bash", all), zsh = completions("zsh", all),
+                    fish = completions("fish", all);
+  for (const CommandPath& path : all) {
+    const std::string name = path.name(" ");
     const std::string below = name == "lantern" ? "" : name.substr(8);
     const std::string in_bash = between(bash, "\n    '" + below + "')\n", ";;\n    '");
-    const std::string in_zsh = between(zsh, "\n_" + joined(path.names, "_") + "() {", "\n}");
+    const std::string in_zsh = between(zsh, "\n_" + path.name("_") + "() {", "\n}");
     std::string in_fish;
     std::istringstream lines(fish);
     for (std::string line; std::getline(lines, line);)
       if (path.names.size() == 1 || line.find("from " + path.names.back()) != std::string::npos)
         in_fish += line + "\n";
-    for (const std::string& option : all.options.at(name)) {
+    for (const std::string& option : options_told(path)) {
       EXPECT_TRUE(has_word(in_bash, option)) << name << " " << option << "\n" << in_bash;
       EXPECT_TRUE(has_word(in_zsh, option)) << name << " " << option << "\n" << in_zsh;
       const bool is_long = option.starts_with("--");
@@ -123,10 +102,10 @@ TEST(Completions, HaveEveryCommandAndOptionOfTheHelp) {
           << name << " " << option << "\n"
           << in_fish;
     }
-    for (const CommandWords& c : path.command->commands) {
+    for (const auto& c : path.command->commands) {
       EXPECT_TRUE(has_word(in_bash, c.name)) << c.name;
       EXPECT_TRUE(has_word(in_zsh, c.name)) << c.name;
-      EXPECT_TRUE(has_word(in_fish, "-a " + c.name)) << c.name;
+      EXPECT_TRUE(has_word(in_fish, fmt::format("-a {}", c.name))) << c.name;
     }
   }
 }

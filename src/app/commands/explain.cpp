@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/progress.hpp"
 #include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
@@ -14,6 +14,17 @@
 
 namespace lantern::app {
 namespace {
+
+struct ExplainOptions {
+  std::string file;
+  bool json = false;
+};
+
+Options explain_options(ExplainOptions& o) {
+  return {{"FILE", &o.file, "scenario file; - is standard input", {.required = true}},
+          memory_option(),
+          json_option(o.json)};
+}
 
 // "60 searches, 1 candidate pair; 10.3 s passed": of amounts behind the first only what there is.
 std::string told(const StageTally& stage) {
@@ -40,9 +51,7 @@ std::string json_of(const Scenario& scenario, const std::vector<StageTally>& sta
   return json.text();
 }
 
-}  // namespace
-
-int explain_command(const ExplainOptions& options) {
+int explain_scenario(const ExplainOptions& options) {
   const Scenario scenario = load_scenario(scenario_file(options.file));
   Work work;
   Tally tally(scenario, work);
@@ -70,6 +79,13 @@ int explain_command(const ExplainOptions& options) {
                     scenario.name, scenario.title, table(rows), counted(report.frames, "frame"),
                     seconds));
   return kGood;
+}
+
+}  // namespace
+
+Command explain_command() {
+  return command("explain", "Run a scenario without pixels, tell what each stage did",
+                 explain_scenario, explain_options);
 }
 
 }  // namespace lantern::app

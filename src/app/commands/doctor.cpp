@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/terminal.hpp"
 #include "base/json_writer.hpp"
 #include "base/printable.hpp"
@@ -15,6 +15,12 @@
 
 namespace lantern::app {
 namespace {
+
+struct DoctorOptions {
+  bool json = false;
+};
+
+Options doctor_options(DoctorOptions& o) { return {json_option(o.json)}; }
 
 // What Lantern can be measured beside: other physics engines, other libraries of boxes.
 struct PeerReport {
@@ -62,9 +68,7 @@ std::string as_text(const std::vector<BackendReport>& reports, const std::string
   return text;
 }
 
-}  // namespace
-
-int doctor_command(const DoctorOptions& options) {
+int examine(const DoctorOptions& options) {
   const std::vector<BackendReport> reports = examine_backends();
   const auto found = find_program("ffmpeg");
   const std::string ffmpeg = found ? found->string() : "";
@@ -86,6 +90,12 @@ int doctor_command(const DoctorOptions& options) {
   json.line().end_object();
   options.json ? answer(json.text()) : print(as_text(reports, printable(ffmpeg), peers, box_peers));
   return any ? kGood : kNoBackend;
+}
+
+}  // namespace
+
+Command doctor_command() {
+  return command("doctor", "Graphics backends found, and what to install", examine, doctor_options);
 }
 
 }  // namespace lantern::app

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/course_page.hpp"
 #include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
@@ -11,6 +11,21 @@
 
 namespace lantern::app {
 namespace {
+
+struct ListOptions {
+  std::vector<std::string> folders;
+  bool course = false, json = false;
+};
+
+Options list_options(ListOptions& o) {
+  return {{"DIR", &o.folders, "folders or files; the default is scenarios"},
+          json_option(o.json),
+          {"--course",
+           &o.course,
+           "run them, and print the course as Markdown: ideas, what comes before, questions "
+           "with their answers",
+           {.without = "--json"}}};
+}
 
 std::vector<std::string> row_of(const Scenario& s) {
   return {s.lecture ? fmt::format("{}", *s.lecture) : "", s.name, s.title, s.idea,
@@ -33,9 +48,7 @@ void add_member(JsonWriter& json, const Scenario& s) {
   json.end_object();
 }
 
-}  // namespace
-
-int list_command(const ListOptions& options) {
+int list_scenarios(const ListOptions& options) {
   std::vector<std::string> words = options.folders;
   if (words.empty()) {
     const auto folders = scenario_folders();
@@ -56,6 +69,13 @@ int list_command(const ListOptions& options) {
   json.line().end_array().line().end_object();
   options.json ? answer(json.text()) : print(table(rows));
   return code;
+}
+
+}  // namespace
+
+Command list_command() {
+  return command("list", "List the scenarios in a folder in the order of a lecture", list_scenarios,
+                 list_options);
 }
 
 }  // namespace lantern::app

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/forecast.hpp"
 #include "app/golden_list.hpp"
 #include "app/golden_sink.hpp"
@@ -28,6 +28,47 @@
 
 namespace lantern::app {
 namespace {
+
+struct GoldenOptions {
+  std::vector<std::string> files;
+  std::string folder = "golden";  // the golden frames are in folder/<scenario>
+  bool update = false;            // today's frames become the golden ones
+  std::string report;             // an HTML file, or a folder for golden.html; empty: the usual one
+  std::string junit;              // an XML file; empty for none
+  int tolerance = 0;
+  double fraction = 0;  // of the pixels that may differ
+  std::string size = "640x360";
+  std::string theme = "light";
+  std::string pace;        // step, event; empty for the scenario's own
+  std::string frames, at;  // as for render
+  std::string backend = "auto";
+  bool json = false;
+};
+
+Options golden_options(GoldenOptions& o) {
+  return {{"FILE", &o.files, "scenario files", {.required = true}},
+          {"--update", &o.update, "make today's frames the golden ones: writes what changed"},
+          {"--dir", &o.folder, "the golden frames are in DIR/<scenario>", {.value = "DIR"}},
+          {"--report",
+           &o.report,
+           "page of what differs, with pictures side by side: a file, or a folder for "
+           "golden.html; without it output/golden.html, made only if something differs",
+           {.value = "PATH", .without = "--update"}},
+          {"--junit",
+           &o.junit,
+           "findings as JUnit's XML, for whatever builds and tests",
+           {.value = "FILE", .without = "--update"}},
+          tolerance_option(o.tolerance),
+          fraction_option(o.fraction),
+          {"--size", &o.size, "pixels", {.value = "WxH"}},
+          {"--theme", &o.theme, "colours", {.words = kThemes}},
+          pace_option(o.pace),
+          {"--frames", &o.frames, "as for render", {.value = "A-B"}},
+          {"--at", &o.at, "as for render", {.value = "EVENT|TIME"}},
+          backend_option(o.backend),
+          memory_option(),
+          json_option(o.json)};
+}
 
 namespace fs = std::filesystem;
 
@@ -299,8 +340,14 @@ class GoldenRun {
   int code_ = kGood;
 };
 
+int hold_against_goldens(const GoldenOptions& options) { return GoldenRun(options).run(); }
+
 }  // namespace
 
-int golden_command(const GoldenOptions& options) { return GoldenRun(options).run(); }
+Command golden_command() {
+  return command("golden",
+                 "Compare scenarios' pictures and facts with golden ones, or update those",
+                 hold_against_goldens, golden_options);
+}
 
 }  // namespace lantern::app

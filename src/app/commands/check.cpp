@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
 #include "app/scenario_folder.hpp"
@@ -13,6 +13,20 @@
 
 namespace lantern::app {
 namespace {
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  std::string pace;
+  bool strict = false, json = false;
+};
+
+Options check_options(CheckOptions& o) {
+  return {{"FILE", &o.files, kFilesHelp, {.required = true}},
+          pace_option(o.pace),
+          memory_option(),
+          {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
+          json_option(o.json)};
+}
 
 // Frames that nobody looks at.
 class NoSink : public FrameSink {
@@ -97,9 +111,7 @@ std::string summary_of(const Verdict& v) {
   return text;
 }
 
-}  // namespace
-
-int check_command(const CheckOptions& options) {
+int check_scenarios(const CheckOptions& options) {
   Work work;
   JsonWriter json = answer_of("check");
   json.line().key("scenarios").begin_array();
@@ -111,10 +123,17 @@ int check_command(const CheckOptions& options) {
     if (v.code == kGood && !options.json) say(summary_of(v));
   }
   json.line().end_array().line().key("work");
-  write(json, work);
+  app::write(json, work);
   json.line().end_object();
   if (options.json) answer(json.text());
   return code;
+}
+
+}  // namespace
+
+Command check_command() {
+  return command("check", "Run scenarios without drawing, verify expectations", check_scenarios,
+                 check_options);
 }
 
 }  // namespace lantern::app

@@ -1,3 +1,5 @@
+#include "render/compare.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -11,20 +13,39 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/kept_files.hpp"
 #include "app/named_files.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
-#include "render/compare.hpp"
 #include "render/compare_facts.hpp"
 #include "render/png.hpp"
 #include "render/seal.hpp"
 
 namespace lantern::app {
 namespace {
+
+struct CompareOptions {
+  std::string expected, actual;
+  std::string output;  // where the difference picture goes; empty for nowhere
+  int tolerance = 0;
+  double fraction = 0;  // of the pixels that may differ
+  bool json = false;
+};
+
+Options compare_options(CompareOptions& o) {
+  return {{"EXPECTED", &o.expected, "picture, facts or folder", {.required = true}},
+          {"ACTUAL", &o.actual, "picture, facts or folder", {.required = true}},
+          {"-o,--output",
+           &o.output,
+           "where the difference picture goes (a folder when folders are compared)",
+           {.value = "PATH"}},
+          tolerance_option(o.tolerance),
+          fraction_option(o.fraction),
+          json_option(o.json)};
+}
 
 namespace fs = std::filesystem;
 
@@ -162,9 +183,7 @@ std::vector<Result> compare_two_files(const CompareOptions& o) {
   return {FileComparison(a, b, o).result(picture)};
 }
 
-}  // namespace
-
-int compare_command(const CompareOptions& options) {
+int compare_paths(const CompareOptions& options) {
   std::error_code error;
   for (const std::string& input : {options.expected, options.actual}) {
     if (!fs::exists(input, error)) throw IoError(fmt::format("there is no '{}'", input));
@@ -195,6 +214,13 @@ int compare_command(const CompareOptions& options) {
   if (folders && !options.json)
     say(fmt::format("{} of {} differ", different, counted(results.size(), "file")));
   return different == 0 ? kGood : kFailed;
+}
+
+}  // namespace
+
+Command compare_command() {
+  return command("compare", "Compare two PNG, SVG or JSON files, or two folders of them",
+                 compare_paths, compare_options);
 }
 
 }  // namespace lantern::app

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/destination.hpp"
 #include "app/reload.hpp"
 #include "app/render_job.hpp"
@@ -24,7 +24,7 @@ constexpr auto kLook = std::chrono::milliseconds(25);  // a signal is heard as s
 // is said, and the watch goes on. A machine without graphics will not be.
 void render_and_tell(const RenderOptions& options) {
   try {
-    render_command(options);
+    draw_scenarios(options);
   } catch (const UsageError& e) {
     complain(e.what());
   } catch (const IoError& e) {
@@ -34,7 +34,7 @@ void render_and_tell(const RenderOptions& options) {
 
 }  // namespace
 
-int watch_command(const RenderOptions& asked) {
+int watch_scenarios(const RenderOptions& asked) {
   RenderOptions options = asked;
   options.reloading = true;
   const RenderJob checked(options);  // words that no save can mend

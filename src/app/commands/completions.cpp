@@ -1,5 +1,3 @@
-#include "app/completions.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -7,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/commands/manual.hpp"
 #include "base/check.hpp"
 
 namespace lantern::app {
@@ -19,28 +18,17 @@ std::string in_quotes(std::string_view text) {
   return out + "'";
 }
 
-std::string all_names(const CommandWords& command) {
-  std::vector<std::string> names;
-  for (const OptionWords& o : command.options)
-    names.insert(names.end(), o.names.begin(), o.names.end());
-  return fmt::format("{}", fmt::join(names, " "));
-}
+std::string spaced(const Words& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-const OptionWords* first_positional(const CommandWords& command) {
-  for (const OptionWords& o : command.options)
-    if (o.is_positional()) return &o;
-  return nullptr;
-}
-
-std::string names_of_commands(const CommandWords& command) {
-  std::vector<std::string> names;
-  for (const CommandWords& c : command.commands) names.push_back(c.name);
-  return fmt::format("{}", fmt::join(names, " "));
+std::string names_of_commands(const CommandPath& path) {
+  Words names;
+  for (const Command& c : path.command->commands) names.emplace_back(c.name);
+  return spaced(names);
 }
 
 // "bench step"; nothing for the program itself.
 std::string below_root(const CommandPath& path) {
-  return joined({path.names.begin() + 1, path.names.end()}, " ");
+  return spaced({path.names.begin() + 1, path.names.end()});
 }
 
 // ---- bash
@@ -49,8 +37,7 @@ std::string below_root(const CommandPath& path) {
 std::string bash_offer(const OptionWords& o) {
   switch (o.kind) {
     case ValueKind::words:
-      return fmt::format("_lantern_words {}",
-                         in_quotes(fmt::format("{}", fmt::join(o.choices, " "))));
+      return "_lantern_words " + in_quotes(spaced(o.words));
     case ValueKind::scenario:
       return "_lantern_scenarios";
     case ValueKind::folder:
@@ -66,7 +53,7 @@ std::string bash_offer(const OptionWords& o) {
 
 std::string bash_values(const CommandPath& path) {
   std::string text;
-  for (const OptionWords& o : path.command->options) {
+  for (const OptionWords& o : path.options) {
     if (o.is_positional() || o.kind == ValueKind::none) continue;
     std::vector<std::string> patterns;
     for (const std::string& name : o.names)
@@ -78,13 +65,16 @@ std::string bash_values(const CommandPath& path) {
 }
 
 std::string bash_rest(const CommandPath& path) {
-  const CommandWords& command = *path.command;
-  const OptionWords* word = first_positional(command);
-  std::string otherwise = word ? bash_offer(*word) : "return";
-  if (!command.commands.empty())
-    otherwise = fmt::format("_lantern_words {}", in_quotes(names_of_commands(command)));
+  std::string otherwise = "return";
+  Words names;
+  for (const OptionWords& o : path.options) {
+    if (o.is_positional() && otherwise == "return") otherwise = bash_offer(o);
+    names.insert(names.end(), o.names.begin(), o.names.end());
+  }
+  if (!path.command->commands.empty())
+    otherwise = "_lantern_words " + in_quotes(names_of_commands(path));
   return fmt::format("    {})\n      if [[ $cur == -* ]]; then _lantern_words {}; else {}; fi ;;\n",
-                     in_quotes(below_root(path)), in_quotes(all_names(command)), otherwise);
+                     in_quotes(below_root(path)), in_quotes(spaced(names)), otherwise);
 }
 
 constexpr const char* kBashHead =
@@ -111,12 +101,11 @@ _lantern() {
     case "$command ${COMP_WORDS[i]}" in
 )";
 
-std::string for_bash(const CommandWords& root) {
+std::string for_bash(const std::vector<CommandPath>& all) {
   std::string text = kBashHead;
-  const std::vector<CommandPath> all = all_commands(root);
   for (const CommandPath& path : all) {
     if (path.names.size() == 1) continue;
-    const std::string above = joined({path.names.begin() + 1, path.names.end() - 1}, " ");
+    const std::string above = spaced({path.names.begin() + 1, path.names.end() - 1});
     text += fmt::format("      {}) command={} ;;\n", in_quotes(above + " " + path.names.back()),
                         in_quotes(below_root(path)));
   }
@@ -129,7 +118,7 @@ std::string for_bash(const CommandWords& root) {
 
 // ---- zsh
 
-std::string zsh_function(const CommandPath& path) { return "_" + joined(path.names, "_"); }
+std::string zsh_function(const CommandPath& path) { return "_" + path.name("_"); }
 
 // Brackets and colons divide a line of _arguments.
 std::string zsh_text(std::string_view text) {
@@ -144,7 +133,7 @@ std::string zsh_text(std::string_view text) {
 std::string zsh_action(const OptionWords& o) {
   switch (o.kind) {
     case ValueKind::words:
-      return fmt::format("({})", fmt::join(o.choices, " "));
+      return "(" + spaced(o.words) + ")";
     case ValueKind::scenario:
       return "_files -g \"*.toml\"";
     case ValueKind::folder:
@@ -174,9 +163,9 @@ std::string zsh_option(const OptionWords& o) {
 
 std::string zsh_arguments(const CommandPath& path, const char* flags) {
   std::string text = std::string("  _arguments ") + flags;
-  for (const OptionWords& o : path.command->options)
+  for (const OptionWords& o : path.options)
     if (!o.is_positional()) text += zsh_option(o);
-  for (const OptionWords& o : path.command->options)
+  for (const OptionWords& o : path.options)
     if (o.is_positional())
       text += " \\\n    " + in_quotes(fmt::format("{}:{}:{}", o.repeats ? "*" : "",
                                                   zsh_text(o.value), zsh_action(o)));
@@ -186,11 +175,9 @@ std::string zsh_arguments(const CommandPath& path, const char* flags) {
 // A command that has commands of its own: their names, then whatever they take.
 std::string zsh_branches(const CommandPath& path) {
   std::string names, branches;
-  for (const CommandWords& c : path.command->commands) {
-    std::vector<std::string> below = path.names;
-    below.push_back(c.name);
+  for (const Command& c : path.command->commands) {
     names += "\n    " + in_quotes(zsh_text(c.name) + ":" + zsh_text(c.help));
-    branches += fmt::format("        {}) {} ;;\n", c.name, zsh_function({below, &c}));
+    branches += fmt::format("        {}) {}_{} ;;\n", c.name, zsh_function(path), c.name);
   }
   return fmt::format(
       "  local state line\n  local -a commands=({})\n{} \\\n    ': :->command' '*:: :->rest'\n"
@@ -201,9 +188,9 @@ std::string zsh_branches(const CommandPath& path) {
       branches);
 }
 
-std::string for_zsh(const CommandWords& root) {
+std::string for_zsh(const std::vector<CommandPath>& all) {
   std::string text = "#compdef lantern\n";
-  for (const CommandPath& path : all_commands(root))
+  for (const CommandPath& path : all)
     text += fmt::format(
         "{}() {{\n{}}}\n", zsh_function(path),
         path.command->commands.empty() ? zsh_arguments(path, "-s -S") + "\n" : zsh_branches(path));
@@ -218,14 +205,14 @@ std::string fish_condition(const CommandPath& path) {
   for (std::size_t i = 1; i < path.names.size(); ++i)
     parts.push_back("__fish_seen_subcommand_from " + path.names[i]);
   if (!path.command->commands.empty())
-    parts.push_back("not __fish_seen_subcommand_from " + names_of_commands(*path.command));
+    parts.push_back("not __fish_seen_subcommand_from " + names_of_commands(path));
   return in_quotes(fmt::format("{}", fmt::join(parts, "; and ")));
 }
 
 std::string fish_values(const OptionWords& o) {
   switch (o.kind) {
     case ValueKind::words:
-      return fmt::format(" -a {}", in_quotes(fmt::format("{}", fmt::join(o.choices, " "))));
+      return fmt::format(" -a {}", in_quotes(spaced(o.words)));
     case ValueKind::scenario:
       return " -k -a '(__fish_complete_suffix .toml)'";
     case ValueKind::folder:
@@ -249,13 +236,13 @@ std::string fish_line(const CommandPath& path, const OptionWords& o) {
                      in_quotes(o.help));
 }
 
-std::string for_fish(const CommandWords& root) {
+std::string for_fish(const std::vector<CommandPath>& all) {
   std::string text = "complete -c lantern -f\n";
-  for (const CommandPath& path : all_commands(root)) {
-    for (const CommandWords& c : path.command->commands)
+  for (const CommandPath& path : all) {
+    for (const Command& c : path.command->commands)
       text += fmt::format("complete -c lantern -n {} -a {} -d {}\n", fish_condition(path), c.name,
                           in_quotes(c.help));
-    for (const OptionWords& o : path.command->options)
+    for (const OptionWords& o : path.options)
       if (!o.is_positional() || o.kind != ValueKind::free) text += fish_line(path, o);
   }
   return text;
@@ -263,11 +250,11 @@ std::string for_fish(const CommandWords& root) {
 
 }  // namespace
 
-std::string completions(std::string_view shell, const CommandWords& root) {
-  if (shell == "bash") return for_bash(root);
-  if (shell == "zsh") return for_zsh(root);
+std::string completions(std::string_view shell, const std::vector<CommandPath>& all) {
+  if (shell == "bash") return for_bash(all);
+  if (shell == "zsh") return for_zsh(all);
   LANTERN_CHECK(shell, ==, "fish");
-  return for_fish(root);
+  return for_fish(all);
 }
 
 }  // namespace lantern::app

@@ -20,6 +20,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct StructureListOptions {
+  bool json = false;
+};
+
+Options structure_list_options(StructureListOptions& o) { return {json_option(o.json)}; }
+
+struct StructureCheckOptions {
+  std::vector<std::string> names;  // empty for all
+  int worlds = 500;
+  std::uint64_t seed = 1;
+  std::string output = "output";  // folder of the scenario that shows a fault; empty for none
+  bool json = false;
+};
+
+Options structure_check_options(StructureCheckOptions& o) {
+  return {
+      {"NAME", &o.names, "structures; the default is all of them"},
+      {"--worlds", &o.worlds, "how many worlds", {.value = "N", .least = 1, .most = 10'000'000}},
+      seed_option(o.seed, "of the random worlds"),
+      {"-o,--output", &o.output, "folder for NAME_fails.toml", {.value = "DIR"}},
+      json_option(o.json)};
+}
+
+Options structure_bench_options(StructureBenchOptions& o) {
+  return {{"NAME", &o.names, "structures; the default is all of them"},
+          {"--bodies",
+           &o.bodies,
+           "how many bodies; the default is 100, 400 and 1600",
+           {.value = "N", .least = 2, .most = 1'000'000, .one_each = true}},
+          seed_option(o.seed, "of the random worlds"),
+          {"--rounds", &o.rounds, "repeats; the median counts", {.least = 1, .most = 1000}},
+          {"-o,--output", &o.output, "folder for bench_structure.csv and .json", {.value = "DIR"}},
+          memory_option(),
+          json_option(o.json)};
+}
+
 std::string point(const Vec<2>& p) { return fmt::format("[{}, {}]", p.x, p.y); }
 
 void write_step(std::string& text, const std::string& what) { text += "\n[[step]]\n" + what; }
@@ -98,6 +134,47 @@ void write(JsonWriter& json, const Trial& trial, const std::string& file) {
   json.end_object();
 }
 
+int list_structures(const StructureListOptions& options) {
+  std::vector<std::vector<std::string>> rows;
+  JsonWriter json = answer_of("structure.list");
+  json.line().key("structures").begin_array();
+  for (const StructureKind kind : known_structures()) {
+    const StructureTraits traits = traits_of(kind);
+    rows.push_back(
+        {std::string(to_string(kind)), std::string(traits.words), traits.is_own ? "your own" : ""});
+    json.line().begin_object().members("name", to_string(kind), "words", traits.words, "own",
+                                       traits.is_own);
+    json.end_object();
+  }
+  json.line().end_array().end_object();
+  options.json ? answer(json.text()) : print(table(rows));
+  return kGood;
+}
+
+int check_structures(const StructureCheckOptions& options) {
+  const std::vector<StructureKind> kinds = structures_called(options.names);
+  JsonWriter json = answer_of("structure.check");
+  json.line().member("seed", options.seed);
+  json.key("structures").begin_array();
+  int code = kGood;
+  for (const StructureKind kind : kinds) {
+    const Trial trial =
+        try_structure(kind, static_cast<std::uint64_t>(options.worlds), options.seed);
+    const std::string file = write_scenario(trial, options.output);
+    write(json, trial, file);
+    if (trial.failed > 0) {
+      tell_fault(trial, file);
+      code = kFailed;
+    } else if (!options.json) {
+      say(fmt::format("{}: good; in {} the pairs are those of brute force", to_string(kind),
+                      counted(trial.worlds, "world")));
+    }
+  }
+  json.line().end_array().end_object();
+  if (options.json) answer(json.text());
+  return code;
+}
+
 }  // namespace
 
 std::vector<StructureKind> structures_called(const std::vector<std::string>& names) {
@@ -121,44 +198,18 @@ std::vector<StructureKind> structures_called(const std::vector<std::string>& nam
   return chosen;
 }
 
-int structure_list_command(const StructureListOptions& options) {
-  std::vector<std::vector<std::string>> rows;
-  JsonWriter json = answer_of("structure.list");
-  json.line().key("structures").begin_array();
-  for (const StructureKind kind : known_structures()) {
-    const StructureTraits traits = traits_of(kind);
-    rows.push_back(
-        {std::string(to_string(kind)), std::string(traits.words), traits.is_own ? "your own" : ""});
-    json.line().begin_object().members("name", to_string(kind), "words", traits.words, "own",
-                                       traits.is_own);
-    json.end_object();
-  }
-  json.line().end_array().end_object();
-  options.json ? answer(json.text()) : print(table(rows));
-  return kGood;
-}
-
-int structure_check_command(const StructureCheckOptions& options) {
-  const std::vector<StructureKind> kinds = structures_called(options.names);
-  JsonWriter json = answer_of("structure.check");
-  json.line().member("seed", options.seed);
-  json.key("structures").begin_array();
-  int code = kGood;
-  for (const StructureKind kind : kinds) {
-    const Trial trial = try_structure(kind, options.worlds, options.seed);
-    const std::string file = write_scenario(trial, options.output);
-    write(json, trial, file);
-    if (trial.failed > 0) {
-      tell_fault(trial, file);
-      code = kFailed;
-    } else if (!options.json) {
-      say(fmt::format("{}: good; in {} the pairs are those of brute force", to_string(kind),
-                      counted(trial.worlds, "world")));
-    }
-  }
-  json.line().end_array().end_object();
-  if (options.json) answer(json.text());
-  return code;
+Command structure_command() {
+  return {"structure",
+          "The spatial structures, and those of your own: list, check, bench",
+          nullptr,
+          {command("list", "List the structures that this program knows", list_structures,
+                   structure_list_options),
+           command("check",
+                   "Hold structures against brute force on random worlds; the smallest world on "
+                   "which one fails is told and written as a scenario",
+                   check_structures, structure_check_options),
+           command("bench", "Time structures beside each other and brute force, in turns",
+                   structure_bench_command, structure_bench_options)}};
 }
 
 }  // namespace lantern::app

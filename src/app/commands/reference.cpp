@@ -1,4 +1,6 @@
-// The pictures of the reference page.
+// The reference page, its pictures, and the schemas.
+#include "scenario/reference.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -6,24 +8,55 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
+#include "embedded/output_schema.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/seal.hpp"
 #include "render/svg.hpp"
 #include "scenario/director.hpp"
-#include "scenario/reference.hpp"
 
 namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct ReferenceOptions {
+  std::string pictures;  // folder; empty: the page is printed
+  std::string backend = "auto";
+  bool json = false;
+};
+
+Options reference_options(ReferenceOptions& o) {
+  return {{"--pictures",
+           &o.pictures,
+           "draw the page's pictures into this folder instead",
+           {.value = "DIR"}},
+          backend_option(o.backend),
+          json_option(o.json)};
+}
+
+struct SchemaOptions {
+  std::string of = "scenario";
+};
+
+Options schema_options(SchemaOptions& o) {
+  return {{"--of",
+           &o.of,
+           "scenario files, or what commands print with --json",
+           {.words = {"scenario", "output"}}}};
+}
+
+int print_schema(const SchemaOptions& o) {
+  write_stdout(o.of == "output" ? std::string(output::output_schema_json) : json_schema());
+  return kGood;
+}
 
 constexpr int kWidth = 320, kHeight = 180;  // pixels
 
@@ -104,9 +137,7 @@ int draw_pictures(const ReferenceOptions& options) {
   return kGood;
 }
 
-}  // namespace
-
-int reference_command(const ReferenceOptions& options) {
+int print_reference(const ReferenceOptions& options) {
   if (!options.pictures.empty()) return draw_pictures(options);
   if (options.json)
     answer(answer_of("reference")
@@ -118,6 +149,17 @@ int reference_command(const ReferenceOptions& options) {
   else
     write_stdout(reference_page());
   return kGood;
+}
+
+}  // namespace
+
+Command reference_command() {
+  return command("reference", "Print the scenario language's reference page (Markdown)",
+                 print_reference, reference_options);
+}
+
+Command schema_command() {
+  return command("schema", "Print a JSON Schema", print_schema, schema_options);
 }
 
 }  // namespace lantern::app

@@ -1,12 +1,14 @@
-#include "app/manual.hpp"
+#include "app/commands/manual.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
 
-#include "app/command_line.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
 #include "embedded/version.hpp"
 
 namespace lantern::app {
@@ -53,22 +55,12 @@ std::string placeholder(const OptionWords& o) {
 }
 
 std::string synopsis_of(const CommandPath& path) {
-  std::string text = bold(joined(path.names, " "));
-  if (!path.command->options.empty()) text += " [" + italic("OPTION") + "...]";
+  std::string text = bold(path.name(" "));
+  if (!path.options.empty()) text += " [" + italic("OPTION") + "...]";
   if (!path.command->commands.empty()) text += " " + italic("COMMAND");
-  for (const OptionWords& o : path.command->options)
+  for (const OptionWords& o : path.options)
     if (o.is_positional()) text += " " + placeholder(o);
   return ".SH SYNOPSIS\n" + text + "\n";
-}
-
-// CLI11 says NONNEGATIVE, POSITIVE, INT in [0 - 255].
-std::string limits_in_words(std::string_view limits) {
-  if (limits == "NONNEGATIVE") return "0 or more";
-  if (limits == "POSITIVE") return "above 0";
-  const auto from = limits.find('['), dash = limits.find(" - ");
-  if (from == std::string_view::npos || dash == std::string_view::npos) return std::string(limits);
-  return fmt::format("{} to {}", limits.substr(from + 1, dash - from - 1),
-                     limits.substr(dash + 3, limits.find(']') - dash - 3));
 }
 
 // Sentences: what it does, which words it takes, what it is without.
@@ -76,8 +68,8 @@ std::string sentences_on(const OptionWords& o) {
   std::string text = o.help;
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   if (!text.empty() && !text.ends_with('.')) text += ".";
-  if (!o.choices.empty()) text += fmt::format(" One of: {}.", fmt::join(o.choices, ", "));
-  if (!o.limits.empty()) text += fmt::format(" Allowed: {}.", limits_in_words(o.limits));
+  if (!o.words.empty()) text += fmt::format(" One of: {}.", fmt::join(o.words, ", "));
+  if (!o.limits.empty()) text += fmt::format(" Allowed: {}.", o.limits);
   if (!o.by_default.empty()) text += fmt::format(" The default is {}.", o.by_default);
   if (o.repeats && !o.is_positional()) text += " May be given several times.";
   return text;
@@ -93,30 +85,26 @@ std::string manual_item(const OptionWords& o) {
   return ".TP\n" + head + "\n" + paragraph(sentences_on(o));
 }
 
-std::string options_of(const CommandWords& command, bool positional, const char* title) {
+std::string items_of(const CommandPath& path, bool positional, const char* title) {
   std::string text;
-  for (const OptionWords& o : command.options)
+  for (const OptionWords& o : path.options)
     if (o.is_positional() == positional) text += manual_item(o);
   return text.empty() ? "" : fmt::format(".SH {}\n", title) + text;
 }
 
-std::string reference_to(const std::vector<std::string>& names) {
-  return ".BR " + roff_escaped(joined(names, "-")) + " (1)";
-}
+std::string reference_to(std::string_view name) { return ".BR " + roff_escaped(name) + " (1)"; }
 
 std::string commands_of(const CommandPath& path) {
   std::string text;
-  for (const CommandWords& c : path.command->commands) {
-    std::vector<std::string> names = path.names;
-    names.push_back(c.name);
-    text += ".TP\n" + reference_to(names) + "\n" + paragraph(c.help + ".");
-  }
+  for (const Command& c : path.command->commands)
+    text += fmt::format(".TP\n{}\n{}", reference_to(path.name("-") + "-" + c.name),
+                        paragraph(std::string(c.help) + "."));
   return text.empty() ? "" : ".SH COMMANDS\n" + text;
 }
 
 std::string exit_status() {
   std::string text = ".SH EXIT STATUS\n";
-  for (const ExitMeaning& exit : exit_codes())
+  for (const ExitMeaning& exit : kExitCodes)
     text += fmt::format(".TP\n.B {}\n{}", exit.code, paragraph(exit.means));
   return text;
 }
@@ -141,43 +129,96 @@ std::string surroundings() {
 }
 
 // The pages above and below.
-std::string see_also(const CommandPath& path, const CommandWords& root) {
-  std::vector<std::vector<std::string>> others;
-  for (const CommandPath& other : all_commands(root)) {
+std::string see_also(const CommandPath& path, const std::vector<CommandPath>& all) {
+  Words others;
+  for (const CommandPath& other : all) {
     const bool is_above = path.names.size() == other.names.size() + 1 &&
                           std::equal(other.names.begin(), other.names.end(), path.names.begin());
     const bool is_below = other.names.size() == path.names.size() + 1 &&
                           std::equal(path.names.begin(), path.names.end(), other.names.begin());
-    if (is_above || is_below) others.push_back(other.names);
+    if (is_above || is_below) others.push_back(other.name("-"));
   }
   std::string text = ".SH SEE ALSO\n";
-  for (const auto& names : others)
-    text += reference_to(names) + (&names == &others.back() ? "\n" : " ,\n");
+  for (const std::string& name : others)
+    text += reference_to(name) + (&name == &others.back() ? "\n" : " ,\n");
   return text;
 }
 
 }  // namespace
 
-std::string manual_file(const CommandPath& path) { return joined(path.names, "-") + ".1"; }
+std::string manual_file(const CommandPath& path) { return path.name("-") + ".1"; }
 
-std::string manual_page(const CommandPath& path, const CommandWords& root) {
-  const CommandWords& command = *path.command;
-  const bool is_root = path.names.size() == 1;
-  std::string title = joined(path.names, "-");
+std::string manual_page(const CommandPath& path, const std::vector<CommandPath>& all) {
+  const std::string title = path.name("-");
   std::string upper = title;
   std::ranges::transform(upper, upper.begin(),
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::string help = command.help;
+  std::string help = path.command->help;
   if (help.ends_with('.')) help.pop_back();
-  std::string text = fmt::format(".TH {} 1 \"\" \"Lantern {}\" \"User Commands\"\n",
-                                 roff_escaped(upper), kVersion);
-  text +=
-      ".SH NAME\n" + roff_escaped(title) + " \\- " + roff_escaped(help) + "\n" + synopsis_of(path);
-  text += ".SH DESCRIPTION\n" + paragraph(help + ".");
-  text += options_of(command, true, "ARGUMENTS") + options_of(command, false, "OPTIONS");
-  text += commands_of(path);
-  if (is_root) text += surroundings();
-  return text + exit_status() + see_also(path, root);
+  return fmt::format(".TH {} 1 \"\" \"Lantern {}\" \"User Commands\"\n", roff_escaped(upper),
+                     kVersion) +
+         ".SH NAME\n" + roff_escaped(title) + " \\- " + roff_escaped(help) + "\n" +
+         synopsis_of(path) + ".SH DESCRIPTION\n" + paragraph(help + ".") +
+         items_of(path, true, "ARGUMENTS") + items_of(path, false, "OPTIONS") + commands_of(path) +
+         (path.names.size() == 1 ? surroundings() : "") + exit_status() + see_also(path, all);
+}
+
+namespace {
+
+struct ManualOptions {
+  Words names;         // of a command; none for the program itself
+  std::string folder;  // empty: one page is printed
+};
+
+Options manual_options(ManualOptions& o) {
+  return {{"COMMAND", &o.names, "the command; the default is all of Lantern"},
+          {"--dir",
+           &o.folder,
+           "write every page into this folder instead",
+           {.value = "DIR", .without = "COMMAND"}}};
+}
+
+int write_manual(const ManualOptions& options) {
+  const std::vector<CommandPath> all = all_commands();
+  if (!options.folder.empty()) {
+    make_folder(options.folder);
+    for (const CommandPath& path : all)
+      write_file(std::filesystem::path(options.folder) / manual_file(path), manual_page(path, all));
+    return kGood;
+  }
+  const std::string name = fmt::format("{}", fmt::join(options.names, " "));
+  const std::string whole = all.front().names[0] + (name.empty() ? "" : " ") + name;
+  for (const CommandPath& path : all)
+    if (path.name(" ") == whole) {
+      write_stdout(manual_page(path, all));
+      return kGood;
+    }
+  throw UsageError(fmt::format("there is no '{}'; 'lantern --help' names the commands", whole));
+}
+
+struct CompletionsOptions {
+  std::string shell;
+};
+
+Options completions_options(CompletionsOptions& o) {
+  return {{"SHELL", &o.shell, "the shell", {.words = {"bash", "zsh", "fish"}, .required = true}}};
+}
+
+int write_completions(const CompletionsOptions& options) {
+  write_stdout(completions(options.shell, all_commands()));
+  return kGood;
+}
+
+}  // namespace
+
+Command manual_command() {
+  return command("man", "Print a command's manual page, or write all of them", write_manual,
+                 manual_options);
+}
+
+Command completions_command() {
+  return command("completions", "Print the completions of a shell", write_completions,
+                 completions_options);
 }
 
 }  // namespace lantern::app

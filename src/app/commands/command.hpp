@@ -1,0 +1,182 @@
+// The table of commands: what the program reads its command line by, and what help, manual pages
+// and completions are made from. A command is a row of it and a function.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace lantern::app {
+
+// What a run of the program ends with.
+enum ExitCode {
+  kGood = 0,
+  kFailed = 1,  // an expectation, a comparison, a file; silently, if nobody reads the output
+  kUsage = 2,
+  kBadScenario = 3,
+  kNoBackend = 4,
+  kInterrupted = 130,
+};
+
+// Where the value of an option goes; its type says what may stand there. A vector takes several, an
+// optional tells whether the option was given, a function is called while the line is read: without
+// a value, or with a word, of which it gives what is wrong, if anything is.
+using OptionTarget =
+    std::variant<bool*, std::string*, int*, double*, std::uint64_t*, std::optional<int>*,
+                 std::optional<double>*, std::optional<std::uint64_t>*, std::vector<std::string>*,
+                 std::vector<int>*, std::vector<double>*, std::vector<std::uint64_t>*, void (*)(),
+                 std::optional<std::string> (*)(const std::string&)>;
+
+// What it takes: the type of a number, or of each of several.
+template <class T>
+struct TakenBy {
+  using Type = T;
+};
+template <class T>
+struct TakenBy<std::optional<T>> : TakenBy<T> {};
+template <class T>
+struct TakenBy<std::vector<T>> : TakenBy<T> {};
+
+using Words = std::vector<std::string>;
+
+// What else may be said of an option.
+struct OptionTraits {
+  const char* value = "";      // what stands for its value, "PATH"; empty: its type
+  Words words = {};            // one of these, and nothing else
+  double least = 0, most = 0;  // if that is not the same: within these
+  bool above_0 = false;
+  bool required = false;
+  bool one_each = false;     // of several values each has the option's name before it
+  bool* given = nullptr;     // becomes true if it is given
+  const char* without = "";  // options above it, "--set,--count", that must not be given beside it
+};
+
+// A row of a command's options.
+struct Option {
+  const char* names;  // "-o,--output"; "FILE" stands by itself; "!--no-peers" makes false
+  OptionTarget to;
+  const char* help;  // in a line; what it is by default is told with it if `to` has any
+  OptionTraits is = {};
+};
+using Options = std::vector<Option>;
+
+// What the command line asks for; gives the exit code.
+using Run = std::function<int()>;
+
+struct Command {
+  const char* name;
+  const char* help;                    // in a line
+  std::function<Run(Options&)> begin;  // gives its options, and what runs with their values
+  std::vector<Command> commands = {};  // below it; then it does not run itself
+};
+
+// A command whose options are read into `Values`.
+template <class Values>
+Command command(const char* name, const char* help, int (*run)(const Values&),
+                Options (*options)(Values&)) {
+  return {name, help, [run, options](Options& rows) -> Run {
+            const auto values = std::make_shared<Values>();
+            rows = options(*values);
+            return [run, values] { return run(*values); };
+          }};
+}
+
+// ---- Options of several commands
+
+inline const Words kThemes = {"light", "dark", "print"};
+inline const Words kBackends = {"auto", "osmesa", "egl"};
+inline constexpr const char* kFilesHelp =
+    "scenario files, folders of them (by 'lecture', then by name), or - for standard input";
+
+Option json_option(bool& json);
+Option seed_option(std::uint64_t& seed, const char* help);
+Option backend_option(std::string& backend, const char* help = "off-screen OpenGL");
+Option pace_option(std::string& pace, const char* help = "as for render");
+// Before a command, and after one that runs a scenario.
+Option memory_option();
+// How much pictures may differ.
+Option tolerance_option(int& tolerance);
+Option fraction_option(double& fraction);
+
+// Of the program and of each command: before and after its name.
+Options manners();
+
+// ---- The commands
+
+Command render_command();
+Command watch_command();
+Command merge_command();
+Command check_command();
+Command list_command();
+Command explain_command();
+Command doctor_command();
+Command golden_command();
+Command compare_command();
+Command structure_command();
+std::vector<Command> lab_commands();  // measure, bench and stress
+Command reference_command();
+Command schema_command();
+Command manual_command();
+Command completions_command();
+Command help_command();
+
+// The program itself, with every command in the order of the help.
+const Command& whole_program();
+
+// What may stand where an option wants a value.
+enum class ValueKind {
+  none,      // it is a switch
+  free,      // nothing that could be guessed: a number, a size
+  words,     // one of `words`
+  scenario,  // a scenario file
+  folder,
+  file,
+};
+
+// An option in words, for manual pages and completions.
+struct OptionWords {
+  Words names;        // "-o", "--output"; none for what stands by itself
+  std::string value;  // "PATH"; empty for a switch
+  ValueKind kind = ValueKind::none;
+  Words words;             // of which one must be chosen
+  std::string limits;      // "0 to 255"; empty for none
+  std::string help;        // what it does, in a line
+  std::string by_default;  // empty for none
+  bool is_required = false, repeats = false;
+
+  bool is_positional() const { return names.empty(); }
+};
+
+// A command with the names that lead to it, {"lantern", "bench", "step"}, and all options that its
+// --help has, in that order.
+struct CommandPath {
+  Words names;
+  const Command* command = nullptr;
+  std::vector<OptionWords> options = {};
+
+  // "lantern bench step", "lantern-bench-step"
+  std::string name(std::string_view between) const;
+};
+// The program itself and all its commands, each before its own.
+std::vector<CommandPath> all_commands();
+
+// What the program ends with, and what it means.
+struct ExitMeaning {
+  int code;
+  std::string_view means;
+};
+inline constexpr ExitMeaning kExitCodes[] = {
+    {kGood, "good"},
+    {kFailed, "failed"},
+    {kUsage, "usage"},
+    {kBadScenario, "scenario error"},
+    {kNoBackend, "no graphics backend"},
+    {kInterrupted, "interrupted"},
+};
+
+}  // namespace lantern::app
