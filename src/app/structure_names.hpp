@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::app {
 

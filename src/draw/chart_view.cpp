@@ -13,7 +13,7 @@
 #include "draw/plot.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::draw {
 namespace {

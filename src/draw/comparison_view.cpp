@@ -15,7 +15,7 @@
 #include "base/grouped.hpp"
 #include "draw/count_words.hpp"
 #include "draw/panels.hpp"
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -12,6 +12,7 @@
 #include "measure/broad_phase_cost.hpp"
 #include "measure/timed.hpp"
 #include "spatial/pairs.hpp"
+#include "spatial/structure_kinds.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "measure/row.hpp"
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::measure {
 

@@ -60,7 +60,7 @@ void ScriptRun::witness(const Event& event) {
 
 EventWatch ScriptRun::watch_of_insertion() {
   if (!frames.by_event()) return {};
-  const EventKinds told = traits_of(engine().structure().kind).tells;
+  const Bits told = traits_of(engine().structure().kind).tells;
   for (int kind = 0; kind <= static_cast<int>(Event::Kind::leave); ++kind)
     if ((told >> kind & 1u) != 0 && frames.wanted(event_name(static_cast<Event::Kind>(kind))))
       return [this](const Event& event) { witness(event); };

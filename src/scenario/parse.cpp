@@ -15,7 +15,7 @@
 #include "scenario/draft.hpp"
 #include "scenario/structure_auto.hpp"
 #include "scenario/table_side.hpp"
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::scenario {
 namespace {

@@ -17,7 +17,7 @@
 #include "physics/contact_method.hpp"
 #include "physics/motion_method.hpp"
 #include "scenario/view_specs.hpp"
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::scenario {
 
@@ -321,8 +321,8 @@ EnumNames names_up_to(E last) {
 }
 
 inline EnumNames names(StructureKind) {
-  EnumNames all = names_up_to(kStructureKinds.back());
-  for (const OwnKind& own : own_structures()) all.push_back(own.name);
+  EnumNames all = {to_string(StructureKind::none), to_string(StructureKind::automatic)};
+  for (const StructureKind kind : known_structures()) all.push_back(to_string(kind));
   return all;
 }
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }

@@ -51,7 +51,13 @@ class AabbTree : public Visitable<AabbTree<D>, D>, CountsAllocations {
 
   static constexpr Zones kZones = Zones::fitted;
   static constexpr StructureTraits kTraits{
-      .words = "AABB tree", .meets_in_leaves = false, .holds_once = true, .splits = false};
+      .words = "AABB tree",
+      .settings = bits_of({Setting::margin, Setting::following}),
+      .meets_in_leaves = false,
+      .holds_once = true,
+      .splits = false,
+      .hugs = true,
+      .follows = true};
   // A tree that insertions have made higher is built anew.
   static constexpr std::uint32_t kHighest = 100;
 

@@ -30,7 +30,10 @@ template <int D>
 class Bsp : public Visitable<Bsp<D>, D> {
  public:
   static constexpr Zones kZones = Zones::half_spaces;
-  static constexpr StructureTraits kTraits{.words = "BSP", .splits = false};
+  static constexpr StructureTraits kTraits{.words = "BSP",
+                                           .settings = bits_of({Setting::planes}),
+                                           .splits = false,
+                                           .names = NodeNames::sides};
   static constexpr std::uint32_t kDeepest = 1000;
 
   static Bsp made(const StructureConfig<D>& config) {

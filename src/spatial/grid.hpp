@@ -46,9 +46,11 @@ class Grid : public Visitable<Grid<D>, D>, CountsAllocations {
   static constexpr Zones kZones = Zones::rounded_rim;
   static constexpr StructureTraits kTraits{
       .words = "grid",
+      .settings = bits_of({Setting::cell, Setting::levels, Setting::open}),
       .meets_in_leaves = false,
       .splits = false,
-      .tells = kinds_of({Event::Kind::make_child, Event::Kind::test, Event::Kind::store})};
+      .names = NodeNames::cells,
+      .tells = bits_of({EventKind::make_child, EventKind::test, EventKind::store})};
   static constexpr std::uint32_t kMostLevels = 16;
   static constexpr double kMostCells = 0x1p31;  // of a closed level: they are numbered
 

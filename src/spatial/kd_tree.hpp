@@ -37,7 +37,12 @@ template <int D>
 class KdTree : public Visitable<KdTree<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::fitted;
-  static constexpr StructureTraits kTraits{.words = "kD-tree", .is_fitted = true, .tells = 0};
+  static constexpr StructureTraits kTraits{
+      .words = "kD-tree",
+      .settings = bits_of({Setting::capacity, Setting::max_depth}),
+      .is_fitted = true,
+      .hugs = true,
+      .tells = 0};
   static constexpr std::uint32_t kDeepest = 64;
 
   struct Config {

@@ -30,7 +30,10 @@ class LectureQuadtree : public Visitable<LectureQuadtree<D>, D> {
   static constexpr Zones kZones = Zones::endless_rim;
 
   static constexpr StructureTraits kTraits{
-      .words = "lecture's quadtree", .ignores_height = true, .is_plain = true};
+      .words = "lecture's quadtree",
+      .settings = bits_of({Setting::capacity, Setting::max_depth}),
+      .ignores_height = true,
+      .is_plain = true};
 
   static LectureQuadtree made(const StructureConfig<D>& config) { return LectureQuadtree(config); }
 

@@ -47,7 +47,12 @@ class Orthtree : public Visitable<Orthtree<D>, D>, CountsAllocations {
   static constexpr std::uint32_t kChildren = Halves::kChildren;
   static constexpr Zones kZones = Zones::endless_rim;
   static constexpr StructureTraits kTraits{
-      .words = D == 2 ? "quadtree" : "octree", .shares_array = true, .ignores_height = D == 2};
+      .words = D == 2 ? "quadtree" : "octree",
+      .settings = bits_of(
+          {Setting::capacity, Setting::max_depth, Setting::children, Setting::no_progress_stop}),
+      .least_dimension = D,
+      .shares_array = true,
+      .ignores_height = D == 2};
   static constexpr std::uint32_t kDeepest = 32;
   static constexpr std::uint64_t kMost = 0xffff'fffe;  // nodes and entries have 32-bit numbers
 

@@ -32,8 +32,11 @@ template <int D>
 class SortAndSweep : public Visitable<SortAndSweep<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::fitted;
-  static constexpr StructureTraits kTraits{
-      .words = "sort and sweep", .is_tree = false, .meets_in_leaves = false, .splits = false};
+  static constexpr StructureTraits kTraits{.words = "sort and sweep",
+                                           .settings = bits_of({Setting::axis}),
+                                           .is_tree = false,
+                                           .meets_in_leaves = false,
+                                           .splits = false};
 
   static SortAndSweep made(const StructureConfig<D>& config) {
     SortAndSweep sweep;

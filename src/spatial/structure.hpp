@@ -13,7 +13,7 @@
 //                            and perhaps repeated; returns how many tests of nodes, planes, rows
 //                            or other bodies it took to get there, 0 where nobody counts them
 //   kZones                   where a node's bodies may be, see Zones
-//   kTraits                  what kind of structure it is, see StructureTraits
+//   kTraits                  what kind of structure it is, see structure_kind.hpp
 //   made(config)             an empty one; throws Refused for settings that it does not allow
 //   counters()               exact counts of the work done and the tree that stands
 // and, if it finds pairs otherwise than leaf by leaf,
@@ -39,10 +39,8 @@
 #include <compare>
 #include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -50,6 +48,7 @@
 #include "base/error.hpp"
 #include "geometry/box.hpp"
 #include "geometry/plane.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::spatial {
 
@@ -119,10 +118,6 @@ struct BspPlane {
   bool front = false;            // it divides what lies in front of its parent
 };
 
-// What an aabb_tree does with bodies that have left their boxes: it takes them out and inserts them
-// again, mends the boxes where they stand, or whichever is quicker.
-enum class Following { automatic, reinsert, refit };
-
 // What a structure is told when it is made; each reads what concerns it.
 template <int D>
 struct StructureConfig {
@@ -143,49 +138,12 @@ struct StructureConfig {
 
 // What an algorithm does, told while it does it.
 struct Event {
-  enum class Kind {
-    test,         // the body's box was tested against the node, and reaches it
-    miss,         // the body's box was tested against the node, and does not reach it
-    make_child,   // the node came to be
-    store,        // the body was put into the leaf, which now holds `count`
-    split,        // the leaf held `count`, more than `limit`, and becomes an inner node
-    hand_down,    // the body goes from the split node to its children
-    depth_limit,  // the leaf holds `count`, more than `limit`, but lies at the depth limit, or is
-                  // so small that no number lies between its bounds
-    no_progress,  // the leaf holds `count`, more than `limit`, but a split would part no pair
-    rotate,       // a child of the node and the node's sibling have changed places
-    leave,        // the body has left the box of its leaf, which will be taken out of the tree
-  };
+  using Kind = EventKind;
   Kind kind{};
   NodeHandle node = 0;
   BodyId body = 0;
   std::uint32_t count = 0;
   std::uint32_t limit = 0;
-};
-
-// Kinds of events, a bit each.
-using EventKinds = std::uint32_t;
-inline constexpr EventKinds kAllEvents = ~EventKinds{0};
-constexpr EventKinds kinds_of(std::initializer_list<Event::Kind> kinds) {
-  EventKinds bits = 0;
-  for (const Event::Kind kind : kinds) bits |= EventKinds{1} << static_cast<int>(kind);
-  return bits;
-}
-
-// What tells kinds of structures apart for whoever shows or describes them.
-struct StructureTraits {
-  std::string_view words;       // "sort and sweep": as one would write it
-  bool is_tree = true;          // else one list of all bodies
-  bool meets_in_leaves = true;  // two bodies meet where they share a leaf; else by `compare`
-  bool holds_once = false;      // each body lies in one leaf, which holds no other
-  bool splits = true;           // leaves above capacity, down to the depth limit
-  bool is_fitted = false;       // to its bodies: built of all of them at once, stale when they move
-  bool shares_array = false;    // all leaves' contents lie in one array
-  bool ignores_height = false;  // in three dimensions it looks at x and z only
-  bool is_plain = false;        // makes all children, has no stop but the depth limit, and asks for
-                                // memory anew each time
-  bool is_own = false;          // a user's: seen from outside, its tests and memory are not counted
-  EventKinds tells = kAllEvents;  // of an insertion
 };
 
 using EventWatch = std::function<void(const Event&)>;

@@ -19,9 +19,15 @@ constexpr KindRow kKinds[] = {
     {StructureKind::automatic,
      "auto",
      {.words = "whichever suits", .is_tree = false, .splits = false}},
-#define LANTERN_KIND(name, Type) {StructureKind::name, #name, Type<3>::kTraits},
-    LANTERN_STRUCTURES(LANTERN_KIND)
-#undef LANTERN_KIND
+    {StructureKind::brute_force, "brute_force", BruteForce<3>::kTraits},
+    {StructureKind::sort_and_sweep, "sort_and_sweep", SortAndSweep<3>::kTraits},
+    {StructureKind::quadtree, "quadtree", Quadtree::kTraits},
+    {StructureKind::octree, "octree", Octree::kTraits},
+    {StructureKind::bsp, "bsp", Bsp<3>::kTraits},
+    {StructureKind::kd_tree, "kd_tree", KdTree<3>::kTraits},
+    {StructureKind::lecture_quadtree, "lecture_quadtree", LectureQuadtree<3>::kTraits},
+    {StructureKind::grid, "grid", Grid<3>::kTraits},
+    {StructureKind::aabb_tree, "aabb_tree", AabbTree<3>::kTraits},
 };
 
 // Given before anything else runs, and never changed again.
@@ -83,8 +89,25 @@ std::optional<StructureKind> structure_named(std::string_view name) {
 
 StructureTraits traits_of(StructureKind kind) {
   if (const OwnKind* own = own_structure(kind))
-    return {.words = own->words, .ignores_height = true, .is_own = true};
+    return {.words = own->words,
+            .settings = bits_of({Setting::capacity, Setting::max_depth}),
+            .ignores_height = true,
+            .is_own = true};
   return kKinds[static_cast<std::size_t>(kind)].traits;
+}
+
+std::string_view to_string(Setting setting) {
+  constexpr std::string_view kNames[] = {"capacity",  "max_depth", "children", "no_progress_stop",
+                                         "cell",      "levels",    "open",     "margin",
+                                         "following", "axis",      "planes"};
+  return kNames[static_cast<std::size_t>(setting)];
+}
+
+std::vector<StructureKind> kinds_with(Setting setting) {
+  std::vector<StructureKind> kinds;
+  for (const StructureKind kind : kStructureKinds)
+    if (traits_of(kind).has(setting)) kinds.push_back(kind);
+  return kinds;
 }
 
 template <int D>
@@ -93,11 +116,24 @@ AnyStructure<D> make_structure(StructureKind kind, const StructureConfig<D>& con
     case StructureKind::none:
     case StructureKind::automatic:
       throw Refused("there is no structure to make");
-#define LANTERN_KIND(name, Type) \
-  case StructureKind::name:      \
-    return Type<D>::made(config);
-      LANTERN_STRUCTURES(LANTERN_KIND)
-#undef LANTERN_KIND
+    case StructureKind::brute_force:
+      return BruteForce<D>::made(config);
+    case StructureKind::sort_and_sweep:
+      return SortAndSweep<D>::made(config);
+    case StructureKind::quadtree:
+      return QuadtreeIn<D>::made(config);
+    case StructureKind::octree:
+      return OctreeIn<D>::made(config);
+    case StructureKind::bsp:
+      return Bsp<D>::made(config);
+    case StructureKind::kd_tree:
+      return KdTree<D>::made(config);
+    case StructureKind::lecture_quadtree:
+      return LectureQuadtree<D>::made(config);
+    case StructureKind::grid:
+      return Grid<D>::made(config);
+    case StructureKind::aabb_tree:
+      return AabbTree<D>::made(config);
     case StructureKind::own:
       break;
   }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure.hpp"
 
 namespace lantern::spatial {
 
