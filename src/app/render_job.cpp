@@ -18,7 +18,7 @@
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "render/svg.hpp"
-#include "spatial/own_structure.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::app {
 namespace {
@@ -101,7 +101,7 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   m.in_between_digits =
       std::max(2, static_cast<int>(fmt::formatted_size("{}", in_betweens.most())));
   m.scenario_hash = scenario.text_hash;
-  if (!own_structures().empty()) m.scenario_hash ^= program_hash();
+  if (known_structures().size() > kStructureKinds.size()) m.scenario_hash ^= program_hash();
   for (const auto& [on, name] :
        {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},
         std::pair{options.no_counters, "no-counters"}, std::pair{options.legend, "legend"}})

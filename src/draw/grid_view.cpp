@@ -15,7 +15,7 @@
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panels.hpp"
-#include "spatial/grid_cells.hpp"
+#include "spatial/structure.hpp"
 
 namespace lantern::draw {
 namespace {

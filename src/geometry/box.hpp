@@ -61,4 +61,12 @@ bool is_valid(const Box<D>& box) {
   return valid;
 }
 
+// The largest of its extents.
+template <int D>
+double extent_of(const Box<D>& box) {
+  double most = box.hi[0] - box.lo[0];
+  for (int i = 1; i < D; ++i) most = std::max(most, box.hi[i] - box.lo[i]);
+  return most;
+}
+
 }  // namespace lantern::geometry

@@ -10,9 +10,8 @@
 #include "base/counted.hpp"
 #include "measure/peer_modules.hpp"
 #include "measure/peers.hpp"
-#include "spatial/overlap_query.hpp"
 #include "spatial/pair_order.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/query.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -65,8 +64,7 @@ class OwnPairs : public BoxRun {
   }
   BoxCounts counts() const override {
     const BroadPhaseCounters& c = broad_phase_.counters();
-    const Counters tree =
-        broad_phase_.with_dynamic([](const auto& structure) { return structure.counters(); });
+    const Counters tree = broad_phase_.dynamic().counters();
     const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
     return {number(c.pair_tests), number(tree.box_tests), number(c.nodes_visited),
             number(tree.nodes), number(tree.entries)};
@@ -82,20 +80,13 @@ class OwnOracle : public Oracle<D> {
  public:
   explicit OwnOracle(const BroadPhaseConfig<D>& config) : broad_phase_(config) {}
 
-  void build(Boxes<D> boxes) override {
-    boxes_ = boxes;
-    broad_phase_.build(boxes);
-  }
+  void build(Boxes<D> boxes) override { broad_phase_.build(boxes); }
   void along(const Ray<D>& ray, std::vector<BodyId>& ids) override {
-    broad_phase_.with_dynamic([&](const auto& structure) {
-      raycast_all_into<D>(hits_, structure, ray, [&](BodyId id) { return boxes_[id].box; });
-    });
+    raycast_all_into(hits_, broad_phase_.dynamic(), ray);
     for (const RayHit& hit : hits_.hits) ids.push_back(hit.id);
   }
   bool first(const Ray<D>& ray, std::vector<BodyId>& ids) override {
-    const NearestHit nearest = broad_phase_.with_dynamic([&](const auto& structure) {
-      return raycast_nearest<D>(structure, ray, [&](BodyId id) { return boxes_[id].box; });
-    });
+    const NearestHit nearest = raycast_nearest(broad_phase_.dynamic(), ray);
     if (nearest.hit) ids.push_back(nearest.hit->id);
     return true;
   }
@@ -105,14 +96,11 @@ class OwnOracle : public Oracle<D> {
  private:
   template <class Volume>
   void inside(const Volume& volume, std::vector<BodyId>& ids) {
-    broad_phase_.with_dynamic([&](const auto& structure) {
-      overlap_query_into<D>(found_, structure, volume, [&](BodyId id) { return boxes_[id].box; });
-    });
+    overlap_query_into(found_, broad_phase_.dynamic(), volume);
     ids.insert(ids.end(), found_.ids.begin(), found_.ids.end());
   }
 
   BroadPhase<D> broad_phase_;
-  Boxes<D> boxes_;
   AllHits hits_;
   Found found_;
 };
@@ -184,15 +172,15 @@ class OwnContestantOf : public BoxContestant {
                           kDeepest)};
   }
   bool has(const BoxSetting& s) const override {
-    if (kind_ == StructureKind::grid) return s.first >= 0 && s.first <= 3 && s.second == 0;
-    if (kind_ == StructureKind::aabb_tree)
+    if (traits_.has(Setting::levels)) return s.first >= 0 && s.first <= 3 && s.second == 0;
+    if (traits_.has(Setting::margin))
       return s.first >= 0 && s.first < static_cast<int>(kMargins.size()) && s.second == 0;
     if (!traits_.splits) return s == BoxSetting{};
     return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kDeepest;
   }
   std::string words(const BoxSetting& s) const override {
-    if (kind_ == StructureKind::grid) return counted(1 << s.first, "level");
-    if (kind_ == StructureKind::aabb_tree)
+    if (traits_.has(Setting::levels)) return counted(1 << s.first, "level");
+    if (traits_.has(Setting::margin))
       return fmt::format("margin {:g}", kMargins[static_cast<std::size_t>(s.first)]);
     return traits_.splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
   }
@@ -211,8 +199,8 @@ class OwnContestantOf : public BoxContestant {
     config.kind = kind_;
     config.build = Build::at_once;
     config.bounds = updates_in<D>(stage).bounds;
-    if (kind_ == StructureKind::grid) config.levels = 1u << setting.first;
-    if (kind_ == StructureKind::aabb_tree)
+    if (traits_.has(Setting::levels)) config.levels = 1u << setting.first;
+    if (traits_.has(Setting::margin))
       config.margin = kMargins[static_cast<std::size_t>(setting.first)];
     if (traits_.splits) {
       config.capacity = 1u << setting.first;
@@ -274,7 +262,7 @@ std::vector<std::unique_ptr<BoxContestant>> own_box_contestants() {
   const auto automatic = structure_named("auto");
   if (automatic) all.push_back(std::make_unique<OwnContestantOf>(*automatic));
   for (const StructureKind kind : known_structures())
-    if (kind != StructureKind::bsp && kind != automatic)
+    if (!traits_of(kind).has(Setting::planes) && kind != automatic)
       all.push_back(std::make_unique<OwnContestantOf>(kind));
   return all;
 }

@@ -12,7 +12,6 @@
 
 #include "geometry/ray.hpp"
 #include "spatial/broad_phase.hpp"
-#include "spatial/overlap_query.hpp"
 
 namespace lantern::measure {
 

@@ -6,7 +6,7 @@
 
 #include "base/stop.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/query.hpp"
 
 namespace lantern::measure {
 

@@ -42,7 +42,7 @@ std::uint64_t count_candidates(const BroadPhase<D>& broad_phase, std::span<const
   if (!traits_of(broad_phase.config().kind).meets_in_leaves)
     return broad_phase.counters().pair_tests;
   PairSet met(boxes.size());
-  broad_phase.visit_dynamic([&](const NodeView<D>& node) {
+  broad_phase.dynamic().visit([&](const NodeView<D>& node) {
     for (std::size_t i = 0; i < node.bodies.size(); ++i) {
       stop_if_asked();
       for (std::size_t j = i + 1; j < node.bodies.size(); ++j)
@@ -110,8 +110,7 @@ void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,
   c.invented += count_missing(broad_phase.pairs(), truth);
   c.candidates += count_candidates(broad_phase, boxes);
   c.pair_tests += broad_phase.counters().pair_tests;
-  const Counters tree =
-      broad_phase.with_dynamic([](const auto& structure) { return structure.counters(); });
+  const Counters tree = broad_phase.dynamic().counters();
   c.entries += tree.entries;
   // What such a structure calls its tests are those of pairs, which are counted above.
   if (traits_of(cost.kind).meets_in_leaves) c.box_tests += tree.box_tests;
@@ -130,7 +129,7 @@ BroadPhaseCost measure_one(const BoxUpdates<D>& scene, const std::vector<std::ve
     config.capacity = what.capacity;
     config.max_depth = what.depth_limit;
   }
-  if (what.kind == StructureKind::bsp)
+  if (traits_of(what.kind).has(Setting::planes))
     config.planes = median_planes<D>(scene.frames[0], what.capacity, what.depth_limit);
   BroadPhase<D> broad_phase(config);
   BroadPhaseCost cost = what;

@@ -122,13 +122,19 @@ std::vector<Item<D>> coincident(const Vec<D>& place) {
   return items;
 }
 
+constexpr std::uint32_t kDeepest = 32;
+
+// A quadtree or an octree.
 template <int D>
-Orthtree<D> deep_tree(bool no_progress_stop) {
-  typename Orthtree<D>::Config config;
-  config.bounds = {Vec<D>(0.0), Vec<D>(kSide)};
-  config.max_depth = no_progress_stop ? Orthtree<D>::kDeepest : 8;
-  config.no_progress_stop = no_progress_stop;
-  return Orthtree<D>(config);
+std::unique_ptr<Structure<D>> orthtree(const StructureConfig<D>& config) {
+  return make_structure(D == 2 ? StructureKind::quadtree : StructureKind::octree, config);
+}
+template <int D>
+std::unique_ptr<Structure<D>> deep_tree(bool no_progress_stop) {
+  return orthtree<D>({.bounds = {Vec<D>(0.0), Vec<D>(kSide)},
+                      .capacity = 2,
+                      .max_depth = no_progress_stop ? kDeepest : 8,
+                      .no_progress_stop = no_progress_stop});
 }
 
 // Somewhere, and on the first splitting plane of every axis.
@@ -142,12 +148,12 @@ template <int D>
 double futile_nodes() {
   double most = 0;
   for (const Vec<D>& place : places<D>()) {
-    Orthtree<D> tree = deep_tree<D>(true);
-    for (const Item<D>& item : coincident<D>(place)) tree.insert(item);
-    KdTree<D> fitted;
-    fitted.build(coincident<D>(place));
-    most = largest({most, static_cast<double>(tree.counters().nodes),
-                    static_cast<double>(fitted.counters().nodes)});
+    const auto tree = deep_tree<D>(true);
+    const auto fitted = make_structure<D>(StructureKind::kd_tree, {.capacity = 2, .max_depth = 16});
+    for (Structure<D>* one : {tree.get(), fitted.get()}) {
+      one->build(coincident<D>(place));
+      most = largest(most, static_cast<double>(one->counters().nodes));
+    }
   }
   return most;
 }
@@ -160,9 +166,9 @@ double memory_growth() {
   double most = 0;
   for (const Vec<D>& place : places<D>()) {
     const auto entries_of = [&](std::size_t n) {
-      Orthtree<D> tree = deep_tree<D>(false);
-      for (BodyId id = 0; id < n; ++id) tree.insert({id, Box<D>::around(place, Vec<D>(0.5))});
-      return static_cast<double>(tree.counters().entries) / static_cast<double>(n);
+      const auto tree = deep_tree<D>(false);
+      for (BodyId id = 0; id < n; ++id) tree->insert({id, Box<D>::around(place, Vec<D>(0.5))});
+      return static_cast<double>(tree->counters().entries) / static_cast<double>(n);
     };
     most = largest(most, entries_of(kMany / 10) / entries_of(100));
   }
@@ -171,9 +177,9 @@ double memory_growth() {
 
 template <int D>
 double miscounted_pairs() {
-  Orthtree<D> tree = deep_tree<D>(true);
-  for (const Item<D>& item : coincident<D>(Vec<D>(21.3))) tree.insert(item);
-  return std::abs(static_cast<double>(count_pair_tests(tree)) -
+  const auto tree = deep_tree<D>(true);
+  tree->build(coincident<D>(Vec<D>(21.3)));
+  return std::abs(static_cast<double>(count_pair_tests(*tree)) -
                   static_cast<double>(all_pairs(kMany)));
 }
 
@@ -210,14 +216,11 @@ StressResult coincident_pairs_refused() {
 // Bodies in a root that has no number between its bounds: nodes, or endless if pairs are missed.
 template <int D>
 double nodes_of_root(const Box<D>& bounds) {
-  typename Orthtree<D>::Config config;
-  config.bounds = bounds;
-  config.capacity = 1;
-  config.max_depth = Orthtree<D>::kDeepest;
-  Orthtree<D> tree(config);
-  for (BodyId id = 0; id < 3; ++id) tree.insert({id, bounds});
-  if (candidate_pairs(tree, 100).pairs.size() != 3) return kInfinity;
-  return static_cast<double>(tree.counters().nodes);
+  const auto tree = orthtree<D>(
+      {.bounds = bounds, .capacity = 1, .max_depth = kDeepest, .no_progress_stop = false});
+  for (BodyId id = 0; id < 3; ++id) tree->insert({id, bounds});
+  if (candidate_pairs(*tree, 100).pairs.size() != 3) return kInfinity;
+  return static_cast<double>(tree->counters().nodes);
 }
 
 double worst_root(std::initializer_list<double> lows) {
@@ -234,13 +237,13 @@ double root_too_far() { return worst_root({1e9, 1e16, 1e300, 1.7e308}); }
 template <int D>
 double wrong_largest() {
   constexpr double kHuge = std::numeric_limits<double>::max();
-  typename Orthtree<D>::Config config;
-  config.bounds = {Vec<D>(-kHuge), Vec<D>(kHuge)};
-  config.capacity = 1;
-  Orthtree<D> tree(config);
-  tree.insert({0, {Vec<D>(-kHuge), Vec<D>(-1e308)}});
-  tree.insert({1, {Vec<D>(1e308), Vec<D>(kHuge)}});
-  return static_cast<double>(candidate_pairs(tree, 100).pairs.size());
+  const auto tree = orthtree<D>({.bounds = {Vec<D>(-kHuge), Vec<D>(kHuge)},
+                                 .capacity = 1,
+                                 .max_depth = 6,
+                                 .no_progress_stop = false});
+  tree->insert({0, {Vec<D>(-kHuge), Vec<D>(-1e308)}});
+  tree->insert({1, {Vec<D>(1e308), Vec<D>(kHuge)}});
+  return static_cast<double>(candidate_pairs(*tree, 100).pairs.size());
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "base/stop.hpp"
 #include "measure/broad_phase_cost.hpp"
 #include "measure/timed.hpp"
+#include "spatial/own/own_tree.hpp"
 #include "spatial/pairs.hpp"
-#include "spatial/structure_kinds.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -49,42 +49,32 @@ class OurContestant : public Contestant {
  public:
   OurContestant(StructureKind kind, const StructureConfig<2>& config,
                 std::span<const Proxy<2>> boxes)
-      : structure_(make_structure<2>(kind, config)) {
+      : structure_(make_structure<2>(kind, config)), in_leaves_(traits_of(kind).meets_in_leaves) {
     for (const Proxy<2>& box : boxes) items_.push_back({box.id, box.box});
   }
-  void build() override { build_structure<2>(structure_, items_); }
+  void build() override { structure_->build(items_); }
   void find(Finds& finds) override {
-    std::visit(
-        [&](auto& structure) {
-          if constexpr (requires {
-                          structure.compare([](BodyId) { return true; },
-                                            [](const Item<2>&, const Item<2>&) {});
-                        }) {
-            finds.tests += structure.compare(
-                [](BodyId) { return true; },
-                [&](const Item<2>& a, const Item<2>& b) { finds.add(a.id, b.id); });
-          } else {
-            structure.visit(
-                [&](const NodeView<2>& node) {
-                  finds.add_leaf(node.bodies);
-                  return true;
-                },
-                room_);
-          }
-        },
-        structure_);
+    if (in_leaves_)
+      return structure_->visit([&](const NodeView<2>& node) {
+        finds.add_leaf(node.bodies);
+        return true;
+      });
+    const auto all = [](BodyId) { return true; };
+    structure_->compare(all, [&](BodyId a, BodyId b) {
+      ++finds.tests;
+      finds.add(a, b);
+    });
   }
   void count(StructureTime& row) override {
-    const Counters counters =
-        std::visit([](const auto& structure) { return structure.counters(); }, structure_);
+    const Counters counters = structure_->counters();
     row.nodes = counters.nodes;
     row.entries = counters.entries;
   }
 
  private:
-  AnyStructure<2> structure_;
+  std::unique_ptr<Structure<2>> structure_;
+  bool in_leaves_;
   std::vector<Item<2>> items_;
-  std::vector<BodyId> room_;
 };
 
 class OwnContestant : public Contestant {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "scenario/frame.hpp"
-#include "spatial/level_bsp.hpp"
-#include "spatial/level_visibility.hpp"
+#include "spatial/level/level_bsp.hpp"
+#include "spatial/level/level_visibility.hpp"
 
 namespace lantern::scenario {
 

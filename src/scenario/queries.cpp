@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spatial/overlap_query.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/query.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -28,13 +27,13 @@ class Queries {
       return at;
     };
     std::vector<RayHit> hits;
-    look([&](const auto& tree, auto& box_of, auto& told) {
+    look([&](const StructureView<D>& tree, BoxOf<D> box_of, QueryWatch told) {
       if (cast.all) {
-        const AllHits all = raycast_all<D>(tree, ray, box_of, meets, told);
+        const AllHits all = raycast_all(tree, ray, box_of, meets, told);
         hits.insert(hits.end(), all.hits.begin(), all.hits.end());
         return all.counts;
       }
-      const NearestHit nearest = raycast_nearest<D>(tree, ray, box_of, meets, told);
+      const NearestHit nearest = raycast_nearest(tree, ray, box_of, meets, told);
       if (nearest.hit) hits.push_back(*nearest.hit);
       return nearest.counts;
     });
@@ -53,8 +52,8 @@ class Queries {
 
   Finding answer(const Cull& view) {
     const Frustum<D> frustum = frustum_of(view);
-    look([&](const auto& tree, auto& box_of, auto& told) {
-      return add(overlap_query<D>(tree, frustum, box_of, told));
+    look([&](const StructureView<D>& tree, BoxOf<D> box_of, QueryWatch told) {
+      return add(overlap_query(tree, frustum, box_of, told));
     });
     found_.view = FrameView{view.eye, corners_of(frustum)};
     return sorted();
@@ -63,9 +62,9 @@ class Queries {
   Finding answer(const Query& region) {
     const Box<D> box = in_dimension<D>(region.box);
     const Ball<D> ball{box.center(), region.radius};
-    look([&](const auto& tree, auto& box_of, auto& told) {
-      return add(region.radius > 0 ? overlap_query<D>(tree, ball, box_of, told)
-                                   : overlap_query<D>(tree, box, box_of, told));
+    look([&](const StructureView<D>& tree, BoxOf<D> box_of, QueryWatch told) {
+      return add(region.radius > 0 ? overlap_query(tree, ball, box_of, told)
+                                   : overlap_query(tree, box, box_of, told));
     });
     found_.region = FrameQuery{region.box, region.radius};
     return sorted();
@@ -76,23 +75,22 @@ class Queries {
     found_.met[id] = {distance, solid(ray.at(distance))};
   }
 
-  template <class F>
-  void look(F&& f) {
-    std::size_t structures = 0;
-    auto told = [&](const QueryEvent& event) { found_.walk.push_back(event); };
-    auto box_of = [&](BodyId id) { return world_.find(id)->box(); };
-    world_.broad_phase()->with_each([&](const auto& tree) {
-      if (++structures == 2) found_.first_static = found_.walk.size();
-      const QueryCounts counts = f(tree, box_of, told);
+  void look(FunctionRef<QueryCounts(const StructureView<D>&, BoxOf<D>, QueryWatch)> f) {
+    const auto told = [&](const QueryEvent& event) { found_.walk.push_back(event); };
+    const auto box_of = [&](BodyId id) { return world_.find(id)->box(); };
+    const std::vector<StructureView<D>> structures = world_.broad_phase()->each();
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+      if (i == 1) found_.first_static = found_.walk.size();
+      const QueryCounts counts = f(structures[i], box_of, told);
       found_.counts.nodes_visited += counts.nodes_visited;
       found_.counts.nodes_skipped += counts.nodes_skipped;
       found_.counts.objects_tested += counts.objects_tested;
-    });
+    }
   }
 
-  const QueryCounts& add(const Found& found) {
+  QueryCounts add(const Found& found) {
     found_.hits.insert(found_.hits.end(), found.ids.begin(), found.ids.end());
-    return counts_ = found.counts;
+    return found.counts;
   }
 
   Finding sorted() {
@@ -126,7 +124,6 @@ class Queries {
   }
 
   const World<D>& world_;
-  QueryCounts counts_;
   Finding found_;
 };
 

@@ -36,8 +36,9 @@ std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
 std::string child_label(const StructureSpec& spec, const std::string& parent, std::uint32_t slot,
                         bool leaf) {
   std::string way = fmt::format("{}", slot + 1);
-  if (spec.kind == StructureKind::bsp) way = slot == 0 ? "back" : "front";
-  if (spec.kind == StructureKind::grid) {
+  const NodeNames names = traits_of(spec.kind).names;
+  if (names == NodeNames::sides) way = slot == 0 ? "back" : "front";
+  if (names == NodeNames::cells) {
     const bool level = spec.levels > 1 && parent == "root";
     if (leaf && slot == kGridLarge)
       way = "large";
@@ -65,15 +66,15 @@ std::string grid_text(const StructureSpec& s) {
 // "capacity 2, depth limit 4, all children made"
 std::string settings_text(const StructureSpec& s, int sweep_axis) {
   const std::string split = s.split_static ? ", static bodies apart" : "";
-  const StructureTraits traits = traits_of(s.kind);
+  const StructureTraits& traits = traits_of(s.kind);
   if (s.kind == StructureKind::brute_force) return "every body with every other" + split;
-  if (s.kind == StructureKind::sort_and_sweep)
+  if (traits.has(Setting::axis))
     return fmt::format("sorted along {}, then swept{}", "xyz"[sweep_axis], split);
-  if (s.kind == StructureKind::bsp)
+  if (traits.has(Setting::planes))
     return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
                        split);
-  if (s.kind == StructureKind::grid) return grid_text(s) + split;
-  if (s.kind == StructureKind::aabb_tree)
+  if (traits.has(Setting::cell)) return grid_text(s) + split;
+  if (traits.has(Setting::margin))
     return fmt::format(
         "a leaf for each body, {}{}",
         s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin) : "boxes not enlarged", split);
@@ -108,8 +109,7 @@ class NodePicture {
   }
 
   // `awake`: null if nothing sleeps.
-  template <class Structure>
-  void add(const Structure& structure, const AwakeNodes* awake, bool of_static) {
+  void add(const StructureView<D>& structure, const AwakeNodes* awake, bool of_static) {
     first_ = static_cast<std::uint32_t>(frame_.nodes.size());
     now_ = structure.counters();
     structure.visit([&](const NodeView<D>& view) {
@@ -181,7 +181,7 @@ class NodePicture {
     else if (parent)
       node.label = child_label(spec_, parent->label, view.slot, view.leaf);
     if (view.plane) node.plane = solid(*view.plane);
-    if (spec_.kind == StructureKind::bsp) place_in_bsp(node, parent);
+    if (traits_.has(Setting::planes)) place_in_bsp(node, parent);
     // What is no tree has no cells: its one node is the whole world.
     if (!traits_.is_tree) node.box = frame_.bounds;
     node.over_capacity = traits_.splits && node.bodies.size() > spec_.capacity;
@@ -200,7 +200,7 @@ class NodePicture {
   }
 
   const StructureSpec& spec_;
-  StructureTraits traits_;
+  const StructureTraits& traits_;
   const Touched& touched_;
   bool shows_memory_;
   bool shows_pool_;
@@ -290,20 +290,19 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
 
 template <int D>
 std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, NodeHandle handle) {
-  std::vector<std::string> labels;
   std::string found;
-  structure.with_each([&](const auto& tree) {
-    labels.clear();
-    if (found.empty())
-      tree.visit([&](const NodeView<D>& node) {
-        labels.push_back(spec.of_level ? level_label(spec, node.id)
-                         : node.parent == kNone
-                             ? "root"
-                             : child_label(spec, labels[node.parent], node.slot, node.leaf));
-        if (node.handle == handle && found.empty()) found = labels.back();
-        return found.empty();
-      });
-  });
+  for (const StructureView<D>& tree : structure.each()) {
+    std::vector<std::string> labels;
+    tree.visit([&](const NodeView<D>& node) {
+      labels.push_back(spec.of_level ? level_label(spec, node.id)
+                       : node.parent == kNone
+                           ? "root"
+                           : child_label(spec, labels[node.parent], node.slot, node.leaf));
+      if (node.handle == handle && found.empty()) found = labels.back();
+      return found.empty();
+    });
+    if (!found.empty()) break;
+  }
   return found;
 }
 
@@ -317,21 +316,21 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
     return;
   }
   const BroadPhase<D>& structure = *world.broad_phase();
-  frame.sweep_axis = structure.sweep_axis().value_or(0);
+  const Arrangement arrangement = structure.arrangement();
+  frame.sweep_axis = arrangement.axis.value_or(0);
   frame.settings = settings_text(spec, frame.sweep_axis);
   frame.capacity = traits_of(spec.kind).splits ? spec.capacity : 0;
-  frame.grid_levels = structure.grid_extents();
+  frame.grid_levels = arrangement.levels;
   frame.hashed = spec.open;
   const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
   NodePicture<D> picture(spec, touched, frame);
-  structure.with_dynamic([&](const auto& tree) {
-    std::vector<BodyId> room;
-    AwakeNodes nodes;
-    if (tells_sleepers) nodes.find(tree, awake, room);
-    picture.add(tree, tells_sleepers ? &nodes : nullptr, false);
-  });
-  if (spec.split_static)
-    structure.with_static([&](const auto& tree) { picture.add(tree, nullptr, true); });
+  AwakeNodes nodes;
+  const StructureView<D> dynamic = structure.dynamic();
+  if (tells_sleepers)
+    nodes.find(
+        dynamic.counters().nodes, [&](NodeLook<D> look) { dynamic.visit(look); }, awake);
+  picture.add(dynamic, tells_sleepers ? &nodes : nullptr, false);
+  if (spec.split_static) picture.add(structure.fixed(), nullptr, true);
   number_leaves_met(frame);
 
   const PairChain chain = structure.pair_chain(awake, kMostPairs);
@@ -361,8 +360,8 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
     frame.add_count("node_bytes", c.node_bytes);
     frame.add_count("node_bytes_with_bounds", c.node_bytes + c.nodes * sizeof(Box<D>));
   }
-  if (spec.kind == StructureKind::sort_and_sweep) frame.add_count("swaps", c.swaps);
-  if (spec.kind == StructureKind::aabb_tree) {
+  if (arrangement.axis) frame.add_count("swaps", c.swaps);
+  if (traits_of(spec.kind).follows) {
     frame.add_count("reinserted", c.reinserted);
     frame.add_count("refitted", c.refitted);
     measure_boxes(frame);

@@ -7,7 +7,7 @@
 #include "geometry/shape.hpp"
 #include "physics/manifold.hpp"
 #include "scenario/watcher.hpp"
-#include "spatial/sort_and_sweep.hpp"
+#include "spatial/structure.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -112,10 +112,14 @@ class ContactsWatch : public Watcher {
 
   template <class F>
   void sweep(const Frame& frame, F&& look) {
-    boxes_.clear();
+    sweep_->clear();
     for (const FrameBody& b : frame.bodies)
-      if (!std::holds_alternative<HalfSpace<3>>(b.shape)) boxes_.insert({b.id, b.box});
-    boxes_.sweep(look);
+      if (!std::holds_alternative<HalfSpace<3>>(b.shape)) sweep_->insert({b.id, b.box});
+    sweep_->sort();
+    const auto all = [](BodyId) { return true; };
+    sweep_->compare(all, [&](BodyId a, BodyId b) {
+      if (overlap(body(frame, a).box, body(frame, b).box)) look(a, b);
+    });
     // A half-space's box has no end, and would let no axis part anything.
     for (const FrameBody& ground : frame.bodies)
       if (std::holds_alternative<HalfSpace<3>>(ground.shape))
@@ -135,7 +139,7 @@ class ContactsWatch : public Watcher {
 
   const Scenario& scenario_;
   std::set<std::pair<std::string, std::string>> linked_;
-  SortAndSweep<3> boxes_;
+  const std::unique_ptr<Structure<3>> sweep_ = make_structure<3>(StructureKind::sort_and_sweep);
   Depths depths_;  // of the frame before, by pair
   std::set<Pair> told_;
   Diagnostics found_;

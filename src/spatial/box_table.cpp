@@ -5,7 +5,6 @@
 
 #include "base/parallel.hpp"
 #include "base/stop.hpp"
-#include "spatial/box_scan.hpp"
 
 namespace lantern::spatial {
 

@@ -9,6 +9,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
+#include "base/stop.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -22,13 +25,12 @@ template <int D>
 BroadPhase<D>::BroadPhase(const Config& config)
     : config_(config),
       static_(made(&BroadPhaseCounters::static_builds)),
-      dynamic_(made(&BroadPhaseCounters::dynamic_builds)),
-      fresh_(made(nullptr)) {}
+      dynamic_(made(&BroadPhaseCounters::dynamic_builds)) {}
 
 template <int D>
 auto BroadPhase<D>::made(std::uint64_t BroadPhaseCounters::*builds) -> Store {
-  Store store{BruteForce<D>(), builds, config_.kind, config_};
-  if (builds != nullptr && config_.kind != StructureKind::automatic) make_anew(store);
+  Store store{{}, make_structure<D>(StructureKind::brute_force), builds, config_.kind, config_};
+  if (config_.kind != StructureKind::automatic) make_anew(store);
   return store;
 }
 
@@ -37,8 +39,7 @@ template <int D>
 void BroadPhase<D>::make_anew(Store& store) {
   StructureConfig<D> settings = store.settings;
   if (config_.in_proportion) settings.most_entries = most_entries(store.room);
-  const auto count = [](const auto& structure) { return work_of(structure).allocations; };
-  past_allocations_ += std::visit(count, store.structure);
+  past_allocations_ += store.structure->work().allocations;
   store.structure = make_structure<D>(store.kind, settings);
 }
 
@@ -120,7 +121,7 @@ void BroadPhase<D>::move(std::span<const Proxy<D>> proxies) {
     Store& store = of_static ? static_ : dynamic_;
     const std::size_t place = places[of_static]++;
     Box<D>& box = store.items[place].box;
-    const State state{proxy.is_static, proxy.awake};
+    const ProxyState state{proxy.is_static, proxy.awake};
     if (!(box == proxy.box)) {
       box = proxy.box;
       moved[of_static] = true;
@@ -141,9 +142,7 @@ void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
   all_names_.clear();
   for (const Proxy<D>& proxy : proxies) all_names_.push_back(proxy.id);
   for (Store* store : stores()) {
-    fresh_.items.clear();
-    fresh_.names.clear();
-    fresh_.states.clear();
+    fresh_.clear();
     store->ranks.clear();
     for (std::uint32_t rank = 0; rank < proxies.size(); ++rank) {
       const Proxy<D>& proxy = proxies[rank];
@@ -157,10 +156,15 @@ void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
     found_all_ = found_all_ && same && fresh_.states == store->states;
     store->only_moved = false;
     store->stands = store->stands && same;
-    store->items.swap(fresh_.items);
-    store->names.swap(fresh_.names);
-    store->states.swap(fresh_.states);
+    std::swap(static_cast<Bodies&>(*store), fresh_);
   }
+}
+
+template <int D>
+void BroadPhase<D>::Bodies::clear() {
+  items.clear();
+  names.clear();
+  states.clear();
 }
 
 // A structure that was not finished must not be taken for that of its bodies.
@@ -169,9 +173,7 @@ void BroadPhase<D>::forget() {
   pairs_.clear();
   found_all_ = false;
   for (Store* store : stores()) {
-    store->items.clear();
-    store->names.clear();
-    store->states.clear();
+    store->clear();
     store->ranks.clear();
     empty(*store);
   }
@@ -190,7 +192,7 @@ void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
   }
   for (;;) {
     try {
-      with_names(store, [&] { build_structure<D>(store.structure, store.items, config_.build); });
+      with_names(store, [&] { store.structure->build(store.items, config_.build); });
       break;
     } catch (const Refused&) {
       if (!config_.in_proportion || store.settings.max_depth == 0) throw;
@@ -230,23 +232,18 @@ void BroadPhase<D>::choose(Store& store, Use use) {
 template <int D>
 bool BroadPhase<D>::mended(Store& store, const Watch& watch) {
   if (!store.only_moved) return false;
-  EventWatch told;
-  if (watch)
-    told = [&](Event event) {
-      event.body = store.names[event.body];
-      watch(event);
-    };
-  return std::visit(
-      [&](auto& structure) {
-        if constexpr (requires { structure.update(std::span<const Item<D>>()); }) {
-          store.stands = true;  // for who looks meanwhile: each body that is in it has its name
-          structure.update(std::span<const Item<D>>(store.items), told);
-          return true;
-        } else {
-          return false;
-        }
-      },
-      store.structure);
+  store.stands = true;  // for who looks meanwhile: each body that is in it has its name
+  return store.stands = store.structure->update(store.items, naming(store, watch));
+}
+
+// Who watches is told of bodies by their ids, not by their places in the list.
+template <int D>
+auto BroadPhase<D>::naming(const Store& store, const Watch& watch) -> Watch {
+  if (!watch) return {};
+  return [&](Event event) {
+    event.body = store.names[event.body];
+    watch(event);
+  };
 }
 
 template <int D>
@@ -269,48 +266,30 @@ void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch
       if (!std::exchange(entered[is_of_static(proxy)], true) && !store.stands) build(store);
       put(store, proxy, watch);
     }
-    if (entered[false]) finish(dynamic_);
-    if (entered[true]) finish(static_);
+    for (const bool of_static : {false, true})
+      if (Store& store = of_static ? static_ : dynamic_; entered[of_static]) {
+        // What several insertions leave to be done once.
+        if (!store.stands) build(store);
+        with_names(store, [&] { store.structure->look(); });
+      }
   });
 }
 
-// Into the structure, too, if that takes one after another.
+// Into the structure, too, if that takes one after another; else that no longer stands.
 template <int D>
 void BroadPhase<D>::put(Store& store, const Proxy<D>& proxy, const Watch& watch) {
-  const auto number = static_cast<BodyId>(store.items.size());
-  const Item<D> item{number, proxy.box};
+  const Item<D> item{static_cast<BodyId>(store.items.size()), proxy.box};
   store.items.push_back(item);
   store.names.push_back(proxy.id);
   store.states.push_back({proxy.is_static, proxy.awake});
   store.ranks.push_back(static_cast<std::uint32_t>(all_names_.size()));
   all_names_.push_back(proxy.id);
-  const auto told = [&](Event event) {
-    event.body = store.names[event.body];
-    watch(event);
-  };
-  std::visit(
-      [&](auto& structure) {
-        if constexpr (requires { structure.insert(item); }) {
-          counters_.*store.builds += number == 0;
-          with_names(store, [&] { watch ? structure.insert(item, told) : structure.insert(item); });
-        }
-      },
-      store.structure);
-}
-
-// What several insertions leave to be done once.
-template <int D>
-void BroadPhase<D>::finish(Store& store) {
-  std::visit(
-      [&](auto& structure) {
-        if constexpr (!requires { structure.insert(Item<D>{}); }) {
-          store.only_moved = false;
-          build(store);
-        } else if constexpr (requires { structure.look(); }) {
-          with_names(store, [&] { structure.look(); });
-        }
-      },
-      store.structure);
+  with_names(store, [&] {
+    if (store.structure->insert(item, naming(store, watch)))
+      counters_.*store.builds += item.id == 0;
+    else
+      store.stands = store.only_moved = false;
+  });
 }
 
 // A fault is told of bodies by their ids, not by their places in the list.
@@ -330,7 +309,127 @@ template <int D>
 void BroadPhase<D>::empty(Store& store) {
   store.stands = store.items.empty();
   store.only_moved = false;
-  std::visit([](auto& structure) { structure.clear(); }, store.structure);
+  store.structure->clear();
+}
+
+// --- pairing ---
+
+template <int D>
+void BroadPhase<D>::find_pairs() {
+  counters_.pair_tests = counters_.nodes_visited = 0;
+  counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
+  pairs_.clear();
+  search_.begin(dynamic_.items, dynamic_.states);
+  if (search_.stirring() > 0) {
+    if (!dynamic_.stands) build(dynamic_);
+    for (Store* store : stores()) store->structure->sort();
+    search_.found.set_threads(config_.threads);
+    found_names_ = dynamic_.names;
+    search_.found.ask_before_growing(
+        [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
+    dynamic_.structure->pair(search_);
+    counters_.pair_tests = search_.tests;
+    counters_.nodes_visited = search_.nodes_visited;
+    counters_.nodes_skipped_asleep = search_.nodes_skipped;
+    counters_.nodes_reused = dynamic_.structure->work().nodes_reused;
+    dynamic_.tests =
+        static_cast<double>(counters_.pair_tests) / static_cast<double>(search_.stirring());
+    if (dynamic_.chosen_tests == 0) dynamic_.chosen_tests = dynamic_.tests;
+    pair_static();
+    const FoundPairs& found = search_.found;
+    if (found.size() > config_.most_pairs) refuse_more(found.first()[config_.most_pairs]);
+    order_.order(search_.found, found_names_, pairs_);
+  } else if (!dynamic_.stands) {
+    empty(dynamic_);
+  }
+  found_all_ = true;
+}
+
+// Each awake body asks the static structure.
+template <int D>
+void BroadPhase<D>::pair_static() {
+  if (static_.items.empty()) return;
+  name_by_rank();
+  for (std::size_t i = 0; i < dynamic_.items.size(); ++i) {
+    stop_if_asked();
+    if (!dynamic_.states[i].stirs()) continue;
+    const Box<D>& box = dynamic_.items[i].box;
+    ids_.clear();
+    static_.structure->near(box, ids_);
+    counters_.pair_tests += ids_.size();
+    for (const BodyId j : ids_)
+      if (overlap(box, static_.items[j].box))
+        search_.found.add(dynamic_.ranks[i], static_.ranks[j]);
+  }
+}
+
+// What was found among dynamic bodies is named by their ranks among all from now on.
+template <int D>
+void BroadPhase<D>::name_by_rank() {
+  for (BodyId& place : search_.found.first()) place = dynamic_.ranks[place];
+  for (BodyId& place : search_.found.second()) place = dynamic_.ranks[place];
+  found_names_ = all_names_;
+}
+
+// Before the lists of pairs grow, or pass their limit: places in them, and what it takes to put
+// them in order.
+template <int D>
+void BroadPhase<D>::require_room(BodyId number, std::size_t pairs) const {
+  const BodyId body = found_names_[number];
+  require_memory(pairs * (3 * sizeof(BodyId) + sizeof(Pair)),
+                 fmt::format("body {}: with it {} or more pairs of boxes that overlap", body,
+                             search_.found.size()),
+                 "take fewer bodies, or part them");
+  if (search_.found.size() > config_.most_pairs) refuse_more(number);
+}
+
+template <int D>
+void BroadPhase<D>::refuse_more(BodyId number) const {
+  throw Refused(
+      fmt::format("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
+                  found_names_[number], config_.most_pairs));
+}
+
+// --- the chain of pairs ---
+
+template <int D>
+PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
+  std::vector<bool> stirring;
+  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+    stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
+  struct Met {
+    Pair pair;
+    bool overlaps;
+  };
+  std::vector<Met> met;
+  PairChain chain;
+  const auto meet = [&](BodyId i, const Store& store, BodyId j) {
+    require_within(++chain.met, most);
+    const BodyId a = dynamic_.names[i], b = store.names[j];
+    met.push_back(
+        {{std::min(a, b), std::max(a, b)}, overlap(dynamic_.items[i].box, store.items[j].box)});
+  };
+  // What sorts its bodies before it is asked does so in a copy, and stays as it is.
+  const auto dynamic_copy = dynamic_.structure->sorted(), static_copy = static_.structure->sorted();
+  const Structure<D>& of_dynamic = dynamic_copy ? *dynamic_copy : *dynamic_.structure;
+  const Structure<D>& of_static = static_copy ? *static_copy : *static_.structure;
+  chain.besides = of_dynamic.compare([&](BodyId i) -> bool { return stirring[i]; },
+                                     [&](BodyId i, BodyId j) { meet(i, dynamic_, j); });
+  for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
+    std::vector<BodyId> near;
+    if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
+    for (const BodyId j : near) meet(i, static_, j);
+  }
+  std::sort(met.begin(), met.end(), [](const Met& x, const Met& y) {
+    stop_if_asked();
+    return x.pair < y.pair;
+  });
+  for (const Met& both : met) {
+    if (!chain.pairs.empty() && chain.pairs.back() == both.pair) continue;
+    chain.pairs.push_back(both.pair);
+    if (both.overlaps) chain.overlapping.push_back(both.pair);
+  }
+  return chain;
 }
 
 // --- looking ---
@@ -357,66 +456,40 @@ std::optional<Box<D>> BroadPhase<D>::box_of(BodyId id) const {
 template <int D>
 std::vector<OwnFault> BroadPhase<D>::faults() const {
   std::vector<OwnFault> all;
-  for (const Store* store : stores()) {
-    const auto* own = std::get_if<OwnStructure<D>>(&store->structure);
-    if (!own) continue;
-    for (OwnFault fault : own->faults()) {
+  for (const Store* store : stores())
+    for (OwnFault fault : store->structure->faults()) {
       for (BodyId& body : fault.bodies) body = store->names[body];
       all.push_back(std::move(fault));
     }
-  }
   return all;
 }
 
 template <int D>
-std::optional<int> BroadPhase<D>::sweep_axis() const {
-  const auto* sweep = std::get_if<SortAndSweep<D>>(&dynamic_.structure);
-  return sweep ? std::optional(sweep->axis()) : std::nullopt;
-}
-
-template <int D>
-std::vector<GridExtent> BroadPhase<D>::grid_extents() const {
-  const auto* grid = std::get_if<Grid<D>>(&dynamic_.structure);
-  return grid ? grid->extents() : std::vector<GridExtent>();
-}
-
-template <int D>
-void BroadPhase<D>::each_swept(const std::function<void(BodyId, BodyId)>& f) const {
-  const auto* sweep = std::get_if<SortAndSweep<D>>(&dynamic_.structure);
-  if (!sweep || !dynamic_.stands) return;
-  SortAndSweep<D>(*sweep).compare(
+void BroadPhase<D>::each_swept(FunctionRef<void(BodyId, BodyId)> f) const {
+  if (!arrangement().axis || !dynamic_.stands) return;
+  dynamic_.structure->sorted()->compare(
       [](BodyId) { return true; },
-      [&](const Item<D>& a, const Item<D>& b) { f(dynamic_.names[a.id], dynamic_.names[b.id]); });
+      [&](BodyId a, BodyId b) { f(dynamic_.names[a], dynamic_.names[b]); });
 }
 
 template <int D>
 bool BroadPhase<D>::is_stale(const Item<D>& item) const {
   std::size_t place = 0;
   const Store* store = store_of(item.id, place);
-  if (store == nullptr) return false;
-  return std::visit(
-      [&](const auto& structure) {
-        if constexpr (requires { structure.fits(item); })
-          return !structure.fits({static_cast<BodyId>(place), item.box});
-        else
-          return false;
-      },
-      store->structure);
+  return store != nullptr && !store->structure->fits({static_cast<BodyId>(place), item.box});
 }
 
 template <int D>
 std::uint64_t BroadPhase<D>::structure_allocations() const {
-  const auto count = [](const auto& structure) { return work_of(structure).allocations; };
-  return std::visit(count, static_.structure) + std::visit(count, dynamic_.structure);
+  return static_.structure->work().allocations + dynamic_.structure->work().allocations;
 }
 
 template <int D>
 std::size_t BroadPhase<D>::own_places() const {
-  const auto places = [](const auto&... lists) { return (lists.capacity() + ...); };
-  const auto of_store = [&](const Store& s) { return places(s.items, s.names, s.states, s.ranks); };
-  return places(pairs_, sorted_, all_names_, ids_, bodies_) + of_store(static_) +
-         of_store(dynamic_) + of_store(fresh_) + awake_.places() + leaf_.places() +
-         found_.places() + order_.places();
+  const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
+  return pairs_.capacity() + sorted_.capacity() + all_names_.capacity() + ids_.capacity() +
+         of_store(static_) + of_store(dynamic_) + fresh_.places() + search_.places() +
+         order_.places();
 }
 
 template class BroadPhase<2>;

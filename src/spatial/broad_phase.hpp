@@ -4,17 +4,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <type_traits>
-#include <utility>
-#include <variant>
 #include <vector>
 
-#include "spatial/awake.hpp"
-#include "spatial/box_table.hpp"
 #include "spatial/pair_order.hpp"
+#include "spatial/pair_search.hpp"
 #include "spatial/query.hpp"
 #include "spatial/structure_choice.hpp"
 
@@ -58,55 +55,6 @@ struct BroadPhaseCounters {
   std::uint64_t nodes_reused = 0;          // of the dynamic structure
 };
 
-// What the structure counts, without making what only a look at it needs.
-template <class Structure>
-Counters work_of(const Structure& structure) {
-  if constexpr (requires { structure.work(); })
-    return structure.work();
-  else
-    return structure.counters();
-}
-
-// A structure whose bodies are numbered from 0 in the order of their ids, seen with the ids.
-template <int D, class Structure>
-class WithIds : public Visitable<WithIds<D, Structure>, D> {
- public:
-  static constexpr Zones kZones = Structure::kZones;
-  static constexpr bool kHoldsOnce = spatial::kHoldsOnce<Structure>;
-
-  WithIds(const Structure& structure, std::span<const BodyId> names)
-      : structure_(structure), names_(names) {}
-
-  template <class F>
-  void take(Tour<D> tour, F&& f) const {
-    std::vector<BodyId> room;
-    structure_.take(Tour<D>{room, tour.toward}, [&](NodeView<D> view) {
-      tour.ids.clear();
-      for (const BodyId number : view.bodies) tour.ids.push_back(names_[number]);
-      view.bodies = tour.ids;
-      return f(std::as_const(view));
-    });
-  }
-
-  // The fast ways of queries, where the structure has them.
-  template <class F>
-  auto each_near(const Box<D>& box, F&& f) const requires HasFastWays<Structure, D> {
-    return structure_.each_near(box,
-                                [&](BodyId number, bool is_sure) { f(names_[number], is_sure); });
-  }
-  template <class Limit, class F>
-  auto each_along(const Ray<D>& ray, Limit&& limit,
-                  F&& f) const requires HasFastWays<Structure, D> {
-    return structure_.each_along(ray, limit, [&](BodyId number) { f(names_[number]); });
-  }
-
-  Counters counters() const { return structure_.counters(); }
-
- private:
-  const Structure& structure_;
-  std::span<const BodyId> names_;
-};
-
 // The way from nodes to candidate pairs, for who shows or checks it: what an update of the same
 // bodies finds, step by step.
 struct PairChain {
@@ -127,7 +75,6 @@ template <int D>
 class BroadPhase {
  public:
   using Config = BroadPhaseConfig<D>;
-  using Structure = AnyStructure<D>;
   using Watch = EventWatch;
 
   // Throws Refused for what the structures refuse.
@@ -162,7 +109,7 @@ class BroadPhase {
 
   // What an update would find in the structures as they stand, bodies with `awake(id)` moving. At
   // most `most` pairs of each kind: throws Refused beyond.
-  PairChain pair_chain(const std::function<bool(BodyId)>& awake, std::uint64_t most) const;
+  PairChain pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const;
 
   // Of the last update.
   const std::vector<Pair>& pairs() const { return pairs_; }
@@ -177,76 +124,52 @@ class BroadPhase {
   // Of structures that a program was given: what of them is not so, the bodies named by their ids.
   std::vector<OwnFault> faults() const;
 
-  // Of the dynamic structure, if it sweeps: the axis along which it sorted last.
-  std::optional<int> sweep_axis() const;
-  // If it is a grid: its levels.
-  std::vector<GridExtent> grid_extents() const;
+  // Of the dynamic structure.
+  Arrangement arrangement() const { return dynamic_.structure->arrangement(); }
   // f(id, id) for each pair that it compares, in the order of the sweep; nothing if it sweeps none.
-  void each_swept(const std::function<void(BodyId, BodyId)>& f) const;
+  void each_swept(FunctionRef<void(BodyId, BodyId)> f) const;
 
-  // f(structure) with the real type of structure (see structure.hpp for what it offers: visit,
-  // visit_toward, kZones, counters), its bodies named by their ids: for views and queries. The
-  // structures of the last update or build; if all slept, the dynamic one as it was last built, or
-  // empty if bodies have come, gone or moved in their sleep since. Without split_static, the
-  // dynamic one holds all.
-  template <class F>
-  decltype(auto) with_static(F&& f) const {
-    return with(static_, f);
-  }
-  template <class F>
-  decltype(auto) with_dynamic(F&& f) const {
-    return with(dynamic_, f);
-  }
-  // f for the dynamic structure and then, if static bodies have one of their own, for that.
-  template <class F>
-  void with_each(F&& f) const {
-    with(dynamic_, f);
-    if (config_.split_static) with(static_, f);
-  }
-
-  template <class F>
-  void visit_dynamic(F&& f) const {
-    with_dynamic([&](const auto& structure) { structure.visit(f); });
+  // The structures of the last update or build, their bodies named by their ids: for views and
+  // queries, until the next one. If all slept, the dynamic one as it was last built, or empty if
+  // bodies have come, gone or moved in their sleep since. Without split_static, it holds all.
+  StructureView<D> dynamic() const { return view_of(dynamic_); }
+  StructureView<D> fixed() const { return view_of(static_); }
+  // The dynamic structure and then, if static bodies have one of their own, that.
+  std::vector<StructureView<D>> each() const {
+    if (!config_.split_static) return {dynamic()};
+    return {dynamic(), fixed()};
   }
 
  private:
-  // What is known of a body beside its box.
-  struct State {
-    bool is_static = false;
-    bool awake = true;
-    bool operator==(const State&) const = default;
-    bool stirs() const { return awake && !is_static; }
+  // Bodies, by id. A structure knows them by their places in these lists.
+  struct Bodies {
+    std::vector<Item<D>> items = {};  // their ids are their places
+    std::vector<BodyId> names = {};
+    std::vector<ProxyState> states = {};
+    void clear();
+    std::size_t places() const { return items.capacity() + names.capacity() + states.capacity(); }
   };
-  // A structure and its bodies, by id. The structure knows them by their places in these lists.
-  struct Store {
-    Structure structure;
+  // A structure and its bodies.
+  struct Store : Bodies {
+    std::unique_ptr<Structure<D>> structure;
     std::uint64_t BroadPhaseCounters::*builds;
     StructureKind kind;
     StructureConfig<D> settings;  // the depth at most as configured
     std::string why = {};         // it was chosen
     Use chosen_use = Use::pairs;
-    std::size_t chosen_for = 0;       // so many bodies, and
-    double chosen_tests = 0;          // so many comparisons a body in the first update after
-    double tests = 0;                 // comparisons a body in the last update
-    std::vector<Item<D>> items = {};  // their ids are their places
-    std::vector<BodyId> names = {};
-    std::vector<State> states = {};
+    std::size_t chosen_for = 0;             // so many bodies, and
+    double chosen_tests = 0;                // so many comparisons a body in the first update after
+    double tests = 0;                       // comparisons a body in the last update
     std::vector<std::uint32_t> ranks = {};  // of each body among all, by id
     std::uint64_t room = 0;                 // how many bodies its limits were made for
     bool stands = true;                     // the structure holds these bodies, ready to be asked
     bool only_moved = false;                // it holds them where they were; else it holds none
   };
 
-  template <class F>
-  static decltype(auto) with(const Store& store, F& f) {
-    const std::span<const BodyId> names = store.stands ? store.names : std::span<const BodyId>();
-    return std::visit(
-        [&](const auto& structure) -> decltype(auto) {
-          return f(WithIds<D, std::remove_cvref_t<decltype(structure)>>(structure, names));
-        },
-        store.structure);
+  static StructureView<D> view_of(const Store& store) {
+    if (!store.stands) return *store.structure;
+    return {*store.structure, store.names, store.items};
   }
-
   std::array<Store*, 2> stores() { return {&static_, &dynamic_}; }
   std::array<const Store*, 2> stores() const { return {&static_, &dynamic_}; }
   bool is_of_static(const Proxy<D>& proxy) const { return config_.split_static && proxy.is_static; }
@@ -267,21 +190,12 @@ class BroadPhase {
   void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
   bool mended(Store& store, const Watch& watch);
   void put(Store& store, const Proxy<D>& proxy, const Watch& watch);
-  void finish(Store& store);
+  static Watch naming(const Store& store, const Watch& watch);
   template <class F>
   static void with_names(const Store& store, F&& f);
   void empty(Store& store);
   void find_pairs();
-  void pair_dynamic();
   void pair_static();
-  template <class Tree>
-  void pair_itself(Tree& tree);
-  template <class Tree>
-  void ask(const Tree& tree, std::uint32_t place);
-  template <class Tree>
-  void pair_leaves(const Tree& tree);
-  void pair_bodies(std::span<const BodyId> bodies);
-  void drop_still_pairs();
   void name_by_rank();
   void require_room(BodyId number, std::size_t pairs) const;
   [[noreturn]] void refuse_more(BodyId number) const;
@@ -299,13 +213,9 @@ class BroadPhase {
   // Scratch of an update, kept for its memory.
   std::vector<Proxy<D>> sorted_;   // all, by id, if they came otherwise
   std::vector<BodyId> all_names_;  // by rank, if there are static bodies
-  Store fresh_;                    // lists of a store whose bodies are others now
+  Bodies fresh_;                   // of a store whose bodies are others now
   std::vector<BodyId> ids_;
-  std::vector<BodyId> bodies_;
-  AwakeNodes awake_;
-  std::size_t stirring_ = 0;  // how many dynamic bodies
-  BoxTable<D> leaf_;
-  FoundPairs found_;  // by their places, later by their ranks
+  PairSearch<D> search_;  // finds them by their places, later named by their ranks
   std::span<const BodyId> found_names_;
   PairOrder order_;
 };

@@ -104,7 +104,4 @@ OwnKind own(std::string name, std::string words) {
 // and _ or that is taken.
 void know_own_structures(std::vector<OwnKind> kinds);
 
-// In the order in which they were given.
-std::span<const OwnKind> own_structures();
-
 }  // namespace lantern::spatial

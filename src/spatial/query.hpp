@@ -1,21 +1,21 @@
-// Walking through a structure with something that looks for bodies: a ray, a box, a ball, a view.
-// One walk for every structure; raycast.hpp and overlap_query.hpp say what is looked for.
+// Questions to any structure (the lecture, "Further Work" 1 and 2): what a ray meets first, or all
+// that it meets; which bodies reach into a box, a ball or what a camera sees.
 //
-// A node is entered if what we look for reaches its zone: its box, without end where the box lies
-// at the rim of an orthtree's root (bodies outside the root are stored there), or its sides of the
-// planes of a BSP. Otherwise the whole branch is skipped.
+// A body is hit where `hit(id)` says, but never before the ray enters its box: a shape lies within
+// its box, and only rounding could say otherwise. So the same bodies are hit, at the same places to
+// the last bit, as if each body of the scene had been asked.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <type_traits>
-#include <utility>
+#include <variant>
 #include <vector>
 
-#include "base/stop.hpp"
-#include "geometry/not_finite.hpp"
+#include "base/error.hpp"
+#include "geometry/frustum.hpp"
 #include "geometry/ray.hpp"
 #include "spatial/structure.hpp"
 
@@ -25,30 +25,6 @@ struct QueryCounts {
   std::uint64_t nodes_visited = 0;
   std::uint64_t nodes_skipped = 0;   // their whole branches were; what lies below is not counted
   std::uint64_t objects_tested = 0;  // each at most once
-};
-
-// Whether each body lies in one leaf, so that none is met twice.
-template <class Structure>
-inline constexpr bool kHoldsOnce = [] {
-  if constexpr (requires { Structure::kHoldsOnce; })
-    return Structure::kHoldsOnce;
-  else if constexpr (requires { Structure::kTraits; })
-    return Structure::kTraits.holds_once;
-  else
-    return false;
-}();
-
-// Whether the structure offers ways for boxes and rays of its own, for when nobody watches:
-//   each_near(box, f)         f(id, is_sure) for each body that the box may overlap, each once;
-//                             is_sure: it does
-//   each_along(ray, limit, f) f(id) for each body that the ray may meet, each once, about front to
-//                             back; what the ray enters beyond `limit()` may be left out
-// Both return how many nodes they visited and skipped.
-template <class Structure, int D>
-concept HasFastWays = requires(const Structure& s, const Box<D>& box, const Ray<D>& ray) {
-  s.each_near(box, [](BodyId, bool) {});
-  s.each_along(
-      ray, [] { return 0.0; }, [](BodyId) {});
 };
 
 // What a query does, told while it does it.
@@ -63,13 +39,7 @@ struct QueryEvent {
   NodeHandle node = 0;
   BodyId body = 0;
 };
-
-struct NoQueryObserver {
-  void operator()(const QueryEvent&) const {}
-};
-
-template <class Observer>
-inline constexpr bool kIsWatched = !std::is_same_v<std::remove_cvref_t<Observer>, NoQueryObserver>;
+using QueryWatch = FunctionRef<void(const QueryEvent&)>;
 
 // The bodies that a query found, ascending.
 struct Found {
@@ -77,138 +47,202 @@ struct Found {
   QueryCounts counts;
 };
 
-// The node's box, without end on the sides where it ends with the root.
-template <int D>
-Box<D> endless_at_rim(Box<D> box, const Box<D>& root) {
-  for (int i = 0; i < D; ++i) {
-    if (box.lo[i] == root.lo[i]) box.lo[i] = -kInfinity;
-    if (box.hi[i] == root.hi[i]) box.hi[i] = kInfinity;
+struct RayHit {
+  BodyId id = 0;
+  double distance = 0;  // t along the ray
+  bool operator==(const RayHit&) const = default;
+  // The order in which a ray meets them.
+  static bool before(const RayHit& a, const RayHit& b) {
+    return a.distance < b.distance || (a.distance == b.distance && a.id < b.id);
   }
-  return box;
-}
-// The same of a box whose edges may have been rounded by as much as `slack`, grown by that.
-template <int D>
-Box<D> endless_at_rim(Box<D> box, const Box<D>& root, double slack) {
-  for (int i = 0; i < D; ++i) {
-    box.lo[i] = box.lo[i] <= root.lo[i] + slack ? -kInfinity : box.lo[i] - slack;
-    box.hi[i] = box.hi[i] >= root.hi[i] - slack ? kInfinity : box.hi[i] + slack;
-  }
-  return box;
-}
-
-// The zones of nodes in the order of visiting, for a Probe, which has
-//   Part                        what of the probe is left in a zone; copyable
-//   whole()                     the Part that is everywhere
-//   in_box(zone)                optional<Part>: what lies in a box that may be infinite
-//   beside(Part, plane, front)  optional<Part>: what of the part lies on that side; the plane is
-//                               scaled
-template <int D, class Structure, class Probe>
-class ZoneWalk {
- public:
-  using Part = typename Probe::Part;
-
-  explicit ZoneWalk(const Probe& probe) : probe_(probe) {}
-
-  // What of the probe is in the node's zone. To be called once for each node visited.
-  std::optional<Part> part_in(const NodeView<D>& node) {
-    if constexpr (Structure::kZones == Zones::half_spaces) {
-      std::optional<Part> part = probe_.whole();
-      if (node.depth > 0) {
-        const Above& above = way_[node.depth - 1];
-        part = probe_.beside(above.part, above.plane, node.slot == 1);
-      }
-      if (part && !node.leaf) {
-        way_.resize(node.depth);
-        way_.push_back({*part, scaled(*node.plane)});
-      }
-      return part;
-    } else if constexpr (Structure::kZones == Zones::endless_rim) {
-      if (node.parent == kNone) root_ = node.box;
-      return probe_.in_box(endless_at_rim(node.box, root_));
-    } else if constexpr (Structure::kZones == Zones::rounded_rim) {
-      if (node.parent == kNone) root_ = node.box;
-      return probe_.in_box(endless_at_rim(node.box, root_, node.slack));
-    } else {
-      return probe_.in_box(node.box);
-    }
-  }
-
- private:
-  struct Above {
-    Part part;
-    Plane<D> plane;
-  };
-  const Probe& probe_;
-  Box<D> root_;
-  std::vector<Above> way_;  // the inner nodes above, the root first
 };
 
-// The bodies that a walk has met: a table of open addressing, whose places are ids or empty.
-class MetBodies {
- public:
-  // False if it was there.
-  bool insert(BodyId id) {
-    if (2 * count_ >= places_.size()) grow();
-    std::uint64_t& place = place_of(id);
-    if (place != 0) return false;
-    place = kTaken | id;
-    ++count_;
-    return true;
-  }
-
- private:
-  static constexpr std::uint64_t kTaken = std::uint64_t{1} << 32;
-
-  // Where it is, or will be.
-  std::uint64_t& place_of(BodyId id) {
-    const std::size_t mask = places_.size() - 1;
-    std::size_t at = (id * 0x9e3779b97f4a7c15u >> 32) & mask;
-    while (places_[at] != 0 && places_[at] != (kTaken | id)) at = (at + 1) & mask;
-    return places_[at];
-  }
-  void grow() {
-    const std::vector<std::uint64_t> before = std::exchange(
-        places_, std::vector<std::uint64_t>(std::max<std::size_t>(64, 2 * places_.size())));
-    for (const std::uint64_t place : before)
-      if (place != 0) place_of(static_cast<BodyId>(place)) = place;
-  }
-
-  std::vector<std::uint64_t> places_;
-  std::size_t count_ = 0;
-};
-// Of a structure in which each body lies in one leaf.
-struct MeetsOnce {
-  static constexpr bool insert(BodyId) { return true; }
-};
-
-// Enters each node for which `enter(part)` holds, and tests each body of its leaves once:
-// `test(id)` says whether it was found. A direction of zero keeps the lecture's order.
-template <int D, class Structure, class Probe, class Enter, class Test, class Observer>
-QueryCounts walk(const Structure& structure, const Probe& probe, const Vec<D>& toward,
-                 Enter&& enter, Test&& test, Observer& told) {
+struct NearestHit {
+  std::optional<RayHit> hit;  // of two at the same distance, the lower id
   QueryCounts counts;
-  ZoneWalk<D, Structure, Probe> zones(probe);
-  std::conditional_t<kHoldsOnce<Structure>, MeetsOnce, MetBodies> met;
-  const auto look = [&](const NodeView<D>& node) {
-    const auto part = zones.part_in(node);
-    if (!part || !enter(*part)) {
-      ++counts.nodes_skipped;
-      told(QueryEvent{QueryEvent::Kind::skip, node.handle, 0});
-      return false;
+};
+
+struct AllHits {
+  std::vector<RayHit> hits;  // by distance, then by id
+  QueryCounts counts;
+};
+
+// All points within `radius` of the centre.
+template <int D>
+struct Ball {
+  Vec<D> center{0.0};
+  double radius = 0;
+};
+
+// Sums of squares of quotients that are at most 1: they cannot overflow, and are rounded
+// monotonically, so that a larger box is never missed where a smaller one is reached. The box may
+// be infinite. Touching overlaps.
+template <int D>
+bool overlap(const Ball<D>& ball, const Box<D>& box) {
+  double squares = 0;
+  for (int i = 0; i < D; ++i) {
+    const double gap = std::max({box.lo[i] - ball.center[i], ball.center[i] - box.hi[i], 0.0});
+    if (gap > ball.radius) return false;
+    if (gap > 0) squares += (gap / ball.radius) * (gap / ball.radius);
+  }
+  return squares <= 1;
+}
+
+// A structure as it is asked: its bodies may have other names than it has for them.
+template <int D>
+struct StructureView {
+  const Structure<D>* structure;
+  // If its bodies are numbered from 0: what they are called instead, in ascending order, and their
+  // boxes. Else they have the ids that it was given.
+  std::span<const BodyId> names = {};
+  std::span<const Item<D>> bodies = {};
+
+  StructureView(const Structure<D>& s) : structure(&s) {}
+  StructureView(const Structure<D>& s, std::span<const BodyId> their_names,
+                std::span<const Item<D>> their_boxes)
+      : structure(&s), names(their_names), bodies(their_boxes) {}
+
+  BodyId name(BodyId id) const { return names.empty() ? id : names[id]; }
+  void visit(NodeLook<D> f, const Vec<D>& toward = Vec<D>(0.0)) const {
+    std::vector<BodyId> ids;
+    structure->visit(
+        [&](NodeView<D> node) {
+          ids.clear();
+          for (const BodyId id : node.bodies) ids.push_back(name(id));
+          node.bodies = ids;
+          return f(node);
+        },
+        toward);
+  }
+  Counters counters() const { return structure->counters(); }
+};
+
+// The box with which a body was inserted.
+template <int D>
+using BoxOf = FunctionRef<Box<D>(BodyId)>;
+// The least t at which a ray meets the body's true shape; asked only where it meets its box.
+using HitAt = FunctionRef<std::optional<double>(BodyId)>;
+
+// --- a query on its way through a structure, which calls bodies by its own ids ---
+
+template <int D>
+struct QueryOf {
+  StructureView<D> view;
+  BoxOf<D> box_of;  // none: as the view says
+  QueryWatch told;  // none: nobody is told
+  QueryCounts counts = {};
+
+  Box<D> box(BodyId id) const { return box_of ? box_of(view.name(id)) : view.bodies[id].box; }
+  void tell(QueryEvent::Kind kind, NodeHandle node, BodyId id = 0) const {
+    if (told) told(QueryEvent{kind, node, id});
+  }
+};
+
+template <int D>
+struct RayQuery : QueryOf<D> {
+  const Ray<D>& ray;
+  HitAt hit;                      // none: where it enters the body's box
+  std::vector<RayHit>* all;       // null: only the nearest
+  std::optional<RayHit> nearest;  // of those tested so far, if only that is wanted
+
+  double limit() const { return nearest ? nearest->distance : ray.length; }
+  // Whether it is hit; not beyond the ray's end.
+  bool test(BodyId id) {
+    const auto span = span_in(ray, this->box(id));
+    if (!span) return false;
+    RayHit found{this->view.name(id), span->from};
+    if (hit) {
+      const std::optional<double> t = hit(found.id);
+      if (!t) return false;
+      found.distance = std::max(*t, found.distance);
     }
-    ++counts.nodes_visited;
-    told(QueryEvent{QueryEvent::Kind::visit, node.handle, 0});
-    for (const BodyId id : node.bodies) {
-      stop_if_asked();
-      if (!met.insert(id)) continue;
-      ++counts.objects_tested;
-      told(QueryEvent{QueryEvent::Kind::test, node.handle, id});
-      if (test(id)) told(QueryEvent{QueryEvent::Kind::hit, node.handle, id});
-    }
+    if (found.distance > ray.length) return false;
+    if (all != nullptr)
+      all->push_back(found);
+    else if (!nearest || RayHit::before(found, *nearest))
+      nearest = found;
     return true;
-  };
-  structure.visit_toward(toward, look);
-  return counts;
+  }
+};
+
+template <int D>
+struct VolumeQuery : QueryOf<D> {
+  std::variant<const Box<D>*, const Ball<D>*, const Frustum<D>*> volume;
+  std::vector<BodyId>* found;
+};
+
+// Hits come about in order from what goes front to back: then they are put in order by moving each
+// a little; else, after too many moves, by sorting them.
+void sort_nearly_sorted(std::vector<RayHit>& hits);
+
+template <int D>
+void require_valid(const Box<D>& box) {
+  if (!is_valid(box)) throw Refused("overlap query: the box is not finite or inverted");
+}
+template <int D>
+void require_valid(const Ball<D>& ball) {
+  if (!is_valid(Box<D>{ball.center, ball.center}) || !std::isfinite(ball.radius) || ball.radius < 0)
+    throw Refused("overlap query: the ball's centre or radius is not finite, or it is negative");
+}
+template <int D>
+void require_valid(const Frustum<D>&) {}  // was looked at when it was made
+
+// --- how it is asked ---
+
+// The nearest hit. Throws Refused for a ray that is not valid.
+template <int D>
+NearestHit raycast_nearest(const std::type_identity_t<StructureView<D>>& of, const Ray<D>& ray,
+                           std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
+                           QueryWatch told = {}) {
+  require_valid(ray);
+  RayQuery<D> query{{of, box_of, told}, ray, hit, nullptr, {}};
+  of.structure->ask(query);
+  return {query.nearest, query.counts};
+}
+
+// All hits, into `all`, whose memory is used again; else as above.
+template <int D>
+void raycast_all_into(AllHits& all, const std::type_identity_t<StructureView<D>>& of,
+                      const Ray<D>& ray, std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
+                      QueryWatch told = {}) {
+  require_valid(ray);
+  all.hits.clear();
+  RayQuery<D> query{{of, box_of, told}, ray, hit, &all.hits, {}};
+  of.structure->ask(query);
+  all.counts = query.counts;
+  sort_nearly_sorted(all.hits);
+}
+
+template <int D>
+AllHits raycast_all(const std::type_identity_t<StructureView<D>>& of, const Ray<D>& ray,
+                    std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
+                    QueryWatch told = {}) {
+  AllHits all;
+  raycast_all_into(all, of, ray, box_of, hit, told);
+  return all;
+}
+
+// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum, into `found`, whose memory
+// is used again. Throws Refused for a box that is not valid, a centre that is not finite and a
+// radius that is negative or not finite.
+template <int D, template <int> class Volume>
+void overlap_query_into(Found& found, const std::type_identity_t<StructureView<D>>& of,
+                        const Volume<D>& volume, std::type_identity_t<BoxOf<D>> box_of = {},
+                        QueryWatch told = {}) {
+  require_valid(volume);
+  found.ids.clear();
+  VolumeQuery<D> query{{of, box_of, told}, &volume, &found.ids};
+  of.structure->ask(query);
+  found.counts = query.counts;
+  std::sort(found.ids.begin(), found.ids.end());
+}
+
+template <int D, template <int> class Volume>
+Found overlap_query(const std::type_identity_t<StructureView<D>>& of, const Volume<D>& volume,
+                    std::type_identity_t<BoxOf<D>> box_of = {}, QueryWatch told = {}) {
+  Found found;
+  overlap_query_into(found, of, volume, box_of, told);
+  return found;
 }
 
 }  // namespace lantern::spatial

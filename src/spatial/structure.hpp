@@ -1,51 +1,26 @@
-// What all spatial structures share: the items they hold, the one view of their inside, the events
-// they report, and what they count.
+// What all spatial structures share: the items they hold, the one face that they have, the one view
+// of their inside, the events they report, and what they count.
 //
-// A structure knows boxes and ids only. It offers
-//   insert(item, observer)   store one item as the lecture does, one after another
-//   clear()                  forget the items, keep the memory
-//   visit(f)                 the only door to the inside: f(NodeView) -> bool, parents before
-//                            children, children in the lecture's order; false skips the branch
-//   visit(f, room)           the same; `room` is scratch memory, so that nothing is allocated
-//   visit_toward(d, f)       the same, but siblings in the order in which a ray along d meets them;
-//                            of zero length: as visit
-//   near(box, ids)           appends the bodies of all leaves that the box reaches, in any order
-//                            and perhaps repeated; returns how many tests of nodes, planes, rows
-//                            or other bodies it took to get there, 0 where nobody counts them
-//   kZones                   where a node's bodies may be, see Zones
-//   kTraits                  what kind of structure it is, see structure_kind.hpp
-//   made(config)             an empty one; throws Refused for settings that it does not allow
-//   counters()               exact counts of the work done and the tree that stands
-// and, if it finds pairs otherwise than leaf by leaf,
-//   pair(exact, found)       adds all pairs of its bodies that overlap, each once, in any order, as
-//                            RunScanner does; returns how many pairs of boxes it compared
-//   compare(awake, f)        the same comparisons made visible: f(item, item) for each, of which at
-//                            least one is awake(id); returns how many. A third argument, if not
-//                            null, is increased by the tests that it took besides: of nodes with
-//                            nodes, of rows, or of the body with which a sweep ends
-// and, if what it shows is made only for who looks,
-//   work()                   counters() of what is there already
-// and, if it can go on from where its bodies were,
-//   update(items, watch)     the same bodies, in the same order, in other places; what it does to
-//                            follow them is told to `watch`, if there is one
+// A structure knows boxes and ids only. Ids may be any numbers, but no two items of a structure may
+// have the same one. Who is told an event may call `visit` and `counters` meanwhile, but must not
+// change the structure. While a split node hands its bodies down, those that still wait are in no
+// leaf.
 //
-// structure_kinds.hpp lists them all; own_structure.hpp brings one of your own.
-//
-// Ids may be any numbers, but no two items of a structure may have the same one. An observer may
-// call `visit` and `counters` while it is told something, but must not change the structure. While
-// a split node hands its bodies down, those that still wait are in no leaf.
+// structure_kind.hpp lists them all; own_structure.hpp brings one of your own.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
+#include "base/function_ref.hpp"
 #include "geometry/box.hpp"
 #include "geometry/plane.hpp"
 #include "spatial/structure_kind.hpp"
@@ -63,16 +38,10 @@ struct Item {
 
 // Throws Refused, naming the body, unless its box is finite and nowhere inverted.
 template <int D>
+[[noreturn]] void refuse_box(const Item<D>& item);
+template <int D>
 void require_valid(const Item<D>& item) {
-  if (is_valid(item.box)) return;
-  for (int i = 0; i < D; ++i) {
-    const double lo = item.box.lo[i];
-    const double hi = item.box.hi[i];
-    if (!std::isfinite(lo) || !std::isfinite(hi) || lo > hi)
-      throw Refused(fmt::format(
-          "body {}: its box goes from {} to {} on axis {}; both must be finite and in this order",
-          item.id, lo, hi, "xyz"[i]));
-  }
+  if (!is_valid(item.box)) refuse_box(item);
 }
 
 // Two bodies, the lower id first.
@@ -85,6 +54,8 @@ struct Pair {
 // A node while its tree lives: stable from its making until it is cleared, whatever is inserted.
 using NodeHandle = std::uint32_t;
 inline constexpr std::uint32_t kNone = 0xffffffff;
+// The slot of a grid's leaf for bodies that reach too many cells.
+inline constexpr std::uint32_t kGridLarge = 0xfffffffe;
 
 template <int D>
 struct NodeView {
@@ -102,12 +73,24 @@ struct NodeView {
   std::uint32_t room = 0;       // is one, and how many places are theirs
 };
 
-// Where the bodies of a node, or at least the parts of them for which the node answers, may lie.
-enum class Zones {
-  fitted,       // within its box
-  endless_rim,  // within its box, but without end where that box lies at the root's rim
-  rounded_rim,  // as endless_rim, and beyond the box by its slack
-  half_spaces,  // on the node's sides of all planes above it; its box says nothing
+// f(node) -> bool: false skips the branch.
+template <int D>
+using NodeLook = FunctionRef<bool(const NodeView<D>&)>;
+
+// A walk through all nodes, while it is made.
+template <int D>
+struct Tour {
+  std::vector<BodyId>& ids;   // scratch: what the leaf at hand holds
+  Vec<D> toward{0.0};         // siblings are met as a ray along it meets them; zero: in their order
+  std::uint32_t next_id = 0;  // of the next node
+
+  // The ids in ascending order: as they are if they lie so already, else a sorted copy.
+  std::span<const BodyId> ascending(std::span<const BodyId> found) {
+    if (std::is_sorted(found.begin(), found.end())) return found;
+    ids.assign(found.begin(), found.end());
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  }
 };
 
 // A dividing plane of a BSP.
@@ -117,15 +100,17 @@ struct BspPlane {
   std::uint32_t parent = kNone;  // position in the list of the plane above it; kNone for the root
   bool front = false;            // it divides what lies in front of its parent
 };
+// Planes of a BSP one below the other.
+inline constexpr std::uint32_t kDeepestBsp = 1000;
 
 // What a structure is told when it is made; each reads what concerns it.
 template <int D>
 struct StructureConfig {
   Box<D> bounds{Vec<D>(-512.0), Vec<D>(512.0)};  // of trees' roots; bodies outside are found, too
-  std::uint32_t capacity = 6;                    // of a leaf
-  std::uint32_t max_depth = 7;
-  bool eager_children = false;
-  bool no_progress_stop = true;
+  std::uint32_t capacity = 6;                    // of a leaf: one that holds more is split
+  std::uint32_t max_depth = 7;                   // of the deepest node; 0: the root is never split
+  bool eager_children = false;   // a split makes all children, else each is made when entered
+  bool no_progress_stop = true;  // no split of bodies that all share one point
   std::vector<BspPlane<D>> planes = {};                 // of a BSP
   std::uint64_t most_entries = std::uint64_t{1} << 22;  // of a tree: entries, and nodes
   double cell = 0;           // of a grid: side of its smallest cells; 0: what suits its bodies
@@ -145,13 +130,7 @@ struct Event {
   std::uint32_t count = 0;
   std::uint32_t limit = 0;
 };
-
 using EventWatch = std::function<void(const Event&)>;
-
-// The default observer: its calls compile to nothing.
-struct NoObserver {
-  void operator()(const Event&) const {}
-};
 
 struct Counters {
   std::uint64_t nodes = 0;  // that stand now
@@ -176,5 +155,118 @@ struct Counters {
   std::uint64_t reinserted = 0;
   std::uint64_t refitted = 0;
 };
+
+// A level of a grid, as an array.
+struct GridExtent {
+  double side = 0;  // of a cell
+  std::uint64_t columns = 0, rows = 0;
+};
+
+// How a structure has arranged its bodies, beyond its nodes.
+struct Arrangement {
+  std::optional<int> axis = {};         // along which it sorted last, if it sweeps
+  std::vector<GridExtent> levels = {};  // of a grid, the finest first
+};
+
+// What is wrong with a structure of a user's own.
+struct OwnFault {
+  std::string text;                 // "node 1.3 does not list {0}, …"
+  std::vector<BodyId> bodies = {};  // whom {0} and {1} stand for
+};
+
+// With the bodies called so.
+std::string text_of(const OwnFault& fault, const std::function<std::string(BodyId)>& name_of);
+
+// A structure that cannot be used any further.
+class StructureFault : public std::runtime_error {
+ public:
+  explicit StructureFault(OwnFault fault);
+  const OwnFault& fault() const { return fault_; }
+
+ private:
+  OwnFault fault_;
+};
+
+// How a structure is built.
+enum class Build {
+  one_by_one,  // as the lecture inserts them
+  at_once,     // the same tree, sooner; its nodes may be numbered otherwise
+};
+
+template <int D>
+struct RayQuery;
+template <int D>
+struct VolumeQuery;
+template <int D>
+class PairSearch;
+
+// The face of them all. It is virtual once a question, never once a node: what walks through the
+// nodes is written in the structure itself (see structure_of.hpp).
+template <int D>
+class Structure {
+ public:
+  virtual ~Structure() = default;
+
+  // Stores one item as the lecture does, one after another, and tells `watch`, if there is one.
+  // False, and nothing is done, if it is fitted to its bodies and must be built of all of them.
+  // Throws Refused for a box that is not valid; nothing changes then. Throws Refused, too, when it
+  // would pass `most_entries`, and Stopped: it can then still be visited, but lacks some bodies in
+  // some leaves, and must be cleared before further use.
+  virtual bool insert(const Item<D>& item, const EventWatch& watch = {}) = 0;
+  // That of these items, instead of what was there; memory is used again. Ids ascend. A structure
+  // that can do only one of these does it that way. Throws as `insert` does.
+  virtual void build(std::span<const Item<D>> items, Build way = Build::one_by_one) = 0;
+  // Goes on from where its bodies were: the same, in the same order, in other places; tells `watch`
+  // what it does to follow them. False, and nothing is done, if it cannot.
+  virtual bool update(std::span<const Item<D>>, const EventWatch& = {}) { return false; }
+  // Forgets the items, keeps the memory.
+  virtual void clear() = 0;
+  // What insertions that nobody watched leave to be done: of one that sorts before it is asked; and
+  // of one that is looked at from outside.
+  virtual void sort() {}
+  virtual void look() {}
+  // A copy of one that sorts before it is asked, sorted; null for all others.
+  virtual std::unique_ptr<Structure> sorted() const { return nullptr; }
+
+  // All nodes, parents before children, children in the lecture's order; or, along a direction,
+  // siblings in the order in which a ray along it meets them.
+  virtual void visit(NodeLook<D> f, const Vec<D>& toward = Vec<D>(0.0)) const = 0;
+  // Appends the bodies of all leaves that the box reaches, in any order and perhaps repeated.
+  // Returns how many tests of nodes, planes, rows or other bodies it took to get there, 0 where
+  // nobody counts them.
+  virtual std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const = 0;
+  // What a ray meets, and which bodies reach into a volume: see query.hpp.
+  virtual void ask(RayQuery<D>& query) const = 0;
+  virtual void ask(VolumeQuery<D>& query) const = 0;
+  // Which bodies overlap: see pair_search.hpp.
+  virtual void pair(PairSearch<D>& search) = 0;
+  // The same comparisons made visible: f(id, id) for each, of which at least one is awake(id), in
+  // their order. Returns the tests that it took besides: of nodes with nodes, of rows, or of the
+  // body with which a sweep ends. To be called when it is sorted.
+  virtual std::uint64_t compare(FunctionRef<bool(BodyId)> awake,
+                                FunctionRef<void(BodyId, BodyId)> f) const = 0;
+  // Of a structure that is fitted to its bodies: whether it still is, if this one, which it holds,
+  // has moved to this box.
+  virtual bool fits(const Item<D>&) const { return true; }
+
+  // Exact counts of the work done and of the tree that stands; `work` without making what only a
+  // look at it needs.
+  virtual Counters counters() const = 0;
+  virtual Counters work() const { return counters(); }
+  virtual Arrangement arrangement() const { return {}; }
+  // Of a user's own: what of it is not so.
+  virtual std::span<const OwnFault> faults() const { return {}; }
+
+ protected:
+  Structure() = default;
+  Structure(const Structure&) = default;
+  Structure& operator=(const Structure&) = default;
+};
+
+// An empty structure. Throws Refused for settings that it does not allow, for a kind that needs
+// another dimension, and for `none` and `automatic`.
+template <int D>
+std::unique_ptr<Structure<D>> make_structure(StructureKind kind,
+                                             const StructureConfig<D>& config = {});
 
 }  // namespace lantern::spatial

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "spatial/structure_kinds.hpp"
+#include "spatial/structure.hpp"
 
 namespace lantern::spatial {
 

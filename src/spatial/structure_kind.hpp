@@ -121,9 +121,12 @@ struct StructureTraits {
 };
 
 // Of none and automatic: no settings, no tree.
-StructureTraits traits_of(StructureKind kind);
+const StructureTraits& traits_of(StructureKind kind);
 
-// Whether kinds of these settings exist in worlds of so many dimensions.
+// Whether its nodes are cells, and what lies above them is nowhere.
+inline bool has_cells(StructureKind kind) { return traits_of(kind).names == NodeNames::cells; }
+
+// Whether it is possible in worlds of so many dimensions.
 inline bool is_possible(StructureKind kind, int dimension) {
   return dimension >= traits_of(kind).least_dimension;
 }

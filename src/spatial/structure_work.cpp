@@ -8,7 +8,7 @@ namespace {
 
 template <int D>
 std::uint64_t dynamic_tests(const BroadPhase<D>& broad) {
-  return broad.with_dynamic([](const auto& tree) { return tree.counters().box_tests; });
+  return broad.dynamic().counters().box_tests;
 }
 
 // Are those that move where they were?
@@ -22,7 +22,7 @@ bool same_movers(std::span<const Proxy<D>> before, std::span<const Proxy<D>> aft
 }  // namespace
 
 bool counts_its_work(StructureKind kind) {
-  return std::ranges::count(kStructureKinds, kind) > 0 && kind != StructureKind::lecture_quadtree;
+  return std::ranges::count(kStructureKinds, kind) > 0 && !traits_of(kind).is_plain;
 }
 
 template <int D>
@@ -34,12 +34,11 @@ StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D
   broad.build(before);
   const std::uint64_t at_first = dynamic_tests(broad);
   const std::uint64_t builds = broad.counters().dynamic_builds;
-  work.build =
-      at_first + broad.with_static([](const auto& tree) { return tree.counters().box_tests; });
+  work.build = at_first + broad.fixed().counters().box_tests;
   broad.build(after);
   // What is built anew begins to count anew, as does a tree that follows its bodies; what stands
   // goes on.
-  const bool follows = config.kind == StructureKind::aabb_tree && !same_movers(before, after);
+  const bool follows = traits_of(config.kind).follows && !same_movers(before, after);
   const bool anew = follows || broad.counters().dynamic_builds > builds;
   work.renew = dynamic_tests(broad) - (anew ? 0 : at_first);
 

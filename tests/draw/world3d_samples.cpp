@@ -8,7 +8,7 @@
 
 #include "base/random.hpp"
 #include "geometry/flat.hpp"
-#include "spatial/orthtree.hpp"
+#include "spatial/structure.hpp"
 
 namespace lantern::draw::samples {
 namespace {
@@ -17,9 +17,9 @@ Rotation<3> turn(const Vec<3>& axis, double angle) {
   return turned(Rotation<3>{}, glm::normalize(axis) * angle);
 }
 
-template <class Tree, class ToBox>
-void add_nodes(const Tree& tree, const ToBox& to_box, Frame& frame) {
-  tree.visit([&](const auto& view) {
+template <int D, class ToBox>
+void add_nodes(const Structure<D>& tree, const ToBox& to_box, Frame& frame) {
+  tree.visit([&](const NodeView<D>& view) {
     FrameNode node;
     node.id = view.id;
     node.parent = view.parent;
@@ -55,10 +55,12 @@ void light(Frame& frame, BodyId id) {
 
 void add_octree(Frame& frame) {
   frame.structure = StructureKind::octree;
-  Orthtree<3> tree({.bounds = frame.bounds, .capacity = 2, .max_depth = 4});
-  for (const FrameBody& body : frame.bodies) tree.insert({body.id, body.box});
+  const auto tree = make_structure<3>(
+      StructureKind::octree,
+      {.bounds = frame.bounds, .capacity = 2, .max_depth = 4, .no_progress_stop = false});
+  for (const FrameBody& body : frame.bodies) tree->insert({body.id, body.box});
   add_nodes(
-      tree, [](const Box<3>& box) { return box; }, frame);
+      *tree, [](const Box<3>& box) { return box; }, frame);
   std::set<Pair> pairs;
   for (const FrameNode& node : frame.nodes)
     for (const BodyId a : node.bodies)
@@ -203,12 +205,14 @@ Frame columns_frame() {
                   ghost(2, "inky", {5, 0.8, 1.2}, 6), ghost(3, "player", {9, 0.6, 9}, 3),
                   ghost(4, "clyde", {1.6, 1.6, 9.4}, 7)};
   frame.structure = StructureKind::quadtree;
-  Orthtree<2> tree({.bounds = {{0, 0}, {12, 12}}, .capacity = 2, .max_depth = 4});
+  const auto tree = make_structure<2>(
+      StructureKind::quadtree,
+      {.bounds = {{0, 0}, {12, 12}}, .capacity = 2, .max_depth = 4, .no_progress_stop = false});
   const auto on_floor = [](const Vec<3>& v) { return Vec<2>(v.x, v.z); };
   for (const FrameBody& body : frame.bodies)
-    tree.insert({body.id, {on_floor(body.box.lo), on_floor(body.box.hi)}});
+    tree->insert({body.id, {on_floor(body.box.lo), on_floor(body.box.hi)}});
   add_nodes(
-      tree,
+      *tree,
       [](const Box<2>& box) {
         return Box<3>{{box.lo.x, 0, box.lo.y}, {box.hi.x, 4, box.hi.y}};
       },

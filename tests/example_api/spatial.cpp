@@ -2,10 +2,9 @@
 #include <cstdio>
 #include <vector>
 
-#include <lantern/spatial/brute_force.hpp>
-#include <lantern/spatial/orthtree.hpp>
-#include <lantern/spatial/overlap_query.hpp>
 #include <lantern/spatial/pairs.hpp>
+#include <lantern/spatial/query.hpp>
+#include <lantern/spatial/structure.hpp>
 
 using namespace lantern::spatial;
 
@@ -19,16 +18,17 @@ int main() {
   };
 
   //! [pairs]
-  Orthtree<2> tree({.bounds = world, .capacity = 2, .max_depth = 6});
-  for (const Item<2>& item : items) tree.insert(item);
+  const auto tree = make_structure<2>(StructureKind::quadtree,
+                                      {.bounds = world, .capacity = 2, .max_depth = 6});
+  for (const Item<2>& item : items) tree->insert(item);
 
-  const CandidatePairs found = candidate_pairs(tree, 1000);
+  const CandidatePairs found = candidate_pairs(*tree, 1000);
   std::printf("%zu of %llu pairs are left to test\n", found.pairs.size(),
               static_cast<unsigned long long>(all_pairs(items.size())));
   //! [pairs]
 
   //! [visit]
-  tree.visit([](const NodeView<2>& node) {
+  tree->visit([](const NodeView<2>& node) {
     std::printf("%*s%s with %zu bodies\n", static_cast<int>(2 * node.depth), "",
                 node.leaf ? "leaf" : "node", node.bodies.size());
     return true;  // go on below it
@@ -37,7 +37,7 @@ int main() {
 
   //! [query]
   const auto box_of = [&](BodyId id) { return items[id].box; };
-  const Found near = overlap_query(tree, Ball<2>{{12.0, 10.0}, 2.0}, box_of);
+  const Found near = overlap_query(*tree, Ball<2>{{12.0, 10.0}, 2.0}, box_of);
   for (const BodyId id : near.ids) std::printf("body %u is near\n", id);
   //! [query]
 

@@ -13,13 +13,12 @@
 #include "atlas/atlas.hpp"
 #include "base/check.hpp"
 #include "spatial/broad_phase.hpp"
-#include "spatial/brute_force.hpp"
-#include "spatial/bsp.hpp"
-#include "spatial/orthtree.hpp"
-#include "spatial/overlap_query.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/query.hpp"
+#include "spatial/trees/brute_force.hpp"
+#include "spatial/trees/bsp.hpp"
+#include "spatial/trees/orthtree.hpp"
 
 namespace lantern::spatial {
 
@@ -131,7 +130,7 @@ void check_structure(const Structure& structure, const std::vector<Item<D>>& ite
 
 template <int D>
 void fuzz_orthtree(ByteStream& bytes) {
-  typename Orthtree<D>::Config config;
+  testing::TreeConfig<D> config;
   config.bounds = {Vec<D>(0.0), Vec<D>(64.0)};
   if (bytes.next() < 32) config.bounds = read_box<D>(bytes);
   config.capacity = bytes.next() % 9;
@@ -178,7 +177,7 @@ void fuzz_bsp(ByteStream& bytes) {
   }
   std::optional<Bsp<D>> bsp;
   try {
-    bsp.emplace(planes, Box<D>{Vec<D>(0.0), Vec<D>(64.0)}, kMostEntries);
+    bsp.emplace(testing::bsp_config<D>(planes, {Vec<D>(0.0), Vec<D>(64.0)}, kMostEntries));
   } catch (const Refused&) {
     return;
   }
@@ -234,7 +233,8 @@ void fuzz_broad_phase(ByteStream& bytes) {
     for (BroadPhase<D>& phase : phases) {
       phase.update(proxies);
       LANTERN_CHECK(phase.pairs() == phases.front().pairs(), ==, true);
-      phase.with_dynamic([&](const auto& structure) {
+      {
+        const StructureView<D> structure = phase.dynamic();
         const AllHits all = raycast_all(structure, ray, box_of);
         const Found found = overlap_query(structure, ball, box_of);
         const NearestHit first = raycast_nearest(structure, ray, box_of);
@@ -243,7 +243,7 @@ void fuzz_broad_phase(ByteStream& bytes) {
         LANTERN_CHECK(found.ids == near, ==, true);
         LANTERN_CHECK(first.hit == (hits.empty() ? std::nullopt : std::optional(hits.front())), ==,
                       true);
-      });
+      }
     }
     for (Proxy<D>& proxy : proxies) {
       const std::uint8_t what = bytes.next();

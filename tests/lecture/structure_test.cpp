@@ -6,13 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "geometry/random_vec.hpp"
-#include "spatial/brute_force.hpp"
-#include "spatial/flat_quadtree.hpp"
-#include "spatial/lecture_quadtree.hpp"
-#include "spatial/overlap_query.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/query.hpp"
+#include "spatial/trees/brute_force.hpp"
+#include "spatial/trees/lecture_quadtree.hpp"
+#include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -22,18 +21,21 @@ using testing::kSorts;
 using testing::Sort;
 
 template <int D>
-LectureQuadtree<D> tree_of(const Box<D>& bounds, std::uint32_t capacity, std::uint32_t max_depth,
-                           std::uint64_t most_entries = 1u << 22) {
+using LectureIn = std::conditional_t<D == 2, LectureQuadtree, Upright<LectureQuadtree>>;
+
+template <int D>
+LectureIn<D> tree_of(const Box<D>& bounds, std::uint32_t capacity, std::uint32_t max_depth,
+                     std::uint64_t most_entries = 1u << 22) {
   StructureConfig<D> config;
   config.bounds = bounds;
   config.capacity = capacity;
   config.max_depth = max_depth;
   config.most_entries = most_entries;
-  return LectureQuadtree<D>::made(config);
+  return LectureIn<D>(config);
 }
 
 template <int D>
-LectureQuadtree<D> random_tree(Sort sort, Random& random) {
+LectureIn<D> random_tree(Sort sort, Random& random) {
   return tree_of<D>(testing::bounds_of<D>(sort), static_cast<std::uint32_t>(random.whole(1, 6)),
                     static_cast<std::uint32_t>(random.whole(0, 4)));
 }
@@ -47,7 +49,7 @@ void expect_exact(std::uint64_t seeds) {
       Box<D> floor{Vec<D>(-1e150), Vec<D>(1e150)};
       floor.hi.y = 7;
       if (seed % 2 == 0) items.front().box = floor;
-      LectureQuadtree<D> tree = random_tree<D>(sort, random);
+      LectureIn<D> tree = random_tree<D>(sort, random);
       for (const Item<D>& item : items) tree.insert(item);
       const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
       const auto where = ::testing::Message()
@@ -70,7 +72,7 @@ template <int D, class Engine>
 void expect_same_nodes(Engine engine) {
   Random random(11);
   const Box<D> bounds{Vec<D>(0.0), Vec<D>(64.0)};
-  LectureQuadtree<D> tree = tree_of<D>(bounds, 2, 4);
+  LectureIn<D> tree = tree_of<D>(bounds, 2, 4);
   for (const Item<D>& item : testing::random_world<D>(Sort::aligned, 40, random)) {
     std::vector<Event> told, expected;
     tree.insert(item, [&](const Event& e) { told.push_back(e); });
@@ -96,18 +98,18 @@ void expect_same_nodes(Engine engine) {
 }
 
 TEST(LectureQuadtree, HasTheNodesOfTheEngines) {
-  const Quadtree::Config same{{Vec<2>(0.0), Vec<2>(64.0)}, 2, 4, true};
+  const testing::TreeConfig<2> same{{Vec<2>(0.0), Vec<2>(64.0)}, 2, 4, true};
   expect_same_nodes<2>(Quadtree(same));
-  expect_same_nodes<3>(FlatQuadtree({.bounds = {Vec<3>(0.0), Vec<3>(64.0)},
-                                     .capacity = 2,
-                                     .max_depth = 4,
-                                     .eager_children = true,
-                                     .no_progress_stop = false}));
+  expect_same_nodes<3>(Upright<Quadtree>({.bounds = {Vec<3>(0.0), Vec<3>(64.0)},
+                                          .capacity = 2,
+                                          .max_depth = 4,
+                                          .eager_children = true,
+                                          .no_progress_stop = false}));
 }
 
 TEST(LectureQuadtree, HandlesAreNumbersBelowTheCountAndStay) {
   Random random(2);
-  LectureQuadtree<2> tree = tree_of<2>(testing::bounds_of<2>(Sort::uniform), 1, 6);
+  LectureIn<2> tree = tree_of<2>(testing::bounds_of<2>(Sort::uniform), 1, 6);
   std::map<std::string, NodeHandle> handles;
   for (const Item<2>& item : testing::random_world<2>(Sort::uniform, 50, random)) {
     tree.insert(item);
@@ -128,7 +130,7 @@ TEST(LectureQuadtree, RaysFindWhatBruteForceFinds) {
   for (const Sort sort : {Sort::uniform, Sort::aligned, Sort::outside, Sort::points}) {
     Random random(static_cast<std::uint64_t>(sort));
     const auto items = testing::random_world<3>(sort, 60, random);
-    LectureQuadtree<3> tree = random_tree<3>(sort, random);
+    LectureIn<3> tree = random_tree<3>(sort, random);
     BruteForce<3> brute;
     for (const Item<3>& item : items) tree.insert(item), brute.insert(item);
     const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
@@ -147,7 +149,7 @@ TEST(LectureQuadtree, RefusesWhatTheQuadtreeRefusesAndMoreThanItsBudget) {
   EXPECT_THROW(tree_of<2>(bounds, 0, 4), Refused) << "a capacity of 0";
   EXPECT_THROW(tree_of<2>(bounds, 2, 33), Refused) << "too deep";
   EXPECT_THROW(tree_of<2>({Vec<2>(1.0), Vec<2>(1.0)}, 2, 4), Refused) << "no extent";
-  LectureQuadtree<2> tree = tree_of<2>(bounds, 1, 8, 500);
+  LectureIn<2> tree = tree_of<2>(bounds, 1, 8, 500);
   EXPECT_THROW(tree.insert({0, {Vec<2>(2.0), Vec<2>(1.0)}}), Refused) << "an inverted box";
   EXPECT_EQ(tree.counters().entries, 0u);
   tree.insert({0, bounds});
@@ -164,8 +166,7 @@ TEST(LectureQuadtree, RefusesWhatTheQuadtreeRefusesAndMoreThanItsBudget) {
 TEST(LectureQuadtree, ExtremeNumbersLoseNobody) {
   for (const double scale : {1e-320, 1e-300, 1e150, 1e307}) {
     for (const double from : {0.0, -1.0, 1.0}) {
-      LectureQuadtree<2> tree =
-          tree_of<2>({Vec<2>(from * scale), Vec<2>((from + 2) * scale)}, 1, 5);
+      LectureIn<2> tree = tree_of<2>({Vec<2>(from * scale), Vec<2>((from + 2) * scale)}, 1, 5);
       std::vector<Item<2>> items;
       for (BodyId id = 0; id < 9; ++id) {
         const Vec<2> at(scale * (id * 0.25 + from), scale * (id * 0.125 + from));

@@ -77,16 +77,12 @@ TEST(BroadPhaseCost, TheQuadtreesCountsAreThoseOfARecount) {
     const auto& boxes = std::get<BoxUpdates<2>>(scene.boxes);
     const std::vector<BroadPhaseCost> rows = measured(scene);
     for (const std::uint32_t capacity : quick().capacities) {
-      Quadtree::Config config;
-      config.bounds = boxes.bounds;
-      config.capacity = capacity;
-      config.max_depth = 5;
-      config.no_progress_stop = true;  // as in every broad phase
-      Quadtree tree(config);
-      for (const Proxy<2>& box : boxes.frames[0]) tree.insert({box.id, box.box});
+      const auto tree = make_structure<2>(
+          StructureKind::quadtree, {.bounds = boxes.bounds, .capacity = capacity, .max_depth = 5});
+      for (const Proxy<2>& box : boxes.frames[0]) tree->insert({box.id, box.box});
       std::set<std::pair<BodyId, BodyId>> candidates;
       std::uint64_t tests = 0, entries = 0;
-      tree.visit([&](const NodeView<2>& node) {
+      tree->visit([&](const NodeView<2>& node) {
         entries += node.bodies.size();
         for (const BodyId a : node.bodies)
           for (const BodyId b : node.bodies)

@@ -1,4 +1,4 @@
-#include "spatial/aabb_tree.hpp"
+#include "spatial/trees/aabb_tree.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "spatial/broad_phase.hpp"
-#include "spatial/overlap_query.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/query.hpp"
+#include "spatial/trees/brute_force.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -76,7 +76,7 @@ void expect_sound(const AabbTree<D>& tree, const std::vector<Item<D>>& items) {
 template <int D>
 std::vector<Pair> paired(AabbTree<D>& tree, const std::vector<Item<D>>& exact) {
   FoundPairs found;
-  tree.pair(exact, found);
+  tree.find_pairs(exact, found);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < found.size(); ++i)
     pairs.push_back({std::min(found.first()[i], found.second()[i]),
@@ -91,11 +91,12 @@ void expect_finds_all(AabbTree<D>& tree, const std::vector<Item<D>>& items, Sort
                       Random& random) {
   EXPECT_EQ(paired(tree, items), testing::true_overlaps(items));
   std::set<Pair> compared;
-  const std::uint64_t count =
-      tree.compare([](BodyId) { return true; },
-                   [&](const Item<D>& a, const Item<D>& b) {
-                     compared.insert({std::min(a.id, b.id), std::max(a.id, b.id)});
-                   });
+  std::uint64_t count = 0;
+  tree.compare([](BodyId) { return true; },
+               [&](BodyId a, BodyId b) {
+                 ++count;
+                 compared.insert({std::min(a, b), std::max(a, b)});
+               });
   EXPECT_EQ(compared.size(), count) << "a pair was compared twice";
   for (const Pair& pair : testing::true_overlaps(items)) EXPECT_TRUE(compared.contains(pair));
   BruteForce<D> force;
@@ -106,18 +107,17 @@ void expect_finds_all(AabbTree<D>& tree, const std::vector<Item<D>>& items, Sort
   };
   for (int i = 0; i < 4; ++i) {
     const Box<D> box = testing::random_box<D>(sort, random);
-    EXPECT_EQ(overlap_query<D>(tree, box, box_of).ids, overlap_query<D>(force, box, box_of).ids);
+    EXPECT_EQ(overlap_query(tree, box, box_of).ids, overlap_query(force, box, box_of).ids);
     const Ball<D> ball{point(), random.between(0, 20)};
-    EXPECT_EQ(overlap_query<D>(tree, ball, box_of).ids, overlap_query<D>(force, ball, box_of).ids);
+    EXPECT_EQ(overlap_query(tree, ball, box_of).ids, overlap_query(force, ball, box_of).ids);
     Ray<D> ray{point(), random_point<D>(random, -1, 1), random.between(0, 90)};
     if (i % 3 == 0) ray.direction[0] = 0;
     if (i % 4 == 1) ray.length = std::numeric_limits<double>::infinity();
     if (i % 4 == 3) ray.direction[1] = 1e-310;
     if (i == 2) ray.direction = point() - ray.origin;
     if (ray.direction == Vec<D>(0.0)) ray.direction[D - 1] = 1;
-    EXPECT_EQ(raycast_all<D>(tree, ray, box_of).hits, raycast_all<D>(force, ray, box_of).hits);
-    EXPECT_EQ(raycast_nearest<D>(tree, ray, box_of).hit,
-              raycast_nearest<D>(force, ray, box_of).hit);
+    EXPECT_EQ(raycast_all(tree, ray, box_of).hits, raycast_all(force, ray, box_of).hits);
+    EXPECT_EQ(raycast_nearest(tree, ray, box_of).hit, raycast_nearest(force, ray, box_of).hit);
   }
 }
 
@@ -130,8 +130,8 @@ void built_inserted_and_updated_trees_find_the_same() {
                                           << ", margin " << margin << ", " << bodies << " bodies");
         Random random(bodies + static_cast<std::uint64_t>(sort));
         auto items = numbered_world<D>(sort, bodies, random);
-        AabbTree<D> built(margin), inserted(margin);
-        built.build(items);
+        AabbTree<D> built({.margin = margin}), inserted({.margin = margin});
+        built.make(items);
         for (const Item<D>& item : items) inserted.insert(item);
         for (int step = 0; step < 3; ++step) {
           for (AabbTree<D>* tree : {&built, &inserted}) {
@@ -169,8 +169,8 @@ TEST(AabbTree, BuiltInsertedAndUpdatedTreesFindTheSameIn3d) {
 TEST(AabbTree, FollowsAFewThatLeaveTheirBoxes) {
   Random random(4);
   auto items = numbered_world<2>(Sort::uniform, 150, random);
-  AabbTree<2> tree(0.5);
-  tree.build(items);
+  AabbTree<2> tree({.margin = 0.5});
+  tree.make(items);
   for (int step = 0; step < 10; ++step) {
     for (Item<2>& item : items) {
       const double far = random.whole(0, 99) == 0 ? 20 : 0.01;
@@ -186,8 +186,8 @@ TEST(AabbTree, FollowsAFewThatLeaveTheirBoxes) {
 TEST(AabbTree, AMoveWithinTheEnlargedBoxChangesNothing) {
   Random random(5);
   auto items = numbered_world<2>(Sort::uniform, 50, random);
-  AabbTree<2> tree(1);
-  tree.build(items);
+  AabbTree<2> tree({.margin = 1});
+  tree.make(items);
   const auto boxes = [&] {
     std::vector<Box<2>> all;
     tree.visit([&](const NodeView<2>& view) { return all.push_back(view.box), true; });
@@ -208,9 +208,9 @@ TEST(AabbTree, DoesNotDependOnTheOrderInWhichItIsBuilt) {
   for (const Sort sort : kSorts) {
     auto items = testing::random_world<3>(sort, 90, random);
     AabbTree<3> tree, other;
-    tree.build(items);
+    tree.make(items);
     testing::shuffle(items, random);
-    other.build(items);
+    other.make(items);
     const auto seen = [](const AabbTree<3>& t) {
       std::vector<std::pair<Box<3>, BodyId>> all;
       t.visit([&](const NodeView<3>& v) {
@@ -232,7 +232,7 @@ TEST(AabbTree, StaysLow) {
   }
   for (const auto* items : {&nested, &same}) {
     AabbTree<2> built, inserted;
-    built.build(*items);
+    built.make(*items);
     for (const Item<2>& item : *items) inserted.insert(item);
     EXPECT_LE(built.counters().depth, 18u);
     expect_sound(inserted, *items);
@@ -248,9 +248,9 @@ TEST(AabbTree, IsCutWhereBoxesStaySmall) {
   for (BodyId i = 0; i < 300; ++i)
     growing.push_back({i, Box<2>::around({std::pow(1.2, i), 0}, Vec<2>(1e-3))});
   AabbTree<2> tree;
-  tree.build(row);
+  tree.make(row);
   EXPECT_EQ(tree.counters().depth, 8u);
-  tree.build(growing);
+  tree.make(growing);
   EXPECT_GT(tree.counters().depth, 9u) << "cut at the median";
   EXPECT_LE(tree.counters().depth, 9u + 8);
 }
@@ -282,7 +282,7 @@ TEST(AabbTree, HoldsWhatFloatCannot) {
     if (i % 4 == 3) items.back().box = {Vec<2>(-1e300), Vec<2>(1e300)};
   }
   AabbTree<2> tree, inserted;
-  tree.build(items);
+  tree.make(items);
   for (const Item<2>& item : items) inserted.insert(item);
   for (AabbTree<2>* each : {&tree, &inserted})
     EXPECT_EQ(paired(*each, items), testing::true_overlaps(items));
@@ -346,7 +346,7 @@ TEST(AabbTree, InsertsAgainThoseThatLeftTheirBoxesAndTellsIt) {
   std::vector<Item<2>> items = testing::random_world<2>(Sort::uniform, 40, random);
   for (BodyId i = 0; i < items.size(); ++i) items[i].id = i;  // only then is the tree followed
   for (const Following following : {Following::reinsert, Following::refit}) {
-    AabbTree<2> tree(0.5, following);
+    AabbTree<2> tree({.margin = 0.5, .following = following});
     for (const Item<2>& item : items) tree.insert(item);
     for (int step = 0; step < 20; ++step) {
       std::set<BodyId> moved;
@@ -377,15 +377,15 @@ TEST(AabbTree, InsertsAgainThoseThatLeftTheirBoxesAndTellsIt) {
 }
 
 TEST(AabbTree, RefusesWhatItCannotHold) {
-  EXPECT_THROW(AabbTree<2>(-1.0), Refused);
-  EXPECT_THROW(AabbTree<2>(std::numeric_limits<double>::quiet_NaN()), Refused);
-  EXPECT_THROW(AabbTree<3>(std::numeric_limits<double>::infinity()), Refused);
+  EXPECT_THROW(AabbTree<2>({.margin = -1.0}), Refused);
+  EXPECT_THROW(AabbTree<2>({.margin = std::numeric_limits<double>::quiet_NaN()}), Refused);
+  EXPECT_THROW(AabbTree<3>({.margin = std::numeric_limits<double>::infinity()}), Refused);
   AabbTree<2> tree;
   const std::vector<Item<2>> good = {{0, {{0, 0}, {1, 1}}}, {1, {{2, 0}, {3, 1}}}};
-  tree.build(good);
+  tree.make(good);
   std::vector<Item<2>> bad = good;
   bad[1].box.hi.x = 1;
-  EXPECT_THROW(tree.build(bad), Refused);
+  EXPECT_THROW(tree.make(bad), Refused);
   EXPECT_THROW(tree.update(bad), Refused);
   EXPECT_THROW(tree.insert(bad[1]), Refused);
   expect_sound(tree, good);
@@ -394,7 +394,7 @@ TEST(AabbTree, RefusesWhatItCannotHold) {
 TEST(AabbTree, WhatIsUpdatedWithOtherBodiesIsBuiltAnew) {
   Random random(9);
   AabbTree<2> tree;
-  tree.build(numbered_world<2>(Sort::uniform, 20, random));
+  tree.make(numbered_world<2>(Sort::uniform, 20, random));
   const auto more = numbered_world<2>(Sort::uniform, 25, random);
   tree.update(more);
   expect_sound(tree, more);
@@ -423,29 +423,28 @@ TEST(AabbTree, WhoWatchesFindsTheSame) {
     proxies.push_back({7 * id + 3, testing::random_box<3>(Sort::uniform, random)});
   phase.update(proxies);
   const auto box_of = [&](BodyId id) { return proxies[id / 7].box; };
-  phase.with_dynamic([&](const auto& tree) {
-    for (int i = 0; i < 20; ++i) {
-      const Ray<3> ray{random_point<3>(random, 0, 64), random_point<3>(random, -1, 1)};
-      std::uint64_t tests = 0;
-      const auto watch = [&](const QueryEvent& e) { tests += e.kind == QueryEvent::Kind::test; };
-      const AllHits watched = raycast_all<3>(tree, ray, box_of, BoxIsShape{}, watch);
-      const AllHits all = raycast_all<3>(tree, ray, box_of);
-      EXPECT_EQ(all.hits, watched.hits);
-      EXPECT_EQ(watched.counts.objects_tested, tests);
-      EXPECT_GE(all.counts.objects_tested, all.hits.size());
-      const Box<3> box = testing::random_box<3>(Sort::uniform, random);
-      EXPECT_EQ(overlap_query<3>(tree, box, box_of).ids,
-                overlap_query<3>(tree, box, box_of, [](const QueryEvent&) {}).ids);
-    }
-  });
+  const StructureView<3> tree = phase.dynamic();
+  for (int i = 0; i < 20; ++i) {
+    const Ray<3> ray{random_point<3>(random, 0, 64), random_point<3>(random, -1, 1)};
+    std::uint64_t tests = 0;
+    const auto watch = [&](const QueryEvent& e) { tests += e.kind == QueryEvent::Kind::test; };
+    const AllHits watched = raycast_all<3>(tree, ray, box_of, {}, watch);
+    const AllHits all = raycast_all<3>(tree, ray, box_of);
+    EXPECT_EQ(all.hits, watched.hits);
+    EXPECT_EQ(watched.counts.objects_tested, tests);
+    EXPECT_GE(all.counts.objects_tested, all.hits.size());
+    const Box<3> box = testing::random_box<3>(Sort::uniform, random);
+    EXPECT_EQ(overlap_query<3>(tree, box, box_of).ids,
+              overlap_query<3>(tree, box, box_of, [](const QueryEvent&) {}).ids);
+  }
 }
 
 TEST(AabbTree, WithoutAMarginRefitsWhoseBoxHasChanged) {
   std::vector<Item<2>> items;
   for (BodyId id = 0; id < 20; ++id)
     items.push_back({id, {Vec<2>(3.0 * id), Vec<2>(3.0 * id + 1)}});
-  AabbTree<2> tree(0.0);
-  tree.build(items);
+  AabbTree<2> tree({.margin = 0});
+  tree.make(items);
   tree.update(items);
   EXPECT_EQ(tree.counters().refitted + tree.counters().reinserted, 0u);
   items[7].box.lo.x -= 0.25;
@@ -465,13 +464,13 @@ TEST(AabbTree, IsBuiltAnewOnceItHasBecomeMuchWorse) {
     tree.visit([&](const NodeView<2>& view) { return all.push_back(view.box), true; });
     return all;
   };
-  AabbTree<2> automatic, mended(0, Following::refit), anew;
-  automatic.build(items);
-  mended.build(items);
+  AabbTree<2> automatic, mended({.following = Following::refit}), anew;
+  automatic.make(items);
+  mended.make(items);
   for (Item<2>& item : items) item.box = testing::random_box<2>(Sort::uniform, random);
   automatic.update(items);
   mended.update(items);
-  anew.build(items);
+  anew.make(items);
   EXPECT_EQ(boxes(automatic), boxes(anew));
   EXPECT_NE(boxes(mended), boxes(anew)) << "mending is as good: no test";
 }

@@ -97,7 +97,7 @@ void expect_counted(const BroadPhase<D>& phase, const std::vector<Proxy<D>>& pro
   };
   std::vector<Node> nodes;
   std::uint64_t tests = 0;
-  phase.visit_dynamic([&](const NodeView<D>& view) {
+  phase.dynamic().visit([&](const NodeView<D>& view) {
     std::uint64_t awake = 0;
     for (const BodyId id : view.bodies) awake += stirs.count(id);
     nodes.push_back({view.parent, awake > 0});
@@ -178,7 +178,7 @@ TEST(BroadPhase, TooManyPairsAreRefusedAndTheNextUpdateIsRight) {
     EXPECT_THROW(phase.update(proxies), Refused) << to_string(kind) << ": 45 pairs";
     EXPECT_TRUE(phase.pairs().empty()) << to_string(kind);
     std::size_t held = 0;
-    phase.visit_dynamic([&](const NodeView<2>& node) {
+    phase.dynamic().visit([&](const NodeView<2>& node) {
       held += node.bodies.size();
       return true;
     });
@@ -269,12 +269,14 @@ TEST(BroadPhase, WhereNothingIsAwakeNothingIsBuilt) {
     phase.update(proxies);
     EXPECT_EQ(phase.counters().dynamic_builds, 1u) << to_string(kind) << ": all sleep again";
     std::size_t shown = 0;
-    phase.visit_dynamic([&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
+    phase.dynamic().visit(
+        [&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
     EXPECT_GE(shown, proxies.size()) << to_string(kind) << ": the tree that stood is still right";
     proxies[5].box.hi += 1.0;
     phase.update(proxies);
     shown = 0;
-    phase.visit_dynamic([&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
+    phase.dynamic().visit(
+        [&](const NodeView<2>& node) { return shown += node.bodies.size(), true; });
     EXPECT_EQ(shown, 0u) << to_string(kind) << ": a tree that is wrong must not be shown";
   }
 }
@@ -296,12 +298,11 @@ TEST(BroadPhase, BranchesWhereAllSleepAreSkipped) {
     EXPECT_EQ(phase.pairs(), true_pairs(proxies)) << to_string(kind);
 
     AwakeNodes awake;
-    std::vector<BodyId> room;
-    phase.with_dynamic([&](const auto& tree) {
-      awake.find(
-          tree, [](BodyId id) { return id == 0; }, room);
-    });
-    phase.visit_dynamic([&](const NodeView<2>& node) {
+    const StructureView<2> tree = phase.dynamic();
+    awake.find(
+        tree.counters().nodes, [&](NodeLook<2> look) { tree.visit(look); },
+        [](BodyId id) { return id == 0; });
+    phase.dynamic().visit([&](const NodeView<2>& node) {
       const bool has = std::count(node.bodies.begin(), node.bodies.end(), 0u) != 0;
       EXPECT_TRUE(!node.leaf || awake[node.handle] == has) << to_string(kind);
       EXPECT_TRUE(node.parent != kNone || awake[node.handle]) << to_string(kind) << ": the root";
@@ -358,8 +359,7 @@ std::vector<std::pair<std::uint32_t, std::vector<BodyId>>> nodes_shown(
     nodes.push_back({node.depth, {node.bodies.begin(), node.bodies.end()}});
     return true;
   };
-  const auto visit = [&](const auto& structure) { structure.visit(look); };
-  as_static ? phase.with_static(visit) : phase.with_dynamic(visit);
+  (as_static ? phase.fixed() : phase.dynamic()).visit(look);
   return nodes;
 }
 
@@ -381,7 +381,7 @@ TEST(BroadPhase, ATreeThatHadToBeShallowerIsDeepAgainWhenThereIsRoom) {
   config.no_progress_stop = false;
   const auto deepest_of = [](const BroadPhase<2>& phase) {
     std::uint32_t deepest = 0;
-    phase.visit_dynamic([&](const NodeView<2>& node) {
+    phase.dynamic().visit([&](const NodeView<2>& node) {
       deepest = std::max(deepest, node.depth);
       return true;
     });
@@ -425,7 +425,7 @@ TEST(BroadPhase, AFlatQuadtreeLooksAtXAndZOnly) {
   phase.update(
       std::vector{at(0, 10, 5, 10), at(1, 10, 60, 10), at(2, 50, 5, 10), at(3, 10, 5, 50)});
   std::vector<std::vector<BodyId>> leaves;
-  phase.visit_dynamic([&](const NodeView<3>& node) {
+  phase.dynamic().visit([&](const NodeView<3>& node) {
     EXPECT_EQ(node.box.lo.y, 0) << "nodes reach from bottom to top";
     EXPECT_EQ(node.box.hi.y, 64);
     if (node.leaf) leaves.emplace_back(node.bodies.begin(), node.bodies.end());
@@ -486,7 +486,8 @@ TEST(BroadPhase, ManyBodiesLargerThanAllCellsMakeTheTreeShallowerAndNothingWorse
   phase.update(proxies);
   EXPECT_EQ(phase.pairs(), true_pairs(proxies));
   std::uint64_t entries = 0;
-  phase.visit_dynamic([&](const NodeView<2>& node) { return entries += node.bodies.size(), true; });
+  phase.dynamic().visit(
+      [&](const NodeView<2>& node) { return entries += node.bodies.size(), true; });
   EXPECT_LE(entries, 4096u + 64u * 512u) << "the tree grew out of proportion";
 }
 

@@ -1,4 +1,4 @@
-#include "spatial/bsp.hpp"
+#include "spatial/trees/bsp.hpp"
 
 #include <limits>
 #include <map>
@@ -47,7 +47,7 @@ void expect_sound(Sort sort, std::uint64_t seed) {
   const auto planes =
       random_planes<D>(static_cast<std::size_t>(random.whole(0, 12)), bounds, random);
   auto items = testing::random_world<D>(sort, 25, random);
-  Bsp<D> bsp(planes, bounds);
+  Bsp<D> bsp(testing::bsp_config<D>(planes, bounds));
   for (const auto& item : items) bsp.insert(item);
   EXPECT_EQ(bsp.counters().nodes, 2 * planes.size() + 1) << "all leaves exist always";
 
@@ -87,7 +87,8 @@ TEST(Bsp, TheSizeOfANormalDoesNotMatter) {
   // Products with the largest normal overflow; nothing may vanish because of it.
   const double huge = std::numeric_limits<double>::max();
   for (const double size : {1e-300, 1.0, huge}) {
-    Bsp<2> bsp({{{{size, -size}, 0}, kNone, false}}, {{-64, -64}, {64, 64}});
+    Bsp<2> bsp(
+        testing::bsp_config<2>({{{{size, -size}, 0}, kNone, false}}, {{-64, -64}, {64, 64}}));
     bsp.insert({0, {{10, -10}, {20, -5}}});           // x > y
     bsp.insert({1, {{-20, 10}, {-10, 20}}});          // x < y
     bsp.insert({2, {{-huge, -huge}, {huge, huge}}});  // everywhere
@@ -106,7 +107,7 @@ TEST(Bsp, TheSizeOfANormalDoesNotMatter) {
 TEST(Bsp, ShowsPlanesAndBehindBeforeFront) {
   const Plane<2> net{{1, 0}, 32}, wall{{0, 2}, 20};
   const Box<2> world{{0, 0}, {64, 36}};
-  Bsp<2> bsp({{net, kNone, false}, {wall, 0, true}}, world);
+  Bsp<2> bsp(testing::bsp_config<2>({{net, kNone, false}, {wall, 0, true}}, world));
   std::vector<std::string> seen;
   bsp.visit([&](const NodeView<2>& view) {
     EXPECT_EQ(view.box, world);
@@ -122,7 +123,7 @@ TEST(Bsp, ShowsPlanesAndBehindBeforeFront) {
 }
 
 TEST(Bsp, TellsTestsMissesAndStores) {
-  Bsp<2> bsp({{{{1, 0}, 32}, kNone, false}}, {{0, 0}, {64, 36}});
+  Bsp<2> bsp(testing::bsp_config<2>({{{{1, 0}, 32}, kNone, false}}, {{0, 0}, {64, 36}}));
   std::vector<std::pair<Event::Kind, NodeHandle>> told;
   bsp.insert({9, {{40, 1}, {41, 2}}}, [&](const Event& e) {
     EXPECT_EQ(e.body, 9u);
@@ -136,7 +137,7 @@ TEST(Bsp, TellsTestsMissesAndStores) {
 }
 
 TEST(Bsp, WithoutPlanesItIsOneLeaf) {
-  Bsp<3> bsp({}, {Vec<3>(0.0), Vec<3>(1.0)});
+  Bsp<3> bsp(testing::bsp_config<3>({}, {Vec<3>(0.0), Vec<3>(1.0)}));
   bsp.insert({1, {Vec<3>(0.0), Vec<3>(0.0)}});
   bsp.insert({2, {Vec<3>(9.0), Vec<3>(9.0)}});
   EXPECT_EQ(bsp.counters().nodes, 1u);
@@ -148,7 +149,7 @@ TEST(Bsp, RefusesListsThatAreNoTree) {
   const Plane<2> plane{{1, 0}, 32};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refuses = [&](std::vector<BspPlane<2>> planes, const char* why) {
-    EXPECT_THROW(Bsp<2>(std::move(planes), world), Refused) << why;
+    EXPECT_THROW(Bsp<2>(testing::bsp_config<2>(std::move(planes), world)), Refused) << why;
   };
   refuses({{plane, 0, false}}, "the first must be the root");
   refuses({{plane, kNone, false}, {plane, kNone, false}}, "two roots");
@@ -158,17 +159,17 @@ TEST(Bsp, RefusesListsThatAreNoTree) {
   refuses({{{{0, 0}, 1}, kNone, false}}, "no direction");
   refuses({{{{nan, 1}, 1}, kNone, false}}, "no number");
   refuses({{{{1, 1}, nan}, kNone, false}}, "no number");
-  EXPECT_THROW(Bsp<2>({}, {{0, 0}, {nan, 1}}), Refused);
+  EXPECT_THROW(Bsp<2>(testing::bsp_config<2>({}, {{0, 0}, {nan, 1}})), Refused);
 
   std::vector<BspPlane<2>> chain = {{plane, kNone, false}};
-  for (std::uint32_t i = 0; i < Bsp<2>::kDeepest; ++i) chain.push_back({plane, i, true});
+  for (std::uint32_t i = 0; i < kDeepestBsp; ++i) chain.push_back({plane, i, true});
   refuses(chain, "so deep a chain would exhaust the stack");
   chain.pop_back();
-  EXPECT_NO_THROW(Bsp<2>(chain, world).insert({1, {{40, 1}, {41, 2}}}));
+  EXPECT_NO_THROW(Bsp<2>(testing::bsp_config<2>(chain, world)).insert({1, {{40, 1}, {41, 2}}}));
 }
 
 TEST(Bsp, KeepsItsBudget) {
-  Bsp<2> bsp({{{{1, 0}, 32}, kNone, false}}, {{0, 0}, {64, 36}}, 3);
+  Bsp<2> bsp(testing::bsp_config<2>({{{{1, 0}, 32}, kNone, false}}, {{0, 0}, {64, 36}}, 3));
   bsp.insert({0, {{30, 0}, {34, 1}}});
   EXPECT_THROW(bsp.insert({1, {{30, 0}, {34, 1}}}), Refused);
   EXPECT_EQ(bsp.counters().entries, 3u);
@@ -183,7 +184,7 @@ TEST(Bsp, CountsWhatStandsAndWhatWasTested) {
     const Box<2> bounds = testing::bounds_of<2>(Sort::uniform);
     const auto planes =
         random_planes<2>(static_cast<std::size_t>(random.whole(0, 9)), bounds, random);
-    Bsp<2> bsp(planes, bounds);
+    Bsp<2> bsp(testing::bsp_config<2>(planes, bounds));
     for (int again = 0; again < 2; ++again) {
       const auto items = testing::random_world<2>(Sort::uniform, 20, random);
       Counters expected;
@@ -204,7 +205,7 @@ TEST(Bsp, CountsWhatStandsAndWhatWasTested) {
       for (const auto& leaf : leaves) shown += leaf.size();
       // A body is tested against the plane of each inner node that it reaches.
       std::uint64_t tests = 0;
-      Bsp<2> alone(planes, bounds);
+      Bsp<2> alone(testing::bsp_config<2>(planes, bounds));
       for (const Item<2>& item : items) {
         std::uint64_t reached = 0, stored = 0;
         alone.insert(item, [&](const Event& event) {

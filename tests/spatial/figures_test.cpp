@@ -1,18 +1,19 @@
 // The lecture's figures in numbers: the counts that each of them states.
 #include <gtest/gtest.h>
 
-#include "spatial/bsp.hpp"
-#include "spatial/orthtree.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
+#include "spatial/trees/bsp.hpp"
+#include "spatial/trees/orthtree.hpp"
+#include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
 namespace {
 
 constexpr std::uint64_t kBudget = 1'000'000;
 
-Quadtree::Config ghost_tree(bool eager) {
-  Quadtree::Config config;
+testing::TreeConfig<2> ghost_tree(bool eager) {
+  testing::TreeConfig<2> config;
   config.bounds = {{0, 0}, {64, 64}};
   config.capacity = 2;
   config.max_depth = 4;
@@ -65,7 +66,7 @@ TEST(Figures, ChildrenOnDemandSpareTheEmptyOnes) {
 
 TEST(Figures, CoincidentObjectsSplitDownToTheDepthLimit) {
   for (const std::uint32_t depth : {0u, 2u, 4u, 6u}) {
-    Quadtree::Config config = ghost_tree(true);
+    testing::TreeConfig<2> config = ghost_tree(true);
     config.max_depth = depth;
     Quadtree tree(config);
     for (BodyId id = 0; id < 3; ++id) tree.insert({id, Box<2>::around({22, 42}, Vec<2>(5.0))});
@@ -79,7 +80,7 @@ TEST(Figures, CoincidentObjectsSplitDownToTheDepthLimit) {
 }
 
 TEST(Figures, OneBodyAsideMakesAFutileNodeWorthSplitting) {
-  Quadtree::Config config = ghost_tree(true);
+  testing::TreeConfig<2> config = ghost_tree(true);
   config.no_progress_stop = true;
   Quadtree tree(config);
   for (BodyId id = 0; id < 3; ++id) tree.insert({id, Box<2>::around({22, 42}, Vec<2>(5.0))});
@@ -90,10 +91,10 @@ TEST(Figures, OneBodyAsideMakesAFutileNodeWorthSplitting) {
 }
 
 TEST(Figures, AnOctreePartsWhatAQuadtreeOnXAndZCannot) {
-  Quadtree::Config flat = ghost_tree(false);
+  testing::TreeConfig<2> flat = ghost_tree(false);
   flat.capacity = 1;
   Quadtree quadtree(flat);
-  Octree::Config config;
+  testing::TreeConfig<3> config;
   config.bounds = {Vec<3>(0.0), Vec<3>(64.0)};
   config.capacity = 1;
   Octree octree(config);
@@ -107,7 +108,8 @@ TEST(Figures, AnOctreePartsWhatAQuadtreeOnXAndZCannot) {
 }
 
 TEST(Figures, PongIsDividedByItsNet) {
-  Bsp<2> bsp({{Plane<2>::through({32, 0}, {1, 0}), kNone, false}}, {{0, 0}, {64, 36}});
+  Bsp<2> bsp(testing::bsp_config<2>({{Plane<2>::through({32, 0}, {1, 0}), kNone, false}},
+                                    {{0, 0}, {64, 36}}));
   const auto pairs_with_ball_at = [&](double x) {
     bsp.clear();
     bsp.insert({0, Box<2>::around({4, 17}, {1, 5})});   // blue bat

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spatial/kd_tree.hpp"
+#include "spatial/trees/kd_tree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -120,8 +120,8 @@ template <int D>
 void expect_ruled(std::vector<Item<D>> items, std::uint32_t capacity, std::uint32_t max_depth) {
   RuledTree<D> expected{capacity, max_depth, {}};
   expected.grow(items, 0);
-  KdTree<D> tree({capacity, max_depth});
-  tree.build(items);
+  KdTree<D> tree(testing::KdConfig<D>{capacity, max_depth});
+  tree.make(items);
   EXPECT_EQ(lines_of(tree), expected.lines);
   const Counters c = tree.counters();
   EXPECT_EQ(c.box_tests, expected.tests);
@@ -170,9 +170,10 @@ TEST(KdRule, NodesTakeThePlacesOfThoseBefore) {
       items.push_back({id, Box<2>::around({3.0 * id, 0}, Vec<2>(1.0))});
     return items;
   };
-  KdTree<2> tree({1, 16});  // of n bodies in a row: n leaves, and n - 1 nodes above them
+  KdTree<2> tree(
+      testing::KdConfig<2>{1, 16});  // of n bodies in a row: n leaves, and n - 1 nodes above them
   const auto reused_by = [&](BodyId bodies) {
-    tree.build(row(bodies));
+    tree.make(row(bodies));
     EXPECT_EQ(tree.counters().nodes, bodies == 0 ? 1 : 2 * bodies - 1);
     EXPECT_EQ(tree.counters().leaves, bodies == 0 ? 1 : bodies);
     return tree.counters().nodes_reused;

@@ -1,5 +1,5 @@
 // The fitted kD-tree: its rule, its boxes, and when a moved object makes it wrong.
-#include "spatial/kd_tree.hpp"
+#include "spatial/trees/kd_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,8 @@ std::vector<Node> nodes_of(const KdTree<2>& tree) {
 
 TEST(KdTree, PlanesLieOnFacesAndBoxesFit) {
   //  1: [0,2]   2: [3,4]   3: [6,9], in a row
-  KdTree<2> tree({1, 16});
-  tree.build(std::vector{item(3, 6, 0, 9, 2), item(1, 0, 0, 2, 1), item(2, 3, 1, 4, 5)});
+  KdTree<2> tree(testing::KdConfig<2>{1, 16});
+  tree.make(std::vector{item(3, 6, 0, 9, 2), item(1, 0, 0, 2, 1), item(2, 3, 1, 4, 5)});
   const auto nodes = nodes_of(tree);
   ASSERT_EQ(nodes.size(), 5u);
   EXPECT_EQ(nodes[0].plane, 2)
@@ -55,14 +55,14 @@ TEST(KdTree, PlanesLieOnFacesAndBoxesFit) {
   EXPECT_EQ(tree.counters().entries, 3u) << "nothing was cut";
   const std::uint64_t tests = tree.counters().box_tests;
   EXPECT_GT(tests, 0u);
-  tree.build(std::vector{item(3, 6, 0, 9, 2), item(1, 0, 0, 2, 1), item(2, 3, 1, 4, 5)});
+  tree.make(std::vector{item(3, 6, 0, 9, 2), item(1, 0, 0, 2, 1), item(2, 3, 1, 4, 5)});
   EXPECT_EQ(tree.counters().box_tests, tests) << "of this build, not of those before";
 }
 
 TEST(KdTree, WhatStraddlesAPlaneLiesOnBothSides) {
-  KdTree<2> tree({2, 16});
-  tree.build(std::vector{item(1, 0, 0, 2, 1), item(2, 1, 2, 7, 3), item(3, 6, 0, 9, 1),
-                         item(4, 0, 4, 1, 5), item(5, 8, 4, 9, 5)});
+  KdTree<2> tree(testing::KdConfig<2>{2, 16});
+  tree.make(std::vector{item(1, 0, 0, 2, 1), item(2, 1, 2, 7, 3), item(3, 6, 0, 9, 1),
+                        item(4, 0, 4, 1, 5), item(5, 8, 4, 9, 5)});
   const auto nodes = nodes_of(tree);
   std::size_t holds_two = 0;
   for (const Node& node : nodes) {
@@ -78,8 +78,8 @@ void is_exact_and_fitted(Sort sort, std::uint64_t seed) {
   Random random(seed);
   auto items = testing::random_world<D>(sort, 80, random);
   const auto capacity = static_cast<std::uint32_t>(random.whole(1, 4));
-  KdTree<D> tree({capacity, static_cast<std::uint32_t>(random.whole(0, 12))});
-  tree.build(items);
+  KdTree<D> tree(testing::KdConfig<D>{capacity, static_cast<std::uint32_t>(random.whole(0, 12))});
+  tree.make(items);
   const auto box_of = [&](BodyId id) { return testing::box_of(items, id); };
   EXPECT_EQ(testing::overlapping_pairs(tree, box_of, 1 << 20), testing::true_overlaps(items))
       << "sort " << static_cast<int>(sort) << ", seed " << seed;
@@ -114,7 +114,7 @@ void is_exact_and_fitted(Sort sort, std::uint64_t seed) {
 
   const auto picture = testing::picture_of<D>(tree);
   testing::shuffle(items, random);
-  tree.build(items);
+  tree.make(items);
   EXPECT_EQ(testing::picture_of<D>(tree), picture) << "the order of the items shows";
   EXPECT_EQ(tree.counters().allocations, c.allocations) << "memory was asked for again";
   EXPECT_EQ(tree.counters().nodes_reused, c.nodes);
@@ -130,9 +130,9 @@ TEST(KdTree, IsExactFittedAndDoesNotDependOnTheOrder) {
 }
 
 TEST(KdTree, AMoveMakesItWrongUnlessTheObjectStaysInItsCells) {
-  KdTree<2> tree({2, 16});
-  tree.build(std::vector{item(1, 0, 0, 4, 4), item(2, 1, 1, 2, 2), item(3, 10, 0, 14, 4),
-                         item(4, 11, 1, 12, 2)});
+  KdTree<2> tree(testing::KdConfig<2>{2, 16});
+  tree.make(std::vector{item(1, 0, 0, 4, 4), item(2, 1, 1, 2, 2), item(3, 10, 0, 14, 4),
+                        item(4, 11, 1, 12, 2)});
   EXPECT_FALSE(tree.fits(item(1, 0.1, 0, 4.1, 4))) << "it was decisive for its node's box";
   EXPECT_FALSE(tree.fits(item(3, 9.9, 0, 13.9, 4)));
   EXPECT_TRUE(tree.fits(item(2, 2, 1, 3, 2))) << "it still lies within its node's box";
@@ -147,8 +147,8 @@ TEST(KdTree, AslongAsEachObjectFitsNoPairIsLost) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     Random random(seed);
     auto items = testing::random_world<2>(Sort::uniform, 40, random);
-    KdTree<2> tree({3, 12});
-    tree.build(items);
+    KdTree<2> tree(testing::KdConfig<2>{3, 12});
+    tree.make(items);
     for (Item<2>& moved : items) {
       const Vec<2> by = random_point<2>(random, -1, 1);
       const Item<2> tried{moved.id, {moved.box.lo + by, moved.box.hi + by}};
@@ -166,23 +166,23 @@ TEST(KdTree, AslongAsEachObjectFitsNoPairIsLost) {
 TEST(KdTree, NoPlaneThatPartsNothing) {
   std::vector<Item<2>> items;
   for (BodyId id = 0; id < 100'000; ++id) items.push_back(item(id, 1, 1, 2, 2));
-  KdTree<2> tree({2, 60});
+  KdTree<2> tree(testing::KdConfig<2>{2, 60});
   std::uint64_t stops = 0;
-  tree.build(items, [&](const Event& event) { stops += event.kind == Event::Kind::no_progress; });
+  tree.make(items, [&](const Event& event) { stops += event.kind == Event::Kind::no_progress; });
   EXPECT_EQ(tree.counters().nodes, 1u);
   EXPECT_EQ(stops, 1u);
   items.push_back(item(100'000, 5, 5, 6, 6));
-  tree.build(items);
+  tree.make(items);
   EXPECT_EQ(tree.counters().nodes, 3u) << "one plane parts the one that lies apart";
   EXPECT_EQ(tree.counters().entries, items.size());
 }
 
 TEST(KdTree, RefusesBadSettingsAndBoxesAndStaysAsItWas) {
-  EXPECT_THROW(KdTree<2>({0, 3}), Refused);
-  EXPECT_THROW(KdTree<2>({1, KdTree<2>::kDeepest + 1}), Refused);
-  KdTree<2> tree;
-  tree.build(std::vector{item(1, 0, 0, 1, 1)});
-  EXPECT_THROW(tree.build(std::vector{item(2, 1, 0, 0, 1)}), Refused);
+  EXPECT_THROW(KdTree<2>(testing::KdConfig<2>{0, 3}), Refused);
+  EXPECT_THROW(KdTree<2>(testing::KdConfig<2>{1, KdTree<2>::kDeepest + 1}), Refused);
+  KdTree<2> tree(testing::KdConfig<2>{});
+  tree.make(std::vector{item(1, 0, 0, 1, 1)});
+  EXPECT_THROW(tree.make(std::vector{item(2, 1, 0, 0, 1)}), Refused);
   EXPECT_EQ(tree.counters().entries, 1u);
   tree.clear();
   EXPECT_EQ(tree.counters().entries, 0u);

@@ -1,4 +1,4 @@
-#include "spatial/level_bsp.hpp"
+#include "spatial/level/level_bsp.hpp"
 
 #include <map>
 #include <set>
@@ -7,6 +7,8 @@
 
 #include "geometry/not_finite.hpp"
 #include "spatial/level_oracles.hpp"
+#include "spatial/trees/bsp.hpp"
+#include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -157,7 +159,7 @@ TEST(LevelBsp, TheObserverSeesTheBestCandidateChosenAndEveryCutAndSector) {
 
 TEST(LevelBsp, ItsPlanesMakeABspForBodies) {
   const LevelBsp level = compile(testing::watchtower());
-  Bsp<2> bodies(level.planes(), level.bounds());
+  Bsp<2> bodies(testing::bsp_config<2>(level.planes(), level.bounds()));
   EXPECT_EQ(bodies.counters().nodes, level.counters().nodes);
   EXPECT_EQ(bodies.counters().depth, level.counters().depth);
   std::vector<const Plane<2>*> planes;

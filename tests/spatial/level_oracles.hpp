@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spatial/level_bsp.hpp"
+#include "spatial/level/level_bsp.hpp"
 #include "spatial/levels.hpp"
 
 namespace lantern::spatial::testing {

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spatial/level_bsp.hpp"
+#include "base/error.hpp"
+#include "spatial/level/level_bsp.hpp"
 #include "spatial/levels.hpp"
 
 namespace lantern::spatial {

@@ -1,5 +1,5 @@
 // Who sees whom in a level, against lines of sight at random and against each sight's own witness.
-#include "spatial/level_visibility.hpp"
+#include "spatial/level/level_visibility.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

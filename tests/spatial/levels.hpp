@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "spatial/wall.hpp"
+#include "spatial/level/level_bsp.hpp"
 
 namespace lantern::spatial::testing {
 

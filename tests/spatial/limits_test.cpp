@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "geometry/not_finite.hpp"
-#include "spatial/brute_force.hpp"
-#include "spatial/bsp.hpp"
-#include "spatial/orthtree.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
-#include "spatial/sort_and_sweep.hpp"
+#include "spatial/trees/brute_force.hpp"
+#include "spatial/trees/bsp.hpp"
+#include "spatial/trees/orthtree.hpp"
+#include "spatial/trees/sort_and_sweep.hpp"
+#include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -18,8 +19,8 @@ namespace {
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
 constexpr double kHuge = std::numeric_limits<double>::max();
 
-Quadtree::Config config_for(const Box<2>& bounds) {
-  Quadtree::Config config;
+testing::TreeConfig<2> config_for(const Box<2>& bounds) {
+  testing::TreeConfig<2> config;
   config.bounds = bounds;
   config.capacity = 1;
   config.max_depth = Quadtree::kDeepest;
@@ -86,29 +87,27 @@ TEST(Limits, ABadBoxIsRefusedByNameAndNothingChanges) {
   const Box<2> world{{0, 0}, {64, 64}};
   expect_refuses_bad_boxes(Quadtree(config_for(world)));
   expect_refuses_bad_boxes(BruteForce<2>());
-  expect_refuses_bad_boxes(Bsp<2>({}, world));
+  expect_refuses_bad_boxes(Bsp<2>(testing::bsp_config<2>({}, world)));
   expect_refuses_bad_boxes(SortAndSweep<2>());
 }
 
 TEST(Limits, ABadConfigurationIsRefused) {
   const Box<2> world{{0, 0}, {64, 64}};
-  const auto refuses = [](const Quadtree::Config& config) {
+  const auto refuses = [](const testing::TreeConfig<2>& config) {
     EXPECT_THROW(Quadtree{config}, Refused);
   };
   refuses(config_for({{0, 0}, {64, 0}}));
   refuses(config_for({{0, 1}, {64, 0}}));
   refuses(config_for({{0, kNan}, {64, 64}}));
   refuses(config_for({{-kInfinity, 0}, {64, 64}}));
-  Quadtree::Config config = config_for(world);
+  testing::TreeConfig<2> config = config_for(world);
   config.capacity = 0;
   refuses(config);
   config = config_for(world);
   config.max_depth = 33;
   refuses(config);
   config = config_for(world);
-  config.most_entries = Quadtree::kMost + 1;
-  refuses(config);
-  config.most_entries = Quadtree::kMost;
+  config.most_entries = ~std::uint64_t{0};  // as many as can be numbered
   config.capacity = 0xffffffff;
   EXPECT_NO_THROW(Quadtree{config}) << "the largest values allowed must do no harm";
 }

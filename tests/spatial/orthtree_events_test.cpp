@@ -1,12 +1,13 @@
 // What the tree tells while it is built is true at that moment, and telling changes nothing.
+#include <functional>
 #include <map>
 #include <set>
 #include <type_traits>
 
 #include <gtest/gtest.h>
 
-#include "spatial/orthtree.hpp"
 #include "spatial/picture.hpp"
+#include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -20,7 +21,8 @@ static_assert(std::is_empty_v<NoObserver>, "the default observer must carry noth
 // Looks at the whole tree at each event, as a director does that pictures every event.
 class Witness {
  public:
-  Witness(const Quadtree& tree, const Quadtree::Config& config, const std::vector<Item<2>>& items)
+  Witness(const Quadtree& tree, const testing::TreeConfig<2>& config,
+          const std::vector<Item<2>>& items)
       : tree_(tree), config_(config), items_(items) {}
 
   void operator()(const Event& event) {
@@ -100,7 +102,7 @@ class Witness {
   }
 
   const Quadtree& tree_;
-  const Quadtree::Config& config_;
+  const testing::TreeConfig<2>& config_;
   const std::vector<Item<2>>& items_;
   std::set<NodeHandle> made_;
   std::map<NodeHandle, std::uint32_t> waiting_;  // bodies of a split node still to be handed down
@@ -110,7 +112,7 @@ void expect_true_events(Sort sort, std::uint64_t seed) {
   SCOPED_TRACE(fmt::format("sort {}, seed {}", static_cast<int>(sort), seed));
   Random random(seed);
   const auto items = testing::random_world<2>(sort, 14, random);
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = testing::bounds_of<2>(sort);
   config.capacity = static_cast<std::uint32_t>(random.whole(1, 4));
   config.max_depth = 3;
@@ -119,7 +121,7 @@ void expect_true_events(Sort sort, std::uint64_t seed) {
   Quadtree watched(config), alone(config);
   Witness witness(watched, config, items);
   for (const Item<2>& item : items) {
-    watched.insert(item, witness);
+    watched.insert(item, std::ref(witness));
     alone.insert(item);
   }
   witness.expect_all_handed_down();
@@ -146,7 +148,7 @@ TEST(OrthtreeEvents, AreTrueWhenTheyAreTold) {
 }
 
 TEST(OrthtreeEvents, TellTheLecturesStoryInOrder) {
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = {{0, 0}, {64, 64}};
   config.capacity = 1;
   config.max_depth = 1;

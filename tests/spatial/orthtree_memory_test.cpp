@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spatial/leaf_array.hpp"
-#include "spatial/orthtree.hpp"
 #include "spatial/picture.hpp"
+#include "spatial/trees/leaf_array.hpp"
+#include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -18,7 +18,7 @@ TEST(OrthtreeMemory, TheNextBuildReusesAllOfIt) {
   Random random(3);
   const auto items = testing::random_world<2>(Sort::uniform, 500, random);
   for (const bool stop : {false, true}) {
-    Quadtree::Config config;
+    testing::TreeConfig<2> config;
     config.bounds = testing::bounds_of<2>(Sort::uniform);
     config.no_progress_stop = stop;
     Quadtree tree(config);
@@ -41,7 +41,7 @@ TEST(OrthtreeMemory, TheNextBuildReusesAllOfIt) {
 
 TEST(OrthtreeMemory, CountersAgreeWithTheTreeThatStands) {
   Random random(4);
-  Octree::Config config;
+  testing::TreeConfig<3> config;
   config.bounds = testing::bounds_of<3>(Sort::clustered);
   Octree tree(config);
   for (const auto& item : testing::random_world<3>(Sort::clustered, 100, random)) tree.insert(item);
@@ -62,7 +62,7 @@ TEST(OrthtreeMemory, CountersAgreeWithTheTreeThatStands) {
 
 TEST(OrthtreeMemory, AHundredThousandAtOnePlaceNeitherHangNorSwell) {
   const Box<2> corner{Vec<2>(32.0), Vec<2>(32.0)};  // in all four children of the root
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = {{0, 0}, {64, 64}};
   config.max_depth = 10;
   Quadtree deep(config);
@@ -77,7 +77,7 @@ TEST(OrthtreeMemory, AHundredThousandAtOnePlaceNeitherHangNorSwell) {
 }
 
 TEST(OrthtreeMemory, TheBudgetIsKeptAndTheTreeCanBeClearedAfterwards) {
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = {{0, 0}, {64, 64}};
   config.capacity = 1;
   config.max_depth = 32;
@@ -107,7 +107,7 @@ std::uint64_t doublings(std::uint64_t n) {
 
 TEST(OrthtreeMemory, BlocksOfSplitLeavesGoToNewOnes) {
   Random random(8);
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = {{0, 0}, {64, 64}};
   config.capacity = 1;
   config.max_depth = 32;

@@ -1,12 +1,12 @@
 // The finished tree is the one that the definition asks for, whatever the world and the order.
-#include "spatial/orthtree.hpp"
+#include "spatial/trees/orthtree.hpp"
 
 #include <gtest/gtest.h>
 
-#include "spatial/flat_quadtree.hpp"
-#include "spatial/lecture_quadtree.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
+#include "spatial/trees/lecture_quadtree.hpp"
+#include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -21,8 +21,8 @@ using testing::Sort;
 constexpr std::uint64_t kFewEntries = 4000;
 
 template <int D>
-typename Orthtree<D>::Config random_config(Sort sort, Random& random) {
-  typename Orthtree<D>::Config config;
+testing::TreeConfig<D> random_config(Sort sort, Random& random) {
+  testing::TreeConfig<D> config;
   config.bounds = testing::bounds_of<D>(sort);
   config.capacity = static_cast<std::uint32_t>(random.whole(1, 8));
   config.max_depth = static_cast<std::uint32_t>(random.whole(0, 10));
@@ -46,15 +46,15 @@ bool build(Orthtree<D>& tree, const std::vector<Item<D>>& items) {
 
 // All at once gives the tree that insertions give, counts the same, and keeps the same budget.
 template <int D>
-void expect_same_at_once(const typename Orthtree<D>::Config& config, const Orthtree<D>& taught,
+void expect_same_at_once(const testing::TreeConfig<D>& config, const Orthtree<D>& taught,
                          bool refused, const std::vector<Item<D>>& items) {
   Orthtree<D> tree(config);
   if (refused) {
-    EXPECT_THROW(tree.build(items), Refused);
+    EXPECT_THROW(tree.make(items), Refused);
     return;
   }
   for (int again = 0; again < 2; ++again) {
-    tree.build(items);
+    tree.make(items);
     EXPECT_EQ(picture_of<D>(tree), picture_of<D>(taught)) << "built at once it is another tree";
   }
   const Counters a = tree.counters(), b = taught.counters();
@@ -110,7 +110,7 @@ TEST(Orthtree, IsTheTreeThatIsDefinedIn3D) { expect_defined_trees<3>(80); }
 
 TEST(Orthtree, VisitsParentsFirstAndChildrenInTheLecturesOrder) {
   Random random(5);
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = testing::bounds_of<2>(Sort::uniform);
   config.eager_children = true;
   Quadtree tree(config);
@@ -136,7 +136,7 @@ TEST(Orthtree, VisitsParentsFirstAndChildrenInTheLecturesOrder) {
 }
 
 TEST(Orthtree, AnOctreesHighHalfComesLast) {
-  Octree::Config config;
+  testing::TreeConfig<3> config;
   config.bounds = testing::bounds_of<3>(Sort::uniform);
   config.capacity = 1;
   config.max_depth = 1;
@@ -154,7 +154,7 @@ TEST(Orthtree, AnOctreesHighHalfComesLast) {
 }
 
 TEST(Orthtree, AVetoSkipsTheBranch) {
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = testing::bounds_of<2>(Sort::uniform);
   config.eager_children = true;
   config.capacity = 1;
@@ -202,13 +202,13 @@ TEST(Orthtree, AQueryGivesTheBodiesOfTheLeavesReachedOnceEach) {
 
 TEST(FlatQuadtree, ShowsTheQuadtreeOfXAndZ) {
   Random random(8);
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = {{0, 0}, {64, 64}};
   Quadtree tree(config);
-  FlatQuadtree tall({.bounds = {{0, -5, 0}, {64, 5, 64}},
-                     .capacity = config.capacity,
-                     .max_depth = config.max_depth,
-                     .no_progress_stop = config.no_progress_stop});
+  Upright<Quadtree> tall({.bounds = {{0, -5, 0}, {64, 5, 64}},
+                          .capacity = config.capacity,
+                          .max_depth = config.max_depth,
+                          .no_progress_stop = config.no_progress_stop});
   for (const Item<3>& item : testing::random_world<3>(Sort::uniform, 40, random)) {
     tall.insert(item);
     tree.insert({item.id, {{item.box.lo.x, item.box.lo.z}, {item.box.hi.x, item.box.hi.z}}});
@@ -238,7 +238,7 @@ TEST(LectureQuadtree, CountsTheNodesThatItShows) {
   config.bounds = testing::bounds_of<2>(Sort::uniform);
   config.capacity = 3;
   config.max_depth = 6;
-  LectureQuadtree<2> tree(config);
+  LectureQuadtree tree(config);
   for (const Item<2>& item : testing::random_world<2>(Sort::uniform, 60, random)) tree.insert(item);
   std::uint64_t nodes = 0, leaves = 0;
   tree.visit([&](const NodeView<2>& node) {

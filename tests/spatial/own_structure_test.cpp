@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "spatial/broad_phase.hpp"
-#include "spatial/own_kind.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/own/own_tree.hpp"
 #include "spatial/structure_trial.hpp"
+#include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -25,7 +25,7 @@ using testing::Sort;
 class Borrowed {
  public:
   Borrowed(const Box<2>& bounds, std::uint32_t capacity, std::uint32_t max_depth)
-      : tree_({bounds, capacity, max_depth, true}) {}
+      : tree_(testing::TreeConfig<2>{bounds, capacity, max_depth, true}) {}
   void insert(BodyId id, const Box<2>& box) { tree_.insert({id, box}); }
   void clear() { tree_.clear(); }
   void visit(const NodeSink& f) const {
@@ -116,11 +116,11 @@ std::string told_of(const OwnKind& kind, const std::vector<Box<2>>& boxes = {kSm
   config.capacity = 2;
   config.max_depth = 4;
   try {
-    OwnFlat tree(kind, config);
-    for (BodyId i = 0; i < boxes.size(); ++i) tree.insert({i, boxes[i]});
-    tree.look();
+    const auto tree = own_tree<2>(kind, config);
+    for (BodyId i = 0; i < boxes.size(); ++i) tree->insert({i, boxes[i]});
+    tree->look();
     std::string all;
-    for (const OwnFault& fault : tree.faults())
+    for (const OwnFault& fault : tree->faults())
       all += text_of(fault, [](BodyId id) { return "b" + std::to_string(id); }) + "\n";
     return all;
   } catch (const StructureFault& broken) {
@@ -287,7 +287,7 @@ struct Seen {
 
 std::vector<Seen> seen_of(const BroadPhase<2>& phase) {
   std::vector<Seen> all;
-  phase.visit_dynamic([&](const NodeView<2>& node) {
+  phase.dynamic().visit([&](const NodeView<2>& node) {
     all.push_back(
         {node.slot, node.depth, node.leaf, node.box, {node.bodies.begin(), node.bodies.end()}});
     return true;
@@ -331,7 +331,7 @@ TEST(OwnStructure, ARightTreeIsSeenAsOursIs) {
         const auto hit = [&](const auto& tree) {
           return raycast_nearest<2>(tree, ray, box_of).hit;
         };
-        EXPECT_EQ(own.with_dynamic(hit), ours.with_dynamic(hit)) << static_cast<int>(sort);
+        EXPECT_EQ(hit(own.dynamic()), hit(ours.dynamic())) << static_cast<int>(sort);
       }
     }
   }
@@ -364,8 +364,8 @@ TEST(OwnStructure, HandlesStayWhileTheTreeGrows) {
   for (BodyId id = 0; id < 12; ++id) {
     own.insert({id, testing::random_box<2>(Sort::uniform, random)}, {});
     std::vector<std::pair<std::string, NodeHandle>> now;
-    std::vector<bool> used(own.with_dynamic([](const auto& t) { return t.counters().nodes; }));
-    own.visit_dynamic([&](const NodeView<2>& node) {
+    std::vector<bool> used(own.dynamic().counters().nodes);
+    own.dynamic().visit([&](const NodeView<2>& node) {
       EXPECT_FALSE(used.at(node.handle)) << "two of one handle";
       used.at(node.handle) = true;
       return true;

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spatial/brute_force.hpp"
-#include "spatial/bsp.hpp"
-#include "spatial/orthtree.hpp"
+#include "spatial/trees/brute_force.hpp"
+#include "spatial/trees/bsp.hpp"
+#include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -25,7 +25,7 @@ void expect_equal_pairs(Sort sort, std::uint64_t seed) {
         structure, [&](BodyId id) { return testing::box_of(items, id); }, 10'000'000);
   };
   const Box<D> bounds = testing::bounds_of<D>(sort);
-  typename Orthtree<D>::Config config;
+  testing::TreeConfig<D> config;
   config.bounds = bounds;
   config.max_depth = 3;
   EXPECT_EQ(pairs_of(BruteForce<D>()), expected);
@@ -33,10 +33,11 @@ void expect_equal_pairs(Sort sort, std::uint64_t seed) {
   Vec<D> normal(1.0);
   normal[0] = -0.3;
   const Vec<D> center = bounds.center();
-  EXPECT_EQ(pairs_of(Bsp<D>({{Plane<D>::through(center, normal), kNone, false},
-                             {Plane<D>::through(center, Vec<D>(1.0)), 0, true}},
-                            bounds)),
-            expected);
+  EXPECT_EQ(
+      pairs_of(Bsp<D>(testing::bsp_config<D>({{Plane<D>::through(center, normal), kNone, false},
+                                              {Plane<D>::through(center, Vec<D>(1.0)), 0, true}},
+                                             bounds))),
+      expected);
 }
 
 TEST(Pairs, OverlappingPairsAreTheSameInEveryStructure) {
@@ -48,7 +49,7 @@ TEST(Pairs, OverlappingPairsAreTheSameInEveryStructure) {
 }
 
 TEST(Pairs, TouchingIsOverlapping) {
-  Quadtree::Config config;
+  testing::TreeConfig<2> config;
   config.bounds = {{0, 0}, {64, 64}};
   config.capacity = 1;
   Quadtree tree(config);

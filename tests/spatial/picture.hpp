@@ -14,7 +14,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "spatial/orthtree.hpp"
+#include "spatial/trees/orthtree.hpp"
+#include "spatial/worlds.hpp"
 
 namespace lantern::spatial::testing {
 
@@ -68,7 +69,7 @@ inline constexpr std::array<std::array<int, 3>, 8> kSides = {{{-1, +1, -1},
 template <int D>
 class ReferenceTree {
  public:
-  using Config = typename Orthtree<D>::Config;
+  using Config = TreeConfig<D>;
 
   // Gives up once it knows that the tree has more than config.most_entries nodes or entries.
   ReferenceTree(const Config& config, const std::vector<Item<D>>& items) : config_(config) {

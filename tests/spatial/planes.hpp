@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "spatial/bsp.hpp"
+#include "spatial/trees/bsp.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial::testing {

@@ -1,4 +1,6 @@
 // Rays, boxes, balls and views through every structure, against asking each body.
+#include "spatial/query.hpp"
+
 #include <map>
 
 #include <gtest/gtest.h>
@@ -6,10 +8,14 @@
 #include "geometry/random_vec.hpp"
 #include "geometry/shape.hpp"
 #include "spatial/broad_phase.hpp"
-#include "spatial/grid.hpp"
-#include "spatial/overlap_query.hpp"
+#include "spatial/grid/grid.hpp"
 #include "spatial/planes.hpp"
-#include "spatial/raycast.hpp"
+#include "spatial/trees/aabb_tree.hpp"
+#include "spatial/trees/brute_force.hpp"
+#include "spatial/trees/bsp.hpp"
+#include "spatial/trees/kd_tree.hpp"
+#include "spatial/trees/orthtree.hpp"
+#include "spatial/trees/sort_and_sweep.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -33,25 +39,26 @@ class Scene {
   // f(structure, name) for each, holding all bodies.
   template <class F>
   void with_each(F&& f) {
-    typename Orthtree<D>::Config config;
+    testing::TreeConfig<D> config;
     config.bounds = testing::bounds_of<D>(sort_);
     config.capacity = static_cast<std::uint32_t>(random_.whole(1, 4));
     config.max_depth = static_cast<std::uint32_t>(random_.whole(0, 7));
     config.eager_children = random_.bits() % 2 == 0;
     config.no_progress_stop = true;
     Orthtree<D> orthtree(config);
-    Bsp<D> bsp(testing::random_planes<D>(sort_, 12, random_), config.bounds);
+    Bsp<D> bsp(
+        testing::bsp_config<D>(testing::random_planes<D>(sort_, 12, random_), config.bounds));
     BruteForce<D> brute;
     SortAndSweep<D> sweep;
     Grid<D> grid({.bounds = config.bounds,
                   .cell = random_.bits() % 2 == 0 ? 0 : random_.between(2, 20),
                   .levels = static_cast<std::uint32_t>(random_.whole(1, 3)),
                   .open = random_.bits() % 2 == 0});
-    grid.build(items_);
-    KdTree<D> kd({config.capacity, config.max_depth});
-    AabbTree<D> built(random_.between(0, 1)), inserted;
-    built.build(items_);
-    kd.build(items_);
+    grid.make(items_);
+    KdTree<D> kd(testing::KdConfig<D>{config.capacity, config.max_depth});
+    AabbTree<D> built({.margin = random_.between(0, 1)}), inserted;
+    built.make(items_);
+    kd.make(items_);
     for (const Item<D>& item : items_) {
       orthtree.insert(item);
       bsp.insert(item);
@@ -68,10 +75,10 @@ class Scene {
     f(built, "AABB tree");
     f(inserted, "AABB tree, one by one");
     if constexpr (D == 3) {
-      FlatQuadtree flat({.bounds = config.bounds,
-                         .capacity = config.capacity,
-                         .max_depth = config.max_depth,
-                         .no_progress_stop = false});
+      Upright<Quadtree> flat({.bounds = config.bounds,
+                              .capacity = config.capacity,
+                              .max_depth = config.max_depth,
+                              .no_progress_stop = false});
       for (const Item<D>& item : items_) flat.insert(item);
       f(flat, "flat quadtree");
     }
@@ -229,7 +236,7 @@ TEST(Query, OverlapsAndViewsEqualBruteForceIn3D) {
 
 // A row of unit boxes at x = 10, 20, ... in a quadtree of cells.
 TEST(Query, TheNearestHitEndsTheSearch) {
-  Quadtree tree({{{0, 0}, {128, 128}}, 1, 5});
+  Quadtree tree(testing::TreeConfig<2>{{{0, 0}, {128, 128}}, 1, 5});
   std::map<BodyId, Box<2>> boxes;
   for (BodyId id = 0; id < 12; ++id) {
     boxes[id] = Box<2>::around({10.0 * (id + 1), 3}, Vec<2>(0.5));
@@ -257,12 +264,14 @@ void expect_order_of_ray(const Structure& structure, const Vec<D>& toward, const
   std::map<std::uint32_t, std::vector<std::pair<Box<D>, std::uint32_t>>> children;
   std::map<std::uint32_t, bool> back_first;
   std::uint32_t visited = 0;
-  structure.visit_toward(toward, [&](const NodeView<D>& node) {
-    EXPECT_EQ(node.id, visited++) << name;
-    children[node.parent].push_back({node.box, node.slot});
-    if (node.plane != nullptr) back_first[node.id] = glm::dot(node.plane->normal, toward) >= 0;
-    return true;
-  });
+  structure.visit(
+      [&](const NodeView<D>& node) {
+        EXPECT_EQ(node.id, visited++) << name;
+        children[node.parent].push_back({node.box, node.slot});
+        if (node.plane != nullptr) back_first[node.id] = glm::dot(node.plane->normal, toward) >= 0;
+        return true;
+      },
+      toward);
   EXPECT_GT(children.size(), 4u) << name;
   for (const auto& [parent, met] : children)
     for (std::size_t i = 0; i < met.size(); ++i)
@@ -282,16 +291,18 @@ void expect_order_of_ray(const Structure& structure, const Vec<D>& toward, const
 template <int D>
 void expect_order_of_grid(const Grid<D>& grid, const Vec<D>& toward) {
   std::vector<Vec<D>> met;
-  grid.visit_toward(toward, [&](const NodeView<D>& node) {
-    for (const Vec<D>& before : met) {
-      bool all_behind = node.leaf;
-      for (int axis = 0; axis < D; ++axis)
-        all_behind = all_behind && (node.box.center()[axis] - before[axis]) * toward[axis] <= 0;
-      EXPECT_FALSE(all_behind);
-    }
-    if (node.leaf) met.push_back(node.box.center());
-    return true;
-  });
+  grid.visit(
+      [&](const NodeView<D>& node) {
+        for (const Vec<D>& before : met) {
+          bool all_behind = node.leaf;
+          for (int axis = 0; axis < D; ++axis)
+            all_behind = all_behind && (node.box.center()[axis] - before[axis]) * toward[axis] <= 0;
+          EXPECT_FALSE(all_behind);
+        }
+        if (node.leaf) met.push_back(node.box.center());
+        return true;
+      },
+      toward);
   EXPECT_GT(met.size(), 20u);
 }
 
@@ -300,21 +311,23 @@ void siblings_are_in_order(std::uint64_t seed) {
   Scene<D> scene(Sort::uniform, 60, seed);
   Vec<D> toward = random_direction<D>(scene.random());
   const Box<D> bounds = testing::bounds_of<D>(Sort::uniform);
-  typename Orthtree<D>::Config config;
+  testing::TreeConfig<D> config;
   config.bounds = bounds;
   Orthtree<D> orthtree(config);
-  Bsp<D> bsp(testing::random_planes<D>(Sort::uniform, 12, scene.random()), bounds);
-  KdTree<D> kd({2, 6});
-  kd.build(scene.items());
+  Bsp<D> bsp(
+      testing::bsp_config<D>(testing::random_planes<D>(Sort::uniform, 12, scene.random()), bounds));
+  KdTree<D> kd(testing::KdConfig<D>{2, 6});
+  kd.make(scene.items());
   for (const Item<D>& item : scene.items()) orthtree.insert(item);
   expect_order_of_ray<D>(orthtree, toward, "orthtree");
   expect_order_of_ray<D>(kd, toward, "kd-tree");
   Grid<D> grid({.bounds = bounds, .cell = 8});
-  grid.build(scene.items());
+  grid.make(scene.items());
   expect_order_of_grid<D>(grid, toward);
   expect_order_of_ray<D>(bsp, toward, "bsp");
   if constexpr (D == 3) {
-    FlatQuadtree flat({.bounds = bounds, .capacity = 2, .max_depth = 6, .no_progress_stop = false});
+    Upright<Quadtree> flat(
+        {.bounds = bounds, .capacity = 2, .max_depth = 6, .no_progress_stop = false});
     for (const Item<D>& item : scene.items()) flat.insert(item);
     expect_order_of_ray<D>(flat, toward, "flat quadtree");
   }
@@ -328,7 +341,7 @@ TEST(Query, SiblingsAreMetInTheOrderOfTheRay) {
 }
 
 TEST(Query, BodiesOutsideTheRootAreFoundInRimCells) {
-  Quadtree tree({{{0, 0}, {64, 64}}, 1, 4});
+  Quadtree tree(testing::TreeConfig<2>{{{0, 0}, {64, 64}}, 1, 4});
   const Box<2> away = Box<2>::around({1000, 1000}, Vec<2>(1.0));
   tree.insert({1, away});
   tree.insert({2, Box<2>::around({8, 8}, Vec<2>(1.0))});
@@ -344,7 +357,7 @@ TEST(Query, BodiesOutsideTheRootAreFoundInRimCells) {
 
 TEST(Query, ABspSkipsRegionsThatTheRayDoesNotReach) {
   // Two planes side by side: x = 10, and in front of it y = 10.
-  Bsp<2> bsp({{{{1, 0}, 10}}, {{{0, 1}, 10}, 0, true}}, {{0, 0}, {20, 20}});
+  Bsp<2> bsp(testing::bsp_config<2>({{{{1, 0}, 10}}, {{{0, 1}, 10}, 0, true}}, {{0, 0}, {20, 20}}));
   bsp.insert({1, Box<2>::around({5, 15}, Vec<2>(1.0))});
   bsp.insert({2, Box<2>::around({15, 15}, Vec<2>(1.0))});
   bsp.insert({3, Box<2>::around({15, 5}, Vec<2>(1.0))});
@@ -363,8 +376,8 @@ TEST(Query, ThroughABroadPhaseBodiesHaveTheirOwnIds) {
   const auto box_of = [&](BodyId id) { return id == 900 ? wall : ball; };
   const Ray<2> ray{{0, 0}, {1, 0}};
   const auto cast = [&](const auto& s) { return raycast_nearest(s, ray, box_of).hit; };
-  EXPECT_EQ(phase.with_static(cast), std::optional(RayHit{900, 9}));
-  EXPECT_EQ(phase.with_dynamic(cast), std::optional(RayHit{77, 4}));
+  EXPECT_EQ(cast(phase.fixed()), std::optional(RayHit{900, 9}));
+  EXPECT_EQ(cast(phase.dynamic()), std::optional(RayHit{77, 4}));
 }
 
 TEST(Query, RefusesWhatIsNoQuery) {

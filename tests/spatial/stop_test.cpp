@@ -7,10 +7,15 @@
 #include "atlas/atlas.hpp"
 #include "base/random.hpp"
 #include "spatial/broad_phase.hpp"
-#include "spatial/level_bsp.hpp"
-#include "spatial/level_visibility.hpp"
-#include "spatial/overlap_query.hpp"
+#include "spatial/level/level_bsp.hpp"
+#include "spatial/level/level_visibility.hpp"
 #include "spatial/pairs.hpp"
+#include "spatial/query.hpp"
+#include "spatial/trees/bsp.hpp"
+#include "spatial/trees/kd_tree.hpp"
+#include "spatial/trees/orthtree.hpp"
+#include "spatial/trees/sort_and_sweep.hpp"
+#include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -42,7 +47,7 @@ std::vector<Item<2>> stop_items(std::uint32_t count) {
 }
 
 TEST_F(HearsStop, AnOrthtreeThatIsBuilt) {
-  Quadtree tree({kStopBounds, 2, 8, false, false, std::uint64_t{1} << 22});
+  Quadtree tree(testing::TreeConfig<2>{kStopBounds, 2, 8, false, false, std::uint64_t{1} << 22});
   const auto build = [&] {
     tree.clear();
     auto observer = wish_at(5000);
@@ -56,7 +61,8 @@ TEST_F(HearsStop, AnOrthtreeThatIsBuilt) {
 }
 
 TEST_F(HearsStop, ABspThatIsBuilt) {
-  Bsp<2> tree({{{Vec<2>(1, 0), 32}, kNone, false}, {{Vec<2>(0, 1), 32}, 0, true}}, kStopBounds);
+  Bsp<2> tree(testing::bsp_config<2>(
+      {{{Vec<2>(1, 0), 32}, kNone, false}, {{Vec<2>(0, 1), 32}, 0, true}}, kStopBounds));
   const auto build = [&] {
     tree.clear();
     auto observer = wish_at(3000);
@@ -67,19 +73,19 @@ TEST_F(HearsStop, ABspThatIsBuilt) {
 }
 
 TEST_F(HearsStop, AKdTreeThatIsBuilt) {
-  KdTree<2> tree({2, 16, std::uint64_t{1} << 22});
+  KdTree<2> tree(testing::KdConfig<2>{2, 16, std::uint64_t{1} << 22});
   const std::vector<Item<2>> items = stop_items(2000);
-  EXPECT_THROW(tree.build(items, wish_at(1000)), Stopped);
+  EXPECT_THROW(tree.make(items, wish_at(1000)), Stopped);
   EXPECT_LE(after_, kMostAfter);
   forget_stop();
-  tree.build(items);
+  tree.make(items);
   EXPECT_GE(tree.counters().entries, items.size());
   ask_to_stop();
   EXPECT_NO_THROW(tree.clear()) << "an empty tree is quickly made";
 }
 
 TEST_F(HearsStop, AWalkThroughATree) {
-  Quadtree tree({kStopBounds, 2, 8, false, false, std::uint64_t{1} << 22});
+  Quadtree tree(testing::TreeConfig<2>{kStopBounds, 2, 8, false, false, std::uint64_t{1} << 22});
   for (const Item<2>& item : stop_items(2000)) tree.insert(item);
   const std::vector<Item<2>> items = stop_items(2000);
   const auto box_of = [&](BodyId id) { return items[id].box; };
@@ -88,7 +94,7 @@ TEST_F(HearsStop, AWalkThroughATree) {
 }
 
 TEST_F(HearsStop, ThePairsOfLeaves) {
-  Quadtree tree({kStopBounds, 2000, 8, false, false, std::uint64_t{1} << 22});
+  Quadtree tree(testing::TreeConfig<2>{kStopBounds, 2000, 8, false, false, std::uint64_t{1} << 22});
   for (const Item<2>& item : stop_items(1000)) tree.insert(item);
   auto wish = wish_at(100'000);
   const auto wanted = [&](const Pair&) {
@@ -106,7 +112,9 @@ TEST_F(HearsStop, ThePairsOfLeaves) {
 TEST_F(HearsStop, ASweep) {
   SortAndSweep<2> sweep;
   for (const Item<2>& item : stop_items(2000)) sweep.insert(item);
-  EXPECT_THROW(sweep.sweep(wish_at(1000)), Stopped);
+  sweep.sort();
+  const auto all = [](BodyId) { return true; };
+  EXPECT_THROW(sweep.compare(all, wish_at(1000)), Stopped);
   EXPECT_LE(after_, 2000) << "more than the rest of one body's row";
 }
 

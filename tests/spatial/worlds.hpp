@@ -30,6 +30,43 @@ inline constexpr std::array kSorts = {Sort::uniform, Sort::clustered, Sort::coin
                                       Sort::crowded, Sort::aligned,   Sort::ratios,
                                       Sort::far,     Sort::points,    Sort::outside};
 
+// A tree with no stop but its depth limit, if nothing else is said.
+template <int D>
+struct TreeConfig {
+  Box<D> bounds;
+  std::uint32_t capacity = 2;
+  std::uint32_t max_depth = 6;
+  bool eager_children = false;
+  bool no_progress_stop = false;
+  std::uint64_t most_entries = std::uint64_t{1} << 22;
+
+  operator StructureConfig<D>() const {
+    return {.bounds = bounds,
+            .capacity = capacity,
+            .max_depth = max_depth,
+            .eager_children = eager_children,
+            .no_progress_stop = no_progress_stop,
+            .most_entries = most_entries};
+  }
+};
+
+template <int D>
+struct KdConfig {
+  std::uint32_t capacity = 2;
+  std::uint32_t max_depth = 16;
+  std::uint64_t most_entries = std::uint64_t{1} << 22;
+
+  operator StructureConfig<D>() const {
+    return {.capacity = capacity, .max_depth = max_depth, .most_entries = most_entries};
+  }
+};
+
+template <int D>
+StructureConfig<D> bsp_config(std::vector<BspPlane<D>> planes, const Box<D>& bounds,
+                              std::uint64_t most_entries = std::uint64_t{1} << 22) {
+  return {.bounds = bounds, .planes = std::move(planes), .most_entries = most_entries};
+}
+
 // The world's bounds: a cube of side 64, its corner at the origin unless it is far away.
 template <int D>
 Box<D> bounds_of(Sort sort) {
@@ -113,16 +150,16 @@ std::vector<Pair> true_overlaps(const std::vector<Item<D>>& items) {
 
 // The candidate pairs whose boxes really overlap; touching counts. `box_of(id)` is the box with
 // which the body was inserted. Every structure gives the same pairs for the same bodies.
-template <class Structure, class BoxOf>
-std::vector<Pair> overlapping_pairs(const Structure& structure, BoxOf&& box_of,
+template <int D, class BoxOf>
+std::vector<Pair> overlapping_pairs(const Structure<D>& structure, BoxOf&& box_of,
                                     std::uint64_t budget) {
   const auto wanted = [&](const Pair& pair) { return overlap(box_of(pair.a), box_of(pair.b)); };
   return candidate_pairs(structure, budget, wanted).pairs;
 }
 
 // The bodies of all leaves that the box reaches.
-template <class Structure, int D>
-std::set<BodyId> near_in(const Structure& structure, const Box<D>& box) {
+template <int D>
+std::set<BodyId> near_in(const Structure<D>& structure, const Box<D>& box) {
   std::vector<BodyId> ids;
   structure.near(box, ids);
   return {ids.begin(), ids.end()};

@@ -1,0 +1,220 @@
+// What is done with several boxes by one instruction. Compiled once for each kind of processor, and
+// chosen when it runs: by Highway, which includes this file again and again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "spatial/box_vectors.cpp"
+#include "spatial/trees/aabb_walk.hpp"
+
+// clang-format off: before Highway's own
+#include "spatial/vector_target.hpp"
+// clang-format on
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace lantern::spatial::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// --- pairs ---
+
+// A box against as many as a vector holds. Two boxes overlap if no bound of one lies beyond the
+// other's. Both are rounded outward by less than one float: so they certainly overlap if they still
+// do after one of them has been made two floats smaller on each side.
+template <int D>
+class Look {
+  using Floats = hn::ScalableTag<float>;
+  using Vector = hn::Vec<Floats>;
+
+ public:
+  using Mask = hn::Mask<Floats>;
+
+  Look(const BoxTable<D>& queries, std::uint32_t place) {
+    for (int i = 0; i < D; ++i) {
+      const float lo = queries.lo(i)[place], hi = queries.hi(i)[place];
+      lo_[i] = hn::Set(Floats(), lo);
+      hi_[i] = hn::Set(Floats(), hi);
+      sure_lo_[i] = hn::Set(Floats(), detail::stepped(lo, 2));
+      sure_hi_[i] = hn::Set(Floats(), detail::stepped(hi, -2));
+    }
+  }
+
+  // Of the lanes of `which`, at `place` and behind: `maybe` overlap, `surely` do.
+  void at(const BoxTable<D>& table, std::size_t place, Mask& maybe, Mask& surely) const {
+    for (int i = 0; i < D; ++i) {
+      const Vector lo = hn::LoadU(Floats(), table.lo(i) + place);
+      const Vector hi = hn::LoadU(Floats(), table.hi(i) + place);
+      maybe = hn::And(maybe, hn::And(hn::Le(lo_[i], hi), hn::Le(lo, hi_[i])));
+      surely = hn::And(surely, hn::And(hn::Le(sure_lo_[i], hi), hn::Le(lo, sure_hi_[i])));
+    }
+  }
+
+ private:
+  Vector lo_[D], hi_[D], sure_lo_[D], sure_hi_[D];
+};
+
+template <int D>
+std::size_t OneRun(const ScanTask<D>& task, const ScanRun& run, const ScanRoom& room,
+                   std::size_t pairs) {
+  const hn::ScalableTag<float> floats;
+  const hn::RebindToUnsigned<decltype(floats)> words;
+  const std::size_t lanes = hn::Lanes(floats);
+  const Look<D> look(task.queries, run.query);
+  const BodyId asking = task.queries.id(run.query);
+  const BodyId* ids = task.table.ids();
+  const auto asking_lanes = hn::Set(words, asking);
+  for (std::size_t at = run.from; at < run.to; at += lanes) {
+    auto maybe = hn::FirstN(floats, run.to - at), surely = maybe;
+    look.at(task.table, at, maybe, surely);
+    if (HWY_UNLIKELY(!hn::AllFalse(floats, hn::AndNot(surely, maybe)))) {
+      const Box<D>& box = task.exact[asking].box;
+      for (std::size_t place = at; place < run.to && place < at + lanes; ++place) {
+        room.first[pairs] = asking;
+        room.second[pairs] = ids[place];
+        pairs += overlap(box, task.exact[ids[place]].box);
+      }
+      continue;
+    }
+    hn::StoreU(asking_lanes, words, room.first + pairs);
+    pairs += hn::CompressStore(hn::LoadU(words, ids + at), hn::RebindMask(words, maybe), words,
+                               room.second + pairs);
+  }
+  return pairs;
+}
+
+template <int D>
+ScanDone ScanRuns(const ScanTask<D>& task, const ScanRoom& room, std::size_t pairs,
+                  std::size_t end) {
+  std::size_t done = 0;
+  for (; done < task.runs.size(); ++done) {
+    const ScanRun& run = task.runs[done];
+    if (pairs + (run.to - run.from) > end) break;
+    pairs = OneRun(task, run, room, pairs);
+  }
+  return {done, pairs};
+}
+
+ScanDone ScanRuns2(const ScanTask<2>& task, const ScanRoom& room, std::size_t begin,
+                   std::size_t end) {
+  return ScanRuns(task, room, begin, end);
+}
+ScanDone ScanRuns3(const ScanTask<3>& task, const ScanRoom& room, std::size_t begin,
+                   std::size_t end) {
+  return ScanRuns(task, room, begin, end);
+}
+
+// --- boxes and rays in a block of an AABB tree ---
+
+using Lanes = hn::CappedTag<float, kAabbBlock>;
+
+// look(at): the mask of the lanes from place `at` on.
+template <class Look>
+std::uint32_t BitsOf(std::uint32_t first, Look look) {
+  std::uint32_t bits = 0;
+  for (std::uint32_t i = 0; i < kAabbBlock; i += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
+    std::uint8_t part[8] = {};
+    hn::StoreMaskBits(Lanes(), look(first + i), part);
+    bits |= (part[0] | std::uint32_t{part[1]} << 8) << i;
+  }
+  return bits;
+}
+
+template <int D>
+BlockBits Reached(const BoxTable<D>& table, std::uint32_t first, const AabbNode<D>& asked) {
+  const auto bits = [&](int smaller) {
+    return BitsOf(first, [&](std::uint32_t at) {
+      auto all = hn::FirstN(Lanes(), kAabbBlock);
+      for (int i = 0; i < D; ++i) {
+        const auto lo = hn::Set(Lanes(), detail::stepped(asked.lo[i], smaller));
+        const auto hi = hn::Set(Lanes(), detail::stepped(asked.hi[i], -smaller));
+        all = hn::And(all, hn::And(hn::Le(hn::LoadU(Lanes(), table.lo(i) + at), hi),
+                                   hn::Le(lo, hn::LoadU(Lanes(), table.hi(i) + at))));
+      }
+      return all;
+    });
+  };
+  return {bits(0), bits(2)};
+}
+
+// The slab method (geometry/ray.hpp), each span widened by what float may have lost.
+template <int D>
+std::uint32_t Met(const BoxTable<D>& table, std::uint32_t first, const FloatRay<D>& ray,
+                  float limit) {
+  const auto set = [](float x) { return hn::Set(Lanes(), x); };
+  const auto less = set(1 - 0x1p-21f), more = set(1 + 0x1p-21f);
+  return BitsOf(first, [&](std::uint32_t at) {
+    auto from = set(0), to = set(limit);
+    auto all = hn::FirstN(Lanes(), kAabbBlock);
+    for (int i = 0; i < D; ++i) {
+      const auto lo = hn::LoadU(Lanes(), table.lo(i) + at);
+      const auto hi = hn::LoadU(Lanes(), table.hi(i) + at);
+      if (ray.stands[i]) {
+        all = hn::And(all, hn::And(hn::Le(lo, set(ray.above[i])), hn::Le(set(ray.below[i]), hi)));
+        continue;
+      }
+      const auto inverse = set(ray.inverse[i]), origin = set(ray.origin[i]);
+      const auto a = hn::Mul(hn::Sub(lo, origin), inverse);
+      const auto b = hn::Mul(hn::Sub(hi, origin), inverse);
+      const auto begin = hn::Sub(hn::Min(a, b), set(ray.slack[i]));
+      const auto end = hn::Add(hn::Max(a, b), set(ray.slack[i]));
+      from = hn::Max(from, hn::Mul(begin, less));
+      to = hn::Min(to, hn::Max(hn::Mul(end, less), hn::Mul(end, more)));
+    }
+    return hn::And(all, hn::Le(from, to));
+  });
+}
+
+BlockBits Reached2(const BoxTable<2>& table, std::uint32_t first, const AabbNode<2>& asked) {
+  return Reached(table, first, asked);
+}
+BlockBits Reached3(const BoxTable<3>& table, std::uint32_t first, const AabbNode<3>& asked) {
+  return Reached(table, first, asked);
+}
+std::uint32_t Met2(const BoxTable<2>& table, std::uint32_t first, const FloatRay<2>& ray,
+                   float limit) {
+  return Met(table, first, ray, limit);
+}
+std::uint32_t Met3(const BoxTable<3>& table, std::uint32_t first, const FloatRay<3>& ray,
+                   float limit) {
+  return Met(table, first, ray, limit);
+}
+
+}  // namespace lantern::spatial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lantern::spatial {
+
+ScanDone scan_runs(const ScanTask<2>& task, const ScanRoom& room, std::size_t begin,
+                   std::size_t end) {
+  static const auto best = LANTERN_BEST(ScanRuns2);
+  return best(task, room, begin, end);
+}
+ScanDone scan_runs(const ScanTask<3>& task, const ScanRoom& room, std::size_t begin,
+                   std::size_t end) {
+  static const auto best = LANTERN_BEST(ScanRuns3);
+  return best(task, room, begin, end);
+}
+
+BlockBits reached_in_block(const BoxTable<2>& table, std::uint32_t first,
+                           const AabbNode<2>& asked) {
+  static const auto best = LANTERN_BEST(Reached2);
+  return best(table, first, asked);
+}
+BlockBits reached_in_block(const BoxTable<3>& table, std::uint32_t first,
+                           const AabbNode<3>& asked) {
+  static const auto best = LANTERN_BEST(Reached3);
+  return best(table, first, asked);
+}
+std::uint32_t met_in_block(const BoxTable<2>& table, std::uint32_t first, const FloatRay<2>& ray,
+                           float limit) {
+  static const auto best = LANTERN_BEST(Met2);
+  return best(table, first, ray, limit);
+}
+std::uint32_t met_in_block(const BoxTable<3>& table, std::uint32_t first, const FloatRay<3>& ray,
+                           float limit) {
+  static const auto best = LANTERN_BEST(Met3);
+  return best(table, first, ray, limit);
+}
+
+}  // namespace lantern::spatial
+#endif

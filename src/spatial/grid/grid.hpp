@@ -1,0 +1,297 @@
+// A uniform grid: the world is cut into equal cells, and a body is in each cell that its box
+// reaches. Bodies of one size that fill the world are parted in linear time.
+//
+//     +-----+-----+-----+     b reaches two cells; whoever meets it is in one of them, or in the
+//     |     |  c  |     |     grid as it is held (grid_table.hpp), in one of the rows that it
+//     +-----+-----+-----+     reaches.
+//     | a   | b|--|  d  |
+//     +-----+-----+-----+     What lies outside of the bounds is in the cells at the rim.
+//
+// What is shown (visit, queries) are the cells with all bodies that reach them (grid_cells.hpp);
+// what works holds each body once. Of several levels each has cells twice as large as the one
+// before, and a body is on the finest whose cells are as large as it is. An open grid has no rim:
+// its cells go on without end, and are hashed into buckets.
+//
+// The finished grid does not depend on the order of insertion. Where the side of the cells is left
+// to it, all is made anew with each body; else handles last.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "spatial/grid/grid_cells.hpp"
+#include "spatial/grid/grid_table.hpp"
+
+namespace lantern::spatial {
+
+// How large its cells should be for the bodies at hand: half again as large as nearly all bodies
+// (19 of 20) are, so that few are larger than a cell and each meets the bodies of three or four
+// cells; but where sizes differ much, three times the median, and not so small that most cells
+// would be empty. Measured on worlds of 1e3 to 1e6 bodies. Does not depend on the order of the
+// items. `room` is scratch memory. Time: O(n).
+template <int D>
+double side_for(std::span<const Item<D>> items, std::vector<double>& room) {
+  // Extents by their leading bits: eight of the exponent and two of the fraction.
+  constexpr int kShift = 21;
+  std::array<std::uint32_t, 2048> histogram{};
+  for (const Item<D>& item : items) {
+    const auto extent = static_cast<float>(std::clamp(extent_of(item.box), 0.0, 1e38));
+    ++histogram[std::bit_cast<std::uint32_t>(extent) >> kShift];
+  }
+  // No less than this part of the extents.
+  const auto quantile = [&](double part) {
+    const auto wanted = static_cast<std::uint64_t>(part * static_cast<double>(items.size()));
+    std::uint64_t seen = 0;
+    std::uint32_t bin = 0;
+    while (bin + 1 < 1024 && (seen += histogram[bin]) <= wanted) ++bin;
+    return bin == 0 ? 0.0 : double{std::bit_cast<float>((bin + 1) << kShift)};
+  };
+  const double half = quantile(0.5), most = quantile(0.95);
+  double side = std::min(1.5 * most, 3 * half);
+  if (most > 4 * half || most == 0) {
+    // Half of how far apart the bodies are, from where the middle half of them is.
+    double volume = 1;
+    for (int i = 0; i < D; ++i) {
+      room.clear();
+      for (const Item<D>& item : items) room.push_back(item.box.lo[i]);
+      const auto at = [&](std::size_t place) {
+        if (room.empty()) return 0.0;
+        std::nth_element(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(place),
+                         room.end());
+        return room[place];
+      };
+      const double low = at(room.size() / 4),
+                   high = at(room.size() - room.size() / 4 - !room.empty());
+      volume *= std::pow(std::max(2 * (high - low), 0.0), 1.0 / D);
+    }
+    side = std::max(side, volume / std::pow(static_cast<double>(items.size() + 1), 1.0 / D) / 2);
+  }
+  return side > 0 ? std::clamp(side, 1e-100, 1e100) : 1;
+}
+
+template <int D>
+class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
+ public:
+  static constexpr Zones kZones = Zones::rounded_rim;
+  static constexpr std::uint32_t kMostLevels = 16;
+  static constexpr double kMostCells = 0x1p31;  // of a closed level: they are numbered
+
+  // Reads bounds, cell, levels, open and most_entries. Throws Refused for bounds that are not
+  // valid, a cell that is negative, not finite, or out of 1e-100 ... 1e100, for no level or more
+  // than kMostLevels, and for a closed grid of more than kMostCells cells.
+  explicit Grid(const StructureConfig<D>& config)
+      : bounds_(config.bounds),
+        cell_(config.cell),
+        levels_(config.levels),
+        open_(config.open),
+        most_entries_(config.most_entries) {
+    if (!is_valid(bounds_)) throw Refused("grid: its bounds are not finite or inverted");
+    if (cell_ != 0 && !(cell_ >= 1e-100 && cell_ <= 1e100))
+      throw Refused(fmt::format(
+          "grid: cell is {}, must be 0 (as suits the bodies) or 1e-100 ... 1e100", cell_));
+    if (levels_ == 0 || levels_ > kMostLevels)
+      throw Refused(fmt::format("grid: levels is {}, must be 1 ... {}", levels_, kMostLevels));
+    cut(cell_ == 0 ? 1 : cell_);
+    if (cell_ != 0 && !open_ && rasters_[0].cells() > kMostCells)
+      throw Refused(
+          fmt::format("grid: {:.3g} cells of {} are too many; take larger ones, or an open grid",
+                      rasters_[0].cells(), cell_));
+  }
+
+  // Tells make_child, test and store of the cells that the body reaches: whoever is told looks at
+  // all cells each time.
+  template <class Observer>
+  void add(const Item<D>& item, Observer&& observer) {
+    append(items_, item);
+    held_ = shown_ = false;
+    if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
+      show();
+      tell(item.id, observer);
+    }
+  }
+
+  void clear() override {
+    items_.clear();
+    cells_.forget();
+    placed_ = 0;
+    held_ = shown_ = false;
+  }
+
+  // Throws Refused for a box that is not valid, after which it is empty. Time: O(n).
+  void make(std::span<const Item<D>> items) {
+    clear();
+    for (const Item<D>& item : items) require_valid(item);
+    allocations_ += items.size() > items_.capacity();
+    items_.assign(items.begin(), items.end());
+    hold();
+  }
+
+  void sort() override { hold(); }
+  std::unique_ptr<Structure<D>> sorted() const override {
+    auto copy = std::make_unique<Grid>(*this);
+    copy->hold();
+    return copy;
+  }
+  // Puts the bodies into their cells, if some came since; whoever asks does so, too. Nothing else
+  // changes, but it must not be done by two threads at once.
+  void hold() const {
+    if (held_) return;
+    if (cell_ == 0) cut(side_for<D>(items_, room_));
+    table_.build(items_, rasters());
+    placed_ += items_.size();
+    held_ = true;
+  }
+
+  // `exact` are the items, and their ids their places.
+  std::uint64_t find_pairs(std::span<const Item<D>> exact, FoundPairs& found) {
+    hold();
+    RunScanner<D> runs(table_.table(), table_.table(), exact, found);
+    table_.each_run(items_, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
+      runs.add(asks, from, to);
+    });
+    runs.finish();
+    return runs.compared();
+  }
+
+  // Returns the rows of cells that bodies ask.
+  std::uint64_t meet(FunctionRef<bool(BodyId)> awake, FunctionRef<void(BodyId, BodyId)> f) const {
+    hold();
+    std::uint64_t rows = 0;
+    table_.each_run(items_, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
+      stop_if_asked();
+      ++rows;
+      const BodyId a = items_[table_.table().id(asks)].id;
+      const bool stirs = awake(a);
+      for (std::uint32_t place = from; place < to; ++place) {
+        const BodyId b = items_[table_.table().id(place)].id;
+        if (stirs || awake(b)) f(a, b);
+      }
+    });
+    return rows;
+  }
+
+  template <class F>
+  void take(Tour<D> tour, F&& f) const {
+    show();
+    cells_.take(tour, rasters(), open_ ? cells_.bounds(rasters(), bounds_) : bounds_, f);
+  }
+
+  // Those that the box overlaps, each once.
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
+    hold();
+    std::uint64_t tests = 0;  // of rows, and of bodies in vain
+    table_.each_near(box, [&](std::uint32_t from, std::uint32_t to) {
+      ++tests;
+      for (std::uint32_t place = from; place < to; ++place) {
+        const Item<D>& item = items_[table_.table().id(place)];
+        const bool is_near = overlap(item.box, box);
+        tests += !is_near;
+        if (is_near) ids.push_back(item.id);
+      }
+    });
+    return tests;
+  }
+
+  // Of each level, the finest first: the array that its cells, or the buckets of an open grid, are
+  // numbered in, as rows of so many; a solid grid's slices follow one another.
+  Arrangement arrangement() const override {
+    hold();
+    Arrangement all;
+    for (std::size_t level = 0; level < levels_; ++level) {
+      const auto count = [&](std::size_t axis) {
+        return open_ ? table_.buckets(level, axis) : rasters_[level].cells(static_cast<int>(axis));
+      };
+      all.levels.push_back(
+          {rasters_[level].side(), count(0), count(1) * (D == 3 ? count(D - 1) : 1)});
+    }
+    return all;
+  }
+
+  // Of the grid as it is held: one node.
+  Counters work() const override {
+    return {.nodes = 1,
+            .leaves = 1,
+            .entries = items_.size(),
+            .box_tests = placed_,
+            .allocations = allocations_ + table_.allocations() + cells_.allocations()};
+  }
+
+  // Of the cells as they are shown; `box_tests` counts bodies put into their cells.
+  Counters counters() const override {
+    show();
+    return {.nodes = cells_.nodes(),
+            .leaves = cells_.leaves(),
+            .depth = cells_.depth(),
+            .entries = cells_.entries(),
+            .box_tests = placed_,
+            .allocations = work().allocations};
+  }
+
+ private:
+  std::span<const GridRaster<D>> rasters() const { return std::span(rasters_).first(levels_); }
+
+  void cut(double side) const {
+    for (std::uint32_t level = 0; level < levels_; ++level, side *= kGridRatio)
+      rasters_[level] = GridRaster<D>(bounds_, side, open_);
+  }
+
+  void show() const {
+    if (shown_) return;
+    if (cell_ == 0 || open_) {  // other cells, or buckets
+      hold();
+      cells_.forget();
+    }
+    cells_.make(items_, rasters(), table_, open_, most_entries_);
+    shown_ = true;
+  }
+
+  // A cell that holds it alone was made for it, and so was what lies above and holds nothing else.
+  template <class Observer>
+  void tell(BodyId id, Observer& observer) const {
+    using Kind = Event::Kind;
+    std::vector<NodeView<D>> nodes;
+    std::vector<std::uint32_t> others;  // bodies below each node, besides
+    std::vector<std::uint32_t> count;
+    std::vector<bool> holds;
+    this->visit([&](const NodeView<D>& node) {
+      nodes.push_back(node);
+      others.push_back(static_cast<std::uint32_t>(node.bodies.size()));
+      count.push_back(others.back());
+      holds.push_back(std::ranges::binary_search(node.bodies, id));
+      if (holds.back()) --others.back();
+      return true;
+    });
+    for (std::size_t i = nodes.size(); i-- > 1;) {
+      others[nodes[i].parent] += others[i];
+      if (holds[i]) holds[nodes[i].parent] = true;
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!holds[i]) continue;
+      const NodeHandle handle = nodes[i].handle;
+      if (i > 0 && others[i] == 0) observer(Event{Kind::make_child, handle, id, 0, 0});
+      observer(Event{Kind::test, handle, id, 0, 0});
+      if (nodes[i].leaf) observer(Event{Kind::store, handle, id, count[i], 0});
+    }
+  }
+
+  Box<D> bounds_;
+  double cell_;
+  std::uint32_t levels_;
+  bool open_;
+  std::uint64_t most_entries_;
+  std::vector<Item<D>> items_;
+
+  // Made of the items when they are asked for.
+  mutable std::array<GridRaster<D>, kMostLevels> rasters_;
+  mutable GridTable<D> table_;
+  mutable GridCells<D> cells_;
+  mutable std::vector<double> room_;
+  mutable std::uint64_t placed_ = 0;
+  mutable bool held_ = false, shown_ = false;
+};
+
+}  // namespace lantern::spatial

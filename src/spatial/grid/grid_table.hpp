@@ -1,0 +1,303 @@
+// How a grid holds its bodies: each once, in the cell of its lower corner, all in one array in the
+// order of cells (a counting sort).
+//
+//     +-----+-----+-----+      row 1 | row 0
+//     |  c  | d   |     |      cells:  0 1 2 | 3 4 5       places of cell 3: from start[3] up to
+//     |     |  +--+--+  |      start:  0 1 3 | 3 4 5 5     start[4], and so on
+//     +-----+--|--+--|--+      bodies: a b e | c d
+//     | a   | b|  |e |  |
+//     |     |  +--+--+  |      What b can meet lies in its own row from b on, in the rows above
+//     from
+//     +-----+-----+-----+      one cell to its left: a run of places in each row.
+//
+// No body is larger than a cell of its level (in a grid of several levels, the finest whose cells
+// are as large as it is), so that a cell's bodies reach the next one or two cells at most. Those
+// that are larger than any cell are held apart, in order of x, and ask all levels. Each coarse
+// body asks the finer levels. So no pair is compared twice.
+//
+// Where the cells in use span too many for the bodies, they are counted modulo a prime on the
+// longest axes: the world is folded to a torus (a spatial hash; Teschner, Heidelberger, Müller,
+// Pomeranets, Gross: "Optimized Spatial Hashing for Collision Detection of Deformable Objects",
+// 2003, mix primes by exclusive or instead, which tears rows apart). What meets in a bucket though
+// its cells are far apart is told apart by the boxes. A body's cells and those that ask for it lie
+// in fewer buckets on an axis than there are, so that no pair is met from both sides.
+//
+// Levels as Mirtich: "Impulse-based Dynamic Simulation", 1996, and Ericson: "Real-Time Collision
+// Detection", 2004, 7.2.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/stop.hpp"
+#include "geometry/not_finite.hpp"
+#include "spatial/box_table.hpp"
+#include "spatial/grid/grid_level.hpp"
+#include "spatial/structure_of.hpp"
+
+namespace lantern::spatial {
+
+inline constexpr double kGridRatio = 2;  // of the cells of a level to those of the one below
+
+template <int D>
+class GridTable : CountsAllocations {
+ public:
+  // Holds these instead of what was there. The rasters are those of the levels, the finest first.
+  // What is held names bodies by their places in `items`.
+  void build(std::span<const Item<D>> items, std::span<const GridRaster<D>> rasters) {
+    set_up(rasters);
+    deal(items);
+    for (Level& level : levels_) level.lay_out();
+    count(items);
+    place(items);
+  }
+
+  // f(place, from, to) for all runs of places that must be compared with one that asks.
+  template <class F>
+  void each_run(std::span<const Item<D>> items, F&& f) const {
+    for (const Level& level : levels_) {
+      if (level.count == 0) continue;
+      level.folded ? runs_within<true>(level, items, f) : runs_within<false>(level, items, f);
+      for (const Level& finer : levels_) {
+        if (&finer == &level) break;
+        for (std::uint32_t p = level.first; p < level.first + level.count; ++p)
+          ask(finer, items[table_.id(p)].box,
+              [&](std::uint32_t from, std::uint32_t to) { f(p, from, to); });
+      }
+    }
+    runs_of_large(items, f);
+  }
+
+  // f(from, to) for the runs of places whose bodies may reach the box.
+  template <class F>
+  void each_near(const Box<D>& box, F&& f) const {
+    for (const Level& level : levels_) ask(level, box, f);
+    if (first_large_ < table_.size()) f(first_large_, static_cast<std::uint32_t>(table_.size()));
+  }
+
+  std::uint32_t bucket(std::size_t level, const GridCell<D>& cell) const {
+    return levels_[level].bucket(cell);
+  }
+  // Of buckets on an axis of a level.
+  std::uint64_t buckets(std::size_t level, std::size_t axis) const {
+    return static_cast<std::uint64_t>(levels_[level].buckets(axis));
+  }
+  const BoxTable<D>& table() const { return table_; }
+  std::uint64_t allocations() const { return allocations_; }
+
+ private:
+  using Level = GridLevel<D>;
+  static constexpr std::uint8_t kLarge = 0xff;
+
+  void set_up(std::span<const GridRaster<D>> rasters) {
+    if (levels_.size() != rasters.size()) {
+      ++allocations_;
+      levels_.resize(rasters.size());
+    }
+    for (std::size_t i = 0; i < rasters.size(); ++i) {
+      levels_[i] = {};
+      levels_[i].raster = rasters[i];
+      levels_[i].corners = {Vec<D>(kInfinity), Vec<D>(-kInfinity)};
+    }
+  }
+
+  template <class T>
+  void make_room(std::vector<T>& list, std::size_t size) {
+    allocations_ += size > list.capacity();
+    list.resize(size);
+  }
+
+  // Each body to the finest level whose cells are as large as it is.
+  void deal(std::span<const Item<D>> items) {
+    make_room(level_of_, items.size());
+    make_room(slot_of_, items.size());
+    large_.clear();
+    const std::size_t levels = levels_.size();
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      const Box<D>& box = items[k].box;
+      const double extent = extent_of(box);
+      std::size_t l = 0;
+      while (l < levels && extent > levels_[l].raster.side()) ++l;
+      if (l == levels) {
+        level_of_[k] = kLarge;
+        append(large_, static_cast<std::uint32_t>(k));
+        continue;
+      }
+      level_of_[k] = static_cast<std::uint8_t>(l);
+      Level& level = levels_[l];
+      ++level.count;
+      level.corners.lo = glm::min(level.corners.lo, box.lo);
+      level.corners.hi = glm::max(level.corners.hi, box.lo);
+      level.widest = std::max(level.widest, extent);
+    }
+  }
+
+  void count(std::span<const Item<D>> items) {
+    std::uint32_t slots = 0, places = 0;
+    for (Level& level : levels_) {
+      level.first_slot = slots;
+      level.first = places;
+      slots += level.slots;
+      places += level.count;
+    }
+    first_large_ = places;
+    allocations_ += slots + 2 > start_.capacity();
+    start_.assign(slots + 2, 0);
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      if (level_of_[k] == kLarge) continue;
+      const Level& level = levels_[level_of_[k]];
+      slot_of_[k] = level.first_slot + level.slot(level.raster.at(items[k].box.lo));
+      ++start_[slot_of_[k] + 2];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& s : start_) s = sum += s;
+  }
+
+  // start_[s + 1] runs from where the bodies of slot s begin to where they end.
+  void place(std::span<const Item<D>> items) {
+    const std::size_t places = table_.places();
+    table_.resize(items.size());
+    allocations_ += table_.places() != places;
+    for (std::uint32_t k = 0; k < items.size(); ++k)
+      if (level_of_[k] != kLarge) table_.set(start_[slot_of_[k] + 1]++, k, items[k].box);
+    std::sort(large_.begin(), large_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const double x = items[a].box.lo[0], y = items[b].box.lo[0];
+      return x < y || (x == y && items[a].id < items[b].id);
+    });
+    for (std::uint32_t i = 0; i < large_.size(); ++i)
+      table_.set(first_large_ + i, large_[i], items[large_[i]].box);
+  }
+
+  // f(from, to) for the bodies of the level that may reach the box.
+  template <class F>
+  void ask(const Level& level, const Box<D>& box, F&& f) const {
+    if (level.count == 0) return;
+    GridCell<D> from, to;
+    for (int i = 0; i < D; ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      from[a] =
+          std::max<std::int64_t>(level.raster.at(box.lo[i], i) - level.reach - level.base[a], 0);
+      to[a] = std::min(level.raster.at(box.hi[i], i), level.last[a]) - level.base[a];
+      if (to[a] < from[a]) return;
+      if (to[a] - from[a] >= level.fold[a]) {
+        from[a] = 0;  // all slots, each once
+        to[a] = level.fold[a] - 1;
+      }
+    }
+    const std::int64_t depth = D == 3 ? from[D - 1] : 0, depth_to = D == 3 ? to[D - 1] : 0;
+    for (std::int64_t z = depth; z <= depth_to; ++z)
+      for (std::int64_t y = from[1]; y <= to[1]; ++y)
+        row_runs(level, level.row(y, z), from[0], to[0], f);
+  }
+
+  // The cells x0 to x1 of a row, fewer than there are slots; two runs where they wrap.
+  template <class F>
+  void row_runs(const Level& level, std::uint32_t row, std::int64_t x0, std::int64_t x1,
+                F&& f) const {
+    const auto a = static_cast<std::uint32_t>(level.fold_of(x0, 0));
+    const auto b = static_cast<std::uint32_t>(level.fold_of(x1, 0));
+    const auto run = [&](std::uint32_t from, std::uint32_t to) {
+      if (from < to) f(from, to);
+    };
+    if (a <= b) return run(start_[row + a], start_[row + b + 1]);
+    run(start_[row + a], start_[row + static_cast<std::uint32_t>(level.fold[0])]);
+    run(start_[row], start_[row + b + 1]);
+  }
+
+  Box<D> rounded_box(std::uint32_t place) const {
+    Box<D> box;
+    for (int i = 0; i < D; ++i) {
+      box.lo[i] = table_.lo(i)[place];
+      box.hi[i] = table_.hi(i)[place];
+    }
+    return box;
+  }
+
+  // Each body with those behind it in its row, and with those in the rows behind that it reaches.
+  template <bool kFolded, class F>
+  void runs_within(const Level& level, std::span<const Item<D>> items, F& f) const {
+    const auto width = static_cast<std::uint32_t>(level.fold[0]);
+    std::uint32_t y = 0, z = 0;
+    for (std::uint32_t row = level.first_slot; row < level.first_slot + level.slots; row += width) {
+      stop_if_asked();
+      for (std::uint32_t p = start_[row]; p < start_[row + width]; ++p) {
+        const Box<D> box = kFolded ? items[table_.id(p)].box : rounded_box(p);
+        GridCell<D> from, to;
+        for (int i = 0; i < D; ++i) {
+          const auto a = static_cast<std::size_t>(i);
+          from[a] = level.raster.at(box.lo[i], i) - level.base[a];
+          to[a] = std::min(level.raster.at(box.hi[i], i), level.last[a]) - level.base[a];
+        }
+        if constexpr (!kFolded) {  // what was rounded outward may begin one cell too early
+          from[1] = y;
+          if constexpr (D == 3) from[2] = z;
+        }
+        runs_of<kFolded>(level, p, row, from, to, f);
+      }
+      if (++y == static_cast<std::uint32_t>(level.fold[1])) {
+        y = 0;
+        ++z;
+      }
+    }
+  }
+
+  template <bool kFolded, class F>
+  void runs_of(const Level& level, std::uint32_t p, std::uint32_t row, const GridCell<D>& from,
+               const GridCell<D>& to, F& f) const {
+    const auto tell = [&](std::uint32_t first, std::uint32_t end) { f(p, first, end); };
+    own_row<kFolded>(level, p, row, from, to, f);
+    const auto before = [&](std::size_t axis) {
+      return std::max<std::int64_t>(from[axis] - level.reach, 0);
+    };
+    const std::int64_t x0 = before(0);
+    if constexpr (D == 2) {
+      for (std::int64_t y = from[1] + 1; y <= to[1]; ++y)
+        row_runs(level, level.row(y, 0), x0, to[0], tell);
+    } else {
+      for (std::int64_t y = from[1] + 1; y <= to[1]; ++y)
+        row_runs(level, level.row(y, from[2]), x0, to[0], tell);
+      for (std::int64_t z = from[2] + 1; z <= to[2]; ++z)
+        for (std::int64_t y = before(1); y <= to[1]; ++y)
+          row_runs(level, level.row(y, z), x0, to[0], tell);
+    }
+  }
+
+  template <bool kFolded, class F>
+  void own_row(const Level& level, std::uint32_t p, std::uint32_t row, const GridCell<D>& from,
+               const GridCell<D>& to, F& f) const {
+    const auto last = static_cast<std::uint32_t>(level.fold_of(to[0], 0));
+    std::uint32_t end = start_[row + last + 1];
+    if (kFolded && last < level.fold_of(from[0], 0)) {
+      if (start_[row] < end) f(p, start_[row], end);
+      end = start_[row + static_cast<std::uint32_t>(level.fold[0])];
+    }
+    if (p + 1 < end) f(p, p + 1, end);
+  }
+
+  // Among themselves they are swept along x.
+  template <class F>
+  void runs_of_large(std::span<const Item<D>> items, F& f) const {
+    const auto n = static_cast<std::uint32_t>(table_.size());
+    for (std::uint32_t p = first_large_; p < n; ++p) {
+      stop_if_asked();
+      const Box<D>& box = items[table_.id(p)].box;
+      std::uint32_t end = p + 1;
+      while (end < n && items[table_.id(end)].box.lo[0] <= box.hi[0]) ++end;
+      if (p + 1 < end) f(p, p + 1, end);
+      for (const Level& level : levels_)
+        ask(level, box, [&](std::uint32_t from, std::uint32_t to) { f(p, from, to); });
+    }
+  }
+
+  std::vector<Level> levels_;
+  BoxTable<D> table_;
+  std::vector<std::uint32_t> start_;  // of each slot, the first place; one more behind the last
+  std::vector<std::uint8_t> level_of_;
+  std::vector<std::uint32_t> slot_of_;
+  std::vector<std::uint32_t> large_;
+  std::uint32_t first_large_ = 0;  // their first place
+};
+
+}  // namespace lantern::spatial

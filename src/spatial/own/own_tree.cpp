@@ -1,0 +1,179 @@
+#include "spatial/own/own_tree.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/stop.hpp"
+#include "spatial/own/own_view.hpp"
+#include "spatial/structure_of.hpp"
+
+namespace lantern::spatial {
+namespace {
+
+Box<2> clamped(Box<2> box, const Box<2>& to) {
+  for (int i = 0; i < 2; ++i) {
+    box.lo[i] = std::clamp(box.lo[i], to.lo[i], to.hi[i]);
+    box.hi[i] = std::clamp(box.hi[i], to.lo[i], to.hi[i]);
+  }
+  return box;
+}
+
+// What it holds is read from its OwnView; the tree itself is only called to insert, to clear, and
+// for one visit after that.
+class OwnFlat final : public StructureOf<OwnFlat, 2> {
+ public:
+  static constexpr Zones kZones = Zones::rounded_rim;
+
+  OwnFlat(const StructureConfig<2>& config, const OwnKind& kind)
+      : kind_(kind),
+        rules_{kind.name, config.bounds, config.capacity, config.max_depth, config.most_entries},
+        view_(config.bounds) {
+    clear();
+  }
+
+  template <class Observer>
+  void add(const Item<2>& item, Observer&& observer) {
+    put(item);
+    if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
+      const OwnView before = looked();
+      const auto place = static_cast<BodyId>(ids_.size() - 1);
+      for (Event event : view_.events_since(before, place, rules_)) {
+        event.body = item.id;
+        observer(event);
+      }
+    }
+  }
+  void look() override {
+    if (!seen_) looked();
+  }
+  // Nobody wants to hear of what goes wrong while forgetting.
+  void clear() override {
+    ids_.clear();
+    boxes_.clear();
+    broken_ = nullptr;
+    seen_ = false;
+    try {
+      renew();
+      look();
+    } catch (const StructureFault&) {
+      broken_ = std::current_exception();
+      view_ = OwnView(rules_.bounds);
+      faults_.clear();
+    }
+  }
+
+  template <class F>
+  void take(Tour<2> tour, F&& f) const {
+    visit_from(0, kNone, tour, f);
+  }
+  std::uint64_t near(const Box<2>& box, std::vector<BodyId>& ids) const override {
+    const auto& nodes = view_.nodes();
+    const Box<2> cut = grown(clamped(box, nodes[0].box), view_.slack());
+    for (std::uint32_t i = 0; i < nodes.size();) {
+      if (!overlap(nodes[i].box, cut)) {
+        i = nodes[i].end;
+        continue;
+      }
+      for (const BodyId place : view_.bodies(nodes[i])) ids.push_back(ids_[place]);
+      ++i;
+    }
+    return 0;
+  }
+  Counters counters() const override { return view_.counters(); }
+  std::span<const OwnFault> faults() const override { return faults_; }
+
+ private:
+  void call(const char* during, FunctionRef<void()> f, std::vector<BodyId> bodies = {}) const {
+    run_own(f, [&](const std::string& words) {
+      throw StructureFault(
+          {fmt::format("structure '{}': {} threw: {}", kind_.name, during, words), bodies});
+    });
+  }
+
+  void renew() {
+    bool cleared = false;
+    if (tree_) call("clear", [&] { cleared = tree_->clear(); });
+    if (cleared) return;
+    tree_.reset();
+    call("its constructor",
+         [&] { tree_ = kind_.make(rules_.bounds, rules_.capacity, rules_.max_depth); });
+  }
+
+  // Returns what was seen before.
+  OwnView looked() {
+    if (broken_) std::rethrow_exception(broken_);
+    OwnView before = std::exchange(view_, OwnView(*tree_, rules_, boxes_, view_));
+    faults_ = view_.faults();
+    for (OwnFault& fault : faults_)
+      for (BodyId& body : fault.bodies) body = ids_[body];
+    seen_ = true;
+    return before;
+  }
+
+  void put(const Item<2>& item) {
+    if (broken_) std::rethrow_exception(broken_);
+    stop_if_asked();
+    seen_ = false;
+    const auto place = static_cast<BodyId>(boxes_.size());
+    ids_.push_back(item.id);
+    boxes_.push_back(clamped(item.box, rules_.bounds));
+    call("insert of {0}", [&] { tree_->insert(place, boxes_[place]); }, {item.id});
+  }
+
+  template <class F>
+  void visit_from(std::uint32_t index, std::uint32_t parent, Tour<2>& tour, F& f) const {
+    const OwnView::Node& node = view_.nodes()[index];
+    tour.ids.clear();
+    for (const BodyId place : view_.bodies(node)) tour.ids.push_back(ids_[place]);
+    std::sort(tour.ids.begin(), tour.ids.end());
+    const NodeView<2> view{.handle = node.handle,
+                           .id = tour.next_id++,
+                           .parent = parent,
+                           .slot = node.slot,
+                           .depth = node.depth,
+                           .leaf = node.leaf,
+                           .box = node.box,
+                           .slack = view_.slack(),
+                           .bodies = tour.ids};
+    if (!f(view)) return;
+    for (const std::uint32_t child : children_of(index, tour.toward))
+      visit_from(child, view.id, tour, f);
+  }
+
+  // By how soon a ray along the direction comes to their middles.
+  std::vector<std::uint32_t> children_of(std::uint32_t node, const Vec<2>& toward) const {
+    std::vector<std::uint32_t> children;
+    view_.each_child(node, [&](std::uint32_t c) { children.push_back(c); });
+    if (toward != Vec<2>(0.0))
+      std::ranges::stable_sort(children, {}, [&](std::uint32_t c) {
+        return glm::dot(view_.nodes()[c].box.center(), toward);
+      });
+    return children;
+  }
+
+  OwnKind kind_;
+  OwnRules rules_;
+  std::unique_ptr<OwnTree> tree_;
+  std::vector<BodyId> ids_;    // of the bodies, in the order of their insertion: the tree is told
+  std::vector<Box<2>> boxes_;  // their places in it, and their boxes, cut to the bounds
+  OwnView view_;
+  bool seen_ = false;  // it shows what the tree holds
+  std::vector<OwnFault> faults_;
+  std::exception_ptr broken_;  // the tree could not be made or cleared
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<Structure<2>> own_tree(const OwnKind& kind, const StructureConfig<2>& config) {
+  return std::make_unique<OwnFlat>(config, kind);
+}
+template <>
+std::unique_ptr<Structure<3>> own_tree(const OwnKind& kind, const StructureConfig<3>& config) {
+  return std::make_unique<Upright<OwnFlat>>(config, kind);
+}
+
+}  // namespace lantern::spatial

@@ -1,0 +1,188 @@
+// The list of structures, ours and those that a program was given, and what they have in common.
+#include "spatial/structure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "spatial/own/own_tree.hpp"
+#include "spatial/query.hpp"
+#include "spatial/structure_of.hpp"
+
+namespace lantern::spatial {
+
+#define LANTERN_KIND(name) extern const StructureEntry name##_entry;
+LANTERN_STRUCTURES(LANTERN_KIND)
+#undef LANTERN_KIND
+
+namespace {
+
+struct Ours {
+  std::string_view name;
+  const StructureEntry* entry;
+};
+constexpr Ours kOurs[] = {
+#define LANTERN_KIND(name) {#name, &name##_entry},
+    LANTERN_STRUCTURES(LANTERN_KIND)
+#undef LANTERN_KIND
+};
+
+// Given before anything else runs, and never changed again.
+struct Own {
+  OwnKind kind;
+  StructureTraits traits;
+};
+std::deque<Own>& own_kinds() {
+  static std::deque<Own> kinds;
+  return kinds;
+}
+
+constexpr auto kFirst = static_cast<std::size_t>(kStructureKinds.front());
+constexpr auto kFirstOwn = static_cast<std::size_t>(StructureKind::own);
+
+// Null for what is none of ours.
+const Ours* ours(StructureKind kind) {
+  const auto place = static_cast<std::size_t>(kind);
+  return place < kFirst || place >= kFirstOwn ? nullptr : &kOurs[place - kFirst];
+}
+
+const Own* own(StructureKind kind) {
+  if (kind < StructureKind::own) return nullptr;
+  return &own_kinds().at(static_cast<std::size_t>(kind) - kFirstOwn);
+}
+
+void require_name(const std::string& name) {
+  const bool written_well = !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!written_well)
+    throw Refused(fmt::format("structure '{}': a name is of a–z, 0–9 and _", name));
+  if (structure_named(name))
+    throw Refused(fmt::format("structure '{}': there is one of this name already", name));
+}
+
+}  // namespace
+
+// --- kinds ---
+
+void know_own_structures(std::vector<OwnKind> kinds) {
+  for (OwnKind& kind : kinds) {
+    require_name(kind.name);
+    if (kind.words.empty()) kind.words = kind.name;
+    Own& own = own_kinds().emplace_back(Own{std::move(kind), {}});
+    own.traits = {.words = own.kind.words,
+                  .settings = bits_of({Setting::capacity, Setting::max_depth}),
+                  .ignores_height = true,
+                  .is_own = true};
+  }
+}
+
+const OwnKind* own_structure(StructureKind kind) {
+  const Own* one = own(kind);
+  return one == nullptr ? nullptr : &one->kind;
+}
+
+std::vector<StructureKind> known_structures() {
+  std::vector<StructureKind> kinds(kStructureKinds.begin(), kStructureKinds.end());
+  for (std::size_t i = 0; i < own_kinds().size(); ++i)
+    kinds.push_back(static_cast<StructureKind>(kFirstOwn + i));
+  return kinds;
+}
+
+std::string_view to_string(StructureKind kind) {
+  if (const OwnKind* own = own_structure(kind)) return own->name;
+  if (const Ours* one = ours(kind)) return one->name;
+  return kind == StructureKind::none ? "none" : "auto";
+}
+
+std::optional<StructureKind> structure_named(std::string_view name) {
+  for (const StructureKind kind : {StructureKind::none, StructureKind::automatic})
+    if (name == to_string(kind)) return kind;
+  for (const StructureKind kind : known_structures())
+    if (name == to_string(kind)) return kind;
+  return std::nullopt;
+}
+
+const StructureTraits& traits_of(StructureKind kind) {
+  static constexpr StructureTraits kNone{.words = "none", .is_tree = false, .splits = false};
+  static constexpr StructureTraits kAutomatic{
+      .words = "whichever suits", .is_tree = false, .splits = false};
+  if (const Ours* one = ours(kind)) return one->entry->traits;
+  if (const Own* one = own(kind)) return one->traits;
+  return kind == StructureKind::none ? kNone : kAutomatic;
+}
+
+std::string_view to_string(Setting setting) {
+  constexpr std::string_view kNames[] = {"capacity",  "max_depth", "children", "no_progress_stop",
+                                         "cell",      "levels",    "open",     "margin",
+                                         "following", "axis",      "planes"};
+  return kNames[static_cast<std::size_t>(setting)];
+}
+
+std::vector<StructureKind> kinds_with(Setting setting) {
+  std::vector<StructureKind> kinds;
+  for (const StructureKind kind : kStructureKinds)
+    if (traits_of(kind).has(setting)) kinds.push_back(kind);
+  return kinds;
+}
+
+// --- structures ---
+
+template <int D>
+std::unique_ptr<Structure<D>> make_structure(StructureKind kind, const StructureConfig<D>& config) {
+  if (const OwnKind* own = own_structure(kind)) return own_tree<D>(*own, config);
+  const Ours* one = ours(kind);
+  if (one == nullptr) throw Refused("there is no structure to make");
+  if constexpr (D == 3)
+    return one->entry->make_3d(config);
+  else if (one->entry->make_2d != nullptr)
+    return one->entry->make_2d(config);
+  throw Refused(fmt::format("broad phase: {} needs three dimensions", one->name));
+}
+template std::unique_ptr<Structure<2>> make_structure(StructureKind, const StructureConfig<2>&);
+template std::unique_ptr<Structure<3>> make_structure(StructureKind, const StructureConfig<3>&);
+
+template <int D>
+void refuse_box(const Item<D>& item) {
+  int i = 0;
+  const auto is_bad = [](double lo, double hi) {
+    return !std::isfinite(lo) || !std::isfinite(hi) || lo > hi;
+  };
+  while (i + 1 < D && !is_bad(item.box.lo[i], item.box.hi[i])) ++i;
+  throw Refused(fmt::format(
+      "body {}: its box goes from {} to {} on axis {}; both must be finite and in this order",
+      item.id, item.box.lo[i], item.box.hi[i], "xyz"[i]));
+}
+template void refuse_box(const Item<2>&);
+template void refuse_box(const Item<3>&);
+
+std::string text_of(const OwnFault& fault, const std::function<std::string(BodyId)>& name_of) {
+  std::string text = fault.text;
+  for (std::size_t i = 0; i < fault.bodies.size(); ++i) {
+    const std::string place = fmt::format("{{{}}}", i), name = name_of(fault.bodies[i]);
+    for (std::size_t at = 0; (at = text.find(place, at)) != std::string::npos; at += name.size())
+      text.replace(at, place.size(), name);
+  }
+  return text;
+}
+
+StructureFault::StructureFault(OwnFault fault)
+    : std::runtime_error(text_of(fault, [](BodyId id) { return fmt::format("body {}", id); })),
+      fault_(std::move(fault)) {}
+
+void sort_nearly_sorted(std::vector<RayHit>& hits) {
+  std::size_t moves = 16 * hits.size();
+  for (std::size_t i = 1; i < hits.size(); ++i) {
+    const RayHit hit = hits[i];
+    std::size_t hole = i;
+    for (; hole > 0 && moves > 0 && RayHit::before(hit, hits[hole - 1]); --hole, --moves)
+      hits[hole] = hits[hole - 1];
+    hits[hole] = hit;
+    if (moves == 0) return std::sort(hits.begin(), hits.end(), RayHit::before);
+  }
+}
+
+}  // namespace lantern::spatial

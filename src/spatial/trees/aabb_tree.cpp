@@ -1,0 +1,468 @@
+// How an AABB tree is built of all its bodies at once, follows them, and finds which overlap.
+#include "spatial/trees/aabb_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+namespace lantern::spatial {
+namespace {
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+// A tree of n bodies may be this much higher than the lowest, so that even boxes within boxes
+// within boxes make no chain.
+constexpr std::uint32_t kSpareHeight = 8;
+std::uint32_t lowest(std::size_t bodies) {
+  return static_cast<std::uint32_t>(std::bit_width(bodies - 1));
+}
+
+// Twice where its middle lies; a number, however far out the box reaches.
+template <int D>
+float middle(const AabbNode<D>& leaf, int axis) {
+  constexpr float kFar = 1e30f;
+  return std::clamp(leaf.lo[axis], -kFar, kFar) + std::clamp(leaf.hi[axis], -kFar, kFar);
+}
+
+template <int D>
+AabbNode<D> nowhere() {
+  AabbNode<D> node;
+  for (int i = 0; i < D; ++i) {
+    node.lo[i] = kInfinite;
+    node.hi[i] = -kInfinite;
+  }
+  return node;
+}
+
+struct Spread {
+  int axis = 0;
+  float from = 0, to = 0;
+};
+
+// Of the middles, on the axis on which they lie farthest apart.
+template <int D>
+Spread widest(std::span<const AabbNode<D>> leaves) {
+  float from[D], to[D];
+  for (int i = 0; i < D; ++i) from[i] = to[i] = middle(leaves[0], i);
+  for (const AabbNode<D>& leaf : leaves)
+    for (int i = 0; i < D; ++i) {
+      const float at = middle(leaf, i);
+      from[i] = std::min(from[i], at);
+      to[i] = std::max(to[i], at);
+    }
+  Spread best{0, from[0], to[0]};
+  for (int i = 1; i < D; ++i)
+    if (to[i] - from[i] > best.to - best.from) best = {i, from[i], to[i]};
+  return best;
+}
+
+// By where the middle lies, then by body.
+template <int D>
+auto before_on(int axis) {
+  return [axis](const AabbNode<D>& a, const AabbNode<D>& b) {
+    const float x = middle(a, axis), y = middle(b, axis);
+    return x < y || (x == y && a.link < b.link);
+  };
+}
+
+template <int D>
+std::size_t cut_at_median(std::span<AabbNode<D>> leaves, int axis) {
+  const std::size_t half = leaves.size() / 2;
+  std::nth_element(leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(half), leaves.end(),
+                   before_on<D>(axis));
+  return half;
+}
+
+// Whether that many of all may lie on one side.
+bool fits(std::size_t one_side, std::size_t all, std::uint32_t height) {
+  return lowest(std::max(one_side, all - one_side)) < height;
+}
+
+// Few leaves: sorted, and every place between two of them tried.
+constexpr std::size_t kFew = 8;
+template <int D>
+std::size_t cut_few(std::span<AabbNode<D>> leaves, int axis, std::uint32_t height) {
+  const std::size_t n = leaves.size();
+  const auto before = before_on<D>(axis);
+  for (std::size_t i = 1; i < n; ++i)
+    for (std::size_t j = i; j > 0 && before(leaves[j], leaves[j - 1]); --j)
+      std::swap(leaves[j], leaves[j - 1]);
+  float behind[kFew];
+  AabbNode<D> part = leaves[n - 1];
+  for (std::size_t i = n - 1; i > 0; --i) {
+    part.grow_around(part, leaves[i]);
+    behind[i] = part.area() * static_cast<float>(n - i);
+  }
+  std::size_t best = n / 2;
+  float least = kInfinite;
+  part = leaves[0];
+  for (std::size_t i = 1; i < n; ++i) {
+    part.grow_around(part, leaves[i - 1]);
+    const float cost = part.area() * static_cast<float>(i) + behind[i];
+    if (cost < least && fits(i, n, height)) {
+      least = cost;
+      best = i;
+    }
+  }
+  return best;
+}
+
+// Many: counted into bins of equal width.
+template <int D>
+class Bins {
+ public:
+  static constexpr int kCount = 16;
+
+  explicit Bins(const Spread& spread)
+      : axis_(spread.axis),
+        from_(spread.from),
+        scale_(static_cast<float>(kCount) / (spread.to - spread.from)) {
+    boxes_.fill(nowhere<D>());
+  }
+
+  bool is_possible() const { return scale_ < kInfinite; }
+  int of(const AabbNode<D>& leaf) const {
+    return std::min(static_cast<int>((middle(leaf, axis_) - from_) * scale_), kCount - 1);
+  }
+  void add(const AabbNode<D>& leaf) {
+    AabbNode<D>& box = boxes_[static_cast<std::size_t>(of(leaf))];
+    box.grow_around(box, leaf);
+    ++box.below;
+  }
+
+  // The first bin of the upper side; 0 if no cut is allowed.
+  int best(std::size_t n, std::uint32_t height) const {
+    float behind[kCount];
+    AabbNode<D> part = nowhere<D>();
+    std::size_t count = 0;
+    for (int i = kCount - 1; i > 0; --i) {
+      count += take(part, i);
+      behind[i] = count > 0 ? part.area() * static_cast<float>(count) : 0;
+    }
+    int best = 0;
+    float least = kInfinite;
+    part = nowhere<D>();
+    count = 0;
+    for (int i = 1; i < kCount; ++i) {
+      count += take(part, i - 1);
+      const float cost = part.area() * static_cast<float>(count) + behind[i];
+      if (cost < least && fits(count, n, height)) {
+        least = cost;
+        best = i;
+      }
+    }
+    return best;
+  }
+
+ private:
+  std::size_t take(AabbNode<D>& part, int bin) const {
+    const AabbNode<D>& box = boxes_[static_cast<std::size_t>(bin)];
+    part.grow_around(part, box);
+    return box.below;
+  }
+
+  int axis_;
+  float from_, scale_;
+  std::array<AabbNode<D>, kCount> boxes_;
+};
+
+}  // namespace
+
+// Brings the leaves of the one child to the front; how many they are.
+template <int D>
+std::size_t AabbTree<D>::cut(std::span<Node> leaves, std::uint32_t height) {
+  box_tests_ += leaves.size();
+  if (leaves.size() == 2) {
+    if (leaves[1].link < leaves[0].link) std::swap(leaves[0], leaves[1]);
+    return 1;
+  }
+  const Spread spread = widest<D>(leaves);
+  if (leaves.size() <= kFew) return cut_few<D>(leaves, spread.axis, height);
+  Bins<D> bins(spread);
+  if (!bins.is_possible()) return cut_at_median<D>(leaves, spread.axis);
+  for (const Node& leaf : leaves) bins.add(leaf);
+  const int best = bins.best(leaves.size(), height);
+  if (best == 0) return cut_at_median<D>(leaves, spread.axis);
+  const auto upper = std::partition(leaves.begin(), leaves.end(),
+                                    [&](const Node& leaf) { return bins.of(leaf) < best; });
+  return static_cast<std::size_t>(upper - leaves.begin());
+}
+
+// Makes the node of these leaves, which are at least one. What lies below blocks is made later, so
+// that the nodes above them, through which every walk goes, stand close together.
+template <int D>
+void AabbTree<D>::grow(NodeHandle at, std::span<Node> leaves, std::uint32_t height) {
+  if (leaves.size() == 1) {
+    nodes_[at] = leaves[0];
+    return;
+  }
+  if (leaves.size() > 1024) stop_if_asked();
+  const std::size_t few = cut(leaves, height);
+  const auto first = static_cast<NodeHandle>(nodes_.size());
+  nodes_.resize(first + 2);
+  nodes_[at].link = first;
+  const bool is_of_block = leaves.size() <= kAabbBlock;
+  for (const NodeHandle i : {0u, 1u}) {
+    const std::span<Node> part = i == 0 ? leaves.first(few) : leaves.subspan(few);
+    if (is_of_block || part.size() > kAabbBlock)
+      grow(first + i, part, height - 1);
+    else
+      append(blocks_, Block{first + i, part, height - 1});
+  }
+  if (is_of_block) enclose(at);
+}
+
+template <int D>
+void AabbTree<D>::grow_all() {
+  nodes_.assign(2, Node{});
+  free_.clear();
+  blocks_.clear();
+  listed_ = false;
+  cost_ = 0;
+  if (leaves_.empty()) return;
+  if (nodes_.capacity() < 2 * leaves_.size()) {
+    nodes_.reserve(2 * leaves_.size());
+    ++allocations_;
+  }
+  grow(kRoot, leaves_, lowest(leaves_.size()) + kSpareHeight);
+  const std::size_t above = nodes_.size();
+  for (const Block& block : blocks_) grow(block.node, block.leaves, block.height);
+  // Above the blocks children stand behind their parents.
+  for (std::size_t i = above; i-- > kRoot && !blocks_.empty();)
+    if (nodes_[i].below == 0) enclose(static_cast<NodeHandle>(i));
+  for (const Node& node : nodes_) cost_ += node.is_leaf() ? 0 : node.area();
+}
+
+template <int D>
+void AabbTree<D>::make(std::span<const Item<D>> items) {
+  for (const Item<D>& item : items) require_valid(item);
+  require_places(items.size());
+  clear();
+  leaves_.clear();
+  for (const Item<D>& item : items) append(leaves_, Node::leaf(item, margin_));
+  grow_all();
+  list();
+  splits_ = items.empty() ? 0 : items.size() - 1;
+}
+
+template <int D>
+void AabbTree<D>::build_of_leaves() {
+  leaves_.clear();
+  for (std::size_t i = kRoot; i < nodes_.size(); ++i)
+    if (nodes_[i].is_leaf()) append(leaves_, nodes_[i]);
+  grow_all();
+}
+
+template <int D>
+void AabbTree<D>::require_places(std::size_t count) const {
+  if (count > Node::kMostBodies)
+    throw Refused(fmt::format("AABB tree: {} bodies are more than it can hold, {}", count,
+                              Node::kMostBodies));
+}
+
+// --- mending ---
+
+// Whether the body may stay in its leaf as it is. Without a margin the leaf's box must be its own,
+// so that pairs can be found by leaves alone.
+template <int D>
+bool AabbTree<D>::suits(const Node& leaf, const Item<D>& item) const {
+  if (margin_ > 0) return leaf.holds(item.box);
+  const Node own = Node::leaf(item, 0);
+  bool same = true;
+  for (int i = 0; i < D; ++i) same = same & (own.lo[i] == leaf.lo[i]) & (own.hi[i] == leaf.hi[i]);
+  return same;
+}
+
+template <int D>
+bool AabbTree<D>::update(std::span<const Item<D>> items, const EventWatch& watch) {
+  bool same = items.size() == bodies();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    require_valid(items[i]);
+    same = same && items[i].id == i;
+  }
+  std::size_t out = 0;
+  for (std::size_t i = kRoot; i < nodes_.size() && same; ++i) {
+    if (!nodes_[i].is_leaf()) continue;
+    same = nodes_[i].link < items.size();
+    out += same && !suits(nodes_[i], items[nodes_[i].link]);
+  }
+  if (!same || items.empty()) {
+    make(items);
+    return true;
+  }
+  box_tests_ = items.size();
+  reinserted_ = refitted_ = 0;
+  if (out == 0) {
+    if (!listed_) list();
+    return true;
+  }
+  // To insert one costs some hundred times as much as to mend a node.
+  constexpr std::size_t kFew = 64;
+  constexpr double kMuchWorse = 1.3;
+  const bool automatic = following_ == Following::automatic;
+  listed_ = false;
+  if (following_ == Following::reinsert || (automatic && kFew * out < items.size()))
+    take_out_and_put_back(items, watch);
+  else if (!(mend_all(kRoot, items) <= kMuchWorse * cost_) && automatic)
+    build_of_leaves();
+  list();
+  return true;
+}
+
+template <int D>
+void AabbTree<D>::take_out_and_put_back(std::span<const Item<D>> items, const EventWatch& watch) {
+  if (watch) tell_leaving(kRoot, items, watch);
+  left_.clear();
+  if (!keep_those_that_suit(kRoot, items)) nodes_[kRoot] = Node{};
+  NoObserver nobody;
+  for (const BodyId body : left_) {
+    const Node leaf = Node::leaf(items[body], margin_);
+    watch ? put(leaf, watch) : put(leaf, nobody);
+  }
+  reinserted_ = left_.size();
+}
+
+// While all are still in the tree.
+template <int D>
+void AabbTree<D>::tell_leaving(NodeHandle at, std::span<const Item<D>> items,
+                               const EventWatch& watch) const {
+  const Node& node = nodes_[at];
+  if (!node.is_leaf()) {
+    tell_leaving(node.link, items, watch);
+    tell_leaving(node.link + 1, items, watch);
+  } else if (!suits(node, items[node.link])) {
+    watch({Event::Kind::leave, handle_of(at), node.link, 0, 0});
+  }
+}
+
+// Takes the others out of the branch. False if none is left in it.
+template <int D>
+bool AabbTree<D>::keep_those_that_suit(NodeHandle at, std::span<const Item<D>> items) {
+  Node& node = nodes_[at];
+  ++box_tests_;
+  if (node.is_leaf()) {
+    const bool stays = suits(node, items[node.link]);
+    if (!stays) append(left_, node.link);
+    return stays;
+  }
+  const NodeHandle first = node.link;
+  const bool one = keep_those_that_suit(first, items), two = keep_those_that_suit(first + 1, items);
+  if (one && two) {
+    node.enclose(nodes_[first], nodes_[first + 1]);
+    return true;
+  }
+  if (one || two) node = nodes_[one ? first : first + 1];
+  append(free_, first);
+  return one || two;
+}
+
+// Every leaf stays where it is. The areas of the inner nodes.
+template <int D>
+double AabbTree<D>::mend_all(NodeHandle at, std::span<const Item<D>> items) {
+  Node& node = nodes_[at];
+  ++box_tests_;
+  if (node.is_leaf()) {
+    const Item<D>& item = items[node.link];
+    if (suits(node, item)) return 0;
+    node = Node::leaf(item, margin_);
+    ++refitted_;
+    return 0;
+  }
+  const double below = mend_all(node.link, items) + mend_all(node.link + 1, items);
+  node.enclose(nodes_[node.link], nodes_[node.link + 1]);
+  return below + node.area();
+}
+
+// --- pairing ---
+
+// From the first leaf to the last, so that what lies below a node stands side by side. The place
+// behind the last.
+template <int D>
+template <class BoxOf>
+std::uint32_t AabbTree<D>::put_into(BoxTable<D>& table, NodeHandle at, std::uint32_t place,
+                                    BoxOf& box_of) {
+  const Node& node = nodes_[at];
+  if (node.is_leaf()) {
+    table.set(place, node.link, box_of(node));
+    return place + 1;
+  }
+  return put_into(table, node.link + 1, put_into(table, node.link, place, box_of), box_of);
+}
+
+template <int D>
+void AabbTree<D>::list() {
+  const std::size_t places = table_.places();
+  table_.resize(bodies());
+  const auto own = [](const Node& leaf) { return leaf.box(); };
+  if (bodies() > 0) put_into(table_, kRoot, 0, own);
+  allocations_ += table_.places() != places;
+  listed_ = true;
+}
+
+template <int D>
+std::uint64_t AabbTree<D>::find_pairs(std::span<const Item<D>> exact, FoundPairs& found) {
+  if (!listed_) list();
+  if (margin_ > 0 && bodies() > 0) {
+    const std::size_t places = exact_.places();
+    exact_.resize(bodies());
+    const auto true_box = [&](const Node& leaf) -> const Box<D>& { return exact[leaf.link].box; };
+    put_into(exact_, kRoot, 0, true_box);
+    allocations_ += exact_.places() != places;
+  }
+  const BoxTable<D>& table = margin_ > 0 ? exact_ : table_;
+  RunScanner<D> runs(table, table, exact, found);
+  if (bodies() > 0) pair_within({kRoot, 0}, table, runs);
+  runs.finish();
+  return runs.compared();
+}
+
+template <int D>
+void AabbTree<D>::pair_within(const AabbSpot& at, const BoxTable<D>& table,
+                              RunScanner<D>& runs) const {
+  const Node& node = nodes_[at.node];
+  if (node.bodies() <= kAabbBlock) {
+    const std::uint32_t end = at.first + node.bodies();
+    for (std::uint32_t i = at.first; i < end; ++i) runs.add(i, i + 1, end);
+    return;
+  }
+  const AabbSpot one = child(at, 0), two = child(at, 1);
+  pair_within(one, table, runs);
+  pair_within(two, table, runs);
+  pair_between(one, two, table, runs);
+}
+
+template <int D>
+void AabbTree<D>::pair_between(const AabbSpot& of_a, const AabbSpot& of_b, const BoxTable<D>& table,
+                               RunScanner<D>& runs) const {
+  const Node &a = nodes_[of_a.node], &b = nodes_[of_b.node];
+  if (!a.reaches(b)) return;
+  if (a.bodies() <= kAabbBlock && b.bodies() <= kAabbBlock) {
+    for (std::uint32_t i = of_a.first; i < of_a.first + a.bodies(); ++i) {
+      bool reaches = true;
+      for (int axis = 0; axis < D; ++axis)
+        reaches = reaches & (table.lo(axis)[i] <= b.hi[axis]) & (b.lo[axis] <= table.hi(axis)[i]);
+      if (reaches) runs.add(i, of_b.first, of_b.first + b.bodies());
+    }
+    return;
+  }
+  for (const NodeHandle which : {0u, 1u})
+    a.bodies() >= b.bodies() ? pair_between(child(of_a, which), of_b, table, runs)
+                             : pair_between(of_a, child(of_b, which), table, runs);
+}
+
+template class AabbTree<2>;
+template class AabbTree<3>;
+
+extern const StructureEntry aabb_tree_entry;
+const StructureEntry aabb_tree_entry{{.words = "AABB tree",
+                                      .settings = bits_of({Setting::margin, Setting::following}),
+                                      .meets_in_leaves = false,
+                                      .holds_once = true,
+                                      .splits = false,
+                                      .hugs = true,
+                                      .follows = true},
+                                     made<AabbTree<2>>,
+                                     made<AabbTree<3>>};
+
+}  // namespace lantern::spatial

@@ -1,0 +1,257 @@
+// A kD-tree that is fitted to the objects (the lecture, "kD-Trees"): planes lie on objects' faces,
+// and each node's box is the smallest one around what it holds.
+//
+//     +-----+ +---+           The plane lies on the upper face of an object: what ends there lies
+//     |  a  | | b |           behind only. So objects that fit close together are parted, and those
+//     |     |-+---+--+        that pass through (c) are stored on both sides.
+//     |     ||   c   |
+//     +-----+--------+        behind: box.lo <= plane    in front: box.hi > plane
+//           ^ plane
+//
+// Two boxes that share a point share a leaf: the point lies on one side, and both reach that side.
+//
+// A node that holds more than `capacity` bodies and lies above `max_depth` is split where
+// kd_cut.hpp says, unless there is no such plane; nothing more is split once the tree holds
+// `most_entries` entries. The rule asks for boxes only, so the tree does not depend on the order of
+// the items.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "spatial/trees/kd_cut.hpp"
+
+namespace lantern::spatial {
+
+template <int D>
+class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
+ public:
+  static constexpr Zones kZones = Zones::fitted;
+  static constexpr std::uint32_t kDeepest = 64;
+
+  // Throws Refused for a capacity of 0 and a max_depth above kDeepest.
+  explicit KdTree(const StructureConfig<D>& config) : config_(config) {
+    if (config.capacity == 0) throw Refused("kD-tree: capacity is 0, must be at least 1");
+    if (config.max_depth > kDeepest)
+      throw Refused(
+          fmt::format("kD-tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest));
+    clear();
+  }
+
+  // The tree of these items, instead of what was there; memory is used again. Throws Refused for a
+  // box that is not valid; nothing changes then. After Stopped the tree must be built again before
+  // further use. Tells make_child, split, store, and why a leaf
+  // that is too full stays one. Time: O(n log n) where planes part well.
+  template <class Observer = NoObserver>
+  void make(std::span<const Item<D>> items, Observer&& observer = {}) {
+    for (const Item<D>& item : items) require_valid(item);
+    most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
+    nodes_.clear();
+    items_.clear();
+    stored_.clear();
+    work_.clear();
+    deepest_ = box_tests_ = 0;
+    cuts_.forget_tests();
+    for (const Item<D>& item : items) append(items_, item);
+    std::sort(items_.begin(), items_.end(),
+              [](const Item<D>& a, const Item<D>& b) { return a.id < b.id; });
+    for (std::uint32_t i = 0; i < items_.size(); ++i) append(work_, i);
+    entries_expected_ = items_.size();
+    append(nodes_, Node{});
+    grow(Spot{}, 0, observer);
+  }
+
+  // An empty leaf.
+  void clear() override { make({}); }
+
+  // Is the tree still fitted to its objects if this one, which it holds, has moved to this box? It
+  // is as long as the object reaches the same leaves, and in each lies within the leaf's fitted
+  // box. An object that was decisive for a box does not fit after any move outward; then, "if that
+  // object moves in any way, the tree must be rebuilt". False for a body that is not there.
+  bool fits(const Item<D>& moved) const override {
+    const auto stored =
+        std::lower_bound(items_.begin(), items_.end(), moved.id,
+                         [](const Item<D>& item, BodyId id) { return item.id < id; });
+    if (stored == items_.end() || stored->id != moved.id || !is_valid(moved.box)) return false;
+    return fits_below(0, stored->box, moved.box);
+  }
+
+  template <class F>
+  void take(Tour<D> tour, F&& f) const {
+    visit_from(0, kNone, 0, 0, tour, f);
+  }
+
+  // The leaves whose fitted boxes the box overlaps.
+  std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
+    return collect(0, box, ids);
+  }
+
+  // `box_tests` counts comparisons of a body with a plane.
+  Counters counters() const override {
+    return {.nodes = nodes_.size(),
+            .leaves = (nodes_.size() + 1) / 2,
+            .depth = deepest_,
+            .entries = stored_.size(),
+            .box_tests = box_tests_ + cuts_.tests(),
+            .splits = nodes_.size() / 2,
+            .allocations = allocations_ + cuts_.allocations(),
+            .nodes_reused = std::min(most_nodes_before_, nodes_.size()),
+            .pool = std::max(most_nodes_before_, nodes_.size())};
+  }
+
+ private:
+  struct Node {
+    Box<D> box;        // fitted
+    double plane = 0;  // of an inner node
+    int axis = kLeaf;
+    NodeHandle first_child = 0;  // the one behind; the one in front is next to it
+    std::uint32_t first = 0;     // of a leaf, in stored_
+    std::uint32_t count = 0;
+    bool is_leaf() const { return axis == kLeaf; }
+    KdCut cut() const { return {axis, plane}; }
+  };
+  static constexpr int kLeaf = -1;
+
+  // A node while it is made: which cell it answers for, and how deep it lies.
+  struct Spot {
+    NodeHandle node = 0;
+    std::uint32_t depth = 0;
+    Box<D> cell{Vec<D>(-std::numeric_limits<double>::infinity()),
+                Vec<D>(std::numeric_limits<double>::infinity())};
+  };
+
+  // --- building ---
+
+  // Makes the node from the items in work_ from `begin` on, and takes them away.
+  template <class Observer>
+  void grow(const Spot& at, std::size_t begin, Observer& observer) {
+    deepest_ = std::max<std::uint64_t>(deepest_, at.depth);
+    const auto count = static_cast<std::uint32_t>(work_.size() - begin);
+    if (count > config_.capacity) {
+      const auto cut =
+          may_split(at) ? cuts_.best(items_, std::span(work_).subspan(begin)) : std::nullopt;
+      if (cut) return split(at, begin, *cut, observer);
+      const Event::Kind why =
+          at.depth < config_.max_depth ? Event::Kind::no_progress : Event::Kind::depth_limit;
+      observer(Event{why, at.node, items_[work_.back()].id, count, config_.capacity});
+    }
+    Node& leaf = nodes_[at.node];
+    leaf.first = static_cast<std::uint32_t>(stored_.size());
+    for (std::size_t i = begin; i < work_.size(); ++i) {
+      const Item<D>& item = items_[work_[i]];
+      append(stored_, item.id);
+      ++leaf.count;
+      const Box<D> part = common_part(item.box, at.cell);
+      leaf.box = i == begin ? part : united(leaf.box, part);
+      observer(Event{Event::Kind::store, at.node, item.id, leaf.count, config_.capacity});
+    }
+    work_.resize(begin);
+  }
+
+  bool may_split(const Spot& at) const {
+    return at.depth < config_.max_depth && entries_expected_ < config_.most_entries;
+  }
+
+  template <class Observer>
+  void split(const Spot& at, std::size_t begin, const KdCut& cut, Observer& observer) {
+    stop_if_asked();
+    const std::size_t end = work_.size();
+    const BodyId last = items_[work_.back()].id;
+    observer(Event{Event::Kind::split, at.node, last, static_cast<std::uint32_t>(end - begin),
+                   config_.capacity});
+    entries_expected_ += cut.both;
+    const auto first_child = static_cast<NodeHandle>(nodes_.size());
+    nodes_[at.node].axis = cut.axis;
+    nodes_[at.node].plane = cut.plane;
+    nodes_[at.node].first_child = first_child;
+    for (NodeHandle child = 0; child < 2; ++child) {
+      append(nodes_, Node{});
+      observer(Event{Event::Kind::make_child, first_child + child, last, 0, 0});
+    }
+    for (const bool front : {false, true}) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Box<D>& box = items_[work_[i]].box;
+        if (front ? cut.in_front(box) : cut.behind(box)) append(work_, work_[i]);
+      }
+      box_tests_ += end - begin;
+      Spot child{first_child + (front ? 1u : 0u), at.depth + 1, at.cell};
+      (front ? child.cell.lo : child.cell.hi)[cut.axis] = cut.plane;
+      grow(child, end, observer);
+    }
+    work_.resize(begin);
+    nodes_[at.node].box = united(nodes_[first_child].box, nodes_[first_child + 1].box);
+  }
+
+  // --- looking ---
+
+  template <class F>
+  void visit_from(NodeHandle handle, std::uint32_t parent, std::uint32_t slot, std::uint32_t depth,
+                  Tour<D>& tour, F& f) const {
+    stop_if_asked();
+    const Node& node = nodes_[handle];
+    NodeView<D> view{.handle = handle,
+                     .id = tour.next_id++,
+                     .parent = parent,
+                     .slot = slot,
+                     .depth = depth,
+                     .leaf = node.is_leaf(),
+                     .box = node.box};
+    Plane<D> plane;
+    if (!view.leaf) {
+      plane.normal[node.axis] = 1;
+      plane.offset = node.plane;
+      view.plane = &plane;
+    }
+    view.bodies = std::span(stored_).subspan(node.first, node.count);
+    if (!f(std::as_const(view)) || view.leaf) return;
+    const std::uint32_t first = tour.toward[node.axis] < 0 ? 1 : 0;
+    for (const std::uint32_t child : {first, 1 - first})
+      visit_from(node.first_child + child, view.id, child, depth + 1, tour, f);
+  }
+
+  // How many nodes it was tested against.
+  std::uint64_t collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {
+    const Node& node = nodes_[handle];
+    if (!overlap(box, node.box)) return 1;
+    if (node.is_leaf()) {
+      const auto first = stored_.begin() + node.first;
+      ids.insert(ids.end(), first, first + node.count);
+      return 1;
+    }
+    return 1 + collect(node.first_child, box, ids) + collect(node.first_child + 1, box, ids);
+  }
+
+  // Both are what lies in the node's cell of the box as it was stored and as it is now.
+  bool fits_below(NodeHandle handle, const Box<D>& stored, const Box<D>& moved) const {
+    const Node& node = nodes_[handle];
+    if (node.is_leaf()) return united(node.box, moved) == node.box;
+    for (const bool front : {false, true}) {
+      const auto reaches = [&](const Box<D>& box) {
+        return front ? node.cut().in_front(box) : node.cut().behind(box);
+      };
+      if (reaches(stored) != reaches(moved)) return false;
+      if (!reaches(stored)) continue;
+      Box<D> part = moved;
+      double& bound = (front ? part.lo : part.hi)[node.axis];
+      bound = front ? std::max(bound, node.plane) : std::min(bound, node.plane);
+      if (!fits_below(node.first_child + (front ? 1u : 0u), stored, part)) return false;
+    }
+    return true;
+  }
+
+  StructureConfig<D> config_;
+  std::vector<Item<D>> items_;       // by id
+  std::vector<Node> nodes_;          // the root first, siblings side by side
+  std::vector<BodyId> stored_;       // of all leaves, each ascending
+  std::vector<std::uint32_t> work_;  // items of the nodes that are being made, the deepest last
+  KdCuts<D> cuts_;
+  std::size_t most_nodes_before_ = 0;
+  std::uint64_t entries_expected_ = 0;
+  std::uint64_t deepest_ = 0;
+  std::uint64_t box_tests_ = 0;
+};
+
+}  // namespace lantern::spatial
