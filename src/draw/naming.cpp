@@ -57,7 +57,8 @@ bool shows_name(const Frame& frame, const FrameBody& body) {
 
 std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
   const std::size_t dot = leaf.label.rfind('.');
-  if (frame.structure != StructureKind::bsp || dot == std::string::npos) return {leaf.label};
+  if (traits_of(frame.structure).names != NodeNames::sides || dot == std::string::npos)
+    return {leaf.label};
   if (leaf.mark != Mark::lit && !leaf.over_capacity) return {};
   const std::string side = leaf.label.substr(dot + 1);
   if (leaf.parent == kNone || frame.nodes[leaf.parent].plane_name.empty()) return {side};

@@ -28,7 +28,7 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
   constexpr double kLeastForSettings = 330;  // height; on a lower one the rows need the room
   std::vector<Fact> facts;
   // Its title and its counts say it; and one list of all bodies is no tree.
-  if (!frame.side.empty() || frame.structure == StructureKind::sort_and_sweep) return facts;
+  if (!frame.side.empty() || traits_of(frame.structure).has(Setting::axis)) return facts;
   const std::pair<const char*, const char*> counted[] = {
       {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
   for (const auto& [many, one] : counted)
@@ -179,7 +179,7 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   lay_out_facts(facts_of(frame, staging, panel), panel, panel.hi.y - height, &labels);
   Box<2> diagram = panel;
   diagram.hi.y -= height + 4;
-  if (frame.structure == StructureKind::sort_and_sweep)
+  if (traits_of(frame.structure).has(Setting::axis))
     return draw_sweep(frame, shrunk(diagram, 6), list, labels);
   if (!frame.grid_levels.empty() && staging.trees().size() < 2)
     return draw_grid(frame, shrunk(diagram, 6), list, labels);

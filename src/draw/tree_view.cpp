@@ -266,12 +266,12 @@ class TreeView {
     const bool holds = overfull && says_holds_[branch.row];
     if (branch.copies > 1) return copies_choices(branch, holds);
     std::vector<std::string> names;
-    if (frame_.structure == StructureKind::bsp)
+    if (traits_of(frame_.structure).names == NodeNames::sides)
       names = leaf_names(frame_, node);
     else if (overfull || branch.mark == Mark::lit || !is_long_way(node.label))
       names.push_back(node.label);
     if (const std::string brief = short_label(node.label);
-        !brief.empty() && frame_.structure != StructureKind::bsp)
+        !brief.empty() && traits_of(frame_.structure).names != NodeNames::sides)
       names.push_back(brief);
     std::vector<std::string> choices;
     if (holds)
@@ -315,10 +315,11 @@ class TreeView {
   std::string side_of(const Branch& branch) const {
     const bool behind = node_of(branch).slot == 0;
     if (is_level(frame_)) return "";  // its lines have no names to tell them by
-    if (frame_.structure == StructureKind::bsp) return behind ? "behind" : "in front";
+    if (traits_of(frame_.structure).names == NodeNames::sides)
+      return behind ? "behind" : "in front";
     if (node_of(branch).parent == kNone) return "";
     const FrameNode& parent = frame_.nodes[node_of(branch).parent];
-    if (frame_.structure != StructureKind::kd_tree || !parent.plane) return "";
+    if (!traits_of(frame_.structure).is_fitted || !parent.plane) return "";
     const Vec<3>& normal = parent.plane->normal;
     if (normal.x != 0) return behind ? "left" : "right";
     if (normal.y != 0) return behind ? "below" : "above";

@@ -23,16 +23,12 @@ double line_width(std::uint32_t depth) {
   return depth < 6 ? kWidths[depth] : 1.0;
 }
 
-// Nodes' boxes are fitted to bodies, the root's, too.
-bool is_fitted(StructureKind kind) {
-  return kind == StructureKind::kd_tree || kind == StructureKind::aabb_tree;
-}
-
 // How many children cover their parent without a gap; fitted boxes never do.
 std::size_t children_that_cover(StructureKind kind) {
   // Nor do a grid's levels and buckets.
-  if (is_fitted(kind) || kind == StructureKind::grid) return ~std::size_t{0};
-  return kind == StructureKind::bsp ? 2 : 4;
+  const StructureTraits& traits = traits_of(kind);
+  if (traits.hugs || has_cells(kind)) return ~std::size_t{0};
+  return traits.names == NodeNames::sides ? 2 : 4;
 }
 
 struct Painted {
@@ -42,7 +38,7 @@ struct Painted {
 
 // A level or bucket of a grid is nowhere: its cells are.
 bool is_no_cell(const Frame& frame, const FrameNode& node) {
-  return frame.structure == StructureKind::grid && node.depth > 0 && !node.leaf;
+  return has_cells(frame.structure) && node.depth > 0 && !node.leaf;
 }
 
 // Which nodes are painted, and how, in order of painting. A node whose children cover it with one
@@ -89,16 +85,14 @@ Box<2> seen_of(const Box<2>& cell, const View2D& map) {
 double widening(const Frame& frame, const FrameNode& node) {
   constexpr std::size_t kSmall = 64;  // nodes
   constexpr double kLevel = 6;        // page units
-  if (frame.structure != StructureKind::aabb_tree || node.leaf || frame.nodes.size() > kSmall)
-    return 0;
+  if (!traits_of(frame.structure).follows || node.leaf || frame.nodes.size() > kSmall) return 0;
   const std::uint32_t deepest = std::ranges::max_element(frame.nodes, {}, &FrameNode::depth)->depth;
   return kLevel * (deepest - node.depth);
 }
 
 // On the page. A structure without a rim may have cells beyond the world: of them, what is in it.
 Box<2> cell_of(const Frame& frame, const FrameNode& node, const View2D& map) {
-  const bool has_rim =
-      frame.structure != StructureKind::aabb_tree && frame.structure != StructureKind::grid;
+  const bool has_rim = !traits_of(frame.structure).follows && !has_cells(frame.structure);
   const Box<2> cell = shrunk(map.to_page(node.box), -widening(frame, node));
   return has_rim ? cell : seen_of(cell, map);
 }
@@ -229,7 +223,7 @@ class GridDepths {
       if (is_level(node)) coarsest_ = std::max(coarsest_, node.slot);
   }
   std::uint32_t operator[](const FrameNode& node) const {
-    if (frame_.structure != StructureKind::grid || node.depth < 2) return node.depth;
+    if (!has_cells(frame_.structure) || node.depth < 2) return node.depth;
     const FrameNode* above = &node;
     while (above->depth > 1) above = &frame_.nodes[above->parent];
     return is_level(*above) ? 1 + coarsest_ - above->slot : 1;
@@ -278,7 +272,7 @@ void fill_levels(const Frame& frame, const View2D& map, DrawList& list) {
 // The borders of the cells of what moves, or, in long dashes over them, of what never does, so that
 // both can be told apart in one picture.
 bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
-  const bool fitted = is_fitted(frame.structure) && !of_static;
+  const bool fitted = traits_of(frame.structure).hugs && !of_static;
   bool complete = true;
   const GridDepths depths(frame);
   Borders borders;
@@ -367,7 +361,7 @@ bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   outline_lit(frame, map, list);
   draw_planes(frame, map, list);
   const DrawList::Scope scope(list, "world/rim");
-  if (frame.structure == StructureKind::aabb_tree) {  // its root is not the world
+  if (traits_of(frame.structure).follows) {  // its root is not the world
     list.crisp_rect(map.picture(), Role::none, {Role::rule, 1.6});
     return complete;
   }

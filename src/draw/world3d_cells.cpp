@@ -257,8 +257,8 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
   std::vector<const FrameNode*> filled;
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
-    const bool shown = node.leaf || (node.mark == Mark::lit && !lit_inside[i] &&
-                                     frame.structure != StructureKind::grid);
+    const bool shown =
+        node.leaf || (node.mark == Mark::lit && !lit_inside[i] && !has_cells(frame.structure));
     if (shown && node.mark != Mark::quiet && is_drawable(node.box)) filled.push_back(&node);
   }
   if (filled.size() > kMostFills3d) return;
@@ -282,7 +282,7 @@ bool add_cells(const Frame& frame, Marks3D& marks) {
   for (std::uint32_t i = 0; shown && i < frame.nodes.size(); ++i)
     // A level or bucket of a grid is nowhere: its cells are.
     if (const FrameNode& node = frame.nodes[i];
-        frame.structure != StructureKind::grid || node.depth == 0 || node.leaf)
+        !has_cells(frame.structure) || node.depth == 0 || node.leaf)
       edges.add(node, flat, i);
   if (!shown) {
     FrameNode whole;

@@ -33,7 +33,7 @@ const GridTone& tone_of(double ratio) {
 
 std::string words_of(StructureKind kind) {
   const std::string words(traits_of(kind).words);
-  return kind == StructureKind::bsp ? words + " of medians" : words;
+  return traits_of(kind).has(Setting::planes) ? words + " of medians" : words;
 }
 
 std::string ratio_text(double ratio) {

@@ -330,7 +330,7 @@ class EngineOf : public Engine {
   void look_ahead(const Watch& watch = {}) {
     if (!steered_) steer();
     left_.clear();
-    if (structure_.kind != StructureKind::aabb_tree)
+    if (!traits_of(structure_.kind).follows)
       return world().look_ahead(scenario_.world.time_step, watch);
     world().look_ahead(scenario_.world.time_step, [&](const Event& event) {
       if (event.kind == Event::Kind::leave) left_.insert(event.body);

@@ -251,7 +251,7 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
 
 void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
                       std::optional<BodyId> about) {
-  if (stage_.engine && stage_.engine->structure().kind == StructureKind::lecture_quadtree &&
+  if (stage_.engine && traits_of(stage_.engine->structure().kind).is_plain &&
       std::holds_alternative<Insert>(step_->verb))
     light_code(event);
   Frame frame = drawn(now, event, true);

@@ -17,9 +17,9 @@ constexpr std::size_t kMostRows = 6;  // that have room in one table
 std::string why_not_compared(StructureKind kind, const ScriptReading& script) {
   if (!counts_its_work(kind))
     return fmt::format("what a '{}' does is not counted", to_string(kind));
-  if (script.draft.dimension == 2 && kind == StructureKind::octree)
+  if (!is_possible(kind, script.draft.dimension))
     return "an octree needs a 3D world, this one is 2D";
-  if (kind == StructureKind::bsp && script.state.structure.planes.empty())
+  if (traits_of(kind).has(Setting::planes) && script.state.structure.planes.empty())
     return "a bsp needs the planes of a [structure] of kind \"bsp\", there are none";
   return {};
 }

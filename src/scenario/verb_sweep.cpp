@@ -54,7 +54,7 @@ caption = "{pairs:pair} compared, {overlaps:overlap}."
 }
 
 void Sweep::read(const TableReader& table, ScriptReading& script) {
-  if (script.state.structure.kind != StructureKind::sort_and_sweep)
+  if (!traits_of(script.state.structure.kind).has(Setting::axis))
     table.bad_value("do", "there is no sort_and_sweep at this step",
                     "rebuild with kind = \"sort_and_sweep\" first");
   script.frames = 1 + script.draft.scenario.bodies.size();

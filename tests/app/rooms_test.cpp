@@ -118,6 +118,41 @@ TEST(Rooms, PagesNameFilesThatAreThere) {
   }
 }
 
+// Whoever asks what a structure is like asks its traits (src/spatial/structure_kind.hpp), so that a
+// new one is known everywhere. Named are kinds only where one of them is meant, as often as this.
+TEST(Rooms, NameNoStructureButWhereItIsMeant) {
+  const std::map<std::string, int> allowed = {
+      {"draw/comparison_view.cpp", 1},         // others are compared with brute force
+      {"draw/legend.cpp", 1},                  // its example
+      {"draw/world2d_parts.cpp", 1},           // quarters that a quadtree has not made
+      {"app/bench_structure_command.cpp", 2},  // others are timed beside brute force
+      {"scenario/verb_level.cpp", 1},          // a compiled level is a BSP
+      {"scenario/level_stage.cpp", 1},         // as well
+      {"scenario/watch_contacts.cpp", 1},      // pairs of worlds without a structure
+      {"scenario/structure_picture.cpp", 2},   // what brute force says of itself
+      {"scenario/tally.cpp", 1},               // no structure is brute force
+      {"scenario/table_structure.cpp", 7},     // who has which settings: to come from the traits
+      {"scenario/parse.cpp", 2},               // as well
+      {"scenario/counted.cpp", 5},             // as well
+      {"measure/broad_phase_cost.cpp", 1},     // brute force is measured once
+      {"measure/broad_phase_cost.hpp", 1},     // what a row is of, if nothing is said
+      {"measure/step_bench.hpp", 1},           // as well
+      {"measure/stress_trees.cpp", 3},         // cases about one of them
+  };
+  const std::regex kind("StructureKind::(?!none\\b|automatic\\b|own\\b)[a-z]");
+  std::size_t named = 0;
+  for (const fs::path& path : sources()) {
+    const std::string name = fs::relative(path, repository("src"));
+    if (name.starts_with("spatial/")) continue;
+    const std::string text = read_text(path);
+    const auto count = std::distance(std::sregex_iterator(text.begin(), text.end(), kind), {});
+    const auto known = allowed.find(name);
+    EXPECT_LE(count, known == allowed.end() ? 0 : known->second) << name;
+    named += static_cast<std::size_t>(count);
+  }
+  EXPECT_GT(named, 0u) << "the search found nothing: is it broken?";
+}
+
 TEST(Rooms, OnlyRenderKnowsGl) {
   for (const auto& entry : fs::recursive_directory_iterator(repository("src"))) {
     if (room_of(entry.path()) == "render") continue;

@@ -180,7 +180,7 @@ int check_structures(const StructureCheckOptions& options) {
 std::vector<StructureKind> structures_called(const std::vector<std::string>& names) {
   std::vector<StructureKind> kinds = known_structures();
   std::erase_if(kinds, [](StructureKind kind) {
-    return !is_possible(kind, 2) || kind == StructureKind::bsp;
+    return !is_possible(kind, 2) || traits_of(kind).has(Setting::planes);
   });
   if (names.empty()) return kinds;
   std::vector<std::string_view> known;
