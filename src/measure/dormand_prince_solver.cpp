@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "measure/dormand_prince.hpp"
-#include "physics/smooth_system.hpp"
+#include "physics/integrate/smooth_system.hpp"
 #include "scenario/players.hpp"
 
 namespace lantern::measure {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "physics/integrator.hpp"
+#include "physics/integrate/integrator.hpp"
 
 namespace lantern::measure {
 

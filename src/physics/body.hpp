@@ -3,10 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "geometry/shape.hpp"
 #include "physics/manifold.hpp"
-#include "physics/motion_method.hpp"
+#include "physics/methods.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::physics {
@@ -51,6 +52,8 @@ struct Body {
   Spin<D> inverse_inertia{0.0};
 
   bool moves() const { return kind != BodyKind::static_body; }
+  // Moved by what pushes it.
+  bool is_pushed() const { return kind == BodyKind::dynamic_body && !asleep; }
   // Moves now, so that it may meet or wake others: is not at rest.
   bool stirs() const {
     if (kind == BodyKind::dynamic_body) return !asleep;
@@ -84,13 +87,22 @@ Mat<D> axes_of(const Body<D>& body) {
   return turns<D>(body.shape) ? matrix(body.orientation) : Mat<D>(1.0);
 }
 
-// Inverse inertia in the world's axes: a number in 2D, a matrix in 3D.
+// Inverse inertia in the world's axes: a number in 2D, a matrix in 3D. The body's own are `axes`.
+template <int D>
+using Inertia = std::conditional_t<D == 2, double, Mat<3>>;
+template <int D>
+Inertia<D> world_inverse_inertia(const Body<D>& body, [[maybe_unused]] const Mat<D>& axes) {
+  if constexpr (D == 2) {
+    return body.inverse_inertia;
+  } else {
+    Mat<3> scaled = axes;
+    for (int i = 0; i < 3; ++i) scaled[i] *= body.inverse_inertia[i];
+    return scaled * glm::transpose(axes);
+  }
+}
 inline double world_inverse_inertia(const Body<2>& body) { return body.inverse_inertia; }
 inline Mat<3> world_inverse_inertia(const Body<3>& body) {
-  const Mat<3> r = matrix(body.orientation);
-  Mat<3> scaled = r;
-  for (int i = 0; i < 3; ++i) scaled[i] *= body.inverse_inertia[i];
-  return scaled * glm::transpose(r);
+  return world_inverse_inertia(body, matrix(body.orientation));
 }
 
 // Whether the inertia is the same about all axes: then energy does not depend on how a body lies.

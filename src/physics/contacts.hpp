@@ -1,11 +1,13 @@
-// What a step tells of bodies that touch.
+// What a step tells: of bodies that touch, of those that are crushed, and of impacts.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "physics/manifold.hpp"
-#include "spatial/structure.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::physics {
 
@@ -49,8 +51,92 @@ struct ContactEvent {
   Kind kind = Kind::begin;
   BodyId a = 0;
   BodyId b = 0;
-  bool crushes = false;  // one of them, against a third (crushing.hpp)
+  bool crushes = false;  // one of them, against a third (see `crushing`)
   bool operator==(const ContactEvent&) const = default;
+};
+
+// Some bodies are pressed between others, deeper than contacts can hold: a wall that moves, or
+// something heavy, pushes them against what does not give way. By these numbers they are crushed.
+struct CrushSettings {
+  double deep = 0.5;      // of its thickness: so deep two contacts lie in it together
+  double opposed = -0.5;  // cosine between their normals: they press from opposite sides
+};
+inline constexpr CrushSettings kCrushSettings;
+
+// For each contact whether it crushes a body: that it presses, and another one does against it.
+// Nothing if none does. `body_of(id)` is the body where the step has left it.
+template <int D, class BodyOf>
+std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, BodyOf&& body_of) {
+  struct Press {
+    BodyId body;
+    std::size_t contact;
+    Vec<D> push;   // upon the body
+    double depth;  // of its thickness
+  };
+  std::vector<Press> presses;
+  bool deep = false;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact<D>& contact = contacts[i];
+    double depth = 0, impulse = 0;
+    for (const ManifoldPoint<D>& p : contact.manifold.points())
+      depth = std::max(depth, -p.separation);
+    for (const double pn : contact.normal_impulses) impulse += pn;
+    if (!(depth > 0 && impulse > 0)) continue;
+    for (const BodyId id : {contact.a, contact.b}) {
+      const Body<D>& body = body_of(id);
+      if (body.kind != BodyKind::dynamic_body) continue;
+      presses.push_back({id, i, contact.manifold.normal * (id == contact.a ? -1.0 : 1.0),
+                         depth / thickness<D>(body.shape)});
+      deep |= presses.back().depth > kCrushSettings.deep / 2;
+    }
+  }
+  std::vector<std::uint8_t> found;
+  if (!deep) return found;
+  std::stable_sort(presses.begin(), presses.end(),
+                   [](const Press& x, const Press& y) { return x.body < y.body; });
+  for (std::size_t i = 0; i < presses.size(); ++i)
+    for (std::size_t j = i + 1; j < presses.size() && presses[j].body == presses[i].body; ++j) {
+      if (!(presses[i].depth + presses[j].depth > kCrushSettings.deep)) continue;
+      if (!(glm::dot(presses[i].push, presses[j].push) < kCrushSettings.opposed)) continue;
+      found.resize(contacts.size());
+      found[presses[i].contact] = found[presses[j].contact] = 1;
+    }
+  return found;
+}
+
+// When impacts were, and, for who asks, how that was found out. First where a body is at some
+// moment within a step.
+template <int D>
+struct Pose {
+  BodyId body = 0;
+  Vec<D> position{0.0};
+  Rotation<D> orientation{};
+};
+
+// An impact that was located: the two are there when they meet. Times are seconds since the step
+// began.
+template <int D>
+struct ImpactMoment {
+  double time = 0;
+  Pose<D> a, b;
+};
+
+// A look at two bodies, on the way to the moment at which they meet.
+template <int D>
+struct ImpactLook {
+  double time = 0;
+  Pose<D> a, b;
+  Vec<D> on_a{0.0}, on_b{0.0};  // where their surfaces are nearest to each other, and
+  double gap = 0;               // how near; below 0 they overlap: too late
+  double free_until = 0;  // they are sure not to touch before; `time` if this look says nothing
+  bool meets = false;     // this is the moment, if nothing else comes between
+};
+
+template <int D>
+struct ImpactLog {
+  std::vector<ImpactMoment<D>> moments;  // one island after another, in each as time passes
+  std::vector<ImpactLook<D>> looks;      // in the order in which they were made, if
+  bool keeps_looks = false;
 };
 
 }  // namespace lantern::physics

@@ -1,8 +1,15 @@
 // Smooth forces: all that pushes bodies without their touching.
 #pragma once
 
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "physics/body.hpp"
 
 namespace lantern::physics {
@@ -79,5 +86,28 @@ double attracting_mass(const Body<D>& body);
 // a to b.
 template <int D>
 Stretch<D> attracted(double strength, const Vec<D>& between);
+
+// Where the body that a force names lies in a span of bodies, by its id.
+template <int D>
+class BodyLookup {
+ public:
+  explicit BodyLookup(std::span<const Body<D>> bodies) {
+    places_.reserve(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) places_.emplace_back(bodies[i].id, i);
+    std::sort(places_.begin(), places_.end());
+  }
+
+  // Throws Refused, naming `who` looks, if there is no such body.
+  std::size_t index_of(BodyId id, std::string_view who) const {
+    const auto place =
+        std::lower_bound(places_.begin(), places_.end(), std::pair{id, std::size_t{0}});
+    if (place == places_.end() || place->first != id)
+      throw Refused(fmt::format("{}: there is no body {}", who, id));
+    return place->second;
+  }
+
+ private:
+  std::vector<std::pair<BodyId, std::size_t>> places_;  // by id
+};
 
 }  // namespace lantern::physics

@@ -1,10 +1,15 @@
-// Islands: bodies that hang together by contacts, joints and springs, and so must be moved together
-// and can only fall asleep together.
+// Islands: bodies that hang together by contacts, joints and springs, and so must be moved
+// together, can only fall asleep together, and wake together.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
+
+#include "base/stop.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::physics {
 
@@ -29,5 +34,43 @@ class DisjointSets {
  private:
   std::vector<std::uint32_t> parent_;
 };
+
+enum class Disturbed {
+  all,       // those awake, too, must now rest anew before they may sleep
+  sleepers,  // those awake are left as they are, and pass nothing on
+};
+
+// Wakes the bodies at `places` and, from one to the next, all dynamic ones linked to them. `rested`
+// seconds of what wakes begin anew. Static and kinematic bodies pass nothing on unless they are
+// named. Bodies are in order of ids; links name two of them each.
+template <int D>
+void wake_together(std::vector<Body<D>>& bodies, std::vector<double>& rested,
+                   std::vector<std::uint32_t> places, std::span<const Pair> links,
+                   Disturbed disturbed) {
+  if (places.empty()) return;
+  const auto place_of = [&](BodyId id) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body<D>::id) -
+                                      bodies.begin());
+  };
+  std::vector<std::vector<std::uint32_t>> linked(bodies.size());
+  for (const Pair& link : links) {
+    stop_if_asked();
+    const std::uint32_t a = place_of(link.a), b = place_of(link.b);
+    if (bodies[b].kind == BodyKind::dynamic_body) linked[a].push_back(b);
+    if (bodies[a].kind == BodyKind::dynamic_body) linked[b].push_back(a);
+  }
+  std::vector<std::uint8_t> seen(bodies.size());
+  while (!places.empty()) {
+    stop_if_asked();
+    const std::uint32_t place = places.back();
+    places.pop_back();
+    Body<D>& body = bodies[place];
+    if (seen[place] || (disturbed == Disturbed::sleepers && !body.asleep)) continue;
+    seen[place] = true;
+    body.asleep = false;
+    rested[place] = 0;
+    places.insert(places.end(), linked[place].begin(), linked[place].end());
+  }
+}
 
 }  // namespace lantern::physics

@@ -11,9 +11,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "geometry/shape.hpp"
-#include "physics/narrow_trace.hpp"
 
 namespace lantern::physics {
 
@@ -44,6 +44,36 @@ struct Placed {
   Vec<D> position{0.0};
   Rotation<D> orientation;
   std::optional<Mat<D>> axes = {};  // matrix(orientation), where it is known
+};
+
+// What the narrow phase measures of two shapes before it knows whether they touch: first a
+// direction along which they were measured.
+enum class AxisAcross : std::uint8_t {
+  closest_points,  // from one shape to the other: no direction parts them further
+  face_of_a,
+  face_of_b,
+  edges,  // of both, in 3D
+  side,   // of a capsule or box without thickness, where it has no face
+};
+template <int D>
+struct MeasuredAxis {
+  using Across = AxisAcross;
+  Vec<D> normal{0.0};     // unit, from a to b
+  double separation = 0;  // of the surfaces along it; below 0 they overlap
+  Across across = Across::closest_points;
+};
+
+template <int D>
+struct NarrowTrace {
+  // Lengths taken along a direction, each a product of two vectors: of two discs 1, of a disc and a
+  // box 1 + D, of two boxes 1 + D for each axis.
+  std::uint64_t lengths = 0;
+  // Where somebody watches: each axis when it was measured, in this order.
+  std::vector<MeasuredAxis<D>>* axes = nullptr;
+
+  void note(const Vec<D>& normal, double separation, AxisAcross across) {
+    if (axes) axes->push_back({normal, separation, across});
+  }
 };
 
 // The contact of two shapes whose surfaces are no further apart than `margin`; touching counts, at

@@ -1,13 +1,16 @@
+// What is done to a world between its steps: to its bodies, to what ties and pushes them.
 #include "physics/world.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
+#include "base/hash.hpp"
 #include "geometry/not_finite.hpp"
 #include "physics/islands.hpp"
-#include "physics/waking.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -53,6 +56,44 @@ Spin<3> momentum_for(const Body<3>& body, const Vec<3>& spin) {
   for (int i = 0; i < 3; ++i)
     l[i] = body.inverse_inertia[i] > 0 ? l[i] / body.inverse_inertia[i] : 0;
   return r * l;
+}
+
+template <int D>
+void check_spring(const Spring<D>& spring, const std::string& who) {
+  if (spring.a == spring.b)
+    throw Refused(fmt::format("{}: both ends are on body {}", who, spring.a));
+  require_finite(spring.at_a, who, "at_a");
+  require_finite(spring.at_b, who, "at_b");
+  require_not_negative(spring.rest_length, who, "rest_length");
+  require_not_negative(spring.stiffness, who, "stiffness");
+  require_not_negative(spring.damping, who, "damping");
+}
+
+template <int D>
+void check_same_integrator(const Body<D>& a, const Body<D>& b, const WorldConfig<D>& config) {
+  const auto dynamic = BodyKind::dynamic_body;
+  const Integrator of_a = a.integrator.value_or(config.integrator);
+  const Integrator of_b = b.integrator.value_or(config.integrator);
+  if (a.kind != dynamic || b.kind != dynamic || of_a == of_b) return;
+  throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
+                            a.name, b.name, to_string(of_a), to_string(of_b)));
+}
+
+void add_to(Hash& hash, double value) { hash.add(value); }
+template <int D>
+void add_to(Hash& hash, const glm::vec<D, double>& value) {
+  for (int i = 0; i < D; ++i) hash.add(value[i]);
+}
+void add_to(Hash& hash, const Rotation<2>& r) { hash.add(r.angle); }
+void add_to(Hash& hash, const Rotation<3>& r) { hash.add(r.q.w).add(r.q.x).add(r.q.y).add(r.q.z); }
+
+template <int D>
+void add_to(Hash& hash, const Contact<D>& contact) {
+  add_to(hash, contact.manifold.normal);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
+    hash.add(std::uint64_t{contact.manifold.room[i].feature}).add(contact.normal_impulses[i]);
+    add_to(hash, contact.friction_impulses[i]);
+  }
 }
 
 }  // namespace
@@ -273,6 +314,144 @@ void World<D>::switch_contacts(ContactMethod method, int sub_steps, int iteratio
   config.wanted_error = wanted_error;
   check_config(config);
   config_ = config;
+}
+
+template <int D>
+SpringId World<D>::add_spring(const Spring<D>& spring) {
+  const Body<D>& a = bodies_[index_of(spring.a)];
+  const Body<D>& b = bodies_[index_of(spring.b)];
+  check_spring(spring, fmt::format("spring {}", next_spring_));
+  check_same_integrator(a, b, config_);
+  wake_from(std::array{spring.a, spring.b});
+  forces_.springs.push_back(spring);
+  spring_ids_.push_back(next_spring_);
+  return next_spring_++;
+}
+
+template <int D>
+JointId World<D>::add_joint(const Joint<D>& joint) {
+  const std::string who = fmt::format("joint {}", next_joint_);
+  const Body<D>& a = bodies_[index_of(joint.a)];
+  const Body<D>& b = bodies_[index_of(joint.b)];
+  if (joint.a == joint.b) throw Refused(fmt::format("{}: joins a body to itself", who));
+  if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body)
+    throw Refused(fmt::format("{}: neither of its bodies can be moved", who));
+  require_finite<D>(joint.at_a, who, "at_a");
+  require_finite<D>(joint.at_b, who, "at_b");
+  if (joint.kind == JointKind::distance && !(std::isfinite(joint.length) && joint.length > 0))
+    throw Refused(fmt::format("{}: length is {}, must be above 0", who, joint.length));
+  wake_from(std::array{joint.a, joint.b});
+  joints_.emplace_back(next_joint_, joint);
+  joint_memories_.push_back({});
+  return next_joint_++;
+}
+
+template <int D>
+void World<D>::remove_spring(SpringId id) {
+  const auto place = std::ranges::find(spring_ids_, id) - spring_ids_.begin();
+  if (place == std::ssize(spring_ids_)) return;
+  const auto spring = forces_.springs.begin() + place;
+  wake_from(std::array{spring->a, spring->b});
+  forces_.springs.erase(spring);
+  spring_ids_.erase(spring_ids_.begin() + place);
+  part_islands();
+}
+
+template <int D>
+void World<D>::remove_joint(JointId id) {
+  const auto entry = std::ranges::find(joints_, id, &std::pair<JointId, Joint<D>>::first);
+  if (entry == joints_.end()) return;
+  wake_from(std::array{entry->second.a, entry->second.b});
+  joint_memories_.erase(joint_memories_.begin() + (entry - joints_.begin()));
+  joints_.erase(entry);
+  part_islands();
+}
+
+template <int D>
+std::vector<Pair> World<D>::links() const {
+  std::vector<Pair> all;
+  for (const Touch& touch : touching_) all.push_back(touch.record.pair());
+  for (const Spring<D>& spring : forces_.springs) all.push_back({spring.a, spring.b});
+  for (const auto& entry : joints_) all.push_back({entry.second.a, entry.second.b});
+  return all;
+}
+
+template <int D>
+void World<D>::push(BodyId id, const Vec<D>& force, const Vec<D>& at,
+                    std::optional<double> seconds) {
+  const Body<D>& body = bodies_[index_of(id)];
+  const std::string who = fmt::format("body '{}'", body.name);
+  require_finite<D>(force, who, "force");
+  require_finite<D>(at, who, "point of the force");
+  const Vec<D> arm = at - body.position;
+  require_finite<D>(arm, who, "lever of the force");
+  if (seconds && !(std::isfinite(*seconds) && *seconds > 0))
+    throw Refused(fmt::format("{}: a push of {} seconds is not allowed", who, *seconds));
+  wake_from(id);
+  TimedPush push{{id, arm, force}, std::nullopt};
+  if (seconds) push.until = time_ + *seconds;
+  pushes_.push_back(push);
+  list_pushes();
+}
+
+template <int D>
+void World<D>::list_pushes() {
+  forces_.pushes.clear();
+  for (const TimedPush& push : pushes_) forces_.pushes.push_back(push.push);
+}
+
+template <int D>
+void World<D>::clear_pushes() {
+  std::vector<BodyId> pushed;
+  for (const TimedPush& push : pushes_) pushed.push_back(push.push.body);
+  wake_from(pushed);
+  pushes_.clear();
+  list_pushes();
+}
+
+template <int D>
+void World<D>::clear_pushes(BodyId id) {
+  if (find(id) != nullptr) wake_from(id);
+  std::erase_if(pushes_, [&](const TimedPush& push) { return push.push.body == id; });
+  list_pushes();
+}
+
+template <int D>
+std::uint64_t World<D>::hash() const {
+  Hash hash;
+  hash.add(time_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body<D>& body = bodies_[i];
+    hash.add(std::uint64_t{body.id}).add(std::uint64_t{body.asleep});
+    add_to(hash, body.position);
+    add_to(hash, body.orientation);
+    add_to(hash, body.velocity);
+    add_to(hash, body.angular_momentum);
+    add_to(hash, body.kinematic_spin);
+    hash.add(body.inverse_mass).add(rested_[i]);
+  }
+  add_to(hash, forces_.gravity);
+  if (forces_.gravitation > 0) hash.add(forces_.gravitation);
+  for (const Spring<D>& spring : forces_.springs) {
+    hash.add(std::uint64_t{spring.a}).add(std::uint64_t{spring.b});
+    add_to(hash, spring.at_a);
+    add_to(hash, spring.at_b);
+    hash.add(spring.rest_length).add(spring.stiffness).add(spring.damping);
+  }
+  for (const Push<D>& push : forces_.pushes) {
+    hash.add(std::uint64_t{push.body});
+    add_to(hash, push.at);
+    add_to(hash, push.force);
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    hash.add(std::uint64_t{joints_[i].first});
+    add_to(hash, joint_memories_[i].impulse);
+  }
+  for (const Touch& touch : touching_) {
+    hash.add(std::uint64_t{touch.record.a}).add(std::uint64_t{touch.record.b});
+    add_to(hash, touch.memory);
+  }
+  return hash.value();
 }
 
 template class World<2>;

@@ -15,10 +15,8 @@
 #include "base/error.hpp"
 #include "physics/body.hpp"
 #include "physics/contacts.hpp"
-#include "physics/forces.hpp"
-#include "physics/impact_log.hpp"
-#include "physics/integrator.hpp"
-#include "physics/joint_rows.hpp"
+#include "physics/integrate/integrator.hpp"
+#include "physics/joint.hpp"
 #include "physics/world_config.hpp"
 
 namespace lantern::physics {
@@ -41,8 +39,8 @@ class World {
   // Bodies. Ids are given in order of adding, from 0, and never used again. Derives mass and
   // inertia. Throws Refused, naming body and field, for a size, mass, density, drag, restitution or
   // friction that is negative or not finite, a pose, velocity or momentum that is not finite, a
-  // dynamic body of no area (2D) or volume (3D) without an explicit mass, a dynamic half-space.
-  // It turns at that angular velocity, as after `set_angular_velocity`.
+  // dynamic body of no area (2D) or volume (3D) without an explicit mass, a dynamic half-space. It
+  // turns at that angular velocity, as after `set_angular_velocity`.
   BodyId add(Body<D> body, const Spin<D>& angular_velocity = Spin<D>(0.0));
   // Their springs, joints and pushes go with them. Does nothing of bodies that are not there.
   void remove(std::span<const BodyId> ids);
@@ -107,16 +105,16 @@ class World {
   // `look_ahead` found; without one, no force acts.
   Body<D> flown(BodyId id, double h) const;
 
-  // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when
-  // a position or velocity would overflow, for a step that is negative or not finite, and for more
+  // One step of `h` seconds. A step of 0 does nothing. Throws Refused, naming body and step, when a
+  // position or velocity would overflow, for a step that is negative or not finite, and for more
   // memory than the budget. Throws Stopped as soon as that is wished. The world stays as it was.
   void step(double h);
   double time() const { return time_; }
 
   // Of the last step, in order of ids.
-  const std::vector<Contact<D>>& contacts() const { return contacts_; }
-  const std::vector<ContactEvent>& events() const { return events_; }
-  const std::vector<Pair>& pairs() const { return pairs_; }
+  const std::vector<Contact<D>>& contacts() const { return outcome_.contacts; }
+  const std::vector<ContactEvent>& events() const { return outcome_.events; }
+  const std::vector<Pair>& pairs() const { return outcome_.pairs; }
   // The island of each body, in order of bodies(): the lowest id among those that the step moved
   // together, or that went on sleeping together. What has left or let go since has parted them.
   // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
@@ -126,11 +124,11 @@ class World {
     Pair pair;
     int frames_left = 0;  // steps without touch before its end is told
   };
-  const std::vector<Told>& told() const { return told_; }  // by pair
+  const std::vector<Told>& told() const { return outcome_.told; }  // by pair
   // Its impacts that were located; of the looks by which they were, nothing unless they are kept.
-  const ImpactLog<D>& impacts() const { return impacts_; }
+  const ImpactLog<D>& impacts() const { return outcome_.impacts; }
   // From now on the looks of a step are kept, or not. Without, nobody spends time on them.
-  void keep_impact_looks(bool kept) { impacts_.keeps_looks = kept; }
+  void keep_impact_looks(bool kept) { outcome_.impacts.keeps_looks = kept; }
   // Null if nobody has needed one.
   const BroadPhase<D>* broad_phase() const { return broad_phase_ ? &*broad_phase_ : nullptr; }
 
@@ -146,6 +144,13 @@ class World {
     Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
     double seconds = 0;  // of that sub-step; 0: there was none
   };
+  struct Outcome {  // what a step tells
+    std::vector<Contact<D>> contacts = {};
+    std::vector<ContactEvent> events = {};
+    std::vector<Told> told = {};  // by pair
+    std::vector<Pair> pairs = {};
+    ImpactLog<D> impacts = {};
+  };
   struct TimedPush {
     Push<D> push;
     std::optional<double> until;
@@ -155,7 +160,7 @@ class World {
     double seconds = 0;   // of that sub-step
     Backoff backoff = {};
   };
-  struct Step;  // one step while it is made (world_step.cpp)
+  struct Step;  // one step while it is made (step.cpp)
   // What looking ahead found out for the next step.
   struct Ahead {
     double h = 0;
@@ -189,11 +194,7 @@ class World {
   double time_ = 0;
 
   std::vector<Touch> touching_;  // by pair: of the last step, and of those that sleep
-  std::vector<Contact<D>> contacts_;
-  std::vector<ContactEvent> events_;
-  std::vector<Told> told_;  // by pair
-  std::vector<Pair> pairs_;
-  ImpactLog<D> impacts_;
+  Outcome outcome_;
   std::optional<BroadPhase<D>> broad_phase_;
   std::optional<Ahead> ahead_;  // until anything changes
   WorldWork work_;

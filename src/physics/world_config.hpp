@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "physics/contact_method.hpp"
-#include "physics/motion_method.hpp"
+#include "physics/methods.hpp"
 #include "spatial/broad_phase.hpp"
 
 namespace lantern::physics {

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "physics/contact_solver.hpp"
+#include "physics/contact/contact_solver.hpp"
 #include "physics/world.hpp"
 #include "scenario/frame.hpp"
 
@@ -17,7 +17,7 @@ class CollisionLog {
   // The world has just made a step. Pairs come in the order in which they first touched.
   template <int D>
   void see(const World<D>& world) {
-    remembered_ = contact_solver<D>(world.config().contacts).frames_remembered;
+    remembered_ = contact_solver(world.config().contacts).frames_remembered;
     const std::uint64_t step = world.work().steps;
     for (const auto& told : world.told()) row_of(told.pair).push_back({step, told.frames_left});
     for (const ContactEvent& event : world.events()) {

@@ -8,8 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/contact_method.hpp"
-#include "physics/motion_method.hpp"
+#include "physics/methods.hpp"
 #include "scenario/scenario.hpp"
 
 namespace lantern::scenario {

@@ -14,8 +14,7 @@
 #include "geometry/flat.hpp"
 #include "geometry/rotation.hpp"
 #include "physics/body.hpp"
-#include "physics/contact_method.hpp"
-#include "physics/motion_method.hpp"
+#include "physics/methods.hpp"
 #include "scenario/view_specs.hpp"
 #include "spatial/structure_kind.hpp"
 
@@ -354,7 +353,7 @@ inline EnumNames names(Solution) {
 inline EnumNames names(ProblemVariant) { return {"plain", "stiff", "extreme"}; }
 inline EnumNames names(BodyKind) { return {"dynamic", "kinematic", "static"}; }
 inline EnumNames names(ContactMethod) { return contact_method_names(); }
-inline EnumNames names(Integrator) { return names_up_to(Integrator::implicit_euler); }
+inline EnumNames names(Integrator) { return integrator_names(); }
 inline EnumNames names(RotationMethod) { return names_up_to(RotationMethod::explicit_gyroscopic); }
 
 inline std::string_view to_string(Solution s) { return names(s)[std::size_t(s)]; }

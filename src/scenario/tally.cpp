@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "physics/contact_method.hpp"
+#include "physics/methods.hpp"
 
 namespace lantern::scenario {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "physics/joint_gap.hpp"
+#include "physics/joint.hpp"
 #include "scenario/watcher.hpp"
 
 namespace lantern::scenario {

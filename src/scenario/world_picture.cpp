@@ -9,7 +9,7 @@
 #include "base/stop.hpp"
 #include "physics/energy.hpp"
 #include "physics/forces.hpp"
-#include "physics/joint_gap.hpp"
+#include "physics/joint.hpp"
 
 namespace lantern::scenario {
 namespace {

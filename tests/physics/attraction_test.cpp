@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "physics/smooth_system.hpp"
+#include "physics/integrate/smooth_system.hpp"
 #include "physics/world.hpp"
 #include "smooth_scene.hpp"
 

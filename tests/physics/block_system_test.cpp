@@ -1,5 +1,5 @@
 // The sparse solver of the implicit methods: right-hand sides are made from solutions.
-#include "physics/block_system.hpp"
+#include "physics/linear/block_system.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,11 @@
 // Friction, rolling and what a step tells of contacts, against closed forms.
+#include "physics/contacts.hpp"
+
 #include <algorithm>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "physics/crushing.hpp"
 #include "physics/energy.hpp"
 #include "world_scene.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "physics/envelope_system.hpp"
+#include "physics/linear/envelope_system.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

@@ -1,4 +1,6 @@
 // Impacts that are located in time, against closed forms.
+#include "physics/impact/impacts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +10,6 @@
 #include "base/random.hpp"
 #include "physics/energy.hpp"
 #include "physics/free_rotation.hpp"
-#include "physics/sure_advance.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

@@ -108,6 +108,30 @@ TEST(Integrators, TheErrorFallsByTheOrderOfTheMethod) {
   }
 }
 
+TEST(Integrators, TheRowSaysWhatTheMethodIs) {
+  const auto gain = [](Integrator method, double omega, double h, int steps) {
+    SmoothScene<2> scene = oscillator(omega, 0, 0.5);
+    const double before = scene.energy().total();
+    scene.run(method, h, steps);
+    return scene.energy().total() / before;
+  };
+  for (const Order& order : kOrders) {
+    const Integration& row = integration(order.method);
+    EXPECT_EQ(row.name, to_string(order.method));
+    EXPECT_EQ(row.order, order.state) << row.name;
+    EXPECT_EQ(gain(order.method, 1000, 0.1, 20) < 1.001, row.implicit) << row.name;
+    EXPECT_EQ(gain(order.method, 1, 0.01, 1000) > 1.05, row.gains_energy) << row.name;
+    SmoothScene<2> falling;
+    falling.add({0, 0}, {1, 2}, 1);
+    falling.forces.gravity = {0, -10};
+    std::vector<Increment<2>> all;
+    find_increments<2>(order.method, falling.bodies, falling.forces, 0.1, all, falling.evaluations);
+    const Vec<2> kick = all[0].kick;
+    EXPECT_NEAR(-glm::dot(all[0].drift, kick) / (0.1 * glm::dot(kick, kick)), row.lag, 1e-12)
+        << row.name;
+  }
+}
+
 TEST(Integrators, AnyDampingRatioIsFollowed) {
   for (const double zeta : {0.0, 1e-6, 1.0, 1e3}) {
     EXPECT_LT(oscillator_errors(Integrator::runge_kutta_4, 1, zeta, 10, 10000).state, 1e-10)

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "physics/implicit_stage.hpp"
+#include "physics/integrate/implicit_stage.hpp"
 #include "physics/smooth_scene.hpp"
 
 namespace lantern::physics {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "physics/energy.hpp"
-#include "physics/joint_gap.hpp"
+#include "physics/joint.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

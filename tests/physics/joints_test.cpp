@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "physics/joint_gap.hpp"
+#include "physics/joint.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

@@ -1,6 +1,4 @@
 // An error that is wanted of contacts: what it costs, and what it gives.
-#include "physics/quick_sweeps.hpp"
-
 #include <limits>
 #include <random>
 
@@ -8,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "physics/energy.hpp"
+#include "physics/world.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

@@ -6,7 +6,7 @@
 
 #include "physics/energy.hpp"
 #include "physics/free_rotation.hpp"
-#include "physics/integrator.hpp"
+#include "physics/integrate/integrator.hpp"
 
 namespace lantern::physics {
 

@@ -1,0 +1,334 @@
+// Contact constraints: bodies do not move into each other, and friction holds them back.
+//
+// Each point has one row along the normal and, with friction, one block across it. Rows are solved
+// one after another, again and again (projected Gauss-Seidel; Catto, "Iterative Dynamics with
+// Temporal Coherence", 2005): each finds the impulse after which its own condition holds, and the
+// sum of impulses is clamped, not each single one.
+//
+//   normal     pn >= 0, and the bodies do not approach
+//   friction   |pt| <= mu pn: a cone, so all directions are alike
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "physics/contact/solver_body.hpp"
+#include "physics/contacts.hpp"
+
+namespace lantern::physics {
+
+// The numbers of all methods that solve rows.
+struct RowSettings {
+  // What approaches slower than gravity makes in so many sub-steps does not bounce.
+  double bounce_steps = 2;
+  // Of the way that forces make in a sub-step: what is so near has no gap. (A gap must be closed by
+  // a velocity, which the next sub-step must stop again: of gaps that are mere rounding that would
+  // make noise in all the impulses of a stack.)
+  double touching_way = 1e-4;
+  // The part of penetration that one sub-step pushes out, and at most how fast, in units a second.
+  // So stiffness grows with the rate of sub-steps (Catto, "Soft Constraints", 2011; Macklin et al.,
+  // "Small Steps in Physics Simulation", 2019).
+  double pushed_out = 0.25;
+  double fastest_push = 4;
+  double corner = 1e-3;         // of a body's size: so near to a corner of it is at the corner
+  double hardly_slowed = 1e-3;  // of what friction alone would slow: balances forces
+  // Of full friction: what stops a body within so little of it does not slip in the end.
+  double slip_by_rounding = 1e-6;
+  // Of the firmest point's impulse: one that presses less presses by rounding only.
+  double presses_by_rounding = 1e-9;
+  // When sweeps have done enough. Of the largest impulse: so small a change of any ends the sweeps.
+  // In a stack of n boxes the last change stands for an error of (2n / pi)^2 times as much; the
+  // motion that it leaves is a blow to the next direct solve, which would push as much the other
+  // way, and so on.
+  double change = 1e-12;
+  // Of what impulses change: so little work is done by rounding.
+  double work_by_rounding = 1e-9;
+  double push = 1e-3;       // of the largest push out of penetration, and
+  double no_matter = 1e-7;  // of the largest impulse: what is less than either is enough
+};
+inline constexpr RowSettings kRowSettings;
+
+template <int D>
+struct ContactPoint {
+  std::uint32_t feature = 0;
+  // From a body's centre to its surface: what turns with it (in its own axes) and what does not (a
+  // ball that rolls keeps its lowest point).
+  Vec<D> core_a{0.0}, core_b{0.0}, round_a{0.0}, round_b{0.0};
+  Vec<D> arm_a{0.0}, arm_b{0.0};  // to the point where impulses act, in the world's axes
+  double share = 0.5;             // where impulses act, from a's surface (0) to b's (1)
+  double offset = 0;              // of the separation, against what the arms say
+  double separation = 0;
+  double gap = 0;                   // the same while they do not touch, else 0
+  double inverse_normal_mass = 0;   // effective
+  double inverse_tangent_mass = 0;  // in the direction in which it is largest
+  double pn = 0;                    // normal impulse of this sub-step, N s
+  Vec<D> pt{0.0};                   // friction impulse of this sub-step
+  double bounce = 0;                // wanted speed of parting
+  Vec<D> slip{0.0};                 // across the normal, before this sub-step's forces
+  Vec<D> kicked_slip{0.0};          // and after them
+  Vec<D> wanted_slip{0.0};          // mean over this sub-step, if it sticks
+  double correction = 0;            // impulse that pushes out penetration, along the normal
+  bool sticks = false;
+
+  // The mean speed of parting, over `h` seconds, that a point which presses should have.
+  double wanted_mean_speed(double h) const {
+    if (gap > 0) return -gap / h;
+    return std::min(-separation * kRowSettings.pushed_out / h, kRowSettings.fastest_push);
+  }
+};
+
+// What one sweep did.
+struct Sweep {
+  double change = 0;   // largest change of an impulse
+  double largest = 0;  // largest impulse
+  // How many were solved.
+  std::uint64_t normal_rows = 0;
+  std::uint64_t friction_rows = 0;
+  std::uint64_t joint_rows = 0;
+};
+
+// The contact of two bodies of an island.
+template <int D>
+struct ContactRows {
+  std::uint32_t a = 0, b = 0;  // places among the island's bodies
+  double friction = 0;
+  double restitution = 0;
+  Vec<D> normal{0.0};
+  std::array<ContactPoint<D>, Manifold<D>::kMostPoints> room;
+  int count = 0;
+
+  std::span<ContactPoint<D>> points() { return {room.data(), static_cast<std::size_t>(count)}; }
+  std::span<const ContactPoint<D>> points() const {
+    return {room.data(), static_cast<std::size_t>(count)};
+  }
+
+  // Points from the narrow phase, with the impulses per second of points of the same feature.
+  void set_points(const Manifold<D>& manifold, const Body<D>& body_a, const Body<D>& body_b,
+                  const Mat<D>& axes_a, const Mat<D>& axes_b, const Contact<D>* remembered,
+                  double scale) {
+    normal = manifold.normal;
+    count = manifold.count;
+    for (int i = 0; i < manifold.count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const ManifoldPoint<D>& from = manifold.room[at];
+      ContactPoint<D> p;
+      p.feature = from.feature;
+      p.round_a = normal * roundness(body_a.shape);
+      p.round_b = normal * -roundness(body_b.shape);
+      const Vec<D> half_gap = normal * (from.separation / 2);
+      const Vec<D> to_a = from.position - half_gap - body_a.position;
+      const Vec<D> to_b = from.position + half_gap - body_b.position;
+      p.core_a = (to_a - p.round_a) * axes_a;  // a vector times a matrix: by its inverse
+      p.core_b = (to_b - p.round_b) * axes_b;
+      p.share = where_impulses_act(body_a, p.core_a, body_b, p.core_b);
+      p.offset =
+          from.separation - glm::dot(normal, (body_b.position - body_a.position) + to_b - to_a);
+      if (remembered != nullptr)
+        for (int j = 0; j < remembered->manifold.count; ++j) {
+          const auto old = static_cast<std::size_t>(j);
+          if (remembered->manifold.room[old].feature != p.feature) continue;
+          p.pn = remembered->normal_impulses[old] * scale;
+          p.pt = across(remembered->friction_impulses[old] * scale);
+        }
+      room[at] = p;
+    }
+  }
+
+  // Arms, separations and effective masses where the bodies are now; velocities are those before
+  // the sub-step's forces. Points that approach faster than `threshold` bounce; those no farther
+  // apart than `touching` have no gap.
+  void refresh(const Body<D>& body_a, const Body<D>& body_b, const Mat<D>& axes_a,
+               const Mat<D>& axes_b, const SolverBody<D>& solver_a, const SolverBody<D>& solver_b,
+               double threshold, double touching) {
+    for (ContactPoint<D>& p : points()) {
+      const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
+      const Vec<D> gap = (body_b.position - body_a.position) + to_b - to_a;
+      p.separation = glm::dot(normal, gap) + p.offset;
+      p.gap = p.separation > touching ? p.separation : 0;
+      p.arm_a = to_a + gap * p.share;
+      p.arm_b = to_b - gap * (1 - p.share);
+      p.inverse_normal_mass = inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, normal);
+      if (friction > 0) p.inverse_tangent_mass = softest(solver_a, solver_b, p);
+      const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
+      const double parting = glm::dot(velocity, normal);
+      p.bounce = p.gap == 0 && parting < -threshold ? -restitution * parting : 0;
+      p.slip = across(velocity);
+    }
+  }
+
+  void warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b) {
+    for (ContactPoint<D>& p : points())
+      p.kicked_slip = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
+    for (ContactPoint<D>& p : points()) {
+      apply(p, normal * p.pn + p.pt, body_a, body_b);
+    }
+  }
+
+  // One sweep over velocities, for a sub-step of `h` seconds.
+  void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep) {
+    for (ContactPoint<D>& p : points()) {
+      if (p.inverse_normal_mass == 0) continue;
+      const double parting =
+          glm::dot(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal) - p.bounce;
+      // Bodies that are still apart may come as close as to touch.
+      const double before = p.pn;
+      p.pn = std::max(before - (parting + p.gap / h) / p.inverse_normal_mass, 0.0);
+      apply(p, normal * (p.pn - before), body_a, body_b);
+      sweep.change = std::max(sweep.change, std::abs(p.pn - before));
+      sweep.largest = std::max(sweep.largest, p.pn);
+      ++sweep.normal_rows;
+    }
+    if (friction == 0) return;
+    for (ContactPoint<D>& p : points()) {
+      if (p.inverse_tangent_mass == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
+      const Vec<D> slip = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
+      const Vec<D> before = p.pt;
+      p.pt -= slip / p.inverse_tangent_mass;
+      const double most = friction * p.pn, length = glm::length(p.pt);
+      p.sticks = length <= most * (1 + kRowSettings.slip_by_rounding);
+      if (length > most) p.pt *= most / length;
+      const Vec<D> impulse = p.pt - before;
+      apply(p, impulse, body_a, body_b);
+      sweep.change = std::max(sweep.change, glm::length(impulse));
+      sweep.friction_rows += D - 1;
+    }
+  }
+
+  // What follows from the velocities found: the way that slipping points lag behind (see
+  // sub_step.hpp), and how far sticking ones may still slide. `lag_a` and `lag_b` are the lags that
+  // the integrator has already.
+  void begin_correction(SolverBody<D>& body_a, SolverBody<D>& body_b, double lag_a, double lag_b) {
+    const ContactPoint<D>* firmest = nullptr;
+    for (const ContactPoint<D>& p : points())
+      if (firmest == nullptr || p.pn > firmest->pn) firmest = &p;
+    for (ContactPoint<D>& p : points()) {
+      p.correction = 0;
+      if (friction == 0 || p.pn == 0) continue;
+      if (!p.sticks) {
+        // Slips through the whole sub-step, slowed evenly: the mean is half way. Where friction
+        // only balances forces, nothing is slowed.
+        const Vec<D> now = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
+        if (glm::length(now - p.slip) <=
+            kRowSettings.hardly_slowed * glm::length(p.pt) * p.inverse_tangent_mass)
+          continue;
+        body_a.correct(p.pt * (0.5 - lag_a), p.arm_a);
+        body_b.correct(p.pt * (lag_b - 0.5), p.arm_b);
+        continue;
+      }
+      // A point that presses by rounding only stops when the firmest does.
+      const bool hardly = p.pn <= kRowSettings.presses_by_rounding * firmest->pn && firmest->sticks;
+      const double time = sliding_share(hardly ? *firmest : p);
+      p.wanted_slip =
+          p.slip * (time / 2) + across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
+    }
+  }
+
+  // One sweep over mean velocities: after `h` seconds, points that press touch without penetration,
+  // or with a part of it.
+  void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep) {
+    for (ContactPoint<D>& p : points()) {
+      if (p.inverse_normal_mass == 0) continue;
+      const double parting =
+          glm::dot(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+      const double wanted = p.wanted_mean_speed(h);
+      const double before = p.correction;
+      // Together with the impulse that is there already, it may push but not pull.
+      const double least = p.bounce > 0 ? 0 : -p.pn;
+      p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
+      correct(p, normal * (p.correction - before), body_a, body_b);
+      sweep.change = std::max(sweep.change, std::abs(p.correction - before));
+      ++sweep.normal_rows;
+    }
+    for (ContactPoint<D>& p : points()) {
+      if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
+      const Vec<D> slip = across(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b));
+      const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
+      correct(p, impulse, body_a, body_b);
+      sweep.change = std::max(sweep.change, glm::length(impulse));
+      sweep.friction_rows += D - 1;
+    }
+  }
+
+ private:
+  // An impulse upon b at a point, and the opposite one upon a.
+  static void apply(const ContactPoint<D>& p, const Vec<D>& impulse, SolverBody<D>& a,
+                    SolverBody<D>& b) {
+    a.apply(-impulse, p.arm_a);
+    b.apply(impulse, p.arm_b);
+  }
+  static void correct(const ContactPoint<D>& p, const Vec<D>& impulse, SolverBody<D>& a,
+                      SolverBody<D>& b) {
+    a.correct(-impulse, p.arm_a);
+    b.correct(impulse, p.arm_b);
+  }
+
+  Vec<D> across(const Vec<D>& v) const { return v - normal * glm::dot(v, normal); }
+
+  // How far the surface is from the part of the body that turns.
+  static double roundness(const Shape<D>& shape) {
+    return visit_shape<D>(
+        shape, [](const Core<D>& core) { return core.radius; },
+        [](const HalfSpace<D>&) { return 0.0; });
+  }
+
+  // Whether a point of a body's core, in its own axes, is one of its corners: a sphere's centre, an
+  // end of a capsule's segment.
+  static bool is_corner(const Shape<D>& shape, const Vec<D>& point) {
+    return visit_shape<D>(
+        shape,
+        [&](const Core<D>& core) {
+          double size = core.radius;
+          for (int i = 0; i < D; ++i) size = std::max(size, core.half[i]);
+          for (int i = 0; i < D; ++i)
+            if (std::abs(std::abs(point[i]) - core.half[i]) > kRowSettings.corner * size)
+              return false;
+          return true;
+        },
+        [](const HalfSpace<D>&) { return false; });
+  }
+
+  // While bodies slide or roll on each other, the corner (or the round side) of one of them moves
+  // over the face of the other: where it is now, they touch. Where edges cross it is half way.
+  static double where_impulses_act(const Body<D>& a, const Vec<D>& core_a, const Body<D>& b,
+                                   const Vec<D>& core_b) {
+    const bool corner_a = is_corner(a.shape, core_a), corner_b = is_corner(b.shape, core_b);
+    if (corner_a != corner_b) return corner_b ? 1 : 0;
+    return a.inverse_mass == 0 ? 1 : b.inverse_mass == 0 ? 0 : 0.5;
+  }
+
+  // The inverse of the least effective mass across the normal. With it a sweep never overshoots,
+  // and where it stops, friction points exactly against the slip.
+  double softest(const SolverBody<D>& body_a, const SolverBody<D>& body_b,
+                 const ContactPoint<D>& p) const {
+    const auto along = tangents(normal);
+    if constexpr (D == 2) {
+      return inverse_effective_mass(body_a, p.arm_a, body_b, p.arm_b, along[0]);
+    } else {
+      const auto& [s, t] = along;
+      const auto turned_by = [&](const Vec<3>& direction) {
+        return cross(body_a.inverse_inertia * cross(p.arm_a, direction), p.arm_a) +
+               cross(body_b.inverse_inertia * cross(p.arm_b, direction), p.arm_b);
+      };
+      const Vec<3> by_s = turned_by(s), by_t = turned_by(t);
+      const double ss = glm::dot(by_s, s), tt = glm::dot(by_t, t), st = glm::dot(by_s, t);
+      const double mean = (ss + tt) / 2, half = (ss - tt) / 2;
+      return body_a.inverse_mass + body_b.inverse_mass + mean + std::sqrt(half * half + st * st);
+    }
+  }
+
+  // Part of the sub-step for which a point that sticks in the end slides on: until full friction
+  // would have stopped it, t / h = |slip_0| / |change of slip under full friction|.
+  double sliding_share(const ContactPoint<D>& p) const {
+    const double used = glm::length(p.pt) / (friction * p.pn);
+    const double slip = glm::length(p.slip);
+    const double change = glm::length((p.kicked_slip - p.slip) * used - p.kicked_slip);
+    return change > 0 ? std::min(slip * used / change, 1.0) : 0;
+  }
+};
+
+extern template struct ContactRows<2>;
+extern template struct ContactRows<3>;
+
+}  // namespace lantern::physics

@@ -1,0 +1,190 @@
+// A body while constraints are solved: just its velocities and what resists their change; and the
+// rows of constraints that are solved all at once.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "physics/body.hpp"
+#include "physics/linear/envelope_system.hpp"
+#include "physics/world_config.hpp"
+
+namespace lantern::physics {
+
+template <int D>
+struct SolverBody {
+  double inverse_mass = 0;
+  Inertia<D> inverse_inertia{0.0};
+  Vec<D> velocity{0.0};
+  Spin<D> spin{0.0};
+  Spin<D> twist{0.0};  // angular momentum gained from constraints
+  // How the body really moves over the sub-step: its mean velocities. They differ from the above by
+  // what pushes out penetration, which must not become motion (split impulses).
+  Vec<D> mean_velocity{0.0};
+  Spin<D> mean_spin{0.0};
+  Spin<D> lag{0.0};           // of the angular momentum while the body turns, see Increment
+  Spin<D> turning_spin{0.0};  // the mean spin that this gives
+
+  void apply(const Vec<D>& impulse, const Vec<D>& arm) {
+    const Spin<D> turn = cross(arm, impulse);
+    velocity += impulse * inverse_mass;
+    spin += inverse_inertia * turn;
+    twist += turn;
+  }
+  // The same for an impulse of `size` along `direction`, of which is known how it turns the body.
+  void apply_along(const Vec<D>& direction, const Spin<D>& turn, const Spin<D>& gained,
+                   double size) {
+    velocity += direction * (size * inverse_mass);
+    spin += gained * size;
+    twist += turn * size;
+  }
+  void correct_along(const Vec<D>& direction, const Spin<D>& gained, double size) {
+    mean_velocity += direction * (size * inverse_mass);
+    mean_spin += gained * size;
+  }
+  void correct(const Vec<D>& impulse, const Vec<D>& arm) {
+    mean_velocity += impulse * inverse_mass;
+    mean_spin += inverse_inertia * cross(arm, impulse);
+  }
+};
+
+template <int D>
+Vec<D> relative_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
+                         const Vec<D>& arm_b) {
+  return (b.velocity + cross(b.spin, arm_b)) - (a.velocity + cross(a.spin, arm_a));
+}
+template <int D>
+Vec<D> relative_mean_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
+                              const Vec<D>& arm_b) {
+  return (b.mean_velocity + cross(b.mean_spin, arm_b)) -
+         (a.mean_velocity + cross(a.mean_spin, arm_a));
+}
+
+template <int D>
+Vec<D> unit_vec(int axis) {
+  Vec<D> unit(0.0);
+  unit[axis] = 1;
+  return unit;
+}
+
+// Unit vectors across a unit vector and each other.
+inline std::array<Vec<2>, 1> tangents(const Vec<2>& n) { return {Vec<2>(-n.y, n.x)}; }
+inline std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
+  const Vec<3> other = std::abs(n.x) < 0.6 ? Vec<3>(1, 0, 0) : Vec<3>(0, 1, 0);
+  const Vec<3> s = glm::normalize(glm::cross(n, other));
+  return {s, glm::cross(n, s)};
+}
+
+// How much relative velocity along `direction` an impulse of 1 along it gives: the inverse of the
+// effective mass.
+template <int D>
+double inverse_effective_mass(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
+                              const Vec<D>& arm_b, const Vec<D>& direction) {
+  const Spin<D> turn_a = cross(arm_a, direction);
+  const Spin<D> turn_b = cross(arm_b, direction);
+  const Spin<D> gained_a = a.inverse_inertia * turn_a;
+  const Spin<D> gained_b = b.inverse_inertia * turn_b;
+  return a.inverse_mass + b.inverse_mass + dot(turn_a, gained_a) + dot(turn_b, gained_b);
+}
+
+// One condition, as rows are solved all at once. An impulse of 1 pushes b along the direction and
+// turns it by turn_b, and a the other way. Of bodies that cannot be moved (turned) masses (what is
+// gained) are zero.
+template <int D>
+struct ConstraintRow {
+  std::uint32_t a = 0, b = 0;     // bodies
+  double mass_a = 0, mass_b = 0;  // inverse
+  Vec<D> direction{0.0};
+  Spin<D> turn_a{0.0}, turn_b{0.0};
+  Spin<D> gained_a{0.0}, gained_b{0.0};
+
+  void set(const Vec<D>& along, const Vec<D>& arm_a, const Inertia<D>& inverse_inertia_a,
+           const Vec<D>& arm_b, const Inertia<D>& inverse_inertia_b) {
+    direction = along;
+    turn_a = cross(arm_a, along);
+    turn_b = cross(arm_b, along);
+    gained_a = inverse_inertia_a * turn_a;
+    gained_b = inverse_inertia_b * turn_b;
+  }
+  // How much the velocity along this row changes by an impulse along another.
+  double answer_to(const ConstraintRow& y) const {
+    const double along = glm::dot(direction, y.direction);
+    double sum = 0;
+    if (a == y.a) sum += mass_a * along + dot(turn_a, y.gained_a);
+    if (b == y.b) sum += mass_b * along + dot(turn_b, y.gained_b);
+    if (a == y.b) sum -= mass_a * along + dot(turn_a, y.gained_b);
+    if (b == y.a) sum -= mass_b * along + dot(turn_b, y.gained_a);
+    return sum;
+  }
+};
+
+// Gives the bodies the impulses of all rows: to their velocities, or to their mean velocities
+// alone.
+template <int D>
+void apply_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<double>& impulses,
+                std::vector<SolverBody<D>>& bodies) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ConstraintRow<D>& row = rows[i];
+    bodies[row.a].apply_along(row.direction, row.turn_a, row.gained_a, -impulses[i]);
+    bodies[row.b].apply_along(row.direction, row.turn_b, row.gained_b, impulses[i]);
+  }
+}
+template <int D>
+void correct_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<double>& impulses,
+                  std::vector<SolverBody<D>>& bodies) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ConstraintRow<D>& row = rows[i];
+    bodies[row.a].correct_along(row.direction, row.gained_a, -impulses[i]);
+    bodies[row.b].correct_along(row.direction, row.gained_b, impulses[i]);
+  }
+}
+
+// Lays out the factor of the matrix of all rows' answers to each other, of `bodies` bodies. False
+// as soon as it would take more than `most_work` products.
+template <int D>
+bool plan(const std::vector<ConstraintRow<D>>& rows, std::size_t bodies, EnvelopeSystem& factor,
+          double most_work = std::numeric_limits<double>::infinity()) {
+  std::vector<std::size_t> first_of(bodies, rows.size());  // row of each body
+  factor.clear();
+  factor.reserve(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::size_t first = i;
+    const auto look_at = [&](std::uint32_t body, double mass) {
+      if (mass == 0) return;
+      first_of[body] = std::min(first_of[body], i);
+      first = std::min(first, first_of[body]);
+    };
+    look_at(rows[i].a, rows[i].mass_a);
+    look_at(rows[i].b, rows[i].mass_b);
+    factor.add_line(first);
+    if (factor.work() > most_work) return false;
+  }
+  return true;
+}
+
+// False if a row says no more than those before it, but for the part `least`.
+template <int D>
+bool factor_rows(const std::vector<ConstraintRow<D>>& rows, double least, EnvelopeSystem& factor) {
+  return factor.factor([&](std::size_t i, std::size_t j) { return rows[i].answer_to(rows[j]); },
+                       least);
+}
+
+// Each row gives way by the part `compliance`. False if rows are no numbers.
+template <int D>
+bool factor_compliant(const std::vector<ConstraintRow<D>>& rows, double compliance,
+                      EnvelopeSystem& factor) {
+  return factor.factor([&](std::size_t i, std::size_t j) {
+    return rows[i].answer_to(rows[j]) * (i == j ? 1 + compliance : 1);
+  });
+}
+
+inline void count_direct_solve(std::size_t rows, WorldWork& work) {
+  ++work.direct_solves;
+  work.direct_rows += rows;
+  work.constraint_rows += rows;
+}
+
+}  // namespace lantern::physics

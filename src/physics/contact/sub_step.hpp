@@ -1,0 +1,251 @@
+// A part of a step in which the rows of an island are solved once: what solvers share that solve
+// rows.
+//
+//   v += kick            forces
+//   v += J p / m         impulses: begin with the old ones, then sweep until they hold
+//   u  = v + drift / h   mean velocity, in which penetration is pushed out
+//   x += h u             v knows nothing of that: no energy comes from it
+//
+// The integrator's drift says how far the mean velocity of a sub-step is from the new one: for
+// velocity Verlet -h kick / 2. Impulses of constraints act through the sub-step just as forces do,
+// so they lag by the same share; a block at rest then has no drift at all, and friction stops a
+// block where the closed form says.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/stop.hpp"
+#include "physics/contact/island.hpp"
+#include "physics/free_rotation.hpp"
+
+namespace lantern::physics {
+
+template <int D>
+class SubStep {
+ public:
+  SubStep(const IslandMove<D>& move, double seconds)
+      : island(move.island), config(move.config), h(seconds), work(move.work) {}
+
+  Island<D>& island;
+  const WorldConfig<D>& config;
+  const double h;
+  WorldWork& work;
+
+  // Forces act, rows are made where bodies are, and begin with the impulses that they have.
+  void begin() {
+    stop_if_asked();
+    find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
+    island.set_solver_bodies();
+    const auto& kicks = island.increments;
+    each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
+      const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
+      const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
+      rows.refresh(island.bodies[rows.a], island.bodies[rows.b], island.axes[rows.a],
+                   island.axes[rows.b], a, b,
+                   kRowSettings.bounce_steps * glm::length(kick_b - kick_a),
+                   kRowSettings.touching_way * way);
+    });
+    each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
+      rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
+    });
+    touches_ = std::any_of(island.pairs.begin(), island.pairs.end(),
+                           [](const IslandPair<D>& pair) { return pair.rows.count > 0; });
+    joints_at_once_ = island.joint_block.refresh(island.joints, island.solver_bodies);
+    for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+      SolverBody<D>& body = island.solver_bodies[i];
+      body.velocity += island.increments[i].kick;
+      body.spin += body.inverse_inertia * island.increments[i].twist;
+    }
+    island.kicked.clear();
+    island.kicked_spins.clear();
+    for (const SolverBody<D>& body : island.solver_bodies) {
+      island.kicked.push_back(body.velocity);
+      island.kicked_spins.push_back(body.spin);
+    }
+    each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
+    each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
+  }
+
+  // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
+  // stack, nor side of a box, is preferred.
+  Sweep sweep_velocities(int turn) {
+    Sweep sweep;
+    if (!joints_at_once_)
+      each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
+    for (std::size_t i = 0; i < island.pairs.size(); ++i) {
+      stop_if_asked();
+      ContactRows<D>& rows = island.pairs[turn % 2 == 0 ? i : island.pairs.size() - 1 - i].rows;
+      if (rows.count > 0)
+        rows.solve_velocities(island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep);
+    }
+    if (joints_at_once_)
+      island.joint_block.solve_velocities(island.joints, island.solver_bodies, sweep, work);
+    if (joints_at_once_ && !touches_) sweep.change = 0;
+    count(sweep, work);
+    return sweep;
+  }
+
+  // Takes back so much of all impulses, in proportion, that together they do no work but what
+  // bounces and closing gaps ask for. Sweeps that end early may leave them too large, and energy
+  // would come of it. After the last sweep over velocities. Impulses p change the kinetic energy by
+  // p.(u0 + u) / 2, with relative velocities u0 before them and u = u0 + K p after. Those that
+  // solve all rows have p.(u - wanted) = 0: they are the best of their ray s p, and what is wanted
+  // is never more than what came in, u0, turned round. Since the cone of friction is one, s p stays
+  // within it.
+  void do_no_work() {
+    double before = 0, after = 0, wanted = 0;
+    const auto before_of = [&](std::uint32_t i, const Vec<D>& arm) {
+      return island.kicked[i] + cross(island.kicked_spins[i], arm);
+    };
+    const auto add = [&](const auto& rows, const auto& point, const Vec<D>& impulse) {
+      const SolverBody<D>&a = island.solver_bodies[rows.a], &b = island.solver_bodies[rows.b];
+      before += glm::dot(impulse, before_of(rows.b, point.arm_b) - before_of(rows.a, point.arm_a));
+      after += glm::dot(impulse, relative_velocity(a, point.arm_a, b, point.arm_b));
+    };
+    for (const JointRows<D>& rows : island.joints) add(rows, rows, rows.impulse);
+    for (const IslandPair<D>& pair : island.pairs)
+      for (const ContactPoint<D>& p : pair.rows.points()) {
+        add(pair.rows, p, pair.rows.normal * p.pn + p.pt);
+        wanted += p.pn * (p.bounce - p.gap / h);
+      }
+    const double changed = after - before;
+    wanted = std::min(wanted, std::max(-before, 0.0));
+    if (!(after - wanted > kRowSettings.work_by_rounding * changed)) return;
+    const double share = std::clamp((wanted - before) / changed, 0.0, 1.0);
+    for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+      SolverBody<D>& body = island.solver_bodies[i];
+      body.velocity = island.kicked[i] + (body.velocity - island.kicked[i]) * share;
+      body.spin = island.kicked_spins[i] + (body.spin - island.kicked_spins[i]) * share;
+      body.twist *= share;
+    }
+    for (JointRows<D>& rows : island.joints) rows.impulse *= share;
+    for (IslandPair<D>& pair : island.pairs)
+      for (ContactPoint<D>& p : pair.rows.points()) {
+        p.pn *= share;
+        p.pt *= share;
+      }
+  }
+
+  void find_mean_velocities() {
+    const auto& increments = island.increments;
+    for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+      SolverBody<D>& body = island.solver_bodies[i];
+      const double lag = lag_of(i);
+      const Vec<D> pressed = body.velocity - island.kicked[i];
+      body.mean_velocity = body.velocity + increments[i].drift / h - pressed * lag;
+      body.lag = increments[i].lag;
+      if (turns_alike(island.bodies[i])) body.lag -= body.twist * lag;
+      body.mean_spin = body.turning_spin = body.spin + body.inverse_inertia * body.lag;
+    }
+  }
+
+  // From the velocities found follow mean velocities, and what is wanted of them.
+  void begin_position_correction() {
+    do_no_work();
+    find_mean_velocities();
+    each_pair([&](auto& rows, auto& a, auto& b) {
+      rows.begin_correction(a, b, lag_of(rows.a), lag_of(rows.b));
+    });
+  }
+
+  Sweep sweep_positions() {
+    Sweep sweep;
+    if (!joints_at_once_)
+      each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, sweep); });
+    each_pair([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
+    if (joints_at_once_)
+      island.joint_block.correct_positions(island.joints, island.solver_bodies, sweep, work);
+    if (joints_at_once_ && !touches_) sweep.change = 0;
+    count(sweep, work);
+    return sweep;
+  }
+
+  // Whether a sweep over positions was the last that is needed; `largest` impulse of velocities.
+  bool is_corrected(const Sweep& sweep, double largest) {
+    largest_push_ = std::max(largest_push_, sweep.change);
+    return sweep.change <=
+           std::max(kRowSettings.push * largest_push_, kRowSettings.no_matter * largest);
+  }
+
+  // Moves the bodies, and notes what touched and how hard.
+  void end() {
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+      Body<D>& body = island.bodies[i];
+      const SolverBody<D>& solved = island.solver_bodies[i];
+      const Increment<D>& increment = island.increments[i];
+      if (body.kind != BodyKind::dynamic_body) {
+        fly(body, increment, h, config.rotation, work);
+        continue;
+      }
+      body.velocity = solved.velocity;
+      body.angular_momentum += increment.twist + solved.twist;
+      body.position += solved.mean_velocity * h;
+      if (body.inverse_inertia == Spin<D>(0.0)) continue;
+      const Spin<D> turning = body.angular_momentum + solved.lag;
+      const Spin<D> pushed = solved.mean_spin - solved.turning_spin;
+      if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
+      turn_freely(body, h, body.rotation.value_or(config.rotation), solved.lag);
+      if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
+      ++work.rotations_integrated;
+    }
+    if (joints_at_once_) island.joint_block.close_gaps(island.joints, island.bodies, h, work);
+    for (IslandPair<D>& pair : island.pairs) {
+      stop_if_asked();
+      pair.record_impulses();
+      for (const ContactPoint<D>& p : pair.rows.points())
+        if (p.pn > 0 || p.separation <= 0) pair.touched = true;
+    }
+  }
+
+  // f(rows, a, b) of those that may press
+  template <class F>
+  void each_pair(F&& f) {
+    for (IslandPair<D>& pair : island.pairs) {
+      stop_if_asked();
+      if (pair.rows.count > 0)
+        f(pair.rows, island.solver_bodies[pair.rows.a], island.solver_bodies[pair.rows.b]);
+    }
+  }
+
+ private:
+  template <class F>
+  void each_joint(F&& f) {
+    for (JointRows<D>& rows : island.joints) {
+      stop_if_asked();
+      f(rows, island.solver_bodies[rows.a], island.solver_bodies[rows.b]);
+    }
+  }
+
+  // Which part of the new velocity's change the mean velocity lags behind: 0 for semi-implicit
+  // Euler, 1/2 for velocity Verlet. Where there is no force, as the method would lag.
+  double lag_of(std::size_t i) const {
+    const Increment<D>& increment = island.increments[i];
+    const double kick = glm::dot(increment.kick, increment.kick);
+    if (kick > 0)
+      return std::clamp(-glm::dot(increment.drift, increment.kick) / (h * kick), 0.0, 1.0);
+    return integration(island.bodies[i].integrator.value_or(config.integrator)).lag;
+  }
+
+  double largest_push_ = 0;
+  bool joints_at_once_ = false;  // after which, if nothing touches, nothing is left to be done
+  bool touches_ = false;
+};
+
+extern template class SubStep<2>;
+extern template class SubStep<3>;
+
+// Moves the island in parts of which `sub_steps` make a whole step. Contacts are looked at once;
+// `solve` finds the impulses of a part and corrects positions, between its begin and its end. If
+// nothing touches, there are no parts: all fly, or move as their joints let them
+// (joint/constrained_motion.hpp).
+template <int D>
+void in_sub_steps(const IslandMove<D>& move, int sub_steps,
+                  const std::function<void(SubStep<D>&)>& solve);
+
+// Solves one part after another, all rows at once (direct_solve.cpp).
+template <int D>
+std::function<void(SubStep<D>&)> settle_directly();
+
+}  // namespace lantern::physics

@@ -1,0 +1,354 @@
+// When two bodies meet, and for how long they are sure not to.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "physics/free_rotation.hpp"
+#include "physics/impact/impacts.hpp"
+
+namespace lantern::physics {
+namespace {
+
+// A plane that turns is followed for so many radians at most: what bounds it grows with time.
+constexpr double kMostTurn = 0.5;
+// A corner seen along the normal: s + rate t, wrong by no more than bend t^2 / 2.
+struct Side {
+  double at = 0, rate = 0, bend = 0;
+};
+
+template <int D>
+struct Sides {
+  std::array<Side, 1 << D> room;
+  std::size_t count = 0;
+  void add(const Side& side) { room[count++] = side; }
+};
+
+// Where corners are seen from: a frame that flies and turns with a body; or none, which stands.
+template <int D>
+struct SeenFrom {
+  const Flying<D>* body = nullptr;
+  double within = 0;
+};
+
+template <int D>
+Side seen(const Flying<D>& body, const Vec<D>& arm, const Vec<D>& n, const SeenFrom<D>& frame) {
+  const double reach = glm::length(arm);
+  const Vec<D> point = body.position + arm, v = body.velocity + cross(body.spin, arm);
+  const double bend = body.pull + body.swerve * reach;
+  if (frame.body == nullptr) return {glm::dot(n, point), glm::dot(n, v), bend};
+  const Flying<D>& own = *frame.body;
+  const Vec<D> d = point - own.position;
+  if (&own == &body) return {glm::dot(n, d), 0, 0};
+  const double fast = glm::length(body.velocity - own.velocity) + body.fastest * reach +
+                      (body.pull + own.pull) * frame.within;
+  const double far = glm::length(d) + fast * frame.within;
+  return {glm::dot(n, d), glm::dot(n, v - own.velocity - cross(own.spin, d)),
+          bend + own.pull + 2 * own.fastest * fast + own.swerve * far};
+}
+
+// All corners, each moved out by the roundness; as a ball round the centre the body may turn as it
+// likes. `out` is 1 for the body that lies behind the plane, -1 for the one before it.
+template <int D>
+Sides<D> sides_of(const Flying<D>& body, const Vec<D>& n, const SeenFrom<D>& frame, double out,
+                  bool as_ball) {
+  Sides<D> sides;
+  visit_shape<D>(
+      body.shape,
+      [&](const Core<D>& core) {
+        if (as_ball) {
+          const double radius = glm::length(core.half) + core.radius;
+          const double along = glm::dot(n, body.position) + out * radius;
+          return sides.add({along, glm::dot(n, body.velocity), body.pull});
+        }
+        for (unsigned corner = 0; corner < 1U << D; ++corner) {
+          Vec<D> arm(0.0);
+          bool twin = false;
+          for (int i = 0; i < D; ++i) {
+            const bool high = (corner >> i & 1U) != 0;
+            twin |= high && core.half[i] == 0;
+            arm += body.axes[i] * (high ? core.half[i] : -core.half[i]);
+          }
+          if (twin) continue;
+          Side side = seen(body, arm, n, frame);
+          side.at += out * core.radius;
+          sides.add(side);
+        }
+      },
+      [&](const HalfSpace<D>&) { sides.add(seen(body, Vec<D>(0.0), n, frame)); });
+  return sides;
+}
+
+// When a gap g with the rate v, which shrinks by no more than bend t^2 / 2 besides, may be closed.
+double until_closed(double g, double v, double bend) {
+  if (bend == 0) return v < 0 ? g / -v : HUGE_VAL;
+  const double root = std::sqrt(v * v + 2 * bend * g);
+  return v > 0 ? (v + root) / bend : root - v > 0 ? 2 * g / (root - v) : 0;
+}
+
+template <int D>
+double until_met(const Sides<D>& behind, const Sides<D>& before, double depth, double within) {
+  double sure = within;
+  for (std::size_t i = 0; i < behind.count; ++i)
+    for (std::size_t j = 0; j < before.count; ++j) {
+      const Side &a = behind.room[i], &b = before.room[j];
+      const double gap = b.at - a.at;
+      if (gap < -depth) return 0;  // this plane is not between them
+      sure = std::min(sure, until_closed(std::max(gap, 0.0), b.rate - a.rate, a.bend + b.bend));
+    }
+  return sure;
+}
+
+template <int D>
+bool is_half_space(const Flying<D>& body) {
+  return std::holds_alternative<HalfSpace<D>>(body.shape);
+}
+
+}  // namespace
+
+template <int D>
+double fastest_spin(const Body<D>& body) {
+  const Spin<D> spin = angular_velocity(body);
+  double square = dot(spin, spin);
+  if constexpr (D == 3) {
+    if (body.kind == BodyKind::dynamic_body) {
+      // As L wanders, |w|^2 is a linear function of the square of L's middle component, and the
+      // largest where that is 0.
+      const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
+      std::array<int, 3> axis{0, 1, 2};
+      const Vec<3>& m = body.inverse_inertia;
+      std::stable_sort(axis.begin(), axis.end(), [&](int i, int j) { return m[i] < m[j]; });
+      square += (m[axis[1]] - m[axis[0]]) * (m[axis[2]] - m[axis[1]]) * l[axis[1]] * l[axis[1]];
+    }
+  }
+  return std::sqrt(square);
+}
+
+template <int D>
+double sure_advance(const Flying<D>& a, const Flying<D>& b, const Vec<D>& n, double depth,
+                    double within) {
+  double sure = 0;
+  const auto with = [&](const SeenFrom<D>& frame, bool as_ball) {
+    const double met = until_met(sides_of(a, n, frame, 1, as_ball),
+                                 sides_of(b, n, frame, -1, as_ball), depth, frame.within);
+    sure = std::max(sure, met);
+  };
+  with({nullptr, within}, false);
+  with({nullptr, within}, true);
+  if (is_half_space(a) || is_half_space(b)) return sure;  // their planes stand
+  for (const Flying<D>* own : {&a, &b})
+    if (own->fastest > 0) with({own, std::min(within, kMostTurn / own->fastest)}, false);
+  return sure;
+}
+
+namespace {
+
+// Acceleration of what turns, against spin^2 radius: a spin that wanders has more. I w' = L x w,
+// and no inertia is larger than the other two together, so |w'| <= w^2 / sqrt(3).
+template <int D>
+constexpr double kWandering = D == 2 ? 1 : 1.58;
+
+template <int D>
+struct Gap {
+  double gap = 0;
+  double closing = 0;  // the fastest of the points that touch, by the points' own velocities
+  double bound = 0;    // the surfaces cannot close faster, whatever turns
+  Vec<D> normal{0.0};
+};
+
+template <int D>
+class Approach {
+ public:
+  explicit Approach(const Encounter<D>& of) : of_(of) {
+    const Trajectory<D>&a = of.a, &b = of.b;
+    fastest_a_ = spin_of(a);
+    fastest_b_ = spin_of(b);
+    turn_a_ = fastest_a_ * turning_reach<D>(a.body->shape);
+    turn_b_ = fastest_b_ * turning_reach<D>(b.body->shape);
+    bend_ = 2 * glm::length(b.bend - a.bend) + (fastest_a_ + fastest_b_) * (turn_a_ + turn_b_);
+    turns_ = turn_a_ + turn_b_ > 0;
+    near_ = kImpactSettings.near * thinner(*a.body, *b.body);
+    size_ = glm::length(a.body->position) + glm::length(b.body->position);
+    for (const Trajectory<D>* path : {&a, &b})
+      if (const double t = thickness<D>(path->body->shape); t < kEndless) size_ += t;
+  }
+
+  std::optional<TimeOfImpact> find() const {
+    double t = 0;
+    for (int i = 0; i < kImpactSettings.most_advances; ++i) {
+      const auto seen = gap_at(t);
+      if (!seen) return std::nullopt;
+      double next = t;
+      if (seen->gap <= size_ * kImpactSettings.touches) {
+        if (seen->closing > of_.slow) return TimeOfImpact{t, false};
+        if (seen->closing > -of_.slow) {
+          // They glide along each other, unless something presses them.
+          if (bend_ == 0 && of_.a.held + of_.b.held == 0) return std::nullopt;
+          return TimeOfImpact{t, true};
+        }
+        // They part, and cannot be back before this.
+        if (bend_ == 0) return std::nullopt;
+        next = t + (turns_ ? sure(t, *seen) : 2 * -seen->closing / bend_);
+      } else {
+        const double root = std::sqrt(seen->bound * seen->bound + 2 * bend_ * seen->gap);
+        if (!(seen->bound + root > 0)) return std::nullopt;
+        next = t + 2 * seen->gap / (seen->bound + root);
+        if (turns_ && next < of_.within) next = std::max(next, t + sure(t, *seen));
+        tell_free_until(next);
+        if (const auto met = bracketed(t, *seen, next)) return met;
+      }
+      if (!(next < of_.within)) return std::nullopt;
+      // No nearer in numbers, or so slowly that it is as good as there.
+      if (next == t || (i > kImpactSettings.most_advances / 2 && seen->gap < near_))
+        return at(t, *seen);
+      t = next;
+    }
+    // They turn so fast that no sure advance comes to an end: a contact, from here on.
+    return turns_ ? std::optional(TimeOfImpact{t, true}) : std::nullopt;
+  }
+
+ private:
+  double spin_of(const Trajectory<D>& path) const {
+    if (turning_reach<D>(path.body->shape) == 0 || !path.body->moves()) return 0;
+    return fastest_spin(*path.body);
+  }
+  double sure(double t, const Gap<D>& seen) const {
+    return sure_advance(flying(of_.a, t, fastest_a_), flying(of_.b, t, fastest_b_), seen.normal,
+                        std::max(-seen.gap, 0.0) + near_, of_.within - t);
+  }
+  Flying<D> flying(const Trajectory<D>& path, double t, double fastest) const {
+    const Body<D> now = placed_at(path, t);
+    Flying<D> body{now.shape, now.position};
+    if (turns<D>(now.shape)) body.axes = matrix(now.orientation);
+    body.velocity = now.velocity;
+    body.pull = 2 * glm::length(path.bend);
+    if (fastest == 0) return body;
+    body.spin = angular_velocity(now);
+    body.fastest = fastest;
+    body.swerve = fastest * fastest * (now.kind == BodyKind::dynamic_body ? kWandering<D> : 1);
+    return body;
+  }
+  Body<D> placed_at(const Trajectory<D>& path, double t) const {
+    Body<D> body = *path.body;
+    body.position += t * (path.velocity + t * path.bend);
+    body.velocity = path.velocity + 2 * t * path.bend;
+    turn_freely(body, t, path.rotation);
+    return body;
+  }
+
+  std::optional<TimeOfImpact> at(double t, const Gap<D>& seen) const {
+    if (seen.closing <= -of_.slow) return std::nullopt;
+    return TimeOfImpact{t, seen.closing <= of_.slow};
+  }
+
+  // What turns is sure not to touch for a short while only, and advances creep. But where the
+  // nearest points would meet if they kept their speed, the shapes mostly overlap, so that the
+  // moment lies in between (by false position, Illinois).
+  std::optional<TimeOfImpact> bracketed(double t, Gap<D> seen, double sure) const {
+    if (!turns_ || !(seen.closing > of_.slow)) return std::nullopt;
+    if (!(sure < of_.within)) return std::nullopt;
+    double end = std::min(t + seen.gap / seen.closing * kImpactSettings.overshoot, of_.within);
+    if (!(end > sure)) return std::nullopt;
+    auto later = gap_at(end);
+    if (!later || later->gap > 0) return std::nullopt;
+    double low = seen.gap, high = later->gap;
+    for (int i = 0; i < kImpactSettings.most_cuts && seen.gap > near_; ++i) {
+      const double cut = t + (end - t) * (low / (low - high));
+      if (!(cut > t && cut < end)) break;
+      const auto met = gap_at(cut);
+      if (!met) return std::nullopt;
+      if (met->gap >= 0) {
+        t = cut;
+        seen = *met;
+        low = met->gap;
+        high /= 2;
+      } else {
+        end = cut;
+        high = met->gap;
+        low /= 2;
+      }
+    }
+    return at(t, seen);
+  }
+
+  std::optional<Gap<D>> gap_at(double t) const {
+    const Body<D> a = placed_at(of_.a, t), b = placed_at(of_.b, t);
+    ++of_.work.narrow_tests;
+    ++of_.work.impact_looks;
+    const auto manifold = collide(placed(a), placed(b), of_.reach);
+    if (!manifold) return std::nullopt;
+    Gap<D> seen;
+    seen.gap = manifold->room[0].separation;
+    for (const ManifoldPoint<D>& p : manifold->points())
+      seen.gap = std::min(seen.gap, p.separation);
+    seen.bound = -glm::dot(b.velocity - a.velocity, manifold->normal) + turn_a_ + turn_b_;
+    seen.closing = -seen.bound - 1;
+    bool first = true;
+    for (const ManifoldPoint<D>& p : manifold->points()) {
+      if (p.separation > seen.gap + size_ * kImpactSettings.near) continue;
+      const Vec<D> va = turn_a_ > 0 ? velocity_at(a, p.position - a.position) : a.velocity;
+      const Vec<D> vb = turn_b_ > 0 ? velocity_at(b, p.position - b.position) : b.velocity;
+      const double closing = -glm::dot(vb - va, manifold->normal);
+      if (first || closing > seen.closing) seen.closing = closing;
+      first = false;
+    }
+    seen.normal = manifold->normal;
+    if (of_.looks != nullptr) tell_look(t, a, b, *manifold, seen.gap);
+    return seen;
+  }
+
+  void tell_look(double t, const Body<D>& a, const Body<D>& b, const Manifold<D>& manifold,
+                 double gap) const {
+    const auto points = manifold.points();
+    const ManifoldPoint<D>& nearest =
+        *std::min_element(points.begin(), points.end(),
+                          [](const auto& p, const auto& q) { return p.separation < q.separation; });
+    const Vec<D> half = manifold.normal * (gap / 2);
+    of_.looks->push_back({of_.begun + t, pose_of(a), pose_of(b), nearest.position - half,
+                          nearest.position + half, gap, of_.begun + t});
+  }
+  static Pose<D> pose_of(const Body<D>& body) { return {body.id, body.position, body.orientation}; }
+  // Of the last look.
+  void tell_free_until(double t) const {
+    if (of_.looks != nullptr) of_.looks->back().free_until = of_.begun + std::min(t, of_.within);
+  }
+
+  const Encounter<D>& of_;
+  double fastest_a_ = 0, fastest_b_ = 0;  // spins
+  double turn_a_ = 0, turn_b_ = 0;        // how fast surfaces can move by turning
+  double bend_ = 0;                       // the gap's second derivative is at least minus this
+  double size_ = 0;
+  double near_ = 0;
+  bool turns_ = false;
+};
+
+}  // namespace
+
+template <int D>
+std::optional<TimeOfImpact> time_of_impact(const Encounter<D>& of) {
+  const std::size_t before = of.looks == nullptr ? 0 : of.looks->size();
+  const auto met = Approach<D>(of).find();
+  if (of.looks != nullptr && met && !met->rests)
+    for (std::size_t i = before; i < of.looks->size(); ++i)
+      (*of.looks)[i].meets = (*of.looks)[i].time == of.begun + met->seconds;
+  return met;
+}
+
+template <int D>
+double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
+  const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
+  return std::max(
+      pull * step * kImpactSettings.shortest_bounce,
+      kImpactSettings.speed_by_rounding * (glm::length(a.velocity) + glm::length(b.velocity)));
+}
+
+#define LANTERN_INSTANTIATE(D)                                                                     \
+  template double fastest_spin(const Body<D>&);                                                    \
+  template double sure_advance(const Flying<D>&, const Flying<D>&, const Vec<D>&, double, double); \
+  template std::optional<TimeOfImpact> time_of_impact(const Encounter<D>&);                        \
+  template double slowest_impact(const Trajectory<D>&, const Trajectory<D>&, double);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern::physics

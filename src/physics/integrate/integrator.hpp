@@ -1,0 +1,77 @@
+// How smooth forces (gravity, drag, springs, those of the user) change the state in one step. Each
+// method is a function and a row that says what it is: comparing two functions shows the
+// difference.
+//
+// A method gives each body's increment instead of its new state, so that contacts may change the
+// velocity in between: v += kick; (contacts change v); x += h v + drift. The orientation follows
+// the angular momentum by free rotation (free_rotation.hpp): L += twist; (contacts change L); turn
+// freely for h with L + lag. Without the lag the turning is of first order in a changing torque,
+// whatever the method; with it, of the order of the method, but at most 2.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "physics/forces.hpp"
+#include "physics/method_list.hpp"
+#include "physics/world_config.hpp"
+
+namespace lantern::physics {
+
+template <int D>
+struct Increment {
+  Vec<D> kick{0.0};    // of the velocity
+  Vec<D> drift{0.0};   // of the position, beyond h times the new velocity
+  Spin<D> twist{0.0};  // of the angular momentum
+  Spin<D> lag{0.0};    // of the angular momentum while the body turns, beyond the new one
+};
+
+template <int D>
+class SmoothSystem;
+template <int D>
+struct ConstrainedPart;
+
+// Fills in the increments over `h` seconds of the system's movers; `out` holds one zero increment a
+// body.
+template <int D>
+using FindIncrements = void (*)(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out);
+// Moves bodies whose joints are part of the equations (joint/constrained_motion.hpp); false if that
+// does not converge.
+template <int D>
+using MoveConstrained = bool (*)(ConstrainedPart<D>& part);
+
+struct Integration {
+  std::string_view name;
+  int order = 1;              // in h, of the error of smooth motion
+  double lag = 0;             // of the mean velocity behind the new one, as a part of its change
+  bool implicit = false;      // solves equations for the end of the step
+  bool gains_energy = false;  // by itself, at any step
+  BothDimensions<FindIncrements> increments = {};
+  BothDimensions<MoveConstrained> with_joints = {};  // if there is none, rows hold the joints
+};
+
+const Integration& integration(Integrator integrator);
+// One more method, which outlives all worlds; before any is made. What scenarios call it is its
+// name.
+Integrator add_integrator(const Integration& method);
+
+// Increments over `h` > 0 seconds, one a body; zero for those that no force moves (static,
+// kinematic, asleep). Deterministic: the same input gives the same bits. `evaluations` grows by the
+// number of times that all forces were evaluated. Throws Refused, naming the method and the step,
+// if an implicit method does not converge, for a step that is not above 0, and for a spring or push
+// on a body that is not there. A step beyond an explicit method's limit gives increments that grow,
+// in the end beyond all numbers: it is for the caller to look.
+template <int D>
+void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
+                     const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                     std::uint64_t& evaluations);
+
+// The same, each body's by its own method, or by the world's; all zero if there is no force.
+template <int D>
+void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
+                            const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                            WorldWork& work);
+
+}  // namespace lantern::physics

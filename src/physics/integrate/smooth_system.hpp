@@ -1,0 +1,287 @@
+// The bodies and forces of one step, as every method of integration sees them: a state to be
+// evaluated, and how a state is made from the one at the start.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/stop.hpp"
+#include "physics/free_rotation.hpp"
+#include "physics/integrate/integrator.hpp"
+
+namespace lantern::physics {
+
+// All that moves, at some moment within the step, one entry a body. Everything is kept as the
+// difference from the start of the step: so nothing is lost by rounding far from the origin.
+template <int D>
+struct SmoothState {
+  std::vector<Vec<D>> shift;   // of the position
+  std::vector<Vec<D>> kick;    // of the velocity
+  std::vector<Spin<D>> twist;  // of the angular momentum
+  std::vector<Rotation<D>> orientation;
+};
+
+// What all forces together do to each body; zero for those that no force moves.
+template <int D>
+struct Pull {
+  std::vector<Vec<D>> acceleration;
+  std::vector<Spin<D>> torque;
+};
+
+// Where the ends of a spring, or two that attract each other, are in the span of bodies.
+struct Ends {
+  std::size_t a = 0;
+  std::size_t b = 0;
+};
+
+// Of a vector, or of a spin in the plane.
+inline double size_of(double spin) { return std::abs(spin); }
+template <int D>
+double size_of(const glm::vec<D, double>& v) {
+  return glm::length(v);
+}
+
+template <int D>
+class SmoothSystem {
+ public:
+  // Bodies and forces must outlive the system. Throws Refused for a spring or push on a body that
+  // is not there.
+  SmoothSystem(std::span<const Body<D>> bodies, const Forces<D>& forces, std::uint64_t& evaluations)
+      : bodies_(bodies),
+        forces_(forces),
+        evaluations_(evaluations),
+        moves_(bodies.size(), 0),
+        turns_(bodies.size(), 0) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const Body<D>& body = bodies[i];
+      if (!body.is_pushed() || !(body.inverse_mass > 0)) continue;
+      moves_[i] = 1;
+      movers_.push_back(i);
+      if (body.linear_drag > 0) any_damping_ = true;
+    }
+    if (!forces.springs.empty() || !forces.pushes.empty()) {
+      const BodyLookup<D> lookup(bodies);
+      for (const Spring<D>& spring : forces.springs) {
+        ends_.push_back({lookup.index_of(spring.a, "spring"), lookup.index_of(spring.b, "spring")});
+        if (spring.damping > 0) any_damping_ = true;
+      }
+      for (const Push<D>& push : forces.pushes)
+        pushed_.push_back(lookup.index_of(push.body, "push"));
+    }
+    if (forces.gravitation > 0)
+      for (const Body<D>& body : bodies) masses_.push_back(attracting_mass(body));
+    find_what_turns();
+  }
+
+  // The bodies that forces move: dynamic, awake, not of infinite mass. In their order.
+  const std::vector<std::size_t>& movers() const { return movers_; }
+  bool moves(std::size_t i) const { return moves_[i] != 0; }
+  // Whether any force can turn the body. If not, its torque is not evaluated and is zero.
+  bool turns(std::size_t i) const { return turns_[i] != 0; }
+  bool any_turns() const { return any_turns_; }
+  // Something else than forces turns the body, too, if it can be turned: what a joint holds.
+  void turn_also(std::size_t i) {
+    if (!can_be_turned(i)) return;
+    turns_[i] = 1;
+    any_turns_ = true;
+  }
+
+  // Whether some force depends on velocity.
+  bool any_damping() const { return any_damping_; }
+
+  std::span<const Body<D>> bodies() const { return bodies_; }
+  const Forces<D>& forces() const { return forces_; }
+  // One a spring.
+  const std::vector<Ends>& ends() const { return ends_; }
+  // Whether every two bodies attract each other.
+  bool any_attraction() const { return !masses_.empty(); }
+  // f(ends) for each spring, then for every two bodies that attract each other and of which one
+  // moves. There may be millions of these: they are kept nowhere, and Stopped is thrown between.
+  template <class F>
+  void each_two(F&& f) const {
+    for (const Ends& ends : ends_) f(ends);
+    each_attraction([&](const Ends& ends, double) { f(ends); });
+  }
+
+  // f(ends, stretch as it is in the state, rest length) for the same.
+  template <class F>
+  void each_stretch(const SmoothState<D>& state, F&& f) const {
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      stop_if_asked();
+      f(ends_[k], stretch(state, k), forces_.springs[k].rest_length);
+    }
+    each_attraction([&](const Ends& ends, double strength) {
+      f(ends, attracted<D>(strength, between(state, ends)), 0.0);
+    });
+  }
+
+  const std::vector<std::size_t>& pushed() const { return pushed_; }  // bodies, one a push
+
+  SmoothState<D> start() const {
+    const std::vector<Vec<D>> none(bodies_.size(), Vec<D>(0.0));
+    SmoothState<D> state{none, none, std::vector<Spin<D>>(bodies_.size(), Spin<D>(0.0)), {}};
+    for (const Body<D>& body : bodies_) state.orientation.push_back(body.orientation);
+    return state;
+  }
+
+  // Velocities are those of the start and `pull` for `time`.
+  void kick(SmoothState<D>& state, const Pull<D>& pull, double time) const {
+    for (const std::size_t i : movers_) {
+      state.kick[i] = time * pull.acceleration[i];
+      if (turns(i)) state.twist[i] = time * pull.torque[i];
+    }
+  }
+
+  // Places are those of the start and the velocities of `with` for `time`; `with` may be `state`.
+  // Kinematic bodies are where they are at that time.
+  void fly(SmoothState<D>& state, const SmoothState<D>& with, double time) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Body<D>& body = bodies_[i];
+      if (body.kind == BodyKind::static_body || body.asleep) continue;
+      state.shift[i] = time * velocity(with, i);
+      // A body that only turns freely still moves the ends of its springs, if any are off its
+      // centre; then it is among those that turn, unless it is not to be turned by forces.
+      if (turns(i) || !body.may_turn || body.kind == BodyKind::kinematic_body)
+        state.orientation[i] = freely_turned(body, body.angular_momentum + with.twist[i], time);
+    }
+  }
+
+  // All forces, once. Counts as one evaluation.
+  Pull<D> evaluate(const SmoothState<D>& state) {
+    Pull<D> pull;
+    evaluate(state, pull);
+    return pull;
+  }
+
+  // The same, into the memory of a pull that there is.
+  void evaluate(const SmoothState<D>& state, Pull<D>& pull) {
+    ++evaluations_;
+    pull.acceleration.assign(bodies_.size(), Vec<D>(0.0));
+    pull.torque.assign(bodies_.size(), Spin<D>(0.0));
+    for (const std::size_t i : movers_) {
+      const Body<D>& body = bodies_[i];
+      pull.acceleration[i] = forces_.gravity;
+      if (body.linear_drag > 0)
+        pull.acceleration[i] -= body.linear_drag * body.inverse_mass * velocity(state, i);
+      if (body.angular_drag > 0 && turns(i))
+        pull.torque[i] = -body.angular_drag * angular_velocity(state, i);
+    }
+    const auto apply = [&](std::size_t i, const Vec<D>& arm, const Vec<D>& force) {
+      if (moves(i)) pull.acceleration[i] += bodies_[i].inverse_mass * force;
+      if (turns(i)) pull.torque[i] += cross(arm, force);
+    };
+    each_stretch(state, [&](const Ends& ends, const Stretch<D>& s, double) {
+      const Vec<D> force = s.tension * s.direction;
+      apply(ends.a, s.arm_a, force);
+      apply(ends.b, s.arm_b, -force);
+    });
+    for (std::size_t k = 0; k < pushed_.size(); ++k)
+      apply(pushed_[k], forces_.pushes[k].at, forces_.pushes[k].force);
+  }
+
+  Vec<D> velocity(const SmoothState<D>& state, std::size_t i) const {
+    const Body<D>& body = bodies_[i];
+    if (body.kind == BodyKind::static_body || body.asleep) return Vec<D>(0.0);
+    return body.velocity + state.kick[i];
+  }
+
+  Spin<D> angular_velocity(const SmoothState<D>& state, std::size_t i) const {
+    const Body<D>& body = bodies_[i];
+    if (body.kind == BodyKind::static_body || body.asleep) return Spin<D>(0.0);
+    if (body.kind == BodyKind::kinematic_body) return body.kinematic_spin;
+    return spin_of(body, state.orientation[i], body.angular_momentum + state.twist[i]);
+  }
+
+  // Inertia of a body that turns, in the world's axes: angular velocity to angular momentum.
+  Spin<D> inertia_times(const SmoothState<D>& state, std::size_t i, const Spin<D>& spin) const {
+    if constexpr (D == 2) {
+      return spin / bodies_[i].inverse_inertia;
+    } else {
+      const glm::dquat q = state.orientation[i].q;
+      return q * ((glm::conjugate(q) * spin) / bodies_[i].inverse_inertia);
+    }
+  }
+
+ private:
+  void find_what_turns() {
+    const Vec<D> centre(0.0);
+    for (const std::size_t i : movers_) {
+      if (!(bodies_[i].angular_drag > 0)) continue;
+      turns_[i] = 1;
+      any_damping_ = true;
+    }
+    for (std::size_t k = 0; k < forces_.springs.size(); ++k) {
+      if (forces_.springs[k].at_a != centre) turns_[ends_[k].a] = 1;
+      if (forces_.springs[k].at_b != centre) turns_[ends_[k].b] = 1;
+    }
+    for (std::size_t k = 0; k < pushed_.size(); ++k)
+      if (forces_.pushes[k].at != centre) turns_[pushed_[k]] = 1;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (!can_be_turned(i)) turns_[i] = 0;
+      if (turns_[i] != 0) any_turns_ = true;
+    }
+  }
+
+  bool can_be_turned(std::size_t i) const {
+    return moves_[i] != 0 && bodies_[i].may_turn && bodies_[i].turns_about_every_axis();
+  }
+
+  // The difference of the places at the start first: far from the origin it is the exact part.
+  Vec<D> between(const SmoothState<D>& state, const Ends& ends) const {
+    return (bodies_[ends.b].position - bodies_[ends.a].position) +
+           (state.shift[ends.b] - state.shift[ends.a]);
+  }
+
+  Stretch<D> stretch(const SmoothState<D>& state, std::size_t spring) const {
+    const auto [a, b] = ends_[spring];
+    const Spring<D>& s = forces_.springs[spring];
+    const auto motion = [&](std::size_t i, bool off_centre) -> EndMotion<D> {
+      const Spin<D> spin = off_centre ? angular_velocity(state, i) : Spin<D>(0.0);
+      return {state.orientation[i], velocity(state, i), spin};
+    };
+    return stretched<D>(s, between(state, ends_[spring]), motion(a, s.at_a != Vec<D>(0.0)),
+                        motion(b, s.at_b != Vec<D>(0.0)));
+  }
+
+  // f(ends, strength), the two of lower places first, in their order.
+  template <class F>
+  void each_attraction(F&& f) const {
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+      stop_if_asked();
+      for (std::size_t j = i + 1; j < masses_.size(); ++j) {
+        const double strength = forces_.gravitation * masses_[i] * masses_[j];
+        if (strength > 0 && (moves(i) || moves(j))) f(Ends{i, j}, strength);
+      }
+    }
+  }
+
+  // At an orientation that need not be the body's.
+  static Spin<D> spin_of(const Body<D>& body, const Rotation<D>& orientation,
+                         const Spin<D>& momentum) {
+    if constexpr (D == 2) {
+      return body.inverse_inertia * momentum;
+    } else {
+      const glm::dquat q = orientation.q;
+      return q * (body.inverse_inertia * (glm::conjugate(q) * momentum));
+    }
+  }
+
+  std::span<const Body<D>> bodies_;
+  const Forces<D>& forces_;
+  std::uint64_t& evaluations_;
+  std::vector<std::size_t> movers_;
+  std::vector<char> moves_;
+  std::vector<char> turns_;
+  std::vector<Ends> ends_;
+  std::vector<double> masses_;       // by which bodies attract; none if they do not
+  std::vector<std::size_t> pushed_;  // one a push
+  bool any_turns_ = false;
+  bool any_damping_ = false;
+};
+
+extern template class SmoothSystem<2>;
+extern template class SmoothSystem<3>;
+
+}  // namespace lantern::physics

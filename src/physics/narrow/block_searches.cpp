@@ -1,0 +1,264 @@
+// Two searches over blocks: along which direction they overlap least, and where they are closest.
+#include <array>
+#include <limits>
+
+#include "physics/narrow/cores.hpp"
+
+namespace lantern::physics::narrow {
+namespace {
+
+// Edges that are nearer to parallel than this (the sine of their angle) have no axis of their own:
+// the product of two unit vectors is rounded by 1e-16, so its direction is good to 1e-10 here. What
+// is left out is an axis that the faces have already tried, but for a turn of 1e-6.
+constexpr double kParallel = 1e-6;
+
+template <int D>
+class AxisSearch {
+ public:
+  AxisSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin, NarrowTrace<D>& trace)
+      : a_(a),
+        b_(b),
+        offset_(b.center - a.center),
+        bias_(kAxisBias * smallest_half(a, b)),
+        margin_(margin),
+        trace_(trace) {}
+
+  SeparatingAxes<D> run() {
+    found_.parted = !try_all();
+    return found_;
+  }
+
+ private:
+  // False once an axis parts them.
+  bool try_all() {
+    if (!try_faces(a_, b_, AxisAcross::face_of_a)) return false;
+    if (!same_axes() && !try_faces(b_, a_, AxisAcross::face_of_b)) return false;
+    found_.face = found_.chosen;
+    if constexpr (D == 3)
+      if (!try_edges()) return false;
+    return try_sides();
+  }
+
+  bool same_axes() const {
+    if (!(a_.axes == b_.axes)) return false;
+    for (int i = 0; i < D; ++i)
+      if (a_.half[i] <= 0 || b_.half[i] <= 0) return false;
+    return true;
+  }
+
+  bool try_faces(const PlacedCore<D>& own, const PlacedCore<D>& other, AxisAcross across) {
+    for (int i = 0; i < D; ++i)
+      if (is_face(own, i) && !try_across(own, other, i, across)) return false;
+    settle();
+    return true;
+  }
+
+  bool try_edges() {
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j)
+        if (a_.half[i] > 0 && b_.half[j] > 0 && !try_edges(i, j)) return false;
+    settle();
+    return true;
+  }
+
+  bool try_sides() {
+    for (int i = 0; i < D; ++i) {
+      if (!is_face(a_, i) && !try_across(a_, b_, i, AxisAcross::side)) return false;
+      if (!is_face(b_, i) && !try_across(b_, a_, i, AxisAcross::side)) return false;
+    }
+    settle();
+    return true;
+  }
+
+  // A block without thickness has sides that are no faces. They separate too, but come last.
+  static bool is_face(const PlacedCore<D>& block, int axis) {
+    for (int i = 0; i < D; ++i)
+      if (i != axis && block.half[i] <= 0) return false;
+    return true;
+  }
+
+  bool try_across(const PlacedCore<D>& own, const PlacedCore<D>& other, int axis,
+                  AxisAcross across) {
+    const Vec<D> n = own.axes[axis];
+    const double along = glm::dot(n, offset_);
+    trace_.lengths += 1 + D;
+    return consider({along < 0 ? -n : n, std::abs(along) - own.half[axis] - other.reach(n), across,
+                     axis, axis});
+  }
+
+  bool try_edges(int i, int j) {
+    const Vec<3> product = glm::cross(a_.axes[i], b_.axes[j]);
+    const double sine = glm::length(product);
+    if (sine < kParallel) return true;
+    const Vec<3> n = product / sine;
+    const double along = glm::dot(n, offset_);
+    trace_.lengths += 1 + 2 * D;
+    return consider(
+        {along < 0 ? -n : n, std::abs(along) - a_.reach(n) - b_.reach(n), AxisAcross::edges, i, j});
+  }
+
+  bool consider(const SeparatingAxis<D>& axis) {
+    trace_.note(axis.normal, axis.separation - a_.radius - b_.radius, axis.across);
+    if (axis.separation - (a_.radius + b_.radius) > margin_) return false;
+    if (axis.separation > best_.separation) best_ = axis;
+    return true;
+  }
+
+  // Ends a kind of axis.
+  void settle() {
+    const double none = -std::numeric_limits<double>::infinity();
+    if (best_.separation == none) return;
+    if (!any_ || best_.separation > found_.greatest.separation) found_.greatest = best_;
+    if (!any_ || best_.separation > found_.chosen.separation + bias_) found_.chosen = best_;
+    any_ = true;
+    best_.separation = none;
+  }
+
+  const PlacedCore<D>& a_;
+  const PlacedCore<D>& b_;
+  Vec<D> offset_;
+  double bias_;
+  SeparatingAxis<D> best_{Vec<D>(0.0), -std::numeric_limits<double>::infinity()};
+  SeparatingAxes<D> found_;
+  bool any_ = false;
+  double margin_;
+  NarrowTrace<D>& trace_;
+};
+
+// Calls f(edge, name) for each edge, as each_corner does.
+template <class F>
+void each_edge(const PlacedCore<3>& block, const F& f) {
+  for (int i = 0; i < 3; ++i) {
+    if (block.half[i] <= 0) continue;
+    PlacedCore<3> start = block;  // its corners are where the edges along i begin
+    start.center -= block.axes[i] * block.half[i];
+    start.half[i] = 0;
+    each_corner(start, [&](const Vec<3>& corner, std::uint32_t signs) {
+      f(Segment<3>{corner, corner + block.axes[i] * (2 * block.half[i])},
+        signs | static_cast<std::uint32_t>(i) << 3);
+    });
+  }
+}
+
+template <int D>
+Vec<D> closest_point(const PlacedCore<D>& block, const Vec<D>& point) {
+  return block.world(glm::clamp(block.local(point), -block.half, block.half));
+}
+
+// Two convex bodies with flat faces are closest in a corner and a point of the other one, or in two
+// edges. They are tried one by one, but for those that lie too far back: if the closest points lie
+// u and v behind the fronts of their blocks along the axis,
+//
+//   distance >= separation along the axis + u + v,
+//
+// so that features with a larger u + v than `distance so far - separation` cannot be better.
+template <int D>
+class ClosestSearch {
+ public:
+  ClosestSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, const SeparatingAxis<D>& axis,
+                NarrowTrace<D>& trace)
+      : a_(a),
+        b_(b),
+        axis_(axis),
+        trace_(trace),
+        reach_a_(a.reach(axis.normal)),
+        reach_b_(b.reach(axis.normal)) {}
+
+  ClosestFeatures<D> run() {
+    each_corner(a_, [&](const Vec<D>& corner, std::uint32_t name) {
+      if (behind_a(corner) <= slack_)
+        consider({corner, closest_point(b_, corner)}, 1u << 10 | name);
+    });
+    each_corner(b_, [&](const Vec<D>& corner, std::uint32_t name) {
+      if (behind_b(corner) <= slack_)
+        consider({closest_point(a_, corner), corner}, 2u << 10 | name);
+    });
+    if constexpr (D == 3) try_edges();
+    return best_;
+  }
+
+ private:
+  struct Edge {
+    Segment<3> segment;
+    double behind = 0;
+    std::uint32_t name = 0;
+  };
+
+  // Ends of edges are corners, which have been tried: what is left is where edges cross.
+  void try_edges() {
+    std::array<Edge, 12> of_b;
+    std::size_t count = 0;
+    each_edge(b_, [&](const Segment<3>& edge, std::uint32_t name) {
+      const double behind = std::min(behind_b(edge.a), behind_b(edge.b));
+      if (behind <= slack_) of_b[count++] = {edge, behind, name};
+    });
+    each_edge(a_, [&](const Segment<3>& edge, std::uint32_t name) {
+      const double behind = std::min(behind_a(edge.a), behind_a(edge.b));
+      for (std::size_t i = 0; i < count; ++i)
+        if (behind + of_b[i].behind <= slack_)
+          consider(crossing_points(edge, of_b[i].segment), 3u << 10 | name << 5 | of_b[i].name);
+    });
+  }
+
+  void consider(const PointPair<D>& points, std::uint32_t feature) {
+    const double square = points.square();
+    trace_.lengths += 2 + D;  // how far back, the other one's point, the distance
+    if (square >= least_) return;
+    least_ = square;
+    best_ = {points, feature};
+    const double rounding = kRounding * (reach_a_ + reach_b_ + std::abs(axis_.separation));
+    slack_ = std::sqrt(square) - axis_.separation + rounding;
+  }
+
+  double behind_a(const Vec<D>& p) const {
+    return reach_a_ - glm::dot(p - a_.center, axis_.normal);
+  }
+  double behind_b(const Vec<D>& p) const {
+    return reach_b_ + glm::dot(p - b_.center, axis_.normal);
+  }
+
+  const PlacedCore<D>& a_;
+  const PlacedCore<D>& b_;
+  const SeparatingAxis<D>& axis_;
+  NarrowTrace<D>& trace_;
+  double reach_a_, reach_b_;
+  double least_ = std::numeric_limits<double>::infinity();  // the square of the least distance
+  double slack_ = std::numeric_limits<double>::infinity();
+  ClosestFeatures<D> best_;
+};
+
+}  // namespace
+
+template <int D>
+double smallest_half(const PlacedCore<D>& a, const PlacedCore<D>& b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlacedCore<D>* block : {&a, &b})
+    for (int i = 0; i < D; ++i)
+      if (block->half[i] > 0) least = std::min(least, block->half[i]);
+  return std::isfinite(least) ? least : 0;
+}
+
+template <int D>
+SeparatingAxes<D> separating_axes(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
+                                  NarrowTrace<D>& trace) {
+  return AxisSearch<D>(a, b, margin, trace).run();
+}
+
+template <int D>
+ClosestFeatures<D> closest_features(const PlacedCore<D>& a, const PlacedCore<D>& b,
+                                    const SeparatingAxis<D>& axis, NarrowTrace<D>& trace) {
+  return ClosestSearch<D>(a, b, axis, trace).run();
+}
+
+#define LANTERN_INSTANTIATE(D)                                                                   \
+  template double smallest_half(const PlacedCore<D>&, const PlacedCore<D>&);                     \
+  template SeparatingAxes<D> separating_axes(const PlacedCore<D>&, const PlacedCore<D>&, double, \
+                                             NarrowTrace<D>&);                                   \
+  template ClosestFeatures<D> closest_features(const PlacedCore<D>&, const PlacedCore<D>&,       \
+                                               const SeparatingAxis<D>&, NarrowTrace<D>&);
+
+LANTERN_INSTANTIATE(2)
+LANTERN_INSTANTIATE(3)
+#undef LANTERN_INSTANTIATE
+
+}  // namespace lantern::physics::narrow
