@@ -107,12 +107,12 @@ std::optional<StructureKind> structure_named(std::string_view name) {
 }
 
 const StructureTraits& traits_of(StructureKind kind) {
-  static constexpr StructureTraits kNone{.words = "none", .is_tree = false, .splits = false};
+  static constexpr StructureTraits kNoKind{.words = "none", .is_tree = false, .splits = false};
   static constexpr StructureTraits kAutomatic{
       .words = "whichever suits", .is_tree = false, .splits = false};
   if (const Ours* one = ours(kind)) return one->entry->traits;
   if (const Own* one = own(kind)) return one->traits;
-  return kind == StructureKind::none ? kNone : kAutomatic;
+  return kind == StructureKind::none ? kNoKind : kAutomatic;
 }
 
 std::string_view to_string(Setting setting) {
