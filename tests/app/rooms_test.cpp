@@ -1,8 +1,10 @@
 // The table of rooms: which room may include which.
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -151,6 +153,32 @@ TEST(Rooms, NameNoStructureButWhereItIsMeant) {
     named += static_cast<std::size_t>(count);
   }
   EXPECT_GT(named, 0u) << "the search found nothing: is it broken?";
+}
+
+// src/SIZE grants each room so many lines: what goes beyond is taken out elsewhere, or a raise of
+// that file says why. What a room no longer needs it does not keep.
+TEST(Rooms, AreAsLargeAsTheyWereGranted) {
+  std::map<std::string, int> lines;
+  for (const auto& entry : fs::recursive_directory_iterator(repository("src"))) {
+    const std::string kind = entry.path().extension();
+    if (kind != ".cpp" && kind != ".hpp" && kind != ".js" && kind != ".css" && kind != ".html")
+      continue;
+    const std::string text = read_text(entry.path());
+    lines[room_of(entry.path())] += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  }
+  std::map<std::string, int> granted;
+  std::istringstream table(read_text(repository("src/SIZE")));
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream words(line);
+    std::string room;
+    int most = 0;
+    if (line.starts_with('#') || !(words >> room >> most)) continue;
+    granted[room] = most;
+  }
+  for (const auto& [room, count] : lines) {
+    EXPECT_LE(count, granted[room]) << room << " has grown";
+    EXPECT_GE(count + std::max(20, count / 50), granted[room]) << room << " has shrunk: lower it";
+  }
 }
 
 TEST(Rooms, OnlyRenderKnowsGl) {
