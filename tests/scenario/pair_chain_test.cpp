@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "scenario/directing.hpp"
-#include "spatial/query.hpp"
+#include "spatial/query_walk.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -109,7 +109,7 @@ class Chain {
     while (root->parent != kNone) root = &frame_.nodes[root->parent];
     if (frame_.structure == StructureKind::kd_tree || frame_.structure == StructureKind::aabb_tree)
       return overlap(box, leaf.box);
-    return overlap(box, endless_at_rim(leaf.box, root->box));
+    return overlap(box, endless_at_rim(leaf.box, root->box, 0));
   }
 
   Expected summed(const std::map<Pair, std::int64_t>& met) const {
