@@ -38,12 +38,12 @@ std::map<std::string, std::string> everything_in(const fs::path& folder, const s
   return all;
 }
 
-struct Command {
+struct Attempt {
   const char* words;   // with the arena as current folder
   const char* reads;   // the folder that a stranger has made
   const char* writes;  // the only one in which something may change
 };
-constexpr Command kCommands[] = {
+constexpr Attempt kCommands[] = {
     {"merge whole parts", "parts", "whole"},
     {"merge parts", "parts", "parts"},
     {"render six.toml --size 80x45 --tween 1 -o out", "out", "out"},
@@ -78,7 +78,7 @@ class Hostile : public testing::Test {
     const std::string render = "cd " + made.string() + " && lantern render six.toml --size 80x45 ";
     for (const char* words : {"--tween 1 -o parts --shard 1/2", "--tween 1 -o parts --shard 2/2"})
       ASSERT_EQ(shell(render + words).code, 0) << words;
-    for (const Command& command : kCommands)  // those that make what they will read
+    for (const Attempt& command : kCommands)  // those that make what they will read
       if (command.writes == std::string_view(command.reads) && !fs::exists(made / command.reads)) {
         const Outcome o = shell("cd " + made.string() + " && lantern " + command.words);
         ASSERT_EQ(o.code, 0) << command.words << o.err;
@@ -211,7 +211,7 @@ TEST_F(Hostile, NothingIsWrittenOutside) {
   const auto outside = everything_in(home() / "outside", "");
   int refused = 0;
   for (int i = 0; i < trials; ++i) {
-    const Command& command = kCommands[static_cast<std::size_t>(i) % std::size(kCommands)];
+    const Attempt& command = kCommands[static_cast<std::size_t>(i) % std::size(kCommands)];
     const fs::path arena = home() / "arena", reads = arena / command.reads;
     fs::remove_all(arena);
     fs::copy(home() / "made", arena, fs::copy_options::recursive);

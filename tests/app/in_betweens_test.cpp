@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
+#include "app/render_job.hpp"
 #include "app/terminal.hpp"
 
 namespace lantern::app {
