@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
-#include "app/render_job.hpp"
 #include "app/terminal.hpp"
 
 namespace lantern::app {
@@ -140,9 +139,7 @@ TEST(InBetweens, ThatCannotBeAreRefusedBeforeAnyWork) {
 }
 
 TEST(InBetweens, AreAsManyAsAChangeOfHalfASecondHas) {
-  RenderOptions options;
-  options.fps = 30;
-  const InBetweens film(options);
+  const InBetweens film(std::nullopt, 30.0);
   Frame a, b;
   EXPECT_EQ(film.between(a, b), 14u);  // 15 steps of a 30th
   EXPECT_EQ(InBetweens::motion(a, b), Motion::eased);
@@ -155,9 +152,7 @@ TEST(InBetweens, AreAsManyAsAChangeOfHalfASecondHas) {
   EXPECT_EQ(film.between(a, b), 14u);
   EXPECT_EQ(InBetweens::motion(a, b), Motion::eased) << "a leap";
 
-  options.fps = std::nullopt;
-  options.tween = 5;
-  const InBetweens five(options);
+  const InBetweens five(5, std::nullopt);
   EXPECT_EQ(five.between(a, b), 5u);
   EXPECT_NO_THROW(five.require_few(16667));
   EXPECT_THROW(five.require_few(16668), UsageError);
