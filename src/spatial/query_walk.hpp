@@ -309,19 +309,20 @@ void walk_within(const Tree& tree, VolumeQuery<D>& query) {
           query.found->push_back(query.view.name(id));
           return true;
         };
-        if constexpr (HasFastWays<Tree, D> && requires { box_around(*volume); })
-          if (!query.told) {
-            std::uint64_t tested = 0;
-            const auto walked = tree.each_near(box_around(*volume), [&](BodyId id, bool is_sure) {
-              ++tested;
-              if (std::is_same_v<Volume<D>, Box<D>> && is_sure)
-                query.found->push_back(query.view.name(id));
-              else
-                test(id);
-            });
-            query.counts = {walked.visited, walked.skipped, tested};
-            return;
-          }
+        if constexpr (HasFastWays<Tree, D>)
+          if constexpr (requires { box_around(*volume); })
+            if (!query.told) {
+              std::uint64_t tested = 0;
+              const auto walked = tree.each_near(box_around(*volume), [&](BodyId id, bool is_sure) {
+                ++tested;
+                if (std::is_same_v<Volume<D>, Box<D>> && is_sure)
+                  query.found->push_back(query.view.name(id));
+                else
+                  test(id);
+              });
+              query.counts = {walked.visited, walked.skipped, tested};
+              return;
+            }
         walk<D>(
             tree, query, VolumeProbe<D, Volume<D>>{*volume}, Vec<D>(0.0),
             [](const auto&) { return true; }, test);
