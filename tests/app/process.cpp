@@ -1,8 +1,10 @@
 #include "app/process.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include <sys/wait.h>
@@ -24,6 +26,15 @@ void write_text(const fs::path& path, const std::string& text) {
 }
 
 fs::path repository(const std::string& path) { return fs::path(LANTERN_ROOT) / path; }
+
+std::vector<std::string> pages() {
+  std::vector<std::string> all = {"README.md"};
+  const std::string readme = read_text(repository(all[0]));
+  const std::regex link("\\]\\(([A-Za-z0-9_./]+\\.md)\\)");
+  for (std::sregex_iterator it(readme.begin(), readme.end(), link), end; it != end; ++it)
+    if (std::ranges::find(all, (*it)[1].str()) == all.end()) all.push_back((*it)[1]);
+  return all;
+}
 
 std::string scenario(const std::string& name) {
   return repository("scenarios/" + name + ".toml").string();

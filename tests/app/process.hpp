@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "fresh_folder.hpp"
 
@@ -27,6 +28,9 @@ std::string read_text(const std::filesystem::path& path);
 
 // The path of a file of the repository.
 std::filesystem::path repository(const std::string& path);
+
+// README.md, and then the pages that it leads to, each once.
+std::vector<std::string> pages();
 
 // The file of a scenario that comes with Lantern.
 std::string scenario(const std::string& name);

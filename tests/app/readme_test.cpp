@@ -62,21 +62,13 @@ fs::path look_alike() {
   return folder;
 }
 
-// The README first: the others use the scenario that it writes.
-constexpr const char* kPages[] = {"README.md",
-                                  "scenarios/PICTURES.md",
-                                  "scenarios/PIPELINES.md",
-                                  "scenarios/bench/README.md",
-                                  "tests/example/README.md",
-                                  "tests/README.md"};
-
 TEST(Readme, CommandsWork) {
   const fs::path folder = look_alike();
   const auto examples = blocks(read_text(repository("README.md")), "toml");
   ASSERT_EQ(examples.size(), 1u) << "the first scenario";
   write_text(folder / "first.toml", examples[0]);
   std::vector<std::string> all;
-  for (const char* page : kPages)
+  for (const std::string& page : pages())  // the others use the scenario that the README writes
     for (std::string& block : blocks(read_text(repository(page)), "sh"))
       all.push_back(std::move(block));
   std::size_t commands = 0;

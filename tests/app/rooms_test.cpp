@@ -105,10 +105,7 @@ TEST(Rooms, SeeTheNamesOfThoseThatTheyMayInclude) {
 TEST(Rooms, PagesNameFilesThatAreThere) {
   const std::regex path("`((src|tests|shaders|scenarios)/[A-Za-z0-9_./]+)`");
   const std::regex link("\\]\\(([A-Za-z0-9_./]+)\\)");
-  for (const char* page :
-       {"src/ARCHITECTURE.md", ".github/CONTRIBUTING.md", "README.md", "scenarios/README.md",
-        "scenarios/PICTURES.md", "scenarios/PIPELINES.md", "scenarios/bench/README.md",
-        "tests/README.md", "tests/example/README.md"}) {
+  for (const std::string& page : pages()) {
     const std::string text = read_text(repository(page));
     const fs::path folder = fs::path(repository(page)).parent_path();
     std::size_t named = 0;
