@@ -31,7 +31,8 @@ struct Asked {
 class QuestionSink : public FrameSink {
  public:
   void frame(const Frame& frame) override {
-    if (frame.question) asked.push_back({*frame.question, frame.step, frame.index});
+    if (frame.find<FrameQuestion>())
+      asked.push_back({*frame.find<FrameQuestion>(), frame.step, frame.index});
   }
   void finish(const DirectorReport&) override {}
 

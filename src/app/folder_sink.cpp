@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 // The facts of a frame are the same whatever is drawn of it.
 std::string facts_of(const Manifest& manifest, const Frame& frame) {
   const MadeFrom from = manifest.frame_from(frame.index);
-  return sealed(FileKind::json, to_json(frame, manifest.facts), {from.facts, from.facts});
+  return sealed(FileKind::json, to_json(frame), {from.facts, from.facts});
 }
 
 // Where each texture lies in the image of the finished atlas.
@@ -31,7 +31,7 @@ std::string atlas_facts(const Manifest& manifest, const Frame& frame, const Draw
   json.line().key("size").begin_array();
   json.value(static_cast<int>(list.page.x)).value(static_cast<int>(list.page.y)).end_array();
   json.line().key("textures").begin_array();
-  for (const FrameTexture& t : frame.textures) {
+  for (const FrameTexture& t : frame.get<FrameTextures>().textures) {
     if (!t.packed) continue;
     json.line().begin_object().members("name", t.name, "x", t.x, "y", t.y, "width", t.width,
                                        "height", t.height);
@@ -39,7 +39,7 @@ std::string atlas_facts(const Manifest& manifest, const Frame& frame, const Draw
     json.end_object();
   }
   json.line().end_array().line().key("refused").begin_array();
-  for (const FrameTexture& t : frame.textures)
+  for (const FrameTexture& t : frame.get<FrameTextures>().textures)
     if (t.refused) json.value(t.name);
   json.end_array().line().end_object();
   return json.text() + "\n";

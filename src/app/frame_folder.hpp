@@ -42,7 +42,6 @@ struct Manifest {
   std::string size, theme;  // "1600x900", "light"
   FileKind format = FileKind::png;
   PngEffort png = PngEffort::fast;
-  FactsVersion facts = FactsVersion::v2;
   std::string in_betweens;    // how many are wanted, as InBetweens says it; empty for none
   int in_between_digits = 2;  // of their numbers, so that they stand in order by name
   bool transparent = false;
@@ -69,8 +68,6 @@ inline constexpr std::pair<std::string_view, PngEffort> kPngEfforts[] = {
     {"fast", PngEffort::fast}, {"small", PngEffort::small}};
 inline constexpr std::pair<std::string_view, Pace> kPaces[] = {{"step", Pace::step},
                                                                {"event", Pace::event}};
-inline constexpr std::pair<std::string_view, FactsVersion> kFactsVersions[] = {
-    {"1", FactsVersion::v1}, {"2", FactsVersion::v2}};
 
 // The word for a value, which must be there.
 template <class Value, std::size_t n>

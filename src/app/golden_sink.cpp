@@ -28,7 +28,7 @@ bool same_facts(std::string_view golden, std::string_view facts) {
 GoldenList::MadeWith Goldens::made_with() const {
   const Manifest m = job.manifest(scenario, pace);
   return {std::string(kVersion), m.size, m.theme, std::string(word_for(m.pace, kPaces)),
-          fmt::format("lantern.frame/{}", word_for(m.facts, kFactsVersions))};
+          fmt::format("lantern.frame/{}", kFactsVersion)};
 }
 
 void GoldenSink::draw(const Frame& frame, const Staging& staging) {

@@ -53,7 +53,7 @@ std::string to_json(const Manifest& m) {
       "format", kFormat, "scenario", m.scenario.text(), "title", m.title, "version", kVersion,
       "sources", kSourceHash, "scenario_hash", fmt::format("{:016x}", m.scenario_hash), "seed",
       m.seed, "pace", word_for(m.pace, kPaces), "size", m.size, "theme", m.theme, "facts_format",
-      fmt::format("{}{}", kFactsFormat, word_for(m.facts, kFactsVersions)), "picture_format",
+      fmt::format("{}{}", kFactsFormat, kFactsVersion), "picture_format",
       word_for(m.format, kPictureKinds), "png", word_for(m.png, kPngEfforts), "transparent",
       m.transparent, "finished", m.finished, "expectations", m.expectations, "unmet", m.unmet);
   json.line().key("switches").begin_array();
@@ -88,9 +88,7 @@ Manifest read_manifest(std::string_view text) {
   if (!theme_named(m.theme)) json.refuse("theme", "there is no such theme");
   m.format = json.word<FileKind>("picture_format", kPictureKinds);
   m.png = json.word<PngEffort>("png", kPngEfforts);
-  m.facts = json.text("facts_format") == fmt::format("{}1", kFactsFormat) ? FactsVersion::v1
-                                                                          : FactsVersion::v2;
-  json.is("facts_format", fmt::format("{}{}", kFactsFormat, word_for(m.facts, kFactsVersions)));
+  json.is("facts_format", fmt::format("{}{}", kFactsFormat, kFactsVersion));
   m.transparent = json.flag("transparent");
   m.finished = json.flag("finished");
   m.expectations = json.whole("expectations", 0, kMostWhole);

@@ -95,7 +95,6 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   m.theme = options.theme;
   m.format = format;
   m.png = picture.effort;
-  m.facts = options.facts == "1" ? FactsVersion::v1 : FactsVersion::v2;
   m.transparent = options.transparent;
   m.in_betweens = in_betweens.setting();
   m.in_between_digits =

@@ -29,7 +29,6 @@ struct RenderOptions {
   std::string theme = "light";
   std::string pace;              // step, event; empty for the scenario's own
   std::string png = "fast";      // fast, small
-  std::string facts = "2";       // lantern.frame/2, or /1 until the next release
   std::string backend = "auto";  // auto, osmesa, egl
   bool transparent = false;
   bool no_title = false, no_caption = false, no_counters = false;  // not drawn

@@ -55,7 +55,6 @@ void require_possible(const JsonMembers& settings) {
   if (!theme_named(settings.text("theme"))) settings.refuse("theme", "there is no such theme");
   settings.word<FileKind>("format", kPictureKinds);
   settings.word<PngEffort>("png", kPngEfforts);
-  settings.word<FactsVersion>("facts", kFactsVersions);
   static constexpr std::pair<std::string_view, bool> kYesOrNo[] = {{"no", false}, {"yes", true}};
   settings.word<bool>("transparent", kYesOrNo);
   if (!settings.text("pace").empty()) settings.word<Pace>("pace", kPaces);
@@ -65,9 +64,9 @@ void require_possible(const JsonMembers& settings) {
   } catch (const UsageError& why) {
     settings.refuse("frames", why.what());
   }
-  static constexpr std::string_view kAll[] = {"at",    "facts",       "format", "frames",
-                                              "pace",  "png",         "size",   "switches",
-                                              "theme", "transparent", "tween",  "tween digits"};
+  static constexpr std::string_view kAll[] = {"at",          "format", "frames",      "pace",
+                                              "png",         "size",   "switches",    "theme",
+                                              "transparent", "tween",  "tween digits"};
   for (const std::string& name : settings.names())
     if (std::ranges::find(kAll, name) == std::end(kAll))
       settings.refuse(name.c_str(), "there is no such setting");
@@ -145,7 +144,6 @@ std::map<std::string, std::string> settings_told_by(const Manifest& m) {
           {"theme", m.theme},
           {"format", std::string(word_for(m.format, kPictureKinds))},
           {"png", std::string(word_for(m.png, kPngEfforts))},
-          {"facts", std::string(word_for(m.facts, kFactsVersions))},
           {"tween", m.in_betweens},
           {"transparent", m.transparent ? "yes" : "no"},
           {"switches", switches}};

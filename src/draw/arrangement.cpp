@@ -115,7 +115,7 @@ Box<2> cut_strip(const Staging& staging, Panel panel, Box<2>& area) {
 // A wide world and what happens in it over time: one above the other, both get larger.
 bool is_world_over_time(const Frame& frame) {
   constexpr double kWideWorld = 1.9;  // aspect of a world
-  if (!frame.chart.over_time || frame.panels.size() != 2) return false;
+  if (!frame.get<FrameChart>().over_time || frame.panels.size() != 2) return false;
   const auto has = [&](Panel panel) { return std::ranges::count(frame.panels, panel) > 0; };
   const Vec<3> size = frame.bounds.size();
   return has(Panel::world) && has(Panel::chart) && size.x > kWideWorld * std::max(size.y, size.z);
@@ -168,7 +168,7 @@ std::vector<Box<2>> world_and_tree(const std::vector<Panel>& panels, const Frame
                                    const Staging& staging, const Box<2>& area) {
   constexpr double kLeastShare = 0.3, kMostShare = 0.7, kStep = 0.025;
   // A level is read on its map, whose sectors have numbers and bodies in them.
-  const double weight = frame.walls.empty() ? 1 : 1.5;
+  const double weight = frame.get<FrameLevel>().walls.empty() ? 1 : 1.5;
   std::vector<Box<2>> best;
   double most = -1;
   const bool world_first = panels[0] == Panel::world;
@@ -180,8 +180,9 @@ std::vector<Box<2>> world_and_tree(const std::vector<Panel>& panels, const Frame
       const double world = size_in(frame, cut[world_first ? 0 : 1]);
       const Box<2>& other = cut[world_first ? 1 : 0];
       // A grid's table takes what it gets, whatever the cells of the moment are.
-      const double tree = frame.grid_levels.empty() ? tree_size_in(staging, other)
-                                                    : std::sqrt(other.size().x * other.size().y);
+      const double tree = frame.get<FrameStructure>().grid_levels.empty()
+                              ? tree_size_in(staging, other)
+                              : std::sqrt(other.size().x * other.size().y);
       // Beside each other is what a hall is used to: one above the other must gain something.
       const double gain = std::pow(world, weight) * tree * (axis == 0 ? 1.1 : 1.0);
       if (gain <= most + 1e-9) continue;

@@ -92,7 +92,7 @@ struct ForceArrow {
 std::vector<ForceArrow> force_arrows(const Frame& frame, const Projection& view) {
   constexpr double kLeast = 0.35, kLeastSize = 0.02;  // of the largest
   std::vector<ForceArrow> arrows;
-  const auto forces = first_of(frame.forces, kMostForces);
+  const auto forces = first_of(frame.get<FrameForces>().forces, kMostForces);
   double most = 0;
   for (const FrameForce& f : forces)
     if (is_finite(f.force)) most = std::max(most, glm::length(f.force));
@@ -137,7 +137,7 @@ void draw_ruler(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, Pen&
 void mark_rulers(const Frame& frame, Marks& marks, Labels& labels) {
   constexpr double kBeside = 40;  // from the line between the two points to the ruler
   const Projection& view = marks.projection();
-  for (const FrameRuler& ruler : frame.rulers) {
+  for (const FrameRuler& ruler : frame.get<FrameRulers>().rulers) {
     const auto a = view.seen(ruler.from), b = view.seen(ruler.to);
     if (!a || !b || !is_finite(*a) || !is_finite(*b)) continue;
     const Vec<2> way = *b - *a;

@@ -31,16 +31,16 @@ Vec<2> atlas_size(const Frame& frame) {
 
 // A screen that is drawn from textures, of which none is packed yet: they are shown one by one.
 bool shows_single(const Frame& frame) {
-  return !frame.screen.elements.empty() &&
-         std::ranges::none_of(frame.textures,
+  return !frame.get<FrameScreen>().elements.empty() &&
+         std::ranges::none_of(frame.get<FrameTextures>().textures,
                               [](const FrameTexture& t) { return t.packed || t.refused; });
 }
 
 // Beside a screen there is a strip only while something is in it.
 bool has_strip(const Frame& frame) {
-  if (frame.textures.empty() || shows_single(frame)) return false;
-  return frame.screen.elements.empty() ||
-         !std::ranges::all_of(frame.textures, &FrameTexture::packed);
+  if (frame.get<FrameTextures>().textures.empty() || shows_single(frame)) return false;
+  return frame.get<FrameScreen>().elements.empty() ||
+         !std::ranges::all_of(frame.get<FrameTextures>().textures, &FrameTexture::packed);
 }
 
 class AtlasView {
@@ -67,7 +67,7 @@ class AtlasView {
     parts_ = std::clamp(kMostPanelShapes / count - 2, 0, kMostPatternParts);
     for (const FrameTexture* texture : packed) draw_textured(*texture, place_of(*texture));
     list_.crisp_rect(image_, Role::none, {Role::cell_line_0, 3.4});
-    if (frame_.screen.atlas_bound) list_.crisp_rect(image_, Role::none, {Role::lit, 5});
+    if (frame_.get<FrameScreen>().atlas_bound) list_.crisp_rect(image_, Role::none, {Role::lit, 5});
     for (const FrameNode& node : frame_.nodes)
       if (node.mark == Mark::lit) {
         const DrawList::Scope scope = shown("atlas/lit", node);
@@ -96,7 +96,7 @@ class AtlasView {
 
   std::vector<const FrameTexture*> packed_textures() const {
     std::vector<const FrameTexture*> packed;
-    for (const FrameTexture& texture : frame_.textures)
+    for (const FrameTexture& texture : frame_.get<FrameTextures>().textures)
       if (texture.packed && packed.size() < kMostTextures) packed.push_back(&texture);
     return packed;
   }
@@ -161,7 +161,7 @@ class AtlasView {
 
   // An image of its own, while it is drawn from.
   bool is_bound(const FrameTexture& texture) const {
-    return !texture.packed && texture.id == frame_.screen.bound;
+    return !texture.packed && texture.id == frame_.get<FrameScreen>().bound;
   }
 
   // --- one by one ---
@@ -172,7 +172,7 @@ class AtlasView {
     const TextStyle name{kLabel, Weight::regular, Role::ink};
     Vec<2> at{panel_.lo.x + 6, top};
     double row = 0;
-    for (const FrameTexture& t : frame_.textures) {
+    for (const FrameTexture& t : frame_.get<FrameTextures>().textures) {
       const Vec<2> size = Vec<2>(t.width, t.height) * scale;
       const double width = std::max(size.x, text_width(t.name, name));
       if (at.x > panel_.lo.x + 6 && at.x + width > panel_.hi.x - 6)
@@ -192,7 +192,7 @@ class AtlasView {
 
   void draw_single() {
     const TextStyle quiet{kLabel, Weight::semibold, Role::quiet_ink};
-    const std::size_t n = frame_.textures.size();
+    const std::size_t n = frame_.get<FrameTextures>().textures.size();
     const double room = panel_.size().y - kAtlasHeading;
     double scale = kMostSingle;
     while (scale > 0.02 && single_rows(scale, false, 0) > room) scale *= 0.96;
@@ -208,7 +208,7 @@ class AtlasView {
 
   void draw_strip() {
     std::vector<const FrameTexture*> waiting, refused;
-    for (const FrameTexture& t : frame_.textures)
+    for (const FrameTexture& t : frame_.get<FrameTextures>().textures)
       if (t.refused || !t.packed) (t.refused ? refused : waiting).push_back(&t);
     choose_strip_scale();
     Box<2> upper = strip_;
@@ -222,11 +222,12 @@ class AtlasView {
   // them are asked, packed or not, so that the scale holds for the whole sequence.
   void choose_strip_scale() {
     double widest = 1;
-    for (const FrameTexture& t : frame_.textures) widest = std::max(widest, double(t.width));
+    for (const FrameTexture& t : frame_.get<FrameTextures>().textures)
+      widest = std::max(widest, double(t.width));
     const Vec<2> room = strip_.size() - Vec<2>(0, kAtlasHeading);
     const auto has_room = [&](double scale) {
       double x = 0, y = 0, row = 0;
-      for (const FrameTexture& t : frame_.textures) {
+      for (const FrameTexture& t : frame_.get<FrameTextures>().textures) {
         const Vec<2> size = Vec<2>(t.width, t.height) * scale;
         if (x > 0 && x + size.x > room.x) x = 0, y += row, row = 0;
         x += size.x + kTextureGap;
@@ -241,7 +242,8 @@ class AtlasView {
   void draw_queue(const char* heading, const std::vector<const FrameTexture*>& queue,
                   const Box<2>& area, bool crossed) {
     const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink};
-    const auto digits = static_cast<std::int64_t>(std::to_string(frame_.textures.size()).size());
+    const auto digits = static_cast<std::int64_t>(
+        std::to_string(frame_.get<FrameTextures>().textures.size()).size());
     const double number = Labels::number_width(digits, style);
     labels_.add_number(static_cast<std::int64_t>(queue.size()),
                        {area.lo.x + number, area.lo.y + 23}, style, panel_);
@@ -313,7 +315,7 @@ double atlas_width(const Frame& frame, double height) {
 DrawList draw_atlas_image(const Frame& frame) {
   DrawList list;
   list.page = atlas_size(frame);
-  for (const FrameTexture& t : frame.textures)
+  for (const FrameTexture& t : frame.get<FrameTextures>().textures)
     if (t.packed)
       draw_texture(t, {{t.x, t.y}, {double(t.x) + t.width, double(t.y) + t.height}}, 1,
                    kMostPatternParts, list, t.turned);

@@ -40,9 +40,9 @@ class AxesView {
       : frame_(frame), panel_(panel), list_(list), labels_(labels), pen_(list, panel) {
     double longest = 0;
     for (const Frame* one : staging.frames()) {
-      if (!one->separation) continue;
-      rows_ = std::max(rows_, one->separation->axes.size());
-      for (const auto& axis : one->separation->axes) {
+      if (!one->find<FrameSeparation>()) continue;
+      rows_ = std::max(rows_, one->find<FrameSeparation>()->axes.size());
+      for (const auto& axis : one->find<FrameSeparation>()->axes) {
         const Shadows s = shadows_of(axis);
         longest = std::max(longest, std::max(s.a_hi, s.b_hi) - std::min(s.a_lo, s.b_lo));
       }
@@ -58,7 +58,8 @@ class AxesView {
     if (rows_ == 0 || row_ < kLeastAxisRow || !(scale_ > 0)) return;
     labels_.add(shortened("how far each reaches, axis by axis", panel_.size().x, kAxisBold),
                 {{panel_.lo.x, panel_.lo.y + 24}, 0}, kAxisBold, panel_);
-    const std::size_t known = frame_.separation ? frame_.separation->axes.size() : 0;
+    const std::size_t known =
+        frame_.find<FrameSeparation>() ? frame_.find<FrameSeparation>()->axes.size() : 0;
     for (std::size_t i = 0; i < rows_; ++i) {
       const DrawList::Scope scope(list_, fmt::format("axes/{}", i));
       if (i < known)
@@ -80,7 +81,7 @@ class AxesView {
   }
 
   void draw_row(std::size_t i) {
-    const auto& separation = *frame_.separation;
+    const auto& separation = *frame_.find<FrameSeparation>();
     const auto& axis = separation.axes[i];
     const FrameBody *a = frame_.body_of(separation.a), *b = frame_.body_of(separation.b);
     if (!a || !b) return;

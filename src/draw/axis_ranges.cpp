@@ -5,14 +5,14 @@
 namespace lantern::draw {
 
 void AxisRanges::see(const scenario::Frame& frame) {
-  const scenario::FrameChart& chart = frame.chart;
+  const scenario::FrameChart& chart = frame.get<FrameChart>();
   for (const scenario::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
   for (const scenario::FrameSeries& series : chart.series)
     for (const Vec<2>& p : series.points) {
       chart_.add(p.y, chart.logarithmic);
       chart_x_.add(p.x, chart.logarithmic && !chart.over_time);
     }
-  for (const Vec<2>& p : frame.trace.points) {
+  for (const Vec<2>& p : frame.get<FrameTrace>().points) {
     trace_ = std::max(trace_, p.y);
     double& seconds = seconds_[frame.part];
     seconds = std::max(seconds, p.x);
@@ -21,13 +21,17 @@ void AxisRanges::see(const scenario::Frame& frame) {
 }
 
 void AxisRanges::settle(scenario::Frame& frame) const {
-  if (!chart_.empty()) frame.chart.range = std::pair(chart_.least, chart_.most);
-  if (!chart_x_.empty() && !frame.chart.over_time)
-    frame.chart.x_range = std::pair(chart_x_.least, chart_x_.most);
-  if (trace_ > 0) frame.trace.most = trace_;
-  const auto seconds = seconds_.find(frame.part);
-  if (!frame.trace.seconds && seconds != seconds_.end() && seconds->second > 0)
-    frame.trace.seconds = seconds->second;
+  if (auto* chart = frame.find<FrameChart>()) {
+    if (!chart_.empty()) chart->range = std::pair(chart_.least, chart_.most);
+    if (!chart_x_.empty() && !chart->over_time)
+      chart->x_range = std::pair(chart_x_.least, chart_x_.most);
+  }
+  if (auto* trace = frame.find<FrameTrace>()) {
+    if (trace_ > 0) trace->most = trace_;
+    const auto seconds = seconds_.find(frame.part);
+    if (!trace->seconds && seconds != seconds_.end() && seconds->second > 0)
+      trace->seconds = seconds->second;
+  }
   for (scenario::Frame& side : frame.sides) settle(side);
 }
 

@@ -31,8 +31,11 @@ inline Role ground_of(Mark mark) {
 
 // The level in a leaf that is shown as a bucket, within its box; nothing where none is shown.
 inline std::optional<Box<2>> level_in(const Frame& frame, const FrameNode& node, Box<2> box) {
-  if (!frame.display.fill || frame.capacity == 0 || !node.leaf || node.bodies.empty()) return {};
-  const double share = static_cast<double>(node.bodies.size()) / frame.capacity;
+  if (!frame.display.fill || frame.get<FrameStructure>().capacity == 0 || !node.leaf ||
+      node.bodies.empty())
+    return {};
+  const double share =
+      static_cast<double>(node.bodies.size()) / frame.get<FrameStructure>().capacity;
   box.lo.y = box.hi.y - std::min(share, 1.0) * box.size().y;
   return box;
 }

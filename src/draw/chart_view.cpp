@@ -244,7 +244,7 @@ std::string chart_words(std::string name) {
 }
 
 void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  const FrameChart& chart = frame.chart;
+  const FrameChart& chart = frame.get<FrameChart>();
   for (const std::string& name : {chart.x_name, chart.y_name}) list.referents.insert(name);
   for (const FrameSeries& series : chart.series)
     list.referents.insert({series.name, chart.y_name + "." + series.name});

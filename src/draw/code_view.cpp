@@ -200,9 +200,10 @@ class CodeView {
 
 void draw_code(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
-  if (!frame.code || frame.code->lines.empty() || place.size().x < 300 || place.size().y < 160)
+  if (!frame.find<FrameCode>() || frame.find<FrameCode>()->lines.empty() || place.size().x < 300 ||
+      place.size().y < 160)
     return;
-  CodeView(*frame.code, place, list, labels).draw();
+  CodeView(*frame.find<FrameCode>(), place, list, labels).draw();
 }
 
 }  // namespace lantern::draw

@@ -42,7 +42,7 @@ class CollisionsView {
  public:
   CollisionsView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
       : frame_(frame),
-        told_(*frame.collisions),
+        told_(*frame.find<FrameCollisions>()),
         panel_(panel),
         list_(list),
         labels_(labels),
@@ -182,18 +182,21 @@ class CollisionsView {
 
 void draw_collisions(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
-  if (!frame.collisions || place.size().x < 300 || place.size().y < kCollisionHeading) return;
+  if (!frame.find<FrameCollisions>() || place.size().x < 300 || place.size().y < kCollisionHeading)
+    return;
   CollisionsView(frame, place, list, labels).draw();
   list.referents.insert(
       {"collisions_alive", "begins", "ends", "contacts", "begins_in_all", "touches_in_all"});
 }
 
 double collisions_height(const Frame& frame) {
-  if (!frame.collisions) return kCollisionHeading;
+  if (!frame.find<FrameCollisions>()) return kCollisionHeading;
   const std::size_t rows =
-      std::clamp<std::size_t>(frame.collisions->rows.size(), 1, kMostCollisions);
+      std::clamp<std::size_t>(frame.find<FrameCollisions>()->rows.size(), 1, kMostCollisions);
   constexpr int kUsual = 5;  // frames, before anything has touched
-  const int remembered = frame.collisions->remembered > 0 ? frame.collisions->remembered : kUsual;
+  const int remembered = frame.find<FrameCollisions>()->remembered > 0
+                             ? frame.find<FrameCollisions>()->remembered
+                             : kUsual;
   return kCollisionHeading + static_cast<double>(rows) * row_height(remembered) + 6;
 }
 

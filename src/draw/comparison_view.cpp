@@ -39,7 +39,11 @@ const TextStyle kTableQuiet{24, Weight::regular, Role::quiet_ink};
 class ComparisonView {
  public:
   ComparisonView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), table_(frame.comparison), panel_(panel), list_(list), labels_(labels) {
+      : frame_(frame),
+        table_(frame.get<FrameComparison>()),
+        panel_(panel),
+        list_(list),
+        labels_(labels) {
     const double left = kPictureWidth + 18 + kWorldWidth + kWhenWidth;
     columns_ = panel.lo.x + left;
     column_ = (panel.size().x - left) / static_cast<double>(table_.kinds.size());
@@ -183,7 +187,7 @@ class ComparisonView {
 
 void draw_comparison(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
-  const FrameComparison& table = frame.comparison;
+  const FrameComparison& table = frame.get<FrameComparison>();
   if (table.kinds.empty() || table.all_names.empty() || place.size().x < 900) return;
   ComparisonView(frame, place, list, labels).draw();
   list.referents.insert({"least_work", "compared_bodies"});

@@ -29,9 +29,9 @@ const TextStyle kOwn{kLabel, Weight::semibold, Role::ink, Role::panel};
 Box<2> reach_of(const Staging& staging) {
   Box<2> reach{Vec<2>(0.0), Vec<2>(0.0)};
   for (const Frame* frame : staging.frames()) {
-    if (!frame->difference) continue;
-    const Vec<2> round(frame->difference->radius);
-    for (const Vec<2>& p : frame->difference->corners)
+    if (!frame->find<FrameDifference>()) continue;
+    const Vec<2> round(frame->find<FrameDifference>()->radius);
+    for (const Vec<2>& p : frame->find<FrameDifference>()->corners)
       reach = united(reach, Box<2>{p - round, p + round});
   }
   return reach;
@@ -42,7 +42,7 @@ class DifferenceView {
   DifferenceView(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                  Labels& labels)
       : frame_(frame),
-        difference_(*frame.difference),
+        difference_(*frame.find<FrameDifference>()),
         panel_(panel),
         area_({panel.lo + Vec<2>(kRimNumbers, kHeading), panel.hi - Vec<2>(4, kRimNumbers)}),
         list_(list),
@@ -60,7 +60,8 @@ class DifferenceView {
     draw_heading();
     draw_axes();
     draw_shape();
-    if (frame_.search && !frame_.search->steps.empty()) draw_search(*frame_.search);
+    if (frame_.find<FrameSearch>() && !frame_.find<FrameSearch>()->steps.empty())
+      draw_search(*frame_.find<FrameSearch>());
     draw_origin(origin_, pen_);
     list_.marks.add(MarkKind::origin);
     labels_.block(Box<2>::around(origin_, Vec<2>(11)));
@@ -213,7 +214,8 @@ class DifferenceView {
 void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& panel,
                      DrawList& list, Labels& labels) {
   const Vec<2> size = panel.size();
-  if (!frame.difference || frame.difference->corners.empty() || size.x < 160 || size.y < 160)
+  if (!frame.find<FrameDifference>() || frame.find<FrameDifference>()->corners.empty() ||
+      size.x < 160 || size.y < 160)
     return;
   DifferenceView(frame, staging, panel, list, labels).draw();
 }

@@ -65,18 +65,20 @@ Counter counted(std::int64_t number, const char* name, const std::string& one,
 std::vector<Counter> default_counters(const Frame& frame) {
   if (!frame.sides.empty()) return {};  // each counts under itself
   const auto count = [&](const char* name) { return frame.count(name).value_or(0); };
-  if (!frame.textures.empty()) {
+  if (!frame.get<FrameTextures>().textures.empty()) {
     const std::int64_t used = count("used_area");
     const std::int64_t all = std::max<std::int64_t>(1, count("atlas_area"));
     auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
     if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
     return {
         Counter::of_count(percent, "% used", "", {}),
-        Counter::of_count(count("textures"), fmt::format("of {} textures", frame.textures.size()),
+        Counter::of_count(count("textures"),
+                          fmt::format("of {} textures", frame.get<FrameTextures>().textures.size()),
                           "", {"textures"})};
   }
   // Of a ray, view or region: how few bodies it had to test.
-  if (!frame.rays.empty() || !frame.views.empty() || !frame.queries.empty())
+  if (!frame.get<FrameFinding>().rays.empty() || !frame.get<FrameFinding>().views.empty() ||
+      !frame.get<FrameFinding>().queries.empty())
     return {Counter::of_count(count("objects_tested"),
                               fmt::format("of {} bodies tested", frame.bodies.size()), "",
                               {"objects_tested", "bodies"}),

@@ -74,7 +74,7 @@ class IslandGraph {
     const std::size_t first = list_.shapes.size();
     draw_grounds();
     draw_statics();
-    for (const FrameEdge& edge : frame_.edges) draw_edge(edge);
+    for (const FrameEdge& edge : frame_.get<FrameIslands>().edges) draw_edge(edge);
     std::size_t nodes = 0;
     for (const FrameBody& body : frame_.bodies)
       if (!body.is_static && places_.contains(body.id) && ++nodes <= kMostIslandNodes)
@@ -106,7 +106,8 @@ class IslandGraph {
   // piece is its body's or its edge's, so that it comes and goes with it.
   void draw_grounds() {
     for (const bool coast : {true, false})
-      for (const FrameIsland& island : frame_.islands) draw_ground(island, coast);
+      for (const FrameIsland& island : frame_.get<FrameIslands>().islands)
+        draw_ground(island, coast);
   }
   void draw_ground(const FrameIsland& island, bool coast) {
     const char* const kind = coast ? "islands/coast" : "islands/ground";
@@ -118,7 +119,7 @@ class IslandGraph {
       const DrawList::Scope scope(list_, body_key(kind, *bodies_.at(id)));
       list_.disc(places_.at(id), reach, role);
     }
-    for (const FrameEdge& edge : frame_.edges) {
+    for (const FrameEdge& edge : frame_.get<FrameIslands>().edges) {
       const auto [a, b] = edge.pair;
       if (!std::ranges::binary_search(island.bodies, a) ||
           !std::ranges::binary_search(island.bodies, b) || !places_.contains(a) ||
@@ -187,7 +188,7 @@ class IslandGraph {
   void name_islands() {
     std::vector<const FrameIsland*> order;
     std::vector<Box<2>> grounds;
-    for (const FrameIsland& island : frame_.islands) order.push_back(&island);
+    for (const FrameIsland& island : frame_.get<FrameIslands>().islands) order.push_back(&island);
     for (const auto& [id, at] : places_)
       if (!bodies_.at(id)->is_static)
         grounds.push_back(Box<2>::around(at, Vec<2>(radius_ + kShore)));

@@ -49,7 +49,8 @@ FrameNode& add_cell(Frame& frame, const Box<3>& box, std::uint32_t parent) {
 void add_link(Frame& frame, FrameLink::Kind kind) {
   const Vec<3> c = middle_of(frame);
   const double reach = kind == FrameLink::Kind::pin ? 0 : 20;
-  frame.links.push_back({kind, c - Vec<3>(reach, 0, 0), c + Vec<3>(reach, 0, 0), 0});
+  frame.add<FrameLinks>().links.push_back(
+      {kind, c - Vec<3>(reach, 0, 0), c + Vec<3>(reach, 0, 0), 0});
 }
 
 // One cell of a world that is marked so.
@@ -94,11 +95,13 @@ void add_bodies(Frame& frame, MarkKind kind) {
 void add_question(Frame& frame, MarkKind kind) {
   const Vec<3> c = middle_of(frame);
   const Vec<3> along{22, 0, 0};
-  if (kind == MarkKind::ray) frame.rays.push_back({c - along, c + along, {}});
+  if (kind == MarkKind::ray) frame.add<FrameFinding>().rays.push_back({c - along, c + along, {}});
   if (kind == MarkKind::region)
-    frame.queries.push_back({{c - Vec<3>(20, 10, 0), c + Vec<3>(20, 10, 0)}, 0});
+    frame.add<FrameFinding>().queries.push_back(
+        {{c - Vec<3>(20, 10, 0), c + Vec<3>(20, 10, 0)}, 0});
   if (kind == MarkKind::view)
-    frame.views.push_back({c - along, {c - along, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
+    frame.add<FrameFinding>().views.push_back(
+        {c - along, {c - along, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
 }
 
 // The smallest world that carries the mark.

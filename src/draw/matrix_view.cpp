@@ -25,7 +25,11 @@ const TextStyle kMatrixStyle{kMatrixText, Weight::regular, Role::quiet_ink};
 class Matrix {
  public:
   Matrix(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), matrix_(frame.matrix), panel_(panel), list_(list), labels_(labels) {
+      : frame_(frame),
+        matrix_(frame.get<FrameMatrix>()),
+        panel_(panel),
+        list_(list),
+        labels_(labels) {
     const double n = std::max(1.0, static_cast<double>(matrix_.rows.size()));
     const Vec<2> room =
         panel.size() - Vec<2>(kMatrixEdge, kMatrixHeading + kMatrixEdge + kMatrixKey);

@@ -101,10 +101,10 @@ class MemoryView {
   MemoryView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
       : frame_(frame), panel_(panel), list_(list), labels_(labels), bodies_(by_id(frame.bodies)) {
     const Box<2> area{panel.lo + Vec<2>(0, kMemoryHeading), panel.hi};
-    strip_ = best_strip(frame.array_size, area.size(), name_widths(frame));
+    strip_ = best_strip(frame.get<FrameStructure>().array_size, area.size(), name_widths(frame));
     const double rows = std::max(1.0, std::floor((area.size().y + 4) / strip_.pitch));
     shown_ = static_cast<std::uint32_t>(
-        std::min<double>(frame.array_size, rows * double(strip_.columns)));
+        std::min<double>(frame.get<FrameStructure>().array_size, rows * double(strip_.columns)));
     origin_ = area.lo + Vec<2>(strip_.gutter, 0);
   }
 
@@ -239,12 +239,12 @@ class MemoryView {
     for (const FrameNode& node : frame_.nodes)
       if (node.leaf && node.first != kNone && !node.of_static)
         used += static_cast<std::int64_t>(node.bodies.size());
-    const auto slots = std::int64_t{frame_.array_size};
+    const auto slots = std::int64_t{frame_.get<FrameStructure>().array_size};
     std::string text = fmt::format("{} slot{}, {} in use", number_text(double(slots)),
                                    slots == 1 ? "" : "s", number_text(double(used)));
     if (const auto calls = frame_.count("allocations"))
       text += fmt::format(", {} allocation{}", number_text(double(*calls)), *calls == 1 ? "" : "s");
-    if (shown_ < frame_.array_size)
+    if (shown_ < frame_.get<FrameStructure>().array_size)
       text += fmt::format(" — the first {} are drawn", number_text(double(shown_)));
     else if (leaves_left_out)
       text += " — not all leaves are drawn";
@@ -280,7 +280,7 @@ double memory_height(const Frame& frame, double width) {
   const NameWidths widest = name_widths(frame);
   Strip s;
   for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {
-    s = strip_for(frame.array_size, slot, width - 6, widest);
+    s = strip_for(frame.get<FrameStructure>().array_size, slot, width - 6, widest);
     if (s.rows <= kMostRows - (s.named() ? 1 : 0)) break;
   }
   return kMemoryHeading + 8 + std::min<double>(s.rows, kMostRows) * s.pitch;

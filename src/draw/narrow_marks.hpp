@@ -18,12 +18,14 @@ void draw_simplex(const std::vector<Vec<2>>& points, Pen& pen);
 void draw_origin(const Vec<2>& at, Pen& pen);
 bool draw_narrow_sample(MarkKind kind, const Vec<2>& left, const Vec<2>& right, Pen& pen);
 
-// The axes along which the bodies of frame.separation were measured, beside them: their shadows,
-// and what lies between these. The newest axis, or the one that answers, with lines to the bodies;
-// if it parts them, with a line that fits between; if not, with the shortest way out.
+// The axes along which the bodies of frame.find<FrameSeparation>() were measured, beside them:
+// their shadows, and what lies between these. The newest axis, or the one that answers, with lines
+// to the bodies; if it parts them, with a line that fits between; if not, with the shortest way
+// out.
 void mark_separation(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
 
-// The support points of frame.search on the bodies, and in the end their closest points.
+// The support points of frame.find<FrameSearch>() on the bodies, and in the end their closest
+// points.
 void mark_search(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
 
 // The number of the search that has found a point, from 1.

@@ -107,12 +107,12 @@ void draw_panels(const Frame& frame, const Staging& staging, const Staging& arra
     return draw_sides(frame, area,
                       {{area.lo.x, area.hi.y + kOverFooter}, {area.hi.x, list.page.y - 12}}, list,
                       labels, [&](const Frame& side, const Box<2>& place) {
-                        draw_panels(side, staging.of_side(side.side), staging.largest_side(), place,
-                                    list, labels, work);
+                        draw_panels(side, staging.of_side(side.get<FrameSide>().name),
+                                    staging.largest_side(), place, list, labels, work);
                         draw_notes(side, place, list, labels);
                         labels.forget_places();  // the next side has bodies of the same names
                       });
-  const Vec<2> whole = frame.side.empty() ? list.page : area.size();
+  const Vec<2> whole = frame.get<FrameSide>().name.empty() ? list.page : area.size();
   const bool tall = whole.x / whole.y < kStackBelow;
   const std::vector<Box<2>> boxes = arranged(frame, arranged_for, area, tall);
   for (std::size_t i = 0; i < boxes.size(); ++i) {

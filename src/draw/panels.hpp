@@ -74,8 +74,8 @@ void draw_ledger(const Frame& frame, const Box<2>& panel, DrawList& list, Labels
 void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& panel,
                      DrawList& list, Labels& labels);
 
-// The axes of frame.separation below each other, on one scale: how far both bodies reach along each
-// of them. As many rows as the sequence ever needs.
+// The axes of frame.find<FrameSeparation>() below each other, on one scale: how far both bodies
+// reach along each of them. As many rows as the sequence ever needs.
 void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                Labels& labels);
 
@@ -113,9 +113,9 @@ double bytes_height();
 void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 double sparkline_height();
 
-// What each kind of structure does for each world that was compared (frame.comparison), a row a
-// world with a small picture of it, a column a kind; rows to come are named only. Nothing on a
-// panel that is too narrow for it.
+// What each kind of structure does for each world that was compared (frame.get<FrameComparison>()),
+// a row a world with a small picture of it, a column a kind; rows to come are named only. Nothing
+// on a panel that is too narrow for it.
 void draw_comparison(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels);
 
 // A function of the lecture's source, its lines numbered as in their file; those that the frame is

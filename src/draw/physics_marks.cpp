@@ -72,8 +72,9 @@ std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to) {
 }
 
 void mark_links(const Frame& frame, Marks& marks) {
-  for (const FrameLink& link : first_of(frame.links, kMostDrawnLinks)) {
-    const auto number = &link - frame.links.data();  // of the scenario's springs and joints
+  for (const FrameLink& link : first_of(frame.get<FrameLinks>().links, kMostDrawnLinks)) {
+    const auto number =
+        &link - frame.get<FrameLinks>().links.data();  // of the scenario's springs and joints
     const Marks::Scope scope(marks, fmt::format("world/link/{}", number));
     const Stroke stroke = strain_stroke(link.strain);
     constexpr MarkKind kKinds[] = {MarkKind::spring, MarkKind::rod, MarkKind::pin};

@@ -54,9 +54,9 @@ class PoolView {
       : frame_(frame), panel_(panel), list_(list), labels_(labels) {
     const double room = panel.size().y - kPoolHeading;
     const int rows = std::clamp(static_cast<int>((room + 8) / kPoolRow), 1, kMostPoolRows);
-    grid_ = pool_grid(frame.pool_size, panel.size().x, rows);
-    shown_ = std::min(
-        {frame.pool_size, kMostPoolSlots, grid_.columns * static_cast<std::uint32_t>(rows)});
+    grid_ = pool_grid(frame.get<FrameStructure>().pool_size, panel.size().x, rows);
+    shown_ = std::min({frame.get<FrameStructure>().pool_size, kMostPoolSlots,
+                       grid_.columns * static_cast<std::uint32_t>(rows)});
   }
 
   void draw() {
@@ -116,7 +116,8 @@ class PoolView {
       x += text_width(text, style) + 30;
     };
     const auto number = [](std::uint64_t n) { return number_text(static_cast<double>(n)); };
-    write(fmt::format("{} of {} node slots in use", number(used), number(frame_.pool_size)),
+    write(fmt::format("{} of {} node slots in use", number(used),
+                      number(frame_.get<FrameStructure>().pool_size)),
           strong);
     if (x + 60 < panel_.hi.x) {
       draw_reused({{x, y - 17}, {x + 26, y + 1}});
@@ -127,7 +128,7 @@ class PoolView {
       write(fmt::format("{} allocation{}", number(static_cast<std::uint64_t>(*calls)),
                         *calls == 1 ? "" : "s"),
             kPoolStyle);
-    if (shown_ < frame_.pool_size && x + 60 < panel_.hi.x)
+    if (shown_ < frame_.get<FrameStructure>().pool_size && x + 60 < panel_.hi.x)
       write(fmt::format("the first {} are drawn", number(shown_)), kPoolStyle);
   }
 
@@ -151,7 +152,7 @@ void draw_pool(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& 
 
 double pool_height(const Frame& frame, double width) {
   if (is_in_pieces(frame)) return kPoolHeading + kMostPoolRows * kPoolRow + 2;
-  const PoolGrid grid = pool_grid(frame.pool_size, width - 6, kMostPoolRows);
+  const PoolGrid grid = pool_grid(frame.get<FrameStructure>().pool_size, width - 6, kMostPoolRows);
   return kPoolHeading + std::min<double>(grid.rows, kMostPoolRows) * kPoolRow + 2;
 }
 

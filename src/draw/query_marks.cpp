@@ -15,7 +15,9 @@ constexpr std::size_t kMostRays = 120;
 constexpr std::size_t kMostHits = 60;
 
 // Many rays are drawn thinner.
-double ray_scale(const Frame& frame) { return frame.rays.size() > 12 ? 0.6 : 1; }
+double ray_scale(const Frame& frame) {
+  return frame.get<FrameFinding>().rays.size() > 12 ? 0.6 : 1;
+}
 
 void mark_hits_of(const FrameRay& ray, const Marks& marks, Labels& labels) {
   constexpr double kHit = 12.5;  // radius of a numbered mark
@@ -59,7 +61,7 @@ void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& pla
 
 // Of a 2D view its border, of a 3D one its edges, and from the eye to them.
 void mark_views(const Frame& frame, Marks& marks) {
-  for (const FrameView& view : first_of(frame.views, kMostViews)) {
+  for (const FrameView& view : first_of(frame.get<FrameFinding>().views, kMostViews)) {
     const std::vector<Vec<3>>& c = view.corners;
     if (!std::ranges::all_of(c, is_finite<3>)) continue;
     marks.tell(MarkKind::view);
@@ -81,7 +83,7 @@ void mark_views(const Frame& frame, Marks& marks) {
 
 void mark_eyes(const Frame& frame, const Projection& projection, const Box<2>& place,
                DrawList& list) {
-  for (const FrameView& view : first_of(frame.views, kMostViews)) {
+  for (const FrameView& view : first_of(frame.get<FrameFinding>().views, kMostViews)) {
     const auto at = projection.seen(view.eye);
     if (!at || view.corners.empty()) continue;
     Vec<3> ahead{0.0};
@@ -93,9 +95,10 @@ void mark_eyes(const Frame& frame, const Projection& projection, const Box<2>& p
 
 void mark_queries(const Frame& frame, Marks& marks) {
   const Stroke stroke{Role::frustum, 3.2, 9};
-  for (const FrameQuery& query : first_of(frame.queries, kMostQueries)) {
+  for (const FrameQuery& query : first_of(frame.get<FrameFinding>().queries, kMostQueries)) {
     if (!is_valid(query.box)) continue;
-    const Marks::Scope scope(marks, fmt::format("world/query/{}", &query - frame.queries.data()));
+    const Marks::Scope scope(
+        marks, fmt::format("world/query/{}", &query - frame.get<FrameFinding>().queries.data()));
     marks.tell(MarkKind::region);
     if (query.radius > 0)
       marks.ball(query.box.center(), query.radius, stroke);
@@ -106,19 +109,21 @@ void mark_queries(const Frame& frame, Marks& marks) {
 
 void mark_rays(const Frame& frame, Marks& marks) {
   const double k = ray_scale(frame);
-  for (const FrameRay& ray : first_of(frame.rays, kMostRays)) {
+  for (const FrameRay& ray : first_of(frame.get<FrameFinding>().rays, kMostRays)) {
     if (ray.from == ray.to) continue;
-    const Marks::Scope scope(marks, fmt::format("world/ray/{}", &ray - frame.rays.data()));
+    const Marks::Scope scope(
+        marks, fmt::format("world/ray/{}", &ray - frame.get<FrameFinding>().rays.data()));
     marks.tell(MarkKind::ray);
     marks.arrow(ray.from, ray.to, {Role::ray, 3.6 * k}, 20 * k, 1.8 * k);
   }
 }
 
 void mark_found(const Frame& frame, const Marks& marks, DrawList& list) {
-  if (!frame.rays.empty() || frame.hits.size() > kMostHits) return;
+  if (!frame.get<FrameFinding>().rays.empty() || frame.get<FrameFinding>().hits.size() > kMostHits)
+    return;
   const Box<2> room = shrunk(marks.place(), 10);
   for (const FrameBody& body : frame.bodies) {
-    if (!std::ranges::binary_search(frame.hits, body.id)) continue;
+    if (!std::ranges::binary_search(frame.get<FrameFinding>().hits, body.id)) continue;
     const auto at = marks.projection().seen({body.box.hi.x, body.box.hi.y, body.position.z});
     if (at && contains(room, *at)) draw_tick(*at, list);
   }
@@ -127,7 +132,7 @@ void mark_found(const Frame& frame, const Marks& marks, DrawList& list) {
 
 void mark_hits(const Frame& frame, const Marks& marks, Labels& labels) {
   const double k = ray_scale(frame);
-  const auto rays = first_of(frame.rays, kMostRays);
+  const auto rays = first_of(frame.get<FrameFinding>().rays, kMostRays);
   for (const FrameRay& ray : rays) marks.dot(ray.from, 5.5 * k, Role::ray, {Role::panel, 1.8 * k});
   for (const FrameRay& ray : rays) mark_hits_of(ray, marks, labels);
   if (!rays.empty()) marks.depict("hits");

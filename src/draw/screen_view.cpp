@@ -39,7 +39,11 @@ double ways_height(const FrameScreen& screen) { return kWaysGap + screen.planned
 class ScreenView {
  public:
   ScreenView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), screen_(frame.screen), panel_(panel), list_(list), labels_(labels) {
+      : frame_(frame),
+        screen_(frame.get<FrameScreen>()),
+        panel_(panel),
+        list_(list),
+        labels_(labels) {
     const Vec<2> size(std::max(screen_.width, 1), std::max(screen_.height, 1));
     const Vec<2> room = shrunk(panel, 3).size();
     const double below = std::min(ways_height(screen_), 0.55 * room.y);
@@ -100,7 +104,7 @@ class ScreenView {
 
   void swatch(std::uint32_t texture, const Box<2>& box) {
     const double scale = std::clamp(std::min(box.size().x, box.size().y) / 70, 0.35, 1.6);
-    const FrameTexture& of = frame_.textures[texture];
+    const FrameTexture& of = frame_.get<FrameTextures>().textures[texture];
     // In the atlas it may lie turned: on the screen it never does.
     draw_texture(of, box, scale, kMostPatternParts, list_, false);
     list_.rect(box, Role::none, {Role::body_line, 1.4});
@@ -160,13 +164,13 @@ class ScreenView {
 }  // namespace
 
 void draw_screen(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  if (frame.screen.elements.empty()) return;
+  if (frame.get<FrameScreen>().elements.empty()) return;
   ScreenView(frame, panel, list, labels).draw();
   list.referents.insert({"bindings", "draws"});
 }
 
 double screen_width(const Frame& frame, double height) {
-  const FrameScreen& screen = frame.screen;
+  const FrameScreen& screen = frame.get<FrameScreen>();
   const double room = std::max(height - ways_height(screen), 0.45 * height);
   return room * std::max(screen.width, 1) / std::max(screen.height, 1);
 }

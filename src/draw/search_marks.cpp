@@ -95,10 +95,10 @@ std::string search_number(const FrameSearch& search, const Vec<2>& difference) {
 }
 
 void mark_search(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  if (!frame.search || frame.search->steps.empty()) return;
-  mark_points(*frame.search, map, list, labels);
-  mark_newest(*frame.search, map, list, labels);
-  mark_answer(*frame.search, map, list, labels);
+  if (!frame.find<FrameSearch>() || frame.find<FrameSearch>()->steps.empty()) return;
+  mark_points(*frame.find<FrameSearch>(), map, list, labels);
+  mark_newest(*frame.find<FrameSearch>(), map, list, labels);
+  mark_answer(*frame.find<FrameSearch>(), map, list, labels);
   list.referents.insert({"gjk_steps", "distance"});
 }
 

@@ -39,7 +39,7 @@ class SeparationMarks {
  public:
   SeparationMarks(const Frame& frame, const FrameBody& a, const FrameBody& b, const View2D& map,
                   DrawList& list, Labels& labels)
-      : separation_(*frame.separation),
+      : separation_(*frame.find<FrameSeparation>()),
         a_(a),
         b_(b),
         map_(map),
@@ -165,9 +165,10 @@ class SeparationMarks {
 }  // namespace
 
 void mark_separation(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  if (!frame.separation || frame.separation->axes.empty()) return;
+  if (!frame.find<FrameSeparation>() || frame.find<FrameSeparation>()->axes.empty()) return;
   const BodiesById bodies = by_id(frame.bodies);
-  const auto a = bodies.find(frame.separation->a), b = bodies.find(frame.separation->b);
+  const auto a = bodies.find(frame.find<FrameSeparation>()->a),
+             b = bodies.find(frame.find<FrameSeparation>()->b);
   if (a == bodies.end() || b == bodies.end()) return;
   SeparationMarks(frame, *a->second, *b->second, map, list, labels).draw();
   list.referents.insert({"axes_tested", "gap", "overlap"});

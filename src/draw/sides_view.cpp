@@ -55,7 +55,7 @@ void draw_title(const Frame& side, bool own_time, const Box<2>& place, Labels& l
   const TextStyle quiet{24, Weight::regular, Role::quiet_ink};
   const Box<2> line{place.lo, {place.hi.x, place.lo.y + kTitleHeight}};
   const double y = line.lo.y + kTitleBaseline;
-  const std::string title = shortened(side.side_title, place.size().x, bold);
+  const std::string title = shortened(side.get<FrameSide>().title, place.size().x, bold);
   labels.add(title, {{line.lo.x, y}, 0}, bold, line);
   const double x = line.lo.x + text_width(title, bold) + 11;
   if (own_time)
@@ -72,10 +72,10 @@ void draw_words(const Frame& frame, const std::vector<Box<2>>& places, const Box
   double y = foot.lo.y + kWordsBaseline;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Frame& side = frame.sides[i];
-    if (side.held || side.caption.empty()) continue;
+    if (side.get<FrameSide>().held || side.caption.empty()) continue;
     if (!columns) {
       if (y > foot.hi.y - 8) return;
-      const std::string words = side.side_title + ": " + side.caption;
+      const std::string words = side.get<FrameSide>().title + ": " + side.caption;
       labels.add(shortened(words, foot.size().x, style), {{foot.lo.x, y}, 0}, style, foot);
       y += kWordsLine;
       continue;
@@ -183,7 +183,7 @@ void draw_sides(const Frame& frame, const Box<2>& area, const Box<2>& foot, Draw
   draw_words(frame, places, foot, labels);
   for (std::size_t i = 0; i < frame.sides.size(); ++i) {
     const Frame& side = frame.sides[i];
-    list.prefix = side.side + "/";
+    list.prefix = side.get<FrameSide>().name + "/";
     draw_title(side, own_times, places[i], labels);
     Box<2> inner = places[i];
     inner.lo.y += kTitleHeight;

@@ -50,7 +50,7 @@ std::vector<Vec<2>> outline_of(const std::vector<Vec<2>>& points) {
 }  // namespace
 
 void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  const FrameTrace& trace = frame.trace;
+  const FrameTrace& trace = frame.get<FrameTrace>();
   const Box<2> place = shrunk(panel, 3);
   if (trace.points.empty() || place.size().y < 2 * kSparkText) return;
   double highest = 0;

@@ -93,12 +93,13 @@ Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) 
   for (const Frame* each : frames_) {
     const Frame& frame = *each;
     for (const Frame& side : frame.sides) {
-      const auto known = structure_of_.try_emplace(side.side, to_string(side.structure)).first;
+      const auto known =
+          structure_of_.try_emplace(side.get<FrameSide>().name, to_string(side.structure)).first;
       sides[known->second].push_back(&side);
     }
-    if (settings_told_.empty() || frame.settings != settings_.back()) {
+    if (settings_told_.empty() || frame.get<FrameStructure>().settings != settings_.back()) {
       settings_told_.insert(frame.index);
-      settings_.push_back(frame.settings);
+      settings_.push_back(frame.get<FrameStructure>().settings);
     }
     for (const auto& [name, n] : frame.counts) {
       const auto found = most_.try_emplace(name, n).first;
@@ -114,10 +115,12 @@ Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) 
 bool Staging::is_one_group(const Frame& before, const Frame& next) {
   const bool same_world = before.dimension == next.dimension &&
                           before.bounds.lo == next.bounds.lo && before.bounds.hi == next.bounds.hi;
-  const bool other_part = before.part != next.part && before.settings != next.settings;
-  const bool same_sides = std::ranges::equal(
-      before.sides, next.sides,
-      [](const Frame& a, const Frame& b) { return a.side == b.side && is_one_group(a, b); });
+  const bool other_part = before.part != next.part && before.get<FrameStructure>().settings !=
+                                                          next.get<FrameStructure>().settings;
+  const bool same_sides =
+      std::ranges::equal(before.sides, next.sides, [](const Frame& a, const Frame& b) {
+        return a.get<FrameSide>().name == b.get<FrameSide>().name && is_one_group(a, b);
+      });
   return same_world && same_sides && before.panels == next.panels &&
          before.structure == next.structure && !other_part;
 }

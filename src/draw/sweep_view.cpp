@@ -34,7 +34,7 @@ std::vector<const FrameBody*> swept(const Frame& frame) {
   for (const FrameBody& body : frame.bodies)
     if (!is_half_space(body)) order.push_back(&body);
   std::ranges::sort(order, {}, [&](const FrameBody* b) {
-    return std::pair(swept_box(*b).lo[frame.sweep_axis], b->id);
+    return std::pair(swept_box(*b).lo[frame.get<FrameStructure>().sweep_axis], b->id);
   });
   return order;
 }
@@ -46,7 +46,7 @@ class SweepView {
         panel_(panel),
         list_(list),
         labels_(labels),
-        axis_(frame.sweep_axis),
+        axis_(frame.get<FrameStructure>().sweep_axis),
         order_(swept(frame)),
         all_(order_.size()),
         area_(panel.lo + Vec<2>(0, kSweepHeading), panel.hi - Vec<2>(16, kSweepAxis)) {
@@ -65,7 +65,9 @@ class SweepView {
       if (order_[i]->lit) at_ = i;
     }
     stands_ = lit == 1;
-    if (const auto at = frame.swept_to ? row_of_.find(*frame.swept_to) : row_of_.end();
+    if (const auto at = frame.get<FrameStructure>().swept_to
+                            ? row_of_.find(*frame.get<FrameStructure>().swept_to)
+                            : row_of_.end();
         at != row_of_.end()) {
       at_ = at->second;
       stands_ = sweeps_ = true;

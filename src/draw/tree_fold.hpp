@@ -37,7 +37,8 @@ class TreeFold {
  public:
   // The frame must outlive this.
   explicit TreeFold(const Frame& frame)
-      : TreeFold(frame.nodes, !frame.textures.empty(), frame.hits) {}
+      : TreeFold(frame.nodes, !frame.get<FrameTextures>().textures.empty(),
+                 frame.get<FrameFinding>().hits) {}
 
   // `named`: leaves differ by their names only, as an atlas's free ones do. `hits` are what a query
   // has found. The nodes must outlive this.

@@ -328,7 +328,7 @@ TreeLayout lay_out_tree(const Frame& frame, const UnionTree& tree, const TreeSta
   if (frame.nodes.empty()) return layout;
   const TreeFold fold(frame);
   const std::vector<std::string> ways = ways_of(frame.nodes);
-  const Wanted wanted{frame.nodes, ways, tree, !frame.textures.empty()};
+  const Wanted wanted{frame.nodes, ways, tree, !frame.get<FrameTextures>().textures.empty()};
   layout.branches = stage.whole ? fold.whole() : condensed(fold, wanted, stage);
   for (const Branch& branch : layout.branches) layout.ways.push_back(ways[branch.node]);
   if (!stage.whole) {
@@ -352,8 +352,9 @@ TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel) {
   const Staging staging(frame);
   if (frame.nodes.empty()) return {};
   const UnionTree& tree = staging.trees()[0];
-  const bool atlas = !frame.textures.empty();
-  return lay_out_tree(frame, tree, stage_tree(tree, {{frame.nodes, frame.hits}}, atlas, panel));
+  const bool atlas = !frame.get<FrameTextures>().textures.empty();
+  return lay_out_tree(
+      frame, tree, stage_tree(tree, {{frame.nodes, frame.get<FrameFinding>().hits}}, atlas, panel));
 }
 
 double tree_size_in(const Staging& staging, const Box<2>& panel) {
@@ -366,7 +367,8 @@ double tree_size_in(const Staging& staging, const Box<2>& panel) {
   if (!tree.complete || tree.nodes.size() > kMostBranches) return folded;
   const std::vector<FrameNode> nodes = nodes_of(tree);
   const std::vector<std::string> ways = all_ways(tree);
-  const Wanted wanted{nodes, ways, tree, !staging.frames()[0]->textures.empty()};
+  const Wanted wanted{nodes, ways, tree,
+                      !staging.frames()[0]->get<FrameTextures>().textures.empty()};
   const std::vector<Branch> branches = TreeFold(nodes, wanted.atlas, {}).whole();
   const double s = best_scale(branches, wanted, room);
   if (s == 0) return folded;
@@ -374,7 +376,7 @@ double tree_size_in(const Staging& staging, const Box<2>& panel) {
   // Rows come first: where they stand closer than their labels need, the tree is hard to read.
   constexpr double kAround = 16, kFacts = 36;  // margins, and the line of counts under the tree
   const double least = kUnderLeaf + kLeastHeight * tree.rows() + kBetweenRows * (tree.rows() - 1) +
-                       kAround + (staging.frames()[0]->side.empty() ? kFacts : 0);
+                       kAround + (staging.frames()[0]->get<FrameSide>().name.empty() ? kFacts : 0);
   const double squeezed = std::min(1.0, room.y / least);
   const double size =
       squeezed * squeezed * std::min(s, kLarge) * std::sqrt(width * tree.rows() * 110);

@@ -28,7 +28,8 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
   constexpr double kLeastForSettings = 330;  // height; on a lower one the rows need the room
   std::vector<Fact> facts;
   // Its title and its counts say it; and one list of all bodies is no tree.
-  if (!frame.side.empty() || traits_of(frame.structure).has(Setting::axis)) return facts;
+  if (!frame.get<FrameSide>().name.empty() || traits_of(frame.structure).has(Setting::axis))
+    return facts;
   const std::pair<const char*, const char*> counted[] = {
       {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
   for (const auto& [many, one] : counted)
@@ -38,7 +39,7 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
   if (!frame.display.settings || !staging.tells_settings(frame) ||
       panel.size().y < kLeastForSettings)
     return facts;
-  const std::string& settings = frame.settings;
+  const std::string& settings = frame.get<FrameStructure>().settings;
   for (std::size_t at = 0; at < settings.size();) {
     const std::size_t comma = std::min(settings.find(", ", at), settings.size());
     facts.push_back({.words = settings.substr(at, comma - at), .new_line = at == 0});
@@ -132,8 +133,8 @@ std::vector<Box<2>> cut(const std::vector<UnionTree>& trees, const Box<2>& area)
 TreeStage stage_of(const UnionTree& tree, const Staging& staging, const Box<2>& diagram) {
   std::vector<TreeOfFrame> trees;
   for (const Frame* frame : staging.frames())
-    trees.push_back({nodes_of_tree(*frame, tree.of_static), frame->hits});
-  const bool atlas = !staging.frames()[0]->textures.empty();
+    trees.push_back({nodes_of_tree(*frame, tree.of_static), frame->get<FrameFinding>().hits});
+  const bool atlas = !staging.frames()[0]->get<FrameTextures>().textures.empty();
   return stage_tree(tree, trees, atlas, shrunk(diagram, 6));
 }
 
@@ -181,7 +182,7 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   diagram.hi.y -= height + 4;
   if (traits_of(frame.structure).has(Setting::axis))
     return draw_sweep(frame, shrunk(diagram, 6), list, labels);
-  if (!frame.grid_levels.empty() && staging.trees().size() < 2)
+  if (!frame.get<FrameStructure>().grid_levels.empty() && staging.trees().size() < 2)
     return draw_grid(frame, shrunk(diagram, 6), list, labels);
   if (staging.trees().size() > 1) return draw_forest(frame, staging, diagram, list, labels);
   for (const UnionTree& tree : staging.trees())

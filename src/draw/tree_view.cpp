@@ -46,7 +46,7 @@ class TreeView {
  private:
   const std::vector<Branch>& branches() const { return layout_.branches; }
   const FrameNode& node_of(const Branch& branch) const { return frame_.nodes[branch.node]; }
-  bool is_atlas() const { return !frame_.textures.empty(); }
+  bool is_atlas() const { return !frame_.get<FrameTextures>().textures.empty(); }
   // On a tree that is shown whole, its nodes can be counted.
   void depict() const {
     if (branches().size() != frame_.nodes.size() || frame_.nodes.empty()) return;
@@ -181,7 +181,8 @@ class TreeView {
 
   void draw_icon(BodyId id, const Branch& branch, const Box<2>& place) {
     if (is_atlas()) {
-      const FrameTexture& texture = *std::ranges::find(frame_.textures, id, &FrameTexture::id);
+      const FrameTexture& texture =
+          *std::ranges::find(frame_.get<FrameTextures>().textures, id, &FrameTexture::id);
       const DrawList::Scope scope = carried(texture_key("tree/texture", texture), branch);
       draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_, texture.turned);
       return list_.rect(place, Role::none, {Role::body_line, 1.2});

@@ -241,8 +241,8 @@ class GridDepths {
 // the picture.
 void rule_grid(const Frame& frame, const View2D& map, DrawList& list) {
   constexpr double kLeastRuled = 12;
-  if (frame.grid_levels.empty()) return;
-  const double side = frame.grid_levels[0].side;
+  if (frame.get<FrameStructure>().grid_levels.empty()) return;
+  const double side = frame.get<FrameStructure>().grid_levels[0].side;
   if (side * map.scale() < kLeastRuled) return;
   const DrawList::Scope scope(list, "world/ruled");
   const Box<2> picture = map.picture();
@@ -321,7 +321,7 @@ void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
 // The grounds of views, which lie under the cells.
 void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
   Pen pen(list, map.picture());
-  for (const FrameView& view : first_of(frame.views, kMostViews)) {
+  for (const FrameView& view : first_of(frame.get<FrameFinding>().views, kMostViews)) {
     std::vector<Vec<2>> corners;
     for (const Vec<3>& corner : view.corners) corners.push_back(map.to_page(corner));
     if (corners.size() < 3 || !std::ranges::all_of(corners, is_finite<2>)) continue;
@@ -334,7 +334,7 @@ void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
 }  // namespace
 
 bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
-  list.crisp_rect(map.picture(), frame.land.empty() ? Role::panel : kSea);
+  list.crisp_rect(map.picture(), frame.get<FrameLand>().land.empty() ? Role::panel : kSea);
   if (frame.display.cells && frame.display.not_made) hatch_unmade(frame, map, list);
   Grounds under;  // of what the cells' own grounds lie on
   fill_views(frame, map, list, under);

@@ -171,7 +171,7 @@ void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Lab
 }
 
 void draw_land(const Frame& frame, const View2D& map, DrawList& list) {
-  for (const Polygon& land : frame.land) {
+  for (const Polygon& land : frame.get<FrameLand>().land) {
     std::vector<Vec<2>> coast;
     for (const Vec<2>& corner : land) coast.push_back(map.to_page(corner));
     coast = cut_to(std::move(coast), map.picture());

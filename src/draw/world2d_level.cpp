@@ -178,7 +178,7 @@ const SectorPlaces& sector_places(const Staging& staging, const Box<2>& panel) {
 
 // Short strokes across the wall where it was cut in two.
 void draw_cuts(const Frame& frame, const View2D& map, Pen& pen) {
-  const auto drawn = first_of(frame.walls, kMostWalls);
+  const auto drawn = first_of(frame.get<FrameLevel>().walls, kMostWalls);
   std::vector<FrameWall> walls(drawn.begin(), drawn.end());
   std::ranges::stable_sort(walls, {}, &FrameWall::wall);
   for (std::size_t i = 0; i < walls.size(); ++i)
@@ -201,7 +201,7 @@ void draw_cuts(const Frame& frame, const View2D& map, Pen& pen) {
 }  // namespace
 
 bool is_level(const Frame& frame) {
-  if (!frame.walls.empty() || frame.eye) return true;
+  if (!frame.get<FrameLevel>().walls.empty() || frame.get<FrameLevel>().eye) return true;
   return std::ranges::any_of(frame.nodes,
                              [](const FrameNode& n) { return n.solid || n.order != kNone; });
 }
@@ -247,18 +247,18 @@ void number_sectors(const Frame& frame, const Staging& staging, const View2D& ma
 
 void draw_portals(const Frame& frame, const View2D& map, DrawList& list) {
   Pen pen(list, mark_limit(map));
-  for (const FramePortal& portal : first_of(frame.portals, kMostWalls)) {
-    const auto at = static_cast<std::size_t>(&portal - frame.portals.data());
+  for (const FramePortal& portal : first_of(frame.get<FrameLevel>().portals, kMostWalls)) {
+    const auto at = static_cast<std::size_t>(&portal - frame.get<FrameLevel>().portals.data());
     const DrawList::Scope scope(list, fmt::format("world/portal/{}", at));
     draw_portal(map.to_page(portal.from), map.to_page(portal.to), pen);
     list.marks.add(MarkKind::portal);
   }
-  if (!frame.portals.empty()) list.referents.emplace("portals");
+  if (!frame.get<FrameLevel>().portals.empty()) list.referents.emplace("portals");
 }
 
 void draw_sights(const Frame& frame, const View2D& map, DrawList& list) {
   Pen pen(list, mark_limit(map));
-  for (const FrameSight& sight : first_of(frame.sights, kMostSectors)) {
+  for (const FrameSight& sight : first_of(frame.get<FrameLevel>().sights, kMostSectors)) {
     const DrawList::Scope scope(list, fmt::format("world/sight/{}-{}", sight.a, sight.b));
     draw_sight(map.to_page(sight.from), map.to_page(sight.to), pen);
     list.marks.add(MarkKind::sight);
@@ -268,7 +268,7 @@ void draw_sights(const Frame& frame, const View2D& map, DrawList& list) {
 void draw_walls(const Frame& frame, const View2D& map, DrawList& list) {
   Pen pen(list, mark_limit(map));
   for (const Mark mark : {Mark::quiet, Mark::passed, Mark::lit})
-    for (const FrameWall& wall : first_of(frame.walls, kMostWalls)) {
+    for (const FrameWall& wall : first_of(frame.get<FrameLevel>().walls, kMostWalls)) {
       if (wall.mark != mark) continue;
       const Vec<2> from = map.to_page(wall.from), to = map.to_page(wall.to);
       const double width = mark == Mark::lit ? 10 : mark == Mark::passed ? 6.5 : 5;

@@ -87,12 +87,12 @@ void draw_trails(const Frame& frame, const View2D& map, DrawList& list) {
 }
 
 void draw_looks(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  if (frame.looks.empty()) return;
+  if (frame.get<FrameLooks>().looks.empty()) return;
   const DrawList::Scope scope(list, "world/looks");
   Pen pen(list, mark_limit(map));
   const BodiesById bodies = by_id(frame.bodies);
-  const FrameLook& last = frame.looks.back();
-  for (const FrameLook& look : frame.looks) {
+  const FrameLook& last = frame.get<FrameLooks>().looks.back();
+  for (const FrameLook& look : frame.get<FrameLooks>().looks) {
     const bool now = &look == &last;
     for (const auto& [id, place] :
          {std::pair(look.pair.a, look.a), std::pair(look.pair.b, look.b)}) {

@@ -276,7 +276,7 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
 }
 
 bool add_cells(const Frame& frame, Marks3D& marks) {
-  Edges edges(marks.view, frame.may_sleep);
+  Edges edges(marks.view, frame.get<FrameStructure>().may_sleep);
   const bool flat = traits_of(frame.structure).ignores_height;
   const bool shown = frame.display.cells && !frame.nodes.empty();
   for (std::uint32_t i = 0; shown && i < frame.nodes.size(); ++i)

@@ -201,7 +201,7 @@ void draw_ground3d(const Frame& frame, const View3D& view, DrawList& list) {
   if (view.eye().y > view.bounds().lo.y) fill(floor_of(view.bounds()), Role::panel, {}, view, list);
   for (const FrameBody& body : frame.bodies)
     if (is_half_space(body)) draw_half_space(body, view, list);
-  for (const FrameView& seen : frame.views) fill_view(seen, view, list);
+  for (const FrameView& seen : frame.get<FrameFinding>().views) fill_view(seen, view, list);
   draw_grid(view, list);
 }
 

@@ -184,8 +184,8 @@ void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawLi
   mark_forces(frame, marks);
   write_forces(frame, map, labels);
   mark_rulers(frame, marks, labels);
-  if (frame.eye && !is_in_a_body(frame, *frame.eye)) {
-    const Vec<2> eye = map.to_page(*frame.eye);
+  if (frame.get<FrameLevel>().eye && !is_in_a_body(frame, *frame.get<FrameLevel>().eye)) {
+    const Vec<2> eye = map.to_page(*frame.get<FrameLevel>().eye);
     draw_eye(eye, {1, 0}, Role::ink, shrunk(map.picture(), -20), list);
     labels.block(Box<2>::around(eye, {24, 18}));
   }
@@ -285,7 +285,9 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   const std::vector<GroundPlace> ground = draw_half_spaces(frame, map, list, grounds);
   const std::vector<Stand> stands = stands_of(frame, map);
   // A ray, view or region is about bodies, not about pairs.
-  const bool asks = !frame.rays.empty() || !frame.views.empty() || !frame.queries.empty();
+  const bool asks = !frame.get<FrameFinding>().rays.empty() ||
+                    !frame.get<FrameFinding>().views.empty() ||
+                    !frame.get<FrameFinding>().queries.empty();
   const bool pairs = frame.display.pairs && !asks;
   const PageLinks links = pairs ? links_of(frame, stands, map) : PageLinks();
   if (!links.complete)

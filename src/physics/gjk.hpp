@@ -24,6 +24,8 @@ struct SupportPair {
   Vec<2> a{0.0};  // in the world
   Vec<2> b{0.0};
   Vec<2> difference() const { return a - b; }
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("a", r.a)("b", r.b); }
 };
 
 // One search: from the point of the simplex that is nearest to the origin, towards the origin.
@@ -36,6 +38,11 @@ struct GjkStep {
   // three the origin lies among them.
   std::vector<SupportPair> simplex;
   Vec<2> nearest{0.0};  // of it to the origin
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("direction", r.direction)("found", r.found)("simplex", r.simplex)("nearest", r.nearest)
+        .drawn(r.ends);
+  }
 };
 
 struct GjkAnswer {

@@ -116,8 +116,9 @@ void Lesson::add(const Frame& frame, const DrawList& list, const FrameWords& wor
   check_draw_list(list);
   if (frames_.count() == 0) first_ = list;
   last_ = list;
-  if (frame.question)
-    card_.questions.push_back({frame.question->asked, frame.question->answer, frames_.count()});
+  if (frame.find<FrameQuestion>())
+    card_.questions.push_back(
+        {frame.find<FrameQuestion>()->asked, frame.find<FrameQuestion>()->answer, frames_.count()});
   frames_.add(frame, list, words);
   facts_ += (facts_.empty() ? "" : ",\n") + facts_for_page(frame, list);
   const std::string caption = whole_caption(frame);

@@ -100,8 +100,8 @@ std::vector<std::string> entities_of(const std::string& key, const Frame& frame)
   const Frame* side = &frame;
   std::string prefix;
   for (const Frame& one : frame.sides) {
-    if (!rest.starts_with(one.side + "/")) continue;
-    prefix = one.side + "/";
+    if (!rest.starts_with(one.get<FrameSide>().name + "/")) continue;
+    prefix = one.get<FrameSide>().name + "/";
     rest.remove_prefix(prefix.size());
     side = &one;
     break;

@@ -29,7 +29,8 @@ std::string number(double x) { return fmt::format("{:.5g}", x == 0 ? 0.0 : x); }
 class FactsWriter {
  public:
   FactsWriter(const Frame& frame, const DrawList& list) : frame_(frame) {
-    const std::string prefix = frame.side.empty() ? "" : frame.side + "/";
+    const std::string prefix =
+        frame.get<FrameSide>().name.empty() ? "" : frame.get<FrameSide>().name + "/";
     for (const WorldMap& map : list.maps)
       if (map.prefix == prefix) map_ = &map;
   }
@@ -40,8 +41,9 @@ class FactsWriter {
         "{{\"name\":{},\"title\":{},\"counts\":{},\"measures\":{},\"textures\":{},\"bodies\":{},"
         "\"nodes\":{},"
         "\"pairs\":{},\"contacts\":{}}}",
-        json_string(frame_.side), json_string(frame_.side_title), list_of(frame_.counts, count),
-        list_of(frame_.measures, measure), list_of(frame_.textures, texture),
+        json_string(frame_.get<FrameSide>().name), json_string(frame_.get<FrameSide>().title),
+        list_of(frame_.counts, count), list_of(frame_.measures, measure),
+        list_of(frame_.get<FrameTextures>().textures, texture),
         list_of(frame_.bodies, [&](const FrameBody& b) { return body(b); }), nodes(),
         list_of(frame_.pairs,
                 [](const FramePair& p) {

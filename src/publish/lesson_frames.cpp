@@ -32,8 +32,9 @@ struct StandingRun {
 std::string whole_caption(const Frame& frame) {
   std::string words = frame.caption;
   for (const Frame& side : frame.sides)
-    if (!side.held && !side.caption.empty())
-      words += fmt::format("{}{}: {}", words.empty() ? "" : " ", side.side_title, side.caption);
+    if (!side.get<FrameSide>().held && !side.caption.empty())
+      words += fmt::format("{}{}: {}", words.empty() ? "" : " ", side.get<FrameSide>().title,
+                           side.caption);
   return words;
 }
 

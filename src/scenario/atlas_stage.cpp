@@ -139,16 +139,17 @@ FrameNode AtlasStage::frame_node(const AtlasNodeView& view,
 
 void AtlasStage::picture(const Touched& touched, Frame& frame) const {
   std::int64_t free_leaves = 0, leaves = 0, depth = 0, packed = 0, refused = 0;
-  frame.textures = textures_;
+  std::vector<FrameTexture>& textures = frame.add<FrameTextures>().textures;
+  textures = textures_;
   atlas_.visit([&](const AtlasNodeView& view) {
-    frame.nodes.push_back(frame_node(view, frame.textures));
+    frame.nodes.push_back(frame_node(view, textures));
     frame.nodes.back().mark = touched.mark_of(view.handle);
     leaves += view.leaf;
     free_leaves += view.leaf && !view.texture;
     depth = std::max<std::int64_t>(depth, view.depth);
     return true;
   });
-  for (const FrameTexture& t : frame.textures) {
+  for (const FrameTexture& t : textures) {
     packed += t.packed;
     refused += t.refused;
   }

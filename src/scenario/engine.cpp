@@ -233,7 +233,7 @@ class EngineOf : public Engine {
       trails_->picture(world(), scenario_.world.time_step, frame);
     if (frame.display.forces) picture_forces(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
-    frame.may_sleep = scenario_.world.may_sleep;
+    frame.add<FrameStructure>().may_sleep = scenario_.world.may_sleep;
     picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, frame);
     count_tests(frame);
     if (!being_stored_) light_those_that_left(frame);

@@ -117,8 +117,8 @@ Unmet unmet_pairs(const Expectation& e, const Frame& frame, Places&) {
 // In order along a ray; in any order of a view or region.
 Unmet unmet_hits(const Expectation& e, const Frame& frame, Places&) {
   std::vector<std::string> found, expected = e.names;
-  for (const BodyId id : frame.hits) found.push_back(name_of(frame, id));
-  if (frame.rays.empty()) {
+  for (const BodyId id : frame.get<FrameFinding>().hits) found.push_back(name_of(frame, id));
+  if (frame.get<FrameFinding>().rays.empty()) {
     std::sort(found.begin(), found.end());
     std::sort(expected.begin(), expected.end());
   }
@@ -223,7 +223,7 @@ std::vector<const Expectation*> all_of(const Step& step) {
 
 // The kind's cell in the row that was compared last; null if there is none.
 const FrameComparison::Cell* cell_of(const Frame& frame, const std::string& kind) {
-  const auto& rows = frame.comparison.rows;
+  const auto& rows = frame.get<FrameComparison>().rows;
   const auto named = structure_named(kind);
   return rows.empty() || !named ? nullptr : rows.back().cell(*named);
 }
@@ -241,8 +241,8 @@ Unmet unmet_work(const Expectation& e, const Frame& frame, Places&) {
 
 Unmet unmet_fewest(const Expectation& e, const Frame& frame, Places&) {
   std::set<std::string> found;
-  for (const FrameComparison::Cell& cell : frame.comparison.rows.back().cells)
-    if (cell.work.step() == frame.comparison.rows.back().least())
+  for (const FrameComparison::Cell& cell : frame.get<FrameComparison>().rows.back().cells)
+    if (cell.work.step() == frame.get<FrameComparison>().rows.back().least())
       found.insert(std::string(to_string(cell.kind)));
   if (found == std::set(e.names.begin(), e.names.end())) return std::nullopt;
   return fmt::format("expected fewest comparisons of {}, found {}", listed(e.names),

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/hash.hpp"
+#include "scenario/part_fields.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -66,27 +66,17 @@ std::uint64_t state_hash(const Frame& frame) {
   }
   for (const FramePair& p : frame.pairs)
     hash.add(std::uint64_t{p.pair.a}).add(std::uint64_t{p.pair.b});
-  for (const FrameTexture& t : frame.textures)
-    for (const int x : {int{t.packed}, int{t.refused}, t.x, t.y, t.width, t.height})
-      hash.add(static_cast<std::uint64_t>(x));
+  frame.parts.each([&](const PartType& type, const std::any& part) { type.add_state(part, hash); });
   return hash.value();
 }
 
 std::size_t estimated_bytes(const Frame& frame) {
-  std::size_t bytes = sizeof(Frame);
-  const auto add = [&](const auto&... lists) {
-    ((bytes += lists.size() * sizeof(*lists.data())), ...);
-  };
-  add(frame.bodies, frame.nodes, frame.pairs, frame.tested, frame.contacts, frame.looks);
-  add(frame.links, frame.islands, frame.edges, frame.forces, frame.rulers, frame.rays);
-  add(frame.walls, frame.portals, frame.sights, frame.textures, frame.counts, frame.measures);
-  add(frame.trace.points, frame.chart.bars, frame.screen.elements);
-  for (const FrameNode& node : frame.nodes) add(node.bodies, node.region);
-  for (const FrameContact& contact : frame.contacts) add(contact.points);
-  for (const FrameIsland& island : frame.islands) add(island.bodies);
-  for (const FrameSeries& series : frame.chart.series) bytes += sizeof series, add(series.points);
-  if (frame.collisions)
-    for (const FrameCollision& row : frame.collisions->rows) bytes += sizeof row, add(row.moments);
+  ListBytes lists;
+  lists.drawn(frame.bodies, frame.nodes, frame.pairs, frame.tested, frame.contacts, frame.counts,
+              frame.measures);
+  for (const FrameNode& node : frame.nodes) lists.drawn(node.bodies, node.region);
+  std::size_t bytes = sizeof(Frame) + lists.bytes;
+  frame.parts.each([&](const PartType& type, const std::any& part) { bytes += type.bytes(part); });
   for (const Frame& side : frame.sides) bytes += estimated_bytes(side);
   return bytes;
 }
@@ -97,19 +87,10 @@ const FrameBody* Frame::body_of(BodyId id) const {
 }
 
 const Frame* Frame::side_named(std::string_view name) const {
-  const auto found = std::ranges::find(sides, name, &Frame::side);
+  const auto found = std::ranges::find(sides, name, [](const Frame& side) -> std::string_view {
+    return side.get<FrameSide>().name;
+  });
   return found == sides.end() ? nullptr : &*found;
-}
-
-double FrameSeparation::gap() const {
-  if (axes.empty()) return 0;
-  return std::max(0.0, axes[answer.value_or(axes.size() - 1)].separation);
-}
-
-double FrameSeparation::overlap() const {
-  if (axes.empty() || gap() > 0) return 0;
-  if (answer) return -axes[*answer].separation;
-  return -std::ranges::max(axes, {}, &FrameAxis::separation).separation;
 }
 
 std::optional<std::int64_t> Frame::count(std::string_view name) const {

@@ -17,6 +17,7 @@
 #include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
 #include "scenario/frame_comparison.hpp"
+#include "scenario/parts.hpp"
 #include "scenario/scenario.hpp"
 #include "spatial/structure.hpp"
 
@@ -42,6 +43,10 @@ struct Touched {
 struct FramePlace {
   Vec<3> position{0.0};
   double angle = 0;  // radians, of a flat world
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("position", r.position).flat_world("orientation", r.angle);
+  }
 };
 
 // Of a body's trail.
@@ -110,6 +115,23 @@ struct FrameTexture {
   bool turned = false;  // by 90 degrees: width and height are exchanged
   int x = 0;            // of a packed one, upper left corner
   int y = 0;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("id", r.id)("name", r.name)("size", r.width, r.height)
+        .or_null(r.packed, "position", r.x, r.y)("refused", r.refused)
+        .drawn(r.color, r.picture, r.packed, r.turned);
+  }
+};
+
+// Of an atlas.
+struct FrameTextures {
+  static constexpr std::string_view kName = "textures";
+  std::vector<FrameTexture> textures;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.when(!r.textures.empty(), "textures", r.textures);
+  }
+  void add_state(Hash& hash) const;
 };
 
 // A screen that is drawn from textures, and each way in which it has been drawn so far.
@@ -121,12 +143,21 @@ struct FrameElement {
   int height = 0;
   bool drawn = true;  // by the way that is under way; before the first one all are shown
   bool lit = false;   // the frame is about it
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("texture", r.texture)("position", r.x, r.y)("drawn", r.drawn)
+        .drawn(r.width, r.height, r.lit);
+  }
 };
 
 struct FrameDraw {
   std::uint32_t element = 0;
   bool binds = false;  // another image had to be bound before it
   bool done = false;   // else it is bound and not yet drawn
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("element", r.element)("binds", r.binds)("done", r.done);
+  }
 };
 
 struct FrameWay {
@@ -134,9 +165,17 @@ struct FrameWay {
   bool by_texture = false;  // sorted so; else in the order of the list
   std::vector<FrameDraw> draws;
   std::uint64_t bindings = 0;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.words("from", r.from_atlas, "textures", "atlas")
+        .words("order", r.by_texture, "as_listed", "by_texture")("bindings", r.bindings)("draws",
+                                                                                         r.draws);
+  }
 };
 
 struct FrameScreen {
+  static constexpr std::string_view kName = "screen";
+  static constexpr bool kIsObject = true;
   int width = 0;
   int height = 0;
   std::uint32_t planned = 0;           // ways, in the whole script
@@ -144,6 +183,11 @@ struct FrameScreen {
   std::vector<FrameWay> ways;          // the last may be under way
   std::uint32_t bound = kNone;         // a texture, while it is drawn from
   bool atlas_bound = false;            // or the atlas
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("size", r.width, r.height)("elements", r.elements)("ways", r.ways)
+        .drawn(r.planned, r.bound, r.atlas_bound);
+  }
 };
 
 struct FramePair {
@@ -167,12 +211,21 @@ struct FrameContact {
     Vec<3> position{0.0};
     double separation = 0;  // below 0 they overlap
     double impulse = 0;     // along the normal, N s, over the last world step
+
+    static decltype(auto) fields(const auto& r, auto&& v) {
+      return v("position", r.position)("separation", r.separation)("impulse", r.impulse);
+    }
   };
   Pair pair;
   Vec<3> normal{0.0};  // unit, from a to b
   std::vector<Point> points;
   bool begins = false;   // they did not touch a step before
   bool crushes = false;  // one of them, against a third
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("pair", r.pair)("normal", r.normal)("points", r.points)("begins", r.begins)("crushes",
+                                                                                         r.crushes);
+  }
 };
 
 // A look at two bodies within a world step, to find out when they meet. Times are shares of the
@@ -186,6 +239,20 @@ struct FrameLook {
   double free_until = 0;  // for so long they surely do not touch; `time` if that is not known
   bool meets = false;     // this is the moment
   int number = 1;         // of the looks at this pair, from 1: not all of them are told
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("pair", r.pair)("a", r.a)("b", r.b)("time", r.time)("gap", r.gap)(
+               "free_until", r.free_until)("meets", r.meets)
+        .drawn(r.on_a, r.on_b, r.number);
+  }
+};
+
+// For the moment of an impact, so far; the last is this frame's.
+struct FrameLooks {
+  static constexpr std::string_view kName = "looks";
+  std::vector<FrameLook> looks;
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("looks", r.looks); }
 };
 
 // So many are told of one step.
@@ -194,10 +261,25 @@ inline constexpr std::size_t kMostLooks = 24;
 // A spring, a distance joint or a pin, between two points.
 struct FrameLink {
   enum class Kind { spring, distance, pin };
+  friend std::string_view to_string(Kind kind) {
+    static constexpr std::string_view kWords[] = {"spring", "distance", "pin"};
+    return kWords[static_cast<int>(kind)];
+  }
   Kind kind = Kind::spring;
   Vec<3> from{0.0};
   Vec<3> to{0.0};
   double strain = 0;  // (length - rest) / rest; 0 for a pin
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("kind", r.kind)("from", r.from)("to", r.to)("strain", r.strain);
+  }
+};
+
+struct FrameLinks {
+  static constexpr std::string_view kName = "links";
+  std::vector<FrameLink> links;
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("links", r.links); }
 };
 
 // A force that acts on a body now: a script's, or the pull of a spring.
@@ -206,6 +288,18 @@ struct FrameForce {
   Vec<3> at{0.0};     // in the world
   Vec<3> force{0.0};  // N
   bool of_spring = false;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("body", r.body)("at", r.at)("force", r.force)("of_spring", r.of_spring);
+  }
+};
+
+// If the scenario shows them.
+struct FrameForces {
+  static constexpr std::string_view kName = "forces";
+  std::vector<FrameForce> forces;
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("forces", r.forces); }
 };
 
 // The length between two points, measured.
@@ -215,6 +309,17 @@ struct FrameRuler {
   double length = 0;
   std::optional<double> before;  // what it is compared with: as long as it was when the step began
   std::string text;              // what is measured; may be empty
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("from", r.from)("to", r.to)("length", r.length)("before", r.before).drawn(r.text);
+  }
+};
+
+struct FrameRulers {
+  static constexpr std::string_view kName = "rulers";
+  std::vector<FrameRuler> rulers;
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("rulers", r.rulers); }
 };
 
 // Bodies that hang together, as the last step of the world found, and so are moved together and
@@ -223,6 +328,10 @@ struct FrameIsland {
   std::uint32_t number = 0;  // from 1; an island keeps it while the body of its lowest id is in it
   std::vector<BodyId> bodies;  // ascending
   bool asleep = false;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("number", r.number)("bodies", r.bodies)("asleep", r.asleep);
+  }
 };
 
 // What holds two bodies together, or keeps them apart: that they touch, or a spring or joint.
@@ -232,14 +341,33 @@ struct FrameEdge {
   bool lit = false;   // new since the frame before
 };
 
+// If they have a panel.
+struct FrameIslands {
+  static constexpr std::string_view kName = "islands";
+  std::vector<FrameIsland> islands;  // in order of their numbers
+  std::vector<FrameEdge> edges;      // in order of ids
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.when(!r.islands.empty(), "islands", r.islands).drawn(r.edges);
+  }
+};
+
 struct FrameRay {
   Vec<3> from{0.0};
   Vec<3> to{0.0};  // where it ends: its length, or the nearest hit
   struct Hit {
     BodyId body = 0;
     Vec<3> position{0.0};
+
+    static decltype(auto) fields(const auto& r, auto&& v) {
+      return v("body", r.body)("position", r.position);
+    }
   };
   std::vector<Hit> hits;  // in order along the ray
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("from", r.from)("to", r.to)("hits", r.hits);
+  }
 };
 
 // A view that bodies are culled against. In a flat world a wedge: `corners` goes round it. In a
@@ -248,12 +376,36 @@ struct FrameRay {
 struct FrameView {
   Vec<3> eye{0.0};
   std::vector<Vec<3>> corners;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("eye", r.eye)("corners", r.corners);
+  }
 };
 
 // A region that was asked for what it overlaps.
 struct FrameQuery {
   Box<3> box;
   double radius = 0;  // above 0: a disc or ball about the box's centre
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("box", r.box)("radius", r.radius);
+  }
+};
+
+// What a ray, view or region was, and what it found.
+struct FrameFinding {
+  static constexpr std::string_view kName = "finding";
+  std::vector<FrameRay> rays;
+  std::vector<FrameView> views;
+  std::vector<FrameQuery> queries;
+  std::vector<BodyId> hits;  // of a ray in order along it
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.when(!r.rays.empty(), "rays", r.rays)
+        .when(!r.views.empty(), "views", r.views)
+        .when(!r.queries.empty(), "queries", r.queries)
+        .drawn(r.hits);
+  }
 };
 
 // An axis along which two bodies were measured: how far their shadows on it are apart.
@@ -265,10 +417,16 @@ struct FrameAxis {
   // The points whose shadows end the bodies' shadows: the first body's least and most along the
   // axis, then the second's.
   std::array<Vec<2>, 4> ends{};
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("direction", r.direction)("separation", r.separation)("across", r.across)
+        .drawn(r.face, r.ends);
+  }
 };
 
 // Two bodies measured along one axis after another, until one parts them or there is none left.
 struct FrameSeparation {
+  static constexpr std::string_view kName = "separation";
   BodyId a = 0;
   BodyId b = 0;
   std::vector<FrameAxis> axes;  // those so far, in their order
@@ -277,6 +435,10 @@ struct FrameSeparation {
 
   double gap() const;      // along the answer, or else the newest axis; 0 if they overlap
   double overlap() const;  // the least so far; 0 if they are apart
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("axes", r.axes)("answer", r.answer).drawn(r.a, r.b);
+  }
 };
 
 // The shapes of many pairs, each pair tested once.
@@ -288,19 +450,29 @@ struct ShapeTests {
 
 // GJK: support point by support point to the distance of two bodies.
 struct FrameSearch {
+  static constexpr std::string_view kName = "search";
   BodyId a = 0;
   BodyId b = 0;
   std::vector<GjkStep> steps;  // those so far
   bool taken = true;           // the last one's point has entered the simplex
   std::optional<GjkAnswer> answer;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("searches", r.steps).drawn(r.a, r.b, r.taken, r.answer);
+  }
 };
 
 // All points of the first body less all points of the second.
 struct FrameDifference {
+  static constexpr std::string_view kName = "difference";
   BodyId a = 0;
   BodyId b = 0;
   std::vector<Vec<2>> corners;  // convex, counter-clockwise
   double radius = 0;            // round them, of round shapes
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("difference", r.corners)("radius", r.radius).drawn(r.a, r.b);
+  }
 };
 
 // A piece of a level's wall.
@@ -310,6 +482,12 @@ struct FrameWall {
   std::uint32_t wall = 0;      // of the scenario's walls
   std::uint32_t node = kNone;  // of frame.nodes: where it lies, once it does
   Mark mark = Mark::quiet;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("wall", r.wall)("from", r.from)("to", r.to)
+        .when(r.node != kNone, "node", r.node)
+        .drawn(r.mark);
+  }
 };
 
 // An opening between two of a level's sectors, and a line of sight between two that see each other.
@@ -318,14 +496,36 @@ struct FramePortal {
   Vec<2> to{0.0};
   std::uint32_t a = 0;  // the sectors' nodes, of frame.nodes
   std::uint32_t b = 0;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("from", r.from)("to", r.to)("nodes", r.a, r.b);
+  }
 };
 using FrameSight = FramePortal;
 
+struct FrameLevel {
+  static constexpr std::string_view kName = "level";
+  std::vector<FrameWall> walls;
+  std::optional<Vec<2>> eye;         // from where it is looked at
+  std::vector<FramePortal> portals;  // once a step asked who sees whom
+  std::vector<FrameSight> sights;    // of the sector whose view has just been found
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.when(!r.walls.empty(), "walls", r.walls)
+        .when(!r.portals.empty(), "portals", r.portals)
+        .when(!r.sights.empty(), "sights", r.sights)
+        .drawn(r.eye);
+  }
+};
+
 // Who sees whom of a level's sectors.
 struct FrameMatrix {
+  static constexpr std::string_view kName = "matrix";
   std::vector<std::string>
       rows;                   // a letter for each sector: '1' is seen, '0' is not, '.' not known
   std::uint32_t lit = kNone;  // the row that is asked for, or has just been found
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("matrix", r.rows).drawn(r.lit); }
 };
 
 // A line of a chart: what one count was against another, step by step.
@@ -333,6 +533,10 @@ struct FrameSeries {
   std::string name;            // of the count or measure, or of the body it is of
   std::vector<Vec<2>> points;  // in the order of the steps
   int color = 0;               // of the body; 0: whichever is next
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.drawn(r.name, r.points, r.color);
+  }
 };
 
 // How often each structure, or each step, counted something, as bars.
@@ -344,6 +548,7 @@ struct FrameBar {
 };
 
 struct FrameChart {
+  static constexpr std::string_view kName = "chart";
   std::string x_name;  // of the count along x; empty for bars
   std::string y_name;
   bool logarithmic = false;       // both axes, but for time
@@ -359,19 +564,31 @@ struct FrameChart {
   std::string y_unit;
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.drawn(r.x_name, r.y_name, r.logarithmic, r.over_time, r.seconds, r.least, r.most,
+                   r.range, r.x_range, r.x_unit, r.y_unit, r.series, r.bars);
+  }
 };
 
 // One count over the world's time so far, for the thin strip under what moves.
 struct FrameTrace {
+  static constexpr std::string_view kName = "trace";
   std::string name;               // of the count
   std::vector<Vec<2>> points;     // seconds since the part began, and the count
   std::optional<double> seconds;  // of the part; none: the script does not say
   std::optional<double> most;     // of the whole part, once somebody knows it
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.drawn(r.name, r.points, r.seconds, r.most);
+  }
 };
 
 // A function of the lecture's own source (lecture/source.hpp), and which of its lines the frame is
 // about.
 struct FrameCode {
+  static constexpr std::string_view kName = "code";
+  static constexpr bool kIsObject = true;
   struct Line {
     std::uint32_t number = 0;  // in its file, from 1
     std::uint32_t indent = 0;  // levels, from the function's head on
@@ -381,6 +598,14 @@ struct FrameCode {
   std::string file;      // "quad_tree.hpp"
   std::string function;  // "QuadTreeNode::Insert"
   std::vector<Line> lines;
+
+  std::vector<std::uint32_t> lit() const;  // their numbers
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("file", r.file)("function", r.function)
+        .told("lit", [&r] { return r.lit(); })
+        .drawn(r.lines);
+  }
 };
 
 // What the world remembered, step after step, of one pair that touches or has just touched.
@@ -390,18 +615,32 @@ struct FrameCollision {
     int frames_left = 0;     // after it: steps without touch before the end is told; -1: told in it
     bool touches = false;    // in it
     bool begins = false;     // its begin was told in it
+
+    static decltype(auto) fields(const auto& r, auto&& v) {
+      return v("step", r.step)("frames_left", r.frames_left)("touches", r.touches)("begins",
+                                                                                   r.begins);
+    }
   };
   Pair pair;
   std::vector<Moment> moments;  // in order
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("pair", r.pair)("moments", r.moments);
+  }
 };
 
 // All of them since a part of the script began.
 struct FrameCollisions {
+  static constexpr std::string_view kName = "collisions";
   std::vector<FrameCollision> rows;    // by their first begin
   int remembered = 0;                  // what framesLeft begins with
   std::uint64_t first = 0;             // world steps before the part
   std::uint64_t now = 0;               // world steps so far
   std::optional<std::uint64_t> steps;  // of the part; none: the script does not say
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("collisions", r.rows).drawn(r.remembered, r.first, r.now, r.steps);
+  }
 };
 
 // Perspective, y up.
@@ -410,6 +649,10 @@ struct Camera {
   Vec<3> target{0.0};
   double field_of_view = 0.7;  // radians, from bottom to top
   bool goes_round = false;     // on some frame of the scenario: the picture fits all directions
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("eye", r.eye)("target", r.target).drawn(r.field_of_view, r.goes_round);
+  }
 };
 
 // That of a solid world without one: from the front, above, and to the right.
@@ -427,92 +670,129 @@ struct FrameNote {
 
 // Asked of the students after the sequence, and answered by the frame that has it.
 struct FrameQuestion {
+  static constexpr std::string_view kName = "question";
+  static constexpr bool kIsObject = true;
   std::string asked;
   std::string answer;  // counts filled in
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("asked", r.asked)("answer", r.answer);
+  }
 };
 
-struct Frame {
-  int dimension = 2;
-  std::optional<Camera> camera;  // of a solid world
-  std::string scenario;
-  std::string title;
-  std::string part;
-  std::uint64_t seed = 1;
-  std::uint32_t index = 0;  // of this frame, from 0
-  std::uint32_t step = 0;   // of the script, from 0
-  std::uint32_t steps = 0;
-  std::string event;  // the step's name or the algorithm's event; for --at
-  StepPhase phase = StepPhase::whole;
-  double time = 0;                    // seconds of world time
-  std::string caption;                // counts filled in
-  std::vector<std::string> told;      // the counts and measures that the caption quotes, in order
-  std::vector<std::string> headline;  // the numbers that the scenario puts in front; may be empty
-  bool ending = false;                // the take-away of the sequence
-  std::optional<FrameQuestion> question;  // on no picture
-  StructureKind structure = StructureKind::none;
+// How the structure was told to be, and what its panels need beside the nodes.
+struct FrameStructure {
+  static constexpr std::string_view kName = "structure";
   std::string settings;                 // "capacity 2, depth limit 4": what the tree was told
   std::uint32_t capacity = 0;           // of its leaves, if they split
   std::vector<GridExtent> grid_levels;  // of a grid, the finest first
   bool hashed = false;                  // its cells share buckets, of which the extents tell
   std::optional<BodyId> swept_to;       // a sweep stands at this body's beginning
-  int sweep_axis = 0;  // along which a sweep sorted; of other structures of no matter
+  int sweep_axis = 0;            // along which a sweep sorted; of other structures of no matter
+  std::uint32_t pool_size = 0;   // nodes that the tree's pool held at most; 0: it has none
+  std::uint32_t array_size = 0;  // slots of the array that all leaves share
+  bool may_sleep = true;         // some body of this world can fall asleep
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.drawn(r.settings, r.capacity, r.grid_levels, r.hashed, r.swept_to, r.sweep_axis,
+                   r.pool_size, r.array_size, r.may_sleep);
+  }
+};
+
+// Of a flat world: drawn under all else, and met by nobody.
+struct FrameLand {
+  static constexpr std::string_view kName = "land";
+  std::vector<Polygon> land;
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v.drawn(r.land); }
+};
+
+// Of a frame that is one side's: which it is.
+struct FrameSide {
+  static constexpr std::string_view kName = "side";
+  std::string name;
+  std::string title;  // what stands over it
+  bool held = false;  // it has nothing more to show in this step, and shows its last frame
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v.drawn(r.name, r.title, r.held); }
+};
+
+// What all sides of a frame share: the page, and where in the script it is.
+struct FramePage {
+  int dimension = 2;
+  std::string scenario;
+  std::string title;
+  std::string part;
+  std::uint64_t seed = 1;
+  std::uint32_t step = 0;  // of the script, from 0
+  std::uint32_t steps = 0;
+  std::vector<std::string> headline;  // the numbers that the scenario puts in front; may be empty
+  bool ending = false;                // the take-away of the sequence
   std::vector<Panel> panels;
   Box<3> bounds;
-  std::vector<Polygon> land;  // of a flat world: drawn under all else, and met by nobody
-  std::uint32_t cast = 0;     // bodies of the scenario, there or not
   Display display;
+};
+
+// What every picture has, and the parts that some have.
+struct Frame : FramePage {
+  std::uint32_t index = 0;  // of this frame, from 0
+  std::string event;        // the step's name or the algorithm's event; for --at
+  StepPhase phase = StepPhase::whole;
+  double time = 0;                // seconds of world time
+  std::string caption;            // counts filled in
+  std::vector<std::string> told;  // the counts and measures that the caption quotes, in order
+  StructureKind structure = StructureKind::none;
+  std::uint32_t cast = 0;        // bodies of the scenario, there or not
+  std::optional<Camera> camera;  // of a solid world
   std::optional<Box<2>> view;    // the part of a flat world that is shown; none: all of it
   std::vector<FrameNote> notes;  // of what is there
   std::vector<FrameBody> bodies;
   std::vector<FrameNode> nodes;  // parents before children
-  bool may_sleep = true;         // some body of this world can fall asleep
   std::vector<FramePair> pairs;  // in order of ids
   std::vector<Pair> tested;      // by the narrow phase in the last step, in order of ids
   std::vector<FrameContact> contacts;
-  std::vector<FrameLook> looks;  // for the moment of an impact, so far; the last is this frame's
-  std::vector<FrameLink> links;
-  std::vector<FrameIsland> islands;  // if they have a panel; in order of their numbers
-  std::vector<FrameEdge> edges;      // the same; in order of ids
-  std::vector<FrameForce> forces;    // if the scenario shows them
-  std::vector<FrameRuler> rulers;
-  std::vector<FrameRay> rays;
-  std::vector<FrameView> views;
-  std::vector<FrameQuery> queries;
-  std::vector<BodyId> hits;  // what the ray, view or query found; of a ray in order along it
-  std::optional<FrameSeparation> separation;
-  std::optional<FrameSearch> search;
-  std::optional<FrameDifference> difference;  // if a panel shows it
-  std::vector<FrameWall> walls;
-  std::optional<Vec<2>> eye;                  // where a level is looked at from
-  std::vector<FramePortal> portals;           // of a level, once a step asked who sees whom
-  std::vector<FrameSight> sights;             // of the sector whose view has just been found
-  FrameMatrix matrix;                         // if a panel shows it
   std::optional<WorldWork> since_last_frame;  // of its steps, summed up; none if there was none
-  FrameChart chart;
-  FrameComparison comparison;  // if the panel shows it
-  FrameTrace trace;
-  std::optional<FrameCode> code;              // if a panel shows it
-  std::optional<FrameCollisions> collisions;  // the same
-  std::uint32_t pool_size = 0;   // nodes that the tree's pool held at most; 0: it has none
-  std::uint32_t array_size = 0;  // slots of the array that all leaves share
-  std::vector<FrameTexture> textures;
-  FrameScreen screen;  // of an atlas; without elements there is none
   std::vector<std::pair<std::string, std::int64_t>> counts;  // in a fixed order
   // What is measured rather than counted: energies, in a fixed order.
   std::vector<std::pair<std::string, double>> measures;
   std::uint64_t hash = 0;  // of all of the above that is state
+  FrameParts parts;
 
   // The same moment under each side's settings. What the sides share stands above, their bodies,
   // nodes, counts and all else that they have of their own only here.
   std::vector<Frame> sides;
-  std::string side;  // of one of these: its name, and what stands over it
-  std::string side_title;
-  bool held = false;  // it has nothing more to show in this step, and shows its last frame
+
+  // The part of that type: null, or an empty one, if there is none.
+  template <class P>
+  const P* find() const {
+    return parts.find<P>();
+  }
+  template <class P>
+  const P& get() const {
+    static const P kNothing{};
+    const P* part = find<P>();
+    return part ? *part : kNothing;
+  }
+  template <class P>
+  P* find() {
+    return parts.find<P>();
+  }
+  // The part that is there, or else a new one.
+  template <class P>
+  P& add() {
+    return parts.add<P>();
+  }
+  // This one from now on, or none.
+  template <class P>
+  void put(const std::optional<P>& part) {
+    part ? void(add<P>() = *part) : parts.drop<P>();
+  }
 
   // Is this node drawn as one that sleeps? What never moves or holds nothing is not, nor what only
   // rests in a world where nothing falls asleep.
   bool sleeps(const FrameNode& node) const {
-    return may_sleep && !node.awake && !node.of_static && !(node.leaf && node.bodies.empty());
+    return get<FrameStructure>().may_sleep && !node.awake && !node.of_static &&
+           !(node.leaf && node.bodies.empty());
   }
 
   // The body of that id; null if it is not there.
@@ -530,6 +810,10 @@ struct Frame {
   std::optional<double> number(std::string_view name) const;  // a count, or else a measure
 };
 
+// The types of the parts that come with Lantern, in the order in which the facts tell them; what a
+// program has of its own stands behind them, by name.
+const std::vector<const PartType*>& part_order();
+
 // Of time, bodies, nodes, pairs and textures; not of the counts of work.
 std::uint64_t state_hash(const Frame& frame);
 
@@ -537,12 +821,11 @@ std::uint64_t state_hash(const Frame& frame);
 // every machine.
 std::size_t estimated_bytes(const Frame& frame);
 
-// `lantern.frame/1` has no way of pairs: neither `overlaps`, `stored_box` and `since_last_frame`
-// nor the counts that came with them. It will go with the next release.
-enum class FactsVersion { v1, v2 };
+// Of `lantern.frame`, as which the facts of a frame are told.
+inline constexpr std::string_view kFactsVersion = "2";
 
 // The frame as JSON, one line a body, node and pair.
-std::string to_json(const Frame& frame, FactsVersion version = FactsVersion::v2);
+std::string to_json(const Frame& frame);
 
 // Does the frame meet expectations of its step? For each of them nothing if it does; otherwise what
 // was expected and what was found.

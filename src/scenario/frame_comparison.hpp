@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/box.hpp"
@@ -12,10 +13,13 @@
 namespace lantern::scenario {
 
 struct FrameComparison {
+  static constexpr std::string_view kName = "comparison";
   // Of one kind for one world.
   struct Cell {
     StructureKind kind = StructureKind::none;
     StructureWork work;
+
+    static decltype(auto) fields(const auto& r, auto&& v) { return v("kind", r.kind).flat(r.work); }
   };
   // A body, for a small picture of the world.
   struct Mark {
@@ -40,11 +44,21 @@ struct FrameComparison {
       return std::ranges::min_element(cells, {}, [](const Cell& c) { return c.work.step(); })
           ->work.step();
     }
+
+    static decltype(auto) fields(const auto& r, auto&& v) {
+      return v("row", r.name)("answer", r.answer)("bodies", r.bodies)("testable_pairs", r.testable)(
+                 "kinds", r.cells)
+          .drawn(r.marks);
+    }
   };
 
   std::vector<StructureKind> kinds;    // the columns, of the whole script
   std::vector<std::string> all_names;  // of the rows, of the whole script
   std::vector<Row> rows;               // so far
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v.when(!r.rows.empty(), "comparison", r.rows).drawn(r.kinds, r.all_names);
+  }
 };
 
 }  // namespace lantern::scenario

@@ -134,8 +134,8 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   stop_if_asked();
   Frame frame;
   frame.scenario = scenario_.name;
-  frame.side = scenario_.side;
-  frame.side_title = scenario_.side_title;
+  if (!scenario_.side.empty())
+    frame.add<FrameSide>() = {scenario_.side, scenario_.side_title, false};
   frame.title = scenario_.title;
   frame.part = part_;
   frame.seed = scenario_.seed;
@@ -145,7 +145,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   frame.event = event;
   frame.panels = scenario_.panels;
   frame.cast = static_cast<std::uint32_t>(scenario_.bodies.size());
-  frame.land = scenario_.world.land;
+  if (!scenario_.world.land.empty()) frame.add<FrameLand>().land = scenario_.world.land;
   frame.time = stage_.time;
   frame.dimension = scenario_.world.dimension;
   frame.bounds = scenario_.world.bounds;
@@ -168,9 +168,9 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   lighting_.light({traits_of(step_->verb), focus, midst}, frame);
   light_room(frame);
   add_notes(frame);
-  if (plotter_) frame.chart = plotter_->chart();
+  if (plotter_) frame.add<FrameChart>() = plotter_->chart();
   if (trace_) trace(frame);
-  frame.code = code_;
+  frame.put(code_);
   if (stage_.engine && shows(Panel::collisions)) add_collisions(frame);
   return frame;
 }
@@ -193,11 +193,11 @@ void FrameMaker::light_code(std::string_view event) {
 
 void FrameMaker::show_phase(std::string_view phase, Frame& frame) {
   if (scenario_.world.contacts == ContactMethod::lecture) light_code(phase);
-  frame.code = code_;
+  frame.put(code_);
 }
 
 void FrameMaker::add_collisions(Frame& frame) const {
-  FrameCollisions& told = frame.collisions.emplace();
+  FrameCollisions& told = frame.add<FrameCollisions>();
   stage_.engine->list_collisions(told);
   told.now = stage_.engine->world_work().steps;
   told.first = steps_before_part_;
@@ -222,7 +222,7 @@ void FrameMaker::trace(Frame& frame) {
     if (!points.empty() && points.back().x == now.x) points.pop_back();
     points.push_back(now);
   }
-  frame.trace = *trace_;
+  frame.add<FrameTrace>() = *trace_;
 }
 
 void FrameMaker::settle(std::string_view verb, bool last, const std::string& caption) {
@@ -233,7 +233,7 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
       plotter_->add_moment(frame);
     else
       plotter_->add(*step_->plot, part_, frame);
-    frame.chart = plotter_->chart();
+    frame.add<FrameChart>() = plotter_->chart();
   }
   // Of a side's frames the caption is that of all sides together.
   if (caption.empty() && scenario_.side.empty())
@@ -242,7 +242,7 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
     frame.caption = caption;
   frame.ending = last && step_->ending;
   if (last && !step_->question.empty() && scenario_.side.empty())
-    frame.question = FrameQuestion{step_->question, fill(step_->answer, frame)};
+    frame.add<FrameQuestion>() = FrameQuestion{step_->question, fill(step_->answer, frame)};
   verify(step_->always, frame);
   if (last) verify(step_->expect, frame);
   if (last) require_notes(frame);
@@ -307,23 +307,26 @@ void FrameMaker::add_finding(Frame& frame) const {
     frame.add_count("hits", counted_->hits);
   }
   if (!finding_) return;
-  frame.hits = finding_->hits;
-  if (finding_->ray) frame.rays.push_back(*finding_->ray);
-  if (finding_->view) frame.views.push_back(*finding_->view);
-  if (finding_->region) frame.queries.push_back(*finding_->region);
+  FrameFinding& found = frame.add<FrameFinding>();
+  found.hits = finding_->hits;
+  if (finding_->ray) found.rays.push_back(*finding_->ray);
+  if (finding_->view) found.views.push_back(*finding_->view);
+  if (finding_->region) found.queries.push_back(*finding_->region);
   if (!finding_->ray) dim(frame);
 }
 
 // Of the world that was compared last.
 void FrameMaker::add_comparison(Frame& frame) {
-  if (comparison_.rows.empty()) return void(frame.comparison = comparison_);
+  if (comparison_.kinds.empty()) return;
+  FrameComparison& told = frame.add<FrameComparison>();
+  if (comparison_.rows.empty()) return void(told = comparison_);
   FrameComparison::Row& last = comparison_.rows.back();
   frame.add_count("compared_bodies", last.bodies);
   frame.add_count("compared_pairs", last.testable);
   frame.add_count("compared_overlaps", last.cells.front().work.overlaps);
   frame.add_count("least_work", last.least());
   if (!answer_.empty()) last.answer = fill(std::exchange(answer_, {}), frame);
-  frame.comparison = comparison_;
+  told = comparison_;
 }
 
 // Who is ruled out: not found in the end; before it, tested in vain or only in nodes left out.
@@ -332,7 +335,7 @@ void FrameMaker::dim(Frame& frame) const {
   for (const FrameNode& node : frame.nodes)
     if (!node.skipped) within_reach.insert(node.bodies.begin(), node.bodies.end());
   for (FrameBody& body : frame.bodies) {
-    if (std::ranges::binary_search(frame.hits, body.id)) continue;
+    if (std::ranges::binary_search(frame.get<FrameFinding>().hits, body.id)) continue;
     body.dimmed =
         finding_->done || finding_->missed.contains(body.id) || !within_reach.contains(body.id);
   }
@@ -346,7 +349,7 @@ void FrameMaker::add_rulers(Frame& frame) const {
     FrameRuler ruler{
         ends->first, ends->second, glm::distance(ends->first, ends->second), {}, spec.text};
     if (spec.change) ruler.before = lengths_before_[i];
-    frame.rulers.push_back(std::move(ruler));
+    frame.add<FrameRulers>().rulers.push_back(std::move(ruler));
   }
 }
 

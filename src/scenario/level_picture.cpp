@@ -12,7 +12,7 @@ namespace lantern::scenario {
 
 void LevelStage::picture_walls(Frame& frame) const {
   for (std::uint32_t i = 0; i < walls_.size(); ++i)
-    frame.walls.push_back(
+    frame.add<FrameLevel>().walls.push_back(
         {walls_[i].line.a, walls_[i].line.b, i, kNone, i == lit_wall_ ? Mark::lit : Mark::quiet});
 }
 
@@ -75,9 +75,9 @@ LevelStage::NodeOfSector LevelStage::picture_nodes(const LevelBsp& level, bool h
       frame.nodes[frame.nodes[i].parent].mark = Mark::passed;
   for (const WallPiece& piece : level.pieces()) {
     const NodeHandle node = piece.sector != kNone ? level.sectors()[piece.sector].node : piece.node;
-    frame.walls.push_back({piece.line.a, piece.line.b, piece.wall,
-                           node == kNone ? kNone : node_of[node],
-                           piece.wall == lit_wall_ ? Mark::lit : Mark::quiet});
+    frame.add<FrameLevel>().walls.push_back({piece.line.a, piece.line.b, piece.wall,
+                                             node == kNone ? kNone : node_of[node],
+                                             piece.wall == lit_wall_ ? Mark::lit : Mark::quiet});
   }
   return sectors;
 }
@@ -85,21 +85,21 @@ LevelStage::NodeOfSector LevelStage::picture_nodes(const LevelBsp& level, bool h
 void LevelStage::picture_sights(const NodeOfSector& nodes, Frame& frame) const {
   if (!seen_) return;
   for (const Portal& p : seen_->portals())
-    frame.portals.push_back({p.line.a, p.line.b, nodes[p.a], nodes[p.b]});
+    frame.add<FrameLevel>().portals.push_back({p.line.a, p.line.b, nodes[p.a], nodes[p.b]});
   for (const Sight& s : seen_->sights())
     if (s.from == viewer_ || s.to == viewer_)
-      frame.sights.push_back({s.line.a, s.line.b, nodes[s.from], nodes[s.to]});
+      frame.add<FrameLevel>().sights.push_back({s.line.a, s.line.b, nodes[s.from], nodes[s.to]});
 }
 
 void LevelStage::picture_matrix(Frame& frame) const {
   if (std::ranges::find(frame.panels, Panel::matrix) == frame.panels.end()) return;
   const auto n = static_cast<std::uint32_t>(current_->sectors().size());
-  frame.matrix.rows.assign(n, std::string(n, '.'));
+  FrameMatrix& matrix = frame.add<FrameMatrix>();
+  matrix.rows.assign(n, std::string(n, '.'));
   for (std::uint32_t a = 0; seen_ && a < n; ++a)
     for (std::uint32_t b = 0; b < n; ++b)
-      if (a < seen_->done() || b < seen_->done())
-        frame.matrix.rows[a][b] = seen_->sees(a, b) ? '1' : '0';
-  frame.matrix.lit = shown_ == Answer::sights ? place_->sector : viewer_;
+      if (a < seen_->done() || b < seen_->done()) matrix.rows[a][b] = seen_->sees(a, b) ? '1' : '0';
+  matrix.lit = shown_ == Answer::sights ? place_->sector : viewer_;
 }
 
 // Who is in none of the sectors that are in question.
@@ -165,7 +165,7 @@ void LevelStage::count_answers(const NodeOfSector& nodes, bool holds_bodies, Fra
 }
 
 void LevelStage::picture(bool holds_bodies, Frame& frame) const {
-  frame.eye = eye_;
+  frame.add<FrameLevel>().eye = eye_;
   if (!current_) return picture_walls(frame);
   const bool holds = holds_bodies && level_;  // not while it is compiled anew
   // A frame has one structure: where bodies have another one, of the level only walls are seen.

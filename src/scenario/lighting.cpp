@@ -18,7 +18,7 @@ std::vector<std::uint64_t> places_of(const Frame& frame) {
     Hash hash;
     hash.add(parent).add(std::uint64_t{node.slot}).add(std::uint64_t{node.of_static});
     // A grid's cells may have been made larger or smaller.
-    if (!frame.grid_levels.empty() && node.leaf)
+    if (!frame.get<FrameStructure>().grid_levels.empty() && node.leaf)
       hash.add(node.box.lo.x).add(node.box.lo.y).add(node.box.hi.x);
     places.push_back(hash.value());
   }
@@ -43,8 +43,10 @@ void put_out(Frame& frame) {
   for (FrameBody& body : frame.bodies) body.lit = false;
   for (FrameNode& node : frame.nodes) node.mark = Mark::quiet;
   for (FramePair& pair : frame.pairs) pair.lit = false;
-  for (FrameEdge& edge : frame.edges) edge.lit = false;
-  for (FrameWall& wall : frame.walls) wall.mark = Mark::quiet;
+  if (auto* islands = frame.find<FrameIslands>())
+    for (FrameEdge& edge : islands->edges) edge.lit = false;
+  if (auto* level = frame.find<FrameLevel>())
+    for (FrameWall& wall : level->walls) wall.mark = Mark::quiet;
 }
 
 bool is_all_that_move(const std::set<BodyId>& focus, const Frame& frame) {
@@ -107,7 +109,9 @@ void Lighting::light_pairs(bool few, Frame& frame) const {
 
 // Where nothing held together before, all of it is new.
 void Lighting::light_edges(Frame& frame) const {
-  for (FrameEdge& edge : frame.edges)
+  auto* islands = frame.find<FrameIslands>();
+  if (!islands) return;
+  for (FrameEdge& edge : islands->edges)
     edge.lit = !edges_.empty() && !std::ranges::binary_search(edges_, edge.pair);
 }
 
@@ -115,7 +119,7 @@ void Lighting::remember(const Frame& frame, bool midst) {
   pairs_.clear();
   for (const FramePair& p : frame.pairs) pairs_.push_back(p.pair);
   edges_.clear();
-  for (const FrameEdge& e : frame.edges) edges_.push_back(e.pair);
+  for (const FrameEdge& e : frame.get<FrameIslands>().edges) edges_.push_back(e.pair);
   if (midst) return;
   places_ = places_of(frame);
   std::ranges::sort(places_);

@@ -31,23 +31,23 @@ void NarrowShown::add_to(Frame& frame, const Engine& engine) const {
     frame.add_count("touching", tests_->touching.size());
   }
   if (separation_) {
-    if (drawn_ == Drawn::separation) frame.separation = separation_;
+    if (drawn_ == Drawn::separation) frame.put(separation_);
     frame.add_count("axes_tested", separation_->axes.size());
     frame.measures.emplace_back("gap", separation_->gap());
     frame.measures.emplace_back("overlap", separation_->overlap());
   }
   if (search_) {
-    if (drawn_ == Drawn::search) frame.search = search_;
+    if (drawn_ == Drawn::search) frame.put(search_);
     frame.add_count("gjk_steps", search_->steps.size());
     if (search_->answer) frame.measures.emplace_back("distance", search_->answer->distance);
   }
   if (std::ranges::find(frame.panels, Panel::difference) == frame.panels.end()) return;
-  if (search_) frame.difference = engine.difference(search_->a, search_->b);
+  if (search_) frame.put(engine.difference(search_->a, search_->b));
   std::vector<BodyId> there;
   for (const FrameBody& body : frame.bodies)
     if (!std::holds_alternative<HalfSpace<3>>(body.shape)) there.push_back(body.id);
-  if (!frame.difference && there.size() > 1)
-    frame.difference = engine.difference(there[0], there[1]);
+  if (!frame.find<FrameDifference>() && there.size() > 1)
+    frame.put(engine.difference(there[0], there[1]));
 }
 
 }  // namespace lantern::scenario

@@ -66,7 +66,7 @@ void ScreenStage::end() {
 }
 
 void ScreenStage::picture(Frame& frame) const {
-  frame.screen = screen_;
+  frame.add<FrameScreen>() = screen_;
   if (screen_.ways.empty()) return;
   frame.add_count("bindings", binder_.bindings());
   frame.add_count("draws", binder_.draws());

@@ -20,25 +20,6 @@
 namespace lantern::scenario {
 namespace {
 
-// What all sides share: the page, and where in the script it is. What else a frame has is each
-// side's own.
-Frame page_of(const Frame& side) {
-  Frame page;
-  page.dimension = side.dimension;
-  page.scenario = side.scenario;
-  page.title = side.title;
-  page.part = side.part;
-  page.seed = side.seed;
-  page.step = side.step;
-  page.steps = side.steps;
-  page.headline = side.headline;
-  page.ending = side.ending;
-  page.panels = side.panels;
-  page.bounds = side.bounds;
-  page.display = side.display;
-  return page;
-}
-
 // A frame of one side, with the texts that a caption may quote of it.
 struct Shown {
   Frame frame;
@@ -145,7 +126,8 @@ class SidesRun {
       plot(step, k + 1 == frames, frame);
       frame.caption = caption(step, k, frame);
       if (k + 1 == frames && !step.question.empty())
-        frame.question = FrameQuestion{step.question, filled(step, step.answer, k, frame)};
+        frame.add<FrameQuestion>() =
+            FrameQuestion{step.question, filled(step, step.answer, k, frame)};
       ++report_.frames;
       stopped_ = !sink_(frame);
     }
@@ -153,16 +135,17 @@ class SidesRun {
 
   // What the sides share, and the frame of each.
   Frame together(std::size_t k) {
-    Frame frame = page_of(sides_[0].at(k).frame);
+    Frame frame;
+    static_cast<FramePage&>(frame) = sides_[0].at(k).frame;
     frame.index = report_.frames;
     for (const Side& side : sides_) {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
-      shown.held = side.holds(k);
+      const bool held = shown.add<FrameSide>().held = side.holds(k);
       shown.index = frame.index;
-      shown.chart = {};  // drawn once, for all
+      shown.parts.drop<FrameChart>();  // drawn once, for all
       std::erase(shown.panels, Panel::chart);
-      if (shown.held) shown.since_last_frame.reset();
-      if (frame.event.empty() && !shown.held) frame.event = shown.event;
+      if (held) shown.since_last_frame.reset();
+      if (frame.event.empty() && !held) frame.event = shown.event;
       frame.time = std::max(frame.time, shown.time);
     }
     frame.hash = state_hash(frame);
@@ -175,13 +158,15 @@ class SidesRun {
     if (plotter_->over_time() && (last || frame.time > time_)) plotter_->add_moment(frame);
     if (!plotter_->over_time() && last && step.plot) plotter_->add(*step.plot, part_, frame);
     time_ = frame.time;
-    frame.chart = plotter_->chart();
+    frame.add<FrameChart>() = plotter_->chart();
   }
 
   // What the algorithm does on all sides alike, or, when all are done, the step's own words. What
   // one side does that the others do not is said by that side.
   std::string caption(const Step& step, std::size_t k, Frame& frame) {
-    const auto speaks = [](const Frame& side) { return !side.held && !side.caption.empty(); };
+    const auto speaks = [](const Frame& side) {
+      return !side.get<FrameSide>().held && !side.caption.empty();
+    };
     if (std::ranges::none_of(frame.sides, speaks)) return filled(step, step.caption, k, frame);
     const std::string words = frame.sides[0].caption;
     for (const Frame& side : frame.sides)

@@ -161,8 +161,10 @@ class NodePicture {
           &C::allocations, &C::places, &C::node_bytes, &C::swaps, &C::reinserted, &C::refitted})
       counters.*count += c.*count;
     counters.depth = std::max(counters.depth, c.depth);
-    if (shows_memory_ && !of_static) frame_.array_size = static_cast<std::uint32_t>(c.places);
-    if (shows_pool_ && !of_static) frame_.pool_size = static_cast<std::uint32_t>(c.pool);
+    if (shows_memory_ && !of_static)
+      frame_.add<FrameStructure>().array_size = static_cast<std::uint32_t>(c.places);
+    if (shows_pool_ && !of_static)
+      frame_.add<FrameStructure>().pool_size = static_cast<std::uint32_t>(c.pool);
   }
 
   FrameNode frame_node(const NodeView<D>& view) const {
@@ -317,11 +319,12 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   }
   const BroadPhase<D>& structure = *world.broad_phase();
   const Arrangement arrangement = structure.arrangement();
-  frame.sweep_axis = arrangement.axis.value_or(0);
-  frame.settings = settings_text(spec, frame.sweep_axis);
-  frame.capacity = traits_of(spec.kind).splits ? spec.capacity : 0;
-  frame.grid_levels = arrangement.levels;
-  frame.hashed = spec.open;
+  FrameStructure& told = frame.add<FrameStructure>();
+  told.sweep_axis = arrangement.axis.value_or(0);
+  told.settings = settings_text(spec, told.sweep_axis);
+  told.capacity = traits_of(spec.kind).splits ? spec.capacity : 0;
+  told.grid_levels = arrangement.levels;
+  told.hashed = spec.open;
   const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
   NodePicture<D> picture(spec, touched, frame);
   AwakeNodes nodes;

@@ -37,24 +37,24 @@ struct Seen {
   void add(const Frame& frame) {
     bodies += frame.bodies.size();
     for (const FrameBody& body : frame.bodies) asleep += body.asleep;
-    for (const FrameLink& link : frame.links)
+    for (const FrameLink& link : frame.get<FrameLinks>().links)
       ++(link.kind == FrameLink::Kind::spring ? springs : joints);
     textures += counted(frame, "textures");
     walls += counted(frame, "walls");
     sectors += counted(frame, "sectors");
-    drawn_walls += frame.walls.size();
+    drawn_walls += frame.get<FrameLevel>().walls.size();
     nodes += frame.nodes.size();
-    slots += frame.array_size;
-    pool += frame.pool_size;
+    slots += frame.get<FrameStructure>().array_size;
+    pool += frame.get<FrameStructure>().pool_size;
     bytes += counted(frame, "node_bytes");
-    moments += frame.trace.points.size();
-    differences += frame.difference.has_value();
-    axes += frame.separation.has_value();
-    islands += frame.islands.size();
-    code |= frame.code.has_value();
-    collisions |= frame.collisions && !frame.collisions->rows.empty();
-    matrix += frame.matrix.rows.size();
-    ways += frame.screen.ways.size();
+    moments += frame.get<FrameTrace>().points.size();
+    differences += frame.find<FrameDifference>() != nullptr;
+    axes += frame.find<FrameSeparation>() != nullptr;
+    islands += frame.get<FrameIslands>().islands.size();
+    code |= frame.find<FrameCode>() != nullptr;
+    collisions |= frame.find<FrameCollisions>() && !frame.find<FrameCollisions>()->rows.empty();
+    matrix += frame.get<FrameMatrix>().rows.size();
+    ways += frame.get<FrameScreen>().ways.size();
     pairs |= frame.bodies.size() > 1;
   }
 };
@@ -71,9 +71,9 @@ bool StageTally::used() const {
 // before is of this frame's kind.
 void Tally::see(const Frame& frame) {
   seconds_ = std::max(seconds_, frame.time);
-  raise(points_, points_of(frame.chart));
-  with_points_ += points_of(frame.chart) > 0;
-  with_rows_ += !frame.comparison.rows.empty();
+  raise(points_, points_of(frame.get<FrameChart>()));
+  with_points_ += points_of(frame.get<FrameChart>()) > 0;
+  with_rows_ += !frame.get<FrameComparison>().rows.empty();
   solid_ += frame.dimension == 3;
   Seen seen;
   if (frame.sides.empty()) seen.add(frame);

@@ -209,7 +209,7 @@ void show_looks(const std::vector<FrameLook>& looks, const Frame& narrow, Script
     if (name == "time_of_impact") number = 1;
   }
   for (const FrameLook& look : looks) {
-    frame.looks.push_back(look);
+    frame.add<FrameLooks>().looks.push_back(look);
     frame.event = look.meets ? "impact" : "approach";
     if (!run.frames.wanted(frame.event)) continue;
     for (auto& [name, number] : frame.counts)

@@ -21,7 +21,7 @@ std::vector<BodyId> in_order(const Frame& frame) {
   std::vector<const FrameBody*> bodies;
   for (const FrameBody& body : frame.bodies) bodies.push_back(&body);
   std::ranges::sort(bodies, {}, [&](const FrameBody* body) {
-    return std::pair(begin_of(*body, frame.sweep_axis), body->id);
+    return std::pair(begin_of(*body, frame.get<FrameStructure>().sweep_axis), body->id);
   });
   std::vector<BodyId> order;
   for (const FrameBody* body : bodies) order.push_back(body->id);
@@ -74,7 +74,7 @@ void Sweep::act(ScriptRun& run) const {
       others.push_back(name_of(met[next].b));
     }
     Frame frame = whole;
-    frame.swept_to = at;
+    frame.add<FrameStructure>().swept_to = at;
     std::erase_if(frame.pairs, [&](const FramePair& p) { return !found.contains(p.pair); });
     for (FramePair& pair : frame.pairs) pair.lit = pair.pair.a == at || pair.pair.b == at;
     for (auto& [name, number] : frame.counts) {

@@ -143,7 +143,7 @@ void picture_world(const Players<D>& players, Frame& frame) {
     const bool has_length = spec.kind != LinkSpec::Kind::pin && rest > 0;
     constexpr double kMost = std::numeric_limits<double>::max();  // of next to no length
     const double strain = has_length ? std::min((glm::length(to - from) - rest) / rest, kMost) : 0;
-    frame.links.push_back(
+    frame.add<FrameLinks>().links.push_back(
         {static_cast<FrameLink::Kind>(spec.kind), solid(from), solid(to), strain});
   });
 }
@@ -151,6 +151,10 @@ void picture_world(const Players<D>& players, Frame& frame) {
 template <int D>
 void picture_forces(const Players<D>& players, Frame& frame) {
   const World<D>& world = players.world();
+  const auto add = [&](const Body<D>& body, const Vec<D>& arm, const Vec<D>& force, bool spring) {
+    frame.add<FrameForces>().forces.push_back(
+        {body.id, solid(body.position + arm), solid(force), spring});
+  };
   const auto shown = [&](BodyId id) {
     const Body<D>* body = world.find(id);
     return body && body->inverse_mass > 0 && players.spec_of(id) ? body : nullptr;
@@ -159,18 +163,15 @@ void picture_forces(const Players<D>& players, Frame& frame) {
     return EndMotion<D>{body.orientation, body.velocity, angular_velocity(body)};
   };
   for (const Push<D>& push : world.forces().pushes)
-    if (const Body<D>* body = shown(push.body))
-      frame.forces.push_back({body->id, solid(body->position + push.at), solid(push.force), false});
+    if (const Body<D>* body = shown(push.body)) add(*body, push.at, push.force, false);
   for (const Spring<D>& spring : world.forces().springs) {
     const Body<D>*a = world.find(spring.a), *b = world.find(spring.b);
     if (!a || !b) continue;
     const Stretch<D> s =
         stretched(spring, Vec<D>(b->position - a->position), motion_of(*a), motion_of(*b));
     const Vec<D> pull = s.direction * s.tension;
-    if (shown(a->id))
-      frame.forces.push_back({a->id, solid(a->position + s.arm_a), solid(pull), true});
-    if (shown(b->id))
-      frame.forces.push_back({b->id, solid(b->position + s.arm_b), solid(-pull), true});
+    if (shown(a->id)) add(*a, s.arm_a, pull, true);
+    if (shown(b->id)) add(*b, s.arm_b, -pull, true);
   }
 }
 

@@ -19,6 +19,11 @@ struct StructureWork {
   std::uint64_t overlaps = 0;  // of these, whose boxes overlap: every kind finds the same
 
   std::uint64_t step() const { return renew + pair; }
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("build", r.build)("renew", r.renew)("pair", r.pair)("pairs", r.pairs)("overlaps",
+                                                                                   r.overlaps);
+  }
 };
 
 // The broad phase of these settings, with bodies as they are before a step and after it: the same

@@ -105,12 +105,12 @@ TEST(Shard, ACommandIsGivenForAnotherShard) {
 
 TEST(ShardRecord, WhatIsWrittenIsReadBack) {
   ShardRecord r = new_record({2, 3});
-  r.settings = {{"frames", ""},        {"at", ""},
-                {"pace", "event"},     {"size", "160x90"},
-                {"theme", "dark"},     {"format", "svg"},
-                {"png", "fast"},       {"facts", "2"},
-                {"tween", ""},         {"tween digits", "2"},
-                {"transparent", "no"}, {"switches", "no-title"}};
+  r.settings = {{"frames", ""},          {"at", ""},
+                {"pace", "event"},       {"size", "160x90"},
+                {"theme", "dark"},       {"format", "svg"},
+                {"png", "fast"},         {"tween", ""},
+                {"tween digits", "2"},   {"transparent", "no"},
+                {"switches", "no-title"}};
   r.inputs = {{*ScenarioName::of("pong"), "0123456789abcdef", 7, 9, true}};
   r.words = {"render", "\"quoted\".toml"};
   const ShardRecord read = read_record(to_json(r));

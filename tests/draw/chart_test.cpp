@@ -20,7 +20,7 @@ using samples::page_of;
 Frame charted(FrameChart chart) {
   Frame frame;
   frame.panels = {Panel::chart};
-  frame.chart = std::move(chart);
+  frame.add<FrameChart>() = std::move(chart);
   return frame;
 }
 
@@ -176,7 +176,7 @@ TEST(Chart, EveryBarHasItsNameAndNumber) {
   for (const auto& [name, frame] : samples::charts()) {
     if (name != "chart_bars" && name != "chart_barslog" && name != "chart_grouped") continue;
     const DrawList list = page_of(frame);
-    for (const FrameBar& bar : frame.chart.bars) {
+    for (const FrameBar& bar : frame.get<FrameChart>().bars) {
       EXPECT_TRUE(says(list, bar.label)) << name << ": " << bar.label;
       EXPECT_TRUE(says(list, number_text(bar.value))) << name << ": " << bar.value;
     }
@@ -236,13 +236,14 @@ TEST(Chart, AxesOfASequenceStandStill) {
   Frame first = charted(chart);
   chart.series[0].points.push_back({4, 900});
   Frame last = charted(chart);
-  last.trace.points = {{0, 3}, {4, 900}};
+  last.add<FrameTrace>().points = {{0, 3}, {4, 900}};
   AxisRanges ranges;
   for (const Frame& frame : {first, last}) ranges.see(frame);
   for (Frame* frame : {&first, &last}) ranges.settle(*frame);
   EXPECT_EQ(ticks_of(page_of(first), 150), ticks_of(page_of(last), 150));
-  EXPECT_EQ(first.trace.most, 900);
-  EXPECT_EQ(first.trace.seconds, last.trace.points.back().x) << "where the script does not say";
+  EXPECT_EQ(first.get<FrameTrace>().most, 900);
+  EXPECT_EQ(first.get<FrameTrace>().seconds, last.get<FrameTrace>().points.back().x)
+      << "where the script does not say";
 }
 
 TEST(Chart, NamesStandAtTheirLinesEnds) {

@@ -87,8 +87,9 @@ void expect_few_shapes(const std::string& where, const Frame& frame, const DrawL
     EXPECT_LT(list.shapes.size(), 5000u) << where;
   }
   if (frame.sides.empty() && frame.bodies.size() <= 4 && frame.nodes.size() < 10 &&
-      frame.textures.empty() && frame.chart.series.size() < 4 && frame.trace.points.size() < 100 &&
-      (!frame.collisions || frame.collisions->now < 100)) {
+      frame.get<FrameTextures>().textures.empty() && frame.get<FrameChart>().series.size() < 4 &&
+      frame.get<FrameTrace>().points.size() < 100 &&
+      (!frame.find<FrameCollisions>() || frame.find<FrameCollisions>()->now < 100)) {
     EXPECT_LT(list.shapes.size(), 300u) << where << ": a typical frame";
   }
   for (const DrawShape& shape : list.shapes)
@@ -172,7 +173,8 @@ TEST(Layout, BodiesThatOnlyLookAsOneAreNotSaidToBe) {
 
 TEST(Layout, CountsComeBeforeSettings) {
   Frame frame = samples::ghosts(4);
-  frame.settings = "capacity 2, depth limit 8, all children made, stops without progress";
+  frame.add<FrameStructure>().settings =
+      "capacity 2, depth limit 8, all children made, stops without progress";
   Work work;
   double settings = 0, counts = 0;
   for (const LabelBox& label : draw_frame(frame, page_for(1600, 900), work).labels) {

@@ -157,7 +157,7 @@ TEST(Notes, CoverNoBody) {
 
 TEST(Switches, LeaveOutWhatTheySay) {
   Frame frame = samples::ghosts(4);
-  frame.settings = "capacity 2";
+  frame.add<FrameStructure>().settings = "capacity 2";
   const auto list_with = [&](auto change) {
     Frame changed = frame;
     change(changed.display);

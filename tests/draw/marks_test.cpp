@@ -224,9 +224,9 @@ TEST(Marks, ASleepingBranchIsHatchedOnce) {
   const auto toned = [](const PolygonShape& ground) { return ground.fill == Role::free_space; };
   Frame frame = sample("world_sleepers");
   EXPECT_GT(count<PolygonShape>(page_of(frame), toned), 0);
-  frame.may_sleep = false;
+  frame.add<FrameStructure>().may_sleep = false;
   EXPECT_EQ(count<PolygonShape>(page_of(frame), toned), 0) << "what only rests is not asleep";
-  frame.may_sleep = true;
+  frame.add<FrameStructure>().may_sleep = true;
   for (FrameNode& node : frame.nodes) node.awake = true;
   EXPECT_EQ(count<PolygonShape>(page_of(frame), toned), 0);
 }
@@ -293,7 +293,7 @@ TEST(Marks, LookTheSameIn2DAnd3D) {
   FrameRay ray;
   ray.from = {-2, 0, 0};
   ray.to = {2, 0, 0};
-  frame.rays = {ray};
+  frame.add<FrameFinding>().rays = {ray};
   DrawList in_2d, in_3d;
   const View2D plane(flat(frame.bounds), panel);
   Marks flat_marks(plane, panel, in_2d);

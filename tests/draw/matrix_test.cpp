@@ -11,8 +11,8 @@ Frame frame_of(std::size_t sectors) {
   Frame frame;
   frame.title = "Who sees whom";
   frame.panels = {Panel::matrix};
-  frame.matrix.rows.assign(sectors, std::string(sectors, '0'));
-  for (std::size_t i = 0; i < sectors; ++i) frame.matrix.rows[i][i] = '1';
+  frame.add<FrameMatrix>().rows.assign(sectors, std::string(sectors, '0'));
+  for (std::size_t i = 0; i < sectors; ++i) frame.add<FrameMatrix>().rows[i][i] = '1';
   return frame;
 }
 
@@ -25,8 +25,8 @@ std::size_t squares(const DrawList& list, Role fill) {
 
 TEST(Matrix, HasASquareForEachTwoSectorsAndLightsARow) {
   Frame frame = frame_of(3);
-  frame.matrix.rows = {"11.", "111", ".1."};
-  frame.matrix.lit = 1;
+  frame.add<FrameMatrix>().rows = {"11.", "111", ".1."};
+  frame.add<FrameMatrix>().lit = 1;
   const DrawList list = samples::page_of(frame);
   EXPECT_EQ(squares(list, Role::lit), 3u);
   EXPECT_EQ(squares(list, Role::cell_line_1), 3u + 1) << "and one in the key";

@@ -17,7 +17,7 @@ std::string texts_of(const Frame& frame) {
 Frame three_leaves() {
   Frame frame;
   frame.panels = {Panel::memory};
-  frame.array_size = 24;
+  frame.add<FrameStructure>().array_size = 24;
   for (BodyId id = 0; id < 3; ++id) {
     FrameBody body;
     body.id = id;
@@ -86,7 +86,7 @@ TEST(Memory, OnlyTheLitLeafIsLit) {
 TEST(Memory, AnArrayOfAnyLengthIsDrawn) {
   for (const std::uint32_t slots : {0u, 1u, 2u, 23u, 500u, 10000u, 4000000000u}) {
     Frame frame = three_leaves();
-    frame.array_size = slots;
+    frame.add<FrameStructure>().array_size = slots;
     const std::string texts = texts_of(frame);
     EXPECT_NE(texts.find(slots == 1 ? " slot," : " slots,"), std::string::npos) << slots;
     EXPECT_EQ(texts.find("are drawn") != std::string::npos, slots > 1000000) << slots;

@@ -76,7 +76,7 @@ void count(Frame& frame) {
 
 void grow(Frame& frame, std::size_t capacity, std::uint32_t max_depth) {
   frame.structure = StructureKind::quadtree;
-  frame.settings =
+  frame.add<FrameStructure>().settings =
       fmt::format("capacity {}, depth limit {}, all children made", capacity, max_depth);
   std::vector<BodyId> all_ids;
   for (const FrameBody& b : frame.bodies) all_ids.push_back(b.id);
@@ -227,7 +227,7 @@ Frame ghosts(std::size_t objects) {
 Frame pong(double ball_x) {
   Frame frame = base("Pong and its BSP", {{0, 0}, {32, 18}}, {Panel::world, Panel::tree});
   frame.structure = StructureKind::bsp;
-  frame.settings = "1 dividing line";
+  frame.add<FrameStructure>().settings = "1 dividing line";
   const AxisBox<2> bat{{0.5, 2.2}};
   frame.bodies = {body(0, "blue bat", Look::bat, 4, {1.5, 8}, bat),
                   body(1, "red bat", Look::bat, 1, {30.5, 11}, bat),
@@ -251,7 +251,7 @@ Frame doom() {
   Frame frame =
       base("A level cut into convex sectors", {{0, 0}, {20, 14}}, {Panel::world, Panel::tree});
   frame.structure = StructureKind::bsp;
-  frame.settings = "3 dividing lines";
+  frame.add<FrameStructure>().settings = "3 dividing lines";
   frame.bodies = {body(0, "imp", Look::ghost, 7, {4, 10}),
                   body(1, "medic", Look::box, 5, {9, 3}, AxisBox<2>{{0.6, 0.6}}),
                   body(2, "marine", Look::player, 8, {16, 6})};
@@ -337,7 +337,8 @@ Frame long_texts() {
   frame.title = text;
   frame.part = text;
   frame.caption = text;
-  frame.settings = "capacity 2, " + std::string(200, 'x') + ", depth limit 1000000";
+  frame.add<FrameStructure>().settings =
+      "capacity 2, " + std::string(200, 'x') + ", depth limit 1000000";
   for (FrameBody& b : frame.bodies) b.name = "the ghost of " + b.name + " " + std::string(60, 'o');
   for (FrameNode& n : frame.nodes) n.label += std::string(40, 'y');
   return frame;
@@ -360,11 +361,11 @@ Frame atlas(std::size_t textures, std::size_t packed) {
     t.color = static_cast<int>(i % 8) + 1;
     t.width = static_cast<int>(random.whole(3, 16)) * 8;
     t.height = static_cast<int>(random.whole(3, 16)) * 8;
-    frame.textures.push_back(t);
+    frame.add<FrameTextures>().textures.push_back(t);
   }
   for (std::size_t i = 0; i < packed; ++i) {
     for (FrameNode& node : frame.nodes) node.mark = Mark::quiet;
-    FrameTexture& t = frame.textures[i];
+    FrameTexture& t = frame.add<FrameTextures>().textures[i];
     t.refused = !Packer{frame}.insert(0, t);
     stored += t.packed;
     used += t.packed ? t.width * t.height : 0;
@@ -378,7 +379,7 @@ Frame atlas(std::size_t textures, std::size_t packed) {
                   {"atlas_area", 512 * 512}};
   frame.caption =
       fmt::format("Texture {} goes to the first free leaf that it fits; the leaf is cut to fit.",
-                  packed > 0 ? frame.textures[packed - 1].name : "A");
+                  packed > 0 ? frame.get<FrameTextures>().textures[packed - 1].name : "A");
   return frame;
 }
 
@@ -394,7 +395,7 @@ Frame fine_atlas(std::size_t textures) {
     t.packed = true;
     t.x = static_cast<int>(i % 70) * 7;
     t.y = static_cast<int>(i / 70) * 7;
-    frame.textures.push_back(t);
+    frame.add<FrameTextures>().textures.push_back(t);
   }
   return frame;
 }

@@ -36,7 +36,7 @@ FrameChart growth(bool logarithmic, int points) {
 
 Frame chart_of(std::string title, FrameChart chart) {
   Frame frame = alone(Panel::chart, std::move(title));
-  frame.chart = std::move(chart);
+  frame.add<FrameChart>() = std::move(chart);
   frame.caption = "The work of testing every pair grows with the square of the bodies.";
   return frame;
 }
@@ -103,14 +103,14 @@ void store_in_array(Frame& frame, std::uint32_t spare, std::uint32_t behind) {
     at += node.room;
     used += static_cast<std::int64_t>(node.bodies.size());
   }
-  frame.array_size = at + behind;
+  frame.add<FrameStructure>().array_size = at + behind;
   frame.counts.emplace_back("allocations", 1);
   frame.panels = {Panel::world, Panel::tree, Panel::memory};
 }
 
 Frame memory_only(std::uint32_t slots) {
   Frame frame = alone(Panel::memory, "An array");
-  frame.array_size = slots;
+  frame.add<FrameStructure>().array_size = slots;
   return frame;
 }
 
@@ -147,7 +147,7 @@ Named charts() {
   for (int i = 0; i < 100; ++i) hundred.bars.push_back({fmt::format("step {}", i), i * 1.5, i / 4});
   frames.emplace_back("chart_hundred", chart_of("A hundred bars", hundred));
   Frame beside = crowd(60, 1.4);
-  beside.chart = growth(true, 9);
+  beside.add<FrameChart>() = growth(true, 9);
   beside.panels = {Panel::world, Panel::chart};
   frames.emplace_back("chart_beside", beside);
   beside.panels = {Panel::world, Panel::tree, Panel::chart};
@@ -172,7 +172,7 @@ Named memories() {
   frames.emplace_back("memory_crowd", more);
   Frame many = crowd(900, 0.6);
   store_in_array(many, 1, 0);
-  many.array_size = 10000;
+  many.add<FrameStructure>().array_size = 10000;
   frames.emplace_back("memory_many", many);
   many.panels = {Panel::memory};
   frames.emplace_back("memory_manyalone", many);

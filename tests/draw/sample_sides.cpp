@@ -15,8 +15,8 @@ Frame sided(std::vector<Frame> sides) {
   frame.panels = sides[0].panels;
   frame.sides = std::move(sides);
   for (std::size_t i = 0; i < frame.sides.size(); ++i) {
-    frame.sides[i].side = std::string(1, static_cast<char>('a' + i));
-    frame.sides[i].side_title = "side " + frame.sides[i].side;
+    frame.sides[i].add<FrameSide>().name = std::string(1, static_cast<char>('a' + i));
+    frame.sides[i].add<FrameSide>().title = "side " + frame.sides[i].get<FrameSide>().name;
     frame.sides[i].caption.clear();
   }
   return frame;
@@ -25,19 +25,19 @@ Frame sided(std::vector<Frame> sides) {
 Named sides() {
   Frame long_titles = sided({long_texts(), long_texts(), long_texts()});
   for (Frame& side : long_titles.sides)
-    side.side_title = "a title of forty letters, not one more..";
+    side.add<FrameSide>().title = "a title of forty letters, not one more..";
   Frame late = sided({ghosts(4), ghosts(2)});
   late.sides[0].caption = "Blue is stored in 1.1.";
   late.caption.clear();
-  late.sides[1].held = true;
+  late.sides[1].add<FrameSide>().held = true;
   late.sides[0].time = 1.25;
   Frame over_time = sided({ghosts(4), ghosts(3)});
   over_time.panels.push_back(Panel::chart);
-  over_time.chart.x_name = "time";
-  over_time.chart.y_name = "pairs";
-  over_time.chart.over_time = true;
-  over_time.chart.seconds = 2;
-  over_time.chart.series = {{"a", {{0, 6}, {1, 5}}, 0}, {"b", {{0, 1}, {1, 2}}, 0}};
+  over_time.add<FrameChart>().x_name = "time";
+  over_time.add<FrameChart>().y_name = "pairs";
+  over_time.add<FrameChart>().over_time = true;
+  over_time.add<FrameChart>().seconds = 2;
+  over_time.add<FrameChart>().series = {{"a", {{0, 6}, {1, 5}}, 0}, {"b", {{0, 1}, {1, 2}}, 0}};
   return {{"two sides", sided({ghosts(4), ghosts(3)})},
           {"three sides", sided({pong(9), pong(20), pong(28)})},
           {"four sides", sided({ghosts(2), ghosts(3), ghosts(4), ghosts(4)})},

@@ -37,7 +37,7 @@ Frame ledger(std::uint32_t bodies, bool contacts) {
 
 // Every node of the tree in a pool of `slots`, the first `reused` of them for the second time.
 void put_in_pool(Frame& frame, std::uint32_t slots, std::uint32_t reused) {
-  frame.pool_size = slots;
+  frame.add<FrameStructure>().pool_size = slots;
   for (FrameNode& node : frame.nodes) {
     node.pool_slot = node.id;
     node.reused = node.id < reused;
@@ -48,7 +48,7 @@ void put_in_pool(Frame& frame, std::uint32_t slots, std::uint32_t reused) {
 // Pairs that touch in every ninth step, once, and in every second.
 Frame collisions(std::uint64_t steps) {
   Frame frame = ghosts(4);
-  scenario::FrameCollisions& told = frame.collisions.emplace();
+  scenario::FrameCollisions& told = frame.add<FrameCollisions>();
   told.remembered = 5;
   told.now = steps;
   if (steps == 30) told.steps = 60;
@@ -68,9 +68,9 @@ Frame collisions(std::uint64_t steps) {
 // A function with the line of this number lit, or all of them.
 std::pair<std::string, Frame> code(const std::string& function, std::size_t lit) {
   Frame frame = ghosts(4);
-  frame.code = scenario::code_of(function);
-  for (std::size_t i = 0; i < frame.code->lines.size(); ++i)
-    frame.code->lines[i].lit = i == lit || lit > frame.code->lines.size();
+  scenario::FrameCode& code = frame.add<FrameCode>() = *scenario::code_of(function);
+  for (std::size_t i = 0; i < code.lines.size(); ++i)
+    code.lines[i].lit = i == lit || lit > code.lines.size();
   frame.panels = {Panel::world, Panel::tree, Panel::code};
   return {fmt::format("code_{}{}", function, lit), frame};
 }
@@ -93,8 +93,9 @@ Named islands() {
   two.bodies.push_back(body(0, "floor", Look::box, 7, {8, 0.5}, AxisBox<2>{{8, 0.5}}));
   two.bodies.back().is_static = true;
   for (BodyId id = 1; id < 6; ++id) add(two, id, {3.0 * id, 1.5 + id % 2});
-  two.islands = {{1, {1, 2}, true}, {2, {3, 4}, false}};
-  two.edges = {{{0, 1}, false, false}, {{1, 2}, false, false}, {{3, 4}, true, true}};
+  two.add<FrameIslands>().islands = {{1, {1, 2}, true}, {2, {3, 4}, false}};
+  two.add<FrameIslands>().edges = {
+      {{0, 1}, false, false}, {{1, 2}, false, false}, {{3, 4}, true, true}};
   FrameContact& contact = two.contacts.emplace_back();
   contact.pair = {0, 1};
   contact.points = {{{3, 1, 0}, 0, 0}, {{3.4, 1, 0}, 0, 0}};
@@ -109,7 +110,7 @@ Named islands() {
   Frame many = base("Islands of one", {{0, 0}, {64, 36}}, {Panel::world, Panel::islands});
   for (BodyId id = 0; id < 600; ++id) {
     add(many, id, {1.0 + 2 * (id % 31), 1.0 + 1.7 * (id / 31)});
-    many.islands.push_back({id + 1, {id}, id % 3 == 0});
+    many.add<FrameIslands>().islands.push_back({id + 1, {id}, id % 3 == 0});
   }
   frames.emplace_back("islands600", many);
   return frames;
@@ -119,13 +120,14 @@ Named screens() {
   Named frames;
   Frame frame = atlas(8, 0);
   frame.panels = {Panel::screen, Panel::atlas};
-  for (FrameTexture& t : frame.textures) t.picture = static_cast<scenario::Picture>(t.id % 6);
-  FrameScreen& screen = frame.screen;
+  for (FrameTexture& t : frame.add<FrameTextures>().textures)
+    t.picture = static_cast<scenario::Picture>(t.id % 6);
+  FrameScreen& screen = frame.add<FrameScreen>();
   screen.width = 480;
   screen.height = 270;
   screen.planned = 2;
   for (std::uint32_t i = 0; i < 12; ++i) {
-    const FrameTexture& t = frame.textures[i * 5 % 8];
+    const FrameTexture& t = frame.get<FrameTextures>().textures[i * 5 % 8];
     screen.elements.push_back({t.id, static_cast<int>(30 * i), 20, t.width, t.height});
   }
   frames.emplace_back("screen_before", frame);
@@ -141,13 +143,13 @@ Named screens() {
   frames.emplace_back("screen_alone", frame);
   Frame packed = atlas(8, 8);
   packed.panels = {Panel::screen, Panel::atlas, Panel::tree};
-  packed.screen = screen;
-  packed.screen.ways.push_back({true, true, {{0, true, false}}, 1});
-  packed.screen.atlas_bound = true;
+  packed.add<FrameScreen>() = screen;
+  packed.add<FrameScreen>().ways.push_back({true, true, {{0, true, false}}, 1});
+  packed.add<FrameScreen>().atlas_bound = true;
   frames.emplace_back("screen_packed", packed);
-  for (FrameElement& element : packed.screen.elements) element.x = element.y = 0;
-  packed.screen.width = packed.screen.height = 128;
-  packed.screen.planned = 4;
+  for (FrameElement& element : packed.add<FrameScreen>().elements) element.x = element.y = 0;
+  packed.add<FrameScreen>().width = packed.add<FrameScreen>().height = 128;
+  packed.add<FrameScreen>().planned = 4;
   frames.emplace_back("screen_tiny", packed);
   return frames;
 }
@@ -157,7 +159,7 @@ Named strips() {
   Frame all = ghosts(4);
   put_in_pool(all, 14, 6);
   count_bytes(all);
-  all.trace = {"pairs", {{0, 3}, {0.5, 9}, {1, 6}}, 4.0, std::nullopt};
+  all.add<FrameTrace>() = {"pairs", {{0, 3}, {0.5, 9}, {1, 6}}, 4.0, std::nullopt};
   all.panels = {Panel::world, Panel::tree, Panel::pool};
   frames.emplace_back("strips_pool", all);
   all.panels = {Panel::world, Panel::tree, Panel::bytes, Panel::sparkline};
@@ -166,8 +168,9 @@ Named strips() {
   frames.emplace_back("strips_alone", all);
   all.panels = {Panel::pool, Panel::bytes, Panel::sparkline};
   frames.emplace_back("strips_only", all);
-  all.trace = {"pair_tests", {}, std::nullopt, std::nullopt};
-  for (int i = 0; i < 5000; ++i) all.trace.points.push_back({0.1 * i, 1.0 * (i * 7919 % 10000)});
+  all.add<FrameTrace>() = {"pair_tests", {}, std::nullopt, std::nullopt};
+  for (int i = 0; i < 5000; ++i)
+    all.add<FrameTrace>().points.push_back({0.1 * i, 1.0 * (i * 7919 % 10000)});
   frames.emplace_back("strips_long", all);
   Frame pieces = ghosts(4);
   pieces.structure = StructureKind::lecture_quadtree;

@@ -98,9 +98,9 @@ Frame linked() {
   const Kind kinds[] = {Kind::spring, Kind::spring, Kind::spring, Kind::spring, Kind::distance};
   for (std::size_t i = 0; i < 5; ++i) {
     const Vec<3> to = frame.bodies[i + 1].position;
-    frame.links.push_back({kinds[i], {to.x, 8.1, 0}, to, strains[i]});
+    frame.add<FrameLinks>().links.push_back({kinds[i], {to.x, 8.1, 0}, to, strains[i]});
   }
-  frame.links.push_back({Kind::pin, {1, 8.4, 0}, {1, 8.4, 0}, 0});
+  frame.add<FrameLinks>().links.push_back({Kind::pin, {1, 8.4, 0}, {1, 8.4, 0}, 0});
   frame.caption = "A stretched spring pulls, a pressed one pushes.";
   return frame;
 }
@@ -113,10 +113,11 @@ Frame rays() {
   for (std::size_t i = 0; i < 5; ++i)
     ray.hits.push_back(
         {static_cast<BodyId>(i), {20 + 15.0 * double(i), 14.5 + 9.0 * double(i), 0}});
-  frame.rays = {
+  frame.add<FrameFinding>().rays = {
       ray, {{4, 60, 0}, {60, 62, 0}, {{3, {60, 62, 0}}}}, {{50, 3, 0}, {160, -20, 0}, {}}};
   for (FrameBody& b : frame.bodies) b.dimmed = b.id % 3 == 0;
-  frame.queries = {{solid(Box<2>{{70, 5}, {92, 25}}), 0}, {solid(Box<2>{{30, 40}, {50, 60}}), 10}};
+  frame.add<FrameFinding>().queries = {{solid(Box<2>{{70, 5}, {92, 25}}), 0},
+                                       {solid(Box<2>{{30, 40}, {50, 60}}), 10}};
   frame.caption = "A ray meets the nearest body first.";
   return frame;
 }
@@ -124,7 +125,7 @@ Frame rays() {
 Frame culled(std::size_t bodies) {
   Frame frame = crowd(bodies, bodies > 100 ? 0.4 : 2.4);
   frame.title = "What the view sees";
-  frame.views = {{{10, 35, 0}, {{10, 35, 0}, {95, 4, 0}, {95, 66, 0}}}};
+  frame.add<FrameFinding>().views = {{{10, 35, 0}, {{10, 35, 0}, {95, 4, 0}, {95, 66, 0}}}};
   for (FrameBody& b : frame.bodies)
     b.dimmed = std::abs(b.position.y - 35) > (b.position.x - 10) * 31 / 85;
   frame.caption = "Bodies outside the wedge are ruled out with their whole cells.";
@@ -134,12 +135,12 @@ Frame culled(std::size_t bodies) {
 Frame level() {
   Frame frame = doom();
   frame.panels = {Panel::world, Panel::tree};
-  frame.walls = {{{2, 2}, {10, 1}, 0, 0, Mark::quiet},
-                 {{10, 1}, {11.2, 5}, 1, 0, Mark::lit},
-                 {{12.5, 3}, {12.9, 8}, 2, 0, Mark::quiet},
-                 {{12.9, 8}, {13.5, 12}, 2, 1, Mark::quiet},
-                 {{2, 12}, {9, 11}, 3, 0, Mark::passed}};
-  frame.eye = Vec<2>(6, 4.5);
+  frame.add<FrameLevel>().walls = {{{2, 2}, {10, 1}, 0, 0, Mark::quiet},
+                                   {{10, 1}, {11.2, 5}, 1, 0, Mark::lit},
+                                   {{12.5, 3}, {12.9, 8}, 2, 0, Mark::quiet},
+                                   {{12.9, 8}, {13.5, 12}, 2, 1, Mark::quiet},
+                                   {{2, 12}, {9, 11}, 3, 0, Mark::passed}};
+  frame.add<FrameLevel>().eye = Vec<2>(6, 4.5);
   std::uint32_t order = 0;
   for (FrameNode& node : frame.nodes) {
     if (!node.leaf) continue;
@@ -198,7 +199,7 @@ Frame kd(std::size_t bodies) {
   frame.title = "Boxes that fit";
   frame.nodes.clear();
   frame.structure = StructureKind::kd_tree;
-  frame.settings = "at most 2 in a leaf";
+  frame.add<FrameStructure>().settings = "at most 2 in a leaf";
   const std::function<void(std::uint32_t, std::uint32_t, std::vector<BodyId>)> grow =
       [&](std::uint32_t parent, std::uint32_t slot, std::vector<BodyId> held) {
         FrameNode node;
@@ -245,7 +246,7 @@ Frame swept() {
   frame.title = "Sort and sweep";
   frame.nodes.clear();
   frame.structure = StructureKind::sort_and_sweep;
-  frame.settings = "along x";
+  frame.add<FrameStructure>().settings = "along x";
   return frame;
 }
 
@@ -254,22 +255,24 @@ Frame wild() {
   Frame frame = shapes();
   frame.title = "Wild numbers";
   const double nan = std::nan(""), inf = HUGE_VAL;
-  frame.rays = {{{nan, 0, 0}, {1, 1, 0}, {{0, {nan, nan, 0}}}},
-                {{1, 1, 0}, {inf, 2, 0}, {}},
-                {{-1e300, 3, 0}, {1e300, 3, 0}, {}}};
-  frame.links = {{FrameLink::Kind::spring, {1, 1, 0}, {1, 1, 0}, nan},
-                 {FrameLink::Kind::spring, {-1e9, 1, 0}, {1e9, 2, 0}, 1e9},
-                 {FrameLink::Kind::pin, {inf, 1, 0}, {2, 2, 0}, 0}};
+  frame.add<FrameFinding>().rays = {{{nan, 0, 0}, {1, 1, 0}, {{0, {nan, nan, 0}}}},
+                                    {{1, 1, 0}, {inf, 2, 0}, {}},
+                                    {{-1e300, 3, 0}, {1e300, 3, 0}, {}}};
+  frame.add<FrameLinks>().links = {{FrameLink::Kind::spring, {1, 1, 0}, {1, 1, 0}, nan},
+                                   {FrameLink::Kind::spring, {-1e9, 1, 0}, {1e9, 2, 0}, 1e9},
+                                   {FrameLink::Kind::pin, {inf, 1, 0}, {2, 2, 0}, 0}};
   FrameContact contact;
   contact.normal = {nan, 1, 0};
   contact.points = {{{2, 2, 0}, 0, inf}, {{nan, 2, 0}, nan, nan}, {{3, 3, 0}, -1, 1e300}};
   frame.contacts = {contact, {{0, 1}, {0, 0, 0}, {{{4, 4, 0}, 0, 0}}, true}};
-  frame.views = {{{inf, 0, 0}, {{0, 0, 0}, {1e300, 0, 0}, {0, nan, 0}}},
-                 {{4, 4, 0}, {{-1e5, -1e5, 0}, {1e5, -1e5, 0}, {0, 1e6, 0}}},
-                 {}};
-  frame.queries = {{{{-inf, 0, 0}, {inf, 1, 0}}, 0}, {{{0, 0, 0}, {1, 1, 0}}, 1e200}, {}};
-  frame.walls = {{{nan, 0}, {1, 1}, 0, 0, Mark::lit}, {{2, 2}, {2, 2}, 1, 0, Mark::quiet}};
-  frame.eye = Vec<2>(-40, 900);
+  frame.add<FrameFinding>().views = {{{inf, 0, 0}, {{0, 0, 0}, {1e300, 0, 0}, {0, nan, 0}}},
+                                     {{4, 4, 0}, {{-1e5, -1e5, 0}, {1e5, -1e5, 0}, {0, 1e6, 0}}},
+                                     {}};
+  frame.add<FrameFinding>().queries = {
+      {{{-inf, 0, 0}, {inf, 1, 0}}, 0}, {{{0, 0, 0}, {1, 1, 0}}, 1e200}, {}};
+  frame.add<FrameLevel>().walls = {{{nan, 0}, {1, 1}, 0, 0, Mark::lit},
+                                   {{2, 2}, {2, 2}, 1, 0, Mark::quiet}};
+  frame.add<FrameLevel>().eye = Vec<2>(-40, 900);
   frame.bodies[1].velocity = {inf, 0, 0};
   frame.bodies[2].velocity = {1e-300, 0, 0};
   frame.bodies.push_back(ground(10, {8, 5}, {0.6, 0.8}));

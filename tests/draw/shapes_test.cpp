@@ -121,7 +121,7 @@ TEST(AtlasImage, HoldsEachPackedTextureAndNothingElse) {
     ASSERT_FALSE(std::holds_alternative<TextShape>(shape));
     const Box<2> box = painted(shape);
     bool in_one = false;
-    for (const FrameTexture& t : frame.textures) {
+    for (const FrameTexture& t : frame.get<FrameTextures>().textures) {
       const Box<2> place{{t.x, t.y}, {t.x + t.width, t.y + t.height}};
       if (!t.packed) continue;
       in_one = in_one || holds(shrunk(place, -1e-9), box);
@@ -129,7 +129,8 @@ TEST(AtlasImage, HoldsEachPackedTextureAndNothingElse) {
     }
     EXPECT_TRUE(in_one) << "something is painted between the textures";
   }
-  const auto packed = std::count_if(frame.textures.begin(), frame.textures.end(),
+  const auto packed = std::count_if(frame.get<FrameTextures>().textures.begin(),
+                                    frame.get<FrameTextures>().textures.end(),
                                     [](const FrameTexture& t) { return t.packed; });
   EXPECT_GE(grounds, static_cast<std::size_t>(packed)) << "a packed texture is not painted";
 }

@@ -36,18 +36,21 @@ TEST(SidesView, AnEndingShowsTheCountsOfSidesLarge) {
   Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(3)});
   frame.sides[0].counts = {{"nodes", 13022}};
   frame.sides[1].counts = {{"nodes", 1}};
-  for (const Frame& side : frame.sides) frame.headline.push_back(side.side + ".nodes");
-  EXPECT_FALSE(says(samples::page_of(frame), "nodes, " + frame.sides[0].side));
+  for (const Frame& side : frame.sides)
+    frame.headline.push_back(side.get<FrameSide>().name + ".nodes");
+  EXPECT_FALSE(says(samples::page_of(frame), "nodes, " + frame.sides[0].get<FrameSide>().name));
   frame.ending = true;
   const DrawList list = samples::page_of(frame);
-  EXPECT_TRUE(says(list, "nodes, " + frame.sides[0].side));
-  EXPECT_TRUE(says(list, "node, " + frame.sides[1].side));
+  EXPECT_TRUE(says(list, "nodes, " + frame.sides[0].get<FrameSide>().name));
+  EXPECT_TRUE(says(list, "node, " + frame.sides[1].get<FrameSide>().name));
   EXPECT_TRUE(says(list, "13\u2009022"));
   EXPECT_EQ(boxes_of(list, "nodes").size(), 1u) << "under the first side, once";
-  for (Frame& side : frame.sides) side.side += " under settings with a long name";
+  for (Frame& side : frame.sides) side.add<FrameSide>().name += " under settings with a long name";
   frame.headline.clear();
-  for (const Frame& side : frame.sides) frame.headline.push_back(side.side + ".nodes");
-  EXPECT_TRUE(says(samples::page_of(frame), frame.sides[0].side)) << "the caption keeps its room";
+  for (const Frame& side : frame.sides)
+    frame.headline.push_back(side.get<FrameSide>().name + ".nodes");
+  EXPECT_TRUE(says(samples::page_of(frame), frame.sides[0].get<FrameSide>().name))
+      << "the caption keeps its room";
 }
 
 TEST(SidesView, OneScaleHoldsForAll) {
@@ -70,7 +73,7 @@ TEST(SidesView, WhatOneSideDoesAloneStandsUnderIt) {
   const auto words = boxes_of(list, "Blue is stored."), title = boxes_of(list, "side b");
   ASSERT_EQ(words.size(), 1u);
   EXPECT_NEAR(words[0].lo.x, title[0].lo.x, 3);
-  frame.sides[1].held = true;
+  frame.sides[1].add<FrameSide>().held = true;
   EXPECT_FALSE(says_part(samples::page_of(frame), "Blue is stored.")) << "it does nothing now";
   frame.sides[1].time = 1.5;
   EXPECT_TRUE(says(samples::page_of(frame), "·  1.50 s"));

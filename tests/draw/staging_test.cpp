@@ -79,8 +79,9 @@ TEST_P(EverySequence, NodesStandStillAndLitOnesAreOpen) {
     if (staging.trees().size() != 1 || !group[0].sides.empty()) continue;
     const UnionTree& tree = staging.trees()[0];
     std::vector<TreeOfFrame> trees;
-    for (const Frame& frame : group) trees.push_back({frame.nodes, frame.hits});
-    const TreeStage stage = stage_tree(tree, trees, !group[0].textures.empty(), kTreePanel);
+    for (const Frame& frame : group) trees.push_back({frame.nodes, frame.get<FrameFinding>().hits});
+    const TreeStage stage =
+        stage_tree(tree, trees, !group[0].get<FrameTextures>().textures.empty(), kTreePanel);
     PlacedTree before;
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (!is_looked_at(i) || group[i].nodes.empty()) continue;
@@ -131,7 +132,7 @@ TEST(Staging, AGroupEndsWhereItsPanelsOrSettingsChange) {
   EXPECT_TRUE(Staging::is_one_group(a, b));
   b.part = "another part";
   EXPECT_TRUE(Staging::is_one_group(a, b)) << "a part alone moves nothing";
-  b.settings = "capacity 9";
+  b.add<FrameStructure>().settings = "capacity 9";
   EXPECT_FALSE(Staging::is_one_group(a, b));
   b = a;
   b.panels = {Panel::world};
@@ -140,9 +141,9 @@ TEST(Staging, AGroupEndsWhereItsPanelsOrSettingsChange) {
 
 TEST(Staging, KnowsWhatAnyFrameHas) {
   std::vector<Frame> frames{samples::ghosts(2), samples::ghosts(4)};
-  for (Frame& frame : frames) frame.chart.y_name = "pairs";
-  frames[0].chart.series = {{"pairs", {{0, 5}}, 0}};
-  frames[1].chart.series = {{"pairs", {{2, -1}}, 0}};
+  for (Frame& frame : frames) frame.add<FrameChart>().y_name = "pairs";
+  frames[0].add<FrameChart>().series = {{"pairs", {{0, 5}}, 0}};
+  frames[1].add<FrameChart>().series = {{"pairs", {{2, -1}}, 0}};
   frames[0].index = 0;
   frames[1].index = 1;
   const Staging staging{std::span<const Frame>(frames)};
@@ -154,10 +155,10 @@ TEST(Staging, KnowsWhatAnyFrameHas) {
   AxisRanges axes;
   for (const Frame& frame : frames) axes.see(frame);
   axes.settle(frames[0]);
-  ASSERT_TRUE(frames[0].chart.range && frames[0].chart.x_range);
-  EXPECT_EQ(frames[0].chart.x_range->second, 2);
-  EXPECT_EQ(frames[0].chart.range->first, -1);
-  EXPECT_EQ(frames[0].chart.range->second, 5);
+  ASSERT_TRUE(frames[0].get<FrameChart>().range && frames[0].get<FrameChart>().x_range);
+  EXPECT_EQ(frames[0].get<FrameChart>().x_range->second, 2);
+  EXPECT_EQ(frames[0].get<FrameChart>().range->first, -1);
+  EXPECT_EQ(frames[0].get<FrameChart>().range->second, 5);
 }
 
 TEST(Staging, OfManyBodiesOnlyThoseOfTheStoryAreNamed) {

@@ -51,8 +51,8 @@ TEST(Bytes, AreDrawnToScale) {
 
 TEST(Sparkline, StandsStillWhileTimeGoesOn) {
   Frame early = strip("strips_others"), late = early;
-  late.trace.points.push_back({3, 2});
-  for (Frame* frame : {&early, &late}) frame->trace.most = 9;
+  late.add<FrameTrace>().points.push_back({3, 2});
+  for (Frame* frame : {&early, &late}) frame->add<FrameTrace>().most = 9;
   const DrawList before = samples::page_of(early), after = samples::page_of(late);
   const auto line_of = [](const DrawList& list) {
     std::vector<LineShape> lines;
@@ -70,7 +70,7 @@ TEST(Sparkline, StandsStillWhileTimeGoesOn) {
 TEST(Sparkline, HoldsACountUntilItChanges) {
   Frame frame = strip("strips_alone");
   frame.panels = {Panel::sparkline};
-  frame.trace = {"pairs", {{0, 3}, {1, 3}, {2, 0}, {4, 1}}, 4.0, 3.0};
+  frame.add<FrameTrace>() = {"pairs", {{0, 3}, {1, 3}, {2, 0}, {4, 1}}, 4.0, 3.0};
   const DrawList list = samples::page_of(frame);
   int steps = 0;
   for (const DrawShape& shape : list.shapes)

@@ -67,7 +67,7 @@ void add_octree(Frame& frame) {
       for (const BodyId b : node.bodies)
         if (a < b) pairs.insert({a, b});
   for (const Pair& pair : pairs) frame.pairs.push_back({pair, false});
-  frame.settings = "capacity 2, depth limit 4";
+  frame.add<FrameStructure>().settings = "capacity 2, depth limit 4";
 }
 
 Frame solid_frame(const std::string& name, const Box<3>& bounds) {
@@ -178,13 +178,13 @@ Frame culling_frame() {
   for (const double d : {2.0, 13.0})
     for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
       view.corners.push_back(view.eye + ahead * d + right * (0.42 * d * x) + up * (0.24 * d * y));
-  frame.views.push_back(view);
+  frame.add<FrameFinding>().views.push_back(view);
   FrameRay ray;
   ray.from = {0.5, 6.5, 14};
   ray.to = frame.bodies[4].position + Vec<3>(-0.7, 0.2, 0.3);
   ray.hits = {{4, ray.to}};
-  frame.rays.push_back(ray);
-  frame.links = {
+  frame.add<FrameFinding>().rays.push_back(ray);
+  frame.add<FrameLinks>().links = {
       {FrameLink::Kind::spring, frame.bodies[2].position, {14, 8, 2}, 0.2},
       {FrameLink::Kind::distance, frame.bodies[5].position, frame.bodies[8].position, 0.0}};
   return frame;
@@ -239,7 +239,7 @@ Frame inside_frame() {
   Frame frame = culling_frame();
   frame.title = "From within the world";
   frame.camera = Camera{{7, 3.5, 15.5}, {9.5, 2.5, 5.5}, 0.8};
-  frame.views.clear();
+  frame.add<FrameFinding>().views.clear();
   return frame;
 }
 

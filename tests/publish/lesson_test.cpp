@@ -223,7 +223,7 @@ TEST(LessonEntities, SayOfWhomAThingIs) {
   EXPECT_EQ(of("ledger/key/2"), "");
   EXPECT_EQ(of("page/words"), "");
   frame.sides.push_back(frame_of(0));
-  frame.sides[0].side = "eager";
+  frame.sides[0].add<FrameSide>().name = "eager";
   EXPECT_EQ(of("eager/world/body/ann"), "eager/body/ann");
 }
 
@@ -253,7 +253,7 @@ TEST(Lesson, AsksWhatItsFramesAnswer) {
   for (std::uint32_t i = 0; i < 2; ++i) {
     Frame frame = frame_of(i);
     silent.add(frame, picture(200, true), {});
-    if (i == 1) frame.question = FrameQuestion{"Is 1 < 2?", "3 pairs & more."};
+    if (i == 1) frame.add<FrameQuestion>() = FrameQuestion{"Is 1 < 2?", "3 pairs & more."};
     asks.add(frame, picture(200, true), {});
   }
   const std::string page = asks.html();

@@ -20,8 +20,8 @@ const std::string kMany =
     "[[texture_pattern]]\nname = \"t\"\ncount = 60\nmin = [2, 3]\nmax = [12, 30]\n";
 
 void expect_apart(const Frame& frame) {
-  for (const FrameTexture& s : frame.textures)
-    for (const FrameTexture& t : frame.textures)
+  for (const FrameTexture& s : frame.get<FrameTextures>().textures)
+    for (const FrameTexture& t : frame.get<FrameTextures>().textures)
       EXPECT_FALSE(s.packed && t.packed && s.id < t.id && s.x < t.x + t.width &&
                    t.x < s.x + s.width && s.y < t.y + t.height && t.y < s.y + s.height)
           << s.name << " and " << t.name << " overlap";
@@ -41,8 +41,8 @@ TEST(AtlasRules, LeavesThatChoosePackMore) {
   EXPECT_GT(taught.count("refused"), 0);
   EXPECT_LT(*chosen.count("refused"), *taught.count("refused"));
   EXPECT_GE(*turned.count("used_area"), *chosen.count("used_area"));
-  EXPECT_TRUE(std::ranges::any_of(turned.textures, &FrameTexture::turned));
-  EXPECT_TRUE(std::ranges::none_of(chosen.textures, &FrameTexture::turned));
+  EXPECT_TRUE(std::ranges::any_of(turned.get<FrameTextures>().textures, &FrameTexture::turned));
+  EXPECT_TRUE(std::ranges::none_of(chosen.get<FrameTextures>().textures, &FrameTexture::turned));
 }
 
 TEST(AtlasRules, EachTextureHasItsFrameInTheOrderOfTheLeaves) {
@@ -68,7 +68,7 @@ TEST(AtlasRules, EventsTellOfTurning) {
                 Pace::event);
   const Frame& cut = at(frames, "cut");
   EXPECT_NE(cut.caption.find("A, turned (30 × 8)"), std::string::npos) << cut.caption;
-  const FrameTexture& a = frames.back().textures.at(0);
+  const FrameTexture& a = frames.back().get<FrameTextures>().textures.at(0);
   EXPECT_TRUE(a.packed && a.turned);
   EXPECT_EQ(a.width, 30);
   EXPECT_EQ(a.height, 8);
@@ -86,8 +86,8 @@ TEST(AtlasRules, ByFirstFitThoseAreTurnedThatFitNowhereElse) {
   EXPECT_EQ(with("").count("refused"), 1);
   const Frame turned = with("turn = true");
   EXPECT_EQ(turned.count("refused"), 0);
-  EXPECT_TRUE(turned.textures.at(0).turned);
-  EXPECT_FALSE(turned.textures.at(1).turned);
+  EXPECT_TRUE(turned.get<FrameTextures>().textures.at(0).turned);
+  EXPECT_FALSE(turned.get<FrameTextures>().textures.at(1).turned);
 }
 
 TEST(AtlasRules, TrialsAreThoseOfThePacker) {

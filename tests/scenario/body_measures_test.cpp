@@ -106,7 +106,7 @@ TEST(ChartOverTime, AddsAPointOnEveryFrameByItself) {
   const auto frames = frames_of(
       good(world_text(kBobWorld, "[chart]\nx = \"time\"\ny = [\"energy.bob\", \"energy.ann\"]\n" +
                                      kBobs + kInsertBobs + kHalfSecond)));
-  const FrameChart& chart = frames.back().chart;
+  const FrameChart& chart = frames.back().get<FrameChart>();
   EXPECT_TRUE(chart.over_time);
   EXPECT_EQ(chart.y_name, "energy") << "the same measure of different bodies";
   EXPECT_EQ(chart.seconds, 0.5) << "the axis must not grow while the lines do";
@@ -120,7 +120,7 @@ TEST(ChartOverTime, AddsAPointOnEveryFrameByItself) {
       EXPECT_NEAR(series.points[i].x, 0.05 * double(i), 1e-12);
   }
   for (std::size_t i = 0; i < frames.size(); ++i)
-    EXPECT_EQ(frames[i].chart.series[0].points.size(), i + 1) << "frame " << i;
+    EXPECT_EQ(frames[i].get<FrameChart>().series[0].points.size(), i + 1) << "frame " << i;
 }
 
 TEST(ChartOverTime, EachPartMayBeginAnew) {
@@ -129,7 +129,7 @@ TEST(ChartOverTime, EachPartMayBeginAnew) {
       "[[step]]\ndo = \"run\"\nseconds = 0.75\npart = \"two\"\n[[step]]\ndo = \"show\"\n";
   const auto frames =
       frames_of(good(world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + longer)));
-  const FrameChart& last = frames.back().chart;
+  const FrameChart& last = frames.back().get<FrameChart>();
   EXPECT_EQ(last.seconds, 0.75);
   EXPECT_EQ(last.series[0].points.size(), 15u) << "what stands still is said once";
   EXPECT_NEAR(last.series[0].points.front().x, 0.05, 1e-12) << "time is the part's own";

@@ -86,7 +86,7 @@ TEST(CodeText, FindsFunctionsWithTheirClassOrWithout) {
 TEST(CodeText, FollowsEventsAndSteps) {
   const auto lit = [](const Frame& frame) {
     std::string text;
-    for (const FrameCode::Line& line : frame.code->lines)
+    for (const FrameCode::Line& line : frame.find<FrameCode>()->lines)
       if (line.lit) text += line.text;
     return text;
   };
@@ -94,15 +94,15 @@ TEST(CodeText, FollowsEventsAndSteps) {
   EXPECT_TRUE(lit(at(frames, "store")).starts_with("contents.push_back("));
   EXPECT_EQ(lit(at(frames, "split")), "Split();");
   EXPECT_EQ(lit(at(frames, "three")), "contents.clear();");
-  EXPECT_EQ(at(frames, "narrow_phase").code->function, "PhysicsSystem::NarrowPhase");
-  EXPECT_EQ(at(frames, "answer").code->lines.front().lit, false);
+  EXPECT_EQ(at(frames, "narrow_phase").find<FrameCode>()->function, "PhysicsSystem::NarrowPhase");
+  EXPECT_EQ(at(frames, "answer").find<FrameCode>()->lines.front().lit, false);
 }
 
 // framesLeft, by the lecture's rule: five at a touch, one less at the end of each step, and the end
 // is told when none is left.
 TEST(CollisionLog, CountsDownAsTheLectureDoes) {
   const std::vector<Frame> frames = frames_of("collision_frames");
-  const FrameCollisions& told = *frames.back().collisions;
+  const FrameCollisions& told = *frames.back().find<FrameCollisions>();
   ASSERT_EQ(told.remembered, 5);
   ASSERT_EQ(told.rows.size(), 1u);
   int left = -1;

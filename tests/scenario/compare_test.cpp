@@ -24,7 +24,7 @@ TEST(Compare, SetsEveryKindBesideTheOthersWithoutTouchingTheWorld) {
                                              compared("[\"dot1..dot4\"]"))));
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_TRUE(frames[0].bodies.empty());
-  const FrameComparison& table = frames[0].comparison;
+  const FrameComparison& table = frames[0].get<FrameComparison>();
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_EQ(table.all_names.size(), 2u) << "what is to come has its place";
   const FrameComparison::Row& row = table.rows[0];
@@ -34,7 +34,7 @@ TEST(Compare, SetsEveryKindBesideTheOthersWithoutTouchingTheWorld) {
   EXPECT_EQ(row.cell(StructureKind::brute_force)->work.step(), 735u) << "30 · 29 / 2 + 30 · 10";
   for (const FrameComparison::Cell& cell : row.cells)
     EXPECT_EQ(cell.work.overlaps, row.cells[0].work.overlaps);
-  EXPECT_EQ(frames[1].comparison.rows.size(), 2u);
+  EXPECT_EQ(frames[1].get<FrameComparison>().rows.size(), 2u);
   EXPECT_EQ(frames[1].count("compared_bodies"), 4);
 }
 

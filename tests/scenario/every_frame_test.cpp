@@ -65,7 +65,8 @@ void expect_no_pair_missed(const Frame& frame, const Rules& rules) {
     EXPECT_FALSE(rules.rests(*by_id[p.a]) && rules.rests(*by_id[p.b]))
         << by_id[p.a]->name << " and " << by_id[p.b]->name << " rest, on " << frame.index;
   }
-  if (is_midst_of_insertion(frame) || frame.swept_to || rules.is_stale(frame)) return;
+  if (is_midst_of_insertion(frame) || frame.get<FrameStructure>().swept_to || rules.is_stale(frame))
+    return;
   for (const FrameBody& a : frame.bodies)
     for (const FrameBody& b : frame.bodies) {
       if (a.id >= b.id || !overlap(a.box, b.box)) continue;
@@ -179,15 +180,17 @@ void expect_memory_in_order(const Frame& frame) {
   for (const FrameNode& n : frame.nodes) {
     if (n.first == kNone) continue;
     EXPECT_LE(n.bodies.size(), n.room) << "a leaf writes beyond its room";
-    EXPECT_LE(n.first + n.room, frame.array_size) << "a leaf lies beyond the array";
+    EXPECT_LE(n.first + n.room, frame.get<FrameStructure>().array_size)
+        << "a leaf lies beyond the array";
     for (std::uint32_t i = 0; i < n.room; ++i)
       EXPECT_TRUE(taken.insert(n.first + i).second) << "two leaves share slot " << n.first + i;
   }
 }
 
 void expect_words(const Frame& frame) {
-  const bool a_side_speaks = std::ranges::any_of(
-      frame.sides, [](const Frame& side) { return !side.held && !side.caption.empty(); });
+  const bool a_side_speaks = std::ranges::any_of(frame.sides, [](const Frame& side) {
+    return !side.get<FrameSide>().held && !side.caption.empty();
+  });
   EXPECT_TRUE(a_side_speaks || !frame.caption.empty()) << "frame " << frame.index << " is silent";
   EXPECT_FALSE(frame.event.empty());
   EXPECT_EQ(frame.caption.find('{'), std::string::npos) << frame.caption;

@@ -89,8 +89,8 @@ TEST(Facts, AtlasFitsAndRefuses) {
   EXPECT_NE(last.caption.find("banner"), std::string::npos) << "the refused texture is named";
   for (const Frame& frame : frames)
     EXPECT_EQ(*frame.count("used_area") + *frame.count("free_area"), 512 * 512);
-  for (const FrameTexture& s : last.textures)
-    for (const FrameTexture& t : last.textures)
+  for (const FrameTexture& s : last.get<FrameTextures>().textures)
+    for (const FrameTexture& t : last.get<FrameTextures>().textures)
       EXPECT_FALSE(s.packed && t.packed && s.id < t.id && s.x < t.x + t.width &&
                    t.x < s.x + s.width && s.y < t.y + t.height && t.y < s.y + s.height)
           << s.name << " and " << t.name << " overlap";

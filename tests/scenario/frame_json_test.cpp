@@ -49,25 +49,6 @@ from = [3, 7, 3]
 to = [3, 1, 3]
 )";
 
-TEST(FrameJson, TheVersionBeforeHasNoWayOfPairs) {
-  const auto frames = frames_of("broad_then_narrow");
-  const json before = json::parse(to_json(frames.back(), FactsVersion::v1));
-  json now = json::parse(to_json(frames.back()));
-  EXPECT_EQ(before["format"], "lantern.frame/1");
-  ASSERT_TRUE(now.contains("since_last_frame"));
-  for (const char* key : {"overlaps", "tested", "since_last_frame"}) now.erase(key);
-  for (json& body : now["bodies"]) {
-    body.erase("stored_box");
-    EXPECT_EQ(body.erase("spin"), 1u);
-  }
-  for (const char* key :
-       {"testable_pairs", "pairs_tested", "impulses", "leaves_asleep", "branches_asleep",
-        "collisions_alive", "begins_in_all", "touches_in_all", "impact_looks", "impacts_located"})
-    EXPECT_EQ(now["counts"].erase(key), 1u) << key;
-  now["format"] = before["format"];
-  EXPECT_EQ(now, before);
-}
-
 TEST(FrameJson, OfASolidWorldHasThreeNumbersAPoint) {
   const auto frames = frames_of(parse_scenario(kSolidFrames, "solid.toml"), Pace::step);
   ASSERT_FALSE(frames.empty());

@@ -21,7 +21,7 @@ std::vector<Frame> on_grid(const std::string& keys, Pace pace = Pace::step) {
 
 TEST(GridPictures, ShowEachCellWithAllThatReachIt) {
   const Frame frame = on_grid("cell = 4\n").back();
-  EXPECT_EQ(frame.settings, "cells of 4");
+  EXPECT_EQ(frame.get<FrameStructure>().settings, "cells of 4");
   EXPECT_EQ(bodies_in(frame, "5"), Names{"dot"});
   EXPECT_EQ(bodies_in(frame, "1"), Names{"pill"});
   EXPECT_EQ(bodies_in(frame, "2"), Names{"pill"});
@@ -36,14 +36,14 @@ TEST(GridPictures, ShowEachCellWithAllThatReachIt) {
 
 TEST(GridPictures, OfLevelsAndBuckets) {
   const Frame levels = on_grid("cell = 1\nlevels = 3\n").back();
-  EXPECT_EQ(levels.settings, "cells of 1, 3 levels");
+  EXPECT_EQ(levels.get<FrameStructure>().settings, "cells of 1, 3 levels");
   EXPECT_EQ(bodies_in(levels, "L1.97"), Names{"dot"}) << "row 7 of 8, 16 cells each";
   EXPECT_EQ(node(levels, "L2").leaf, false);
   EXPECT_EQ(levels.count("depth"), 2);
   const Frame hashed = on_grid("cell = 4\nopen = true\n").back();
-  EXPECT_EQ(hashed.settings, "spatial hash, cells of 4");
+  EXPECT_EQ(hashed.get<FrameStructure>().settings, "spatial hash, cells of 4");
   EXPECT_EQ(bodies_in(hashed, "B1.1"), Names{"dot"});
-  EXPECT_EQ(on_grid("").back().settings, "cells that suit the bodies");
+  EXPECT_EQ(on_grid("").back().get<FrameStructure>().settings, "cells that suit the bodies");
 }
 
 TEST(GridPictures, TellTheCellsThatABodyEnters) {

@@ -105,7 +105,7 @@ TEST(LevelBodies, HiddenOnesAreRuledOut) {
   std::int64_t lit = 0;
   for (const FrameNode& node : seen.nodes) lit += node.leaf && !node.unseen;
   EXPECT_EQ(seen.count("sectors_seen"), lit);
-  EXPECT_FALSE(seen.portals.empty());
+  EXPECT_FALSE(seen.get<FrameLevel>().portals.empty());
 }
 
 TEST(LevelBodies, TheMatrixIsFoundOnceAndFillsRowByRow) {
@@ -117,17 +117,17 @@ TEST(LevelBodies, TheMatrixIsFoundOnceAndFillsRowByRow) {
   std::size_t known = 0;
   for (const Frame& frame : frames) {
     std::size_t now = 0;
-    for (const std::string& row : frame.matrix.rows)
+    for (const std::string& row : frame.get<FrameMatrix>().rows)
       now += row.size() - static_cast<std::size_t>(std::ranges::count(row, '.'));
     EXPECT_GE(now, known);
     known = now;
   }
-  const std::size_t n = frames.back().matrix.rows.size();
+  const std::size_t n = frames.back().get<FrameMatrix>().rows.size();
   EXPECT_EQ(known, n * n);
   EXPECT_EQ(at(frames, "portals").count("visible_pairs"), 0);
   EXPECT_EQ(frames.back().count("portals_tested"),
             frames[frames.size() - 2].count("portals_tested"));
-  EXPECT_EQ(frames.back().matrix.lit + 1, frames.back().count("sector"));
+  EXPECT_EQ(frames.back().get<FrameMatrix>().lit + 1, frames.back().count("sector"));
 }
 
 TEST(LevelBodies, TestsAddUpBuildByBuild) {

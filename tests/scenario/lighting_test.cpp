@@ -13,7 +13,8 @@ bool lights_anything(const Frame& frame) {
   return std::ranges::any_of(frame.bodies, &FrameBody::lit) ||
          std::ranges::any_of(frame.pairs, &FramePair::lit) ||
          std::ranges::any_of(frame.nodes, [](const auto& n) { return n.mark != Mark::quiet; }) ||
-         std::ranges::any_of(frame.walls, [](const auto& w) { return w.mark != Mark::quiet; });
+         std::ranges::any_of(frame.get<FrameLevel>().walls,
+                             [](const auto& w) { return w.mark != Mark::quiet; });
 }
 
 TEST(Lighting, AFirstFrameLightsNothing) {
@@ -87,10 +88,10 @@ TEST(Findings, GrowWithTheWalk) {
   EXPECT_EQ(first.count("nodes_visited"), 1);
   EXPECT_EQ(first.count("objects_tested"), 0);
   EXPECT_EQ(first.count("hits"), 0);
-  EXPECT_EQ(first.rays.at(0).to, Vec<3>(16, 2, 0)) << "it has met nothing yet";
+  EXPECT_EQ(first.get<FrameFinding>().rays.at(0).to, Vec<3>(16, 2, 0)) << "it has met nothing yet";
   const Frame& hit = at(frames, "hit");
   EXPECT_EQ(hit.count("hits"), 1);
-  EXPECT_DOUBLE_EQ(hit.rays.at(0).to.x, 1.5);
+  EXPECT_DOUBLE_EQ(hit.get<FrameFinding>().rays.at(0).to.x, 1.5);
   const Frame& skip = at(frames, "skip");
   EXPECT_GE(*skip.count("nodes_skipped"), 1);
   EXPECT_TRUE(std::ranges::any_of(skip.nodes, &FrameNode::skipped));
@@ -112,7 +113,7 @@ TEST(Findings, EndAsTheyDoStepByStep) {
     const std::string insert = "do = \"insert\"\nbodies = [\"a\", \"b\", \"c\"]";
     const auto at_once = frames_of(scene("", kThree, {insert, question})).back();
     const auto by_event = frames_of(scene("", kThree, {insert, question + "\npace = \"event\""}));
-    EXPECT_EQ(by_event.back().hits, at_once.hits);
+    EXPECT_EQ(by_event.back().get<FrameFinding>().hits, at_once.get<FrameFinding>().hits);
     for (const char* name : {"nodes_visited", "nodes_skipped", "objects_tested", "hits"})
       EXPECT_EQ(by_event.back().count(name), at_once.count(name)) << name;
     EXPECT_EQ(by_event.at(by_event.size() - 2).count("hits"), at_once.count("hits"));
@@ -155,14 +156,14 @@ TEST(Rulers, MeasureAndCompare) {
                                       {"do = \"insert\"\nbodies = [\"a\", \"b\"]",
                                        "do = \"move\"\nbody = \"b\"\nto = [15.5, 2]\n"
                                        "ruler = [{ a = \"a\", b = \"b\", change = true }]"}));
-  ASSERT_EQ(frames[1].rulers.size(), 1u);
-  EXPECT_EQ(frames[1].rulers[0].length, 13.5);
-  EXPECT_EQ(frames[1].rulers[0].before, 12.0);
+  ASSERT_EQ(frames[1].get<FrameRulers>().rulers.size(), 1u);
+  EXPECT_EQ(frames[1].get<FrameRulers>().rulers[0].length, 13.5);
+  EXPECT_EQ(frames[1].get<FrameRulers>().rulers[0].before, 12.0);
 }
 
 TEST(Rulers, WaitForTheirBodiesAndHaveTwoEnds) {
   const std::string ruler = "do = \"show\"\nruler = [{ a = \"a\", to = [0, 0] }]";
-  EXPECT_TRUE(frames_of(scene("", kThree, {ruler})).back().rulers.empty());
+  EXPECT_TRUE(frames_of(scene("", kThree, {ruler})).back().get<FrameRulers>().rulers.empty());
   const std::string before = world_text("size = [16, 16]", kTreeOfTwo + kThree);
   expect_mistakes(before + "[[step]]\ndo = \"show\"\n@[[step.ruler]]\na = \"a\"\n",
                   {"one of 'b' and 'to'"});
@@ -177,9 +178,9 @@ TEST(Forces, AreShownWhenTheWorldSaysSo) {
       "[[spring]]\na = \"b\"\nto = [14, 5]\nstiffness = 10\nrest_length = 1\n";
   const std::vector<std::string> script = {"do = \"insert\"\nbodies = [\"a\", \"b\", \"c\"]",
                                            "do = \"force\"\nbody = \"a\"\nforce = [40, 0]"};
-  EXPECT_TRUE(frames_of(scene("", kThree + spring, script)).back().forces.empty());
+  EXPECT_TRUE(frames_of(scene("", kThree + spring, script)).back().get<FrameForces>().forces.empty());
   const auto forces =
-      frames_of(scene("show_forces = true\n", kThree + spring, script)).back().forces;
+      frames_of(scene("show_forces = true\n", kThree + spring, script)).back().get<FrameForces>().forces;
   ASSERT_EQ(forces.size(), 2u);
   EXPECT_EQ(forces[0].force, Vec<3>(40, 0, 0));
   EXPECT_EQ(forces[1].force, Vec<3>(0, 20, 0)) << "3 long, at rest 1: 2 units of 10 N";

@@ -38,19 +38,19 @@ TEST(Links, ComeAndGoWithTheirBodies) {
                         "do = \"insert\"\nbodies = [\"b\", \"a\"]\nname = \"again\""}))));
   const auto kinds = [](const Frame& frame) {
     std::vector<FrameLink::Kind> list;
-    for (const FrameLink& link : frame.links) list.push_back(link.kind);
+    for (const FrameLink& link : frame.get<FrameLinks>().links) list.push_back(link.kind);
     return list;
   };
   using Kinds = std::vector<FrameLink::Kind>;
   using enum FrameLink::Kind;
   EXPECT_EQ(kinds(frames[0]), Kinds{pin}) << "the spring's other end is not there yet";
   EXPECT_EQ(kinds(frames[1]), (Kinds{spring, pin}));
-  EXPECT_EQ(frames[1].links[0].from, Vec<3>(4, 8, 0));
-  EXPECT_EQ(frames[1].links[0].to, Vec<3>(7, 8, 0));
-  EXPECT_DOUBLE_EQ(frames[1].links[0].strain, 0.5) << "(3 - 2) / 2";
-  EXPECT_EQ(frames[1].links[1].strain, 0);
+  EXPECT_EQ(frames[1].get<FrameLinks>().links[0].from, Vec<3>(4, 8, 0));
+  EXPECT_EQ(frames[1].get<FrameLinks>().links[0].to, Vec<3>(7, 8, 0));
+  EXPECT_DOUBLE_EQ(frames[1].get<FrameLinks>().links[0].strain, 0.5) << "(3 - 2) / 2";
+  EXPECT_EQ(frames[1].get<FrameLinks>().links[1].strain, 0);
   EXPECT_EQ(kinds(at(frames, "without_b")), Kinds{pin});
-  EXPECT_TRUE(at(frames, "empty").links.empty());
+  EXPECT_TRUE(at(frames, "empty").get<FrameLinks>().links.empty());
   EXPECT_EQ(kinds(at(frames, "again")), (Kinds{spring, pin}));
   for (const Frame& frame : frames) {
     EXPECT_LE(frame.bodies.size(), 2u) << "an anchor is pictured";

@@ -32,7 +32,6 @@ TEST(View, HoldsUntilAnotherOneAndKeepsTheWorldsProportions) {
   EXPECT_EQ(frames[1].view->hi, Vec<2>(48, 20));
   EXPECT_EQ(*frames[1].view, *frames[2].view);
   EXPECT_NE(to_json(frames[1]).find("\"view\""), std::string::npos);
-  EXPECT_EQ(to_json(frames[1], FactsVersion::v1).find("\"view\""), std::string::npos);
 }
 
 TEST(View, StaysWithinTheWorld) {

@@ -61,9 +61,9 @@ TEST(MotionFacts, EnergyOfASpringGoesAsItsMethodSays) {
 TEST(MotionFacts, ChartOfTheStiffSpringBeginsAnewWithEachPart) {
   const auto frames = frames_of("stiff_spring");
   for (const char* event : {"start", "stiffer", "stiffest"})
-    for (const FrameSeries& series : at(frames, event).chart.series)
+    for (const FrameSeries& series : at(frames, event).get<FrameChart>().series)
       EXPECT_LE(series.points.size(), 1u) << event << ": " << series.name;
-  const FrameChart& recap = at(frames, "recap").chart;
+  const FrameChart& recap = at(frames, "recap").get<FrameChart>();
   EXPECT_EQ(recap.series[0].points.size(), 27u) << "explicit Euler, until it was taken out";
   EXPECT_EQ(recap.series[1].points.size(), 41u);
 }
@@ -87,8 +87,8 @@ TEST(MotionFacts, TheBoxTurnsOverAndOnlyTheTextbookWinsEnergy) {
 
 // Of the side with that name.
 const Frame& side(const Frame& frame, const std::string& name) {
-  const auto found = std::ranges::find(frame.sides, name, &Frame::side);
-  EXPECT_NE(found, frame.sides.end()) << name;
+  const Frame* found = frame.side_named(name);
+  EXPECT_NE(found, nullptr) << name;
   return *found;
 }
 

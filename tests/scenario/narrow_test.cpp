@@ -25,18 +25,18 @@ const std::string kMove = "[[step]]\ndo = \"move\"\nbody = \"pink\"\nto = [10, 9
 TEST(Separate, TellsAxisByAxisAndNoMoreThanHasHappened) {
   const auto frames = frames_of(good(kTwoBoxes + ask("separate") + kMove + ask("separate")));
   ASSERT_EQ(frames.size(), 1u + 2 + 1 + 5);
-  EXPECT_FALSE(frames[0].separation);
+  EXPECT_FALSE(frames[0].find<FrameSeparation>());
   EXPECT_EQ(frames[1].event, "axis");
-  EXPECT_FALSE(frames[1].separation->answer) << "the result is told with the axis";
-  EXPECT_EQ(frames[2].separation->answer, 0u);
+  EXPECT_FALSE(frames[1].find<FrameSeparation>()->answer) << "the result is told with the axis";
+  EXPECT_EQ(frames[2].find<FrameSeparation>()->answer, 0u);
   EXPECT_NEAR(*frames[2].measure("gap"), 12 - 2 - 3 / std::sqrt(2.0), 1e-12);
-  EXPECT_FALSE(frames[3].separation) << "the next step is not about it";
+  EXPECT_FALSE(frames[3].find<FrameSeparation>()) << "the next step is not about it";
   EXPECT_EQ(frames[3].count("axes_tested"), 1) << "its count stays";
   for (std::size_t i = 4; i < 8; ++i)
     EXPECT_EQ(frames[i].count("axes_tested"), static_cast<std::int64_t>(i) - 3);
   EXPECT_EQ(frames[8].measure("gap"), 0);
   double least = 1e300;
-  for (const FrameAxis& axis : frames[8].separation->axes) {
+  for (const FrameAxis& axis : frames[8].find<FrameSeparation>()->axes) {
     least = std::min(least, -axis.separation);
     EXPECT_NEAR(glm::dot(axis.ends[2] - axis.ends[1], axis.direction), axis.separation, 1e-12);
     ASSERT_EQ(axis.face.size(), 2u);
@@ -48,19 +48,19 @@ TEST(Separate, TellsAxisByAxisAndNoMoreThanHasHappened) {
 TEST(SearchDistance, TellsSupportBySupport) {
   const auto frames = frames_of(good("panels = [\"world\", \"difference\"]\n" + kTwoBoxes +
                                      ask("gjk") + kMove + ask("gjk", "events = [\"support\"]\n")));
-  ASSERT_TRUE(frames[0].difference) << "of the two that are there";
-  EXPECT_EQ(frames[0].difference->corners.size(), 8u);
+  ASSERT_TRUE(frames[0].find<FrameDifference>()) << "of the two that are there";
+  EXPECT_EQ(frames[0].find<FrameDifference>()->corners.size(), 8u);
   EXPECT_FALSE(frames[1].measure("distance")) << "nobody knows it yet";
   std::size_t n = 1;
   while (frames[n].event != "gjk") {
-    const FrameSearch& search = *frames[n].search;
+    const FrameSearch& search = *frames[n].find<FrameSearch>();
     EXPECT_EQ(search.taken, frames[n].event == "simplex");
     EXPECT_FALSE(search.answer);
     ++n;
   }
   EXPECT_NEAR(*frames[n].measure("distance"), 12 - 2 - 3 / std::sqrt(2.0), 1e-12);
-  EXPECT_EQ(frames[n].count("gjk_steps"), std::ssize(frames[n].search->steps));
-  EXPECT_TRUE(frames.back().search->answer->overlaps);
+  EXPECT_EQ(frames[n].count("gjk_steps"), std::ssize(frames[n].find<FrameSearch>()->steps));
+  EXPECT_TRUE(frames.back().find<FrameSearch>()->answer->overlaps);
   EXPECT_EQ(frames.back().measure("distance"), 0);
 }
 

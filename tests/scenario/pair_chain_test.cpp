@@ -184,7 +184,7 @@ void expect_chain_of(const Frame& frame, const Chain& chain) {
   // found all.
   const bool waits = frame.structure == StructureKind::aabb_tree &&
                      frame.count("entries") < std::int64_t(frame.bodies.size());
-  const bool midst = frame.swept_to || waits;
+  const bool midst = frame.get<FrameStructure>().swept_to || waits;
   if (frame.structure != StructureKind::none && !midst) {
     const Expected expected = chain.expected();
     EXPECT_TRUE(expected.met.contains(*frame.count("pair_tests"))) << *frame.count("pair_tests");

@@ -45,14 +45,14 @@ TEST(Pictures, LeavesShareAnArrayButNoSlot) {
         if (n.first == kNone) continue;
         ++leaves;
         EXPECT_LE(n.bodies.size(), n.room);
-        EXPECT_LE(n.first + n.room, frame.array_size);
+        EXPECT_LE(n.first + n.room, frame.get<FrameStructure>().array_size);
         for (std::uint32_t i = 0; i < n.room; ++i)
           EXPECT_TRUE(taken.insert(n.first + i).second) << "two leaves share a slot";
       }
       EXPECT_GT(leaves, 0u);
     }
   }
-  EXPECT_EQ(crowd("kind = \"quadtree\"\n", {kInsertCrowd})[0].array_size, 0u)
+  EXPECT_EQ(crowd("kind = \"quadtree\"\n", {kInsertCrowd})[0].get<FrameStructure>().array_size, 0u)
       << "without the panel nobody asks";
 }
 
@@ -64,7 +64,7 @@ TEST(Pictures, NobodyRemembersCollisionsWithoutBodies) {
         frames_of(good("panels = [\"world\", \"collisions\"]\n" +
                        world_text("size = [32, 18]\ncontacts = \"lecture\"", scene + kShow)));
     ASSERT_EQ(frames.size(), 1u);
-    EXPECT_FALSE(frames[0].collisions);
+    EXPECT_FALSE(frames[0].find<FrameCollisions>());
   }
 }
 
@@ -153,12 +153,13 @@ TEST(Pictures, LinesHaveAPointForEachPlot) {
                  "[structure]\nkind = \"brute_force\"\n" + kCrowd + chart +
                      steps({"do = \"insert\"\nbodies = [\"pillar\"]\nplot = \"a\"", "do = \"show\"",
                             "do = \"insert\"\nbodies = [\"ghost\"]\nplot = \"b\""}))));
-  ASSERT_EQ(frames[2].chart.series.size(), 2u);
-  EXPECT_EQ(frames[1].chart.series[0].points.size(), 1u) << "a step without plot added a point";
-  EXPECT_EQ(frames[2].chart.series[1].name, "all_pairs");
-  EXPECT_EQ(frames[2].chart.series[1].points,
+  ASSERT_EQ(frames[2].get<FrameChart>().series.size(), 2u);
+  EXPECT_EQ(frames[1].get<FrameChart>().series[0].points.size(), 1u)
+      << "a step without plot added a point";
+  EXPECT_EQ(frames[2].get<FrameChart>().series[1].name, "all_pairs");
+  EXPECT_EQ(frames[2].get<FrameChart>().series[1].points,
             (std::vector<Vec<2>>{Vec<2>(12, 66), Vec<2>(21, 210)}));
-  EXPECT_TRUE(frames[2].chart.bars.empty());
+  EXPECT_TRUE(frames[2].get<FrameChart>().bars.empty());
 }
 
 TEST(Pictures, BarsOfOnePartStandTogether) {
@@ -168,14 +169,14 @@ TEST(Pictures, BarsOfOnePartStandTogether) {
           steps({"do = \"insert\"\nbodies = [\"ghost\"]\nplot = \"all\"\npart = \"few\"",
                  "do = \"rebuild\"\nkind = \"quadtree\"\nplot = \"tree\"",
                  "do = \"insert\"\nbodies = [\"pillar\"]\nplot = \"tree\"\npart = \"many\""}))));
-  const std::vector<FrameBar>& bars = frames.back().chart.bars;
+  const std::vector<FrameBar>& bars = frames.back().get<FrameChart>().bars;
   ASSERT_EQ(bars.size(), 3u);
   EXPECT_EQ(bars[0].label, "all");
   EXPECT_EQ(bars[0].value, 36) << "nine ghosts";
   EXPECT_EQ(bars[1].value, double(*frames[1].count("pairs")));
   EXPECT_EQ(bars[0].group, bars[1].group);
   EXPECT_NE(bars[1].group, bars[2].group) << "a new part begins a new group";
-  EXPECT_TRUE(frames.back().chart.series.empty());
+  EXPECT_TRUE(frames.back().get<FrameChart>().series.empty());
 }
 
 }  // namespace

@@ -95,14 +95,16 @@ TEST(Queries, ARayThatGoesThroughAllMeetsWhatEachShapeSays) {
           [&](const Frame& frame) {
             const Met met = met_by_hand(frame, Vec<3>(0, 7, 0), end_of(frame));
             most = std::max(most, met.size());
-            EXPECT_EQ(names(frame, frame.hits), names_of(met)) << "not in order along the ray";
-            ASSERT_EQ(frame.rays.size(), 1u);
-            ASSERT_EQ(frame.rays[0].hits.size(), met.size());
+            EXPECT_EQ(names(frame, frame.get<FrameFinding>().hits), names_of(met))
+                << "not in order along the ray";
+            ASSERT_EQ(frame.get<FrameFinding>().rays.size(), 1u);
+            ASSERT_EQ(frame.get<FrameFinding>().rays[0].hits.size(), met.size());
             for (std::size_t i = 0; i < met.size(); ++i)
-              EXPECT_NEAR(glm::length(frame.rays[0].hits[i].position - Vec<3>(0, 7, 0)),
-                          met[i].first, 1e-9);
+              EXPECT_NEAR(
+                  glm::length(frame.get<FrameFinding>().rays[0].hits[i].position - Vec<3>(0, 7, 0)),
+                  met[i].first, 1e-9);
             EXPECT_EQ(frame.count("hits"), std::int64_t(met.size()));
-            EXPECT_EQ(frame.rays[0].to, end_of(frame));
+            EXPECT_EQ(frame.get<FrameFinding>().rays[0].to, end_of(frame));
           });
   EXPECT_GE(most, 2u) << "the ray meets next to nothing: the test says little";
 }
@@ -111,10 +113,11 @@ TEST(Queries, ARayStopsAtTheNearest) {
   ask_all("do = \"ray\"\nfrom = [0, 7]\nto = [31, 10]",
           "do = \"ray\"\nfrom = [0, 7, 0]\nto = [31, 10, 22]", [&](const Frame& frame) {
             const Met met = met_by_hand(frame, Vec<3>(0, 7, 0), end_of(frame));
-            ASSERT_EQ(frame.hits.size(), met.empty() ? 0u : 1u);
+            ASSERT_EQ(frame.get<FrameFinding>().hits.size(), met.empty() ? 0u : 1u);
             if (met.empty()) return;
-            EXPECT_EQ(names(frame, frame.hits)[0], met[0].second);
-            EXPECT_EQ(frame.rays[0].to, frame.rays[0].hits[0].position)
+            EXPECT_EQ(names(frame, frame.get<FrameFinding>().hits)[0], met[0].second);
+            EXPECT_EQ(frame.get<FrameFinding>().rays[0].to,
+                      frame.get<FrameFinding>().rays[0].hits[0].position)
                 << "it is drawn beyond what stopped it";
           });
 }
@@ -125,10 +128,11 @@ void expect_found(const Frame& frame, Holds&& holds) {
   Names expected, found;
   for (const FrameBody& b : frame.bodies)
     if (holds(b.box)) expected.insert(b.name);
-  for (const std::string& name : names(frame, frame.hits)) found.insert(name);
+  for (const std::string& name : names(frame, frame.get<FrameFinding>().hits)) found.insert(name);
   EXPECT_EQ(found, expected);
-  EXPECT_EQ(found.size(), frame.hits.size()) << "a body is found twice";
-  EXPECT_TRUE(std::is_sorted(frame.hits.begin(), frame.hits.end()));
+  EXPECT_EQ(found.size(), frame.get<FrameFinding>().hits.size()) << "a body is found twice";
+  EXPECT_TRUE(
+      std::is_sorted(frame.get<FrameFinding>().hits.begin(), frame.get<FrameFinding>().hits.end()));
   EXPECT_FALSE(expected.empty()) << "the test says nothing";
   for (const FrameBody& b : frame.bodies) EXPECT_EQ(b.dimmed, !expected.contains(b.name)) << b.name;
 }
@@ -136,20 +140,21 @@ void expect_found(const Frame& frame, Holds&& holds) {
 TEST(Queries, ARegionHoldsWhatOverlapsIt) {
   ask_all("do = \"query\"\nmin = [8, 4]\nmax = [20, 12]",
           "do = \"query\"\nmin = [4, 2, 4]\nmax = [24, 14, 16]", [](const Frame& frame) {
-            ASSERT_EQ(frame.queries.size(), 1u);
-            expect_found(frame,
-                         [&](const Box<3>& box) { return overlap(box, frame.queries[0].box); });
+            ASSERT_EQ(frame.get<FrameFinding>().queries.size(), 1u);
+            expect_found(frame, [&](const Box<3>& box) {
+              return overlap(box, frame.get<FrameFinding>().queries[0].box);
+            });
           });
 }
 
 TEST(Queries, ABallHoldsWhatItReaches) {
   ask_all("do = \"query\"\ncenter = [14, 9]\nradius = 6",
           "do = \"query\"\ncenter = [14, 9, 12]\nradius = 9", [](const Frame& frame) {
-            ASSERT_EQ(frame.queries.size(), 1u);
-            const Vec<3> center = frame.queries[0].box.center();
+            ASSERT_EQ(frame.get<FrameFinding>().queries.size(), 1u);
+            const Vec<3> center = frame.get<FrameFinding>().queries[0].box.center();
             expect_found(frame, [&](const Box<3>& box) {
               const Vec<3> nearest = glm::clamp(center, box.lo, box.hi);
-              return glm::length(nearest - center) <= frame.queries[0].radius;
+              return glm::length(nearest - center) <= frame.get<FrameFinding>().queries[0].radius;
             });
           });
 }
@@ -159,9 +164,10 @@ TEST(Queries, AViewSeesTheSameWithEveryStructure) {
   ask_all("do = \"cull\"\neye = [1, 9]\ntarget = [31, 9]\nangle = 50\nfar = 20",
           "do = \"cull\"\neye = [1, 9, 12]\ntarget = [31, 9, 12]\nangle = 50\nfar = 20",
           [&](const Frame& frame) {
-            ASSERT_EQ(frame.views.size(), 1u);
-            EXPECT_EQ(frame.views[0].corners.size(), frame.dimension == 2 ? 4u : 8u);
-            const auto list = names(frame, frame.hits);
+            ASSERT_EQ(frame.get<FrameFinding>().views.size(), 1u);
+            EXPECT_EQ(frame.get<FrameFinding>().views[0].corners.size(),
+                      frame.dimension == 2 ? 4u : 8u);
+            const auto list = names(frame, frame.get<FrameFinding>().hits);
             (frame.dimension == 2 ? flat : solid).insert(Names(list.begin(), list.end()));
             for (const FrameBody& b : frame.bodies)
               EXPECT_TRUE(b.dimmed || b.position.x < 1 + 20 + 3) << b.name << " lies too far";
@@ -176,7 +182,7 @@ TEST(Queries, WhatTheyFoundIsShownOnTheirStepOnly) {
   s.steps.push_back(s.steps.back());
   s.steps.back().verb = Show();
   const Frame last = frames_of(s).back();
-  EXPECT_TRUE(last.queries.empty() && last.hits.empty());
+  EXPECT_TRUE(last.get<FrameFinding>().queries.empty() && last.get<FrameFinding>().hits.empty());
   EXPECT_TRUE(last.count("hits").has_value()) << "but it is still counted";
   for (const FrameBody& b : last.bodies) EXPECT_FALSE(b.dimmed);
 }

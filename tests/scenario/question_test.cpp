@@ -26,14 +26,13 @@ TEST(Question, StandsOnTheFrameThatAnswersItWithItsCounts) {
   const auto frames = frames_of(good(asking(
       "", "question = \"How many?\"\nanswer = \"{pairs:pair}.\"\nexpect = { pairs = 1 }\n")));
   ASSERT_EQ(frames.size(), 4u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(frames[i].question);
-  ASSERT_TRUE(frames[3].question);
-  EXPECT_EQ(frames[3].question->asked, "How many?");
-  EXPECT_EQ(frames[3].question->answer, "1 pair.");
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(frames[i].find<FrameQuestion>());
+  ASSERT_TRUE(frames[3].find<FrameQuestion>());
+  EXPECT_EQ(frames[3].find<FrameQuestion>()->asked, "How many?");
+  EXPECT_EQ(frames[3].find<FrameQuestion>()->answer, "1 pair.");
   EXPECT_NE(
       to_json(frames[3]).find("\"question\": {\"asked\": \"How many?\", \"answer\": \"1 pair.\"}"),
       std::string::npos);
-  EXPECT_EQ(to_json(frames[3], FactsVersion::v1).find("question"), std::string::npos);
 }
 
 TEST(Question, IsOfAllSidesTogether) {
@@ -42,10 +41,11 @@ TEST(Question, IsOfAllSidesTogether) {
              "question = \"Where?\"\nanswer = \"{one.nodes}, {none.nodes}.\"\nexpect.one = { nodes "
              "= 1 }\n")));
   const Frame& last = frames.back();
-  ASSERT_TRUE(last.question);
-  EXPECT_EQ(last.question->answer, std::to_string(*last.count("one.nodes")) + ", " +
-                                       std::to_string(*last.count("none.nodes")) + ".");
-  for (const Frame& side : last.sides) EXPECT_FALSE(side.question);
+  ASSERT_TRUE(last.find<FrameQuestion>());
+  EXPECT_EQ(last.find<FrameQuestion>()->answer, std::to_string(*last.count("one.nodes")) + ", " +
+                                                    std::to_string(*last.count("none.nodes")) +
+                                                    ".");
+  for (const Frame& side : last.sides) EXPECT_FALSE(side.find<FrameQuestion>());
 }
 
 TEST(Question, HasAnAnswerAndTheAnswerAProof) {

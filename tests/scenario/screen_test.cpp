@@ -51,9 +51,9 @@ TEST(Screen, EachWayCountsItsOwnBindings) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_EQ(frames[i].count("bindings"), expected[i]) << i;
     EXPECT_EQ(frames[i].count("draws"), 4) << i;
-    EXPECT_EQ(frames[i].screen.planned, 3u);
+    EXPECT_EQ(frames[i].get<FrameScreen>().planned, 3u);
   }
-  const FrameScreen& last = frames.back().screen;
+  const FrameScreen& last = frames.back().get<FrameScreen>();
   ASSERT_EQ(last.ways.size(), 3u);
   EXPECT_EQ(last.ways[0].bindings, 4u) << "earlier ways stay";
   EXPECT_TRUE(last.ways[1].by_texture);
@@ -72,19 +72,19 @@ TEST(Screen, EventsTellEachBindingAndEachDraw) {
   const Frame& bind = frames[1];
   EXPECT_EQ(bind.event, "bind");
   EXPECT_EQ(bind.caption, "Nothing is bound yet. Bind the atlas: binding 1.");
-  EXPECT_TRUE(bind.screen.atlas_bound);
-  EXPECT_FALSE(bind.screen.elements[0].drawn) << "it is bound and not drawn yet";
-  EXPECT_TRUE(bind.screen.elements[0].lit);
+  EXPECT_TRUE(bind.get<FrameScreen>().atlas_bound);
+  EXPECT_FALSE(bind.get<FrameScreen>().elements[0].drawn) << "it is bound and not drawn yet";
+  EXPECT_TRUE(bind.get<FrameScreen>().elements[0].lit);
   const Frame& second = frames[3];
   EXPECT_EQ(second.event, "draw");
   EXPECT_EQ(second.count("draws"), 2);
-  EXPECT_TRUE(second.screen.elements[1].lit);
+  EXPECT_TRUE(second.get<FrameScreen>().elements[1].lit);
   for (const FrameNode& node : second.nodes)
     EXPECT_EQ(node.mark == Mark::lit, node.label == "coin") << "the leaf that it comes from";
   const auto single = frames_of(good(kScreenScene + kElements + kDrawStep + events));
   ASSERT_EQ(single.size(), 9u);
   EXPECT_EQ(single[2].caption, "Next comes coin, but slot is bound. Bind coin: binding 2.");
-  EXPECT_EQ(single[2].screen.bound, 1u);
+  EXPECT_EQ(single[2].get<FrameScreen>().bound, 1u);
 }
 
 TEST(Screen, MistakesAreTold) {

@@ -16,14 +16,16 @@ TEST_P(EverySequenceTold, BeginsCalmlyAndEndsWithWhatItProves) {
   const auto is_lit = [](const FrameNode& node) { return node.mark == Mark::lit; };
   EXPECT_TRUE(std::ranges::none_of(frames.front().nodes, is_lit)) << "nothing has happened yet";
   for (const Frame& side : frames.front().sides)
-    EXPECT_TRUE(std::ranges::none_of(side.nodes, is_lit)) << "on side " << side.side;
+    EXPECT_TRUE(std::ranges::none_of(side.nodes, is_lit))
+        << "on side " << side.get<FrameSide>().name;
   const Frame& last = frames.back();
   EXPECT_TRUE(last.ending);
   EXPECT_FALSE(last.caption.empty());
   EXPECT_GE(last.headline.size(), 1u) << "the numbers that prove it";
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) EXPECT_FALSE(frames[i].ending);
-  EXPECT_TRUE(std::ranges::any_of(frames, [](const Frame& f) { return f.question.has_value(); }))
-      << "asks nothing of the students";
+  EXPECT_TRUE(std::ranges::any_of(frames, [](const Frame& f) {
+    return f.find<FrameQuestion>() != nullptr;
+  })) << "asks nothing of the students";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, EverySequenceTold, testing::ValuesIn(all_scenarios()),

@@ -55,8 +55,8 @@ TEST(Sides, AreTheScenarioRunAloneWithTheOverride) {
   }
   EXPECT_EQ(both[0].sides[0].nodes.size(), 5u);
   EXPECT_EQ(both[0].sides[1].nodes.size(), 3u);
-  EXPECT_EQ(both[0].sides[0].side_title, "eager") << "no title of its own: its name";
-  EXPECT_EQ(both[0].sides[1].side_title, "when entered");
+  EXPECT_EQ(both[0].sides[0].get<FrameSide>().title, "eager") << "no title of its own: its name";
+  EXPECT_EQ(both[0].sides[1].get<FrameSide>().title, "when entered");
 }
 
 TEST(Sides, ShareTheClockAndThePage) {
@@ -66,7 +66,7 @@ TEST(Sides, ShareTheClockAndThePage) {
     EXPECT_TRUE(frames[i].bodies.empty() && frames[i].nodes.empty());
     for (const Frame& side : frames[i].sides) {
       EXPECT_EQ(side.time, frames[i].time);
-      EXPECT_FALSE(side.held);
+      EXPECT_FALSE(side.get<FrameSide>().held);
     }
   }
   EXPECT_NE(frames[1].hash, frames[2].hash);
@@ -83,9 +83,13 @@ void expect_no_facts_of_its_own(const Frame& frame) {
     EXPECT_TRUE(kOfAll.contains(member) || value.empty())
         << member << " of frame " << frame.index << ": " << value;
   // What no file has.
-  EXPECT_TRUE(frame.edges.empty() && frame.hits.empty() && frame.tested.empty());
-  EXPECT_TRUE(frame.grid_levels.empty() && frame.trace.points.empty() && frame.settings.empty());
-  EXPECT_FALSE(frame.eye || frame.swept_to || frame.separation || frame.search);
+  EXPECT_TRUE(frame.get<FrameIslands>().edges.empty() && frame.get<FrameFinding>().hits.empty() &&
+              frame.tested.empty());
+  EXPECT_TRUE(frame.get<FrameStructure>().grid_levels.empty() &&
+              frame.get<FrameTrace>().points.empty() &&
+              frame.get<FrameStructure>().settings.empty());
+  EXPECT_FALSE(frame.get<FrameLevel>().eye || frame.get<FrameStructure>().swept_to ||
+               frame.find<FrameSeparation>() || frame.find<FrameSearch>());
 }
 
 TEST(Sides, TheFrameOfAllHasNoFactsOfItsOwn) {
@@ -119,8 +123,10 @@ TEST(Sides, TheFrameOfAllHasNoIslandsForcesOrLinksOfItsOwn) {
                      "note = [{ body = \"red\", text = \"here\" }]\n"));
   for (const Frame& frame : frames) expect_no_facts_of_its_own(frame);
   const Frame& side = frames.back().sides[0];
-  EXPECT_FALSE(side.islands.empty() || side.forces.empty() || side.links.empty() ||
-               side.rays.empty() || side.rulers.empty() || side.notes.empty() || side.edges.empty())
+  EXPECT_FALSE(side.get<FrameIslands>().islands.empty() || side.get<FrameForces>().forces.empty() ||
+               side.get<FrameLinks>().links.empty() || side.get<FrameFinding>().rays.empty() ||
+               side.get<FrameRulers>().rulers.empty() || side.notes.empty() ||
+               side.get<FrameIslands>().edges.empty())
       << "the sides have them";
 }
 
@@ -132,13 +138,16 @@ TEST(Sides, OneThatHasFewerFramesHoldsItsLast) {
                      kShow)));
   const auto of_first = std::ranges::count(frames, 0u, &Frame::step);
   EXPECT_EQ(of_first + 1, std::ssize(frames));
-  EXPECT_TRUE(std::ranges::any_of(frames, [](const Frame& f) { return f.sides[0].held; }) ||
-              std::ranges::any_of(frames, [](const Frame& f) { return f.sides[1].held; }));
-  EXPECT_FALSE(frames.back().sides[0].held || frames.back().sides[1].held)
+  EXPECT_TRUE(
+      std::ranges::any_of(frames,
+                          [](const Frame& f) { return f.sides[0].get<FrameSide>().held; }) ||
+      std::ranges::any_of(frames, [](const Frame& f) { return f.sides[1].get<FrameSide>().held; }));
+  EXPECT_FALSE(frames.back().sides[0].get<FrameSide>().held ||
+               frames.back().sides[1].get<FrameSide>().held)
       << "a step begins for all at once";
   for (const Frame& frame : frames) {
-    EXPECT_FALSE(frame.sides[0].held && frame.sides[1].held);
-    EXPECT_EQ(frame.event, frame.sides[frame.sides[0].held ? 1 : 0].event);
+    EXPECT_FALSE(frame.sides[0].get<FrameSide>().held && frame.sides[1].get<FrameSide>().held);
+    EXPECT_EQ(frame.event, frame.sides[frame.sides[0].get<FrameSide>().held ? 1 : 0].event);
     EXPECT_EQ(frame.time, std::max(frame.sides[0].time, frame.sides[1].time));
     for (const Frame& side : frame.sides) EXPECT_EQ(side.index, frame.index);
   }
@@ -196,7 +205,7 @@ TEST(Sides, ExpectationsHoldOnAllOrOnOne) {
 TEST(Sides, ShareAChart) {
   const auto frames = frames_of(
       good(sided("", kSides + "[chart]\nx = \"time\"\ny = [\"nodes\", \"lazy.speed.red\"]\n")));
-  const FrameChart& chart = frames.back().chart;
+  const FrameChart& chart = frames.back().get<FrameChart>();
   ASSERT_EQ(chart.series.size(), 3u);
   EXPECT_EQ(chart.series[0].name, "eager.nodes");
   EXPECT_EQ(chart.series[1].name, "lazy.nodes");
@@ -204,19 +213,19 @@ TEST(Sides, ShareAChart) {
   EXPECT_EQ(chart.series[0].points.size(), frames.size());
   EXPECT_EQ(chart.series[0].points[0], Vec<2>(0, 5));
   EXPECT_EQ(chart.series[1].points[0], Vec<2>(0, 3));
-  EXPECT_TRUE(frames.back().sides[0].chart.series.empty());
+  EXPECT_TRUE(frames.back().sides[0].get<FrameChart>().series.empty());
   const auto same = frames_of(good(sided("", kSides + "[chart]\nx = \"time\"\ny = [\"nodes\"]\n")));
-  EXPECT_EQ(same[0].chart.y_name, "nodes");
-  EXPECT_EQ(same[0].chart.series[0].name, "eager");
+  EXPECT_EQ(same[0].get<FrameChart>().y_name, "nodes");
+  EXPECT_EQ(same[0].get<FrameChart>().series[0].name, "eager");
 }
 
 TEST(Sides, PlotBarsOfEach) {
   const auto frames = frames_of(good(
       sided("", kSides + "[chart]\nbars = \"nodes\"\n",
             "[[step]]\ndo = \"insert\"\nbodies = [\"red\", \"pink\", \"blue\"]\nplot = \"3\"\n")));
-  ASSERT_EQ(frames[0].chart.bars.size(), 2u);
-  EXPECT_EQ(frames[0].chart.bars[1].label, "3, lazy");
-  EXPECT_EQ(frames[0].chart.bars[1].value, 3);
+  ASSERT_EQ(frames[0].get<FrameChart>().bars.size(), 2u);
+  EXPECT_EQ(frames[0].get<FrameChart>().bars[1].label, "3, lazy");
+  EXPECT_EQ(frames[0].get<FrameChart>().bars[1].value, 3);
 }
 
 TEST(Sides, MayWaitForDifferentTimes) {
@@ -230,7 +239,7 @@ TEST(Sides, MayWaitForDifferentTimes) {
       "caption = \"{slow.time} and {fast.time}\"\n";
   const auto frames = frames_of(good(file));
   const Frame& last = frames.back();
-  EXPECT_TRUE(last.sides[1].held);
+  EXPECT_TRUE(last.sides[1].get<FrameSide>().held);
   EXPECT_GT(last.sides[0].time, last.sides[1].time);
   EXPECT_EQ(last.time, last.sides[0].time);
   EXPECT_FALSE(last.sides[1].since_last_frame) << "it did nothing since";

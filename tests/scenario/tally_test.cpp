@@ -43,30 +43,32 @@ struct DryRun {
     for (const Panel panel : scenario.panels) shown[panel] += shows(panel, frame);
     most_bodies = std::max(most_bodies, frame.bodies.size());
     for (const FrameBody& body : frame.bodies) slept |= body.asleep;
-    most_links = std::max(most_links, frame.links.size());
+    most_links = std::max(most_links, frame.get<FrameLinks>().links.size());
     last = frame;
   }
 
   static bool shows(Panel panel, const Frame& frame) {
     if (std::ranges::any_of(frame.sides, [&](const Frame& side) { return shows(panel, side); }))
       return true;
-    if (panel == Panel::world) return !frame.bodies.empty() || !frame.walls.empty();
+    if (panel == Panel::world)
+      return !frame.bodies.empty() || !frame.get<FrameLevel>().walls.empty();
     if (panel == Panel::tree) return !frame.nodes.empty();
     if (panel == Panel::atlas) return frame.count("textures").value_or(0) > 0;
-    if (panel == Panel::memory) return frame.array_size > 0;
+    if (panel == Panel::memory) return frame.get<FrameStructure>().array_size > 0;
     if (panel == Panel::ledger) return frame.bodies.size() > 1;
-    if (panel == Panel::pool) return frame.pool_size > 0;
+    if (panel == Panel::pool) return frame.get<FrameStructure>().pool_size > 0;
     if (panel == Panel::bytes) return frame.count("node_bytes").has_value();
-    if (panel == Panel::sparkline) return !frame.trace.points.empty();
-    if (panel == Panel::difference) return frame.difference.has_value();
-    if (panel == Panel::axes) return frame.separation.has_value();
-    if (panel == Panel::islands) return !frame.islands.empty();
-    if (panel == Panel::code) return frame.code.has_value();
-    if (panel == Panel::collisions) return frame.collisions && !frame.collisions->rows.empty();
-    if (panel == Panel::matrix) return !frame.matrix.rows.empty();
-    if (panel == Panel::screen) return !frame.screen.ways.empty();
-    return !frame.chart.bars.empty() ||
-           std::any_of(frame.chart.series.begin(), frame.chart.series.end(),
+    if (panel == Panel::sparkline) return !frame.get<FrameTrace>().points.empty();
+    if (panel == Panel::difference) return frame.find<FrameDifference>() != nullptr;
+    if (panel == Panel::axes) return frame.find<FrameSeparation>() != nullptr;
+    if (panel == Panel::islands) return !frame.get<FrameIslands>().islands.empty();
+    if (panel == Panel::code) return frame.find<FrameCode>() != nullptr;
+    if (panel == Panel::collisions)
+      return frame.find<FrameCollisions>() && !frame.find<FrameCollisions>()->rows.empty();
+    if (panel == Panel::matrix) return !frame.get<FrameMatrix>().rows.empty();
+    if (panel == Panel::screen) return !frame.get<FrameScreen>().ways.empty();
+    return !frame.get<FrameChart>().bars.empty() ||
+           std::any_of(frame.get<FrameChart>().series.begin(), frame.get<FrameChart>().series.end(),
                        [](const FrameSeries& series) { return !series.points.empty(); });
   }
 

@@ -52,9 +52,9 @@ TEST(Trails, LooksNarrowDownTheMomentOfTheImpact) {
       "events = [\"approach\", \"impact\"]\n";
   const auto frames = frames_of(good(kFlight + step));
   ASSERT_EQ(frames.size(), 5u) << "a look at the beginning, one at the impact, and the end";
-  const std::vector<FrameLook>& looks = frames[3].looks;
+  const std::vector<FrameLook>& looks = frames[3].get<FrameLooks>().looks;
   ASSERT_EQ(looks.size(), 2u);
-  EXPECT_EQ(frames[2].looks.size(), 1u) << "no frame knows of a later look";
+  EXPECT_EQ(frames[2].get<FrameLooks>().looks.size(), 1u) << "no frame knows of a later look";
   EXPECT_NEAR(looks[0].gap, 3, 1e-12);
   EXPECT_NEAR(looks[0].free_until, 0.75, 1e-12);
   EXPECT_TRUE(looks[1].meets && !looks[0].meets);
@@ -62,7 +62,7 @@ TEST(Trails, LooksNarrowDownTheMomentOfTheImpact) {
   EXPECT_NEAR(looks[1].gap, 0, 1e-12);
   EXPECT_NEAR(ball_of(frames[3]).position.x, 8, 1e-9) << "the step is not taken yet";
   EXPECT_NEAR(ball_of(frames[3]).ahead->position.x, 12, 1e-9) << "where it would be behind it";
-  EXPECT_TRUE(frames[4].looks.empty());
+  EXPECT_TRUE(frames[4].get<FrameLooks>().looks.empty());
   // Nobody pays for looks that nobody asks for, and the world is the same.
   const auto plain =
       frames_of(good(kFlight + "[[step]]\ndo = \"run\"\nseconds = 0.2\nevery = 2\n"));
