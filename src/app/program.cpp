@@ -72,7 +72,7 @@ int run_words(int argc, char** argv) {
 
 }  // namespace
 
-int run_program(int argc, char** argv, std::vector<OwnKind> own) {
+int run_program(int argc, char** argv, std::vector<OwnKind> own, std::vector<OwnPanel> panels) {
   hold_standard_streams();
   keep_freed_memory();
   catch_interrupts();
@@ -80,6 +80,7 @@ int run_program(int argc, char** argv, std::vector<OwnKind> own) {
     remember_command_line(argc, argv);
     try {
       know_own_structures(std::move(own));
+      for (const OwnPanel& panel : panels) add_panel(panel);
     } catch (const Refused& refused) {
       throw UsageError(refused.what());
     }

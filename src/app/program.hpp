@@ -3,13 +3,16 @@
 
 #include <vector>
 
+#include "draw/panel.hpp"
 #include "spatial/own_structure.hpp"
 
 namespace lantern::app {
 
 // Reads the command line, does what it asks for, and gives the exit code. Throws nothing. With
-// structures of your own every scenario may name them, and every command knows them; a name that is
-// not of a–z, 0–9 and _ or that is taken ends with a message and exit code 2. To be called once.
-int run_program(int argc, char** argv, std::vector<OwnKind> own = {});
+// structures or panels of your own every scenario may name them, and every command knows them; a
+// name that is not of a–z, 0–9 and _ or that is taken ends with a message and exit code 2. To be
+// called once.
+int run_program(int argc, char** argv, std::vector<OwnKind> own = {},
+                std::vector<OwnPanel> panels = {});
 
 }  // namespace lantern::app

@@ -7,7 +7,7 @@
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/page.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
 #include "geometry/flat.hpp"
 
@@ -300,9 +300,8 @@ class AtlasView {
   int parts_ = kMostPatternParts;  // of a pattern; fewer when there are many textures
 };
 
-}  // namespace
-
-void draw_atlas(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_atlas(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                Labels& labels) {
   AtlasView(frame, panel, list, labels).draw();
   list.referents.insert({"textures", "refused", "atlas_area"});
 }
@@ -311,6 +310,12 @@ double atlas_width(const Frame& frame, double height) {
   const Vec<2> size = atlas_size(frame);
   return height * size.x / size.y + (has_strip(frame) ? kStrip + kQueueGap : 0);
 }
+
+}  // namespace
+
+// The packed image, and beside it the textures that wait or were refused; of an atlas with a screen
+// those are shown one by one until the first is packed. It wants this width at a height.
+PanelView atlas_panel() { return {.name = "atlas", .draw = draw_atlas, .width = atlas_width}; }
 
 DrawList draw_atlas_image(const Frame& frame) {
   DrawList list;

@@ -12,7 +12,7 @@
 #include "draw/font.hpp"
 #include "draw/narrow_marks.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -121,12 +121,16 @@ class AxesView {
   double row_ = 0;
 };
 
-}  // namespace
-
 void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                Labels& labels) {
   if (panel.size().x < 420) return;
   AxesView(frame, staging, panel, list, labels).draw();
 }
+
+}  // namespace
+
+// The axes of frame.find<FrameSeparation>() below each other, on one scale: how far both bodies
+// reach along each of them. As many rows as the sequence ever needs.
+PanelView axes_panel() { return {.name = "axes", .draw = draw_axes}; }
 
 }  // namespace lantern::draw

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/pen.hpp"
 
 namespace lantern::draw {
@@ -87,9 +87,8 @@ class BytesView {
   double byte_ = 0;                 // of a byte
 };
 
-}  // namespace
-
-void draw_bytes(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_bytes(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                Labels& labels) {
   const auto nodes = frame.count("nodes"), bytes = frame.count("node_bytes");
   const auto stored = frame.count("node_bytes_with_bounds");
   const Box<2> place = shrunk(panel, 3);
@@ -98,6 +97,14 @@ void draw_bytes(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
       .draw(static_cast<double>(*bytes), static_cast<double>(*stored));
 }
 
-double bytes_height() { return 2 * kBytesRow + 8; }
+}  // namespace
+
+// The bytes of a node whose box is derived and of one that stores it, on one scale.
+PanelView bytes_panel() {
+  return {.name = "bytes",
+          .draw = draw_bytes,
+          .strip = [](const Frame&, const Vec<2>&) { return 2 * kBytesRow + 8; },
+          .weight = 0.28};
+}
 
 }  // namespace lantern::draw

@@ -9,6 +9,7 @@
 
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
+#include "draw/panel.hpp"
 #include "draw/panels.hpp"
 #include "draw/plot.hpp"
 #include "draw/plot_marks.hpp"
@@ -235,15 +236,8 @@ Plot plot_of(const FrameChart& chart) {
   return plot;
 }
 
-}  // namespace
-
-std::string chart_words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
-  return name;
-}
-
-void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_chart(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                Labels& labels) {
   const FrameChart& chart = frame.get<FrameChart>();
   for (const std::string& name : {chart.x_name, chart.y_name}) list.referents.insert(name);
   for (const FrameSeries& series : chart.series)
@@ -258,5 +252,19 @@ void draw_chart(const Frame& frame, const Box<2>& panel, DrawList& list, Labels&
   plot.size = kChartType;
   draw_plot(plot, place, list, labels);
 }
+
+}  // namespace
+
+std::string chart_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
+  return name;
+}
+
+// One count against another as lines, or counts as bars. Lines carry marks of different shapes and
+// their names at their ends; the newest point of each is larger and says its number. Bars lie
+// level in groups, their names before and their numbers behind them. Points that
+// are not finite are left out; what there is no room for is said.
+PanelView chart_panel() { return {.name = "chart", .draw = draw_chart, .enough = 300}; }
 
 }  // namespace lantern::draw

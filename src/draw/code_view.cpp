@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "draw/labels.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -196,14 +196,20 @@ class CodeView {
   std::size_t rooms_ = 0;                    // rows that have room
 };
 
-}  // namespace
-
-void draw_code(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_code(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+               Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (!frame.find<FrameCode>() || frame.find<FrameCode>()->lines.empty() || place.size().x < 300 ||
       place.size().y < 160)
     return;
   CodeView(*frame.find<FrameCode>(), place, list, labels).draw();
 }
+
+}  // namespace
+
+// A function of the lecture's source, its lines numbered as in their file; those that the frame is
+// about are lit. Of a function too long for the panel its head is shown and what is around the lit
+// lines. A long line loses the end of its list of arguments, or is broken.
+PanelView code_panel() { return {.name = "code", .draw = draw_code, .weight = 1.3}; }
 
 }  // namespace lantern::draw

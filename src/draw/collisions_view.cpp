@@ -14,7 +14,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/pen.hpp"
 
 namespace lantern::draw {
@@ -178,9 +178,8 @@ class CollisionsView {
   std::uint64_t first_ = 0;  // world steps before the first column
 };
 
-}  // namespace
-
-void draw_collisions(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_collisions(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                     Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (!frame.find<FrameCollisions>() || place.size().x < 300 || place.size().y < kCollisionHeading)
     return;
@@ -198,6 +197,19 @@ double collisions_height(const Frame& frame) {
                              ? frame.find<FrameCollisions>()->remembered
                              : kUsual;
   return kCollisionHeading + static_cast<double>(rows) * row_height(remembered) + 6;
+}
+
+double collisions_strip(const Frame& frame, const Vec<2>& area) {
+  return std::min(collisions_height(frame), 0.46 * area.y);
+}
+
+}  // namespace
+
+// A strip with a row for each pair whose collision is remembered: at each world step as many pips
+// as it has frames left, where it touches, and where its begin and end were told. It wants this
+// height.
+PanelView collisions_panel() {
+  return {.name = "collisions", .draw = draw_collisions, .strip = collisions_strip};
 }
 
 }  // namespace lantern::draw

@@ -14,7 +14,7 @@
 
 #include "base/grouped.hpp"
 #include "draw/count_words.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::draw {
@@ -183,9 +183,8 @@ class ComparisonView {
   double row_ = 0;      // height
 };
 
-}  // namespace
-
-void draw_comparison(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_comparison(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                     Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   const FrameComparison& table = frame.get<FrameComparison>();
   if (table.kinds.empty() || table.all_names.empty() || place.size().x < 900) return;
@@ -194,5 +193,12 @@ void draw_comparison(const Frame& frame, const Box<2>& panel, DrawList& list, La
   if (std::ranges::count(table.kinds, StructureKind::brute_force) > 0)
     list.referents.insert("compared_pairs");
 }
+
+}  // namespace
+
+// What each kind of structure does for each world that was compared (frame.get<FrameComparison>()),
+// a row a world with a small picture of it, a column a kind; rows to come are named only. Nothing
+// on a panel that is too narrow for it.
+PanelView comparison_panel() { return {.name = "comparison", .draw = draw_comparison}; }
 
 }  // namespace lantern::draw

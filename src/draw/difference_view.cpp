@@ -13,7 +13,7 @@
 #include "draw/font.hpp"
 #include "draw/narrow_marks.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -209,8 +209,6 @@ class DifferenceView {
   Vec<2> origin_{0.0};
 };
 
-}  // namespace
-
 void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& panel,
                      DrawList& list, Labels& labels) {
   const Vec<2> size = panel.size();
@@ -219,5 +217,11 @@ void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& p
     return;
   DifferenceView(frame, staging, panel, list, labels).draw();
 }
+
+}  // namespace
+
+// The Minkowski difference of two bodies round its origin, in the world's scale if it has room, and
+// what a search for their distance has found of it.
+PanelView difference_panel() { return {.name = "difference", .draw = draw_difference}; }
 
 }  // namespace lantern::draw

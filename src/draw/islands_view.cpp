@@ -16,6 +16,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
+#include "draw/panel.hpp"
 #include "draw/panels.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
@@ -221,11 +222,18 @@ class IslandGraph {
   std::map<BodyId, Vec<2>> places_;  // of nodes, on the page
 };
 
-}  // namespace
-
 void draw_islands(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                   Labels& labels) {
   IslandGraph(frame, staging, panel, list, labels).draw();
+}
+
+}  // namespace
+
+// Islands as a graph beside the world: a node where each body is that can be moved, an edge for
+// what holds two of them together, and one ground, with its number, under all that hang together.
+// What never moves is drawn as it is: a dotted line to where it is touched joins nothing.
+PanelView islands_panel() {
+  return {.name = "islands", .draw = draw_islands, .width = world_width};
 }
 
 }  // namespace lantern::draw

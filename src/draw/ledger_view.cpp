@@ -14,7 +14,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/ledger_marks.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "scenario/pair_state.hpp"
 
 namespace lantern::draw {
@@ -227,12 +227,19 @@ class Ledger {
   double key_width_ = 0;
 };
 
-}  // namespace
-
-void draw_ledger(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_ledger(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                 Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 200 || place.size().y < 120) return;
   Ledger(frame, place, list, labels).draw();
 }
+
+}  // namespace
+
+// The pair ledger: a triangle with a cell for each pair of bodies, marked by how far the pair came
+// from all pairs to contacts (scenario/pair_state.hpp), and under it or in its free corner how many
+// are in each state; together they are all. Bodies stand on the triangle's edge, in the scenario's
+// order. Of many bodies a density takes the place of the cells.
+PanelView ledger_panel() { return {.name = "ledger", .draw = draw_ledger, .weight = 1.1}; }
 
 }  // namespace lantern::draw

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -126,12 +126,18 @@ class Matrix {
   Vec<2> corner_{0.0};  // of the first square
 };
 
-}  // namespace
-
-void draw_matrix(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_matrix(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                 Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 160 || place.size().y < 160) return;
   Matrix(frame, place, list, labels).draw();
 }
+
+}  // namespace
+
+// Who sees whom of a level's sectors: a square for each two of them, their numbers on the edges. A
+// full square is seen, an empty one is not, a dot is not known yet. The row that is asked for is
+// lit.
+PanelView matrix_panel() { return {.name = "matrix", .draw = draw_matrix}; }
 
 }  // namespace lantern::draw

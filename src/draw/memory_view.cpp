@@ -10,6 +10,7 @@
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/number_text.hpp"
+#include "draw/panel.hpp"
 #include "draw/panels.hpp"
 
 namespace lantern::draw {
@@ -263,9 +264,8 @@ class MemoryView {
   BodiesById bodies_;
 };
 
-}  // namespace
-
-void draw_memory(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_memory(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                 Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 60 || place.size().y < kMemoryHeading + 12) return;
   list.referents.insert({"slots", "entries", "allocations"});
@@ -284,6 +284,20 @@ double memory_height(const Frame& frame, double width) {
     if (s.rows <= kMostRows - (s.named() ? 1 : 0)) break;
   }
   return kMemoryHeading + 8 + std::min<double>(s.rows, kMostRows) * s.pitch;
+}
+
+double memory_strip(const Frame& frame, const Vec<2>& area) {
+  return std::clamp(memory_height(frame, area.x), 0.2 * area.y, 0.46 * area.y);
+}
+
+}  // namespace
+
+// The one array that all leaves share: a strip of slots that wraps into rows. A leaf's slots are
+// bracketed and named; those in use show their bodies, those kept free are empty; slots of no leaf
+// are quiet. Of an array too long for the panel as many slots are drawn as have room, and the
+// heading says so. It wants this height at a width.
+PanelView memory_panel() {
+  return {.name = "memory", .draw = draw_memory, .strip = memory_strip, .weight = 0.6};
 }
 
 }  // namespace lantern::draw

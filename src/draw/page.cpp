@@ -8,6 +8,7 @@
 #include "draw/labels.hpp"
 #include "draw/legend.hpp"
 #include "draw/notes.hpp"
+#include "draw/panel.hpp"
 #include "draw/panels.hpp"
 #include "draw/sides_view.hpp"
 
@@ -59,52 +60,12 @@ void draw_title(const Frame& frame, double margin, DrawList& list, Labels& label
   add_rule(list, kTitleRule, margin);
 }
 
-void draw_panel(const Frame& frame, const Staging& staging, Panel panel, const Box<2>& box,
-                DrawList& list, Labels& labels) {
-  switch (panel) {
-    case Panel::world:
-      return draw_world(frame, staging, box, list, labels);
-    case Panel::tree:
-      return draw_tree(frame, staging, box, list, labels);
-    case Panel::atlas:
-      return draw_atlas(frame, box, list, labels);
-    case Panel::chart:
-      return draw_chart(frame, box, list, labels);
-    case Panel::memory:
-      return draw_memory(frame, box, list, labels);
-    case Panel::ledger:
-      return draw_ledger(frame, box, list, labels);
-    case Panel::pool:
-      return draw_pool(frame, box, list, labels);
-    case Panel::bytes:
-      return draw_bytes(frame, box, list, labels);
-    case Panel::sparkline:
-      return draw_sparkline(frame, box, list, labels);
-    case Panel::difference:
-      return draw_difference(frame, staging, box, list, labels);
-    case Panel::axes:
-      return draw_axes(frame, staging, box, list, labels);
-    case Panel::comparison:
-      return draw_comparison(frame, box, list, labels);
-    case Panel::islands:
-      return draw_islands(frame, staging, box, list, labels);
-    case Panel::code:
-      return draw_code(frame, box, list, labels);
-    case Panel::collisions:
-      return draw_collisions(frame, box, list, labels);
-    case Panel::matrix:
-      return draw_matrix(frame, box, list, labels);
-    case Panel::screen:
-      return draw_screen(frame, box, list, labels);
-  }
-}
-
 // `arranged_for`: with what the panels' places are chosen; of a side it is that of all sides.
 void draw_panels(const Frame& frame, const Staging& staging, const Staging& arranged_for,
                  const Box<2>& area, DrawList& list, Labels& labels, Work& work) {
   if (frame.panels.empty()) return;
   if (!frame.sides.empty())
-    return draw_sides(frame, area,
+    return draw_sides(frame, staging, area,
                       {{area.lo.x, area.hi.y + kOverFooter}, {area.hi.x, list.page.y - 12}}, list,
                       labels, [&](const Frame& side, const Box<2>& place) {
                         draw_panels(side, staging.of_side(side.get<FrameSide>().name),
@@ -116,9 +77,9 @@ void draw_panels(const Frame& frame, const Staging& staging, const Staging& arra
   const bool tall = whole.x / whole.y < kStackBelow;
   const std::vector<Box<2>> boxes = arranged(frame, arranged_for, area, tall);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    work.world_layouts += frame.panels[i] == Panel::world;
-    work.tree_layouts += frame.panels[i] == Panel::tree;
-    draw_panel(frame, staging, frame.panels[i], boxes[i], list, labels);
+    work.world_layouts += is(frame.panels[i], "world");
+    work.tree_layouts += is(frame.panels[i], "tree");
+    view_of(frame.panels[i]).draw(frame, staging, boxes[i], list, labels);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
+#include "draw/panel.hpp"
 #include "draw/panels.hpp"
 
 namespace lantern::draw {
@@ -140,9 +141,8 @@ class PoolView {
   std::uint32_t shown_ = 0;  // slots
 };
 
-}  // namespace
-
-void draw_pool(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_pool(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+               Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 60 || place.size().y < kPoolHeading + kPoolSlot) return;
   list.referents.insert({"nodes_reused", "allocations"});
@@ -154,6 +154,19 @@ double pool_height(const Frame& frame, double width) {
   if (is_in_pieces(frame)) return kPoolHeading + kMostPoolRows * kPoolRow + 2;
   const PoolGrid grid = pool_grid(frame.get<FrameStructure>().pool_size, width - 6, kMostPoolRows);
   return kPoolHeading + std::min<double>(grid.rows, kMostPoolRows) * kPoolRow + 2;
+}
+
+double pool_strip(const Frame& frame, const Vec<2>& area) {
+  return std::min(pool_height(frame, area.x), 0.46 * area.y);
+}
+
+}  // namespace
+
+// Strips, which lie under the other panels, as wide as they are together.
+// The pool of a tree's nodes: each slot names the node that owns it, a band marks one that was
+// another's before; slots that are free again are dashed. It wants this height at a width.
+PanelView pool_panel() {
+  return {.name = "pool", .draw = draw_pool, .strip = pool_strip, .weight = 0.4};
 }
 
 }  // namespace lantern::draw

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
 
 namespace lantern::draw {
@@ -161,9 +161,8 @@ class ScreenView {
   double scale_ = 1;  // page units a pixel
 };
 
-}  // namespace
-
-void draw_screen(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_screen(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                 Labels& labels) {
   if (frame.get<FrameScreen>().elements.empty()) return;
   ScreenView(frame, panel, list, labels).draw();
   list.referents.insert({"bindings", "draws"});
@@ -174,5 +173,12 @@ double screen_width(const Frame& frame, double height) {
   const double room = std::max(height - ways_height(screen), 0.45 * height);
   return room * std::max(screen.width, 1) / std::max(screen.height, 1);
 }
+
+}  // namespace
+
+// A screen as far as it is drawn, and below it a row for each way in which it was drawn: the draws
+// in order, with a mark before each that another image had to be bound for. It wants this width at
+// a height.
+PanelView screen_panel() { return {.name = "screen", .draw = draw_screen, .width = screen_width}; }
 
 }  // namespace lantern::draw

@@ -11,7 +11,7 @@
 #include "base/grouped.hpp"
 #include "draw/count_words.hpp"
 #include "draw/font.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -162,15 +162,17 @@ void draw_numbers(const Frame& frame, const Frame& side, const std::vector<SideN
 
 }  // namespace
 
-void draw_sides(const Frame& frame, const Box<2>& area, const Box<2>& foot, DrawList& list,
-                Labels& labels, const DrawSide& draw) {
+void draw_sides(const Frame& frame, const Staging& staging, const Box<2>& area, const Box<2>& foot,
+                DrawList& list, Labels& labels, const DrawSide& draw) {
   Box<2> above = area;
-  const bool over_chart = std::ranges::count(frame.panels, Panel::chart) > 0;
+  const auto below =
+      std::ranges::find_if(frame.panels, [](Panel panel) { return kind_of(panel).of_all_sides; });
+  const bool over_chart = below != frame.panels.end();
   if (over_chart) {
     const bool alone = frame.panels.size() == 1;
     const double share = frame.sides.size() == 4 ? kChartUnderFour : kChartShare;
     const double top = alone ? area.lo.y : area.hi.y - share * area.size().y;
-    draw_chart(frame, {{area.lo.x, top}, area.hi}, list, labels);
+    view_of(*below).draw(frame, staging, {{area.lo.x, top}, area.hi}, list, labels);
     if (alone) return;
     above.hi.y = top - 18;
   }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "draw/labels.hpp"
+#include "draw/staging.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern::draw {
@@ -16,7 +17,7 @@ using DrawSide = std::function<void(const Frame& side, const Box<2>& place)>;
 // headline's counts under it, the same ones at the same places; a chart spans all of them. In
 // `foot`, where otherwise the caption is, stands what a side does that the others do not. Keys of
 // what a side shows begin with its name.
-void draw_sides(const Frame& frame, const Box<2>& area, const Box<2>& foot, DrawList& list,
-                Labels& labels, const DrawSide& draw);
+void draw_sides(const Frame& frame, const Staging& staging, const Box<2>& area, const Box<2>& foot,
+                DrawList& list, Labels& labels, const DrawSide& draw);
 
 }  // namespace lantern::draw

@@ -10,7 +10,7 @@
 #include "draw/count_words.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/pen.hpp"
 
 namespace lantern::draw {
@@ -47,9 +47,8 @@ std::vector<Vec<2>> outline_of(const std::vector<Vec<2>>& points) {
   return some;
 }
 
-}  // namespace
-
-void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
+void draw_sparkline(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+                    Labels& labels) {
   const FrameTrace& trace = frame.get<FrameTrace>();
   const Box<2> place = shrunk(panel, 3);
   if (trace.points.empty() || place.size().y < 2 * kSparkText) return;
@@ -98,6 +97,15 @@ void draw_sparkline(const Frame& frame, const Box<2>& panel, DrawList& list, Lab
   list.disc(at(now), kSparkDot, Role::pair, {Role::panel, 1.6});
 }
 
-double sparkline_height() { return 84; }
+}  // namespace
+
+// One count over the time so far. The ends of its axes are those of the whole part where they are
+// known, else powers of two.
+PanelView sparkline_panel() {
+  return {.name = "sparkline",
+          .draw = draw_sparkline,
+          .strip = [](const Frame&, const Vec<2>&) { return 84.0; },
+          .weight = 0.28};
+}
 
 }  // namespace lantern::draw

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "draw/font.hpp"
+#include "draw/panel.hpp"
 #include "draw/panels.hpp"
 #include "draw/tree_layout.hpp"
 
@@ -187,6 +188,20 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   if (staging.trees().size() > 1) return draw_forest(frame, staging, diagram, list, labels);
   for (const UnionTree& tree : staging.trees())
     draw_staged_tree(frame, tree, staging, diagram, list, labels);
+}
+
+PanelView tree_panel() {
+  return {.name = "tree",
+          .draw = draw_tree,
+          .size =
+              [](const Frame& frame, const Staging& staging, const Box<2>& box) {
+                // A grid's table takes what it gets, whatever the cells of the moment are.
+                return frame.get<FrameStructure>().grid_levels.empty()
+                           ? tree_size_in(staging, box)
+                           : std::sqrt(box.size().x * box.size().y);
+              },
+          .weight = 1.2,
+          .least = 320};  // four rows and their labels
 }
 
 }  // namespace lantern::draw

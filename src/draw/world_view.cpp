@@ -11,6 +11,7 @@
 #include "draw/narrow_marks.hpp"
 #include "draw/notes.hpp"
 #include "draw/page.hpp"
+#include "draw/panel.hpp"
 #include "draw/panels.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
@@ -352,6 +353,29 @@ void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel,
   draw_world2d(frame, staging, map, list, labels);
   keep_within(list, first, map.picture());
   draw_locator(frame, corner, list);
+}
+
+double world_aspect(const Frame& frame) {
+  constexpr double kLeast3D = 0.95, kMost3D = 1.35;
+  const Vec<3> size = frame.bounds.size();
+  if (!(size.y > 0)) return 1;
+  if (frame.dimension == 2) return size.x / size.y;
+  // Seen from aside, what is wide or deep takes width.
+  return std::clamp(std::max(size.x, size.z) / size.y, kLeast3D, kMost3D);
+}
+
+double world_width(const Frame& frame, double height) { return height * world_aspect(frame); }
+
+PanelView world_panel() {
+  return {.name = "world",
+          .draw = draw_world,
+          .width = world_width,
+          .size = [](const Frame& frame, const Staging&, const Box<2>& box) {
+            const double width = std::min(box.size().x, box.size().y * world_aspect(frame));
+            const double size = std::sqrt(width * width / world_aspect(frame));
+            // A level is read on its map, whose sectors have numbers and bodies in them.
+            return std::pow(size, frame.get<FrameLevel>().walls.empty() ? 1 : 1.5);
+          }};
 }
 
 }  // namespace lantern::draw

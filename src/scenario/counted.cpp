@@ -100,7 +100,7 @@ std::string why_not_there(CountNeed need, const Draft& draft, const ScriptState&
     case CountNeed::physics:
       return s.has_physics() ? "" : "this world has no contacts, gravity, springs or joints";
     case CountNeed::islands:
-      return std::ranges::count(s.panels, Panel::islands) > 0 ? "" : "there is no panel 'islands'";
+      return shows(s.panels, "islands") ? "" : "there is no panel 'islands'";
     case CountNeed::query:
       return state.queried ? "" : "no step has sent a ray, culled or queried yet";
     case CountNeed::shapes:

@@ -30,7 +30,7 @@ class EngineOf : public Engine {
     if (scenario.shows_trails()) trails_.emplace();
     ++work_.worlds_created;
     count_structures();
-    if (std::ranges::count(scenario.panels, Panel::collisions) > 0) collision_log_.emplace();
+    if (shows(scenario.panels, "collisions")) collision_log_.emplace();
   }
 
   void enter(std::size_t body) override {
@@ -227,8 +227,7 @@ class EngineOf : public Engine {
   void picture(const Touched& touched, Frame& frame) override {
     if (has_structure()) bring_up_to_date();
     picture_world(players_, frame);
-    if (std::ranges::count(frame.panels, Panel::islands) > 0)
-      picture_islands(players_, island_numbers_, frame);
+    if (shows(frame.panels, "islands")) picture_islands(players_, island_numbers_, frame);
     if (trails_ && frame.display.trail > 0)
       trails_->picture(world(), scenario_.world.time_step, frame);
     if (frame.display.forces) picture_forces(players_, frame);
@@ -370,7 +369,7 @@ class EngineOf : public Engine {
       frame.add_count("asleep", asleep);
       frame.add_count("awake", awake);
     }
-    if (std::ranges::count(frame.panels, Panel::islands) > 0) count_islands(frame);
+    if (shows(frame.panels, "islands")) count_islands(frame);
     if (!scenario_.has_physics()) return;
     frame.add_count("force_evaluations", last_.force_evaluations);
     frame.add_count("rotations", last_.rotations_integrated);

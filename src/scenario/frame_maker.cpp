@@ -62,16 +62,12 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       comparison_(empty_comparison(scenario)),
       looks_(scenario) {
   if (scenario.chart) plotter_.emplace(scenario);
-  if (shows(Panel::sparkline)) {
+  if (shows(scenario.panels, "sparkline")) {
     trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_), std::nullopt};
   }
-  if (shows(Panel::code))
+  if (shows(scenario.panels, "code"))
     for (const Step& step : scenario.steps)
       if (step.code && !code_) code_ = code_of(step.code->function);
-}
-
-bool FrameMaker::shows(Panel panel) const {
-  return std::ranges::count(scenario_.panels, panel) > 0;
 }
 
 void FrameMaker::begin(const Step& step, std::uint32_t index) {
@@ -171,7 +167,9 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   if (plotter_) frame.add<FrameChart>() = plotter_->chart();
   if (trace_) trace(frame);
   frame.put(code_);
-  if (stage_.engine && shows(Panel::collisions)) add_collisions(frame);
+  if (stage_.engine && shows(scenario_.panels, "collisions")) add_collisions(frame);
+  for (const Panel panel : frame.panels)
+    if (const auto gather = kind_of(panel).gather) gather(stage_, frame);
   return frame;
 }
 

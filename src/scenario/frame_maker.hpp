@@ -90,7 +90,6 @@ class FrameMaker {
   Frame drawn(const Touched& touched, std::string_view event, bool midst);
   void add_finding(Frame& frame) const;
   void add_comparison(Frame& frame);
-  bool shows(Panel panel) const;
   void trace(Frame& frame);
   void begin_code();
   void light_code(std::string_view event);

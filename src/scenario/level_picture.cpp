@@ -92,7 +92,7 @@ void LevelStage::picture_sights(const NodeOfSector& nodes, Frame& frame) const {
 }
 
 void LevelStage::picture_matrix(Frame& frame) const {
-  if (std::ranges::find(frame.panels, Panel::matrix) == frame.panels.end()) return;
+  if (!level_) return;
   const auto n = static_cast<std::uint32_t>(current_->sectors().size());
   FrameMatrix& matrix = frame.add<FrameMatrix>();
   matrix.rows.assign(n, std::string(n, '.'));
@@ -178,7 +178,6 @@ void LevelStage::picture(bool holds_bodies, Frame& frame) const {
   picture_counts(*current_, holds, frame);
   if (!level_) return;
   if (shows) picture_sights(nodes, frame);
-  picture_matrix(frame);
   if (holds) dim_bodies(nodes, frame);
   count_answers(nodes, holds, frame);
 }

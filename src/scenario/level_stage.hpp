@@ -44,6 +44,8 @@ class LevelStage {
   // Walls, and once it is compiled, nodes and counts. `holds_bodies`: the frame's nodes are those
   // of `structure()`.
   void picture(bool holds_bodies, Frame& frame) const;
+  // Who sees whom, as far as it is known; nothing before the level is compiled.
+  void picture_matrix(Frame& frame) const;
 
  private:
   enum class Answer { none, place, order, sights };  // what is shown
@@ -57,7 +59,6 @@ class LevelStage {
   NodeOfSector picture_nodes(const LevelBsp& level, bool holds_bodies, Frame& frame) const;
   void mark_sector(std::uint32_t sector, FrameNode& node) const;
   void picture_sights(const NodeOfSector& nodes, Frame& frame) const;
-  void picture_matrix(Frame& frame) const;
   void dim_bodies(const NodeOfSector& nodes, Frame& frame) const;
   void picture_counts(const LevelBsp& level, bool holds_bodies, Frame& frame) const;
   void count_answers(const NodeOfSector& nodes, bool holds_bodies, Frame& frame) const;

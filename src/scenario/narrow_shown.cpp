@@ -41,7 +41,7 @@ void NarrowShown::add_to(Frame& frame, const Engine& engine) const {
     frame.add_count("gjk_steps", search_->steps.size());
     if (search_->answer) frame.measures.emplace_back("distance", search_->answer->distance);
   }
-  if (std::ranges::find(frame.panels, Panel::difference) == frame.panels.end()) return;
+  if (!shows(frame.panels, "difference")) return;
   if (search_) frame.put(engine.difference(search_->a, search_->b));
   std::vector<BodyId> there;
   for (const FrameBody& body : frame.bodies)

@@ -46,100 +46,14 @@ void read_name(const TableReader& file, const std::string& path, Draft& draft) {
   draft.scenario.file_stem = stem;
 }
 
-// A verb of this kind, for which `holds` is true, is somewhere in the script.
-template <class V>
-bool some_step(const ScenarioSpec& s, bool (*holds)(const V&)) {
-  return std::any_of(s.steps.begin(), s.steps.end(), [&](const Step& step) {
-    const V* verb = std::get_if<V>(&step.verb);
-    return verb && holds(*verb);
-  });
-}
-
-bool compiles_level(const ScenarioSpec& s) {
-  return s.level && some_step<CompileLevel>(s, [](const CompileLevel&) { return true; });
-}
-
-bool draws_screen(const ScenarioSpec& s) {
-  return some_step<DrawScreen>(s, [](const DrawScreen&) { return true; });
-}
-
 // Can there be those that the file wishes for?
 void check_panels(const TableReader& file, Draft& draft) {
-  const ScenarioSpec& s = draft.scenario;
-  // A structure of which this holds stands at some time.
-  const auto some_structure = [&](const auto& holds) {
-    return holds(s.structure) || std::ranges::any_of(s.steps, [&](const Step& step) {
-             const auto* rebuild = std::get_if<Rebuild>(&step.verb);
-             return rebuild && holds(rebuild->structure);
-           });
-  };
-  const auto has = [](bool StructureTraits::*trait) {
-    return [trait](const StructureSpec& of) {
-      return of.kind != StructureKind::none && traits_of(of.kind).*trait;
-    };
-  };
-  const bool structure =
-      (compiles_level(s) && !s.bodies.empty()) ||
-      some_structure([](const StructureSpec& of) { return of.kind != StructureKind::none; });
-  const bool array = some_structure(has(&StructureTraits::shares_array));
-  const bool pieces = some_structure(has(&StructureTraits::is_plain));
-  const bool pool = array || pieces || some_structure(has(&StructureTraits::is_fitted));
-  const bool moves = s.world_steps > 0 && structure;
-  const bool code =
-      std::ranges::any_of(s.steps, [](const Step& step) { return step.code.has_value(); });
-  const bool remembers = s.world.contacts == ContactMethod::lecture;
-  const bool sees = s.level && some_step<See>(s, [](const See&) { return true; });
-  const std::pair<bool, const char*> possible[] = {
-      // by Panel
-      {draft.has_world, "it needs a [world]"},
-      {structure || compiles_level(s) || s.atlas,
-       "it needs a [structure], a [level] or an [atlas]"},
-      {s.atlas.has_value(), "it needs an [atlas]"},
-      {s.chart.has_value(), "it needs a [chart]"},
-      {structure, "it needs a [structure]"},
-      {structure, "it needs a [structure], whose pairs it shows"},
-      {pool, "it needs a quadtree, an octree or a kd_tree, whose nodes lie in a pool"},
-      {array, "it needs a quadtree or an octree, whose nodes have their bytes counted"},
-      {moves, "it needs a [structure] and a step that runs"},
-      {s.bodies.size() > 1 && draft.dimension == 2, "it needs a flat world and two bodies"},
-      {some_step<Separate>(s, [](const Separate&) { return true; }), "it needs a `separate`"},
-      {some_step<Compare>(s, [](const Compare&) { return true; }),
-       "it needs a step with do = \"compare\""},
-      {s.world_steps > 0 && (s.has_contacts() || !s.links.empty()),
-       "it needs a step that runs, and contacts, springs or joints that hold bodies together"},
-      {code, "it needs a step with 'code'"},
-      {remembers, "it needs [world] contacts = \"lecture\", which remembers them"},
-      {sees, "it needs a [level] and a step with do = \"see\""},
-      {draws_screen(s), "it needs [[element]]s and a step that draws them"}};
   std::size_t i = 0;
-  for (const Named& written : file.names("panels")) {
-    const auto panel = static_cast<std::size_t>(s.panels[i++]);
-    if (!possible[panel].first)
+  for (const Named& written : file.names("panels"))
+    if (const PanelKind& kind = kind_of(draft.scenario.panels[i++]); !kind.possible(draft))
       draft.problems.add(written.where,
                          fmt::format("this scenario cannot have the panel '{}'", written.name),
-                         possible[panel].second);
-  }
-}
-
-bool is_tree(const StructureSpec& s) {
-  return s.kind != StructureKind::none && traits_of(s.kind).is_tree;
-}
-
-// Those that can have something to show. They must be known before the first frame is drawn, so
-// they follow from what the file declares.
-std::vector<Panel> derived_panels(const ScenarioSpec& s) {
-  const bool has_tree =
-      s.atlas || compiles_level(s) || is_tree(s.structure) ||
-      some_step<Rebuild>(s, [](const Rebuild& r) { return is_tree(r.structure); });
-  std::vector<Panel> panels;
-  if (!s.bodies.empty() || s.level) panels.push_back(Panel::world);
-  if (draws_screen(s)) panels.push_back(Panel::screen);
-  if (s.atlas) panels.push_back(Panel::atlas);
-  if (has_tree) panels.push_back(Panel::tree);
-  if (s.chart) panels.push_back(Panel::chart);
-  if (some_step<Compare>(s, [](const Compare&) { return true; }))
-    panels.push_back(Panel::comparison);
-  return panels;
+                         std::string(kind.needs));
 }
 
 bool is_blank(std::string_view text) {
@@ -242,21 +156,18 @@ void begin(std::string_view text, const std::string& path, Draft& draft) {
 }
 
 Scenario finished(Draft& draft) {
-  if (draft.scenario.panels.empty()) draft.scenario.panels = derived_panels(draft.scenario);
+  const Draft* one[] = {&draft};
+  if (draft.scenario.panels.empty()) draft.scenario.panels = derived_panels(one);
   return Scenario(std::move(draft.scenario));
 }
 
 // A panel that one side has is on the page of all.
 void share_panels(std::vector<std::unique_ptr<Draft>>& drafts) {
   if (!drafts[0]->scenario.panels.empty()) return;  // as the file wishes
-  std::vector<Panel> all;
-  for (const Panel panel : {Panel::world, Panel::screen, Panel::atlas, Panel::tree, Panel::chart})
-    if (std::ranges::any_of(drafts, [&](const auto& draft) {
-          const std::vector<Panel> own = derived_panels(draft->scenario);
-          return std::ranges::find(own, panel) != own.end();
-        }))
-      all.push_back(panel);
-  for (const auto& draft : drafts) draft->scenario.panels = all;
+  std::vector<const Draft*> all;
+  for (const auto& draft : drafts) all.push_back(draft.get());
+  const std::vector<Panel> shared = derived_panels(all);
+  for (const auto& draft : drafts) draft->scenario.panels = shared;
 }
 
 // The file is read once for each side, as what it says to that one.

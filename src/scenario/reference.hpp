@@ -22,6 +22,7 @@ std::string_view level_example();
 // Scenarios that show what a table of keys cannot.
 std::string_view map_example();
 std::string_view chart_example();
+std::string_view collisions_example();
 std::string looks_example();
 std::string pattern_example(std::string_view arrange);
 std::vector<std::string_view> arrange_names();

@@ -218,38 +218,6 @@ bool is_of_level(std::string_view verb) {
   return verb == "compile" || verb == "locate" || verb == "order" || verb == "see";
 }
 
-// The panel alone, in a scenario that has it.
-std::string panel_example(Panel panel) {
-  const std::string only =
-      fmt::format("panels = [\"{}\"]\n", names(panel)[static_cast<std::size_t>(panel)]);
-  if (panel == Panel::sparkline || panel == Panel::islands)
-    return only + std::string(kWorldExample) + "\n[[step]]\ndo = \"run\"\nseconds = 4\n";
-  if (panel == Panel::axes)
-    for (const TableDoc& verb : language_verbs())
-      if (verb.name == "separate")
-        return fmt::format("{}{}\n{}", only, kWorldExample, verb.example);
-  if (panel == Panel::comparison)
-    for (const TableDoc& verb : language_verbs())
-      if (verb.name == "compare") return fmt::format("{}{}\n{}", only, kWorldExample, verb.example);
-  if (panel == Panel::code)
-    return only + std::string(kWorldExample) +
-           "\n[[step]]\ndo = \"show\"\ncode = { function = \"Insert\", line = \"Split();\" }\n";
-  if (panel == Panel::collisions) return only + std::string(kCollisionsExample);
-  if (panel == Panel::chart) return only + std::string(kChartExample);
-  if (panel == Panel::matrix) {
-    std::string text = only + std::string(kLevelExample);
-    for (const TableDoc& verb : language_verbs())
-      if (verb.name == "see") text += fmt::format("\n{}", verb.example);
-    return text;
-  }
-  const bool screen = panel == Panel::screen;
-  if (panel != Panel::atlas && !screen) return only + std::string(kWorldExample);
-  for (const TableDoc& verb : language_verbs())
-    if (verb.name == (screen ? "draw" : "pack"))
-      return fmt::format("{}{}\n{}", only, kAtlasExample, verb.example);
-  return {};
-}
-
 }  // namespace
 
 std::string_view world_example() { return kWorldExample; }
@@ -257,6 +225,7 @@ std::string_view atlas_example() { return kAtlasExample; }
 std::string_view level_example() { return kLevelExample; }
 std::string_view map_example() { return kMapExample; }
 std::string_view chart_example() { return kChartExample; }
+std::string_view collisions_example() { return kCollisionsExample; }
 
 std::string looks_example() {
   std::string text = "title = \"Who a body can look like\"\nworld = { size = [16, 6] }\nbody = [\n";
@@ -304,9 +273,10 @@ std::vector<ExamplePicture> example_pictures() {
   for (const std::string_view arrange : arrange_names())
     all.push_back({fmt::format("arrange_{}", arrange), pattern_example(arrange)});
   all.push_back({"map", std::string(kMapExample)});
-  for (std::size_t i = 0; i < names(Panel()).size(); ++i)
-    all.push_back(
-        {fmt::format("panel_{}", names(Panel())[i]), panel_example(static_cast<Panel>(i))});
+  for (const PanelKind& kind : panel_kinds())
+    all.push_back({fmt::format("panel_{}", kind.name),
+                   fmt::format("panels = [\"{}\"]\n{}", kind.name,
+                               kind.example ? kind.example() : std::string(kWorldExample))});
   std::string world(kWorldExample), atlas(kAtlasExample), level(kLevelExample);
   for (const TableDoc& verb : language_verbs()) {
     std::string& text = is_of_atlas(verb.name) ? atlas : is_of_level(verb.name) ? level : world;

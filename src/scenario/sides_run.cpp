@@ -143,7 +143,7 @@ class SidesRun {
       const bool held = shown.add<FrameSide>().held = side.holds(k);
       shown.index = frame.index;
       shown.parts.drop<FrameChart>();  // drawn once, for all
-      std::erase(shown.panels, Panel::chart);
+      std::erase_if(shown.panels, [](Panel panel) { return kind_of(panel).of_all_sides; });
       if (held) shown.since_last_frame.reset();
       if (frame.event.empty() && !held) frame.event = shown.event;
       frame.time = std::max(frame.time, shown.time);

@@ -15,31 +15,13 @@
 #include "geometry/rotation.hpp"
 #include "physics/body.hpp"
 #include "physics/methods.hpp"
+#include "scenario/panel.hpp"
 #include "scenario/view_specs.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::scenario {
 
 enum class Children { lazy, eager };  // each made when something enters it, or all at a split
-enum class Panel {
-  world,
-  tree,
-  atlas,
-  chart,
-  memory,
-  ledger,
-  pool,
-  bytes,
-  sparkline,
-  difference,
-  axes,
-  comparison,
-  islands,
-  code,
-  collisions,
-  matrix,
-  screen
-};
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box, person, demon, item };
 enum class Brain { none, follow, wander };  // who steers a body
@@ -329,11 +311,6 @@ inline EnumNames names(Following) { return {"auto", "reinsert", "refit"}; }
 inline EnumNames names(SweepAxis) { return {"widest", "x", "y", "z"}; }
 inline EnumNames names(Picture) { return {"pattern", "heart", "sword", "potion", "coin", "map"}; }
 inline EnumNames names(Children) { return {"lazy", "eager"}; }
-inline EnumNames names(Panel) {
-  return {"world",   "tree",  "atlas",      "chart",      "memory", "ledger",
-          "pool",    "bytes", "sparkline",  "difference", "axes",   "comparison",
-          "islands", "code",  "collisions", "matrix",     "screen"};
-}
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) {
   return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};

@@ -102,8 +102,8 @@ class NodePicture {
       : spec_(spec),
         traits_(traits_of(spec.kind)),
         touched_(touched),
-        shows_memory_(shows(frame, Panel::memory)),
-        shows_pool_(shows(frame, Panel::pool)),
+        shows_memory_(shows(frame.panels, "memory")),
+        shows_pool_(shows(frame.panels, "pool")),
         frame_(frame) {
     for (std::uint32_t i = 0; i < touched.met.size(); ++i) met_.emplace(touched.met[i], i);
   }
@@ -123,10 +123,6 @@ class NodePicture {
   std::uint64_t most_in_leaf = 0;
 
  private:
-  static bool shows(const Frame& frame, Panel panel) {
-    return std::ranges::find(frame.panels, panel) != frame.panels.end();
-  }
-
   void add_node(const NodeView<D>& view, const AwakeNodes* awake, bool of_static) {
     stop_if_asked();
     FrameNode node = frame_node(view);

@@ -50,7 +50,7 @@ void read_code(const TableReader& step, Step& to, Draft& draft) {
     table.fill(spec);
     spec.where = draft.position(value->where);
     to.code = spec;
-    if (std::ranges::count(draft.scenario.panels, Panel::code) == 0)
+    if (!shows(draft.scenario.panels, "code"))
       draft.problems.add(value->where, "no panel shows 'code'",
                          "name it: panels = [\"world\", \"tree\", \"code\"]");
     if (!table.is_good("function")) continue;

@@ -28,11 +28,7 @@ std::uint64_t points_of(const FrameChart& chart) {
 // What there is on a frame, on all sides together.
 struct Seen {
   std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0,
-                sectors = 0, drawn_walls = 0, nodes = 0, slots = 0, pool = 0, bytes = 0,
-                moments = 0, differences = 0, axes = 0, islands = 0, matrix = 0, ways = 0;
-  bool pairs = false;  // two bodies or more, of one side
-  bool code = false;
-  bool collisions = false;
+                sectors = 0;
 
   void add(const Frame& frame) {
     bodies += frame.bodies.size();
@@ -42,20 +38,6 @@ struct Seen {
     textures += counted(frame, "textures");
     walls += counted(frame, "walls");
     sectors += counted(frame, "sectors");
-    drawn_walls += frame.get<FrameLevel>().walls.size();
-    nodes += frame.nodes.size();
-    slots += frame.get<FrameStructure>().array_size;
-    pool += frame.get<FrameStructure>().pool_size;
-    bytes += counted(frame, "node_bytes");
-    moments += frame.get<FrameTrace>().points.size();
-    differences += frame.find<FrameDifference>() != nullptr;
-    axes += frame.find<FrameSeparation>() != nullptr;
-    islands += frame.get<FrameIslands>().islands.size();
-    code |= frame.find<FrameCode>() != nullptr;
-    collisions |= frame.find<FrameCollisions>() && !frame.find<FrameCollisions>()->rows.empty();
-    matrix += frame.get<FrameMatrix>().rows.size();
-    ways += frame.get<FrameScreen>().ways.size();
-    pairs |= frame.bodies.size() > 1;
   }
 };
 
@@ -72,8 +54,6 @@ bool StageTally::used() const {
 void Tally::see(const Frame& frame) {
   seconds_ = std::max(seconds_, frame.time);
   raise(points_, points_of(frame.get<FrameChart>()));
-  with_points_ += points_of(frame.get<FrameChart>()) > 0;
-  with_rows_ += !frame.get<FrameComparison>().rows.empty();
   solid_ += frame.dimension == 3;
   Seen seen;
   if (frame.sides.empty()) seen.add(frame);
@@ -85,22 +65,10 @@ void Tally::see(const Frame& frame) {
   raise(textures_, seen.textures);
   raise(walls_, seen.walls);
   raise(sectors_, seen.sectors);
-  with_bodies_ += seen.bodies > 0;
-  with_walls_ += seen.drawn_walls > 0;
-  with_nodes_ += seen.nodes > 0;
-  with_textures_ += seen.textures > 0;
-  with_array_ += seen.slots > 0;
-  with_two_ += seen.pairs;
-  with_pool_ += seen.pool > 0;
-  with_bytes_ += seen.bytes > 0;
-  with_trace_ += seen.moments > 0;
-  with_difference_ += seen.differences > 0;
-  with_axes_ += seen.axes > 0;
-  with_islands_ += seen.islands > 0;
-  with_code_ += seen.code;
-  with_collisions_ += seen.collisions;
-  with_matrix_ += seen.matrix > 0;
-  with_screen_ += seen.ways > 0;
+  for (std::size_t i = 0; i < panel_kinds().size(); ++i)
+    for (const PanelKind::Content& content : panel_kinds()[i].shows)
+      with_[{i, content.what}] +=
+          content.is_on(frame) || std::ranges::any_of(frame.sides, content.is_on);
   count_builds(frame);
 }
 
@@ -217,39 +185,20 @@ void Tally::list_others(const DirectorReport& report, Stages& all) const {
                  scenario_.chart ? "" : "the scenario has none"});
 }
 
-StageTally Tally::panel(Panel panel, std::string_view stage, std::vector<Amount> shown) const {
-  StageTally tally{stage, std::move(shown), ""};
-  const auto& panels = scenario_.panels;
-  if (std::find(panels.begin(), panels.end(), panel) != panels.end()) return tally;
-  for (Amount& a : tally.amounts) a.n = 0;
-  tally.note = "none of the scenario's panels";
-  return tally;
-}
-
 void Tally::list_pictures(Stages& all) const {
-  const auto frames = [](std::uint64_t n, std::string_view what) {
-    return amount(n, fmt::format("frame with {}", what), fmt::format("frames with {}", what));
-  };
-  all.push_back(panel(Panel::world, "world panel",
-                      {frames(with_bodies_, "bodies"), frames(with_walls_, "walls")}));
-  all.push_back(panel(Panel::tree, "tree panel", {frames(with_nodes_, "nodes")}));
-  all.push_back(panel(Panel::atlas, "atlas panel", {frames(with_textures_, "textures")}));
-  all.push_back(panel(Panel::chart, "chart panel", {frames(with_points_, "points or bars")}));
-  all.push_back(panel(Panel::memory, "memory panel", {frames(with_array_, "the leaves' array")}));
-  all.push_back(panel(Panel::ledger, "ledger panel", {frames(with_two_, "two bodies or more")}));
-  all.push_back(panel(Panel::pool, "pool panel", {frames(with_pool_, "a pool of nodes")}));
-  all.push_back(panel(Panel::bytes, "bytes panel", {frames(with_bytes_, "bytes of nodes")}));
-  all.push_back(panel(Panel::sparkline, "sparkline", {frames(with_trace_, "a line so far")}));
-  all.push_back(panel(Panel::difference, "difference panel",
-                      {frames(with_difference_, "the difference of two bodies")}));
-  all.push_back(panel(Panel::axes, "axes panel", {frames(with_axes_, "axes of two bodies")}));
-  all.push_back(
-      panel(Panel::comparison, "comparison panel", {frames(with_rows_, "worlds compared")}));
-  all.push_back(panel(Panel::islands, "islands panel", {frames(with_islands_, "islands")}));
-  all.push_back(panel(Panel::code, "code panel", {frames(with_code_, "lines of code")}));
-  all.push_back(panel(Panel::collisions, "collisions", {frames(with_collisions_, "a collision")}));
-  all.push_back(panel(Panel::matrix, "matrix panel", {frames(with_matrix_, "sectors to see")}));
-  all.push_back(panel(Panel::screen, "screen panel", {frames(with_screen_, "a drawn screen")}));
+  for (std::size_t i = 0; i < panel_kinds().size(); ++i) {
+    const PanelKind& kind = panel_kinds()[i];
+    const bool drawn = shows(scenario_.panels, kind.name);
+    StageTally& tally = all.emplace_back();
+    tally.stage = kind.stage;
+    tally.note = drawn ? "" : "none of the scenario's panels";
+    for (const PanelKind::Content& content : kind.shows) {
+      const auto with = with_.find({i, content.what});
+      tally.amounts.push_back(amount(drawn && with != with_.end() ? with->second : 0,
+                                     fmt::format("frame with {}", content.what),
+                                     fmt::format("frames with {}", content.what)));
+    }
+  }
   all.push_back({"3D camera", {amount(solid_, "3D frame")}, solid_ == 0 ? "the world is 2D" : ""});
   all.push_back({"OpenGL",
                  {amount(work_.graphics_contexts, "context")},

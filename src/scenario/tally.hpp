@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/work.hpp"
@@ -45,7 +46,6 @@ class Tally {
   void list_contacts(const WorldWork& world, Stages& all) const;
   void list_others(const DirectorReport& report, Stages& all) const;
   void list_pictures(Stages& all) const;
-  StageTally panel(Panel panel, std::string_view stage, std::vector<Amount> shown) const;
 
   const Scenario& scenario_;
   const Work& work_;
@@ -53,12 +53,9 @@ class Tally {
   // The most on one frame.
   std::uint64_t bodies_ = 0, asleep_ = 0, springs_ = 0, joints_ = 0, textures_ = 0, points_ = 0;
   std::uint64_t walls_ = 0, sectors_ = 0;  // of the level, once it is compiled
-  // Frames on which there is something of this.
-  std::uint64_t with_bodies_ = 0, with_walls_ = 0, with_nodes_ = 0, with_textures_ = 0,
-                with_points_ = 0, with_array_ = 0, with_two_ = 0, with_pool_ = 0, with_bytes_ = 0,
-                with_trace_ = 0, with_difference_ = 0, with_axes_ = 0, with_rows_ = 0,
-                with_islands_ = 0, with_code_ = 0, with_collisions_ = 0, with_matrix_ = 0,
-                with_screen_ = 0, solid_ = 0;
+  std::uint64_t solid_ = 0;                // 3D frames
+  // Frames with what a panel shows, by its place in the list.
+  std::map<std::pair<std::size_t, std::string_view>, std::uint64_t> with_;
   std::map<StructureKind, std::uint64_t> builds_;
   std::uint64_t builds_of_several_ = 0;  // kinds, in one step
   std::uint64_t builds_before_ = 0;      // of the frame that is seen

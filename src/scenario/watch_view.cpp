@@ -118,8 +118,7 @@ class OutsideWatch : public Watcher {
 }  // namespace
 
 Watching watch_view(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body) {
-  const auto& panels = scenario.panels;
-  if (std::find(panels.begin(), panels.end(), Panel::world) == panels.end()) return nullptr;
+  if (!shows(scenario.panels, "world")) return nullptr;
   return std::make_unique<ViewWatch>(scenario, std::move(shows_a_body));
 }
 

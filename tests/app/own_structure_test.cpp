@@ -71,6 +71,30 @@ TEST(OwnStructureProgram, HerFramesSayWhatOursSay) {
   }
 }
 
+TEST(OwnPanelProgram, APanelInOneFileIsDrawnToldAndTallied) {
+  const fs::path out = fresh_folder("own_panel");
+  const std::string text = read_text(kMine);
+  write_text(out / "with.toml", "panels = [\"world\", \"speeds\"]\n" + text);
+  write_text(out / "without.toml", "panels = [\"world\"]\n" + text);
+  for (const char* name : {"with", "without"})
+    ASSERT_EQ(
+        my_tree("render " + (out / name).string() + ".toml --format svg -o " + out.string()).code,
+        0);
+  const json with = frame_of(out, "with", 3), without = frame_of(out, "without", 3);
+  EXPECT_EQ(with.at("speeds").size(), 4u);
+  EXPECT_EQ(with.at("speeds").at(0).at("name"), "red");
+  EXPECT_FALSE(without.contains("speeds"));
+  EXPECT_EQ(with.at("bodies"), without.at("bodies"));
+  const auto picture = [&](const std::string& name) {
+    return read_text(out / name / (name + "_0003.svg"));
+  };
+  EXPECT_NE(picture("with").size(), picture("without").size());
+  const Outcome tally = my_tree("explain " + (out / "with.toml").string());
+  EXPECT_NE(tally.out.find("speeds panel"), std::string::npos) << tally.out;
+  EXPECT_EQ(shell("lantern check " + (out / "with.toml").string()).code, 3)
+      << "only her program knows it";
+}
+
 TEST(OwnStructureProgram, ItsEventsAreFrames) {
   const fs::path out = fresh_folder("own_events");
   const Outcome render =

@@ -9,7 +9,7 @@
 #include "draw/layout_check.hpp"
 #include "draw/number_text.hpp"
 #include "draw/page.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/sample_frames.hpp"
 
 namespace lantern::draw {
@@ -19,7 +19,7 @@ using samples::page_of;
 
 Frame charted(FrameChart chart) {
   Frame frame;
-  frame.panels = {Panel::chart};
+  frame.panels = {panel_named("chart")};
   frame.add<FrameChart>() = std::move(chart);
   return frame;
 }
@@ -286,7 +286,9 @@ DrawList chart_in(const FrameChart& chart, const Vec<2>& size) {
   DrawList list;
   list.page = {1600, 900};
   Labels labels(list);
-  draw_chart(charted(chart), {{40, 40}, Vec<2>{40, 40} + size}, list, labels);
+  const Frame frame = charted(chart);
+  view_of(frame.panels[0])
+      .draw(frame, Staging(frame), {{40, 40}, Vec<2>{40, 40} + size}, list, labels);
   return list;
 }
 

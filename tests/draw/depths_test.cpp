@@ -30,7 +30,7 @@ TEST(Depths, HaveTwoFiguresAndAUnitThatFits) {
 // Four pairs of boxes, each pressed into the one below.
 Frame pressed() {
   Frame frame;
-  frame.panels = {Panel::world};
+  frame.panels = {panel_named("world")};
   frame.bounds = {Vec<3>(0.0), {16, 4, 0}};
   frame.display.depths = true;
   for (BodyId i = 0; i < 8; ++i) {

@@ -245,12 +245,12 @@ TEST(Layout, NumbersInCountersKeepTheirPlace) {
 
 TEST(Layout, PanelsThatAreNotThereAreNotLaidOut) {
   Frame frame = samples::ghosts(4);
-  frame.panels = {Panel::world};
+  frame.panels = {panel_named("world")};
   Work work;
   draw_frame(frame, page_for(1600, 900), work);
   EXPECT_EQ(work.world_layouts, 1u);
   EXPECT_EQ(work.tree_layouts, 0u);
-  frame.panels = {Panel::tree};
+  frame.panels = {panel_named("tree")};
   draw_frame(frame, page_for(1600, 900), work);
   EXPECT_EQ(work.world_layouts, 1u);
   EXPECT_EQ(work.tree_layouts, 1u);

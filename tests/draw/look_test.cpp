@@ -143,7 +143,7 @@ TEST(Notes, StandFreeAndLargeEnough) {
 
 TEST(Notes, CoverNoBody) {
   Frame frame = noted();
-  frame.panels = {Panel::world};
+  frame.panels = {panel_named("world")};
   const DrawList list = page_of(frame);
   for (const DrawShape& shape : list.shapes) {
     const auto* rect = std::get_if<RectShape>(&shape);
@@ -231,7 +231,7 @@ TEST(Legend, ListsExactlyWhatIsDrawn) {
   for (const auto& [name, sample] : samples::worlds()) {
     Frame frame = sample;
     frame.display.legend = true;
-    frame.panels = {Panel::world};
+    frame.panels = {panel_named("world")};
     const DrawList list = page_of(frame);
     for (unsigned i = 0; i < kMarkKinds; ++i) {
       const auto kind = static_cast<MarkKind>(i);

@@ -174,7 +174,7 @@ TEST(Marks, HitsAreNumberedInOrder) {
 
 TEST(Marks, SectorsAreNumberedFromOneInOrder) {
   Frame frame = sample("world_level");
-  frame.panels = {Panel::world};
+  frame.panels = {panel_named("world")};
   frame.steps = 0;
   frame.counts.clear();
   const DrawList list = page_of(frame);

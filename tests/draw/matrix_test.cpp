@@ -10,7 +10,7 @@ namespace {
 Frame frame_of(std::size_t sectors) {
   Frame frame;
   frame.title = "Who sees whom";
-  frame.panels = {Panel::matrix};
+  frame.panels = {panel_named("matrix")};
   frame.add<FrameMatrix>().rows.assign(sectors, std::string(sectors, '0'));
   for (std::size_t i = 0; i < sectors; ++i) frame.add<FrameMatrix>().rows[i][i] = '1';
   return frame;

@@ -16,7 +16,7 @@ std::string texts_of(const Frame& frame) {
 
 Frame three_leaves() {
   Frame frame;
-  frame.panels = {Panel::memory};
+  frame.panels = {panel_named("memory")};
   frame.add<FrameStructure>().array_size = 24;
   for (BodyId id = 0; id < 3; ++id) {
     FrameBody body;

@@ -201,7 +201,8 @@ DrawList page_of(const Frame& frame) {
 }
 
 Frame ghosts(std::size_t objects) {
-  Frame frame = base("Ghosts in a quadtree", {{0, 0}, {8, 8}}, {Panel::world, Panel::tree});
+  Frame frame =
+      base("Ghosts in a quadtree", {{0, 0}, {8, 8}}, {panel_named("world"), panel_named("tree")});
   frame.part = "children on demand";
   frame.bodies = {
       body(0, "red", Look::ghost, 1, {3.05, 6.85}), body(1, "pink", Look::ghost, 2, {2.0, 4.85}),
@@ -225,7 +226,8 @@ Frame ghosts(std::size_t objects) {
 }
 
 Frame pong(double ball_x) {
-  Frame frame = base("Pong and its BSP", {{0, 0}, {32, 18}}, {Panel::world, Panel::tree});
+  Frame frame =
+      base("Pong and its BSP", {{0, 0}, {32, 18}}, {panel_named("world"), panel_named("tree")});
   frame.structure = StructureKind::bsp;
   frame.add<FrameStructure>().settings = "1 dividing line";
   const AxisBox<2> bat{{0.5, 2.2}};
@@ -248,8 +250,8 @@ Frame pong(double ball_x) {
 }
 
 Frame doom() {
-  Frame frame =
-      base("A level cut into convex sectors", {{0, 0}, {20, 14}}, {Panel::world, Panel::tree});
+  Frame frame = base("A level cut into convex sectors", {{0, 0}, {20, 14}},
+                     {panel_named("world"), panel_named("tree")});
   frame.structure = StructureKind::bsp;
   frame.add<FrameStructure>().settings = "3 dividing lines";
   frame.bodies = {body(0, "imp", Look::ghost, 7, {4, 10}),
@@ -272,7 +274,8 @@ Frame doom() {
 }
 
 Frame coincident(std::uint32_t depth) {
-  Frame frame = base("Three bodies at one place", {{0, 0}, {16, 16}}, {Panel::world, Panel::tree});
+  Frame frame = base("Three bodies at one place", {{0, 0}, {16, 16}},
+                     {panel_named("world"), panel_named("tree")});
   const Vec<2> place{6.3, 9.4};
   frame.bodies = {body(0, "pink", Look::ghost, 2, place, Sphere{1.1}),
                   body(1, "red", Look::ghost, 1, place, Sphere{1.1}),
@@ -290,7 +293,8 @@ Frame coincident(std::uint32_t depth) {
 }
 
 Frame crowd(std::size_t bodies, double size) {
-  Frame frame = base("Many bodies", {{0, 0}, {100, 70}}, {Panel::world, Panel::tree});
+  Frame frame =
+      base("Many bodies", {{0, 0}, {100, 70}}, {panel_named("world"), panel_named("tree")});
   Random random(7);
   for (std::size_t i = 0; i < bodies; ++i) {
     const auto look = static_cast<Look>(i % 6);
@@ -312,7 +316,8 @@ Frame crowd(std::size_t bodies, double size) {
 }
 
 Frame outside() {
-  Frame frame = base("Nothing is dropped", {{0, 0}, {10, 10}}, {Panel::world, Panel::tree});
+  Frame frame =
+      base("Nothing is dropped", {{0, 0}, {10, 10}}, {panel_named("world"), panel_named("tree")});
   frame.bodies = {
       body(0, "inside", Look::ghost, 5, {4, 4}),       body(1, "left", Look::ghost, 1, {-3, 5}),
       body(2, "far", Look::player, 3, {900, 700}),     body(3, "below", Look::ball, 6, {7, -5}),
@@ -345,8 +350,9 @@ Frame long_texts() {
 }
 
 Frame atlas(std::size_t textures, std::size_t packed) {
-  Frame frame = base("A texture atlas on a kD-tree", {{0, 0}, {1, 1}}, {Panel::world, Panel::tree});
-  frame.panels = {Panel::atlas, Panel::tree};
+  Frame frame = base("A texture atlas on a kD-tree", {{0, 0}, {1, 1}},
+                     {panel_named("world"), panel_named("tree")});
+  frame.panels = {panel_named("atlas"), panel_named("tree")};
   FrameNode root;
   root.label = "root";
   root.box = {{0, 0, 0}, {512, 512, 0}};
@@ -402,7 +408,7 @@ Frame fine_atlas(std::size_t textures) {
 
 Frame empty() {
   Frame frame;
-  frame.panels = {Panel::world, Panel::tree, Panel::atlas};
+  frame.panels = {panel_named("world"), panel_named("tree"), panel_named("atlas")};
   return frame;
 }
 
@@ -410,7 +416,7 @@ Frame unstructured() {
   Frame frame = ghosts(4);
   frame.nodes.clear();
   frame.pairs.clear();
-  frame.panels = {Panel::world};
+  frame.panels = {panel_named("world")};
   frame.structure = StructureKind::none;
   frame.counts = {{"bodies", 4}, {"all_pairs", 6}, {"testable_pairs", 6}};
   return frame;

@@ -35,7 +35,7 @@ FrameChart growth(bool logarithmic, int points) {
 }
 
 Frame chart_of(std::string title, FrameChart chart) {
-  Frame frame = alone(Panel::chart, std::move(title));
+  Frame frame = alone(panel_named("chart"), std::move(title));
   frame.add<FrameChart>() = std::move(chart);
   frame.caption = "The work of testing every pair grows with the square of the bodies.";
   return frame;
@@ -105,11 +105,11 @@ void store_in_array(Frame& frame, std::uint32_t spare, std::uint32_t behind) {
   }
   frame.add<FrameStructure>().array_size = at + behind;
   frame.counts.emplace_back("allocations", 1);
-  frame.panels = {Panel::world, Panel::tree, Panel::memory};
+  frame.panels = {panel_named("world"), panel_named("tree"), panel_named("memory")};
 }
 
 Frame memory_only(std::uint32_t slots) {
-  Frame frame = alone(Panel::memory, "An array");
+  Frame frame = alone(panel_named("memory"), "An array");
   frame.add<FrameStructure>().array_size = slots;
   return frame;
 }
@@ -148,12 +148,13 @@ Named charts() {
   frames.emplace_back("chart_hundred", chart_of("A hundred bars", hundred));
   Frame beside = crowd(60, 1.4);
   beside.add<FrameChart>() = growth(true, 9);
-  beside.panels = {Panel::world, Panel::chart};
+  beside.panels = {panel_named("world"), panel_named("chart")};
   frames.emplace_back("chart_beside", beside);
-  beside.panels = {Panel::world, Panel::tree, Panel::chart};
+  beside.panels = {panel_named("world"), panel_named("tree"), panel_named("chart")};
   frames.emplace_back("chart_under", beside);
   store_in_array(beside, 1, 8);
-  beside.panels = {Panel::world, Panel::tree, Panel::chart, Panel::memory};
+  beside.panels = {panel_named("world"), panel_named("tree"), panel_named("chart"),
+                   panel_named("memory")};
   frames.emplace_back("chart_all", beside);
   return frames;
 }
@@ -163,9 +164,9 @@ Named memories() {
   Frame few = ghosts(4);
   store_in_array(few, 2, 6);
   frames.emplace_back("memory_ghosts", few);
-  few.panels = {Panel::world, Panel::memory};
+  few.panels = {panel_named("world"), panel_named("memory")};
   frames.emplace_back("memory_beside", few);
-  few.panels = {Panel::memory};
+  few.panels = {panel_named("memory")};
   frames.emplace_back("memory_alone", few);
   Frame more = crowd(60, 1.4);
   store_in_array(more, 1, 12);
@@ -174,7 +175,7 @@ Named memories() {
   store_in_array(many, 1, 0);
   many.add<FrameStructure>().array_size = 10000;
   frames.emplace_back("memory_many", many);
-  many.panels = {Panel::memory};
+  many.panels = {panel_named("memory")};
   frames.emplace_back("memory_manyalone", many);
   for (const std::uint32_t slots : {0u, 1u, 24u, 10000u, 4000000000u})
     frames.emplace_back(fmt::format("memory{}", slots), memory_only(slots));

@@ -32,7 +32,7 @@ Named sides() {
   late.sides[1].add<FrameSide>().held = true;
   late.sides[0].time = 1.25;
   Frame over_time = sided({ghosts(4), ghosts(3)});
-  over_time.panels.push_back(Panel::chart);
+  over_time.panels.push_back(panel_named("chart"));
   over_time.add<FrameChart>().x_name = "time";
   over_time.add<FrameChart>().y_name = "pairs";
   over_time.add<FrameChart>().over_time = true;

@@ -10,7 +10,8 @@ namespace {
 
 // All pairs, in turn ruled out, candidates, apart and touching; the last two bodies are static.
 Frame ledger(std::uint32_t bodies, bool contacts) {
-  Frame frame = base("The pair ledger", {{0, 0}, {32, 18}}, {Panel::world, Panel::ledger});
+  Frame frame =
+      base("The pair ledger", {{0, 0}, {32, 18}}, {panel_named("world"), panel_named("ledger")});
   for (BodyId id = 0; id < bodies; ++id) {
     const std::string name = id % 3 == 0 ? fmt::format("body {}", id) : fmt::format("b{}", id);
     frame.bodies.push_back(body(id, name, id % 2 == 0 ? Look::ball : Look::ghost,
@@ -61,7 +62,7 @@ Frame collisions(std::uint64_t steps) {
       if (left >= -1) row.moments.push_back({step, left, left == 4, left == 4 && every > 5});
     }
   }
-  frame.panels = {Panel::world, Panel::collisions};
+  frame.panels = {panel_named("world"), panel_named("collisions")};
   return frame;
 }
 
@@ -71,7 +72,7 @@ std::pair<std::string, Frame> code(const std::string& function, std::size_t lit)
   scenario::FrameCode& code = frame.add<FrameCode>() = *scenario::code_of(function);
   for (std::size_t i = 0; i < code.lines.size(); ++i)
     code.lines[i].lit = i == lit || lit > code.lines.size();
-  frame.panels = {Panel::world, Panel::tree, Panel::code};
+  frame.panels = {panel_named("world"), panel_named("tree"), panel_named("code")};
   return {fmt::format("code_{}{}", function, lit), frame};
 }
 
@@ -85,7 +86,8 @@ void count_bytes(Frame& frame) {
 
 Named islands() {
   Named frames;
-  Frame two = base("Two islands", {{0, 0}, {16, 9}}, {Panel::world, Panel::islands});
+  Frame two =
+      base("Two islands", {{0, 0}, {16, 9}}, {panel_named("world"), panel_named("islands")});
   const auto add = [](Frame& frame, BodyId id, const Vec<2>& at) {
     frame.bodies.push_back(
         body(id, fmt::format("b{}", id), Look::box, static_cast<int>(id % 8) + 1, at));
@@ -100,14 +102,15 @@ Named islands() {
   contact.pair = {0, 1};
   contact.points = {{{3, 1, 0}, 0, 0}, {{3.4, 1, 0}, 0, 0}};
   frames.emplace_back("islands2", two);
-  two.panels = {Panel::islands};
+  two.panels = {panel_named("islands")};
   frames.emplace_back("islands_alone", two);
   two.dimension = 3;
   two.bounds.hi.z = 9;
   frames.emplace_back("islands_solid", two);
-  Frame none = base("No island", {{0, 0}, {16, 9}}, {Panel::islands});
+  Frame none = base("No island", {{0, 0}, {16, 9}}, {panel_named("islands")});
   frames.emplace_back("islands0", none);
-  Frame many = base("Islands of one", {{0, 0}, {64, 36}}, {Panel::world, Panel::islands});
+  Frame many =
+      base("Islands of one", {{0, 0}, {64, 36}}, {panel_named("world"), panel_named("islands")});
   for (BodyId id = 0; id < 600; ++id) {
     add(many, id, {1.0 + 2 * (id % 31), 1.0 + 1.7 * (id / 31)});
     many.add<FrameIslands>().islands.push_back({id + 1, {id}, id % 3 == 0});
@@ -119,7 +122,7 @@ Named islands() {
 Named screens() {
   Named frames;
   Frame frame = atlas(8, 0);
-  frame.panels = {Panel::screen, Panel::atlas};
+  frame.panels = {panel_named("screen"), panel_named("atlas")};
   for (FrameTexture& t : frame.add<FrameTextures>().textures)
     t.picture = static_cast<scenario::Picture>(t.id % 6);
   FrameScreen& screen = frame.add<FrameScreen>();
@@ -139,10 +142,10 @@ Named screens() {
   screen.elements[4].lit = true;
   screen.bound = screen.elements[4].texture;
   frames.emplace_back("screen_midst", frame);
-  frame.panels = {Panel::screen};
+  frame.panels = {panel_named("screen")};
   frames.emplace_back("screen_alone", frame);
   Frame packed = atlas(8, 8);
-  packed.panels = {Panel::screen, Panel::atlas, Panel::tree};
+  packed.panels = {panel_named("screen"), panel_named("atlas"), panel_named("tree")};
   packed.add<FrameScreen>() = screen;
   packed.add<FrameScreen>().ways.push_back({true, true, {{0, true, false}}, 1});
   packed.add<FrameScreen>().atlas_bound = true;
@@ -160,13 +163,14 @@ Named strips() {
   put_in_pool(all, 14, 6);
   count_bytes(all);
   all.add<FrameTrace>() = {"pairs", {{0, 3}, {0.5, 9}, {1, 6}}, 4.0, std::nullopt};
-  all.panels = {Panel::world, Panel::tree, Panel::pool};
+  all.panels = {panel_named("world"), panel_named("tree"), panel_named("pool")};
   frames.emplace_back("strips_pool", all);
-  all.panels = {Panel::world, Panel::tree, Panel::bytes, Panel::sparkline};
+  all.panels = {panel_named("world"), panel_named("tree"), panel_named("bytes"),
+                panel_named("sparkline")};
   frames.emplace_back("strips_others", all);
-  all.panels = {Panel::pool};
+  all.panels = {panel_named("pool")};
   frames.emplace_back("strips_alone", all);
-  all.panels = {Panel::pool, Panel::bytes, Panel::sparkline};
+  all.panels = {panel_named("pool"), panel_named("bytes"), panel_named("sparkline")};
   frames.emplace_back("strips_only", all);
   all.add<FrameTrace>() = {"pair_tests", {}, std::nullopt, std::nullopt};
   for (int i = 0; i < 5000; ++i)
@@ -175,14 +179,15 @@ Named strips() {
   Frame pieces = ghosts(4);
   pieces.structure = StructureKind::lecture_quadtree;
   pieces.add_count("allocations", 1234);
-  for (const auto& panels : {std::vector{Panel::world, Panel::tree, Panel::memory},
-                             std::vector{Panel::pool}, std::vector{Panel::world, Panel::pool}}) {
+  for (const auto& panels :
+       {std::vector{panel_named("world"), panel_named("tree"), panel_named("memory")},
+        std::vector{panel_named("pool")}, std::vector{panel_named("world"), panel_named("pool")}}) {
     pieces.panels = panels;
     frames.emplace_back(fmt::format("pieces{}", frames.size()), pieces);
   }
   Frame crowded = crowd(300, 0.6);
   crowded.structure = StructureKind::lecture_quadtree;
-  crowded.panels = {Panel::world, Panel::memory, Panel::pool};
+  crowded.panels = {panel_named("world"), panel_named("memory"), panel_named("pool")};
   frames.emplace_back("pieces_many", crowded);
   for (const std::uint64_t steps : {0u, 1u, 30u, 5000u})
     frames.emplace_back(fmt::format("collisions{}", steps), collisions(steps));
@@ -191,7 +196,7 @@ Named strips() {
     for (const std::size_t lit : {0u, 5u, 1000u}) frames.push_back(code(function, lit));
   Frame many = crowd(900, 0.6);
   put_in_pool(many, 4000, 4000);
-  many.panels = {Panel::world, Panel::pool};
+  many.panels = {panel_named("world"), panel_named("pool")};
   frames.emplace_back("strips_many", many);
   for (const std::size_t n : {1u, 7u, 200u}) {
     Frame sweep = crowd(n, 1.4);
@@ -217,13 +222,13 @@ Named ledgers() {
   few.cast = 9;
   for (FrameBody& body : few.bodies) body.place = 2 * body.id;
   frames.emplace_back("ledger_few", few);
-  few.panels = {Panel::ledger};
+  few.panels = {panel_named("ledger")};
   frames.emplace_back("ledger_alone", few);
   Frame long_names = ledger(6, true);
   for (FrameBody& body : long_names.bodies) body.name += " of a very long name indeed";
   frames.emplace_back("ledger_names", long_names);
   Frame beside = ghosts(4);
-  beside.panels = {Panel::world, Panel::tree, Panel::ledger};
+  beside.panels = {panel_named("world"), panel_named("tree"), panel_named("ledger")};
   beside.pairs = {{{0, 1}, true, true}, {{0, 3}, false, false}, {{1, 3}, false, true}};
   beside.add_count("contacts", 0);
   frames.emplace_back("ledger_under", beside);

@@ -22,7 +22,7 @@ FrameBody ground(BodyId id, Vec<2> at, Vec<2> normal) {
 }
 
 Frame shapes() {
-  Frame frame = base("Five shapes", {{0, 0}, {16, 9}}, {Panel::world});
+  Frame frame = base("Five shapes", {{0, 0}, {16, 9}}, {panel_named("world")});
   frame.bodies = {ground(0, {0, 1}, {0, 1}),
                   body(1, "crate", Look::box, 4, {3, 3.2}, OrientedBox<2>{{1.2, 0.7}}, 0.5),
                   body(2, "pill", Look::box, 5, {7, 3}, Capsule{0.6, 0.9}, -0.7),
@@ -44,7 +44,7 @@ Frame shapes() {
 }
 
 Frame slope() {
-  Frame frame = base("On a slope", {{-8, 0}, {8, 9}}, {Panel::world});
+  Frame frame = base("On a slope", {{-8, 0}, {8, 9}}, {panel_named("world")});
   const Vec<2> n{std::sin(0.3), std::cos(0.3)};
   frame.bodies = {ground(0, {0, 3}, n)};
   const double angle = -0.3;
@@ -68,7 +68,7 @@ Frame slope() {
 }
 
 Frame stack(int height) {
-  Frame frame = base("A stack", {{-6, 0}, {6, 9}}, {Panel::world});
+  Frame frame = base("A stack", {{-6, 0}, {6, 9}}, {panel_named("world")});
   frame.bodies = {ground(0, {0, 0}, {0, 1})};
   const double size = 7.0 / height;
   for (int i = 0; i < height; ++i) {
@@ -88,7 +88,7 @@ Frame stack(int height) {
 }
 
 Frame linked() {
-  Frame frame = base("Springs, rods and pins", {{0, 0}, {16, 9}}, {Panel::world});
+  Frame frame = base("Springs, rods and pins", {{0, 0}, {16, 9}}, {panel_named("world")});
   frame.bodies = {wall(0, "beam", {8, 8.4}, {7.5, 0.3})};
   for (BodyId i = 1; i <= 5; ++i)
     frame.bodies.push_back(body(i, fmt::format("weight {}", i), Look::disc, int(i),
@@ -134,7 +134,7 @@ Frame culled(std::size_t bodies) {
 
 Frame level() {
   Frame frame = doom();
-  frame.panels = {Panel::world, Panel::tree};
+  frame.panels = {panel_named("world"), panel_named("tree")};
   frame.add<FrameLevel>().walls = {{{2, 2}, {10, 1}, 0, 0, Mark::quiet},
                                    {{10, 1}, {11.2, 5}, 1, 0, Mark::lit},
                                    {{12.5, 3}, {12.9, 8}, 2, 0, Mark::quiet},

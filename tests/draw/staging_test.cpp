@@ -135,7 +135,7 @@ TEST(Staging, AGroupEndsWhereItsPanelsOrSettingsChange) {
   b.add<FrameStructure>().settings = "capacity 9";
   EXPECT_FALSE(Staging::is_one_group(a, b));
   b = a;
-  b.panels = {Panel::world};
+  b.panels = {panel_named("world")};
   EXPECT_FALSE(Staging::is_one_group(a, b));
 }
 

@@ -27,7 +27,7 @@ std::vector<Box<2>> rects(const DrawList& list, Role fill) {
 
 TEST(Pool, NamesTheOwnerOfEachSlotAndMarksThoseReused) {
   Frame frame = strip("strips_pool");
-  frame.panels = {Panel::pool};
+  frame.panels = {panel_named("pool")};
   const DrawList list = samples::page_of(frame);
   for (const FrameNode& node : frame.nodes)
     EXPECT_TRUE(says(list, node.label)) << "slot " << node.pool_slot;
@@ -39,7 +39,7 @@ TEST(Pool, NamesTheOwnerOfEachSlotAndMarksThoseReused) {
 
 TEST(Bytes, AreDrawnToScale) {
   Frame frame = strip("strips_others");
-  frame.panels = {Panel::bytes};
+  frame.panels = {panel_named("bytes")};
   const DrawList list = samples::page_of(frame);
   const std::vector<Box<2>> own = rects(list, Role::static_body),
                             boxes = rects(list, Role::lit_fill);
@@ -69,7 +69,7 @@ TEST(Sparkline, StandsStillWhileTimeGoesOn) {
 
 TEST(Sparkline, HoldsACountUntilItChanges) {
   Frame frame = strip("strips_alone");
-  frame.panels = {Panel::sparkline};
+  frame.panels = {panel_named("sparkline")};
   frame.add<FrameTrace>() = {"pairs", {{0, 3}, {1, 3}, {2, 0}, {4, 1}}, 4.0, 3.0};
   const DrawList list = samples::page_of(frame);
   int steps = 0;

@@ -75,7 +75,7 @@ Frame solid_frame(const std::string& name, const Box<3>& bounds) {
   frame.dimension = 3;
   frame.scenario = name;
   frame.title = name;
-  frame.panels = {Panel::world};
+  frame.panels = {panel_named("world")};
   frame.bounds = bounds;
   frame.steps = 9;
   frame.step = 3;
@@ -100,7 +100,7 @@ FrameBody solid_body(BodyId id, std::string name, const Shape<3>& shape, const V
 Frame octree_frame() {
   Frame frame = solid_frame("octree", {{0, 0, 0}, {8, 8, 8}});
   frame.title = "A cube is split into eight";
-  frame.panels = {Panel::world, Panel::tree};
+  frame.panels = {panel_named("world"), panel_named("tree")};
   frame.caption = "Node 6 holds 3, its limit is 2: it splits into eight. Blue lies in all of them.";
   frame.bodies = {solid_body(0, "red", Sphere{0.55}, {1.3, 6.8, 6.6}, 1),
                   solid_body(1, "pink", AxisBox<3>{{0.5, 0.5, 0.5}}, {2.9, 5.0, 5.2}, 2),
@@ -193,7 +193,7 @@ Frame culling_frame() {
 Frame columns_frame() {
   Frame frame = solid_frame("columns", {{0, 0, 0}, {12, 4, 12}});
   frame.title = "A quadtree over the floor of a solid world";
-  frame.panels = {Panel::world, Panel::tree};
+  frame.panels = {panel_named("world"), panel_named("tree")};
   frame.caption = "Height is not split: each node is a column.";
   const auto ghost = [&](BodyId id, const char* name, const Vec<3>& at, int color) {
     FrameBody body = solid_body(id, name, Sphere{0.6}, at, color);

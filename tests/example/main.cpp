@@ -1,12 +1,14 @@
 // Lantern with a quadtree of one's own: `my_tree render mine.toml` draws it, `my_tree structure
 // check mine` holds it against brute force on random worlds, `my_tree structure bench` times it.
-// All other commands are Lantern's: every scenario may say kind = "mine".
+// All other commands are Lantern's: every scenario may say kind = "mine", and panels = ["speeds"]
+// (speeds.hpp).
 //
 // As a project of its own, with Lantern installed:
 //   cmake -B build && cmake --build build && build/my_tree structure check mine
 #include <lantern/app/program.hpp>
 
 #include "quad_tree.hpp"
+#include "speeds.hpp"
 #include "wrong_tree.hpp"
 
 namespace spatial = lantern::spatial;
@@ -41,5 +43,6 @@ int main(int argc, char** argv) {
   return lantern::app::run_program(
       argc, argv,
       {spatial::own<Adaptor<QuadTree>>("mine", "my quadtree"),
-       spatial::own<Adaptor<WrongTree>>("wrong", "my quadtree, with a mistake")});
+       spatial::own<Adaptor<WrongTree>>("wrong", "my quadtree, with a mistake")},
+      {speeds_panel()});
 }

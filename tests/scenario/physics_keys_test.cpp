@@ -420,7 +420,7 @@ TEST(Level, IsRead) {
   EXPECT_TRUE(std::holds_alternative<CompileLevel>(s.steps[0].verb));
   EXPECT_EQ(std::get<Locate>(s.steps[1].verb).point, Vec<2>(1, 2));
   EXPECT_EQ(std::get<OrderFrom>(s.steps[2].verb).eye, Vec<2>(3, 4));
-  EXPECT_EQ(s.panels, (std::vector<Panel>{Panel::world, Panel::tree}));
+  EXPECT_EQ(s.panels, (std::vector<Panel>{panel_named("world"), panel_named("tree")}));
 }
 
 TEST(Level, IsOfAFlatWorldAndCompiledFirst) {
@@ -451,7 +451,7 @@ TEST(Chart, IsOfCountsThatTheStepsCount) {
   EXPECT_TRUE(s.chart->logarithmic);
   EXPECT_EQ(s.steps[0].plot, "one");
   EXPECT_FALSE(s.steps[1].plot);
-  EXPECT_EQ(s.panels, (std::vector<Panel>{Panel::world, Panel::chart}));
+  EXPECT_EQ(s.panels, (std::vector<Panel>{panel_named("world"), panel_named("chart")}));
   const Scenario bars = good(scene + "[chart]\nbars = \"pairs\"\n" + kShow + "plot = \"one\"\n");
   EXPECT_TRUE(bars.chart->x.empty());
   EXPECT_EQ(bars.chart->y, std::vector<std::string>{"pairs"});

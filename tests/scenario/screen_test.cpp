@@ -61,7 +61,8 @@ TEST(Screen, EachWayCountsItsOwnBindings) {
   EXPECT_TRUE(last.ways[2].from_atlas);
   EXPECT_EQ(last.bound, kNone);
   EXPECT_FALSE(last.atlas_bound) << "nothing is lit when it is done";
-  EXPECT_EQ(frames[0].panels, (std::vector<Panel>{Panel::screen, Panel::atlas, Panel::tree}));
+  EXPECT_EQ(frames[0].panels,
+            (std::vector<Panel>{panel_named("screen"), panel_named("atlas"), panel_named("tree")}));
 }
 
 TEST(Screen, EventsTellEachBindingAndEachDraw) {

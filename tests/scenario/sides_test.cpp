@@ -295,7 +295,8 @@ TEST(Sides, OverrideWhatTheFileDoesNotHave) {
       kSideBodies + kSideScript);
   EXPECT_EQ(s.sides[0]->structure.kind, StructureKind::none);
   EXPECT_EQ(s.sides[1]->structure.kind, StructureKind::quadtree);
-  EXPECT_EQ(s.panels, (std::vector{Panel::world, Panel::tree})) << "one page for all";
+  EXPECT_EQ(s.panels, (std::vector{panel_named("world"), panel_named("tree")}))
+      << "one page for all";
   EXPECT_EQ(s.sides[0]->panels, s.panels);
 }
 

@@ -50,23 +50,23 @@ struct DryRun {
   static bool shows(Panel panel, const Frame& frame) {
     if (std::ranges::any_of(frame.sides, [&](const Frame& side) { return shows(panel, side); }))
       return true;
-    if (panel == Panel::world)
+    if (panel == panel_named("world"))
       return !frame.bodies.empty() || !frame.get<FrameLevel>().walls.empty();
-    if (panel == Panel::tree) return !frame.nodes.empty();
-    if (panel == Panel::atlas) return frame.count("textures").value_or(0) > 0;
-    if (panel == Panel::memory) return frame.get<FrameStructure>().array_size > 0;
-    if (panel == Panel::ledger) return frame.bodies.size() > 1;
-    if (panel == Panel::pool) return frame.get<FrameStructure>().pool_size > 0;
-    if (panel == Panel::bytes) return frame.count("node_bytes").has_value();
-    if (panel == Panel::sparkline) return !frame.get<FrameTrace>().points.empty();
-    if (panel == Panel::difference) return frame.find<FrameDifference>() != nullptr;
-    if (panel == Panel::axes) return frame.find<FrameSeparation>() != nullptr;
-    if (panel == Panel::islands) return !frame.get<FrameIslands>().islands.empty();
-    if (panel == Panel::code) return frame.find<FrameCode>() != nullptr;
-    if (panel == Panel::collisions)
+    if (panel == panel_named("tree")) return !frame.nodes.empty();
+    if (panel == panel_named("atlas")) return frame.count("textures").value_or(0) > 0;
+    if (panel == panel_named("memory")) return frame.get<FrameStructure>().array_size > 0;
+    if (panel == panel_named("ledger")) return frame.bodies.size() > 1;
+    if (panel == panel_named("pool")) return frame.get<FrameStructure>().pool_size > 0;
+    if (panel == panel_named("bytes")) return frame.count("node_bytes").has_value();
+    if (panel == panel_named("sparkline")) return !frame.get<FrameTrace>().points.empty();
+    if (panel == panel_named("difference")) return frame.find<FrameDifference>() != nullptr;
+    if (panel == panel_named("axes")) return frame.find<FrameSeparation>() != nullptr;
+    if (panel == panel_named("islands")) return !frame.get<FrameIslands>().islands.empty();
+    if (panel == panel_named("code")) return frame.find<FrameCode>() != nullptr;
+    if (panel == panel_named("collisions"))
       return frame.find<FrameCollisions>() && !frame.find<FrameCollisions>()->rows.empty();
-    if (panel == Panel::matrix) return !frame.get<FrameMatrix>().rows.empty();
-    if (panel == Panel::screen) return !frame.get<FrameScreen>().ways.empty();
+    if (panel == panel_named("matrix")) return !frame.get<FrameMatrix>().rows.empty();
+    if (panel == panel_named("screen")) return !frame.get<FrameScreen>().ways.empty();
     return !frame.get<FrameChart>().bars.empty() ||
            std::any_of(frame.get<FrameChart>().series.begin(), frame.get<FrameChart>().series.end(),
                        [](const FrameSeries& series) { return !series.points.empty(); });
@@ -213,14 +213,14 @@ void expect_rest(const DryRun& run) {
   EXPECT_EQ(run.count("expectations", "checks"), run.report.expectations);
   EXPECT_EQ(run.uses("chart"), s.chart.has_value());
   const std::pair<Panel, const char*> panels[] = {
-      {Panel::world, "world panel"},   {Panel::tree, "tree panel"},
-      {Panel::atlas, "atlas panel"},   {Panel::chart, "chart panel"},
-      {Panel::memory, "memory panel"}, {Panel::ledger, "ledger panel"},
-      {Panel::pool, "pool panel"},     {Panel::bytes, "bytes panel"},
-      {Panel::sparkline, "sparkline"}, {Panel::difference, "difference panel"},
-      {Panel::axes, "axes panel"},     {Panel::islands, "islands panel"},
-      {Panel::code, "code panel"},     {Panel::collisions, "collisions"},
-      {Panel::matrix, "matrix panel"}, {Panel::screen, "screen panel"}};
+      {panel_named("world"), "world panel"},   {panel_named("tree"), "tree panel"},
+      {panel_named("atlas"), "atlas panel"},   {panel_named("chart"), "chart panel"},
+      {panel_named("memory"), "memory panel"}, {panel_named("ledger"), "ledger panel"},
+      {panel_named("pool"), "pool panel"},     {panel_named("bytes"), "bytes panel"},
+      {panel_named("sparkline"), "sparkline"}, {panel_named("difference"), "difference panel"},
+      {panel_named("axes"), "axes panel"},     {panel_named("islands"), "islands panel"},
+      {panel_named("code"), "code panel"},     {panel_named("collisions"), "collisions"},
+      {panel_named("matrix"), "matrix panel"}, {panel_named("screen"), "screen panel"}};
   for (const auto& [panel, name] : panels) {
     const bool wanted = std::find(s.panels.begin(), s.panels.end(), panel) != s.panels.end();
     EXPECT_EQ(run.uses(name), wanted) << name << ": each panel that there is shows something";
@@ -324,16 +324,16 @@ TEST(Panels, AreDerivedUnlessGiven) {
   using Panels = std::vector<Panel>;
   const auto of = [](const std::string& text) { return good(text).panels; };
   const std::string ghosts = read_text(LANTERN_ROOT "/scenarios/ghost_quadtree.toml");
-  EXPECT_EQ(of(ghosts), (Panels{Panel::world, Panel::tree}));
+  EXPECT_EQ(of(ghosts), (Panels{panel_named("world"), panel_named("tree")}));
   EXPECT_EQ(of(read_text(LANTERN_ROOT "/scenarios/kdtree_atlas.toml")),
-            (Panels{Panel::atlas, Panel::tree}));
-  EXPECT_EQ(of(std::string(level_example())), (Panels{Panel::world, Panel::tree}));
+            (Panels{panel_named("atlas"), panel_named("tree")}));
+  EXPECT_EQ(of(std::string(level_example())), (Panels{panel_named("world"), panel_named("tree")}));
   const DryRun given(good("panels = [\"tree\"]\n" + ghosts));
-  EXPECT_EQ(given.scenario.panels, (Panels{Panel::tree}));
+  EXPECT_EQ(given.scenario.panels, (Panels{panel_named("tree")}));
   EXPECT_FALSE(given.uses("world panel"));
   EXPECT_EQ(given.stage("world panel").note, "none of the scenario's panels");
   EXPECT_EQ(of(moving("[0, 0]", "[structure]\nkind = \"brute_force\"\n[[step]]\ndo = \"show\"\n")),
-            (Panels{Panel::world}))
+            (Panels{panel_named("world")}))
       << "brute force has no tree";
 }
 

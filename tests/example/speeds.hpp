@@ -1,0 +1,66 @@
+// A panel of one's own, in one file: a bar for each body, as long as the body is fast. Its part of
+// the frame, how it is gathered, what is told of it beside the picture, and how it is drawn.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lantern/draw/panel.hpp>
+#include <lantern/scenario/part_fields.hpp>
+
+struct Speeds {
+  static constexpr std::string_view kName = "speeds";
+  struct Speed {
+    std::string name;
+    double speed = 0;  // units a second
+    int color = 1;
+
+    static decltype(auto) fields(const auto& r, auto&& v) {
+      return v("name", r.name)("speed", r.speed).drawn(r.color);
+    }
+  };
+  std::vector<Speed> speeds;
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("speeds", r.speeds); }
+};
+template const lantern::scenario::PartType& lantern::scenario::part_type<Speeds>();
+
+inline void gather_speeds(const lantern::scenario::Stage&, lantern::scenario::Frame& frame) {
+  for (const auto& body : frame.bodies)
+    if (!body.is_static)
+      frame.add<Speeds>().speeds.push_back({body.name, glm::length(body.velocity), body.color});
+}
+
+inline void draw_speeds(const lantern::scenario::Frame& frame, const lantern::draw::Staging&,
+                        const lantern::geometry::Box<2>& box, lantern::draw::DrawList& list,
+                        lantern::draw::Labels& labels) {
+  using namespace lantern::draw;
+  constexpr double kRow = 40, kNames = 160;
+  const auto& speeds = frame.get<Speeds>().speeds;
+  double most = 1;
+  for (const auto& body : speeds) most = std::max(most, body.speed);
+  const TextStyle style{kLabel, Weight::regular, Role::ink};
+  lantern::geometry::Vec<2> at = box.lo;
+  for (const auto& body : speeds) {
+    if (at.y + kRow > box.hi.y) return;
+    labels.add(shortened(body.name, kNames, style), {{at.x, at.y + kRow - 12}, 0}, style, box);
+    const double room = std::max(0.0, box.hi.x - at.x - kNames);
+    list.rect(
+        {{at.x + kNames, at.y + 6}, {at.x + kNames + room * body.speed / most, at.y + kRow - 6}},
+        Role::lit);
+    at.y += kRow;
+  }
+}
+
+inline lantern::draw::OwnPanel speeds_panel() {
+  return {{.name = "speeds",
+           .stage = "speeds panel",
+           .shows = {{"speeds",
+                      [](const lantern::scenario::Frame& frame) {
+                        return !frame.get<Speeds>().speeds.empty();
+                      }}},
+           .gather = gather_speeds},
+          {.name = "speeds", .draw = draw_speeds}};
+}
