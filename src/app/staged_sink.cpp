@@ -21,13 +21,12 @@ void StagedSink::finish(const DirectorReport& report) {
 void StagedSink::flush() {
   draw::AxisRanges axes;
   for (const Frame& frame : waiting_) axes.see(frame);
-  for (Frame& frame : waiting_) axes.settle(frame);
   std::size_t first = 0;
   for (std::size_t next = 1; next <= waiting_.size(); ++next) {
     if (next < waiting_.size() && Staging::is_one_group(waiting_[next - 1], waiting_[next]))
       continue;
     const std::span<const Frame> group = std::span(waiting_).subspan(first, next - first);
-    const Staging staging{group};
+    const Staging staging(group, axes);
     for (const Frame& frame : group) {
       stop_if_asked();
       draw(frame, staging);

@@ -20,19 +20,10 @@ void AxisRanges::see(const scenario::Frame& frame) {
   for (const scenario::Frame& side : frame.sides) see(side);
 }
 
-void AxisRanges::settle(scenario::Frame& frame) const {
-  if (auto* chart = frame.find<FrameChart>()) {
-    if (!chart_.empty()) chart->range = std::pair(chart_.least, chart_.most);
-    if (!chart_x_.empty() && !chart->over_time)
-      chart->x_range = std::pair(chart_x_.least, chart_x_.most);
-  }
-  if (auto* trace = frame.find<FrameTrace>()) {
-    if (trace_ > 0) trace->most = trace_;
-    const auto seconds = seconds_.find(frame.part);
-    if (!trace->seconds && seconds != seconds_.end() && seconds->second > 0)
-      trace->seconds = seconds->second;
-  }
-  for (scenario::Frame& side : frame.sides) settle(side);
+std::optional<double> AxisRanges::seconds_of(const std::string& part) const {
+  const auto found = seconds_.find(part);
+  return found == seconds_.end() || found->second <= 0 ? std::nullopt
+                                                       : std::optional(found->second);
 }
 
 }  // namespace lantern::draw

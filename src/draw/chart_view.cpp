@@ -46,8 +46,10 @@ std::string title_of(const FrameChart& chart) {
 
 class Bars {
  public:
-  Bars(const FrameChart& chart, const Box<2>& panel, double size, DrawList& list, Labels& labels)
+  Bars(const FrameChart& chart, const AxisRanges::Ends& range, const Box<2>& panel, double size,
+       DrawList& list, Labels& labels)
       : chart_(chart),
+        range_(range),
         paper_(panel, size, list, labels),
         list_(list),
         labels_(labels),
@@ -133,10 +135,10 @@ class Bars {
       names = std::max(names, text_width(bar.label, type_.name));
       values = std::max(values, text_width(value_text(bar.value), type_.title));
     }
-    if (chart_.range) {
-      least = std::min(least, chart_.range->first);
-      most = std::max(most, chart_.range->second);
-      if (chart_.range->first > 0) above_zero = std::min(above_zero, chart_.range->first);
+    if (range_) {
+      least = std::min(least, range_->first);
+      most = std::max(most, range_->second);
+      if (range_->first > 0) above_zero = std::min(above_zero, range_->first);
       values = std::max(values, text_width(value_text(most), type_.title));
     }
     names += 1;  // sums of widths lose a hair
@@ -190,6 +192,7 @@ class Bars {
   }
 
   const FrameChart& chart_;
+  AxisRanges::Ends range_;  // of all charts of the sequence
   PlotPaper paper_;
   const PlotType& type_ = paper_.type;
   const Box<2>& panel_ = paper_.place.panel;
@@ -203,7 +206,7 @@ class Bars {
   Axis axis_;
 };
 
-Plot plot_of(const FrameChart& chart) {
+Plot plot_of(const FrameChart& chart, const AxisRanges& axes) {
   Plot plot;
   plot.slide = true;
   plot.names = PlotNames::column;
@@ -211,8 +214,8 @@ Plot plot_of(const FrameChart& chart) {
   plot.seconds = chart.seconds;
   plot.least = chart.least;
   plot.most = chart.most;
-  plot.range = chart.range;
-  plot.x_range = chart.x_range;
+  plot.range = axes.chart();
+  if (!chart.over_time) plot.x_range = axes.chart_x();
   plot.log_y = chart.logarithmic;
   plot.log_x = chart.logarithmic && !chart.over_time;
   plot.x_name = chart.over_time ? "time, s" : chart_words(chart.x_name);
@@ -236,7 +239,7 @@ Plot plot_of(const FrameChart& chart) {
   return plot;
 }
 
-void draw_chart(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                 Labels& labels) {
   const FrameChart& chart = frame.get<FrameChart>();
   for (const std::string& name : {chart.x_name, chart.y_name}) list.referents.insert(name);
@@ -247,8 +250,8 @@ void draw_chart(const Frame& frame, const Staging&, const Box<2>& panel, DrawLis
   // A chart of bars has no axes before its first bar.
   const bool of_bars = !chart.bars.empty() ||
                        (chart.x_name.empty() && !chart.y_name.empty() && chart.series.empty());
-  if (of_bars) return Bars(chart, place, kChartType, list, labels).draw();
-  Plot plot = plot_of(chart);
+  if (of_bars) return Bars(chart, staging.axes().chart(), place, kChartType, list, labels).draw();
+  Plot plot = plot_of(chart, staging.axes());
   plot.size = kChartType;
   draw_plot(plot, place, list, labels);
 }

@@ -47,7 +47,7 @@ std::vector<Vec<2>> outline_of(const std::vector<Vec<2>>& points) {
   return some;
 }
 
-void draw_sparkline(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                     Labels& labels) {
   const FrameTrace& trace = frame.get<FrameTrace>();
   const Box<2> place = shrunk(panel, 3);
@@ -55,8 +55,11 @@ void draw_sparkline(const Frame& frame, const Staging&, const Box<2>& panel, Dra
   double highest = 0;
   for (const Vec<2>& p : trace.points) highest = std::max(highest, p.y);
   const Vec<2> now = trace.points.back();
-  const double most = trace.most ? std::max(*trace.most, highest) : power_of_two_over(highest);
-  const double seconds = std::max(trace.seconds.value_or(power_of_two_over(now.x)), now.x);
+  const AxisRanges& axes = staging.axes();
+  const double most =
+      axes.trace() > 0 ? std::max(axes.trace(), highest) : power_of_two_over(highest);
+  const auto whole = trace.seconds ? trace.seconds : axes.seconds_of(frame.part);
+  const double seconds = std::max(whole.value_or(power_of_two_over(now.x)), now.x);
 
   const std::string one = count_words(trace.name, true), many = count_words(trace.name, false);
   const auto digits = static_cast<std::int64_t>(number_text(most).size());

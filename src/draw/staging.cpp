@@ -88,7 +88,8 @@ std::vector<const Frame*> Staging::each_of(std::span<const Frame> frames) {
   return each;
 }
 
-Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) {
+Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
+    : frames_(std::move(frames)), axes_(axes) {
   std::map<std::string, std::vector<const Frame*>> sides;
   for (const Frame* each : frames_) {
     const Frame& frame = *each;
@@ -109,7 +110,7 @@ Staging::Staging(std::vector<const Frame*> frames) : frames_(std::move(frames)) 
   }
   for (UnionTree& tree : trees_) put_in_order(tree);
   std::ranges::stable_sort(trees_, {}, &UnionTree::of_static);
-  for (const auto& [structure, own] : sides) sides_.emplace(structure, Staging(own));
+  for (const auto& [structure, own] : sides) sides_.emplace(structure, Staging(own, axes));
 }
 
 bool Staging::is_one_group(const Frame& before, const Frame& next) {

@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "draw/axis_ranges.hpp"
 #include "draw/keys.hpp"
 #include "geometry/box.hpp"
 #include "scenario/frame.hpp"
@@ -44,9 +45,10 @@ struct UnionTree {
 
 class Staging {
  public:
-  // A group of frames, in order. They must outlive this.
-  explicit Staging(std::span<const Frame> frames) : Staging(each_of(frames)) {}
-  explicit Staging(const Frame& frame) : Staging(std::vector{&frame}) {}
+  // A group of frames, in order. They must outlive this. `axes` are of all frames that share them.
+  explicit Staging(std::span<const Frame> frames, const AxisRanges& axes = {})
+      : Staging(each_of(frames), axes) {}
+  explicit Staging(const Frame& frame) : Staging(std::vector{&frame}, {}) {}
 
   // Belongs `next` to the group of `before`? It does while panels, structure and world stay; a new
   // part begins a group if its settings are others.
@@ -69,6 +71,8 @@ class Staging {
   bool tells_settings(const Frame& frame) const { return settings_told_.contains(frame.index); }
   const std::vector<std::string>& settings() const { return settings_; }  // each once, in order
 
+  const AxisRanges& axes() const { return axes_; }
+
   // The largest that this count gets; 0 if no frame has it.
   std::int64_t most(const std::string& count) const;
 
@@ -84,13 +88,14 @@ class Staging {
   }
 
  private:
-  explicit Staging(std::vector<const Frame*> frames);
+  Staging(std::vector<const Frame*> frames, const AxisRanges& axes);
   static std::vector<const Frame*> each_of(std::span<const Frame> frames);
   void add_nodes(const Frame& frame);
 
   using Place = std::tuple<std::string, double, double, double, double>;
 
   std::vector<const Frame*> frames_;
+  AxisRanges axes_;
   std::map<std::string, std::string, std::less<>> structure_of_;  // by side
   std::map<std::string, Staging, std::less<>> sides_;             // by structure
   std::vector<UnionTree> trees_;

@@ -556,18 +556,14 @@ struct FrameChart {
   std::optional<double> seconds;  // over time: how far the x axis goes; none: as far as the lines
   std::optional<double> least;    // of the y axis; lines leave the picture beyond it
   std::optional<double> most;
-  // Of y over all frames of the sequence or part, once somebody knows them: the axis holds them
-  // from the first frame on.
-  std::optional<std::pair<double, double>> range;
-  std::optional<std::pair<double, double>> x_range;  // the same along x, but over time
-  std::string x_unit;                                // "J"; empty for what is counted
+  std::string x_unit;  // "J"; empty for what is counted
   std::string y_unit;
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;
 
   static decltype(auto) fields(const auto& r, auto&& v) {
     return v.drawn(r.x_name, r.y_name, r.logarithmic, r.over_time, r.seconds, r.least, r.most,
-                   r.range, r.x_range, r.x_unit, r.y_unit, r.series, r.bars);
+                   r.x_unit, r.y_unit, r.series, r.bars);
   }
 };
 
@@ -577,10 +573,9 @@ struct FrameTrace {
   std::string name;               // of the count
   std::vector<Vec<2>> points;     // seconds since the part began, and the count
   std::optional<double> seconds;  // of the part; none: the script does not say
-  std::optional<double> most;     // of the whole part, once somebody knows it
 
   static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.drawn(r.name, r.points, r.seconds, r.most);
+    return v.drawn(r.name, r.points, r.seconds);
   }
 };
 

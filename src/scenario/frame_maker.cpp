@@ -63,7 +63,7 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       looks_(scenario) {
   if (scenario.chart) plotter_.emplace(scenario);
   if (shows(scenario.panels, "sparkline")) {
-    trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_), std::nullopt};
+    trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_)};
   }
   if (shows(scenario.panels, "code"))
     for (const Step& step : scenario.steps)

@@ -5,7 +5,6 @@
 
 #include "base/random.hpp"
 #include "draw/axis.hpp"
-#include "draw/axis_ranges.hpp"
 #include "draw/layout_check.hpp"
 #include "draw/number_text.hpp"
 #include "draw/page.hpp"
@@ -239,11 +238,12 @@ TEST(Chart, AxesOfASequenceStandStill) {
   last.add<FrameTrace>().points = {{0, 3}, {4, 900}};
   AxisRanges ranges;
   for (const Frame& frame : {first, last}) ranges.see(frame);
-  for (Frame* frame : {&first, &last}) ranges.settle(*frame);
-  EXPECT_EQ(ticks_of(page_of(first), 150), ticks_of(page_of(last), 150));
-  EXPECT_EQ(first.get<FrameTrace>().most, 900);
-  EXPECT_EQ(first.get<FrameTrace>().seconds, last.get<FrameTrace>().points.back().x)
-      << "where the script does not say";
+  const auto ticks = [&](const Frame& frame) {
+    return ticks_of(samples::page_of(frame, ranges), 150);
+  };
+  EXPECT_EQ(ticks(first), ticks(last));
+  EXPECT_EQ(ranges.trace(), 900);
+  EXPECT_EQ(ranges.seconds_of(first.part), 4);
 }
 
 TEST(Chart, NamesStandAtTheirLinesEnds) {

@@ -195,9 +195,9 @@ Frame base(std::string title, const Box<2>& bounds, std::vector<Panel> panels) {
   return frame;
 }
 
-DrawList page_of(const Frame& frame) {
+DrawList page_of(const Frame& frame, const AxisRanges& axes) {
   Work work;
-  return draw_frame(frame, page_for(1600, 900), work);
+  return draw_frame(frame, Staging(std::span(&frame, 1), axes), page_for(1600, 900), work);
 }
 
 Frame ghosts(std::size_t objects) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "draw/axis_ranges.hpp"
 #include "draw/draw_list.hpp"
 #include "scenario/frame.hpp"
 
@@ -44,7 +45,7 @@ Frame base(std::string title, const Box<2>& bounds, std::vector<Panel> panels);
 // These under one title, called a, b, c, d.
 Frame sided(std::vector<Frame> sides);
 
-// The whole page of 1600 x 900 pixels.
-DrawList page_of(const Frame& frame);
+// The whole page of 1600 x 900 pixels, in a sequence of these axes.
+DrawList page_of(const Frame& frame, const AxisRanges& axes = {});
 
 }  // namespace lantern::draw::samples

@@ -162,7 +162,7 @@ Named strips() {
   Frame all = ghosts(4);
   put_in_pool(all, 14, 6);
   count_bytes(all);
-  all.add<FrameTrace>() = {"pairs", {{0, 3}, {0.5, 9}, {1, 6}}, 4.0, std::nullopt};
+  all.add<FrameTrace>() = {"pairs", {{0, 3}, {0.5, 9}, {1, 6}}, 4.0};
   all.panels = {panel_named("world"), panel_named("tree"), panel_named("pool")};
   frames.emplace_back("strips_pool", all);
   all.panels = {panel_named("world"), panel_named("tree"), panel_named("bytes"),
@@ -172,7 +172,7 @@ Named strips() {
   frames.emplace_back("strips_alone", all);
   all.panels = {panel_named("pool"), panel_named("bytes"), panel_named("sparkline")};
   frames.emplace_back("strips_only", all);
-  all.add<FrameTrace>() = {"pair_tests", {}, std::nullopt, std::nullopt};
+  all.add<FrameTrace>() = {"pair_tests", {}, std::nullopt};
   for (int i = 0; i < 5000; ++i)
     all.add<FrameTrace>().points.push_back({0.1 * i, 1.0 * (i * 7919 % 10000)});
   frames.emplace_back("strips_long", all);

@@ -154,11 +154,9 @@ TEST(Staging, KnowsWhatAnyFrameHas) {
   EXPECT_FALSE(staging.tells_settings(frames[1]));
   AxisRanges axes;
   for (const Frame& frame : frames) axes.see(frame);
-  axes.settle(frames[0]);
-  ASSERT_TRUE(frames[0].get<FrameChart>().range && frames[0].get<FrameChart>().x_range);
-  EXPECT_EQ(frames[0].get<FrameChart>().x_range->second, 2);
-  EXPECT_EQ(frames[0].get<FrameChart>().range->first, -1);
-  EXPECT_EQ(frames[0].get<FrameChart>().range->second, 5);
+  ASSERT_TRUE(axes.chart() && axes.chart_x());
+  EXPECT_EQ(axes.chart_x()->second, 2);
+  EXPECT_EQ(*axes.chart(), std::pair(-1.0, 5.0));
 }
 
 TEST(Staging, OfManyBodiesOnlyThoseOfTheStoryAreNamed) {

@@ -52,8 +52,9 @@ TEST(Bytes, AreDrawnToScale) {
 TEST(Sparkline, StandsStillWhileTimeGoesOn) {
   Frame early = strip("strips_others"), late = early;
   late.add<FrameTrace>().points.push_back({3, 2});
-  for (Frame* frame : {&early, &late}) frame->add<FrameTrace>().most = 9;
-  const DrawList before = samples::page_of(early), after = samples::page_of(late);
+  AxisRanges axes;
+  axes.see(late);
+  const DrawList before = samples::page_of(early, axes), after = samples::page_of(late, axes);
   const auto line_of = [](const DrawList& list) {
     std::vector<LineShape> lines;
     for (const DrawShape& shape : list.shapes)
@@ -70,7 +71,7 @@ TEST(Sparkline, StandsStillWhileTimeGoesOn) {
 TEST(Sparkline, HoldsACountUntilItChanges) {
   Frame frame = strip("strips_alone");
   frame.panels = {panel_named("sparkline")};
-  frame.add<FrameTrace>() = {"pairs", {{0, 3}, {1, 3}, {2, 0}, {4, 1}}, 4.0, 3.0};
+  frame.add<FrameTrace>() = {"pairs", {{0, 3}, {1, 3}, {2, 0}, {4, 1}}, 4.0};
   const DrawList list = samples::page_of(frame);
   int steps = 0;
   for (const DrawShape& shape : list.shapes)
