@@ -224,9 +224,20 @@ class EngineOf : public Engine {
 
   void forget_events() override { begins_ = ends_ = 0; }
 
+  StepFindings findings() const override {
+    StepFindings found = findings_of(players_, scenario_.world.time_step);
+    found.work = last_;
+    found.begins = begins_;
+    found.ends = ends_;
+    return found;
+  }
+
   void picture(const Touched& touched, Frame& frame) override {
     if (has_structure()) bring_up_to_date();
     picture_world(players_, frame);
+    const StepFindings found = findings();
+    frame.contacts = found.contacts;
+    frame.tested = found.tested;
     if (shows(frame.panels, "islands")) picture_islands(players_, island_numbers_, frame);
     if (trails_ && frame.display.trail > 0)
       trails_->picture(world(), scenario_.world.time_step, frame);
@@ -239,9 +250,12 @@ class EngineOf : public Engine {
     work_.pair_searches += has_structure();
     work_.pairs_found += frame.pairs.size();
     count_builds();
-    count(frame);
+    count(found, frame);
     if (scenario_.has_physics()) measure_world(players_, scenario_, frame);
-    if (scenario_.has_contacts()) measure_impact(world(), scenario_.world.time_step, frame);
+    if (scenario_.has_contacts()) {
+      frame.measures.emplace_back("penetration", found.penetration());
+      frame.measures.emplace_back("time_of_impact", found.time_of_impact);
+    }
     measure_bodies(players_, scenario_, frame);
   }
 
@@ -337,30 +351,16 @@ class EngineOf : public Engine {
     });
   }
 
-  void count(Frame& frame) const {
+  void count(const StepFindings& found, Frame& frame) const {
+    const auto add = [&](const StepFindings::Counts& counts) {
+      for (const auto& [name, n] : counts) frame.add_count(name, n);
+    };
     if (scenario_.has_contacts()) {
-      std::uint64_t points = 0, impulses = 0;
-      for (const FrameContact& c : frame.contacts) {
-        points += c.points.size();
-        impulses += static_cast<std::uint64_t>(std::ranges::count_if(
-            c.points, [](const FrameContact::Point& p) { return p.impulse != 0; }));
-      }
-      frame.add_count("contacts", frame.contacts.size());
-      frame.add_count("contact_points", points);
-      frame.add_count("impulses", impulses);
-      frame.add_count("crushes", static_cast<std::uint64_t>(std::ranges::count_if(
-                                     frame.contacts, &FrameContact::crushes)));
-      frame.add_count("begins", begins_);
-      frame.add_count("ends", ends_);
+      add(found.contact_counts());
       frame.add_count("collisions_alive", players_.world().told().size());
       frame.add_count("begins_in_all", all_begins_);
       frame.add_count("touches_in_all", all_touches_);
-      frame.add_count("pairs_tested", last_.narrow_pairs);
-      frame.add_count("narrow_tests", last_.narrow_tests);
-      frame.add_count("impact_looks", last_.impact_looks);
-      frame.add_count("impacts_located", last_.impacts_located);
-      frame.add_count("constraint_rows", last_.constraint_rows);
-      frame.add_count("friction_rows", last_.friction_rows);
+      add(found.solver_counts());
     }
     if (scenario_.tells_sleepers()) {
       std::uint64_t asleep = 0, awake = 0;
@@ -370,9 +370,7 @@ class EngineOf : public Engine {
       frame.add_count("awake", awake);
     }
     if (shows(frame.panels, "islands")) count_islands(frame);
-    if (!scenario_.has_physics()) return;
-    frame.add_count("force_evaluations", last_.force_evaluations);
-    frame.add_count("rotations", last_.rotations_integrated);
+    if (scenario_.has_physics()) add(found.motion_counts());
   }
 
   const Scenario& scenario_;

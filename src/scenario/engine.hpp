@@ -16,6 +16,7 @@
 #include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
 #include "scenario/frame.hpp"
+#include "scenario/step_findings.hpp"
 #include "spatial/query.hpp"
 
 namespace lantern::scenario {
@@ -108,6 +109,8 @@ class Engine {
   // One world step, and the looks by which it found its first impact; none if it found none.
   virtual std::vector<FrameLook> step_and_tell_looks() = 0;
 
+  // What the last step found; its events as they are counted below.
+  virtual StepFindings findings() const = 0;
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;
   // Bodies, nodes, pairs, contacts, links, counts and measures as they are.

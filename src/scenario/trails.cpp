@@ -110,19 +110,9 @@ std::vector<FrameLook> looks_of(const ImpactLog<D>& log, double h) {
   return looks;
 }
 
-template <int D>
-void measure_impact(const World<D>& world, double h, Frame& frame) {
-  double first = h;
-  for (const ImpactMoment<D>& moment : world.impacts().moments)
-    first = std::min(first, moment.time);
-  frame.measures.emplace_back("time_of_impact", first / h);
-}
-
 template class Trails<2>;
 template class Trails<3>;
 template std::vector<FrameLook> looks_of(const ImpactLog<2>&, double);
 template std::vector<FrameLook> looks_of(const ImpactLog<3>&, double);
-template void measure_impact(const World<2>&, double, Frame&);
-template void measure_impact(const World<3>&, double, Frame&);
 
 }  // namespace lantern::scenario

@@ -31,8 +31,4 @@ class Trails {
 template <int D>
 std::vector<FrameLook> looks_of(const ImpactLog<D>& log, double h);
 
-// The measure `time_of_impact`.
-template <int D>
-void measure_impact(const World<D>& world, double h, Frame& frame);
-
 }  // namespace lantern::scenario

@@ -164,58 +164,22 @@ void Wait::act(ScriptRun& run) const {
 
 namespace {
 
-constexpr std::string_view kOfTheStep[] = {
-    "contacts",     "contact_points", "impulses",        "begins",         "ends",
-    "pairs_tested", "narrow_tests",   "constraint_rows", "friction_rows",  "force_evaluations",
-    "rotations",    "crushes",        "impact_looks",    "impacts_located"};
-
-// What the step before found is no longer so, and what this one will find is not there yet.
-void forget_findings(Frame& frame) {
-  frame.contacts.clear();
-  frame.tested.clear();
-  for (auto& [name, number] : frame.counts)
-    if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep)) number = 0;
-  for (auto& [name, number] : frame.measures)
-    if (name == "penetration" || name == "time_of_impact") number = name == "penetration" ? 0 : 1;
-}
-
-// Bodies and structure as they were before the step, contacts as it found them.
-Frame met(const Frame& before, const Frame& after) {
-  Frame frame = before;
-  frame.contacts = after.contacts;
-  frame.tested = after.tested;
-  for (auto& [name, number] : frame.counts)
-    if (std::ranges::find(kOfTheStep, name) != std::end(kOfTheStep))
-      number = after.count(name).value_or(number);
-  for (auto& [name, number] : frame.measures)
-    if (name == "penetration" || name == "time_of_impact")
-      number = after.measure(name).value_or(number);
-  return frame;
-}
-
 bool is_look(std::string_view event) { return event == "approach" || event == "impact"; }
 
 // Bodies as they were before the step, and the looks so far; nobody knows yet who will touch.
-void show_looks(const std::vector<FrameLook>& looks, const Frame& narrow, ScriptRun& run) {
-  Frame frame = narrow;
+void show_looks(const std::vector<FrameLook>& looks, StepFindings found, Frame frame,
+                ScriptRun& run) {
   frame.phase = StepPhase::narrow;
-  frame.contacts.clear();
-  for (auto& [name, number] : frame.counts)
-    for (const char* later : {"contacts", "contact_points", "impulses", "crushes", "begins", "ends",
-                              "impacts_located", "impact_looks"})
-      if (name == later) number = 0;
-  for (auto& [name, number] : frame.measures) {
-    if (name == "penetration") number = 0;
-    if (name == "time_of_impact") number = 1;
-  }
+  found.contacts.clear();
+  found.begins = found.ends = found.work.impacts_located = 0;
+  found.time_of_impact = 1;
   for (const FrameLook& look : looks) {
     frame.add<FrameLooks>().looks.push_back(look);
     frame.event = look.meets ? "impact" : "approach";
     if (!run.frames.wanted(frame.event)) continue;
-    for (auto& [name, number] : frame.counts)
-      if (name == "impact_looks") number = look.number;
-    for (auto& [name, number] : frame.measures)
-      if (name == "time_of_impact" && look.meets) number = look.time;
+    found.work.impact_looks = static_cast<std::uint64_t>(look.number);
+    if (look.meets) found.time_of_impact = look.time;
+    found.put_on(frame);
     frame.caption = look_text(look);
     run.frames.give(frame);
   }
@@ -252,31 +216,30 @@ void Phases::read(const TableReader& table, ScriptReading& script) {
 
 // The state before the step, with what each phase of it finds, then the state after it.
 void Phases::act(ScriptRun& run) const {
-  Frame before = run.frames.picture(run.frames.touched, "broad_phase");
-  forget_findings(before);
-  const auto show = [&](std::string_view event, StepPhase phase, const Frame& frame) {
+  const Frame before = run.frames.picture(run.frames.touched, "broad_phase");
+  const auto show = [&](std::string_view event, StepPhase phase, const StepFindings& found) {
     if (!run.frames.wanted(event)) return;
-    Frame shown = frame;
+    Frame shown = before;
+    found.put_on(shown);
     shown.event = event;
     shown.phase = phase;
     shown.caption = phase_text(event, shown);
     run.frames.show_phase(event, shown);
     run.frames.give(shown);
   };
-  show("broad_phase", StepPhase::broad, before);
-  if (before.count("overlaps") && before.count("contacts")) show("boxes", StepPhase::boxes, before);
+  const StepFindings nothing;
+  show("broad_phase", StepPhase::broad, nothing);
+  if (before.count("overlaps") && before.count("contacts"))
+    show("boxes", StepPhase::boxes, nothing);
   const std::vector<FrameLook> looks =
       run.let_time_pass(std::ranges::any_of(run.frames.step().events, is_look));
-  const Frame after = run.frames.picture(run.frames.touched, "integrate");
-  const Frame meeting = met(before, after);
-  Frame narrow = meeting;
+  const StepFindings found = run.stage.engine ? run.engine().findings() : nothing;
+  StepFindings narrow = found;  // before any impulse
   for (FrameContact& contact : narrow.contacts)
     for (FrameContact::Point& point : contact.points) point.impulse = 0;
-  for (auto& [name, number] : narrow.counts)
-    if (name == "impulses") number = 0;
   show("narrow_phase", StepPhase::narrow, narrow);
-  show_looks(looks, narrow, run);
-  show("solve", StepPhase::resolve, meeting);
+  show_looks(looks, narrow, before, run);
+  show("solve", StepPhase::resolve, found);
   run.frames.settle("integrate");
 }
 

@@ -30,49 +30,12 @@ FrameBody frame_body(const Body<D>& body, const BodySpec& spec, std::size_t plac
   return b;
 }
 
-template <int D>
-FrameContact frame_contact(const Contact<D>& contact, const std::vector<ContactEvent>& events) {
-  FrameContact c;
-  c.pair = {contact.a, contact.b};
-  c.normal = solid(contact.manifold.normal);
-  // Events come in the order of their pairs, one a pair.
-  const auto event = std::lower_bound(events.begin(), events.end(), c.pair,
-                                      [](const ContactEvent& e, const Pair& pair) {
-                                        return Pair{e.a, e.b} < pair;
-                                      });
-  if (event != events.end() && Pair{event->a, event->b} == c.pair) {
-    c.begins = event->kind == ContactEvent::Kind::begin;
-    c.crushes = event->crushes;
-  }
-  for (std::size_t i = 0; i < contact.manifold.points().size(); ++i) {
-    const auto& point = contact.manifold.room[i];
-    c.points.push_back({solid(point.position), point.separation, contact.normal_impulses[i]});
-  }
-  return c;
-}
-
 double size_of(double value) { return value; }
 double size_of(const Vec<3>& value) { return glm::length(value); }
 
 double about_own_axis(const Body<2>&, int) { return 0; }
 double about_own_axis(const Body<3>& body, int axis) {
   return (glm::conjugate(body.orientation.q) * angular_velocity(body))[axis];
-}
-
-// Of the pairs that the broad phase handed on in the last step, those whose shapes were tested: not
-// both are moved from outside, and no joint ties them together.
-template <int D>
-void list_tested(const Players<D>& players, Frame& frame) {
-  const World<D>& world = players.world();
-  std::set<Pair> joined;
-  for (const auto& [id, joint] : world.joints())
-    if (!joint.collide) joined.insert({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
-  for (const Pair& pair : world.pairs()) {
-    const Body<D>*a = world.find(pair.a), *b = world.find(pair.b);
-    if (!a || !b || !players.spec_of(pair.a) || !players.spec_of(pair.b)) continue;  // one has left
-    const bool dynamic = a->kind == BodyKind::dynamic_body || b->kind == BodyKind::dynamic_body;
-    if (dynamic && !joined.contains(pair)) frame.tested.push_back(pair);
-  }
 }
 
 double deepest_of(BodyId id, const Frame& frame) {
@@ -131,13 +94,6 @@ void picture_world(const Players<D>& players, Frame& frame) {
   for (const Body<D>& body : world.bodies())
     if (const BodySpec* spec = players.spec_of(body.id))
       frame.bodies.push_back(frame_body(body, *spec, *players.index_of(body.id)));
-  for (const Contact<D>& contact : world.contacts()) {
-    stop_if_asked();
-    if (players.spec_of(contact.a) && players.spec_of(contact.b) && world.find(contact.a) &&
-        world.find(contact.b))  // one may have left since the step
-      frame.contacts.push_back(frame_contact(contact, world.events()));
-  }
-  list_tested(players, frame);
   players.for_each_link([&](const LinkSpec& spec, const Vec<D>& from, const Vec<D>& to,
                             double rest) {
     const bool has_length = spec.kind != LinkSpec::Kind::pin && rest > 0;
@@ -186,12 +142,6 @@ void measure_world(const Players<D>& players, const Scenario& scenario, Frame& f
                          {"momentum", glm::length(momentum(bodies))},
                          {"angular_momentum", glm::length(angular_momentum<D>(bodies))}});
   if (scenario.has_joints()) frame.measures.emplace_back("joint_gap", widest_gap(players.world()));
-  if (!scenario.has_contacts()) return;
-  double deepest = 0;
-  for (const FrameContact& c : frame.contacts)
-    for (const FrameContact::Point& point : c.points)
-      deepest = std::max(deepest, -point.separation);
-  frame.measures.emplace_back("penetration", deepest);
 }
 
 template <int D>

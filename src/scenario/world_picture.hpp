@@ -10,7 +10,7 @@ namespace lantern::scenario {
 template <int D>
 BodyState state_of(const Body<D>& body);
 
-// Bodies that the world shows, contacts and links; no counts.
+// Bodies that the world shows, and links; no counts.
 template <int D>
 void picture_world(const Players<D>& players, Frame& frame);
 
@@ -18,7 +18,7 @@ void picture_world(const Players<D>& players, Frame& frame);
 template <int D>
 void picture_forces(const Players<D>& players, Frame& frame);
 
-// Energies, momenta, of contacts the deepest penetration, of joints the widest gap.
+// Energies, momenta, of joints the widest gap.
 template <int D>
 void measure_world(const Players<D>& players, const Scenario& scenario, Frame& frame);
 
