@@ -5,7 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
-#include "draw/narrow_marks.hpp"
+#include "draw/world/narrow_marks.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw {

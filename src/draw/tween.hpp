@@ -57,9 +57,9 @@ struct Passage {
 // In the order of painting. What has the same key in both (DrawList::Scope) goes from its place,
 // size and colours to the new ones. What is new comes out of its `from` as `a` shows it, or where
 // it stands; what is gone goes back the same way. What goes fades first, then what moves moves,
-// then what comes appears. A text glides, is faded over, or in the place of another one takes over at
-// once; it never says what neither picture says.
-// What is keyed "page/..." is the page's own words, which are those of `b` throughout.
+// then what comes appears. A text glides, is faded over, or in the place of another one takes over
+// at once; it never says what neither picture says. What is keyed "page/..." is the page's own
+// words, which are those of `b` throughout.
 std::vector<Passage> passages(const DrawList& a, const DrawList& b);
 
 // The picture at `t`, from 0, which is `a` itself, to 1, which is `b` itself. No labels: what moves

@@ -765,8 +765,8 @@ struct Frame : FramePage {
   template <class P>
   const P& get() const {
     static const P kNothing{};
-    const P* part = find<P>();
-    return part ? *part : kNothing;
+    const P* found = find<P>();
+    return found ? *found : kNothing;
   }
   template <class P>
   P* find() {
@@ -779,8 +779,8 @@ struct Frame : FramePage {
   }
   // This one from now on, or none.
   template <class P>
-  void put(const std::optional<P>& part) {
-    part ? void(add<P>() = *part) : parts.drop<P>();
+  void put(const std::optional<P>& one) {
+    one ? void(add<P>() = *one) : parts.drop<P>();
   }
 
   // Is this node drawn as one that sleeps? What never moves or holds nothing is not, nor what only

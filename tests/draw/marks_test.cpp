@@ -11,7 +11,7 @@
 #include "draw/page.hpp"
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
-#include "draw/world3d_parts.hpp"
+#include "draw/world/world3d_parts.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw {

@@ -18,7 +18,6 @@
 namespace lantern::draw {
 namespace {
 
-
 // Where a mark of that colour is, filled or open.
 std::optional<Vec<2>> place_of(const DrawShape& shape, Role role) {
   if (const auto* rect = std::get_if<RectShape>(&shape))

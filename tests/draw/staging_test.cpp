@@ -11,7 +11,7 @@
 #include "draw/naming.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
-#include "draw/tree_layout.hpp"
+#include "draw/tree/tree_layout.hpp"
 #include "scenario/directing.hpp"
 
 namespace lantern::draw {

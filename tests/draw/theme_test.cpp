@@ -9,7 +9,7 @@
 #include "draw/labels.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -1,11 +1,11 @@
-#include "draw/tree_fold.hpp"
+#include "draw/tree/tree_fold.hpp"
 
 #include <gtest/gtest.h>
 
 #include "draw/page.hpp"
 #include "draw/panels.hpp"
 #include "draw/sample_frames.hpp"
-#include "draw/tree_layout.hpp"
+#include "draw/tree/tree_layout.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "draw/number_text.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {
 namespace {

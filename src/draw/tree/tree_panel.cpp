@@ -9,7 +9,7 @@
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
 #include "draw/panels.hpp"
-#include "draw/tree_layout.hpp"
+#include "draw/tree/tree_layout.hpp"
 
 namespace lantern::draw {
 namespace {

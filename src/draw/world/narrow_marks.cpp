@@ -1,4 +1,4 @@
-#include "draw/narrow_marks.hpp"
+#include "draw/world/narrow_marks.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
-#include "draw/world3d_parts.hpp"
+#include "draw/world/world3d_parts.hpp"
 
 namespace lantern::draw {
 namespace {

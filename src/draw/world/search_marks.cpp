@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/narrow_marks.hpp"
 #include "draw/number_text.hpp"
+#include "draw/world/narrow_marks.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -1,4 +1,4 @@
-#include "draw/ledger_marks.hpp"
+#include "draw/world/ledger_marks.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "draw/marks.hpp"
-#include "draw/painter_order.hpp"
+#include "draw/world/painter_order.hpp"
 
 namespace lantern::draw {
 

@@ -11,8 +11,8 @@
 #include "draw/notes.hpp"
 #include "draw/panels.hpp"
 #include "draw/pattern.hpp"
-#include "draw/tree_layout.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/tree/tree_layout.hpp"
+#include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {
 namespace {

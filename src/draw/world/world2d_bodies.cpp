@@ -9,7 +9,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {
 namespace {

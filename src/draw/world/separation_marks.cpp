@@ -15,7 +15,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
-#include "draw/narrow_marks.hpp"
+#include "draw/world/narrow_marks.hpp"
 #include "geometry/polygon.hpp"
 
 namespace lantern::draw {

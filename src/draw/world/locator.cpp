@@ -1,10 +1,10 @@
-#include "draw/locator.hpp"
+#include "draw/world/locator.hpp"
 
 #include <algorithm>
 
 #include "draw/body_shapes.hpp"
 #include "draw/borders.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw {

@@ -6,7 +6,7 @@
 
 #include "draw/labels.hpp"
 #include "draw/staging.hpp"
-#include "draw/tree_fold.hpp"
+#include "draw/tree/tree_fold.hpp"
 
 namespace lantern::draw {
 

@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/ledger_marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "draw/world/ledger_marks.hpp"
 #include "scenario/pair_state.hpp"
 
 namespace lantern::draw {

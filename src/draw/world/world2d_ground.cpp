@@ -8,7 +8,7 @@
 #include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/pen.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {
 namespace {

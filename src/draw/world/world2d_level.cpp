@@ -9,7 +9,7 @@
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/staging.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 #include "geometry/segment.hpp"
 
 namespace lantern::draw {

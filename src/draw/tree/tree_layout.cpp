@@ -1,4 +1,4 @@
-#include "draw/tree_layout.hpp"
+#include "draw/tree/tree_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "draw/font.hpp"
 #include "draw/panels.hpp"
-#include "draw/tidy_tree.hpp"
+#include "draw/tree/tidy_tree.hpp"
 
 namespace lantern::draw {
 namespace {

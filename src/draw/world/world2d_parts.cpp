@@ -1,4 +1,4 @@
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 
 #include <algorithm>
 #include <array>

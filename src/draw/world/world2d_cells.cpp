@@ -6,7 +6,7 @@
 #include "draw/borders.hpp"
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
-#include "draw/world2d_parts.hpp"
+#include "draw/world/world2d_parts.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {

@@ -5,7 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/pen.hpp"
-#include "draw/world3d_parts.hpp"
+#include "draw/world/world3d_parts.hpp"
 #include "geometry/polygon.hpp"
 
 namespace lantern::draw {

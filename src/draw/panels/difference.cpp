@@ -11,9 +11,9 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
-#include "draw/narrow_marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "draw/world/narrow_marks.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -1,4 +1,4 @@
-#include "draw/painter_order.hpp"
+#include "draw/world/painter_order.hpp"
 
 #include <cmath>
 #include <set>

@@ -1,4 +1,4 @@
-#include "draw/tidy_tree.hpp"
+#include "draw/tree/tidy_tree.hpp"
 
 #include <algorithm>
 
